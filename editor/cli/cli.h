@@ -1,0 +1,42 @@
+// The command line (a contract: other programs call it). What needs OpenGL or a window is handed in
+// by main, since this layer links neither.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "renderer/methods/gi_method.h"
+
+namespace lamplighter {
+
+struct EditorOptions {
+  std::string scene;   // "": the default scene
+  std::string record;  // file to record to, "": none
+  std::string backend = "auto";
+};
+
+struct ReplayOptions {
+  std::string recording;
+  bool headless = false;
+  std::string outputFolder;  // "": none
+  bool check = false;
+  bool updateBaselines = false;
+  std::string method;  // "": as recorded
+  std::string backend = "auto";
+};
+
+struct Frontend {
+  // kind: "cpu", "gl" or "auto" (the faster, by a short measurement). Throws InputError when gl is
+  // asked for and there is no context.
+  std::function<std::unique_ptr<Backend>(const std::string& kind)> makeBackend;
+  std::function<int(const EditorOptions&)> runEditor;  // exit code
+  std::function<int(const ReplayOptions&)> runReplay;  // exit code
+  Stopwatch stopwatch;                                 // for the timings in --stats
+};
+
+// Exit code: 0 good, 1 a check failed, 2 bad use or bad input (one line on standard error).
+int runCommandLine(int argc, const char* const* argv, const Frontend& frontend);
+
+}  // namespace lamplighter

@@ -1,0 +1,22 @@
+// One undoable change. A command holds the values that differ and swaps them with the document's, so
+// that doing and undoing are the same code.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "editor/document/document.h"
+
+namespace lamplighter {
+
+class Command {
+ public:
+  virtual ~Command() = default;
+  virtual std::string label() const = 0;  // "Move Lamp"
+  virtual void apply(Document& document) = 0;   // do and redo
+  virtual void revert(Document& document) = 0;  // undo
+  // Takes in a later command of the same drag, so that a drag is one step; false: not the same.
+  virtual bool absorb(const Command& later) = 0;
+};
+
+}  // namespace lamplighter

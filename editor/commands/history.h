@@ -1,0 +1,52 @@
+// Undo and redo without limit.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "editor/commands/command.h"
+#include "renderer/scene/scene_changes.h"
+
+namespace lamplighter {
+
+class History {
+ public:
+  explicit History(Document& document) : document_(document) {}
+
+  // Applies the command and makes it the newest step. Within a transaction it joins the open step.
+  void run(std::unique_ptr<Command> command);
+
+  // A drag or another edit in many small changes that is one step. Nothing is added when nothing
+  // changed. Transactions do not nest: beginning one commits the open one.
+  void begin(std::string label);
+  void commit();
+  void cancel();  // puts back what was before begin()
+  bool inTransaction() const;
+
+  bool canUndo() const;
+  bool canRedo() const;
+  std::string undoLabel() const;
+  std::string redoLabel() const;
+  void undo();  // commits an open transaction first
+  void redo();
+  void clear();
+  size_t position() const;  // steps done; for "is it saved?"
+
+  // What changed since the last call, found by comparing scenes; the frame's SceneChanges.
+  SceneChanges takeChanges();
+
+ private:
+  struct Step {
+    std::string label;
+    std::vector<std::unique_ptr<Command>> commands;
+  };
+  Document& document_;
+  std::vector<Step> steps_;
+  size_t done_ = 0;
+  std::unique_ptr<Step> open_;
+  Scene shown_;         // the scene as of the last takeChanges()
+  bool first_ = true;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,37 @@
+// What is being edited: scene, selection, settings, and where it came from. Changed by commands only
+// (editor/commands), except the selection, which is no change to the work.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "renderer/parameters.h"
+#include "renderer/scene/scene.h"
+
+namespace lamplighter {
+
+// How the picture is made; part of the document so that undo covers it, but no reason to save.
+struct RenderSettings {
+  std::string method = "many_lights";
+  Settings values;
+  float exposureEv = 0.0f;  // picture = radiance × 2^EV, then the tone mapper
+  bool operator==(const RenderSettings&) const = default;
+};
+
+struct Document {
+  Scene scene;
+  RenderSettings render;
+  std::vector<NodeId> selection;  // the last one is the active one
+  std::filesystem::path path;     // empty: never saved
+
+  bool isSelected(NodeId id) const;
+  NodeId active() const { return selection.empty() ? kNoNode : selection.back(); }
+};
+
+// A hash of everything in the document that a user can change (scene and render settings, not the
+// selection), equal on every machine: what recordings' checkpoints compare.
+uint64_t documentHash(const Document& document);
+
+}  // namespace lamplighter

@@ -1,0 +1,30 @@
+// Lines and marks that tools and views ask the ui to draw over the viewport. Viewport pixels, y down.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "renderer/math.h"
+
+namespace lamplighter {
+
+struct OverlayShape {
+  std::vector<vec2> points;
+  bool closed = false;
+  bool filled = false;
+  vec4 colour{1.0f};       // sRGB, straight alpha
+  float thickness = 1.5f;  // px
+};
+
+struct OverlayText {
+  vec2 position{0.0f};
+  std::string text;
+  vec4 colour{1.0f};
+};
+
+struct Overlay {
+  std::vector<OverlayShape> shapes;  // in drawing order
+  std::vector<OverlayText> texts;
+};
+
+}  // namespace lamplighter

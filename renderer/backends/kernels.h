@@ -1,0 +1,93 @@
+// The kernels behind which a backend stands (docs/architecture.md): everything that touches each
+// pixel or texel, twice implemented (cpu/, gl/). Whoever calls them decides what to compute and does
+// not know which one runs.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "renderer/image/image.h"
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/scene/render_scene.h"
+#include "renderer/view.h"
+#include "shaders/shared/vpl.h"
+
+namespace lamplighter {
+
+// A frame's picture, wherever it lies. A GL backend keeps it in a texture and reads it back once, on
+// the first call of pixels().
+class RadianceImage {
+ public:
+  virtual ~RadianceImage() = default;
+  virtual int width() const = 0;
+  virtual int height() const = 0;
+  virtual const Image& pixels() = 0;  // linear radiance [W/(m² sr)]
+};
+
+// A picture that is in main memory already.
+class HostImage final : public RadianceImage {
+ public:
+  explicit HostImage(Image image) : image_(std::move(image)) {}
+  int width() const override { return image_.width; }
+  int height() const override { return image_.height; }
+  const Image& pixels() override { return image_; }
+
+ private:
+  Image image_;
+};
+
+struct BackendInfo {
+  std::string name;    // "cpu" or "gl"
+  std::string device;  // GL renderer string, or the instruction set
+};
+
+// Counts of work since the backend was made.
+struct KernelCounts {
+  uint64_t shadowMaps = 0;    // maps rendered
+  uint64_t rays = 0;          // traced by the backend (cpu)
+  uint64_t lightPixels = 0;   // VPL × pixel sums
+  uint64_t memoryBytes = 0;   // held now: maps, G-buffer, scene copies
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  virtual const BackendInfo& info() const = 0;
+  virtual KernelCounts counts() const = 0;
+
+  // Takes in what changed in the scene. `rays` is up to date already; only cpu uses it. Both must
+  // outlive the next call of any kernel.
+  virtual void setScene(const RenderScene& scene, const RenderSceneChanges& changes,
+                        const RayCaster& rays) = 0;
+
+  // Makes room for `slots` shadow maps of resolution² texels; what was in them is lost when either
+  // number changes. Throws InputError when the device can't hold them.
+  virtual void reserveShadowMaps(int slots, int resolution) = 0;
+
+  // Renders the octahedral hemisphere shadow map of each VPL into the slot in its intensity.w
+  // (directional: an orthographic map of the scene). Slots are distinct.
+  virtual void renderShadowMaps(std::span<const shared::Vpl> vpls) = 0;
+
+  // Primary visibility of the view into the G-buffer; `jitter` moves the sample within the pixel,
+  // in pixels from its middle.
+  virtual void renderGBuffer(const View& view, vec2 jitter) = 0;
+
+  // E at each G-buffer pixel: the sum over the VPLs, with shadows, into the irradiance image.
+  virtual void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params) = 0;
+
+  // Le + ρ/π · E, and the sky where nothing was hit.
+  virtual std::shared_ptr<RadianceImage> compose() = 0;
+
+  // What a shadow map holds (resolution², 1/w), for tests and views.
+  virtual std::vector<float> readShadowMap(int slot) = 0;
+  // The G-buffer's world-space shading normals, albedo: for tests and views.
+  virtual Image readNormals() = 0;
+  virtual Image readAlbedo() = 0;
+
+  // Waits until all submitted work is done, so that a clock around it measures it.
+  virtual void finish() = 0;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,41 @@
+// A whole frame, from the scene to the picture.
+#pragma once
+
+#include <memory>
+
+#include "renderer/methods/gi_method.h"
+#include "renderer/scene/scene_changes.h"
+
+namespace lamplighter {
+
+// Everything kept from one frame to the next for one scene on one backend.
+class FrameRenderer {
+ public:
+  explicit FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwatch = {});
+  ~FrameRenderer();
+
+  struct Request {
+    const Scene& scene;
+    const SceneChanges& changes;  // since the last request; all() the first time
+    const View& view;
+    const std::string& method;
+    const Settings& settings;
+  };
+  // One frame. Throws InputError for an unknown method.
+  GiOutput render(const Request& request);
+
+  Backend& backend() { return *backend_; }
+  const RenderScene& scene() const { return scene_; }
+  const RayCaster* rays() const { return rays_.get(); }  // null before the first frame
+
+ private:
+  std::unique_ptr<Backend> backend_;
+  Stopwatch stopwatch_;
+  RenderScene scene_;
+  std::unique_ptr<RayCaster> rays_;
+  std::string methodName_;
+  std::unique_ptr<GiMethod> method_;
+  uint32_t frame_ = 0;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,26 @@
+// Reading and writing images, through OpenImageIO.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "renderer/image/image.h"
+
+namespace lamplighter {
+
+// Any format that OpenImageIO reads, as linear floats (EXR as it is; 8-bit files sRGB-decoded).
+// Throws InputError.
+Image readImage(const std::filesystem::path& path);
+
+// EXR: 32-bit float RGB, linear radiance, ZIP. PNG and others: 8 bits as they are in `image`, which
+// must be display-referred already. Atomic (temporary file, then renamed). Throws InputError.
+void writeExr(const Image& image, const std::filesystem::path& path);
+void writePng(const Image8& image, const std::filesystem::path& path);
+
+// Decodes a PNG, JPEG, … in memory, as encoded (no colour conversion), RGBA. Empty and `why` set when
+// it cannot be decoded or is unreasonably large.
+std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& why);
+
+}  // namespace lamplighter

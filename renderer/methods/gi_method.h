@@ -1,0 +1,73 @@
+// The interface behind which every global-illumination method stands, the path tracer too.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <functional>
+#include <vector>
+
+#include "renderer/backends/kernels.h"
+#include "renderer/parameters.h"
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/scene/render_scene.h"
+#include "renderer/view.h"
+
+namespace lamplighter {
+
+// A stage's time is measured by a stopwatch that the caller supplies (null: not measured), so that
+// nothing in here reads a clock; it never decides anything.
+using Stopwatch = std::function<double()>;  // seconds since some fixed moment
+
+// What a method is given for one frame. The scene and rays are up to date when render() is called.
+struct FrameInputs {
+  const RenderScene& scene;
+  const RenderSceneChanges& changes;  // since the frame before
+  const RayCaster& rays;
+  const View& view;
+  Backend& backend;  // its scene is up to date too
+  const Settings& settings;
+  uint32_t frame = 0;  // counts from 0
+  Stopwatch stopwatch;
+};
+
+struct GiStats {
+  int vpls = 0;           // shown
+  int vplsPending = 0;    // not yet what the scene asks for
+  int mapsPending = 0;    // of them, those whose map must be rendered
+  int oldestFrames = 0;   // frames the oldest pending one has waited
+  int mapsRendered = 0;   // this frame
+  uint64_t raysTraced = 0;  // this frame, by the method itself
+  int samplesPerPixel = 0;
+  std::map<std::string, double> stageSeconds;  // by stage name
+};
+
+struct GiOutput {
+  std::shared_ptr<RadianceImage> radiance;
+  bool includesDirect = true;
+  bool settled = false;  // rendering the same inputs again changes nothing
+  GiStats stats;
+};
+
+class GiMethod {
+ public:
+  virtual ~GiMethod() = default;
+  virtual GiOutput render(const FrameInputs& in) = 0;
+  // Forgets everything kept between frames.
+  virtual void reset() = 0;
+};
+
+struct MethodInfo {
+  std::string name;      // as in --method
+  std::string label;     // as in the panel
+  std::string citation;  // the paper
+  std::vector<ParameterSpec> parameters;
+  std::function<std::unique_ptr<GiMethod>()> make;
+};
+
+// Every method, in the order they are shown. renderer/methods/registry.cpp has the list.
+const std::vector<MethodInfo>& methods();
+// Throws InputError when there is none of that name.
+const MethodInfo& findMethod(const std::string& name);
+
+}  // namespace lamplighter

@@ -1,0 +1,67 @@
+// The scene as the renderer sees it: visible triangles in world space, one buffer for all (paper 1,
+// 4.2.2: occluders are transformed once on the CPU, so that a shadow map is few draws), and the
+// emitters among them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/scene/scene.h"
+#include "renderer/scene/scene_changes.h"
+
+namespace lamplighter {
+
+// One primitive of one node, or the surface of one area light.
+struct RenderObject {
+  NodeId node = kNoNode;
+  int material = 0;  // index into RenderScene::materials
+  uint32_t firstVertex = 0, vertexCount = 0;
+  uint32_t firstIndex = 0, indexCount = 0;  // indices are absolute: into RenderScene::positions
+  Bounds bounds;                            // world space
+  bool isAreaLight = false;                 // tessellated from Node::area
+  uint32_t triangleCount() const { return indexCount / 3; }
+};
+
+// A punctual light in world space.
+struct RenderPunctual {
+  NodeId node = kNoNode;
+  PunctualLight light;
+  vec3 position{0.0f};
+  vec3 direction{0.0f, 0.0f, -1.0f};  // unit, where it aims
+};
+
+struct RenderScene {
+  // Per vertex, world space. tangents, uv and colors always have positions.size() entries (zero
+  // tangent, zero uv, white colour where the file has none).
+  std::vector<vec3> positions, normals;
+  std::vector<vec4> tangents;
+  std::vector<vec2> uv0, uv1;
+  std::vector<vec4> colors;
+  std::vector<uint32_t> indices;
+  std::vector<RenderObject> objects;
+  // Scene::materials, then the default material, then one for each area light (albedo 0).
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<RenderPunctual> punctuals;
+  vec3 sky{0.0f};
+  Bounds bounds;  // of all objects
+
+  size_t triangleCount() const { return indices.size() / 3; }
+};
+
+// What update() did, for those who keep copies (Embree, GL buffers).
+struct RenderSceneChanges {
+  bool rebuilt = false;                 // every array is new
+  std::vector<uint32_t> movedObjects;   // vertex attributes of these changed in place
+  std::vector<Bounds> movedBounds;      // where each moved object was before, in that order
+  bool materials = false;               // parameters of materials changed (not the count)
+  bool lights = false;                  // punctual lights changed or moved
+  bool sky = false;
+
+  bool none() const { return !rebuilt && movedObjects.empty() && !materials && !lights && !sky; }
+};
+
+// Brings `render` up to date with `scene`. Throws nothing; a scene without nodes gives no objects.
+RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneChanges& changes);
+
+}  // namespace lamplighter

@@ -1,0 +1,165 @@
+// The scene as the user edits it: plain data, no pointers into anything else, cheap to copy (meshes
+// and pixels are shared and never change). Everything is referred to by index; nodes also by a
+// stable id. Units: metres, radians, scene-referred linear Rec.709 radiance.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderer/image/image.h"
+#include "renderer/math.h"
+#include "renderer/scene/transform.h"
+
+namespace lamplighter {
+
+// Stable for the life of a document; never given twice. 0 is no node.
+using NodeId = uint32_t;
+inline constexpr NodeId kNoNode = 0;
+inline constexpr int kNone = -1;
+
+struct TextureRef {
+  int texture = kNone;  // index into Scene::textures
+  int texCoord = 0;     // 0 or 1
+  // KHR_texture_transform
+  vec2 offset{0.0f};
+  float rotation = 0.0f;
+  vec2 scale{1.0f};
+
+  bool operator==(const TextureRef&) const = default;
+};
+
+enum class Wrap : uint8_t { repeat, clamp, mirror };
+
+struct Texture {
+  std::string name;
+  std::shared_ptr<const Image8> image;  // never null: a placeholder where decoding failed
+  Wrap wrapS = Wrap::repeat;
+  Wrap wrapT = Wrap::repeat;
+  bool nearest = false;  // magnification filter
+  bool placeholder = false;
+
+  bool operator==(const Texture&) const = default;
+};
+
+enum class AlphaMode : uint8_t { opaque, mask, blend };
+
+struct Material {
+  std::string name;
+  vec4 baseColor{1.0f};         // linear; rgb is the Lambertian albedo ρ
+  TextureRef baseColorTexture;  // sRGB-encoded
+  TextureRef normalTexture;
+  float normalScale = 1.0f;
+  vec3 emissive{0.0f};          // emissiveFactor × KHR_materials_emissive_strength [W/(m² sr)]
+  TextureRef emissiveTexture;   // sRGB-encoded
+  float metallic = 1.0f;        // kept for the round trip; Lambert ignores it
+  float roughness = 1.0f;
+  float transmission = 0.0f;    // KHR_materials_transmission
+  AlphaMode alphaMode = AlphaMode::opaque;
+  float alphaCutoff = 0.5f;
+  bool doubleSided = false;     // emits from both sides; reflection is two-sided always
+
+  bool emits() const { return emissive.r > 0.0f || emissive.g > 0.0f || emissive.b > 0.0f; }
+  // Panes that light passes: drawn and hit by nothing, until there is real transmission.
+  bool isClear() const { return transmission > 0.5f; }
+  bool operator==(const Material&) const = default;
+};
+
+// Triangles with one material. Attributes are per vertex; empty where the file has none.
+struct Primitive {
+  std::vector<vec3> positions;
+  std::vector<vec3> normals;   // unit, never empty: computed flat where the file has none
+  std::vector<vec4> tangents;  // xyz unit, w = handedness ±1
+  std::vector<vec2> uv0, uv1;
+  std::vector<vec4> colors;    // linear, multiplies the base colour
+  std::vector<uint32_t> indices;  // three a triangle, all < positions.size()
+  int material = kNone;           // index into Scene::materials, or kNone: the default material
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Primitive> primitives;
+};
+
+struct Camera {
+  std::string name;
+  float yfov = 0.8f;  // radians, vertical
+  float aspect = 0.0f;  // width / height, 0: the viewport's
+  float znear = 0.01f;
+  float zfar = 0.0f;  // 0: infinite
+  bool operator==(const Camera&) const = default;
+};
+
+enum class PunctualKind : uint8_t { point, spot, directional };
+
+// KHR_lights_punctual: aims down the node's −Z; scale of the node changes nothing.
+struct PunctualLight {
+  PunctualKind kind = PunctualKind::point;
+  vec3 intensity{1.0f};  // color × intensity: W/sr for point and spot, W/m² for directional
+  float range = 0.0f;    // metres, 0: infinite
+  float innerCone = 0.0f;            // radians, spot
+  float outerCone = 0.78539816339f;  // radians, spot
+  bool operator==(const PunctualLight&) const = default;
+};
+
+enum class AreaShape : uint8_t { rectangle, disk, sphere };
+
+// A Lambertian emitter centred on its node, which emits towards the node's −Z (a sphere: outwards).
+// Size is in the node's space and so takes the node's scale. Reflects nothing.
+struct AreaLight {
+  AreaShape shape = AreaShape::rectangle;
+  vec3 radiance{10.0f};    // W/(m² sr)
+  vec2 size{1.0f, 1.0f};   // rectangle: width (X), height (Y); disk and sphere: diameter in x
+  bool operator==(const AreaLight&) const = default;
+};
+
+struct Node {
+  NodeId id = kNoNode;
+  std::string name;
+  NodeId parent = kNoNode;
+  Transform local;
+  int mesh = kNone;    // index into Scene::meshes
+  int camera = kNone;  // index into Scene::cameras
+  std::optional<PunctualLight> punctual;
+  std::optional<AreaLight> area;
+  bool visible = true;
+  int sourceNode = kNone;  // index in the file it came from; kNone for one made here
+
+  bool operator==(const Node&) const = default;
+};
+
+// What a loader keeps of a file so that saving loses nothing it did not understand. Opaque.
+class SceneSource;
+
+struct Scene {
+  std::string name;
+  std::vector<Node> nodes;  // parents before children
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<Camera> cameras;
+  NodeId nextId = 1;
+  // Constant radiance from everywhere outside the scene [W/(m² sr)]. Never saved.
+  vec3 sky{0.0f};
+  bool skyIsDefault = false;  // sky was put there because the file has no light
+  std::shared_ptr<const SceneSource> source;
+
+  const Node* find(NodeId id) const;
+  Node* find(NodeId id);
+};
+
+// The node's transform to world space: the product of its parents' and its own.
+mat4 worldMatrix(const Scene& scene, NodeId id);
+// All nodes' world matrices, in the order of Scene::nodes. O(nodes).
+std::vector<mat4> worldMatrices(const Scene& scene);
+// A node is shown when it and all of its parents are visible. In the order of Scene::nodes.
+std::vector<bool> visibleNodes(const Scene& scene);
+
+// The radiance of the plain sky that a scene without any light is shown under.
+inline constexpr vec3 kDefaultSky{1.0f, 1.0f, 1.0f};
+// True when something in the scene emits: an area or punctual light or an emissive material in use.
+bool hasLight(const Scene& scene);
+
+}  // namespace lamplighter

@@ -1,0 +1,28 @@
+// Lets GLSL and C++ include the files of this folder alike. C++ sees them inside namespace
+// lamplighter::shared with GLM's types, which have std430's layout as long as structs hold vec4
+// and mat4 only.
+#ifndef LAMPLIGHTER_SHARED_INTEROP_H
+#define LAMPLIGHTER_SHARED_INTEROP_H
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+#define SHARED_BEGIN                \
+  namespace lamplighter::shared {   \
+  using glm::abs;                   \
+  using glm::mat4;                  \
+  using glm::max;                   \
+  using glm::min;                   \
+  using glm::vec2;                  \
+  using glm::vec3;                  \
+  using glm::vec4;
+#define SHARED_END }
+#define SHARED_FUNCTION inline
+#define SHARED_CONST inline constexpr
+#else
+#define SHARED_BEGIN
+#define SHARED_END
+#define SHARED_FUNCTION
+#define SHARED_CONST const
+#endif
+
+#endif

@@ -1,0 +1,31 @@
+// A virtual point light as the backends take it.
+#ifndef LAMPLIGHTER_SHARED_VPL_H
+#define LAMPLIGHTER_SHARED_VPL_H
+#include "interop.h"
+
+SHARED_BEGIN
+
+// Kinds, in Vpl.position.w.
+SHARED_CONST float kVplCosine = 0.0f;       // oriented: I·cos θ (area lights, bounces)
+SHARED_CONST float kVplUniform = 1.0f;      // I over the hemisphere, × the spot's cone (punctual)
+SHARED_CONST float kVplDirectional = 2.0f;  // parallel light from +normal (sun, one sky direction)
+
+// All in world space. The shadow map's frame is (tangent, cross(normal, tangent), normal).
+struct Vpl {
+  vec4 position;   // xyz: place [m] (directional: middle of the scene); w: kind
+  vec4 normal;     // xyz: unit axis of the hemisphere lit (directional: towards the light);
+                   // w: spot: angular scale; directional: radius of the scene [m]
+  vec4 tangent;    // xyz: unit; w: spot: angular offset (no spot: scale 0, offset 1)
+  vec4 intensity;  // rgb: on-axis intensity [W/sr], directional: irradiance [W/m²];
+                   // w: slot of its shadow map, < 0: casts no shadow
+};
+
+// How shading bounds and biases; the same on both backends.
+struct ShadingParams {
+  // x: least distance d0 [m], 1/d² is clamped to 1/d0²; y: shadow bias as a share of the distance;
+  // z: map resolution [texels a side]; w: number of VPLs
+  vec4 clampAndBias;
+};
+
+SHARED_END
+#endif

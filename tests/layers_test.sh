@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# The layers of docs/architecture.md, checked on the includes: shaders/shared <- renderer <- editor
+# <- ui; ImGui and GLFW in ui only; OpenGL only in the gl parts of renderer and in ui.
+set -u
+cd "$(dirname "$0")/.." || exit 2
+bad=0
+forbid() {  # forbid PATTERN WHERE... : no #include that matches PATTERN may stand there
+  local pattern=$1; shift
+  local rows
+  rows=$(grep -rnE "#include *[<\"]($pattern)" "$@" --include='*.h' --include='*.cpp' 2>/dev/null)
+  if [ -n "$rows" ]; then printf 'include against the layers:\n%s\n' "$rows"; bad=1; fi
+}
+forbid 'GLFW/|imgui' renderer editor shaders
+forbid 'ui/|editor/' renderer shaders
+forbid 'ui/|epoxy/|renderer/gl/|renderer/backends/gl/|EGL/' editor
+rows=$(grep -rnE '#include *[<"](epoxy/|EGL/|renderer/gl/|renderer/backends/gl/)' renderer --include='*.h' \
+         --include='*.cpp' 2>/dev/null | grep -vE '^renderer/(gl|backends/gl)/')
+if [ -n "$rows" ]; then printf 'OpenGL outside the gl parts:\n%s\n' "$rows"; bad=1; fi
+rows=$(grep -rnE '(std::rand\b|random_device|system_clock|time\(NULL\)|time\(nullptr\))' renderer editor 2>/dev/null)
+if [ -n "$rows" ]; then printf 'clock or unseeded randomness below ui:\n%s\n' "$rows"; bad=1; fi
+exit $bad
