@@ -1,0 +1,60 @@
+// Everything in a scene that emits, as one list that the path tracer and the VPL generator sample.
+#pragma once
+
+#include <vector>
+
+#include "renderer/sampling/alias_table.h"
+#include "renderer/scene/render_scene.h"
+
+namespace lamplighter {
+
+enum class EmitterKind : uint8_t { surface, punctual, sky };
+
+struct Emitter {
+  EmitterKind kind = EmitterKind::surface;
+  NodeId node = kNoNode;   // the light's or object's node
+  uint32_t object = 0;     // surface: index into RenderScene::objects
+  uint32_t punctual = 0;   // punctual: index into RenderScene::punctuals
+  // Flux Φ [W] per channel: surface π·L·A (both sides when double-sided, the emissive texture's mean
+  // included), point 4π·I, spot I × its solid angle, directional E·πR², sky L·4π·πR², with R the
+  // radius of the scene.
+  vec3 flux{0.0f};
+  float area = 0.0f;       // surface: m²
+  bool bothSides = false;  // surface
+  AliasTable triangles;    // surface: by area
+};
+
+// A point on an emitter's surface, chosen uniformly by area.
+struct EmitterPoint {
+  vec3 position{0.0f};
+  vec3 normal{0.0f, 0.0f, 1.0f};  // unit, the front side
+  vec3 radiance{0.0f};            // W/(m² sr), texture included
+  float pdfArea = 0.0f;           // 1/m²
+  bool bothSides = false;
+};
+
+class LightSet {
+ public:
+  LightSet() = default;
+  explicit LightSet(const RenderScene& scene);
+
+  const std::vector<Emitter>& emitters() const { return emitters_; }
+  // Chooses an emitter in proportion to the luminance of its flux; kNone when nothing emits.
+  int choose(float u, float& probability) const;
+  float probability(int emitter) const;
+  // The emitter whose surface this object is, or kNone.
+  int emitterOfObject(uint32_t object) const;
+  // u selects the triangle (u.x, reused within it) and the point on it.
+  EmitterPoint samplePoint(const RenderScene& scene, int emitter, vec2 u) const;
+  float sceneRadius() const { return radius_; }
+  vec3 sceneCentre() const { return centre_; }
+
+ private:
+  std::vector<Emitter> emitters_;
+  std::vector<int> emitterOfObject_;
+  AliasTable choice_;
+  vec3 centre_{0.0f};
+  float radius_ = 0.0f;
+};
+
+}  // namespace lamplighter
