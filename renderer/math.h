@@ -1,6 +1,7 @@
 // The vector types that all layers use, and axis-aligned bounds. Right-handed, Y up, metres.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include <glm/glm.hpp>

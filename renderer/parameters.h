@@ -12,7 +12,7 @@ namespace lamplighter {
 using ParameterValue = std::variant<bool, int, float, std::string>;
 
 struct ParameterSpec {
-  std::string name;  // as in --set name=value
+  std::string name;   // as in --set name=value
   std::string label;  // as in the panel
   std::string unit;   // "" for counts and ratios
   std::string help;   // one sentence

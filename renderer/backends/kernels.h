@@ -1,6 +1,6 @@
 // The kernels behind which a backend stands (docs/architecture.md): everything that touches each
-// pixel or texel, twice implemented (cpu/, gl/). Whoever calls them decides what to compute and does
-// not know which one runs.
+// pixel or texel, twice implemented (cpu/, gl/). Whoever calls them decides what to compute and
+// does not know which one runs.
 #pragma once
 
 #include <functional>
@@ -16,8 +16,8 @@
 
 namespace lamplighter {
 
-// A frame's picture, wherever it lies. A GL backend keeps it in a texture and reads it back once, on
-// the first call of pixels().
+// A frame's picture, wherever it lies. A GL backend keeps it in a texture and reads it back once,
+// on the first call of pixels().
 class RadianceImage {
  public:
   virtual ~RadianceImage() = default;
@@ -45,10 +45,10 @@ struct BackendInfo {
 
 // Counts of work since the backend was made.
 struct KernelCounts {
-  uint64_t shadowMaps = 0;    // maps rendered
-  uint64_t rays = 0;          // traced by the backend (cpu)
-  uint64_t lightPixels = 0;   // VPL × pixel sums
-  uint64_t memoryBytes = 0;   // held now: maps, G-buffer, scene copies
+  uint64_t shadowMaps = 0;   // maps rendered
+  uint64_t rays = 0;         // traced by the backend (cpu)
+  uint64_t lightPixels = 0;  // VPL × pixel sums
+  uint64_t memoryBytes = 0;  // held now: maps, G-buffer, scene copies
 };
 
 class Backend {

@@ -8,8 +8,8 @@
 
 namespace lamplighter {
 
-// Linear, scene-referred radiance [W/(m² sr)] or any other float quantity; RGB interleaved, row 0 is
-// the top.
+// Linear, scene-referred radiance [W/(m² sr)] or any other float quantity; RGB interleaved, row 0
+// is the top.
 struct Image {
   int width = 0;
   int height = 0;
@@ -32,7 +32,9 @@ struct Image8 {
 
   Image8() = default;
   Image8(int w, int h) : width(w), height(h), pixels(size_t{4} * w * h, 255) {}
-  const uint8_t* at(int x, int y) const { return &pixels[4 * (static_cast<size_t>(y) * width + x)]; }
+  const uint8_t* at(int x, int y) const {
+    return &pixels[4 * (static_cast<size_t>(y) * width + x)];
+  }
   uint8_t* at(int x, int y) { return &pixels[4 * (static_cast<size_t>(y) * width + x)]; }
 };
 

@@ -19,8 +19,8 @@ Image readImage(const std::filesystem::path& path);
 void writeExr(const Image& image, const std::filesystem::path& path);
 void writePng(const Image8& image, const std::filesystem::path& path);
 
-// Decodes a PNG, JPEG, … in memory, as encoded (no colour conversion), RGBA. Empty and `why` set when
-// it cannot be decoded or is unreasonably large.
+// Decodes a PNG, JPEG, … in memory, as encoded (no colour conversion), RGBA. Empty and `why` set
+// when it cannot be decoded or is unreasonably large.
 std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& why);
 
 }  // namespace lamplighter

@@ -5,8 +5,8 @@
 
 namespace lamplighter {
 
-// colour × 2^exposureEv, then the filmic curve, then sRGB encoding. shaders/passes/tone_map.glsl does
-// the same on the GPU.
+// colour × 2^exposureEv, then the filmic curve, then sRGB encoding. shaders/passes/tone_map.glsl
+// does the same on the GPU.
 Image8 toneMap(const Image& radiance, float exposureEv);
 vec3 toneMapPixel(const vec3& radiance, float exposureEv);
 

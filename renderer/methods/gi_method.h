@@ -1,10 +1,10 @@
 // The interface behind which every global-illumination method stands, the path tracer too.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
-#include <functional>
 #include <vector>
 
 #include "renderer/backends/kernels.h"
@@ -32,11 +32,11 @@ struct FrameInputs {
 };
 
 struct GiStats {
-  int vpls = 0;           // shown
-  int vplsPending = 0;    // not yet what the scene asks for
-  int mapsPending = 0;    // of them, those whose map must be rendered
-  int oldestFrames = 0;   // frames the oldest pending one has waited
-  int mapsRendered = 0;   // this frame
+  int vpls = 0;             // shown
+  int vplsPending = 0;      // not yet what the scene asks for
+  int mapsPending = 0;      // of them, those whose map must be rendered
+  int oldestFrames = 0;     // frames the oldest pending one has waited
+  int mapsRendered = 0;     // this frame
   uint64_t raysTraced = 0;  // this frame, by the method itself
   int samplesPerPixel = 0;
   std::map<std::string, double> stageSeconds;  // by stage name

@@ -21,8 +21,8 @@ class AliasTable {
 
  private:
   struct Bin {
-    float p = 0.0f;      // the probability of this entry
-    float q = 0.0f;      // threshold within the bin
+    float p = 0.0f;  // the probability of this entry
+    float q = 0.0f;  // threshold within the bin
     uint32_t alias = 0;
   };
   std::vector<Bin> bins_;

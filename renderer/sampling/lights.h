@@ -12,12 +12,12 @@ enum class EmitterKind : uint8_t { surface, punctual, sky };
 
 struct Emitter {
   EmitterKind kind = EmitterKind::surface;
-  NodeId node = kNoNode;   // the light's or object's node
-  uint32_t object = 0;     // surface: index into RenderScene::objects
-  uint32_t punctual = 0;   // punctual: index into RenderScene::punctuals
-  // Flux Φ [W] per channel: surface π·L·A (both sides when double-sided, the emissive texture's mean
-  // included), point 4π·I, spot I × its solid angle, directional E·πR², sky L·4π·πR², with R the
-  // radius of the scene.
+  NodeId node = kNoNode;  // the light's or object's node
+  uint32_t object = 0;    // surface: index into RenderScene::objects
+  uint32_t punctual = 0;  // punctual: index into RenderScene::punctuals
+  // Flux Φ [W] per channel: surface π·L·A (both sides when double-sided, the emissive texture's
+  // mean included), point 4π·I, spot I × its solid angle, directional E·πR², sky L·4π·πR², with R
+  // the radius of the scene.
   vec3 flux{0.0f};
   float area = 0.0f;       // surface: m²
   bool bothSides = false;  // surface

@@ -19,14 +19,14 @@ struct LoadedScene {
   std::vector<std::string> warnings;  // each one line, "FILE: …", for standard error and the status
 };
 
-// Reads .gltf or .glb, told apart by content. Throws InputError ("FILE: what is wrong and where; what
-// to do") for anything that is no sound scene; a texture that cannot be decoded becomes a placeholder
-// and a warning. A scene without any light gets kDefaultSky and a warning. Reads nothing outside the
-// file's folder and never a network.
+// Reads .gltf or .glb, told apart by content. Throws InputError ("FILE: what is wrong and where;
+// what to do") for anything that is no sound scene; a texture that cannot be decoded becomes a
+// placeholder and a warning. A scene without any light gets kDefaultSky and a warning. Reads
+// nothing outside the file's folder and never a network.
 LoadedScene loadGltf(const std::filesystem::path& path, const LoadProgress& progress = {});
 
-// Writes .gltf (with a .bin beside it) or .glb, by the ending, atomically: to a temporary file first,
-// then renamed. What the source file held that Scene does not know is written again. Throws
+// Writes .gltf (with a .bin beside it) or .glb, by the ending, atomically: to a temporary file
+// first, then renamed. What the source file held that Scene does not know is written again. Throws
 // InputError when it cannot be written; then nothing has changed on disk.
 void saveGltf(const Scene& scene, const std::filesystem::path& path);
 

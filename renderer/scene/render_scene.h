@@ -51,11 +51,11 @@ struct RenderScene {
 
 // What update() did, for those who keep copies (Embree, GL buffers).
 struct RenderSceneChanges {
-  bool rebuilt = false;                 // every array is new
-  std::vector<uint32_t> movedObjects;   // vertex attributes of these changed in place
-  std::vector<Bounds> movedBounds;      // where each moved object was before, in that order
-  bool materials = false;               // parameters of materials changed (not the count)
-  bool lights = false;                  // punctual lights changed or moved
+  bool rebuilt = false;                // every array is new
+  std::vector<uint32_t> movedObjects;  // vertex attributes of these changed in place
+  std::vector<Bounds> movedBounds;     // where each moved object was before, in that order
+  bool materials = false;              // parameters of materials changed (not the count)
+  bool lights = false;                 // punctual lights changed or moved
   bool sky = false;
 
   bool none() const { return !rebuilt && movedObjects.empty() && !materials && !lights && !sky; }

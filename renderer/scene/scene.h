@@ -52,14 +52,14 @@ struct Material {
   TextureRef baseColorTexture;  // sRGB-encoded
   TextureRef normalTexture;
   float normalScale = 1.0f;
-  vec3 emissive{0.0f};          // emissiveFactor × KHR_materials_emissive_strength [W/(m² sr)]
-  TextureRef emissiveTexture;   // sRGB-encoded
-  float metallic = 1.0f;        // kept for the round trip; Lambert ignores it
+  vec3 emissive{0.0f};         // emissiveFactor × KHR_materials_emissive_strength [W/(m² sr)]
+  TextureRef emissiveTexture;  // sRGB-encoded
+  float metallic = 1.0f;       // kept for the round trip; Lambert ignores it
   float roughness = 1.0f;
-  float transmission = 0.0f;    // KHR_materials_transmission
+  float transmission = 0.0f;  // KHR_materials_transmission
   AlphaMode alphaMode = AlphaMode::opaque;
   float alphaCutoff = 0.5f;
-  bool doubleSided = false;     // emits from both sides; reflection is two-sided always
+  bool doubleSided = false;  // emits from both sides; reflection is two-sided always
 
   bool emits() const { return emissive.r > 0.0f || emissive.g > 0.0f || emissive.b > 0.0f; }
   // Panes that light passes: drawn and hit by nothing, until there is real transmission.
@@ -73,7 +73,7 @@ struct Primitive {
   std::vector<vec3> normals;   // unit, never empty: computed flat where the file has none
   std::vector<vec4> tangents;  // xyz unit, w = handedness ±1
   std::vector<vec2> uv0, uv1;
-  std::vector<vec4> colors;    // linear, multiplies the base colour
+  std::vector<vec4> colors;       // linear, multiplies the base colour
   std::vector<uint32_t> indices;  // three a triangle, all < positions.size()
   int material = kNone;           // index into Scene::materials, or kNone: the default material
 };
@@ -85,7 +85,7 @@ struct Mesh {
 
 struct Camera {
   std::string name;
-  float yfov = 0.8f;  // radians, vertical
+  float yfov = 0.8f;    // radians, vertical
   float aspect = 0.0f;  // width / height, 0: the viewport's
   float znear = 0.01f;
   float zfar = 0.0f;  // 0: infinite
@@ -97,9 +97,9 @@ enum class PunctualKind : uint8_t { point, spot, directional };
 // KHR_lights_punctual: aims down the node's −Z; scale of the node changes nothing.
 struct PunctualLight {
   PunctualKind kind = PunctualKind::point;
-  vec3 intensity{1.0f};  // color × intensity: W/sr for point and spot, W/m² for directional
-  float range = 0.0f;    // metres, 0: infinite
-  float innerCone = 0.0f;            // radians, spot
+  vec3 intensity{1.0f};    // color × intensity: W/sr for point and spot, W/m² for directional
+  float range = 0.0f;      // metres, 0: infinite
+  float innerCone = 0.0f;  // radians, spot
   float outerCone = 0.78539816339f;  // radians, spot
   bool operator==(const PunctualLight&) const = default;
 };
@@ -110,8 +110,8 @@ enum class AreaShape : uint8_t { rectangle, disk, sphere };
 // Size is in the node's space and so takes the node's scale. Reflects nothing.
 struct AreaLight {
   AreaShape shape = AreaShape::rectangle;
-  vec3 radiance{10.0f};    // W/(m² sr)
-  vec2 size{1.0f, 1.0f};   // rectangle: width (X), height (Y); disk and sphere: diameter in x
+  vec3 radiance{10.0f};   // W/(m² sr)
+  vec2 size{1.0f, 1.0f};  // rectangle: width (X), height (Y); disk and sphere: diameter in x
   bool operator==(const AreaLight&) const = default;
 };
 

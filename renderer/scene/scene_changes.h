@@ -9,15 +9,16 @@
 namespace lamplighter {
 
 struct SceneChanges {
-  bool everything = false;         // another scene altogether
-  bool structure = false;          // nodes or meshes came or went, or hid or showed
+  bool everything = false;  // another scene altogether
+  bool structure = false;   // nodes or meshes came or went, or hid or showed
   bool sky = false;
-  std::vector<NodeId> moved;       // world transform changed (children of a moved node included)
-  std::vector<NodeId> lights;      // light parameters (not the place) changed
-  std::vector<int> materials;      // material parameters changed
+  std::vector<NodeId> moved;   // world transform changed (children of a moved node included)
+  std::vector<NodeId> lights;  // light parameters (not the place) changed
+  std::vector<int> materials;  // material parameters changed
 
   bool none() const {
-    return !everything && !structure && !sky && moved.empty() && lights.empty() && materials.empty();
+    return !everything && !structure && !sky && moved.empty() && lights.empty() &&
+           materials.empty();
   }
   void merge(const SceneChanges& other);
   static SceneChanges all() {

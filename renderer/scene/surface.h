@@ -20,7 +20,8 @@ Surface surfaceAt(const RenderScene& scene, uint32_t object, uint32_t triangle, 
 // Alpha of the base colour there, vertex colour included: what alpha masks are tested with.
 float alphaAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 
-// A bilinear look-up, sRGB decoded where `srgb`; u to the right, v down, wrapped as the texture says.
+// A bilinear look-up, sRGB decoded where `srgb`; u to the right, v down, wrapped as the texture
+// says.
 vec4 sampleTexture(const Texture& texture, vec2 uv, bool srgb);
 
 }  // namespace lamplighter

@@ -9,7 +9,7 @@ namespace lamplighter {
 // xy, xz, yz above the diagonal. Shear is zero but for glTF nodes whose matrix is no T·R·S product,
 // so that every affine matrix has a place here (QR decomposition).
 struct Transform {
-  vec3 translation{0.0f};              // metres, in the parent's space
+  vec3 translation{0.0f};                 // metres, in the parent's space
   quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  // unit
   vec3 scale{1.0f};
   vec3 shear{0.0f};  // xy, xz, yz

@@ -1,0 +1,23 @@
+#include <algorithm>
+
+#include "renderer/error.h"
+#include "renderer/methods/gi_method.h"
+
+namespace lamplighter {
+
+const std::vector<MethodInfo>& methods() {
+  static const std::vector<MethodInfo> all{};
+  return all;
+}
+
+const MethodInfo& findMethod(const std::string& name) {
+  const auto& all = methods();
+  const auto it =
+      std::find_if(all.begin(), all.end(), [&](const MethodInfo& m) { return m.name == name; });
+  if (it != all.end()) return *it;
+  std::string names;
+  for (const MethodInfo& m : all) names += (names.empty() ? "" : ", ") + m.name;
+  throw InputError("method", "there is no '" + name + "'", "give one of: " + names);
+}
+
+}  // namespace lamplighter

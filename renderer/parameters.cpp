@@ -1,0 +1,62 @@
+#include "renderer/parameters.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+template <typename T>
+T parseNumber(const ParameterSpec& spec, std::string_view text, const char* kind) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool inRange =
+      static_cast<double>(value) >= spec.minimum && static_cast<double>(value) <= spec.maximum;
+  if (error != std::errc() || end != text.data() + text.size() || !inRange) {
+    throw InputError(
+        spec.name,
+        fmt::format("'{}' is no {} from {:g} to {:g}", text, kind, spec.minimum, spec.maximum),
+        "give one in that range");
+  }
+  return value;
+}
+
+}  // namespace
+
+ParameterValue Settings::parse(const ParameterSpec& spec, std::string_view text) {
+  if (std::holds_alternative<int>(spec.defaultValue))
+    return parseNumber<int>(spec, text, "whole number");
+  if (std::holds_alternative<float>(spec.defaultValue))
+    return parseNumber<float>(spec, text, "number");
+  if (std::holds_alternative<bool>(spec.defaultValue)) {
+    if (text == "true" || text == "on" || text == "1") return true;
+    if (text == "false" || text == "off" || text == "0") return false;
+    throw InputError(spec.name, fmt::format("'{}' is neither true nor false", text),
+                     "give one of them");
+  }
+  if (std::find(spec.choices.begin(), spec.choices.end(), text) == spec.choices.end()) {
+    throw InputError(spec.name, fmt::format("'{}' is none of its choices", text),
+                     fmt::format("give one of: {}", fmt::join(spec.choices, ", ")));
+  }
+  return std::string(text);
+}
+
+std::string Settings::format(const ParameterValue& value) {
+  struct Visitor {
+    std::string operator()(bool v) const { return v ? "true" : "false"; }
+    std::string operator()(int v) const { return fmt::format("{}", v); }
+    std::string operator()(float v) const {
+      return fmt::format("{}", v);
+    }  // shortest that reads back
+    std::string operator()(const std::string& v) const { return v; }
+  };
+  return std::visit(Visitor(), value);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,191 @@
+#include "renderer/scene/render_scene.h"
+
+#include <algorithm>
+
+#include "renderer/scene/light_shapes.h"
+
+namespace lamplighter {
+
+namespace {
+
+Material emitterMaterial(const AreaLight& light) {
+  Material m;
+  m.name = "area light";
+  m.baseColor = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  m.metallic = 0.0f;
+  m.emissive = light.radiance;
+  return m;
+}
+
+// Writes the primitive's vertices in world space over the object's range and finds its bounds.
+void place(RenderScene& render, RenderObject& object, const Primitive& p, const mat4& world) {
+  const mat3 linear(world);
+  const float determinant = glm::determinant(linear);
+  // The cofactor matrix takes normals along also where scale is zero; its sign undoes a mirror.
+  const mat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                      glm::cross(linear[0], linear[1]));
+  object.bounds = Bounds();
+  const auto unit = [](const vec3& v, const vec3& fallback) {
+    const float length = glm::length(v);
+    return length > 0.0f ? v / length : fallback;
+  };
+  for (uint32_t i = 0; i < object.vertexCount; ++i) {
+    const uint32_t to = object.firstVertex + i;
+    render.positions[to] = vec3(world * vec4(p.positions[i], 1.0f));
+    object.bounds.add(render.positions[to]);
+    const vec3 n = cofactor * p.normals[i];
+    render.normals[to] = unit(determinant < 0.0f ? -n : n, vec3(0, 1, 0));
+    if (!p.tangents.empty()) {
+      const vec3 t = unit(linear * vec3(p.tangents[i]), vec3(1, 0, 0));
+      render.tangents[to] = vec4(t, determinant < 0.0f ? -p.tangents[i].w : p.tangents[i].w);
+    }
+  }
+  // A mirrored object is turned inside out: swap two corners so that its front stays its front.
+  for (uint32_t i = 0; i < object.indexCount; i += 3) {
+    uint32_t* out = &render.indices[object.firstIndex + i];
+    out[0] = object.firstVertex + p.indices[i];
+    out[1] = object.firstVertex + p.indices[i + 1];
+    out[2] = object.firstVertex + p.indices[i + 2];
+    if (determinant < 0.0f) std::swap(out[1], out[2]);
+  }
+}
+
+void append(RenderScene& render, NodeId node, const Primitive& p, const mat4& world, int material,
+            bool isAreaLight) {
+  RenderObject o;
+  o.node = node;
+  o.material = material;
+  o.isAreaLight = isAreaLight;
+  o.firstVertex = static_cast<uint32_t>(render.positions.size());
+  o.vertexCount = static_cast<uint32_t>(p.positions.size());
+  o.firstIndex = static_cast<uint32_t>(render.indices.size());
+  o.indexCount = static_cast<uint32_t>(p.indices.size());
+  const size_t vertices = o.firstVertex + p.positions.size();
+  render.positions.resize(vertices);
+  render.normals.resize(vertices);
+  render.tangents.resize(vertices, vec4(0.0f));
+  render.indices.resize(o.firstIndex + p.indices.size());
+  const auto extend = [&](auto& to, const auto& from, const auto& fill) {
+    to.insert(to.end(), from.begin(), from.end());
+    to.resize(vertices, fill);
+  };
+  extend(render.uv0, p.uv0, vec2(0.0f));
+  extend(render.uv1, p.uv1, vec2(0.0f));
+  extend(render.colors, p.colors, vec4(1.0f));
+  place(render, o, p, world);
+  render.objects.push_back(o);
+}
+
+RenderPunctual placed(const Node& node, const mat4& world) {
+  RenderPunctual r;
+  r.node = node.id;
+  r.light = *node.punctual;
+  r.position = vec3(world[3]);
+  const vec3 aim = mat3(world) * vec3(0, 0, -1);
+  const float length = glm::length(aim);
+  if (length > 0.0f) r.direction = aim / length;
+  return r;
+}
+
+void rebuild(RenderScene& render, const Scene& scene) {
+  render = RenderScene();
+  render.materials = scene.materials;
+  const int defaultMaterial = static_cast<int>(render.materials.size());
+  render.materials.emplace_back().metallic = 0.0f;
+  render.textures = scene.textures;
+  const std::vector<mat4> world = worldMatrices(scene);
+  const std::vector<bool> visible = visibleNodes(scene);
+  for (size_t i = 0; i < scene.nodes.size(); ++i) {
+    const Node& node = scene.nodes[i];
+    if (node.area) render.materials.push_back(emitterMaterial(*node.area));
+    if (!visible[i]) continue;
+    if (node.mesh != kNone) {
+      for (const Primitive& p : scene.meshes[node.mesh]->primitives) {
+        if (p.indices.empty()) continue;
+        append(render, node.id, p, world[i], p.material == kNone ? defaultMaterial : p.material,
+               false);
+      }
+    }
+    if (node.area) {
+      append(render, node.id, tessellate(*node.area), world[i],
+             static_cast<int>(render.materials.size()) - 1, true);
+    }
+    if (node.punctual) render.punctuals.push_back(placed(node, world[i]));
+  }
+}
+
+void findBounds(RenderScene& render) {
+  render.bounds = Bounds();
+  for (const RenderObject& o : render.objects) render.bounds.add(o.bounds);
+}
+
+// Moves what moved in place. Objects stand in the order of nodes and primitives, as rebuild() put
+// them.
+void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& changes,
+                 RenderSceneChanges& out) {
+  const std::vector<mat4> world = worldMatrices(scene);
+  const auto hasMoved = [&](NodeId id) {
+    return std::binary_search(changes.moved.begin(), changes.moved.end(), id);
+  };
+  uint32_t object = 0;
+  for (size_t i = 0; i < scene.nodes.size(); ++i) {
+    const Node& node = scene.nodes[i];
+    const bool moved = hasMoved(node.id);
+    size_t primitive = 0;
+    for (; object < render.objects.size() && render.objects[object].node == node.id; ++object) {
+      RenderObject& o = render.objects[object];
+      const Primitive* p = nullptr;
+      if (!o.isAreaLight) {
+        const auto& primitives = scene.meshes[node.mesh]->primitives;
+        while (primitives[primitive].indices.empty()) ++primitive;
+        p = &primitives[primitive++];
+      }
+      if (!moved) continue;
+      out.movedObjects.push_back(object);
+      out.movedBounds.push_back(o.bounds);
+      place(render, o, o.isAreaLight ? tessellate(*node.area) : *p, world[i]);
+    }
+  }
+  for (RenderPunctual& p : render.punctuals) {
+    const bool moved = hasMoved(p.node);
+    const bool changed = std::binary_search(changes.lights.begin(), changes.lights.end(), p.node);
+    if (!moved && !changed) continue;
+    const auto it = std::find_if(scene.nodes.begin(), scene.nodes.end(),
+                                 [&](const Node& n) { return n.id == p.node; });
+    p = placed(*it, world[static_cast<size_t>(it - scene.nodes.begin())]);
+    out.lights = true;
+  }
+}
+
+}  // namespace
+
+RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneChanges& changes) {
+  RenderSceneChanges out;
+  if (changes.none()) return out;
+  if (changes.everything || changes.structure) {
+    rebuild(render, scene);
+    out.rebuilt = true;
+  } else {
+    if (!changes.moved.empty() || !changes.lights.empty()) moveObjects(render, scene, changes, out);
+    for (const int i : changes.materials) {
+      render.materials[i] = scene.materials[i];
+      out.materials = true;
+    }
+    int next = static_cast<int>(scene.materials.size()) + 1;
+    for (const Node& node : scene.nodes) {
+      if (!node.area) continue;
+      Material m = emitterMaterial(*node.area);
+      if (!(render.materials[next] == m)) {
+        render.materials[next] = std::move(m);
+        out.materials = true;
+      }
+      ++next;
+    }
+  }
+  out.sky = render.sky != scene.sky || out.rebuilt;
+  render.sky = scene.sky;
+  findBounds(render);
+  return out;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,84 @@
+#include "renderer/scene/scene_changes.h"
+
+#include <algorithm>
+
+namespace lamplighter {
+
+namespace {
+
+template <typename T>
+void mergeSorted(std::vector<T>& into, const std::vector<T>& from) {
+  into.insert(into.end(), from.begin(), from.end());
+  std::sort(into.begin(), into.end());
+  into.erase(std::unique(into.begin(), into.end()), into.end());
+}
+
+// Equal but for the name, which nothing is rendered anew for.
+bool looksEqual(Material a, const Material& b) {
+  a.name = b.name;
+  return a == b;
+}
+
+bool sameStructure(const Scene& a, const Scene& b) {
+  if (a.nodes.size() != b.nodes.size() || a.meshes != b.meshes || a.textures != b.textures ||
+      a.materials.size() != b.materials.size()) {
+    return false;
+  }
+  for (size_t i = 0; i < a.nodes.size(); ++i) {
+    const Node &m = a.nodes[i], &n = b.nodes[i];
+    if (m.id != n.id || m.parent != n.parent || m.mesh != n.mesh || m.visible != n.visible ||
+        m.area.has_value() != n.area.has_value() ||
+        m.punctual.has_value() != n.punctual.has_value()) {
+      return false;
+    }
+    // Another shape has another count of triangles.
+    if (m.area && m.area->shape != n.area->shape) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void SceneChanges::merge(const SceneChanges& other) {
+  everything |= other.everything;
+  structure |= other.structure;
+  sky |= other.sky;
+  mergeSorted(moved, other.moved);
+  mergeSorted(lights, other.lights);
+  mergeSorted(materials, other.materials);
+}
+
+SceneChanges compare(const Scene& before, const Scene& after) {
+  SceneChanges changes;
+  changes.sky = before.sky != after.sky;
+  for (size_t i = 0; i < std::min(before.materials.size(), after.materials.size()); ++i) {
+    if (looksEqual(before.materials[i], after.materials[i])) continue;
+    changes.materials.push_back(static_cast<int>(i));
+    // Clear and masked surfaces are other occluders; emitters are other lights.
+    if (before.materials[i].isClear() != after.materials[i].isClear()) changes.structure = true;
+  }
+  if (!sameStructure(before, after)) {
+    changes.structure = true;
+    return changes;  // everything of the nodes is looked at again anyhow
+  }
+
+  // A node has moved when its own or any parent's transform differs; parents come first.
+  std::vector<NodeId> moved;
+  for (size_t i = 0; i < after.nodes.size(); ++i) {
+    const Node &m = before.nodes[i], &n = after.nodes[i];
+    const bool parentMoved =
+        n.parent != kNoNode && std::find(moved.begin(), moved.end(), n.parent) != moved.end();
+    // A light's size is in its surface as its place is.
+    const bool resized = n.area && m.area->size != n.area->size;
+    if (parentMoved || resized || !(m.local == n.local)) moved.push_back(n.id);
+    if ((n.area && !(*m.area == *n.area)) || (n.punctual && !(*m.punctual == *n.punctual))) {
+      changes.lights.push_back(n.id);
+    }
+  }
+  changes.moved = std::move(moved);
+  std::sort(changes.moved.begin(), changes.moved.end());
+  std::sort(changes.lights.begin(), changes.lights.end());
+  return changes;
+}
+
+}  // namespace lamplighter
