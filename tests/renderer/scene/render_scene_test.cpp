@@ -1,0 +1,126 @@
+#include "renderer/scene/render_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "renderer/scene/surface.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+using test::addMaterial;
+using test::addMesh;
+using test::addRectangleLight;
+
+float surfaceArea(const RenderScene& s, const RenderObject& o) {
+  float area = 0.0f;
+  for (uint32_t i = o.firstIndex; i < o.firstIndex + o.indexCount; i += 3) {
+    const vec3 &a = s.positions[s.indices[i]], &b = s.positions[s.indices[i + 1]],
+               &c = s.positions[s.indices[i + 2]];
+    area += 0.5f * glm::length(glm::cross(b - a, c - a));
+  }
+  return area;
+}
+
+TEST(RenderScene, MovingEqualsBuildingAnew) {
+  Scene scene;
+  addMaterial(scene, vec3(0.5f));
+  const NodeId box = addMesh(scene, test::boxMesh(vec3(1.0f), 0));
+  addMesh(scene, test::squareMesh(10.0f, 0), vec3(0, -1, 0));
+  const NodeId light = addRectangleLight(scene, vec3(0, 3, 0), vec2(1.0f), vec3(5.0f));
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+
+  Scene moved = scene;
+  moved.find(box)->local.translation = vec3(1, 2, 3);
+  moved.find(box)->local.scale = vec3(1, 2, -1);
+  moved.find(light)->area->size = vec2(2.0f, 0.5f);
+  moved.find(light)->area->radiance = vec3(7.0f);
+  const RenderSceneChanges c = update(render, moved, compare(scene, moved));
+  EXPECT_FALSE(c.rebuilt);
+  EXPECT_EQ(c.movedObjects, (std::vector<uint32_t>{0, 2}));
+  EXPECT_TRUE(c.materials);
+
+  RenderScene anew;
+  update(anew, moved, SceneChanges::all());
+  EXPECT_EQ(render.positions, anew.positions);
+  EXPECT_EQ(render.normals, anew.normals);
+  EXPECT_EQ(render.indices, anew.indices);
+  EXPECT_EQ(render.materials, anew.materials);
+  EXPECT_EQ(render.bounds.min, anew.bounds.min);
+  EXPECT_EQ(render.bounds.max, anew.bounds.max);
+}
+
+TEST(RenderScene, AMirroredBoxStillFacesOutwards) {
+  Scene scene;
+  const NodeId id = addMesh(scene, test::boxMesh(vec3(2.0f)));
+  scene.find(id)->local.scale = vec3(-1, 1, 1);
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  for (uint32_t t = 0; t < render.objects[0].triangleCount(); ++t) {
+    const Surface s = surfaceAt(render, 0, t, 0.3f, 0.3f);
+    EXPECT_GT(glm::dot(s.geometricNormal, s.position), 0.0f) << "triangle " << t;
+    EXPECT_GT(glm::dot(s.normal, s.geometricNormal), 0.99f) << "triangle " << t;
+  }
+}
+
+TEST(RenderScene, LightShapesHaveExactlyTheirAreaAndFaceOut) {
+  struct Case {
+    AreaShape shape;
+    vec2 size;
+    float area;
+  };
+  for (const Case& c :
+       {Case{AreaShape::rectangle, {2.0f, 3.0f}, 6.0f}, Case{AreaShape::disk, {2.0f, 0.0f}, kPi},
+        Case{AreaShape::sphere, {2.0f, 0.0f}, 4.0f * kPi}}) {
+    Scene scene;
+    const NodeId id = test::addNode(scene, "light");
+    scene.find(id)->area = AreaLight{c.shape, vec3(1.0f), c.size};
+    RenderScene render;
+    update(render, scene, SceneChanges::all());
+    ASSERT_EQ(render.objects.size(), 1u);
+    EXPECT_NEAR(surfaceArea(render, render.objects[0]), c.area, 1e-5f * c.area);
+    for (uint32_t t = 0; t < render.objects[0].triangleCount(); ++t) {
+      const Surface s = surfaceAt(render, 0, t, 0.3f, 0.3f);
+      const vec3 out = c.shape == AreaShape::sphere ? s.position : vec3(0, 0, -1);
+      EXPECT_GT(glm::dot(s.geometricNormal, glm::normalize(out)), 0.9f);
+      EXPECT_EQ(s.emission, vec3(1.0f));
+      EXPECT_EQ(s.albedo, vec3(0.0f));
+    }
+  }
+}
+
+TEST(RenderScene, AHiddenParentHidesItsChildren) {
+  Scene scene;
+  const NodeId parent = test::addNode(scene, "parent");
+  const NodeId child = addMesh(scene, test::squareMesh(1.0f));
+  scene.find(child)->parent = parent;
+  scene.find(parent)->visible = false;
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  EXPECT_TRUE(render.objects.empty());
+}
+
+TEST(Surface, TexturesWrapAsTheySay) {
+  auto image = std::make_shared<Image8>(2, 1);
+  const uint8_t texels[] = {0, 0, 0, 255, 255, 255, 255, 255};
+  image->pixels.assign(texels, texels + 8);
+  Texture t;
+  t.image = image;
+  t.nearest = true;
+  const auto red = [&](float u) { return sampleTexture(t, vec2(u, 0.5f), false).r; };
+  EXPECT_EQ(red(0.25f), 0.0f);
+  EXPECT_EQ(red(1.25f), 0.0f);
+  EXPECT_EQ(red(-0.25f), 1.0f);
+  t.wrapS = Wrap::clamp;
+  EXPECT_EQ(red(1.25f), 1.0f);
+  EXPECT_EQ(red(-0.25f), 0.0f);
+  t.wrapS = Wrap::mirror;
+  EXPECT_EQ(red(1.25f), 1.0f);
+  EXPECT_EQ(red(1.75f), 0.0f);
+  t.nearest = false;
+  EXPECT_NEAR(red(0.5f), 0.5f, 1e-6f);
+}
+
+}  // namespace
+}  // namespace lamplighter
