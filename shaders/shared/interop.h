@@ -9,9 +9,14 @@
 #define SHARED_BEGIN                \
   namespace lamplighter::shared {   \
   using glm::abs;                   \
+  using glm::clamp;                 \
+  using glm::cross;                 \
+  using glm::dot;                   \
+  using glm::floor;                 \
   using glm::mat4;                  \
   using glm::max;                   \
   using glm::min;                   \
+  using glm::sqrt;                  \
   using glm::vec2;                  \
   using glm::vec3;                  \
   using glm::vec4;

@@ -1,0 +1,88 @@
+// What one VPL gives one point, and the look-up in its shadow map: the definition that both backends
+// follow (gl includes it, cpu/ has the same eight points at a time and is tested against it).
+//
+// The shadow test compares in the plane of the receiver. A map stores one value a texel, that of
+// its centre, but is asked for all points in the texel. Along the receiver's own plane 1/w is linear
+// on a face, so what the receiver itself would have stored at the centre is known exactly, and no
+// bias by slope is needed: a point is in shadow when the stored occluder is nearer than both
+//   - the receiver's plane at the texel's centre (else planes would shadow themselves: acne), and
+//   - the point itself (else a wall would shadow the floor before it in a concave corner).
+// What is left of leaking and false shadow is then one texel at silhouettes, plus `bias`.
+#ifndef LAMPLIGHTER_SHARED_VPL_SHADING_H
+#define LAMPLIGHTER_SHARED_VPL_SHADING_H
+#include "interop.h"
+#include "octahedral.h"
+#include "vpl.h"
+
+SHARED_BEGIN
+
+// Column and row (as whole numbers) of the texel that holds square coordinates s in [-1, 1]². Row 0
+// is at t = −1, and the texel lies at row · resolution + column.
+SHARED_FUNCTION vec2 shadowTexel(vec2 s, float resolution) {
+  return clamp(floor((s * 0.5f + 0.5f) * resolution), vec2(0.0f), vec2(resolution - 1.0f));
+}
+
+// Square coordinates of a texel's centre: where the map was sampled.
+SHARED_FUNCTION vec2 shadowTexelCentre(vec2 texel, float resolution) {
+  return (texel + 0.5f) * (2.0f / resolution) - 1.0f;
+}
+
+// A world-space vector in the frame of the VPL.
+SHARED_FUNCTION vec3 vplToLight(Vpl vpl, vec3 v) {
+  vec3 n = vec3(vpl.normal);
+  vec3 t = vec3(vpl.tangent);
+  return vec3(dot(v, t), dot(v, cross(n, t)), dot(v, n));
+}
+
+// Hemisphere maps. stored: 1/w of the occluder [1/m], 0: none; q: the point, n: its plane's normal
+// on the lit side, both in light space; centre: of the texel that octahedralEncode(q) falls into.
+// The plane is at 1/w = (n·e)/(n·q) on the ray through e, w(e) = 1. Both sides are multiplied by
+// −n·q > 0 instead of divided; where the plane misses that ray (−n·e ≤ 0) the test on it is void.
+SHARED_FUNCTION bool hemisphereOccluded(float stored, vec3 q, vec3 n, vec2 centre, float bias) {
+  vec3 e = octahedralDecode(centre);
+  float k = 1.0f + bias;
+  return stored * octahedralW(q) > k && stored * -dot(n, q) > k * -dot(n, e);
+}
+
+// Maps of directional VPLs: orthographic, [-1, 1]² is [-R, R]² along (tangent, bitangent) about the
+// scene's middle; stored is (h + R) / 2R, h the occluder's height along the normal, so that nearer to
+// the light is larger here too; 0: none.
+SHARED_FUNCTION vec2 directionalEncode(vec3 q, float radius) {
+  return vec2(q.x, q.y) * (1.0f / radius);
+}
+
+SHARED_FUNCTION bool directionalOccluded(float stored, vec3 q, vec3 n, vec2 centre, float radius,
+                                         float bias) {
+  float above = (2.0f * stored - 1.0f - bias) * radius - q.z;  // of the occluder over the point
+  // and over the receiver's plane at the centre, × n.z > 0
+  float dx = centre.x * radius - q.x;
+  float dy = centre.y * radius - q.y;
+  return above > 0.0f && above * n.z > -(n.x * dx + n.y * dy);
+}
+
+// E / I: irradiance at the point x with shading normal ns and geometric normal ng, both on the side
+// that is looked at, for intensity 1; without shadow. 0 where the light is behind either normal.
+// clampDistance bounds 1/d² of the VPLs that stand for a surface; that of a punctual light is real.
+SHARED_FUNCTION float vplGeometry(Vpl vpl, vec3 x, vec3 ns, vec3 ng, float clampDistance) {
+  vec3 axis = vec3(vpl.normal);
+  if (vpl.position.w == kVplDirectional) {
+    return dot(ng, axis) > 0.0f ? max(dot(ns, axis), 0.0f) : 0.0f;
+  }
+  vec3 v = x - vec3(vpl.position);
+  float z = dot(v, axis);
+  float s = -dot(ns, v);
+  if (z <= 0.0f || s <= 0.0f || -dot(ng, v) <= 0.0f) {
+    return 0.0f;
+  }
+  float d2 = dot(v, v);
+  if (vpl.position.w == kVplCosine) {
+    // cos · cos / d² = (s/d)(z/d) / max(d², d0²)
+    return s * z / (d2 * max(d2, clampDistance * clampDistance));
+  }
+  float d = sqrt(d2);
+  float cone = min(max(z / d * vpl.normal.w + vpl.tangent.w, 0.0f), 1.0f);
+  return cone * cone * s / (d2 * d);
+}
+
+SHARED_END
+#endif
