@@ -22,5 +22,7 @@ void writePng(const Image8& image, const std::filesystem::path& path);
 // Decodes a PNG, JPEG, … in memory, as encoded (no colour conversion), RGBA. Empty and `why` set
 // when it cannot be decoded or is unreasonably large.
 std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& why);
+// Whether the bytes begin as an image that decodeImage8() might decode; `why` set when not.
+bool checkImageHeader(std::span<const uint8_t> bytes, std::string& why);
 
 }  // namespace lamplighter

@@ -1,0 +1,123 @@
+// Encoded images in memory to pixels, through OpenImageIO's readers.
+#include <array>
+#include <cstring>
+#include <string_view>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include "renderer/image/image_io.h"
+
+namespace lamplighter {
+
+namespace {
+
+// Pixels: 8192 x 8192, the largest size that every graphics driver takes is twice that. A few
+// kilobytes of PNG can ask for any amount of memory.
+constexpr int64_t kMostPixels = int64_t{1} << 26;
+
+// The reader is chosen by the ending of a file name; in memory there is none, so by how the bytes
+// begin. Null for what is unknown.
+const char* formatOf(std::span<const uint8_t> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  using namespace std::string_view_literals;
+  if (text.starts_with("\x89PNG\r\n\x1a\n"sv)) return "png";
+  if (text.starts_with("\xff\xd8\xff"sv)) return "jpeg";
+  if (text.starts_with("RIFF"sv) && text.substr(0, 12).ends_with("WEBP"sv)) return "webp";
+  if (text.starts_with("\xabKTX 20\xbb"sv)) return "ktx2";
+  if (text.starts_with("DDS "sv)) return "dds";
+  if (text.starts_with("BM"sv)) return "bmp";
+  if (text.starts_with("GIF8"sv)) return "gif";
+  if (text.starts_with("\x76\x2f\x31\x01"sv)) return "openexr";
+  if (text.starts_with("#?RADIANCE"sv) || text.starts_with("#?RGBE"sv)) return "hdr";
+  return nullptr;
+}
+
+struct Opened {
+  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
+  std::unique_ptr<OIIO::ImageInput> input;  // destroyed before the memory it reads
+};
+
+std::string oneLine(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+// Opens the image and checks its size; `why` is set and the input null when it is none.
+Opened open(std::span<const uint8_t> bytes, std::string& why) {
+  Opened opened;
+  const char* format = formatOf(bytes);
+  if (format == nullptr) {
+    why = bytes.empty() ? "is empty" : "is of no known image format";
+    return opened;
+  }
+  const std::string name = format;
+  if (name == "ktx2" || name == "dds") {
+    why = "is a " + name + " texture, which cannot be decoded here";
+    return opened;
+  }
+  opened.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(
+      const_cast<uint8_t*>(bytes.data()), bytes.size());
+  OIIO::ImageSpec config;
+  // Alpha is coverage in the file's own terms: colours are not to be multiplied by it.
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::create(name, false, &config, opened.memory.get());
+  if (input == nullptr || !input->supports("ioproxy")) {
+    why = "is a " + name + " image, which cannot be decoded here";
+    OIIO::geterror();  // else it is kept and reported at exit
+    return opened;
+  }
+  input->set_ioproxy(opened.memory.get());
+  OIIO::ImageSpec spec;
+  if (!input->open("image." + name, spec, config)) {
+    why = "cannot be decoded (" + oneLine(input->geterror()) + ")";
+    return opened;
+  }
+  if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
+      spec.nchannels > 16) {
+    why = "is no picture";
+    return opened;
+  }
+  if (int64_t{spec.width} * spec.height > kMostPixels) {
+    why = "has " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
+          " pixels, more than 8192 x 8192";
+    return opened;
+  }
+  opened.input = std::move(input);
+  return opened;
+}
+
+}  // namespace
+
+bool checkImageHeader(std::span<const uint8_t> bytes, std::string& why) {
+  return open(bytes, why).input != nullptr;
+}
+
+std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& why) {
+  const Opened opened = open(bytes, why);
+  if (opened.input == nullptr) return std::nullopt;
+  const OIIO::ImageSpec& spec = opened.input->spec();
+  const size_t channels = static_cast<size_t>(spec.nchannels);
+  const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
+  std::vector<uint8_t> raw(pixels * channels);
+  if (!opened.input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data())) {
+    why = "cannot be decoded (" + oneLine(opened.input->geterror()) + ")";
+    return std::nullopt;
+  }
+  Image8 image(spec.width, spec.height);
+  const bool isGray = channels <= 2, hasAlpha = channels == 2 || channels >= 4;
+  for (size_t i = 0; i < pixels; ++i) {
+    const uint8_t* in = &raw[i * channels];
+    uint8_t* out = &image.pixels[i * 4];
+    out[0] = in[0];
+    out[1] = isGray ? in[0] : in[1];
+    out[2] = isGray ? in[0] : in[2];
+    out[3] = hasAlpha ? in[isGray ? 1 : 3] : uint8_t{255};
+  }
+  return image;
+}
+
+}  // namespace lamplighter
