@@ -1,0 +1,134 @@
+#include "renderer/sampling/lights.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/scene/surface.h"
+
+namespace lamplighter {
+
+namespace {
+
+float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+float triangleArea(const RenderScene& s, const RenderObject& o, uint32_t t) {
+  const uint32_t* i = &s.indices[o.firstIndex + 3 * t];
+  return 0.5f * glm::length(glm::cross(s.positions[i[1]] - s.positions[i[0]],
+                                       s.positions[i[2]] - s.positions[i[0]]));
+}
+
+Emitter surfaceEmitter(const RenderScene& s, uint32_t object) {
+  const RenderObject& o = s.objects[object];
+  const Material& m = s.materials[o.material];
+  Emitter e;
+  e.object = object;
+  e.node = o.node;
+  e.bothSides = m.doubleSided;
+  std::vector<float> areas(o.triangleCount());
+  double area = 0.0;
+  glm::dvec3 radiance(0.0);
+  for (uint32_t t = 0; t < areas.size(); ++t) {
+    areas[t] = triangleArea(s, o, t);
+    area += static_cast<double>(areas[t]);
+    // With a texture, the triangle's radiance at four points; its true mean only steers the choice
+    // of lights and the share of VPLs, never the light that is computed.
+    vec3 mean = m.emissive;
+    if (m.emissiveTexture.texture != kNone) {
+      mean = vec3(0.0f);
+      for (const vec2& b :
+           {vec2(1 / 3.f, 1 / 3.f), vec2(.6f, .2f), vec2(.2f, .6f), vec2(.2f, .2f)}) {
+        mean += 0.25f * surfaceAt(s, object, t, b.x, b.y).emission;
+      }
+    }
+    radiance += glm::dvec3(mean) * static_cast<double>(areas[t]);
+  }
+  e.area = static_cast<float>(area);
+  e.flux = vec3(radiance) * kPi * (e.bothSides ? 2.0f : 1.0f);
+  e.triangles = AliasTable(areas);
+  return e;
+}
+
+// The cone's solid angle weighted by KHR_lights_punctual's falloff, ((cos θ − cos o)/(cos i − cos
+// o))² between outer and inner cone: ∫ = 2π [(1 − cos i) + (cos i − cos o)/3].
+float spotSolidAngle(const PunctualLight& l) {
+  const float ci = std::cos(l.innerCone), co = std::cos(l.outerCone);
+  return 2.0f * kPi * ((1.0f - ci) + (ci - co) / 3.0f);
+}
+
+vec3 punctualFlux(const PunctualLight& l, float sceneRadius) {
+  switch (l.kind) {
+    case PunctualKind::point:
+      return 4.0f * kPi * l.intensity;
+    case PunctualKind::spot:
+      return spotSolidAngle(l) * l.intensity;
+    case PunctualKind::directional:
+      return kPi * sceneRadius * sceneRadius * l.intensity;
+  }
+  return vec3(0.0f);
+}
+
+}  // namespace
+
+LightSet::LightSet(const RenderScene& s) {
+  centre_ = s.bounds.centre();
+  radius_ = s.bounds.radius();
+  emitterOfObject_.assign(s.objects.size(), kNone);
+  for (uint32_t i = 0; i < s.objects.size(); ++i) {
+    const Material& m = s.materials[s.objects[i].material];
+    if (!m.emits() || m.isClear()) continue;
+    Emitter e = surfaceEmitter(s, i);
+    if (e.triangles.empty() || luminance(e.flux) <= 0.0f) continue;  // no area, or a black texture
+    emitterOfObject_[i] = static_cast<int>(emitters_.size());
+    emitters_.push_back(std::move(e));
+  }
+  for (uint32_t i = 0; i < s.punctuals.size(); ++i) {
+    Emitter e;
+    e.kind = EmitterKind::punctual;
+    e.node = s.punctuals[i].node;
+    e.punctual = i;
+    e.flux = punctualFlux(s.punctuals[i].light, radius_);
+    if (luminance(e.flux) > 0.0f) emitters_.push_back(std::move(e));
+  }
+  if (luminance(s.sky) > 0.0f) {
+    Emitter e;
+    e.kind = EmitterKind::sky;
+    e.flux = 4.0f * kPi * kPi * radius_ * radius_ * s.sky;
+    emitters_.push_back(std::move(e));
+  }
+  std::vector<float> weights(emitters_.size());
+  std::transform(emitters_.begin(), emitters_.end(), weights.begin(),
+                 [](const Emitter& e) { return luminance(e.flux); });
+  choice_ = AliasTable(weights);
+}
+
+int LightSet::choose(float u, float& probability) const {
+  if (choice_.empty()) return kNone;
+  float rest;
+  const size_t i = choice_.sample(u, rest);
+  probability = choice_.probability(i);
+  return static_cast<int>(i);
+}
+
+float LightSet::probability(int emitter) const {
+  return choice_.probability(static_cast<size_t>(emitter));
+}
+
+int LightSet::emitterOfObject(uint32_t object) const { return emitterOfObject_[object]; }
+
+EmitterPoint LightSet::samplePoint(const RenderScene& s, int emitter, vec2 u) const {
+  const Emitter& e = emitters_[static_cast<size_t>(emitter)];
+  float rest;
+  const auto triangle = static_cast<uint32_t>(e.triangles.sample(u.x, rest));
+  // Uniform over the triangle (Turk 1990).
+  const float root = std::sqrt(rest);
+  const Surface at = surfaceAt(s, e.object, triangle, u.y * root, 1.0f - root);
+  EmitterPoint p;
+  p.position = at.position;
+  p.normal = at.geometricNormal;
+  p.radiance = at.emission;
+  p.pdfArea = 1.0f / e.area;
+  p.bothSides = e.bothSides;
+  return p;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,107 @@
+#include "renderer/raycast/ray_caster.h"
+
+#include <array>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+RenderScene worldOf(const Scene& scene) {
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  return render;
+}
+
+Ray down(float x, float z) { return {vec3(x, 10.0f, z), 0.0f, vec3(0, -1, 0)}; }
+
+TEST(RayCaster, HitsTheNearestAndSaysWhere) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f));
+  test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0, 2, 0));
+  const RenderScene world = worldOf(scene);
+  const RayCaster rays(world);
+  const Hit box = rays.intersect(down(0.1f, 0.2f));
+  ASSERT_TRUE(box);
+  EXPECT_EQ(box.object, 1u);
+  EXPECT_FLOAT_EQ(box.t, 7.5f);
+  const Hit floor = rays.intersect(down(1.5f, 0.0f));
+  EXPECT_EQ(floor.object, 0u);
+  EXPECT_FLOAT_EQ(floor.t, 10.0f);
+  EXPECT_FALSE(rays.intersect(down(3.0f, 0.0f)));
+  EXPECT_TRUE(rays.occluded(down(0.0f, 0.0f)));
+  EXPECT_FALSE(rays.occluded({vec3(0, 10, 0), 0.0f, vec3(0, -1, 0), 7.0f}));
+}
+
+TEST(RayCaster, AnEmptySceneIsHitByNothing) {
+  const RenderScene world = worldOf(Scene());
+  EXPECT_FALSE(RayCaster(world).intersect(down(0, 0)));
+}
+
+TEST(RayCaster, EightAtATimeAreTheSameAsOneByOne) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f));
+  test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0, 2, 0));
+  const RenderScene world = worldOf(scene);
+  const RayCaster rays(world);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> u(-3.0f, 3.0f);
+  for (int round = 0; round < 200; ++round) {
+    std::array<Ray, 8> r;
+    std::array<Hit, 8> h;
+    for (Ray& ray : r)
+      ray = {vec3(u(random), 6.0f, u(random)), 0.0f,
+             glm::normalize(vec3(u(random), -4.0f, u(random)))};
+    r[5].tFar = -1.0f;  // switched off
+    rays.intersect8(r, h);
+    for (size_t i = 0; i < 8; ++i) {
+      const Hit one = i == 5 ? Hit() : rays.intersect(r[i]);
+      EXPECT_EQ(h[i].object, one.object);
+      // The two code paths round apart in the last bits.
+      if (one) {
+        EXPECT_NEAR(h[i].t, one.t, 1e-5f);
+      }
+    }
+  }
+}
+
+TEST(RayCaster, SeesAMovedObjectWhereItIs) {
+  Scene scene;
+  const NodeId box = test::addMesh(scene, test::boxMesh(vec3(1.0f)));
+  test::addMesh(scene, test::squareMesh(20.0f), vec3(0, -3, 0));
+  RenderScene world = worldOf(scene);
+  RayCaster rays(world);
+  EXPECT_FLOAT_EQ(rays.intersect(down(0, 0)).t, 9.5f);
+  Scene moved = scene;
+  moved.find(box)->local.translation.x = 5.0f;
+  rays.update(update(world, moved, compare(scene, moved)));
+  EXPECT_FLOAT_EQ(rays.intersect(down(0, 0)).t, 13.0f);
+  EXPECT_FLOAT_EQ(rays.intersect(down(5, 0)).t, 9.5f);
+}
+
+TEST(RayCaster, PassesClearPanesAndHolesOfMasks) {
+  Scene scene;
+  const int glass = test::addMaterial(scene, vec3(1.0f));
+  scene.materials[glass].transmission = 1.0f;
+  const int leaf = test::addMaterial(scene, vec3(1.0f));
+  auto image = std::make_shared<Image8>(2, 1);
+  image->at(0, 0)[3] = 0;  // left half: a hole
+  scene.textures.push_back({"leaf", image, Wrap::clamp, Wrap::clamp, true, false});
+  scene.materials[leaf].alphaMode = AlphaMode::mask;
+  scene.materials[leaf].baseColorTexture.texture = 0;
+  test::addMesh(scene, test::squareMesh(2.0f, glass), vec3(0, 3, 0));
+  test::addMesh(scene, test::squareMesh(2.0f, leaf), vec3(0, 2, 0));
+  test::addMesh(scene, test::squareMesh(2.0f), vec3(0, 0, 0));
+  const RenderScene world = worldOf(scene);
+  const RayCaster rays(world);
+  EXPECT_EQ(rays.intersect(down(-0.5f, 0.1f)).object, 2u);
+  EXPECT_EQ(rays.intersect(down(0.5f, 0.1f)).object, 1u);
+  EXPECT_TRUE(rays.occluded({vec3(0.5f, 10, 0.1f), 0.0f, vec3(0, -1, 0), 9.0f}));
+  EXPECT_FALSE(rays.occluded({vec3(-0.5f, 10, 0.1f), 0.0f, vec3(0, -1, 0), 9.0f}));
+}
+
+}  // namespace
+}  // namespace lamplighter

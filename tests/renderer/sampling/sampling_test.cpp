@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "renderer/sampling/alias_table.h"
+#include "renderer/sampling/lights.h"
+#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/random.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+TEST(AliasTable, DrawsInProportionAndNeverTheImpossible) {
+  const std::vector<float> weights{1.0f, 0.0f, 3.0f, 6.0f};
+  const AliasTable table(weights);
+  std::vector<int> drawn(4);
+  constexpr int kDraws = 100000;
+  double rest = 0.0;
+  for (int i = 0; i < kDraws; ++i) {
+    float remapped;
+    ++drawn[table.sample((static_cast<float>(i) + 0.5f) / kDraws, remapped)];
+    ASSERT_GE(remapped, 0.0f);
+    ASSERT_LT(remapped, 1.0f);
+    rest += static_cast<double>(remapped);
+  }
+  EXPECT_EQ(drawn[1], 0);
+  EXPECT_NEAR(drawn[0], 0.1 * kDraws, 5);
+  EXPECT_NEAR(drawn[2], 0.3 * kDraws, 5);
+  EXPECT_NEAR(drawn[3], 0.6 * kDraws, 5);
+  EXPECT_NEAR(rest / kDraws, 0.5, 1e-3);
+  EXPECT_TRUE(AliasTable(std::vector<float>{0.0f, 0.0f}).empty());
+}
+
+// Every elementary interval of area 2⁻ᵐ holds exactly one of the first 2ᵐ points.
+TEST(LowDiscrepancy, IsANetInBase2) {
+  constexpr int m = 6, n = 1 << m;
+  for (const bool ordered : {false, true}) {
+    for (int split = 0; split <= m; ++split) {
+      std::vector<int> count(n);
+      for (uint32_t i = 0; i < n; ++i) {
+        const vec2 p = ordered ? sobol2Ordered(i, 77) : sobol2(i, 77);
+        ASSERT_TRUE(p.x >= 0.0f && p.x < 1.0f && p.y >= 0.0f && p.y < 1.0f);
+        const int column = static_cast<int>(p.x * static_cast<float>(1 << split));
+        const int row = static_cast<int>(p.y * static_cast<float>(1 << (m - split)));
+        ++count[(row << split) + column];
+      }
+      EXPECT_EQ(*std::max_element(count.begin(), count.end()), 1)
+          << "split " << split << " ordered " << ordered;
+    }
+  }
+}
+
+TEST(Random, CosineDirectionsHaveTheirMoments) {
+  double z = 0.0;
+  constexpr uint32_t n = 4096;
+  for (uint32_t i = 0; i < n; ++i) {
+    const vec3 d = sampleCosineHemisphere(sobol2(i, 5));
+    ASSERT_NEAR(glm::length(d), 1.0f, 1e-5f);
+    z += static_cast<double>(d.z);
+  }
+  EXPECT_NEAR(z / n, 2.0 / 3.0, 1e-3);  // E[cos θ] under cos θ/π
+}
+
+struct LightsOf {
+  RenderScene world;
+  LightSet lights;
+  explicit LightsOf(const Scene& scene) {
+    update(world, scene, SceneChanges::all());
+    lights = LightSet(world);
+  }
+};
+
+TEST(LightSet, FluxIsThatOfTheLights) {
+  Scene scene;
+  test::addMesh(scene, test::boxMesh(vec3(2.0f)));
+  test::addRectangleLight(scene, vec3(0, 3, 0), vec2(2.0f, 0.5f), vec3(10, 20, 30));
+  const NodeId p = test::addNode(scene, "point");
+  scene.find(p)->punctual = PunctualLight{PunctualKind::point, vec3(3.0f)};
+  const LightsOf s(scene);
+  ASSERT_EQ(s.lights.emitters().size(), 2u);
+  EXPECT_NEAR(s.lights.emitters()[0].flux.g, kPi * 20.0f, 1e-3f);
+  EXPECT_NEAR(s.lights.emitters()[1].flux.r, 4.0f * kPi * 3.0f, 1e-3f);
+  EXPECT_EQ(s.lights.emitterOfObject(0), kNone);
+  EXPECT_EQ(s.lights.emitterOfObject(1), 0);
+}
+
+TEST(LightSet, PointsLieOnTheLightEvenly) {
+  Scene scene;
+  test::addRectangleLight(scene, vec3(1, 3, 2), vec2(2.0f, 1.0f), vec3(5.0f));
+  const LightsOf s(scene);
+  vec3 sum(0.0f);
+  constexpr uint32_t n = 1024;
+  for (uint32_t i = 0; i < n; ++i) {
+    const EmitterPoint p = s.lights.samplePoint(s.world, 0, sobol2(i, 9));
+    EXPECT_NEAR(p.position.y, 3.0f, 1e-5f);
+    EXPECT_LE(std::abs(p.position.x - 1.0f), 1.00001f);
+    EXPECT_LE(std::abs(p.position.z - 2.0f), 0.50001f);
+    EXPECT_NEAR(p.normal.y, -1.0f, 1e-5f);
+    EXPECT_EQ(p.radiance, vec3(5.0f));
+    EXPECT_NEAR(p.pdfArea, 0.5f, 1e-5f);
+    sum += p.position;
+  }
+  EXPECT_NEAR(sum.x / n, 1.0f, 5e-3f);
+  EXPECT_NEAR(sum.z / n, 2.0f, 5e-3f);
+}
+
+TEST(LightSet, NothingEmitsInTheDark) {
+  Scene scene;
+  test::addMesh(scene, test::boxMesh(vec3(2.0f)));
+  const LightsOf s(scene);
+  float p;
+  EXPECT_EQ(s.lights.choose(0.5f, p), kNone);
+}
+
+}  // namespace
+}  // namespace lamplighter
