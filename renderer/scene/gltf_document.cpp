@@ -37,9 +37,8 @@ const Json& listOf(const GltfDocument& document, const char* name) {
   static const Json kEmpty = Json::array();
   const Json* list = member(document.json, name);
   if (list == nullptr) return kEmpty;
-  if (!list->is_array() ||
-      !std::all_of(list->begin(), list->end(), [](const Json& e) { return e.is_object(); })) {
-    document.fail(std::string("\"") + name + "\" is no array of objects", kExportAgain);
+  if (!list->is_array()) {
+    document.fail(std::string("\"") + name + "\" is no array", kExportAgain);
   }
   return *list;
 }

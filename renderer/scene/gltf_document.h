@@ -55,8 +55,8 @@ inline constexpr const char* kExportAgain =
 // Control characters out, long texts cut: for use in a message of one line.
 std::string printable(std::string_view text);
 
-// The elements of a top-level array; an empty array where the file has none. Throws when it is no
-// array of objects.
+// A top-level array; an empty one where the file has none. checkStructure() sees to it that its
+// entries are objects.
 const Json& listOf(const GltfDocument& document, const char* name);
 
 // A member of an object, or null where there is none (or `object` is no object).

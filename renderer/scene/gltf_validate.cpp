@@ -87,6 +87,14 @@ class StructureCheck {
         animations_(listOf(doc_, "animations")) {}
 
   void run() {
+    for (const char* name :
+         {"buffers", "bufferViews", "accessors", "meshes", "materials", "textures", "images",
+          "samplers", "cameras", "skins", "nodes", "scenes", "animations"}) {
+      const Json& list = listOf(doc_, name);
+      if (!std::all_of(list.begin(), list.end(), [](const Json& e) { return e.is_object(); })) {
+        doc_.fail(std::string("\"") + name + "\" is no array of objects", kExportAgain);
+      }
+    }
     for (size_t i = 0; i < buffers_.size(); ++i) need(buffers_[i], "byteLength", {"buffers", i});
     for (size_t i = 0; i < views_.size(); ++i) view(i);
     for (size_t i = 0; i < accessors_.size(); ++i) accessor(i);

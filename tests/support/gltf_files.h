@@ -1,0 +1,40 @@
+// glTF files that tests write themselves.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace lamplighter::test {
+
+// A folder of its own for a test; removed with what is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  // Writes a file in it and returns where it is.
+  std::filesystem::path write(const std::string& name, const std::string& content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string readText(const std::filesystem::path& path);
+
+// The bytes of a .glb.
+std::string glb(const std::string& json, const std::string& binary);
+
+// A small level with one of each: two nested nodes, a square with normals and texture coordinates,
+// a strip, a sparse accessor, a textured material, a camera, a point and a rectangle light, a skin,
+// an animation, an extension that nobody knows, extras. `binary` becomes its only buffer, of a
+// .glb.
+nlohmann::ordered_json everythingScene(std::string& binary);
+
+}  // namespace lamplighter::test
