@@ -1,0 +1,13 @@
+// The cpu backend: Embree for primary visibility and shadow maps, eight-wide sums. It needs no
+// OpenGL and gives the same bits at any number of threads on every x86-64-v3 machine.
+#pragma once
+
+#include <memory>
+
+#include "renderer/backends/kernels.h"
+
+namespace lamplighter {
+
+std::unique_ptr<Backend> makeCpuBackend();
+
+}  // namespace lamplighter

@@ -1,0 +1,50 @@
+// The cpu backend's G-buffer: structure of arrays in tiles, so that eight pixels load as vectors.
+#pragma once
+
+#include <vector>
+
+#include "renderer/math.h"
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/scene/render_scene.h"
+#include "renderer/view.h"
+
+namespace lamplighter::cpu {
+
+// Tiles of 16×16 pixels, each of 32 packets of 4×2 pixels: a packet's rays are coherent and its
+// points fall into few texels of a shadow map, and a tile with its sums fits the first-level cache.
+inline constexpr int kLanes = 8;
+inline constexpr int kPacketWidth = 4, kPacketHeight = 2;
+inline constexpr int kTileSize = 16;
+inline constexpr int kPacketsPerRow = kTileSize / kPacketWidth;
+inline constexpr int kPacketsPerTile = kTileSize * kTileSize / kLanes;
+inline constexpr int kTilePixels = kTileSize * kTileSize;
+
+struct GBuffer {
+  int width = 0, height = 0;
+  int tilesX = 0, tilesY = 0;
+  // One entry a pixel of each tile, in the order of the tiles; those past the image's edge are
+  // misses. Where nothing is hit the normals are zero, so that no light reaches the lane.
+  std::vector<float> px, py, pz;  // world position [m]
+  std::vector<float> sx, sy, sz;  // shading normal, on the side that the eye sees
+  std::vector<float> gx, gy, gz;  // geometric normal, on that side
+  std::vector<vec3> albedo;
+  std::vector<vec3> emission;  // towards the eye [W/(m² sr)]
+  std::vector<uint8_t> hit;
+
+  void resize(int w, int h);
+  int tiles() const { return tilesX * tilesY; }
+  size_t index(int x, int y) const {
+    const size_t tile = static_cast<size_t>(y / kTileSize) * tilesX + x / kTileSize;
+    const int tx = x % kTileSize, ty = y % kTileSize;
+    const int packet = (ty / kPacketHeight) * kPacketsPerRow + tx / kPacketWidth;
+    const int lane = (ty % kPacketHeight) * kPacketWidth + tx % kPacketWidth;
+    return tile * kTilePixels + packet * kLanes + lane;
+  }
+  size_t bytes() const;
+};
+
+// Traces one ray a pixel; `jitter` in pixels from the pixel's middle. Returns the number of rays.
+uint64_t renderGBuffer(const RenderScene& scene, const RayCaster& rays, const View& view,
+                       vec2 jitter, GBuffer& out);
+
+}  // namespace lamplighter::cpu

@@ -1,0 +1,194 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
+#include "renderer/backends/cpu/sum_vpls.h"
+
+#include <algorithm>
+
+#include <hwy/highway.h>
+
+// shaders/shared/vpl_shading.h is the definition, with the reasons; this is the same, eight points
+// at a time, with multiply-adds fused where written so.
+namespace lamplighter::cpu {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::FixedTag<float, kLanes>;
+using IntTag = hn::RebindToSigned<Tag>;
+using Floats = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+constexpr Tag kTag;
+
+struct Vector3 {
+  Floats x, y, z;
+};
+
+HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE Floats dot(const Vector3& a, const vec3& b) {
+  return hn::MulAdd(a.x, all(b.x), hn::MulAdd(a.y, all(b.y), hn::Mul(a.z, all(b.z))));
+}
+HWY_INLINE Vector3 load(const std::vector<float>& x, const std::vector<float>& y,
+                        const std::vector<float>& z, size_t i) {
+  return {hn::LoadU(kTag, &x[i]), hn::LoadU(kTag, &y[i]), hn::LoadU(kTag, &z[i])};
+}
+
+// The texel's column or row, and its centre, of one square coordinate.
+struct Texel {
+  Floats index, centre;
+};
+HWY_INLINE Texel texelOf(Floats s, int resolution) {
+  const float size = static_cast<float>(resolution);
+  const Floats i = hn::Floor(hn::MulAdd(s, all(0.5f * size), all(0.5f * size)));
+  const Floats index = hn::Min(hn::Max(i, hn::Zero(kTag)), all(size - 1.0f));
+  return {index, hn::MulAdd(index, all(2.0f / size), all(1.0f / size - 1.0f))};
+}
+
+HWY_INLINE Floats fetch(const float* map, int resolution, const Texel& s, const Texel& t) {
+  const IntTag ints;
+  const auto column = hn::ConvertTo(ints, s.index), row = hn::ConvertTo(ints, t.index);
+  return hn::GatherIndex(kTag, map, hn::Add(hn::Mul(row, hn::Set(ints, resolution)), column));
+}
+
+// v: from the light to the point; q: the same in the light's frame but for q.z, given as z.
+HWY_INLINE Mask hemisphereOccluded(const LightRecord& light, const SumConstants& c,
+                                   const Vector3& v, Floats z, const Vector3& geometric,
+                                   Floats facing) {
+  const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
+  const Floats w = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), z);
+  const Floats inverse = hn::Div(all(1.0f), w);
+  const Texel s = texelOf(hn::Mul(hn::Add(x, y), inverse), c.resolution);
+  const Texel t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c.resolution);
+  const Floats stored = fetch(light.map, c.resolution, s, t);
+  const Floats ex = hn::Mul(hn::Add(s.centre, t.centre), all(0.5f));
+  const Floats ey = hn::Mul(hn::Sub(s.centre, t.centre), all(0.5f));
+  const Floats ez = hn::Sub(all(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
+  const Floats plane = hn::MulAdd(
+      dot(geometric, light.tangent), ex,
+      hn::MulAdd(dot(geometric, light.bitangent), ey, hn::Mul(dot(geometric, light.normal), ez)));
+  const Floats k = all(1.0f + c.bias);
+  const Mask beforePoint = hn::Gt(hn::Mul(stored, w), k);
+  // facing = −n·v > 0
+  const Mask beforePlane = hn::Gt(hn::MulAdd(stored, facing, hn::Mul(k, plane)), hn::Zero(kTag));
+  return hn::And(beforePoint, beforePlane);
+}
+
+HWY_INLINE Mask directionalOccluded(const LightRecord& light, const SumConstants& c,
+                                    const Vector3& v, const Vector3& geometric, Floats facing) {
+  const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent), z = dot(v, light.normal);
+  const Floats scale = all(1.0f / light.radius), radius = all(light.radius);
+  const Texel s = texelOf(hn::Mul(x, scale), c.resolution);
+  const Texel t = texelOf(hn::Mul(y, scale), c.resolution);
+  const Floats stored = fetch(light.map, c.resolution, s, t);
+  const Floats height = hn::MulSub(stored, all(2.0f), all(1.0f + c.bias));
+  const Floats above = hn::MulSub(height, radius, z);
+  const Floats dx = hn::MulSub(s.centre, radius, x), dy = hn::MulSub(t.centre, radius, y);
+  const Floats slope =
+      hn::MulAdd(dot(geometric, light.tangent), dx, hn::Mul(dot(geometric, light.bitangent), dy));
+  const Mask beforePoint = hn::Gt(above, hn::Zero(kTag));
+  const Mask beforePlane = hn::Gt(hn::MulAdd(above, facing, slope), hn::Zero(kTag));
+  return hn::And(beforePoint, beforePlane);
+}
+
+template <LightRecord::Kind kKind>
+void addLight(const GBuffer& g, std::span<const size_t> packets, const LightRecord& light,
+              const SumConstants& c, Irradiance& out) {
+  const Floats zero = hn::Zero(kTag);
+  for (const size_t i : packets) {
+    const Vector3 p = load(g.px, g.py, g.pz, i);
+    const Vector3 v{hn::Sub(p.x, all(light.position.x)), hn::Sub(p.y, all(light.position.y)),
+                    hn::Sub(p.z, all(light.position.z))};
+    const Vector3 shading = load(g.sx, g.sy, g.sz, i);
+    const Vector3 geometric = load(g.gx, g.gy, g.gz, i);
+    Floats weight;
+    Mask occluded = hn::MaskFromVec(hn::Zero(kTag));
+    if constexpr (kKind == LightRecord::Kind::directional) {
+      const Floats s = dot(shading, light.normal), facing = dot(geometric, light.normal);
+      const Mask lit = hn::And(hn::Gt(s, zero), hn::Gt(facing, zero));
+      if (hn::AllFalse(kTag, lit)) continue;
+      weight = hn::IfThenElseZero(lit, s);
+      if (light.map) occluded = directionalOccluded(light, c, v, geometric, facing);
+    } else {
+      const Floats z = dot(v, light.normal);
+      const Floats s = hn::Neg(dot(shading, v)), facing = hn::Neg(dot(geometric, v));
+      const Mask lit = hn::And(hn::Gt(z, zero), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
+      if (hn::AllFalse(kTag, lit)) continue;
+      const Floats d2 = dot(v, v);
+      if constexpr (kKind == LightRecord::Kind::cosine) {
+        const Floats bounded = hn::Max(d2, all(c.clampDistance2));
+        weight = hn::Div(hn::Mul(s, z), hn::Mul(d2, bounded));
+      } else {
+        const Floats d = hn::Sqrt(d2);
+        const Floats ramp = hn::MulAdd(hn::Div(z, d), all(light.coneScale), all(light.coneOffset));
+        const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
+        weight = hn::Mul(hn::Mul(cone, cone), hn::Div(s, hn::Mul(d2, d)));
+      }
+      weight = hn::IfThenElseZero(lit, weight);
+      // A height above zero keeps 1/w finite in the lanes that the light does not reach.
+      const Floats height = hn::IfThenElse(lit, z, all(1.0f));
+      if (light.map) occluded = hemisphereOccluded(light, c, v, height, geometric, facing);
+    }
+    weight = hn::IfThenZeroElse(occluded, weight);
+    float* r = &out.r[i];
+    float* gr = &out.g[i];
+    float* b = &out.b[i];
+    hn::StoreU(hn::MulAdd(weight, all(light.intensity.x), hn::LoadU(kTag, r)), kTag, r);
+    hn::StoreU(hn::MulAdd(weight, all(light.intensity.y), hn::LoadU(kTag, gr)), kTag, gr);
+    hn::StoreU(hn::MulAdd(weight, all(light.intensity.z), hn::LoadU(kTag, b)), kTag, b);
+  }
+}
+
+}  // namespace
+
+LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
+  LightRecord light;
+  light.kind = vpl.position.w == shared::kVplCosine    ? LightRecord::Kind::cosine
+               : vpl.position.w == shared::kVplUniform ? LightRecord::Kind::uniform
+                                                       : LightRecord::Kind::directional;
+  light.map = map;
+  light.position = vec3(vpl.position);
+  light.normal = vec3(vpl.normal);
+  light.tangent = vec3(vpl.tangent);
+  light.bitangent = glm::cross(light.normal, light.tangent);
+  light.intensity = vec3(vpl.intensity);
+  light.coneScale = light.radius = vpl.normal.w;
+  light.coneOffset = vpl.tangent.w;
+  return light;
+}
+
+void sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
+             const SumConstants& constants, Irradiance& out) {
+  static_assert(hn::MaxLanes(kTag) == kLanes);
+  const size_t first = static_cast<size_t>(tile) * kTilePixels;
+  std::fill_n(&out.r[first], kTilePixels, 0.0f);
+  std::fill_n(&out.g[first], kTilePixels, 0.0f);
+  std::fill_n(&out.b[first], kTilePixels, 0.0f);
+  // Packets that hit something.
+  size_t packets[kPacketsPerTile];
+  size_t count = 0;
+  for (int packet = 0; packet < kPacketsPerTile; ++packet) {
+    const size_t i = first + packet * kLanes;
+    bool any = false;
+    for (int lane = 0; lane < kLanes; ++lane) any = any || gbuffer.hit[i + lane] != 0;
+    if (any) packets[count++] = i;
+  }
+  if (count == 0) return;
+  const std::span<const size_t> active(packets, count);
+  for (const LightRecord& light : lights) {
+    switch (light.kind) {
+      case LightRecord::Kind::cosine:
+        addLight<LightRecord::Kind::cosine>(gbuffer, active, light, constants, out);
+        break;
+      case LightRecord::Kind::uniform:
+        addLight<LightRecord::Kind::uniform>(gbuffer, active, light, constants, out);
+        break;
+      case LightRecord::Kind::directional:
+        addLight<LightRecord::Kind::directional>(gbuffer, active, light, constants, out);
+        break;
+    }
+  }
+}
+
+}  // namespace lamplighter::cpu
