@@ -1,0 +1,57 @@
+// Light samples (paper 1, 4.1): the virtual point lights that stand for a scene's lights and for
+// what they bounce.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/sampling/lights.h"
+#include "renderer/scene/render_scene.h"
+#include "shaders/shared/vpl.h"
+
+namespace lamplighter {
+
+// Which sample of which light a VPL is. The same id after a change is the same point on the
+// emitter, or the same bounce of the same path, so a light that moves a little moves its VPLs a
+// little.
+struct VplId {
+  NodeId light = kNoNode;
+  uint32_t emitter = 0;  // counts the emitters of one node
+  uint32_t bounce = 0;   // 0: on the light itself
+  uint32_t index = 0;    // of the point, or of the path
+
+  auto operator<=>(const VplId&) const = default;
+  // VPLs of one set share in one light's flux at one bounce.
+  VplId set() const { return {light, emitter, bounce, 0}; }
+};
+
+struct SceneVpl {
+  shared::Vpl vpl;  // intensity.w is −1: the slot is not the sampler's business
+  VplId id;
+  // False for the parts of a punctual light, of which each is all there is in its directions.
+  bool isSample = true;
+};
+
+struct VplCounts {
+  int total = 300;
+  float directShare = 0.5f;  // without bounces all are direct
+  int bounces = 2;
+  uint32_t seed = 1;
+};
+
+struct VplSet {
+  std::vector<SceneVpl> vpls;  // sorted by emitter, direct ones first
+  uint64_t rays = 0;           // traced to find them
+};
+
+// Lights get samples in proportion to their flux, each at least one; when there are not enough for
+// that the brightest get them and stand for the flux of all. A point light is two VPLs
+// (hemispheres) and a spot or directional one is one, however many samples there are;
+// KHR_lights_punctual's range, which bends the inverse-square law, is ignored. May return fewer
+// than `total`.
+VplSet generateVpls(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
+                    const VplCounts& counts);
+
+}  // namespace lamplighter
