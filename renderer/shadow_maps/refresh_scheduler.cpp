@@ -1,0 +1,86 @@
+#include "renderer/shadow_maps/refresh_scheduler.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace lamplighter {
+namespace {
+
+// The box reaches above the plane through p with unit normal n.
+bool reachesAbove(const Bounds& box, const vec3& p, const vec3& n) {
+  if (box.empty()) return false;
+  const vec3 top(n.x > 0.0f ? box.max.x : box.min.x, n.y > 0.0f ? box.max.y : box.min.y,
+                 n.z > 0.0f ? box.max.z : box.min.z);
+  return glm::dot(n, top - p) > 0.0f;
+}
+
+}  // namespace
+
+bool seesMover(const shared::Vpl& vpl, const Bounds& before, const Bounds& after) {
+  if (vpl.position.w == shared::kVplDirectional) return true;
+  const vec3 p(vpl.position), n(vpl.normal);
+  return reachesAbove(before, p, n) || reachesAbove(after, p, n);
+}
+
+std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates, int budget) {
+  std::vector<size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  const auto priority = [&](size_t i) {
+    return candidates[i].brightness * static_cast<float>(candidates[i].framesWaiting);
+  };
+  const size_t count = std::min(order.size(), static_cast<size_t>(std::max(budget, 0)));
+  std::partial_sort(order.begin(), order.begin() + static_cast<ptrdiff_t>(count), order.end(),
+                    [&](size_t a, size_t b) {
+                      const float pa = priority(a), pb = priority(b);
+                      return pa != pb ? pa > pb : a < b;
+                    });
+  order.resize(count);
+  return order;
+}
+
+bool MoverFinder::Caster::operator==(const Caster& o) const {
+  return node == o.node && triangles == o.triangles && isClear == o.isClear &&
+         alphaMode == o.alphaMode && alphaCutoff == o.alphaCutoff && alpha == o.alpha &&
+         alphaTexture == o.alphaTexture && bounds.min == o.bounds.min && bounds.max == o.bounds.max;
+}
+
+MoverFinder::Caster MoverFinder::casterOf(const RenderScene& scene, const RenderObject& object) {
+  const Material& m = scene.materials[object.material];
+  return {object.node,   object.triangleCount(),     m.isClear(),  m.alphaMode, m.alphaCutoff,
+          m.baseColor.a, m.baseColorTexture.texture, object.bounds};
+}
+
+std::vector<MoverFinder::Mover> MoverFinder::update(const RenderScene& scene,
+                                                    const RenderSceneChanges& changes) {
+  std::vector<Mover> movers;
+  if (!objects_.empty() && !changes.rebuilt && !changes.materials && changes.movedObjects.empty()) {
+    return movers;
+  }
+  std::vector<Caster> now;
+  now.reserve(scene.objects.size());
+  for (const RenderObject& o : scene.objects) now.push_back(casterOf(scene, o));
+  // Both lists stand in the order of the nodes, so what stayed is found in one walk: skip what came
+  // and what went.
+  size_t old = 0;
+  std::vector<bool> moved(now.size(), false);
+  for (const uint32_t object : changes.movedObjects) moved[object] = true;
+  for (size_t i = 0; i < now.size(); ++i) {
+    const auto same = std::find_if(objects_.begin() + static_cast<ptrdiff_t>(old), objects_.end(),
+                                   [&](const Caster& c) { return c.node == now[i].node; });
+    if (same == objects_.end()) {
+      movers.push_back({Bounds(), now[i].bounds});
+      continue;
+    }
+    const size_t at = static_cast<size_t>(same - objects_.begin());
+    for (; old < at; ++old) movers.push_back({objects_[old].bounds, Bounds()});
+    // Turning a symmetric box leaves its bounds, so what was moved counts whatever they say.
+    if (moved[i] || !(now[i] == objects_[at]))
+      movers.push_back({objects_[at].bounds, now[i].bounds});
+    old = at + 1;
+  }
+  for (; old < objects_.size(); ++old) movers.push_back({objects_[old].bounds, Bounds()});
+  objects_ = std::move(now);
+  return movers;
+}
+
+}  // namespace lamplighter
