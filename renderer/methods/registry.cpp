@@ -2,11 +2,12 @@
 
 #include "renderer/error.h"
 #include "renderer/methods/gi_method.h"
+#include "renderer/methods/many_lights/many_lights.h"
 
 namespace lamplighter {
 
 const std::vector<MethodInfo>& methods() {
-  static const std::vector<MethodInfo> all{};
+  static const std::vector<MethodInfo> all{manyLightsInfo()};
   return all;
 }
 

@@ -1,0 +1,60 @@
+// The VPLs that are shown, each with its own shadow map, on their way to those that are wanted
+// (design.md 4: the unit of update is one VPL).
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "renderer/backends/kernels.h"
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/shadow_maps/refresh_scheduler.h"
+
+namespace lamplighter {
+
+class LiveLights {
+ public:
+  // What is wanted from now on. At once: VPLs that are no longer wanted go, and those that only
+  // changed in brightness take it on, for neither needs a map. Those that must move stay, old as
+  // they are, until refresh() has their turn.
+  void want(std::vector<SceneVpl> wanted);
+  // Something that casts shadows moved: maps that it may show in are stale.
+  void markStale(std::span<const MoverFinder::Mover> movers);
+  // The maps are lost: nothing is shown until it is refreshed.
+  void loseMaps();
+
+  // Takes the pending VPLs of highest priority, `budget` at most, moves each to where it is wanted,
+  // renders its map, and swaps both in together. Returns how many.
+  int refresh(Backend& backend, int budget);
+
+  // What to sum, in the order of the wanted ones, so that the sum does not depend on history. While
+  // VPLs of a set are missing those that are there carry the flux of all, so that brightness
+  // neither jumps nor piles up when a light comes or the number of samples changes.
+  std::vector<shared::Vpl> shown() const;
+
+  int pending() const;
+  int live() const;
+  int oldestFrames() const;
+  bool changed() const { return changed_; }  // since the last shown() that was cleared
+  void clearChanged() { changed_ = false; }
+  // Shadow maps to reserve. When this number changes the maps count as lost.
+  int slots() const { return slots_; }
+
+ private:
+  struct Entry {
+    SceneVpl wanted;
+    float share = 1.0f;  // of its set's brightness, in [0, 1]
+    int slot = -1;
+    bool isLive = false;  // current is shown
+    bool isStale = true;  // must be refreshed
+    int framesWaiting = 0;
+    shared::Vpl current{};
+  };
+  void fitSlots(size_t wanted);
+
+  std::vector<Entry> entries_;  // in the order wanted
+  int slots_ = 0;
+  bool changed_ = true;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,162 @@
+#include "renderer/methods/many_lights/many_lights.h"
+
+#include <cmath>
+
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/sampling/lights.h"
+
+namespace lamplighter {
+namespace {
+
+// Where sample i of an antialiased pixel lies, from its middle: the additive recurrence of the
+// plastic number (Roberts 2018), which begins in the middle and covers the pixel evenly at any
+// count.
+vec2 jitterOf(int i) {
+  const auto wrap = [i](double step) {
+    const double x = 0.5 + step * i;
+    return static_cast<float>(x - std::floor(x) - 0.5);
+  };
+  return {wrap(0.7548776662466927), wrap(0.5698402909980532)};
+}
+
+bool sameLights(const VplCounts& a, const VplCounts& b) {
+  return a.total == b.total && a.directShare == b.directShare && a.bounces == b.bounces &&
+         a.seed == b.seed;
+}
+
+}  // namespace
+
+// Measures each stage with the caller's clock, if there is one.
+class ManyLights::Stages {
+ public:
+  Stages(const FrameInputs& in, GiStats& stats) : in_(in), stats_(stats) {
+    if (in_.stopwatch) last_ = in_.stopwatch();
+  }
+  void end(const char* name) {
+    if (!in_.stopwatch) return;
+    in_.backend.finish();
+    const double now = in_.stopwatch();
+    stats_.stageSeconds[name] += now - last_;
+    last_ = now;
+  }
+
+ private:
+  const FrameInputs& in_;
+  GiStats& stats_;
+  double last_ = 0.0;
+};
+
+ManyLights::Options::Options(const Settings& settings) {
+  counts.total = settings.integer(parameters::vpls());
+  counts.directShare = settings.real(parameters::directShare());
+  counts.bounces = settings.integer(parameters::bounces());
+  counts.seed = static_cast<uint32_t>(settings.integer(parameters::seed()));
+  mapResolution = settings.integer(parameters::mapResolution());
+  updates = settings.integer(parameters::updates());
+  clampDistance = settings.real(parameters::clampDistance());
+  shadowBias = settings.real(parameters::shadowBias());
+  antialias = settings.integer(parameters::antialias());
+}
+
+GiOutput ManyLights::render(const FrameInputs& in) {
+  GiOutput out;
+  Stages stages(in, out.stats);
+  const Options options(in.settings);
+
+  // 1. Which VPLs the scene asks for, and which of those shown are out of date.
+  updateLights(in, options, out.stats);
+  stages.end("light samples");
+
+  // 2. Some of them, each wholly: place, intensity, shadow map.
+  out.stats.mapsRendered = lights_.refresh(in.backend, options.updates);
+  stages.end("shadow maps");
+
+  // 3. The picture, where anything in it changed.
+  const bool viewChanged = !in.changes.none() || view_ != in.view;
+  const bool shadingChanged =
+      options.clampDistance != options_.clampDistance || options.shadowBias != options_.shadowBias;
+  if (viewChanged) gbufferIsCurrent_ = false;
+  if (!image_ || viewChanged || lights_.changed() || shadingChanged) {
+    view_ = in.view;
+    image_ = shade(in, options, vec2(0.0f), stages);
+    lights_.clearChanged();
+    samples_ = 0;
+  }
+  options_ = options;
+  started_ = true;
+
+  // 4. Its edges made smooth when nothing else is to be done.
+  const int pending = lights_.pending();
+  if (samples_ > options.antialias) samples_ = 0;
+  if (pending == 0 && samples_ < options.antialias) addSample(in, options, stages);
+
+  out.radiance = samples_ > 1 ? mean_ : image_;
+  out.settled = pending == 0 && samples_ == options.antialias;
+  out.stats.vpls = lights_.live();
+  out.stats.vplsPending = pending;
+  out.stats.mapsPending = pending;
+  out.stats.oldestFrames = lights_.oldestFrames();
+  out.stats.samplesPerPixel = std::max(samples_, 1);
+  return out;
+}
+
+void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiStats& stats) {
+  const bool sceneChanged = !started_ || !in.changes.none();
+  if (sceneChanged || !sameLights(options.counts, options_.counts)) {
+    const LightSet lights(in.scene);
+    VplSet set = generateVpls(in.scene, in.rays, lights, options.counts);
+    stats.raysTraced = set.rays;
+    lights_.want(std::move(set.vpls));
+  }
+  if (sceneChanged) lights_.markStale(movers_.update(in.scene, in.changes));
+  if (options.mapResolution != options_.mapResolution) lights_.loseMaps();
+  in.backend.reserveShadowMaps(lights_.slots(), options.mapResolution);
+}
+
+std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Options& options,
+                                                 vec2 jitter, Stages& stages) {
+  const bool isMiddle = jitter == vec2(0.0f);
+  if (!isMiddle || !gbufferIsCurrent_) in.backend.renderGBuffer(in.view, jitter);
+  gbufferIsCurrent_ = isMiddle;
+  stages.end("g-buffer");
+  const std::vector<shared::Vpl> vpls = lights_.shown();
+  const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias,
+                                          static_cast<float>(options.mapResolution),
+                                          static_cast<float>(vpls.size()))};
+  in.backend.sumVpls(vpls, params);
+  stages.end("light sums");
+  auto image = in.backend.compose();
+  stages.end("composition");
+  return image;
+}
+
+// One sample more in each pixel. The first is the picture that there is already.
+void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages& stages) {
+  if (options.antialias > 1) {
+    const auto picture = samples_ == 0 ? image_ : shade(in, options, jitterOf(samples_), stages);
+    const Image& sample = picture->pixels();
+    if (samples_ == 0) sum_ = Image(sample.width, sample.height);
+    Image mean(sample.width, sample.height);
+    const float weight = 1.0f / static_cast<float>(samples_ + 1);
+    for (size_t i = 0; i < sample.pixels.size(); ++i) {
+      sum_.pixels[i] += sample.pixels[i];
+      mean.pixels[i] = weight * sum_.pixels[i];
+    }
+    mean_ = std::make_shared<HostImage>(std::move(mean));
+    stages.end("antialiasing");
+  }
+  ++samples_;
+}
+
+MethodInfo manyLightsInfo() {
+  return {"many_lights",
+          "Many lights",
+          "Barczak, Interactive Illumination Using Large Sets of Point Lights, 2006, chapter 4",
+          {parameters::vpls(), parameters::directShare(), parameters::bounces(), parameters::seed(),
+           parameters::mapResolution(), parameters::updates(), parameters::clampDistance(),
+           parameters::shadowBias(), parameters::technique(), parameters::antialias()},
+          [] { return std::make_unique<ManyLights>(); }};
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,54 @@
+// The main engine (paper 1, chapter 4), so far in its naive form: every VPL with its shadow map at
+// every pixel.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "renderer/methods/gi_method.h"
+#include "renderer/methods/many_lights/live_lights.h"
+
+namespace lamplighter {
+
+class ManyLights final : public GiMethod {
+ public:
+  GiOutput render(const FrameInputs& in) override;
+  void reset() override { *this = ManyLights(); }
+
+ private:
+  class Stages;
+
+  // Everything that the settings say, read once a frame.
+  struct Options {
+    explicit Options(const Settings& settings);
+    Options() = default;
+
+    VplCounts counts;
+    int mapResolution = 0;
+    int updates = 0;
+    float clampDistance = 0.0f;
+    float shadowBias = 0.0f;
+    int antialias = 1;
+  };
+
+  void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
+  std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
+                                       Stages& stages);
+  void addSample(const FrameInputs& in, const Options& options, Stages& stages);
+
+  bool started_ = false;
+  Options options_;  // of the frame before
+  View view_;
+  MoverFinder movers_;
+  LiveLights lights_;
+  bool gbufferIsCurrent_ = false;
+  std::shared_ptr<RadianceImage> image_;  // of the pixels' middles
+  // Antialiasing: the sum of the samples so far, and their mean.
+  Image sum_;
+  int samples_ = 0;
+  std::shared_ptr<RadianceImage> mean_;
+};
+
+MethodInfo manyLightsInfo();
+
+}  // namespace lamplighter
