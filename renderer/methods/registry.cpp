@@ -3,11 +3,12 @@
 #include "renderer/error.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/many_lights.h"
+#include "renderer/reference/reference_method.h"
 
 namespace lamplighter {
 
 const std::vector<MethodInfo>& methods() {
-  static const std::vector<MethodInfo> all{manyLightsInfo()};
+  static const std::vector<MethodInfo> all{manyLightsInfo(), referenceInfo()};
   return all;
 }
 

@@ -1,0 +1,197 @@
+#include "renderer/reference/path_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/random.h"
+#include "renderer/scene/surface.h"
+
+namespace lamplighter {
+
+namespace {
+
+// Russian roulette begins after this many bounces; before, every path goes on.
+constexpr int kSureBounces = 8;
+
+// The balance heuristic (Veach and Guibas 1995) for two strategies of one sample each.
+float misWeight(float pdf, float other) { return pdf / (pdf + other); }
+
+// A surface as seen from one side: both normals turned to the viewer. A mapped normal that looks
+// away from the viewer is bent back to the geometric one.
+struct LocalSurface {
+  Surface s;
+  vec3 ng, ns;
+
+  LocalSurface(const Surface& surface, const vec3& toViewer) : s(surface) {
+    const float side = glm::dot(s.geometricNormal, toViewer) < 0.0f ? -1.0f : 1.0f;
+    ng = side * s.geometricNormal;
+    ns = side * s.normal;
+    if (glm::dot(ns, toViewer) <= 0.0f) ns = ng;
+  }
+  // cos at the shading normal; none for directions below the real surface, where light would leak.
+  float cosine(const vec3& w) const {
+    return glm::dot(ng, w) > 0.0f ? std::max(0.0f, glm::dot(ns, w)) : 0.0f;
+  }
+};
+
+class Tracer {
+ public:
+  Tracer(const RenderScene& scene, const RayCaster& rays, const LightSet& lights)
+      : scene_(scene), rays_(rays), lights_(lights) {}
+
+  vec3 trace(Ray ray, PathSampler& sampler, int bounces) const {
+    vec3 radiance(0.0f), throughput(1.0f);
+    // The density by solid angle with which the last surface chose this direction; 0: the camera's,
+    // which no light sampling competes with.
+    float pdfDirection = 0.0f;
+    vec3 from(0.0f);
+
+    for (int depth = 0;; ++depth) {
+      const Hit hit = rays_.intersect(ray);
+      if (!hit) return radiance + throughput * skySeen(pdfDirection);
+      const Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
+      const LocalSurface at(surface, -ray.direction);
+      radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
+      // Direct light is reflected once on its way to the camera (depth 0), each bounce adds one.
+      if (depth > bounces) return radiance;
+
+      radiance += throughput * directLight(at, sampler);
+
+      // On to the next surface, by cosine about the shading normal: f · cos / pdf = ρ.
+      const vec3 local = sampleCosineHemisphere(sampler.next2());
+      const vec3 direction = Frame(at.ns).toWorld(local);
+      if (glm::dot(at.ng, direction) <= 0.0f || local.z <= 0.0f) return radiance;
+      throughput *= at.s.albedo;
+      if (depth >= kSureBounces) {
+        const float survive = std::min(0.95f, std::max({throughput.r, throughput.g, throughput.b}));
+        if (sampler.next1() >= survive) return radiance;
+        throughput /= survive;
+      }
+      if (throughput == vec3(0.0f)) return radiance;
+      pdfDirection = local.z / kPi;
+      from = at.s.position;
+      ray = {at.s.position + rayEpsilon(at.s.position) * at.ng, 0.0f, direction};
+    }
+  }
+
+ private:
+  vec3 skySeen(float pdfDirection) const {
+    if (scene_.sky == vec3(0.0f)) return vec3(0.0f);
+    if (pdfDirection == 0.0f) return scene_.sky;
+    return scene_.sky * misWeight(pdfDirection, skyPdf());
+  }
+
+  // Emission of a surface that a ray has hit, weighted against having sampled it as a light.
+  vec3 emissionSeen(const Hit& hit, const Surface& surface, const vec3& direction, const vec3& from,
+                    float pdfDirection) const {
+    const float cosine = -glm::dot(surface.geometricNormal, direction);
+    if (surface.emission == vec3(0.0f) || (cosine <= 0.0f && !surface.emitsBothSides))
+      return vec3(0.0f);
+    if (pdfDirection == 0.0f) return surface.emission;
+    const int emitter = lights_.emitterOfObject(hit.object);
+    if (emitter == kNone) return surface.emission;
+    const vec3 d = surface.position - from;
+    const float pdfLight = lights_.probability(emitter) / lights_.emitters()[emitter].area *
+                           glm::dot(d, d) / std::abs(cosine);
+    return surface.emission * misWeight(pdfDirection, pdfLight);
+  }
+
+  // One sample of the light that arrives straight from an emitter, times f · cos.
+  vec3 directLight(const LocalSurface& at, PathSampler& sampler) const {
+    float probability = 0.0f;
+    const int emitter = lights_.choose(sampler.next1(), probability);
+    const vec2 u = sampler.next2();
+    if (emitter == kNone || at.s.albedo == vec3(0.0f)) return vec3(0.0f);
+    const vec3 brdf = at.s.albedo / kPi;
+    const Emitter& e = lights_.emitters()[emitter];
+    switch (e.kind) {
+      case EmitterKind::surface:
+        return brdf * fromSurface(at, emitter, u) / probability;
+      case EmitterKind::punctual:
+        return brdf * fromPunctual(at, scene_.punctuals[e.punctual]) / probability;
+      case EmitterKind::sky:
+        return brdf * fromSky(at, u) / probability;
+    }
+    return vec3(0.0f);
+  }
+
+  bool visible(const LocalSurface& at, const vec3& direction, float distance) const {
+    return !rays_.occluded(
+        {at.s.position + rayEpsilon(at.s.position) * at.ng, 0.0f, direction, distance});
+  }
+
+  vec3 fromSurface(const LocalSurface& at, int emitter, vec2 u) const {
+    const EmitterPoint p = lights_.samplePoint(scene_, emitter, u);
+    const vec3 d = p.position - at.s.position;
+    const float d2 = glm::dot(d, d);
+    if (d2 <= 0.0f) return vec3(0.0f);
+    const float distance = std::sqrt(d2);
+    const vec3 w = d / distance;
+    const float cosHere = at.cosine(w);
+    const float cosThere = p.bothSides ? std::abs(glm::dot(p.normal, w)) : -glm::dot(p.normal, w);
+    if (cosHere <= 0.0f || cosThere <= 0.0f) return vec3(0.0f);
+    // Stops short of the light's own surface.
+    const float margin = 2.0f * (rayEpsilon(at.s.position) + rayEpsilon(p.position));
+    if (distance > margin && !visible(at, w, distance - margin)) return vec3(0.0f);
+    const float pdfAngle = p.pdfArea * d2 / cosThere;  // density by solid angle
+    const float pdfLight = pdfAngle * lights_.probability(emitter);
+    const float pdfBsdf = std::max(0.0f, glm::dot(at.ns, w)) / kPi;
+    return p.radiance * (cosHere / pdfAngle * misWeight(pdfLight, pdfBsdf));
+  }
+
+  vec3 fromPunctual(const LocalSurface& at, const RenderPunctual& light) const {
+    vec3 w = -light.direction;
+    float distance = std::numeric_limits<float>::infinity();
+    vec3 irradiance = light.light.intensity;
+    if (light.light.kind != PunctualKind::directional) {
+      const vec3 d = light.position - at.s.position;
+      distance = glm::length(d);
+      if (distance <= 0.0f) return vec3(0.0f);
+      w = d / distance;
+      irradiance /= distance * distance;
+    }
+    if (light.light.kind == PunctualKind::spot) {
+      // KHR_lights_punctual: linear in the cosine between the cones, squared.
+      const float co = std::cos(light.light.outerCone), ci = std::cos(light.light.innerCone);
+      const float t =
+          std::clamp((-glm::dot(w, light.direction) - co) / std::max(1e-3f, ci - co), 0.0f, 1.0f);
+      irradiance *= t * t;
+    }
+    const float cosHere = at.cosine(w);
+    if (cosHere <= 0.0f || irradiance == vec3(0.0f) || !visible(at, w, distance)) return vec3(0.0f);
+    return irradiance * cosHere;
+  }
+
+  vec3 fromSky(const LocalSurface& at, vec2 u) const {
+    const vec3 w = sampleSphere(u);
+    const float cosHere = at.cosine(w);
+    if (cosHere <= 0.0f || !visible(at, w, std::numeric_limits<float>::infinity()))
+      return vec3(0.0f);
+    const float pdfBsdf = std::max(0.0f, glm::dot(at.ns, w)) / kPi;
+    return scene_.sky * (cosHere * 4.0f * kPi * misWeight(skyPdf(), pdfBsdf));
+  }
+
+  // The density with which light sampling chooses a sky direction: uniform over the sphere. The sky
+  // is the last of the emitters.
+  float skyPdf() const {
+    return lights_.probability(static_cast<int>(lights_.emitters().size()) - 1) / (4.0f * kPi);
+  }
+
+  const RenderScene& scene_;
+  const RayCaster& rays_;
+  const LightSet& lights_;
+};
+
+}  // namespace
+
+vec3 tracePath(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
+               const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options) {
+  PathSampler sampler(static_cast<uint32_t>(y * view.width + x), sample, options.seed);
+  const vec2 inPixel = sampler.next2();
+  const vec3 direction =
+      view.rayDirection(static_cast<float>(x) + inPixel.x, static_cast<float>(y) + inPixel.y);
+  return Tracer(scene, rays, lights).trace({view.eye, 0.0f, direction}, sampler, options.bounces);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,22 @@
+// The reference: a path tracer kept plain, so that it can be believed. It shares with the methods
+// it judges only the scene, the rays and the list of lights.
+#pragma once
+
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/sampling/lights.h"
+#include "renderer/scene/render_scene.h"
+#include "renderer/view.h"
+
+namespace lamplighter {
+
+struct PathTracerOptions {
+  int bounces = 5;  // indirect bounces; 0: direct light only
+  uint32_t seed = 1;
+};
+
+// An unbiased estimate of the radiance [W/(m² sr)] that the pixel's box filter gathers: sample
+// number `sample` of pixel (x, y). A function of its arguments alone.
+vec3 tracePath(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
+               const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options);
+
+}  // namespace lamplighter
