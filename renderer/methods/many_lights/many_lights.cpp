@@ -1,6 +1,6 @@
 #include "renderer/methods/many_lights/many_lights.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
@@ -9,15 +9,16 @@
 namespace lamplighter {
 namespace {
 
-// Where sample i of an antialiased pixel lies, from its middle: the additive recurrence of the
-// plastic number (Roberts 2018), which begins in the middle and covers the pixel evenly at any
-// count.
-vec2 jitterOf(int i) {
-  const auto wrap = [i](double step) {
-    const double x = 0.5 + step * i;
-    return static_cast<float>(x - std::floor(x) - 0.5);
-  };
-  return {wrap(0.7548776662466927), wrap(0.5698402909980532)};
+// Where sample i of n lies in a pixel, from its middle: a Hammersley set, centred so that its mean
+// is the middle.
+vec2 jitterOf(int i, int n) {
+  float inverse = 0.0f, digit = 0.5f, size = 1.0f;
+  for (int rest = i; rest > 0; rest /= 2, digit *= 0.5f) {
+    if (rest % 2 != 0) inverse += digit;
+  }
+  for (int power = 1; power < n; power *= 2) size *= 0.5f;
+  const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
+  return {along - 0.5f, inverse + 0.5f * size - 0.5f};
 }
 
 bool sameLights(const VplCounts& a, const VplCounts& b) {
@@ -77,7 +78,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const bool shadingChanged =
       options.clampDistance != options_.clampDistance || options.shadowBias != options_.shadowBias;
   if (viewChanged) gbufferIsCurrent_ = false;
-  if (!image_ || viewChanged || lights_.changed() || shadingChanged) {
+  const bool shadedNow = !image_ || viewChanged || lights_.changed() || shadingChanged;
+  if (shadedNow) {
     view_ = in.view;
     image_ = shade(in, options, vec2(0.0f), stages);
     lights_.clearChanged();
@@ -86,13 +88,15 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   options_ = options;
   started_ = true;
 
-  // 4. Its edges made smooth when nothing else is to be done.
+  // 4. Its edges made smooth when nothing else is to be done, one sample a frame.
   const int pending = lights_.pending();
-  if (samples_ > options.antialias) samples_ = 0;
-  if (pending == 0 && samples_ < options.antialias) addSample(in, options, stages);
+  const int samples = options.antialias > 1 ? options.antialias : 0;
+  if (options.antialias != samplesWanted_) samples_ = 0;
+  samplesWanted_ = options.antialias;
+  if (pending == 0 && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
-  out.radiance = samples_ > 1 ? mean_ : image_;
-  out.settled = pending == 0 && samples_ == options.antialias;
+  out.settled = pending == 0 && samples_ == samples;
+  out.radiance = out.settled && samples > 0 ? mean_ : image_;
   out.stats.vpls = lights_.live();
   out.stats.vplsPending = pending;
   out.stats.mapsPending = pending;
@@ -131,22 +135,17 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   return image;
 }
 
-// One sample more in each pixel. The first is the picture that there is already.
 void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages& stages) {
-  if (options.antialias > 1) {
-    const auto picture = samples_ == 0 ? image_ : shade(in, options, jitterOf(samples_), stages);
-    const Image& sample = picture->pixels();
-    if (samples_ == 0) sum_ = Image(sample.width, sample.height);
-    Image mean(sample.width, sample.height);
-    const float weight = 1.0f / static_cast<float>(samples_ + 1);
-    for (size_t i = 0; i < sample.pixels.size(); ++i) {
-      sum_.pixels[i] += sample.pixels[i];
-      mean.pixels[i] = weight * sum_.pixels[i];
-    }
-    mean_ = std::make_shared<HostImage>(std::move(mean));
-    stages.end("antialiasing");
+  const auto picture = shade(in, options, jitterOf(samples_, options.antialias), stages);
+  const Image& sample = picture->pixels();
+  if (samples_ == 0) sum_ = Image(sample.width, sample.height);
+  for (size_t i = 0; i < sample.pixels.size(); ++i) sum_.pixels[i] += sample.pixels[i];
+  if (++samples_ == options.antialias) {
+    const float weight = 1.0f / static_cast<float>(samples_);
+    for (vec3& p : sum_.pixels) p *= weight;
+    mean_ = std::make_shared<HostImage>(std::move(sum_));
   }
-  ++samples_;
+  stages.end("antialiasing");
 }
 
 MethodInfo manyLightsInfo() {

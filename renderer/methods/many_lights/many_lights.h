@@ -43,9 +43,9 @@ class ManyLights final : public GiMethod {
   LiveLights lights_;
   bool gbufferIsCurrent_ = false;
   std::shared_ptr<RadianceImage> image_;  // of the pixels' middles
-  // Antialiasing: the sum of the samples so far, and their mean.
+  // Antialiasing: the sum of the samples so far; their mean when they are complete.
   Image sum_;
-  int samples_ = 0;
+  int samples_ = 0, samplesWanted_ = 1;
   std::shared_ptr<RadianceImage> mean_;
 };
 

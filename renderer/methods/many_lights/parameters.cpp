@@ -21,7 +21,7 @@ const ParameterSpec& antialias() {
       "Samples a pixel",
       "",
       "Pictures with shifted pixels that are averaged, one a frame, once the lights are settled.",
-      1,
+      4,
       1,
       256,
       true,
