@@ -8,7 +8,7 @@ namespace lamplighter {
 struct Metrics {
   double relRmse = 0.0;  // sqrt(mean((A−B)²)) / mean(B), over all pixels and channels
   double relMse = 0.0;   // mean((A−B)² / (B² + (0.05·mean B)²))
-  double bias = 0.0;     // mean A / mean B − 1
+  double bias = 1.0;     // mean A / mean B, 1: none
   double max = 0.0;      // largest |A−B| of a channel
   double ssim = 0.0;     // of tone-mapped luminance, 1: the same
   double meanA = 0.0, meanB = 0.0;

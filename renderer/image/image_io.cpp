@@ -1,0 +1,101 @@
+#include "renderer/image/image_io.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <OpenImageIO/imageio.h>
+
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+float decodeSrgb(float s) {
+  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
+
+std::string oneLine(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return text;
+}
+
+// Writes through a temporary file beside the target, so that what is there stays whole until the
+// new one is.
+void writeAtomically(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                     OIIO::TypeDesc type, const void* pixels) {
+  namespace fs = std::filesystem;
+  const auto fail = [&](const std::string& why) {
+    throw InputError(path.string(), "cannot be written: " + oneLine(why),
+                     "check the folder and the space left");
+  };
+  // The format is told by the name's end.
+  fs::path temporary = path;
+  temporary.replace_filename("." + path.stem().string() + ".part" + path.extension().string());
+  const auto out = OIIO::ImageOutput::create(temporary.string());
+  if (!out) fail(OIIO::geterror());
+  std::error_code ignored;
+  if (!out->open(temporary.string(), spec) || !out->write_image(type, pixels) || !out->close()) {
+    const std::string why = out->geterror();
+    fs::remove(temporary, ignored);
+    fail(why);
+  }
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) {
+    fs::remove(temporary, ignored);
+    fail(error.message());
+  }
+}
+
+}  // namespace
+
+Image readImage(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& why) {
+    throw InputError(path.string(), "cannot be read: " + oneLine(why),
+                     "name an EXR, PNG, JPEG or HDR file");
+  };
+  if (!std::filesystem::is_regular_file(path)) fail("there is no such file");
+  const auto in = OIIO::ImageInput::open(path.string());
+  if (!in) fail(OIIO::geterror());
+  const OIIO::ImageSpec& spec = in->spec();
+  if (spec.width <= 0 || spec.height <= 0 || spec.width > 65536 || spec.height > 65536 ||
+      spec.depth > 1) {
+    fail("its size is " + std::to_string(spec.width) + " x " + std::to_string(spec.height));
+  }
+  const int channels = spec.nchannels;
+  std::vector<float> data(static_cast<size_t>(spec.width) * spec.height * channels);
+  const bool encoded = spec.format.basetype == OIIO::TypeDesc::UINT8 ||
+                       spec.format.basetype == OIIO::TypeDesc::UINT16;
+  if (!in->read_image(0, 0, 0, channels, OIIO::TypeDesc::FLOAT, data.data())) fail(in->geterror());
+  Image image(spec.width, spec.height);
+  for (size_t i = 0; i < image.pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) {
+      const float v =
+          data[i * static_cast<size_t>(channels) + static_cast<size_t>(channels < 3 ? 0 : c)];
+      image.pixels[i][c] = encoded ? decodeSrgb(v) : v;
+    }
+  }
+  return image;
+}
+
+void writeExr(const Image& image, const std::filesystem::path& path) {
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "zip");
+  writeAtomically(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+}
+
+void writePng(const Image8& image, const std::filesystem::path& path) {
+  std::vector<uint8_t> rgb;
+  rgb.reserve(image.pixels.size() / 4 * 3);
+  for (size_t i = 0; i < image.pixels.size(); i += 4)
+    rgb.insert(rgb.end(), {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
+  OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  writeAtomically(path, spec, OIIO::TypeDesc::UINT8, rgb.data());
+}
+
+}  // namespace lamplighter

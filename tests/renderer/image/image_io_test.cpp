@@ -1,0 +1,71 @@
+#include "renderer/image/image_io.h"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "renderer/error.h"
+#include "renderer/image/tone_map.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path temporary(const std::string& name) {
+  return fs::path(testing::TempDir()) / ("lamplighter_" + name);
+}
+
+TEST(ImageIo, ExrKeepsEveryBit) {
+  Image image(7, 5);
+  for (size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = vec3(static_cast<float>(i) / 3.0f, 1e-6f, 12345.678f);
+  const fs::path path = temporary("bits.exr");
+  writeExr(image, path);
+  const Image back = readImage(path);
+  EXPECT_EQ(back.width, 7);
+  EXPECT_EQ(back.pixels, image.pixels);
+  fs::remove(path);
+}
+
+TEST(ImageIo, PngComesBackLinear) {
+  Image8 image(2, 1);
+  for (int c = 0; c < 3; ++c) image.at(0, 0)[c] = 188;  // sRGB of about one half
+  const fs::path path = temporary("linear.png");
+  writePng(image, path);
+  const Image back = readImage(path);
+  EXPECT_NEAR(back.at(0, 0).r, 0.5029f, 1e-3f);
+  EXPECT_EQ(back.at(1, 0), vec3(1.0f));
+  fs::remove(path);
+}
+
+TEST(ImageIo, AFolderThatIsNotThereIsOneClearLine) {
+  try {
+    writeExr(Image(2, 2), temporary("none") / "a.exr");
+    FAIL() << "should have thrown";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("a.exr: cannot be written"), std::string::npos)
+        << e.what();
+    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+  }
+}
+
+TEST(ImageIo, WhatIsNoImageIsRefused) {
+  EXPECT_THROW(readImage(temporary("absent.exr")), InputError);
+  EXPECT_THROW(readImage(fs::path(LAMPLIGHTER_SOURCE_DIR) / "README.md"), InputError);
+}
+
+TEST(ToneMap, GrowsWithRadianceAndExposureAndEndsInWhite) {
+  float last = -1.0f;
+  for (float r = 0.0f; r < 20.0f; r += 0.05f) {
+    const float now = toneMapPixel(vec3(r), 0.0f).r;
+    EXPECT_GE(now, last);
+    last = now;
+  }
+  EXPECT_EQ(toneMapPixel(vec3(0.25f), 2.0f), toneMapPixel(vec3(1.0f), 0.0f));
+  EXPECT_EQ(toneMapPixel(vec3(1e30f), 10.0f), vec3(1.0f));
+  EXPECT_EQ(toneMapPixel(vec3(0.0f), 0.0f), vec3(0.0f));
+}
+
+}  // namespace
+}  // namespace lamplighter
