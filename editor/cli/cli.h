@@ -25,6 +25,7 @@ struct ReplayOptions {
   bool updateBaselines = false;
   std::string method;  // "": as recorded
   std::string backend = "auto";
+  int threads = 0;  // 0: all cores
 };
 
 struct Frontend {

@@ -1,0 +1,166 @@
+#include "editor/cli/cli.h"
+
+#include <algorithm>
+#include <functional>
+#include <iostream>
+#include <new>
+
+#include <CLI/CLI.hpp>
+
+#include "editor/cli/subcommands.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr int kBadUse = 2;
+
+std::string oneLine(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+int fail(const std::string& what) {
+  std::cerr << "error: " << oneLine(what) << '\n';
+  return kBadUse;
+}
+
+const auto kBackends = CLI::IsMember({"auto", "cpu", "gl"});
+
+// Each adds its subcommand and says what to run when it was the one called.
+using Run = std::function<int()>;
+
+void addInfo(CLI::App& app, Run& run) {
+  auto* sub =
+      app.add_subcommand("info", "Counts, extents, lights, cameras and warnings of a scene");
+  auto o = std::make_shared<cli::InfoOptions>();
+  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->required();
+  sub->add_flag("--json", o->json, "As JSON");
+  sub->footer("Example: lamplighter info level.glb --json");
+  sub->callback([=, &run] { run = [=] { return cli::info(*o); }; });
+}
+
+void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
+  auto* sub = app.add_subcommand("render", "Render a scene until it is settled");
+  auto o = std::make_shared<cli::RenderOptions>();
+  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->required();
+  sub->add_option("-o,--output", o->output, "EXR (linear radiance) or PNG (tone-mapped)")
+      ->required();
+  sub->add_option("--method", o->method, "See 'lamplighter methods'")->capture_default_str();
+  sub->add_option("--camera", o->camera,
+                  "Name or number of a camera [the first, or a view of all]");
+  sub->add_option("--size", o->size, "WxH in pixels")->capture_default_str();
+  sub->add_option("--vpls", o->vpls, "Light samples in all");
+  sub->add_option("--direct-share", o->directShare,
+                  "Share of them on the lights themselves, 0 to 1");
+  sub->add_option("--bounces", o->bounces, "Indirect bounces; 0 is direct light only");
+  sub->add_option("--seed", o->seed, "Another set of random numbers");
+  sub->add_option("--spp", o->spp, "Samples a pixel");
+  sub->add_option("--backend", o->backend, "gl, cpu or auto")
+      ->check(kBackends)
+      ->capture_default_str();
+  sub->add_option("--set", o->assignments, "name=value of any parameter of the method; repeatable");
+  sub->add_option("--exposure", o->exposure, "EV for PNG, or auto")->capture_default_str();
+  sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  sub->add_option("--stats", o->stats, "JSON file for timings and counts");
+  sub->footer(
+      "Example: lamplighter render level.glb -o level.png --vpls 1024 --bounces 3 --exposure auto");
+  sub->callback(
+      [=, &run, &frontend] { run = [=, &frontend] { return cli::render(*o, frontend); }; });
+}
+
+void addMethods(CLI::App& app, Run& run) {
+  auto* sub = app.add_subcommand("methods", "Every method, its paper, its parameters");
+  auto o = std::make_shared<cli::MethodsOptions>();
+  sub->add_flag("--json", o->json, "As JSON");
+  sub->add_flag("--markdown", o->markdown, "As the tables of docs/parameters.md");
+  sub->callback([=, &run] { run = [=] { return cli::methods(*o); }; });
+}
+
+void addCompare(CLI::App& app, Run& run) {
+  auto* sub = app.add_subcommand("compare", "How far picture A is from the reference B");
+  auto o = std::make_shared<cli::CompareOptions>();
+  sub->add_option("A", o->a, "Image")->required();
+  sub->add_option("B", o->b, "Image of the same size, the reference")->required();
+  sub->add_option("--mask", o->mask, "Only pixels over 0.5 in this image count");
+  sub->add_option("--heatmap", o->heatmap, "PNG file for where they differ");
+  sub->add_option("--max-relrmse", o->maxRelRmse, "A check: exit code 1 when relRMSE is larger")
+      ->check(CLI::NonNegativeNumber);
+  sub->add_flag("--json", o->json, "As JSON");
+  sub->footer(
+      "relRMSE = sqrt(mean((A-B)^2)) / mean(B); bias = mean A / mean B\nExample: lamplighter "
+      "compare live.exr reference.exr --heatmap where.png");
+  sub->callback([=, &run] { run = [=] { return cli::compare(*o); }; });
+}
+
+void addTonemap(CLI::App& app, Run& run) {
+  auto* sub = app.add_subcommand("tonemap", "A radiance image as the editor would show it");
+  auto o = std::make_shared<cli::TonemapOptions>();
+  sub->add_option("IMAGE", o->input, "EXR or HDR file")->required();
+  sub->add_option("-o,--output", o->output, "PNG file")->required();
+  sub->add_option("--exposure", o->exposure, "EV, or auto")->capture_default_str();
+  sub->callback([=, &run] { run = [=] { return cli::tonemap(*o); }; });
+}
+
+void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
+  auto* sub = app.add_subcommand("replay", "Play a recording of input");
+  auto o = std::make_shared<ReplayOptions>();
+  sub->add_option("FILE", o->recording, "Recording (.jsonl)")->required();
+  sub->add_flag("--headless", o->headless, "Without a window");
+  sub->add_option("-o,--output", o->outputFolder, "Folder for the pictures of its checkpoints");
+  sub->add_flag("--check", o->check,
+                "Compare with the baselines; exit code 1 when something differs");
+  sub->add_flag("--update-baselines", o->updateBaselines, "Write the baselines anew");
+  sub->add_option("--method", o->method, "Another method than the recorded one");
+  sub->add_option("--backend", o->backend, "gl, cpu or auto")
+      ->check(kBackends)
+      ->capture_default_str();
+  sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
+      ->check(CLI::Range(0, 1024));
+  sub->footer("Example: lamplighter replay tests/recordings/place_light.jsonl --headless --check");
+  sub->callback([=, &run, &frontend] { run = [=, &frontend] { return frontend.runReplay(*o); }; });
+}
+
+}  // namespace
+
+int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) {
+  CLI::App app("Lamplighter: a lighting editor for level designers", "lamplighter");
+  app.set_version_flag("--version", "lamplighter 0.1.0");
+  app.footer(
+      "Exit codes: 0 good, 1 a check failed, 2 bad use or bad input.\nExample: lamplighter "
+      "level.glb");
+  Run run;
+  EditorOptions editor;
+  app.add_option("SCENE", editor.scene, ".gltf or .glb file to edit [the default scene]");
+  app.add_option("--record", editor.record, "Record all input to this file");
+  app.add_option("--backend", editor.backend, "gl, cpu or auto")
+      ->check(kBackends)
+      ->capture_default_str();
+  addInfo(app, run);
+  addRender(app, run, frontend);
+  addMethods(app, run);
+  addCompare(app, run);
+  addTonemap(app, run);
+  addReplay(app, run, frontend);
+  app.require_subcommand(0, 1);
+
+  try {
+    app.parse(argc, argv);
+    return run ? run() : frontend.runEditor(editor);
+  } catch (const CLI::Success& e) {  // --help, --version
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return fail(std::string(e.what()) + "; see 'lamplighter --help'");
+  } catch (const InputError& e) {
+    return fail(e.what());
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; the scene or picture is too large for this machine");
+  } catch (const std::exception& e) {
+    return fail(std::string(e.what()) + "; this is a fault of the program");
+  }
+}
+
+}  // namespace lamplighter

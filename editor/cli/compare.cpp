@@ -1,0 +1,43 @@
+#include <cmath>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "editor/cli/options.h"
+#include "editor/cli/subcommands.h"
+#include "renderer/error.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/metrics.h"
+
+namespace lamplighter::cli {
+
+int compare(const CompareOptions& options) {
+  if (!options.heatmap.empty()) requireWritable(options.heatmap, {".png"});
+  const Image a = readImage(options.a), b = readImage(options.b);
+  Image mask;
+  if (!options.mask.empty()) mask = readImage(options.mask);
+  const Metrics m = compareImages(a, b, options.mask.empty() ? nullptr : &mask);
+  if (!options.heatmap.empty()) writePng(heatMap(a, b), options.heatmap);
+
+  if (options.json) {
+    // JSON has no NaN: such a value is null.
+    const nlohmann::ordered_json j{
+        {"a", options.a},       {"b", options.b},     {"width", a.width}, {"height", a.height},
+        {"relRMSE", m.relRmse}, {"relMSE", m.relMse}, {"bias", m.bias},   {"max", m.max},
+        {"ssim", m.ssim},       {"meanA", m.meanA},   {"meanB", m.meanB}};
+    std::cout << j.dump(2) << '\n';
+  } else {
+    std::cout << fmt::format(
+        "relRMSE {:.6g}\nrelMSE  {:.6g}\nbias    {:.6g}\nmax     {:.6g}\nSSIM    {:.6g}\n",
+        m.relRmse, m.relMse, m.bias, m.max, m.ssim);
+  }
+  if (options.maxRelRmse < 0.0) return 0;
+  const bool good = m.relRmse <= options.maxRelRmse;  // false for NaN
+  if (!good)
+    std::cerr << fmt::format("check failed: relRMSE {:.6g} is over {:.6g}\n", m.relRmse,
+                             options.maxRelRmse);
+  return good ? 0 : 1;
+}
+
+}  // namespace lamplighter::cli

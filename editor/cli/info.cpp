@@ -1,0 +1,128 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "editor/cli/subcommands.h"
+#include "renderer/sampling/lights.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/render_scene.h"
+
+namespace lamplighter::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const vec3& v) { return {v.x, v.y, v.z}; }
+
+std::string kindOf(const Node& node, bool emissiveMesh) {
+  if (node.area) {
+    switch (node.area->shape) {
+      case AreaShape::rectangle:
+        return "rectangle";
+      case AreaShape::disk:
+        return "disk";
+      case AreaShape::sphere:
+        return "sphere";
+    }
+  }
+  if (node.punctual) {
+    switch (node.punctual->kind) {
+      case PunctualKind::point:
+        return "point";
+      case PunctualKind::spot:
+        return "spot";
+      case PunctualKind::directional:
+        return "directional";
+    }
+  }
+  return emissiveMesh ? "mesh" : "";
+}
+
+// Everything that `info` says, once, as JSON; the text form reads it.
+Json describe(const std::string& file, const LoadedScene& loaded) {
+  const Scene& scene = loaded.scene;
+  RenderScene world;
+  update(world, scene, SceneChanges::all());
+  const LightSet lights(world);
+
+  Json j;
+  j["scene"] = file;
+  j["triangles"] = world.triangleCount();
+  j["draws"] = world.objects.size();
+  j["vertices"] = world.positions.size();
+  j["nodes"] = scene.nodes.size();
+  j["meshes"] = scene.meshes.size();
+  j["materials"] = scene.materials.size();
+  j["textures"] = scene.textures.size();
+  j["bounds"] = {{"min", toJson(world.bounds.min)},
+                 {"max", toJson(world.bounds.max)},
+                 {"extent", toJson(world.bounds.extent())}};
+
+  j["lights"] = Json::array();
+  for (const Emitter& e : lights.emitters()) {
+    if (e.kind == EmitterKind::sky) continue;
+    const Node& node = *scene.find(e.node);
+    Json light{{"name", node.name}, {"kind", kindOf(node, true)}, {"flux_w", toJson(e.flux)}};
+    if (e.kind == EmitterKind::surface) light["area_m2"] = e.area;
+    j["lights"].push_back(light);
+  }
+  j["sky"] = scene.sky == vec3(0.0f) ? Json() : toJson(scene.sky);
+
+  j["cameras"] = Json::array();
+  for (const Node& n : scene.nodes) {
+    if (n.camera == kNone) continue;
+    const Camera& camera = scene.cameras[n.camera];
+    j["cameras"].push_back({{"name", n.name.empty() ? camera.name : n.name},
+                            {"yfov_degrees", glm::degrees(camera.yfov)}});
+  }
+  j["warnings"] = loaded.warnings;
+  return j;
+}
+
+std::string triple(const Json& v) {
+  return fmt::format("{:.4g} {:.4g} {:.4g}", v[0].get<float>(), v[1].get<float>(),
+                     v[2].get<float>());
+}
+
+void printText(const Json& j) {
+  std::cout << fmt::format("{}\n", j["scene"].get<std::string>());
+  for (const char* key :
+       {"triangles", "draws", "vertices", "nodes", "meshes", "materials", "textures"}) {
+    std::cout << fmt::format("  {:<10} {}\n", key, j[key].get<size_t>());
+  }
+  if (j["triangles"] != 0) {
+    std::cout << fmt::format("  extent     {} m, from {} to {}\n", triple(j["bounds"]["extent"]),
+                             triple(j["bounds"]["min"]), triple(j["bounds"]["max"]));
+  }
+  std::cout << fmt::format("  lights     {}\n", j["lights"].size());
+  for (const Json& l : j["lights"]) {
+    std::cout << fmt::format("    {:<11} '{}', {} W\n", l["kind"].get<std::string>(),
+                             l["name"].get<std::string>(), triple(l["flux_w"]));
+  }
+  if (!j["sky"].is_null())
+    std::cout << fmt::format("  sky        {} W/(m2 sr), plain, not saved\n", triple(j["sky"]));
+  std::cout << fmt::format("  cameras    {}\n", j["cameras"].size());
+  for (const Json& c : j["cameras"]) {
+    std::cout << fmt::format("    '{}', {:.1f} degrees\n", c["name"].get<std::string>(),
+                             c["yfov_degrees"].get<float>());
+  }
+}
+
+}  // namespace
+
+int info(const InfoOptions& options) {
+  const LoadedScene loaded = loadGltf(options.scene);
+  for (const std::string& w : loaded.warnings) std::cerr << "warning: " << w << '\n';
+  const Json j = describe(options.scene, loaded);
+  if (options.json) {
+    // An empty scene's infinite bounds become null; names that are no UTF-8 do not stop it.
+    std::cout << j.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+  } else {
+    printText(j);
+  }
+  return 0;
+}
+
+}  // namespace lamplighter::cli

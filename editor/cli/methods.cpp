@@ -1,0 +1,88 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "editor/cli/subcommands.h"
+
+namespace lamplighter::cli {
+
+namespace {
+
+std::string kindOf(const ParameterSpec& p) {
+  static constexpr const char* kNames[] = {"bool", "int", "float", "choice"};
+  return kNames[p.defaultValue.index()];
+}
+
+std::string rangeOf(const ParameterSpec& p) {
+  if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, ", "));
+  if (std::holds_alternative<bool>(p.defaultValue)) return "true, false";
+  return fmt::format("{:g} … {:g}", p.minimum, p.maximum);
+}
+
+void printJson() {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const MethodInfo& m : lamplighter::methods()) {
+    nlohmann::ordered_json j{{"name", m.name}, {"label", m.label}, {"citation", m.citation}};
+    j["parameters"] = nlohmann::ordered_json::array();
+    for (const ParameterSpec& p : m.parameters) {
+      nlohmann::ordered_json q{{"name", p.name},
+                               {"label", p.label},
+                               {"type", kindOf(p)},
+                               {"unit", p.unit},
+                               {"help", p.help}};
+      std::visit([&](const auto& v) { q["default"] = v; }, p.defaultValue);
+      if (!p.choices.empty()) {
+        q["choices"] = p.choices;
+      } else if (!std::holds_alternative<bool>(p.defaultValue)) {
+        q["minimum"] = p.minimum;
+        q["maximum"] = p.maximum;
+      }
+      j["parameters"].push_back(q);
+    }
+    all.push_back(j);
+  }
+  std::cout << all.dump(2) << '\n';
+}
+
+void printMarkdown() {
+  std::cout << "# Parameters\n\nWritten by `lamplighter methods --markdown`; set with `--set "
+               "name=value`.\n";
+  for (const MethodInfo& m : lamplighter::methods()) {
+    std::cout << fmt::format(
+        "\n## {}: {}\n\n{}\n\n| name | type | unit | default | range | |\n| --- | --- | --- | --- "
+        "| --- | --- |\n",
+        m.name, m.label, m.citation);
+    for (const ParameterSpec& p : m.parameters) {
+      std::cout << fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, kindOf(p), p.unit,
+                               Settings::format(p.defaultValue), rangeOf(p), p.help);
+    }
+  }
+}
+
+void printText() {
+  for (const MethodInfo& m : lamplighter::methods()) {
+    std::cout << fmt::format("{}: {}\n  {}\n", m.name, m.label, m.citation);
+    for (const ParameterSpec& p : m.parameters) {
+      std::cout << fmt::format("  --set {}={}  ({}{}{}) {}\n", p.name,
+                               Settings::format(p.defaultValue), rangeOf(p),
+                               p.unit.empty() ? "" : " ", p.unit, p.help);
+    }
+    std::cout << '\n';
+  }
+}
+
+}  // namespace
+
+int methods(const MethodsOptions& options) {
+  if (options.json) {
+    printJson();
+  } else if (options.markdown) {
+    printMarkdown();
+  } else {
+    printText();
+  }
+  return 0;
+}
+
+}  // namespace lamplighter::cli

@@ -1,0 +1,113 @@
+#include "editor/cli/options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <limits>
+
+#include <unistd.h>
+
+#include "renderer/error.h"
+#include "renderer/scene/render_scene.h"
+
+namespace lamplighter::cli {
+
+std::pair<int, int> parseSize(const std::string& text) {
+  constexpr int kLargest = 16384;
+  int width = 0, height = 0;
+  const char* end = text.data() + text.size();
+  const auto [x, widthError] = std::from_chars(text.data(), end, width);
+  if (widthError == std::errc() && x != end && *x == 'x') {
+    const auto [rest, heightError] = std::from_chars(x + 1, end, height);
+    const bool fits = width >= 1 && height >= 1 && width <= kLargest && height <= kLargest;
+    if (heightError == std::errc() && rest == end && fits) return {width, height};
+  }
+  throw InputError("--size", "'" + text + "' is no size",
+                   "give WIDTHxHEIGHT, each from 1 to 16384, such as 1280x720");
+}
+
+void setParameter(Settings& settings, const MethodInfo& method, const std::string& name,
+                  const std::string& text) {
+  const auto& all = method.parameters;
+  const auto spec =
+      std::find_if(all.begin(), all.end(), [&](const ParameterSpec& p) { return p.name == name; });
+  if (spec == all.end()) {
+    std::string names;
+    for (const ParameterSpec& p : all) names += (names.empty() ? "" : ", ") + p.name;
+    throw InputError(method.name, "has no parameter '" + name + "'", "it has: " + names);
+  }
+  settings.set(name, Settings::parse(*spec, text));
+}
+
+void setFromAssignment(Settings& settings, const MethodInfo& method,
+                       const std::string& assignment) {
+  const size_t equals = assignment.find('=');
+  if (equals == std::string::npos) {
+    throw InputError("--set", "'" + assignment + "' is no assignment", "give name=value");
+  }
+  setParameter(settings, method, assignment.substr(0, equals), assignment.substr(equals + 1));
+}
+
+View chooseView(const Scene& scene, const std::string& camera, int width, int height) {
+  std::vector<const Node*> cameras;
+  for (const Node& n : scene.nodes) {
+    if (n.camera != kNone) cameras.push_back(&n);
+  }
+  if (camera.empty()) {
+    if (!cameras.empty()) return viewOfCamera(scene, *cameras.front(), width, height);
+    RenderScene world;
+    update(world, scene, SceneChanges::all());
+    return viewOfBounds(world.bounds, width, height);
+  }
+  for (const Node* n : cameras) {
+    if (n->name == camera || scene.cameras[n->camera].name == camera)
+      return viewOfCamera(scene, *n, width, height);
+  }
+  size_t index = 0;
+  const auto [end, error] = std::from_chars(camera.data(), camera.data() + camera.size(), index);
+  if (error == std::errc() && end == camera.data() + camera.size() && index < cameras.size()) {
+    return viewOfCamera(scene, *cameras[index], width, height);
+  }
+  std::string names;
+  for (const Node* n : cameras) names += (names.empty() ? "'" : ", '") + n->name + "'";
+  throw InputError("--camera", "the scene has no camera '" + camera + "'",
+                   cameras.empty() ? "it has none; leave the flag out to see all of the scene"
+                                   : "give one of " + names + " or a number from 0 to " +
+                                         std::to_string(cameras.size() - 1));
+}
+
+void requireWritable(const std::filesystem::path& file, const std::vector<std::string>& endings) {
+  namespace fs = std::filesystem;
+  if (!endings.empty() &&
+      std::find(endings.begin(), endings.end(), file.extension().string()) == endings.end()) {
+    std::string names;
+    for (const std::string& e : endings) names += (names.empty() ? "" : " or ") + e;
+    throw InputError(file.string(), "ends in no known format", "name a file that ends in " + names);
+  }
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder)) {
+    throw InputError(file.string(), "its folder is not there",
+                     "make the folder first or name another");
+  }
+  if (fs::is_directory(file) || ::access(folder.c_str(), W_OK) != 0) {
+    throw InputError(file.string(), "cannot be written there",
+                     "name a file in a folder that you may write to");
+  }
+}
+
+void writeText(const std::filesystem::path& file, const std::string& text) {
+  namespace fs = std::filesystem;
+  const fs::path temporary = file.string() + ".part";
+  std::ofstream out(temporary, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) fs::rename(temporary, file, error);
+  if (!out || error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw InputError(file.string(), "cannot be written", "check the folder and the space left");
+  }
+}
+
+}  // namespace lamplighter::cli

@@ -1,0 +1,161 @@
+#include <charconv>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include "editor/cli/options.h"
+#include "editor/cli/subcommands.h"
+#include "renderer/error.h"
+#include "renderer/frame.h"
+#include "renderer/image/exposure.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/tone_map.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/threads.h"
+
+namespace lamplighter::cli {
+
+namespace {
+
+bool has(const MethodInfo& method, const std::string& name) {
+  for (const ParameterSpec& p : method.parameters) {
+    if (p.name == name) return true;
+  }
+  return false;
+}
+
+Settings settingsOf(const RenderOptions& o, const MethodInfo& method) {
+  Settings settings;
+  // Nobody watches the frames in between: as much a frame as there is. The settled picture is the
+  // same.
+  if (has(method, "updates")) settings.set("updates", 65536);
+  if (has(method, "samples_per_frame")) settings.set("samples_per_frame", 16);
+
+  struct Shortcut {
+    const char* flag;
+    const std::string& value;
+    std::vector<std::string> names;  // the first of them that the method has
+  };
+  for (const Shortcut& s :
+       {Shortcut{"--vpls", o.vpls, {"vpls"}},
+        Shortcut{"--direct-share", o.directShare, {"direct_share"}},
+        Shortcut{"--bounces", o.bounces, {"bounces"}}, Shortcut{"--seed", o.seed, {"seed"}},
+        Shortcut{"--spp", o.spp, {"samples_per_pixel", "antialias"}}}) {
+    if (s.value.empty()) continue;
+    bool used = false;
+    for (const std::string& name : s.names) {
+      if (used || !has(method, name)) continue;
+      setParameter(settings, method, name, s.value);
+      used = true;
+    }
+    if (!used)
+      std::cerr << fmt::format("warning: {} means nothing to {}; it is left out\n", s.flag,
+                               method.name);
+  }
+  for (const std::string& a : o.assignments) setFromAssignment(settings, method, a);
+  return settings;
+}
+
+struct Totals {
+  int frames = 0;
+  uint64_t raysOfMethod = 0;
+  std::map<std::string, double> stageSeconds;
+  double loadSeconds = 0.0, renderSeconds = 0.0;
+};
+
+std::string statsText(const RenderOptions& o, const View& view, const GiOutput& out,
+                      const Totals& t, Backend& backend) {
+  const KernelCounts counts = backend.counts();
+  nlohmann::ordered_json j;
+  j["scene"] = o.scene;
+  j["method"] = o.method;
+  j["backend"] = backend.info().name;
+  j["device"] = backend.info().device;  // the GL renderer's name where that is what runs
+  j["width"] = view.width;
+  j["height"] = view.height;
+  j["frames"] = t.frames;
+  j["settled"] = out.settled;
+  j["seconds"] = {{"load", t.loadSeconds}, {"render", t.renderSeconds}};
+  j["stages"] = t.stageSeconds;  // seconds
+  j["vpls"] = out.stats.vpls;
+  j["samples_per_pixel"] = out.stats.samplesPerPixel;
+  j["shadow_maps"] = counts.shadowMaps;
+  j["light_pixels"] = counts.lightPixels;
+  j["rays"] = counts.rays + t.raysOfMethod;
+  j["memory_bytes"] = counts.memoryBytes;
+  return j.dump(2) + "\n";
+}
+
+}  // namespace
+
+float exposureOf(const std::string& text, const Image& radiance) {
+  if (text == "auto") return autoExposureEv(radiance);
+  float ev = 0.0f;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ev);
+  if (error != std::errc() || end != text.data() + text.size() || !(ev >= -32.0f && ev <= 32.0f)) {
+    throw InputError("--exposure",
+                     "'" + text + "' is neither auto nor a number of EV from -32 to 32",
+                     "give one of them");
+  }
+  return ev;
+}
+
+int render(const RenderOptions& o, const Frontend& frontend) {
+  // Everything that can be wrong with the call, before any work.
+  const MethodInfo& method = findMethod(o.method);
+  const Settings settings = settingsOf(o, method);
+  const auto [width, height] = parseSize(o.size);
+  requireWritable(o.output, {".exr", ".png"});
+  if (!o.stats.empty()) requireWritable(o.stats, {});
+  exposureOf(o.exposure, Image());
+
+  const ThreadLimit limit(o.threads);
+  Totals totals;
+  const double start = frontend.stopwatch();
+  const LoadedScene loaded = loadGltf(o.scene);
+  for (const std::string& w : loaded.warnings) std::cerr << "warning: " << w << '\n';
+  const View view = chooseView(loaded.scene, o.camera, width, height);
+  totals.loadSeconds = frontend.stopwatch() - start;
+
+  FrameRenderer renderer(frontend.makeBackend(o.backend), frontend.stopwatch);
+  SceneChanges changes = SceneChanges::all();
+  GiOutput out;
+  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  do {
+    out = renderer.render({loaded.scene, changes, view, o.method, settings});
+    changes = SceneChanges();
+    ++totals.frames;
+    totals.raysOfMethod += out.stats.raysTraced;
+    for (const auto& [stage, seconds] : out.stats.stageSeconds)
+      totals.stageSeconds[stage] += seconds;
+    if (terminal) {
+      std::cerr << fmt::format("\r{}: frame {}, {} light samples pending, {} paths a pixel ",
+                               o.method, totals.frames, out.stats.vplsPending,
+                               out.stats.samplesPerPixel);
+    }
+  } while (!out.settled);
+  if (terminal) std::cerr << "\r\033[K";
+  const Image& image = out.radiance->pixels();
+  totals.renderSeconds = frontend.stopwatch() - start - totals.loadSeconds;
+
+  if (o.output.ends_with(".exr")) {
+    writeExr(image, o.output);
+  } else {
+    writePng(toneMap(image, exposureOf(o.exposure, image)), o.output);
+  }
+  if (!o.stats.empty()) writeText(o.stats, statsText(o, view, out, totals, renderer.backend()));
+  return 0;
+}
+
+int tonemap(const TonemapOptions& o) {
+  requireWritable(o.output, {".png"});
+  const Image image = readImage(o.input);
+  const float ev = exposureOf(o.exposure, image);
+  writePng(toneMap(image, ev), o.output);
+  std::cout << fmt::format("EV {:g}\n", ev);
+  return 0;
+}
+
+}  // namespace lamplighter::cli

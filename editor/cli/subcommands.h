@@ -1,0 +1,50 @@
+// The subcommands, each a function of its parsed options. They throw InputError and return the exit
+// code; cli.cpp parses and reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "editor/cli/cli.h"
+
+namespace lamplighter::cli {
+
+struct InfoOptions {
+  std::string scene;
+  bool json = false;
+};
+int info(const InfoOptions& options);
+
+struct RenderOptions {
+  std::string scene, output;
+  std::string method = "many_lights";
+  std::string camera, size = "1280x720", backend = "auto", stats;
+  std::string exposure = "0";  // EV or "auto"
+  int threads = 0;
+  // Shortcuts, empty where not given.
+  std::string vpls, directShare, bounces, seed, spp;
+  std::vector<std::string> assignments;
+};
+int render(const RenderOptions& options, const Frontend& frontend);
+
+struct MethodsOptions {
+  bool json = false, markdown = false;
+};
+int methods(const MethodsOptions& options);
+
+struct CompareOptions {
+  std::string a, b, mask, heatmap;
+  double maxRelRmse = -1.0;  // < 0: not checked
+  bool json = false;
+};
+int compare(const CompareOptions& options);
+
+struct TonemapOptions {
+  std::string input, output, exposure = "0";
+};
+int tonemap(const TonemapOptions& options);
+
+// "auto" or a number of EV; throws InputError.
+float exposureOf(const std::string& text, const Image& radiance);
+
+}  // namespace lamplighter::cli

@@ -1,0 +1,188 @@
+// The command line as other programs call it.
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "renderer/image/image_io.h"
+#include "tests/support/process.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::lines;
+using test::ProcessResult;
+using test::runLamplighter;
+
+const std::string kScene =
+    std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/scenes/cornell_style.gltf";
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("lamplighter_cli_" +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string text(const std::string& name) const {
+    std::ifstream in(folder_ / name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  static void expectOneError(const ProcessResult& r, const std::string& part) {
+    EXPECT_EQ(r.code, 2);
+    EXPECT_EQ(lines(r.err), 1) << r.err;
+    EXPECT_TRUE(r.err.starts_with("error: ")) << r.err;
+    EXPECT_NE(r.err.find(part), std::string::npos) << r.err;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CommandLine, BadUseIsOneLineAndCode2) {
+  expectOneError(runLamplighter({"render"}), "SCENE");
+  expectOneError(runLamplighter({"render", kScene}), "--output");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.jpg")}), ".exr or .png");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("none/a.png")}),
+                 "folder is not there");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "12"}),
+                 "is no size");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "0x5"}),
+                 "is no size");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--method", "magic"}),
+                 "magic");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--camera", "nobody"}),
+                 "nobody");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--set", "colour=red"}),
+                 "colour");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--set", "vpls"}),
+                 "name=value");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--vpls", "many"}), "many");
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--backend", "abacus"}),
+                 "backend");
+  expectOneError(runLamplighter({"info", file("absent.gltf")}), "absent.gltf");
+  expectOneError(runLamplighter({"compare", file("a.exr"), file("b.exr")}), "a.exr");
+  expectOneError(runLamplighter({"--frobnicate"}), "--frobnicate");
+  expectOneError(runLamplighter({"replay", file("absent.jsonl"), "--headless"}), "absent.jsonl");
+  EXPECT_TRUE(fs::is_empty(folder_)) << "nothing may be half-written";
+}
+
+TEST_F(CommandLine, HelpAndVersionAreGood) {
+  for (const char* sub : {"info", "render", "methods", "compare", "replay"}) {
+    const ProcessResult r = runLamplighter({sub, "--help"});
+    EXPECT_EQ(r.code, 0);
+    EXPECT_NE(r.out.find("Usage"), std::string::npos) << sub;
+  }
+  EXPECT_EQ(runLamplighter({"--version"}).code, 0);
+}
+
+TEST_F(CommandLine, InfoCountsAndIsJson) {
+  const ProcessResult r = runLamplighter({"info", kScene, "--json"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_GT(j["triangles"].get<int>(), 10);
+  EXPECT_GE(j["lights"].size(), 1u);
+  EXPECT_GE(j["cameras"].size(), 1u);
+  EXPECT_TRUE(j["warnings"].empty());
+  EXPECT_EQ(runLamplighter({"info", kScene}).code, 0);
+}
+
+TEST_F(CommandLine, MethodsListEveryParameter) {
+  const json j = json::parse(runLamplighter({"methods", "--json"}).out);
+  ASSERT_GE(j.size(), 2u);
+  for (const json& m : j) {
+    EXPECT_FALSE(m["citation"].get<std::string>().empty());
+    for (const json& p : m["parameters"]) {
+      EXPECT_FALSE(p["help"].get<std::string>().empty()) << p["name"];
+      EXPECT_TRUE(p.contains("default"));
+    }
+  }
+}
+
+TEST_F(CommandLine, TheTableOfParametersIsUpToDate) {
+  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/parameters.md");
+  const std::string written{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(runLamplighter({"methods", "--markdown"}).out, written)
+      << "run: lamplighter methods --markdown > docs/parameters.md";
+}
+
+TEST_F(CommandLine, RendersEveryMethodToExrAndPng) {
+  for (const char* method : {"many_lights", "reference"}) {
+    for (const char* ending : {".exr", ".png"}) {
+      const std::string out = file(std::string(method) + ending);
+      const ProcessResult r = runLamplighter({"render", kScene, "-o", out, "--method", method,
+                                              "--size", "48x32", "--backend", "cpu", "--bounces",
+                                              "1", "--spp", "2", "--stats", file("stats.json")});
+      ASSERT_EQ(r.code, 0) << r.err;
+      EXPECT_EQ(r.err.find("error"), std::string::npos);
+      const Image image = readImage(out);
+      EXPECT_EQ(image.width, 48);
+      EXPECT_EQ(image.height, 32);
+      vec3 sum(0.0f);
+      for (const vec3& p : image.pixels) sum += p;
+      EXPECT_GT(sum.r + sum.g + sum.b, 1.0f);
+      const json stats = json::parse(text("stats.json"));
+      EXPECT_EQ(stats["backend"], "cpu");
+      EXPECT_TRUE(stats["settled"].get<bool>());
+      EXPECT_FALSE(stats["stages"].empty());
+    }
+  }
+}
+
+TEST_F(CommandLine, SetReachesADeclaredParameter) {
+  for (const auto& [assignment, wanted] : {std::pair{"vpls=17", 17}, std::pair{"vpls=40", 40}}) {
+    ASSERT_EQ(
+        runLamplighter({"render", kScene, "-o", file("a.exr"), "--size", "16x16", "--backend",
+                        "cpu", "--bounces", "0", "--set", assignment, "--stats", file("s.json")})
+            .code,
+        0);
+    EXPECT_EQ(json::parse(text("s.json"))["vpls"], wanted);
+  }
+}
+
+TEST_F(CommandLine, TheSameBitsAtAnyNumberOfThreads) {
+  for (const char* method : {"many_lights", "reference"}) {
+    for (const char* threads : {"1", "2", "5"}) {
+      ASSERT_EQ(runLamplighter({"render", kScene, "-o", file(std::string(threads) + ".exr"),
+                                "--method", method, "--size", "40x30", "--backend", "cpu", "--spp",
+                                "2", "--threads", threads})
+                    .code,
+                0);
+    }
+    EXPECT_EQ(readImage(file("1.exr")).pixels, readImage(file("2.exr")).pixels) << method;
+    EXPECT_EQ(readImage(file("1.exr")).pixels, readImage(file("5.exr")).pixels) << method;
+  }
+}
+
+TEST_F(CommandLine, CompareMeasuresAndChecks) {
+  writeExr(Image(8, 8, vec3(1.1f)), file("a.exr"));
+  writeExr(Image(8, 8, vec3(1.0f)), file("b.exr"));
+  writeExr(Image(4, 8, vec3(1.0f)), file("small.exr"));
+  const ProcessResult r = runLamplighter(
+      {"compare", file("a.exr"), file("b.exr"), "--json", "--heatmap", file("h.png")});
+  ASSERT_EQ(r.code, 0) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_NEAR(j["relRMSE"].get<double>(), 0.1, 1e-6);
+  EXPECT_NEAR(j["bias"].get<double>(), 1.1, 1e-6);
+  EXPECT_TRUE(fs::exists(file("h.png")));
+  EXPECT_EQ(runLamplighter({"compare", file("a.exr"), file("b.exr"), "--max-relrmse", "0.2"}).code,
+            0);
+  EXPECT_EQ(runLamplighter({"compare", file("a.exr"), file("b.exr"), "--max-relrmse", "0.05"}).code,
+            1);
+  expectOneError(runLamplighter({"compare", file("a.exr"), file("small.exr")}),
+                 "cannot be compared");
+}
+
+TEST_F(CommandLine, WithoutADisplayTheEditorSaysSo) {
+  expectOneError(runLamplighter({kScene}), "display");
+}
+
+}  // namespace
+}  // namespace lamplighter

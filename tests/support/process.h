@@ -1,0 +1,20 @@
+// Runs the program as its callers do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace lamplighter::test {
+
+struct ProcessResult {
+  int code = -1;  // exit code; −1: ended by a signal
+  std::string out, err;
+};
+
+// `arguments` after the program's name; the shell is not involved. No standard input, no DISPLAY.
+ProcessResult runLamplighter(const std::vector<std::string>& arguments);
+
+// The number of lines in a text.
+int lines(const std::string& text);
+
+}  // namespace lamplighter::test
