@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "renderer/image/image.h"
 
@@ -18,6 +19,9 @@ Image readImage(const std::filesystem::path& path);
 // must be display-referred already. Atomic (temporary file, then renamed). Throws InputError.
 void writeExr(const Image& image, const std::filesystem::path& path);
 void writePng(const Image8& image, const std::filesystem::path& path);
+
+// The bytes of a PNG, 8 bits RGBA.
+std::vector<uint8_t> encodePng(const Image8& image);
 
 // Decodes a PNG, JPEG, … in memory, as encoded (no colour conversion), RGBA. Empty and `why` set
 // when it cannot be decoded or is unreasonably large.

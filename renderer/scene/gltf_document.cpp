@@ -55,6 +55,17 @@ const Json* extensionOf(const Json& object, const char* name) {
   return extension != nullptr && extension->is_object() ? extension : nullptr;
 }
 
+const Json* noteOf(const Json& object, const char* key) {
+  const Json* extras = member(object, "extras");
+  const Json* ours = extras == nullptr ? nullptr : member(*extras, kExtrasName);
+  return ours == nullptr ? nullptr : member(*ours, key);
+}
+
+bool isMarked(const Json& object, const char* key) {
+  const Json* mark = noteOf(object, key);
+  return mark != nullptr && mark->is_boolean() && mark->get<bool>();
+}
+
 namespace {
 
 [[noreturn]] void wrongType(const GltfDocument& document, const At& at, const char* key,

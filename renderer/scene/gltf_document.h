@@ -64,6 +64,15 @@ const Json* member(const Json& object, const char* key);
 // object.extensions.NAME, or null.
 const Json* extensionOf(const Json& object, const char* name);
 
+// The member of "extras" that holds what this program notes in a file.
+inline constexpr const char* kExtrasName = "lamplighter";
+// Marks what shows sphere lights to other programs, see gltf_sphere_meshes.cpp.
+inline constexpr const char* kSphereMark = "sphereLight";
+// object.extras.lamplighter.KEY, or null.
+const Json* noteOf(const Json& object, const char* key);
+// Whether that is true.
+bool isMarked(const Json& object, const char* key);
+
 // Typed members. They throw InputError when the member is there and of another type or not finite.
 std::optional<size_t> sizeMember(const GltfDocument&, const Json& object, const char* key, At at);
 // The same, and less than `count`.
@@ -86,6 +95,8 @@ GltfDocument readGltfJson(const std::filesystem::path& path);
 // gltf_uri.cpp: the bytes behind a URI: data, or a file in the folder of the document. Null and
 // `why` set when there are none to be had.
 Bytes readUri(const GltfDocument& document, const std::string& uri, std::string& why);
+// %20 and the like; what is no escape stays as it is.
+std::string percentDecoded(std::string_view text);
 // Reads a whole regular file. Null and `why` set when it cannot be read.
 Bytes readWholeFile(const std::filesystem::path& path, std::string& why);
 // gltf_uri.cpp: fills GltfDocument::buffers. Call it after checkStructure().

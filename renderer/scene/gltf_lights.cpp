@@ -2,11 +2,12 @@
 // or disk that emits towards −Z, size its height or diameter, rect.aspect width over height,
 // intensity in nits; and this program's own note of a sphere, on a node whose mesh shows it to
 // others. A nit is taken as one unit of radiance, as a candela is as one of radiant intensity.
+#include "renderer/scene/gltf_lights.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "renderer/scene/gltf_content.h"
-#include "renderer/scene/gltf_light_names.h"
 
 namespace lamplighter {
 
@@ -46,9 +47,7 @@ vec3 colored(const GltfDocument& document, const Json& light, double defaultInte
 }
 
 std::optional<AreaLight> readSphere(const GltfDocument& document, const Json& node, At at) {
-  const Json* extras = member(node, "extras");
-  const Json* ours = extras == nullptr ? nullptr : member(*extras, kExtrasName);
-  const Json* light = ours == nullptr ? nullptr : member(*ours, "areaLight");
+  const Json* light = noteOf(node, "areaLight");
   if (light == nullptr || textMember(document, *light, "shape", at) != "sphere") {
     return std::nullopt;
   }
@@ -127,8 +126,15 @@ std::optional<AreaLight> readArea(const GltfDocument& document, size_t node,
 
 AxisRatios areaScale(const vec3& worldScale) {
   const double largest = std::max({worldScale.x, worldScale.y, worldScale.z});
-  const auto ratio = [&](double s) { return s > 1e-6 * largest ? largest / s : 1.0; };
+  const auto ratio = [&](double s) {
+    const double r = s > 1e-6 * largest ? largest / s : 1.0;
+    return std::abs(r - 1.0) < 1e-5 ? 1.0 : r;  // what rotating leaves is no scale
+  };
   return {ratio(worldScale.x), ratio(worldScale.y)};
+}
+
+vec3 axisLengths(const mat4& m) {
+  return {glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))};
 }
 
 void warnOfUnknownLights(GltfDocument& document) {

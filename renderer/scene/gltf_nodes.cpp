@@ -2,15 +2,11 @@
 #include <cmath>
 
 #include "renderer/scene/gltf_content.h"
+#include "renderer/scene/gltf_lights.h"
 
 namespace lamplighter {
 
 namespace {
-
-// The length of each axis of a matrix.
-vec3 axisLengths(const mat4& m) {
-  return {glm::length(vec3(m[0])), glm::length(vec3(m[1])), glm::length(vec3(m[2]))};
-}
 
 bool isReasonable(const mat4& m) {
   for (int c = 0; c < 4; ++c) {

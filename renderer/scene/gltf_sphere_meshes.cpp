@@ -3,62 +3,26 @@
 // What belongs to these meshes is marked by extras.lamplighter.sphereLight, and saveGltf() puts it
 // last in every list, so that nothing else changes its index.
 #include "renderer/scene/gltf_content.h"
-#include "renderer/scene/gltf_light_names.h"
+#include "renderer/scene/gltf_lights.h"
 
 namespace lamplighter {
 
 namespace {
 
-bool isMarked(const Json& object) {
-  const Json* extras = member(object, "extras");
-  const Json* ours = extras == nullptr ? nullptr : member(*extras, kExtrasName);
-  const Json* mark = ours == nullptr ? nullptr : member(*ours, "sphereLight");
-  return mark != nullptr && *mark == true;
-}
-
-// Drops the marked entries at the end of a list and gives the number that is left. An entry that
+// Drops the marked entries at the end of a list. An entry that
 // another program moved to before others of its own stays: it is an unused mesh then.
-size_t dropMarked(Json& root, const char* list) {
-  if (!root.contains(list)) return 0;
+void dropMarked(Json& root, const char* list) {
+  if (!root.contains(list)) return;
   Json& entries = root[list];
-  while (!entries.empty() && isMarked(entries.back())) entries.erase(entries.size() - 1);
-  const size_t left = entries.size();
-  if (left == 0) root.erase(list);  // glTF has no empty lists
-  return left;
+  while (!entries.empty() && isMarked(entries.back(), kSphereMark))
+    entries.erase(entries.size() - 1);
+
+  if (entries.empty()) root.erase(list);  // glTF has no empty lists
 }
 
-}  // namespace
-
-void stripSphereMeshes(GltfDocument& document) {
+// Shortens a buffer, or takes it away when nothing is left and it is the last.
+void dropBytes(GltfDocument& document, size_t buffer, size_t begin) {
   Json& root = document.json;
-  bool hasSphere = false;
-  if (!root.contains("nodes")) return;
-  for (size_t i = 0; i < root["nodes"].size(); ++i) {
-    const auto light = readArea(document, i, vec3(1.0f));
-    if (!light || light->shape != AreaShape::sphere) continue;
-    root["nodes"][i].erase("mesh");
-    hasSphere = true;
-  }
-  if (!hasSphere) return;
-
-  // Another program may have given the mesh to nodes of its own; then all stays.
-  const Json& meshes = listOf(document, "meshes");
-  for (const Json& node : listOf(document, "nodes")) {
-    const Json* mesh = member(node, "mesh");
-    if (mesh != nullptr && isMarked(meshes[mesh->get<size_t>()])) return;
-  }
-  dropMarked(root, "meshes");
-  dropMarked(root, "materials");
-  dropMarked(root, "accessors");
-  if (!root.contains("bufferViews")) return;
-  // The views of sphere meshes are the last of the last buffer: their bytes go as well.
-  const Json& views = listOf(document, "bufferViews");
-  size_t begin = SIZE_MAX, buffer = 0;
-  for (size_t i = views.size(); i > 0 && isMarked(views[i - 1]); --i) {
-    buffer = views[i - 1]["buffer"].get<size_t>();
-    begin = sizeMember(document, views[i - 1], "byteOffset", {"bufferViews", i - 1}).value_or(0);
-  }
-  dropMarked(root, "bufferViews");
   if (begin == SIZE_MAX) return;
   Json& json = root["buffers"][buffer];
   if (begin == 0) {
@@ -70,6 +34,49 @@ void stripSphereMeshes(GltfDocument& document) {
   } else {
     json["byteLength"] = begin;
   }
+}
+
+}  // namespace
+
+void stripSphereMeshes(GltfDocument& document) {
+  Json& root = document.json;
+  bool hasSphere = false;
+  if (!root.contains("nodes")) return;
+  for (size_t i = 0; i < root["nodes"].size(); ++i) {
+    const auto light = readArea(document, i, vec3(1.0f));
+    if (!light || light->shape != AreaShape::sphere) continue;
+    hasSphere = true;
+    const Json* mesh = member(root["nodes"][i], "mesh");
+    if (mesh != nullptr && isMarked(root["meshes"][mesh->get<size_t>()], kSphereMark)) {
+      root["nodes"][i].erase("mesh");
+    }
+  }
+  if (!hasSphere) return;
+
+  // Another program may have given the mesh to nodes of its own; then all stays.
+  const Json& meshes = listOf(document, "meshes");
+  for (const Json& node : listOf(document, "nodes")) {
+    const Json* mesh = member(node, "mesh");
+    if (mesh != nullptr && isMarked(meshes[mesh->get<size_t>()], kSphereMark)) return;
+  }
+  dropMarked(root, "meshes");
+  dropMarked(root, "materials");
+  dropMarked(root, "accessors");
+  if (!root.contains("bufferViews")) {
+    checkStructure(document);
+    return;
+  }
+  // The views of sphere meshes are the last of the last buffer: their bytes go as well.
+  const Json& views = listOf(document, "bufferViews");
+  size_t begin = SIZE_MAX, buffer = 0;
+  for (size_t i = views.size(); i > 0 && isMarked(views[i - 1], kSphereMark); --i) {
+    buffer = views[i - 1]["buffer"].get<size_t>();
+    begin = sizeMember(document, views[i - 1], "byteOffset", {"bufferViews", i - 1}).value_or(0);
+  }
+  dropMarked(root, "bufferViews");
+  dropBytes(document, buffer, begin);
+  // Marks can be on anything; what is left has to be whole.
+  checkStructure(document);
 }
 
 }  // namespace lamplighter

@@ -47,7 +47,8 @@ int hexDigit(char c) {
   return -1;
 }
 
-// %20 and the like; what is no escape stays as it is.
+}  // namespace
+
 std::string percentDecoded(std::string_view text) {
   std::string out;
   out.reserve(text.size());
@@ -62,6 +63,8 @@ std::string percentDecoded(std::string_view text) {
   }
   return out;
 }
+
+namespace {
 
 Bytes base64Decoded(std::string_view text) {
   static const std::array<int8_t, 256> kValue = [] {

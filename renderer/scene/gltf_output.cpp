@@ -1,0 +1,104 @@
+#include "renderer/scene/gltf_output.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+
+#include "renderer/error.h"
+#include "renderer/scene/gltf_io.h"
+
+namespace lamplighter {
+
+namespace {
+
+const SceneSource& emptySource() {
+  static const SceneSource kEmpty;
+  return kEmpty;
+}
+
+}  // namespace
+
+GltfOutput::GltfOutput(const Scene& savedScene, const std::filesystem::path& target)
+    : scene(savedScene),
+      source(savedScene.source ? *savedScene.source : emptySource()),
+      path(target),
+      json(source.document.json) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending != ".gltf" && ending != ".glb") {
+    throw InputError(path.string(), "ends neither in .gltf nor in .glb", "give it such an ending");
+  }
+  isBinary = ending == ".glb";
+  if (!json.is_object()) json = {{"asset", {{"version", "2.0"}, {"generator", "Lamplighter"}}}};
+  // An ordered object is a vector of its members, which copies them when it grows: references into
+  // the lists would dangle. There are fewer lists in glTF than there is room for here.
+  constexpr size_t kMostLists = 32;
+  auto& members = json.get_ref<Json::object_t&>();
+  members.reserve(members.size() + kMostLists);
+}
+
+void GltfOutput::useExtension(const char* name) {
+  Json& used = json["extensionsUsed"];
+  if (std::find(used.begin(), used.end(), Json(name)) == used.end()) used.push_back(name);
+}
+
+size_t GltfOutput::append(const char* list, Json entry) {
+  json[list].push_back(std::move(entry));
+  return json[list].size() - 1;
+}
+
+double shortestDouble(float value) {
+  std::array<char, 32> text;
+  const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
+  double out = value;
+  if (error == std::errc()) std::from_chars(text.data(), end, out);
+  return out;
+}
+
+Json toJson(float value) { return shortestDouble(value); }
+Json toJson(const vec2& v) { return {toJson(v.x), toJson(v.y)}; }
+Json toJson(const vec3& v) { return {toJson(v.x), toJson(v.y), toJson(v.z)}; }
+Json toJson(const vec4& v) { return {toJson(v.x), toJson(v.y), toJson(v.z), toJson(v.w)}; }
+
+ScaledColor scaledColor(const vec3& color) {
+  const float largest = std::max({color.r, color.g, color.b});
+  if (!(largest > 1.0f)) return {toJson(color), 1.0};
+  ScaledColor out{Json::array(), shortestDouble(largest)};
+  for (int c = 0; c < 3; ++c) {
+    out.color.push_back(std::min(shortestDouble(color[c]) / out.scale, 1.0));
+  }
+  return out;
+}
+
+Json& extensionObject(Json& object, const char* name) {
+  Json& extensions = object["extensions"];
+  if (!extensions.is_object()) extensions = Json::object();
+  Json& extension = extensions[name];
+  if (!extension.is_object()) extension = Json::object();
+  return extension;
+}
+
+void eraseExtension(Json& object, const char* name) {
+  const auto extensions = object.find("extensions");
+  if (extensions == object.end() || !extensions->is_object()) return;
+  extensions->erase(name);
+  if (extensions->empty()) object.erase("extensions");
+}
+
+void saveGltf(const Scene& scene, const std::filesystem::path& path) {
+  GltfOutput out(scene, path);
+  out.startBuffers();
+  out.carryImages();
+  saveTextures(out);
+  saveMaterials(out);
+  saveMeshes(out);
+  const std::vector<size_t> jsonNodes = saveNodes(out);
+  saveLights(out, jsonNodes);
+  saveSphereMeshes(out, jsonNodes);
+  writeFilesAtomically(out.finish());
+}
+
+}  // namespace lamplighter

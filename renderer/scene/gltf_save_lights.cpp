@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <vector>
+
+#include "renderer/scene/gltf_content.h"
+#include "renderer/scene/gltf_lights.h"
+#include "renderer/scene/gltf_output.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr const char* kPunctual = "KHR_lights_punctual";
+constexpr const char* kArea = "EXT_lights_area";
+
+// The file's list of lights of one extension, made where there is none.
+Json& lights(Json& root, const char* extension) {
+  Json& list = extensionObject(root, extension)["lights"];
+  if (!list.is_array()) list = Json::array();
+  return list;
+}
+
+// The light that a node refers to, to go on from; an empty object where it has none.
+Json lightOf(Json& root, const Json& node, const char* extension) {
+  const Json* reference = extensionOf(node, extension);
+  const Json* light = reference == nullptr ? nullptr : member(*reference, "light");
+  return light == nullptr ? Json::object() : lights(root, extension)[light->get<size_t>()];
+}
+
+void refer(GltfOutput& out, Json& node, const char* extension, Json light) {
+  Json& list = lights(out.json, extension);
+  list.push_back(std::move(light));
+  const size_t index = list.size() - 1;
+  extensionObject(node, extension)["light"] = index;
+  out.useExtension(extension);
+}
+
+Json punctualJson(Json json, const PunctualLight& light) {
+  const ScaledColor scaled = scaledColor(light.intensity);
+  json["type"] = light.kind == PunctualKind::point  ? "point"
+                 : light.kind == PunctualKind::spot ? "spot"
+                                                    : "directional";
+  json["color"] = scaled.color;
+  json["intensity"] = scaled.scale;
+  json.erase("range");
+  if (light.range > 0.0f) json["range"] = toJson(light.range);
+  if (light.kind != PunctualKind::spot) {
+    json.erase("spot");
+  } else {
+    json["spot"]["innerConeAngle"] = toJson(light.innerCone);
+    json["spot"]["outerConeAngle"] = toJson(light.outerCone);
+  }
+  return json;
+}
+
+Json areaJson(Json json, const AreaLight& light, const AxisRatios& ratios) {
+  const ScaledColor scaled = scaledColor(light.radiance);
+  const bool isDisk = light.shape == AreaShape::disk;
+  json["type"] = isDisk ? "disk" : "rect";
+  json["color"] = scaled.color;
+  json["intensity"] = scaled.scale;
+  const double width = shortestDouble(light.size.x) / ratios.x;
+  const double height = shortestDouble(light.size.y) / ratios.y;
+  json["size"] = isDisk ? width : height;
+  json.erase("rect");
+  if (!isDisk) json["rect"]["aspect"] = width / height;
+  return json;
+}
+
+void savePunctual(GltfOutput& out, Json& json, const Node& now, const Node& was) {
+  if (now.punctual == was.punctual) return;
+  Json old = lightOf(out.json, json, kPunctual);
+  eraseExtension(json, kPunctual);
+  if (now.punctual) refer(out, json, kPunctual, punctualJson(std::move(old), *now.punctual));
+}
+
+void eraseNote(Json& json, const char* key) {
+  if (noteOf(json, key) == nullptr) return;
+  Json& ours = json["extras"][kExtrasName];
+  ours.erase(key);
+  if (ours.empty()) json["extras"].erase(kExtrasName);
+  if (json["extras"].empty()) json.erase("extras");
+}
+
+void saveSphereNote(Json& json, const AreaLight& light) {
+  // Extras may be anything; what is no object has no place for ours and moves down.
+  Json& extras = json["extras"];
+  if (!extras.is_object() && !extras.is_null()) extras = {{"was", extras}};
+  if (extras.contains(kExtrasName) && !extras[kExtrasName].is_object()) extras.erase(kExtrasName);
+  extras[kExtrasName]["areaLight"] = {{"shape", "sphere"},
+                                      {"radiance", toJson(light.radiance)},
+                                      {"diameter", toJson(light.size.x)}};
+}
+
+void saveArea(GltfOutput& out, Json& json, const Node& now, const Node& was, const vec3& scaleNow,
+              const vec3& scaleWas) {
+  const AxisRatios ratios = areaScale(scaleNow);
+  const bool isSphere = now.area && now.area->shape == AreaShape::sphere;
+  if (now.area == was.area && (isSphere || !now.area || ratios == areaScale(scaleWas))) return;
+  Json old = lightOf(out.json, json, kArea);
+  eraseExtension(json, kArea);
+  eraseNote(json, "areaLight");
+  if (!now.area) return;
+  if (isSphere) {
+    saveSphereNote(json, *now.area);
+  } else {
+    refer(out, json, kArea, areaJson(std::move(old), *now.area, ratios));
+  }
+}
+
+std::vector<bool> lightsInUse(const Json& root, const char* extension) {
+  const Json* list = extensionOf(root, extension);
+  list = list == nullptr ? nullptr : member(*list, "lights");
+  std::vector<bool> used(list == nullptr ? 0 : list->size(), false);
+  const Json* nodes = member(root, "nodes");
+  if (nodes == nullptr) return used;
+  for (const Json& node : *nodes) {
+    const Json* reference = extensionOf(node, extension);
+    const Json* light = reference == nullptr ? nullptr : member(*reference, "light");
+    if (light != nullptr) used[light->get<size_t>()] = true;
+  }
+  return used;
+}
+
+// Takes out the lights that lost their last node, so that edits do not pile up. Those that no node
+// used in the source stay.
+void dropOrphans(GltfOutput& out, const char* extension) {
+  const std::vector<bool> before = lightsInUse(out.source.document.json, extension);
+  const std::vector<bool> after = lightsInUse(out.json, extension);
+  // Animations may count lights, by JSON pointers.
+  if (after.empty() || out.source.document.usesExtension("KHR_animation_pointer")) return;
+  Json kept = Json::array();
+  std::vector<size_t> map;
+  Json& list = lights(out.json, extension);
+  for (size_t i = 0; i < after.size(); ++i) {
+    const bool stays = after[i] || (i < before.size() && !before[i]);
+    map.push_back(kept.size());
+    if (stays) kept.push_back(list[i]);
+  }
+  if (kept.size() == list.size()) return;
+  for (Json& node : out.json["nodes"]) {
+    if (extensionOf(node, extension) == nullptr) continue;
+    Json& light = node["extensions"][extension]["light"];
+    light = map[light.get<size_t>()];
+  }
+  list = std::move(kept);
+  if (!list.empty()) return;
+  eraseExtension(out.json, extension);  // glTF has no empty lists
+  for (const char* names : {"extensionsUsed", "extensionsRequired"}) {
+    if (!out.json.contains(names)) continue;
+    Json& used = out.json[names];
+    const auto it = std::find(used.begin(), used.end(), Json(extension));
+    if (it != used.end()) used.erase(it);
+    if (used.empty()) out.json.erase(names);
+  }
+}
+
+}  // namespace
+
+void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes) {
+  Scene loaded;
+  loaded.nodes = out.source.nodes;
+  const std::vector<mat4> worldNow = worldMatrices(out.scene), worldWas = worldMatrices(loaded);
+  std::vector<size_t> bySource(listOf(out.source.document, "nodes").size(), SIZE_MAX);
+  for (size_t i = 0; i < loaded.nodes.size(); ++i) {
+    bySource[static_cast<size_t>(loaded.nodes[i].sourceNode)] = i;
+  }
+  const Node none;
+  for (size_t i = 0; i < out.scene.nodes.size(); ++i) {
+    const Node& now = out.scene.nodes[i];
+    const auto source = static_cast<size_t>(now.sourceNode);
+    const bool known =
+        now.sourceNode >= 0 && source < bySource.size() && bySource[source] != SIZE_MAX;
+    const Node& was = known ? loaded.nodes[bySource[source]] : none;
+    const mat4& before = known ? worldWas[bySource[source]] : worldNow[i];
+    Json& json = out.json["nodes"][jsonNodes[i]];
+    savePunctual(out, json, now, was);
+    saveArea(out, json, now, was, axisLengths(worldNow[i]), axisLengths(before));
+  }
+  dropOrphans(out, kPunctual);
+  dropOrphans(out, kArea);
+}
+
+}  // namespace lamplighter

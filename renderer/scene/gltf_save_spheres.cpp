@@ -1,0 +1,95 @@
+#include <map>
+#include <tuple>
+
+#include "renderer/scene/gltf_output.h"
+#include "renderer/scene/light_shapes.h"
+
+namespace lamplighter {
+
+namespace {
+
+using Color = std::tuple<float, float, float>;
+
+class SphereSaver {
+ public:
+  explicit SphereSaver(GltfOutput& out) : out_(out) {}
+
+  // The mesh for a sphere light; equal lights share it.
+  size_t mesh(const AreaLight& light) {
+    const Color color{light.radiance.r, light.radiance.g, light.radiance.b};
+    const auto [it, isNew] = meshes_.try_emplace({color, light.size.x}, 0);
+    if (!isNew) return it->second;
+    const Primitive shape = tessellate(light);
+    if (meshes_.size() == 1) {
+      normals_ = marked("accessors", appendFloats(out_, floats(shape.normals), 3, false));
+      indices_ = marked("accessors", appendIndices(out_, shape.indices, shape.positions.size()));
+      markLastViews(2);
+    }
+    const auto [place, isNewSize] = positions_.try_emplace(light.size.x, 0);
+    if (isNewSize) {
+      place->second = marked("accessors", appendFloats(out_, floats(shape.positions), 3, true));
+      markLastViews(1);
+    }
+    Json primitive = {{"attributes", {{"POSITION", place->second}, {"NORMAL", normals_}}},
+                      {"indices", indices_},
+                      {"material", material(light.radiance, color)}};
+    Json json = {{"name", "sphere light"}};
+    json["primitives"].push_back(std::move(primitive));
+    it->second = marked("meshes", out_.append("meshes", std::move(json)));
+    return it->second;
+  }
+
+ private:
+  static std::span<const float> floats(const std::vector<vec3>& v) {
+    return {&v[0][0], 3 * v.size()};
+  }
+
+  size_t marked(const char* list, size_t index) {
+    out_.json[list][index]["extras"][kExtrasName][kSphereMark] = true;
+    return index;
+  }
+  void markLastViews(size_t count) {
+    const size_t size = out_.json["bufferViews"].size();
+    for (size_t i = size - count; i < size; ++i) marked("bufferViews", i);
+  }
+
+  size_t material(const vec3& radiance, const Color& key) {
+    const auto [it, isNew] = materials_.try_emplace(key, 0);
+    if (!isNew) return it->second;
+    const ScaledColor scaled = scaledColor(radiance);
+    Json json = {
+        {"name", "sphere light"},
+        {"pbrMetallicRoughness",
+         {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
+        {"emissiveFactor", scaled.color}};
+    if (scaled.scale != 1.0) {
+      extensionObject(json, "KHR_materials_emissive_strength")["emissiveStrength"] = scaled.scale;
+      out_.useExtension("KHR_materials_emissive_strength");
+    }
+    it->second = marked("materials", out_.append("materials", std::move(json)));
+    return it->second;
+  }
+
+  GltfOutput& out_;
+  size_t normals_ = 0, indices_ = 0;                  // accessors that all spheres share
+  std::map<float, size_t> positions_;                 // accessors, by diameter
+  std::map<Color, size_t> materials_;                 // by radiance
+  std::map<std::pair<Color, float>, size_t> meshes_;  // by radiance and diameter
+};
+
+}  // namespace
+
+void saveSphereMeshes(GltfOutput& out, const std::vector<size_t>& jsonNodes) {
+  SphereSaver saver(out);
+  for (size_t i = 0; i < jsonNodes.size(); ++i) {
+    const Node& node = out.scene.nodes[i];
+    const bool isSphere = node.area && node.area->shape == AreaShape::sphere;
+    // A node has room for one mesh; its own goes first, and the light is in the extras alone.
+    if (isSphere && node.mesh == kNone) {
+      const size_t mesh = saver.mesh(*node.area);
+      out.json["nodes"][jsonNodes[i]]["mesh"] = mesh;
+    }
+  }
+}
+
+}  // namespace lamplighter
