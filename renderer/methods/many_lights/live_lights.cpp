@@ -15,11 +15,12 @@ bool samePlace(const shared::Vpl& a, const shared::Vpl& b) {
 
 }  // namespace
 
-// Slots are reserved with room to spare, so that one VPL more or less does not lose all maps.
+// Slots are reserved with room to spare, so that a VPL more or less does not lose all maps; when
+// they are lost, refresh() has the same frame to make some anew and shown() keeps the brightness.
 void LiveLights::fitSlots(size_t wanted) {
-  constexpr size_t kStep = 16;
+  constexpr size_t kStep = 32;
   const int fitting = static_cast<int>((wanted + kStep - 1) / kStep * kStep);
-  if (fitting <= slots_ && 2 * fitting >= slots_) return;
+  if (fitting <= slots_ && 4 * fitting >= slots_) return;
   slots_ = fitting;
   loseMaps();
   for (Entry& e : entries_) e.slot = -1;

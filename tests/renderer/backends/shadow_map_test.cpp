@@ -1,0 +1,182 @@
+// The octahedral hemisphere shadow maps against their closed form, and what a look-up makes of
+// them.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "shaders/shared/octahedral.h"
+#include "shaders/shared/vpl_shading.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+using test::LitScene;
+using test::lookAt;
+using test::makeVpl;
+
+// Where the ray from o along d enters the box, or 0 when it does not: the slab method.
+double entersBox(const glm::dvec3& o, const glm::dvec3& d, const Bounds& box) {
+  double first = 0.0, last = 1e30;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (static_cast<double>(box.min[axis]) - o[axis]) / d[axis];
+    const double b = (static_cast<double>(box.max[axis]) - o[axis]) / d[axis];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first < last ? first : 0.0;
+}
+
+// A box on a large floor, below a light that is tilted: every texel's 1/w is known.
+TEST(ShadowMap, OfABoxOnAFloorHoldsTheClosedForm) {
+  constexpr int kResolution = 33;  // odd: texels on both diagonals, the octahedron's creases
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(200.0f));
+  test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0.3f, 0.5f, 0.2f));
+  LitScene lit(scene);
+  const shared::Vpl vpl = makeVpl(vec3(0.1f, 3.0f, -0.2f), vec3(0.2f, -1.0f, 0.1f));
+  lit.backend->reserveShadowMaps(1, kResolution);
+  lit.backend->renderShadowMaps(std::vector{vpl});
+  const std::vector<float> map = lit.backend->readShadowMap(0);
+
+  const glm::dvec3 o(vpl.position), n(vpl.normal), t(vpl.tangent), b(glm::cross(n, t));
+  const Bounds box{vec3(-0.2f, 0.0f, -0.3f), vec3(0.8f, 1.0f, 0.7f)};
+  int onCrease = 0, onBox = 0, nothing = 0, silhouettes = 0;
+  for (int y = 0; y < kResolution; ++y) {
+    for (int x = 0; x < kResolution; ++x) {
+      const vec2 centre = shared::shadowTexelCentre(vec2(x, y), kResolution);
+      const glm::dvec3 e(shared::octahedralDecode(centre));
+      EXPECT_NEAR(std::abs(e.x) + std::abs(e.y) + e.z, 1.0, 1e-6);
+      const glm::dvec3 d = e.x * t + e.y * b + e.z * n;
+      double w = entersBox(o, d, box);
+      const bool hitsBox = w > 0.0;
+      if (!hitsBox && d.y < 0.0) {
+        w = -o.y / d.y;
+        const glm::dvec3 at = o + w * d;
+        if (std::max(std::abs(at.x), std::abs(at.z)) > 100.0) w = 0.0;
+      }
+      onCrease += x == y || x == kResolution - 1 - y;
+      onBox += hitsBox;
+      nothing += w == 0.0;
+      const double expected = w > 0.0 ? 1.0 / w : 0.0;
+      const double error = std::abs(map[y * kResolution + x] - expected);
+      // A ray along the box's very edge may fall to either side.
+      if (error > 2e-6 + 2e-5 * expected) ++silhouettes;
+    }
+  }
+  EXPECT_EQ(onCrease, 2 * kResolution - 1);
+  EXPECT_GT(onBox, 20);
+  EXPECT_GT(nothing, 20);
+  EXPECT_EQ(silhouettes, 0);
+}
+
+TEST(ShadowMap, OfADirectionalLightIsLinearInHeight) {
+  constexpr int kResolution = 16;
+  Scene scene;
+  test::addMesh(scene, test::boxMesh(vec3(2.0f)));
+  LitScene lit(scene);
+  shared::Vpl vpl = makeVpl(vec3(0.0f), vec3(0, 1, 0), shared::kVplDirectional, 0.0f);
+  const float radius = vpl.normal.w = 4.0f;
+  lit.backend->reserveShadowMaps(1, kResolution);
+  lit.backend->renderShadowMaps(std::vector{vpl});
+  const std::vector<float> map = lit.backend->readShadowMap(0);
+  int covered = 0;
+  for (int i = 0; i < kResolution * kResolution; ++i) {
+    const vec2 s = shared::shadowTexelCentre(vec2(i % kResolution, i / kResolution), kResolution);
+    const bool onBox = std::abs(s.x) * radius < 1.0f && std::abs(s.y) * radius < 1.0f;
+    EXPECT_NEAR(map[i], onBox ? (1.0f + radius) / (2.0f * radius) : 0.0f, 1e-6f) << i;
+    covered += onBox;
+  }
+  EXPECT_EQ(covered, 16);
+}
+
+int differing(const Image& a, const Image& b) {
+  int count = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) count += a.pixels[i] != b.pixels[i];
+  return count;
+}
+
+// Planes do not shadow themselves, however coarse the map and however grazing the light: with and
+// without shadow the picture has the same bits, with a quarter of the default bias (for rounding).
+TEST(ShadowLookUp, APlaneHasNoAcne) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(1.0f));
+  const NodeId floor = test::addMesh(scene, test::squareMesh(40.0f, white));
+  scene.find(floor)->local.rotation = glm::angleAxis(0.4f, glm::normalize(vec3(1, 0.2f, 0.3f)));
+  const vec3 up = scene.find(floor)->local.rotation * vec3(0, 1, 0);
+  LitScene lit(scene);
+  const View view = lookAt(6.0f * up + vec3(1, 0, 2), vec3(0), 96, 96, 1.4f);
+  for (const float height : {0.02f, 0.3f, 3.0f}) {
+    // Axes that look down, along the plane, and past it.
+    for (const float tilt : {0.0f, 1.2f, 1.57f, 2.2f}) {
+      for (const int resolution : {8, 64}) {
+        const vec3 axis = glm::angleAxis(tilt, glm::normalize(glm::cross(up, vec3(1, 0, 0)))) * -up;
+        const std::vector vpls{makeVpl(height * up, axis)};
+        const Image shadowed = lit.sum(vpls, view, resolution, true, 0.0f, 0.0005f);
+        const Image open = lit.sum(vpls, view, resolution, false);
+        ASSERT_GT(test::meanOf(open).r, 0.0f);
+        EXPECT_EQ(differing(shadowed, open), 0)
+            << "height " << height << " tilt " << tilt << " resolution " << resolution;
+      }
+    }
+  }
+}
+
+// Two walls and a floor, all seen by the light: nothing blocks anything, so nothing may be dark.
+TEST(ShadowLookUp, AConcaveCornerShadowsItselfLittle) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(1.0f));
+  test::addMesh(scene, test::squareMesh(8.0f, white));
+  test::addMesh(scene, test::boxMesh(vec3(8, 4, 0.1f), white), vec3(0, 2, -3.05f));
+  test::addMesh(scene, test::boxMesh(vec3(0.1f, 4, 8), white), vec3(-3.05f, 2, 0));
+  LitScene lit(scene);
+  const View view = lookAt(vec3(4, 4, 4), vec3(-1.5f, 0.5f, -1.5f), 128, 128, 0.9f);
+  const std::vector vpls{makeVpl(vec3(1, 3.5f, 1), vec3(0, -1, 0))};
+  const Image shadowed = lit.sum(vpls, view, 64);
+  const Image open = lit.sum(vpls, view, 64, false);
+  const double lost = 1.0 - static_cast<double>(test::meanOf(shadowed).r / test::meanOf(open).r);
+  RecordProperty("lostPercent", std::to_string(100.0 * lost));
+  EXPECT_LT(lost, 0.0015);  // measured: 0.0008
+}
+
+// Paper 1, figure 4-3: the shadow of a wall that stands on the floor must reach the wall's foot.
+// The light that leaks there, as a share of what would fall into the shadow without the wall, is
+// bounded by the texels along the foot.
+TEST(ShadowLookUp, LittleLightLeaksUnderAWall) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(1.0f));
+  test::addMesh(scene, test::squareMesh(20.0f, white));
+  test::addMesh(scene, test::boxMesh(vec3(20, 4, 0.1f), white), vec3(0, 2, -2.05f));
+  LitScene lit(scene);
+  // Straight down on the floor behind the wall, from the wall's foot 2 m onwards.
+  View view = lookAt(vec3(0, 3.9f, -3.1f), vec3(0, 0, -3.1f - 1e-4f), 128, 128, 0.54f);
+  const std::vector vpls{makeVpl(vec3(0.3f, 3.0f, 0), vec3(0, -1, 0))};
+  double leaked[2];
+  for (const int resolution : {64, 128}) {
+    const Image shadowed = lit.sum(vpls, view, resolution);
+    const Image open = lit.sum(vpls, view, resolution, false);
+    ASSERT_GT(test::meanOf(open).r, 0.0f);
+    leaked[resolution / 128] = static_cast<double>(test::meanOf(shadowed).r / test::meanOf(open).r);
+    RecordProperty("leakPercent" + std::to_string(resolution),
+                   std::to_string(100.0 * leaked[resolution / 128]));
+    // No light but within two texels of the foot: a texel covers 2/resolution of the L1 distance.
+    const float reach = 2.0f * 2.0f / static_cast<float>(resolution) * (3.0f + 2.1f + 1.0f);
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        const vec3 d =
+            view.rayDirection(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        const vec3 at = view.eye - view.eye.y / d.y * d;
+        if (at.z < -2.1f - reach) {
+          ASSERT_EQ(shadowed.at(x, y).r, 0.0f) << at.x << " " << at.z;
+        }
+      }
+    }
+  }
+  EXPECT_LT(leaked[0], 0.001);  // measured: 0.00055
+  EXPECT_LT(leaked[1], 0.6 * leaked[0]);
+}
+
+}  // namespace
+}  // namespace lamplighter

@@ -1,0 +1,198 @@
+// The VPLs on their way: consistent in every frame, within the budget, as bright as they should be.
+#include "renderer/methods/many_lights/live_lights.h"
+
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/lit_scene.h"
+
+namespace lamplighter {
+namespace {
+
+// Remembers what each slot's map was rendered for.
+class RecordingBackend : public Backend {
+ public:
+  std::map<int, shared::Vpl> maps;
+  int rendered = 0;
+
+  const BackendInfo& info() const override { return info_; }
+  KernelCounts counts() const override { return {}; }
+  void setScene(const RenderScene&, const RenderSceneChanges&, const RayCaster&) override {}
+  void reserveShadowMaps(int, int) override {}
+  void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
+    for (const shared::Vpl& v : vpls) maps[static_cast<int>(v.intensity.w)] = v;
+    rendered += static_cast<int>(vpls.size());
+  }
+  void renderGBuffer(const View&, vec2) override {}
+  void sumVpls(std::span<const shared::Vpl>, const shared::ShadingParams&) override {}
+  std::shared_ptr<RadianceImage> compose() override { return nullptr; }
+  std::vector<float> readShadowMap(int) override { return {}; }
+  Image readNormals() override { return {}; }
+  Image readAlbedo() override { return {}; }
+  void finish() override {}
+
+ private:
+  BackendInfo info_;
+};
+
+std::vector<SceneVpl> samples(NodeId light, uint32_t count, float flux, float x) {
+  std::vector<SceneVpl> vpls;
+  for (uint32_t i = 0; i < count; ++i) {
+    SceneVpl v;
+    v.vpl = test::makeVpl(vec3(x, static_cast<float>(i), 0), vec3(0, -1, 0));
+    v.vpl.intensity = vec4(vec3(flux / static_cast<float>(count)), -1.0f);
+    v.id = {light, 0, 0, i};
+    vpls.push_back(v);
+  }
+  return vpls;
+}
+
+class LiveLightsTest : public testing::Test {
+ protected:
+  // Every VPL shown stands where its map was rendered, in a slot of its own.
+  float checkedSum() {
+    float sum = 0.0f;
+    std::map<int, int> uses;
+    for (const shared::Vpl& v : lights.shown()) {
+      const int slot = static_cast<int>(v.intensity.w);
+      EXPECT_GE(slot, 0);
+      EXPECT_LT(slot, lights.slots());
+      EXPECT_EQ(++uses[slot], 1);
+      const auto it = backend.maps.find(slot);
+      EXPECT_NE(it, backend.maps.end());
+      if (it == backend.maps.end()) continue;
+      EXPECT_EQ(v.position, it->second.position);
+      EXPECT_EQ(v.normal, it->second.normal);
+      EXPECT_EQ(v.tangent, it->second.tangent);
+      sum += v.intensity.r;
+    }
+    return sum;
+  }
+
+  // Refreshes until nothing is pending; in each frame the flux is what it should be.
+  int settle(int budget, float flux) {
+    int frames = 0;
+    for (; lights.pending() > 0 && frames < 1000; ++frames) {
+      const int before = lights.pending(), done = lights.refresh(backend, budget);
+      EXPECT_LE(done, budget);
+      EXPECT_EQ(lights.pending(), before - done);
+      EXPECT_NEAR(checkedSum(), flux, 1e-4f * flux);
+    }
+    return frames;
+  }
+
+  RecordingBackend backend;
+  LiveLights lights;
+};
+
+TEST_F(LiveLightsTest, FillsUnderTheBudgetAtFullBrightness) {
+  lights.want(samples(1, 100, 5.0f, 0.0f));
+  EXPECT_EQ(lights.live(), 0);
+  EXPECT_EQ(settle(30, 5.0f), 4);
+  EXPECT_EQ(backend.rendered, 100);
+  EXPECT_EQ(lights.live(), 100);
+}
+
+TEST_F(LiveLightsTest, AMoveShowsOldAndNewVplsEachWhole) {
+  lights.want(samples(1, 100, 5.0f, 0.0f));
+  settle(100, 5.0f);
+  lights.want(samples(1, 100, 5.0f, 7.0f));
+  EXPECT_EQ(lights.pending(), 100);
+  lights.refresh(backend, 40);
+  const auto shown = lights.shown();
+  ASSERT_EQ(shown.size(), 100u);
+  EXPECT_EQ(std::count_if(shown.begin(), shown.end(),
+                          [](const shared::Vpl& v) { return v.position.x == 7.0f; }),
+            40);
+  EXPECT_NEAR(checkedSum(), 5.0f, 1e-3f);
+  EXPECT_EQ(settle(40, 5.0f), 2);
+}
+
+TEST_F(LiveLightsTest, BrightnessAloneNeedsNoMap) {
+  lights.want(samples(1, 20, 5.0f, 0.0f));
+  settle(100, 5.0f);
+  lights.clearChanged();
+  lights.want(samples(1, 20, 8.0f, 0.0f));
+  EXPECT_TRUE(lights.changed());
+  EXPECT_EQ(lights.pending(), 0);
+  EXPECT_NEAR(checkedSum(), 8.0f, 1e-4f);
+  EXPECT_EQ(backend.rendered, 20);
+  lights.clearChanged();
+  lights.want(samples(1, 20, 8.0f, 0.0f));
+  EXPECT_FALSE(lights.changed());
+}
+
+TEST_F(LiveLightsTest, TheNumberOfSamplesChangesWithoutAJump) {
+  lights.want(samples(1, 70, 5.0f, 0.0f));
+  settle(100, 5.0f);
+  lights.want(samples(1, 90, 5.0f, 0.0f));  // more
+  EXPECT_EQ(lights.pending(), 20);
+  EXPECT_NEAR(checkedSum(), 5.0f, 1e-3f);  // before any of the new ones
+  settle(25, 5.0f);
+  lights.want(samples(1, 60, 5.0f, 0.0f));  // fewer: nothing to wait for
+  EXPECT_EQ(lights.pending(), 0);
+  EXPECT_NEAR(checkedSum(), 5.0f, 1e-3f);
+  // Far more: the maps must be reserved anew, but every frame is as bright as before.
+  lights.want(samples(1, 500, 5.0f, 0.0f));
+  EXPECT_EQ(settle(100, 5.0f), 5);
+  lights.want(samples(1, 3, 5.0f, 0.0f));
+  EXPECT_EQ(settle(100, 5.0f), 1);
+}
+
+TEST_F(LiveLightsTest, LightsComeAndGo) {
+  auto both = samples(1, 40, 5.0f, 0.0f);
+  const auto second = samples(2, 20, 3.0f, 1.0f);
+  both.insert(both.end(), second.begin(), second.end());
+  lights.want(samples(1, 40, 5.0f, 0.0f));
+  settle(100, 5.0f);
+  lights.want(both);
+  EXPECT_EQ(lights.pending(), 20);
+  settle(100, 8.0f);
+  lights.want(second);
+  EXPECT_EQ(lights.pending(), 0);
+  EXPECT_NEAR(checkedSum(), 3.0f, 1e-3f);
+  lights.want({});
+  EXPECT_TRUE(lights.shown().empty());
+}
+
+TEST_F(LiveLightsTest, OnlyMapsThatSeeTheMoverAreRefreshed) {
+  lights.want(samples(1, 10, 5.0f, 0.0f));  // at heights 0 to 9, looking down
+  settle(100, 5.0f);
+  const Bounds box{vec3(-1, 6.5f, -1), vec3(1, 6.8f, 1)};
+  lights.markStale(std::vector<MoverFinder::Mover>{{box, box}});
+  EXPECT_EQ(lights.pending(), 3);
+  settle(100, 5.0f);
+  EXPECT_EQ(backend.rendered, 13);
+}
+
+TEST_F(LiveLightsTest, LostMapsAreNotShown) {
+  lights.want(samples(1, 10, 5.0f, 0.0f));
+  settle(100, 5.0f);
+  lights.loseMaps();
+  EXPECT_TRUE(lights.shown().empty());
+  EXPECT_EQ(settle(4, 5.0f), 3);
+}
+
+// Everything goes stale in every frame, as while an object is dragged: all come to their turn.
+TEST_F(LiveLightsTest, NoneStarvesWhileAnObjectMoves) {
+  auto wanted = samples(1, 30, 300.0f, 0.0f);
+  const auto dim = samples(2, 10, 1.0f, 3.0f);
+  wanted.insert(wanted.end(), dim.begin(), dim.end());
+  lights.want(wanted);
+  settle(100, 301.0f);
+  const Bounds everywhere{vec3(-99), vec3(99)};
+  int oldest = 0;
+  for (int frame = 0; frame < 1500; ++frame) {
+    lights.markStale(std::vector<MoverFinder::Mover>{{everywhere, everywhere}});
+    EXPECT_EQ(lights.refresh(backend, 10), 10);
+    oldest = std::max(oldest, lights.oldestFrames());
+  }
+  // The dim ones have a hundredth of the others' brightness, which come round every three frames.
+  EXPECT_GT(oldest, 100);
+  EXPECT_LT(oldest, 600);
+}
+
+}  // namespace
+}  // namespace lamplighter

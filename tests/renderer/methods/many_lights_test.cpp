@@ -1,0 +1,230 @@
+// many_lights as a whole, on the cpu backend.
+#include "renderer/methods/many_lights/many_lights.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+using test::lookAt;
+using test::renderSettled;
+using test::sameBits;
+
+Settings settingsOf(int vpls, int bounces, int updates, int antialias = 1) {
+  Settings s;
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::bounces().name, bounces);
+  s.set(parameters::updates().name, updates);
+  s.set(parameters::antialias().name, antialias);
+  s.set(parameters::mapResolution().name, 32);
+  return s;
+}
+
+struct Room {
+  Scene scene;
+  NodeId box, light;
+  View view = lookAt(vec3(2, 2.2f, 2.5f), vec3(-0.5f, 0.8f, -0.5f), 64, 48, 1.0f);
+
+  Room() {
+    const int white = test::addMaterial(scene, vec3(0.7f, 0.6f, 0.5f));
+    test::addMesh(scene, test::boxMesh(vec3(6, 4, 6), white), vec3(0, 2, 0));
+    box = test::addMesh(scene, test::boxMesh(vec3(1), white), vec3(0, 0.5f, 0));
+    light = test::addRectangleLight(scene, vec3(-0.5f, 3.5f, 0.5f), vec2(1, 0.6f), vec3(10, 8, 6));
+  }
+};
+
+// Direct light of 1024 VPLs against the polygon's form factor, E = π L F, where nothing is in the
+// way.
+TEST(ManyLights, DirectLightIsThePolygonsFormFactor) {
+  Scene scene;
+  const int material = test::addMaterial(scene, vec3(0.6f));
+  test::addMesh(scene, test::squareMesh(10.0f, material));
+  test::addRectangleLight(scene, vec3(0.5f, 2.0f, -0.3f), vec2(1.5f, 0.8f), vec3(7.0f));
+  const std::vector<vec3> polygon{
+      {-0.25f, 2, -0.7f}, {1.25f, 2, -0.7f}, {1.25f, 2, 0.1f}, {-0.25f, 2, 0.1f}};
+  for (const vec3& x : {vec3(0), vec3(0.5f, 0, -0.3f), vec3(-2, 0, 1), vec3(3, 0, 3)}) {
+    const View view = lookAt(x + vec3(0.3f, 1.0f, 0.4f), x, 8, 8, 0.01f);
+    FrameRenderer renderer(makeCpuBackend());
+    const GiOutput out =
+        renderSettled(renderer, scene, SceneChanges::all(), view, settingsOf(1024, 0, 1024));
+    const double expected = 0.6 * 7.0 * test::polygonFormFactor(x, vec3(0, 1, 0), polygon);
+    EXPECT_NEAR(static_cast<double>(test::meanOf(out.radiance->pixels()).r) / expected, 1.0, 1e-3)
+        << x.x;
+  }
+}
+
+// With bounces, against the path tracer; the clamp far below any distance that counts.
+TEST(ManyLights, AgreesWithThePathTracer) {
+  const Room room;
+  Settings settings = settingsOf(4096, 2, 4096, 2);
+  settings.set(parameters::mapResolution().name, 64);
+  FrameRenderer renderer(makeCpuBackend());
+  View view = room.view;
+  view.width = 40;
+  view.height = 30;
+  const GiOutput out = renderSettled(renderer, room.scene, SceneChanges::all(), view, settings);
+  const Image reference = test::renderReference(room.scene, view, 256, 2);
+  const vec3 a = test::meanOf(out.radiance->pixels()), b = test::meanOf(reference);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i] / b[i], 1.0f, 0.02f) << i;
+}
+
+TEST(ManyLights, KeepsTheBudgetAndSettles) {
+  Room room;
+  FrameRenderer renderer(makeCpuBackend());
+  const Settings settings = settingsOf(100, 1, 30);
+  const auto step = [&](const SceneChanges& changes) {
+    return renderer.render({room.scene, changes, room.view, "many_lights", settings});
+  };
+  GiOutput out = step(SceneChanges::all());
+  EXPECT_EQ(out.stats.mapsRendered, 30);
+  EXPECT_EQ(out.stats.vpls, 30);
+  EXPECT_EQ(out.stats.vplsPending, 70);
+  EXPECT_FALSE(out.settled);
+  EXPECT_EQ(step({}).stats.vplsPending, 40);
+  EXPECT_EQ(step({}).stats.vplsPending, 10);
+  out = step({});
+  EXPECT_TRUE(out.settled);
+  EXPECT_EQ(out.stats.mapsRendered, 10);
+  EXPECT_EQ(renderer.backend().counts().shadowMaps, 100u);
+
+  // Nothing to do: no work at all, the same picture.
+  const uint64_t sums = renderer.backend().counts().lightPixels;
+  const auto picture = out.radiance;
+  out = step({});
+  EXPECT_TRUE(out.settled);
+  EXPECT_EQ(out.radiance, picture);
+  EXPECT_EQ(renderer.backend().counts().lightPixels, sums);
+  EXPECT_EQ(renderer.backend().counts().shadowMaps, 100u);
+
+  // Another view: the sums alone.
+  room.view.eye.x += 0.1f;
+  EXPECT_TRUE(step({}).settled);
+  EXPECT_GT(renderer.backend().counts().lightPixels, sums);
+  EXPECT_EQ(renderer.backend().counts().shadowMaps, 100u);
+}
+
+// The light moves: each frame's pixels lie between what the old and the new VPLs give, all told,
+// and the picture comes to rest.
+TEST(ManyLights, AMoveNeverFlickers) {
+  Room room;
+  FrameRenderer renderer(makeCpuBackend());
+  const Settings settings = settingsOf(120, 0, 17);
+  const float before =
+      test::meanOf(renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings)
+                       .radiance->pixels())
+          .g;
+  const Scene old = room.scene;
+  room.scene.find(room.light)->local.translation += vec3(1.2f, -0.8f, -1.0f);
+  std::vector<float> means;
+  SceneChanges changes = compare(old, room.scene);
+  for (int frame = 0; frame < 8; ++frame) {
+    const GiOutput out = renderer.render({room.scene, changes, room.view, "many_lights", settings});
+    changes = {};
+    means.push_back(test::meanOf(out.radiance->pixels()).g);
+    EXPECT_EQ(out.settled, frame == 7);
+  }
+  const float after = means.back();
+  ASSERT_GT(std::abs(after - before), 0.02f * before);
+  // The light's own surface shows at its new place at once; what it lights follows by sevenths.
+  const float slack = 0.05f * before;
+  for (const float mean : means) {
+    EXPECT_GT(mean, std::min(before, after) - slack);
+    EXPECT_LT(mean, std::max(before, after) + slack);
+  }
+}
+
+// However it came about, a settled picture is the one that the scene has when opened afresh.
+TEST(ManyLights, SettledAfterManyMovesEqualsAFreshStart) {
+  Room room;
+  FrameRenderer renderer(makeCpuBackend());
+  const Settings settings = settingsOf(90, 2, 20, 2);
+  SceneChanges changes = SceneChanges::all();
+  NodeId second = kNoNode;
+  for (int move = 0; move < 12; ++move) {
+    // Not settled in between.
+    renderer.render({room.scene, changes, room.view, "many_lights", settings});
+    const Scene old = room.scene;
+    const float t = static_cast<float>(move);
+    if (move % 3 == 0) room.scene.find(room.light)->local.translation.x += 0.1f * t;
+    if (move % 3 == 1) room.scene.find(room.box)->local.translation.z -= 0.07f * t;
+    if (move == 5) {
+      second = test::addRectangleLight(room.scene, vec3(1, 2, -1), vec2(0.4f), vec3(3, 9, 3));
+    }
+    if (move == 8) room.scene.find(second)->area->radiance = vec3(1, 5, 2);
+    if (move == 9) room.view.eye.y += 0.2f;
+    if (move == 10) room.scene.find(room.light)->visible = false;
+    if (move == 11) room.scene.find(room.light)->visible = true;
+    changes = compare(old, room.scene);
+  }
+  const GiOutput moved = renderSettled(renderer, room.scene, changes, room.view, settings);
+  FrameRenderer fresh(makeCpuBackend());
+  const GiOutput opened =
+      renderSettled(fresh, room.scene, SceneChanges::all(), room.view, settings);
+  EXPECT_EQ(moved.stats.vpls, opened.stats.vpls);
+  EXPECT_TRUE(sameBits(moved.radiance->pixels(), opened.radiance->pixels()));
+}
+
+// Undone, the picture comes back; the settings too.
+TEST(ManyLights, SettingsThereAndBackGiveTheSameBits) {
+  const Room room;
+  FrameRenderer renderer(makeCpuBackend());
+  Settings settings = settingsOf(60, 1, 50, 3);
+  const Image first = renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings)
+                          .radiance->pixels();
+  const auto differs = [&](const ParameterSpec& spec, const ParameterValue& value) {
+    const Settings before = settings;
+    settings.set(spec.name, value);
+    const Image changed =
+        renderSettled(renderer, room.scene, {}, room.view, settings).radiance->pixels();
+    EXPECT_FALSE(sameBits(first, changed)) << spec.name;
+    settings = before;
+    const Image back =
+        renderSettled(renderer, room.scene, {}, room.view, settings).radiance->pixels();
+    EXPECT_TRUE(sameBits(first, back)) << spec.name;
+  };
+  differs(parameters::vpls(), 200);
+  differs(parameters::directShare(), 0.9f);
+  differs(parameters::bounces(), 3);
+  differs(parameters::seed(), 7);
+  differs(parameters::mapResolution(), 17);
+  differs(parameters::clampDistance(), 1.5f);
+  differs(parameters::shadowBias(), 0.1f);
+  differs(parameters::antialias(), 1);
+}
+
+TEST(ManyLights, TheSameBitsAtAnyNumberOfThreads) {
+  const Room room;
+  std::vector<Image> images;
+  for (const size_t threads : {1u, 2u, 5u}) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    FrameRenderer renderer(makeCpuBackend());
+    images.push_back(renderSettled(renderer, room.scene, SceneChanges::all(), room.view,
+                                   settingsOf(80, 2, 33, 2))
+                         .radiance->pixels());
+  }
+  EXPECT_TRUE(sameBits(images[0], images[1]));
+  EXPECT_TRUE(sameBits(images[0], images[2]));
+}
+
+TEST(ManyLights, ASceneWithoutLightIsBlackAndSettles) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(2.0f));
+  FrameRenderer renderer(makeCpuBackend());
+  const View view = lookAt(vec3(0, 3, 1), vec3(0), 8, 8);
+  const GiOutput out =
+      renderSettled(renderer, scene, SceneChanges::all(), view, settingsOf(10, 1, 10));
+  EXPECT_EQ(test::meanOf(out.radiance->pixels()), vec3(0.0f));
+  Scene empty;
+  FrameRenderer none(makeCpuBackend());
+  renderSettled(none, empty, SceneChanges::all(), view, settingsOf(10, 1, 10));
+}
+
+}  // namespace
+}  // namespace lamplighter

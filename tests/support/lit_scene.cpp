@@ -1,0 +1,52 @@
+#include "tests/support/lit_scene.h"
+
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+namespace lamplighter::test {
+
+LitScene::LitScene(const Scene& scene) : backend(makeCpuBackend()) {
+  const RenderSceneChanges changes = update(render, scene, SceneChanges::all());
+  rays = std::make_unique<RayCaster>(render);
+  backend->setScene(render, changes, *rays);
+}
+
+Image LitScene::sum(std::vector<shared::Vpl> vpls, const View& view, int resolution, bool shadows,
+                    float clampDistance, float bias) {
+  backend->reserveShadowMaps(static_cast<int>(vpls.size()), resolution);
+  for (size_t i = 0; i < vpls.size(); ++i) {
+    vpls[i].intensity.w = shadows ? static_cast<float>(i) : -1.0f;
+  }
+  if (shadows) backend->renderShadowMaps(vpls);
+  backend->renderGBuffer(view, vec2(0.0f));
+  backend->sumVpls(vpls, {vec4(clampDistance, bias, resolution, vpls.size())});
+  return backend->compose()->pixels();
+}
+
+shared::Vpl makeVpl(const vec3& position, const vec3& normal, float kind, float angle) {
+  const vec3 n = glm::normalize(normal);
+  const Frame frame(n);
+  const vec3 tangent = std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent;
+  return {vec4(position, kind), vec4(n, 0.0f), vec4(glm::normalize(tangent), 1.0f),
+          vec4(1.0f, 1.0f, 1.0f, 0.0f)};
+}
+
+GiOutput renderSettled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
+                       const View& view, const Settings& settings, int limit) {
+  GiOutput out;
+  for (int frame = 0; frame < limit; ++frame) {
+    out = renderer.render(
+        {scene, frame == 0 ? changes : SceneChanges(), view, "many_lights", settings});
+    if (out.settled) return out;
+  }
+  ADD_FAILURE() << "not settled after " << limit << " frames";
+  return out;
+}
+
+bool sameBits(const Image& a, const Image& b) {
+  return a.width == b.width && a.height == b.height &&
+         std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(vec3)) == 0;
+}
+
+}  // namespace lamplighter::test

@@ -1,0 +1,34 @@
+// A scene brought to the cpu backend, for tests of kernels.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+
+namespace lamplighter::test {
+
+struct LitScene {
+  explicit LitScene(const Scene& scene);
+
+  // The picture under these VPLs alone, with or without their shadow maps.
+  Image sum(std::vector<shared::Vpl> vpls, const View& view, int resolution, bool shadows = true,
+            float clampDistance = 0.0f, float bias = 0.002f);
+
+  RenderScene render;
+  std::unique_ptr<RayCaster> rays;
+  std::unique_ptr<Backend> backend;
+};
+
+// A VPL of intensity 1 with its frame turned by `angle` about its axis.
+shared::Vpl makeVpl(const vec3& position, const vec3& normal, float kind = shared::kVplCosine,
+                    float angle = 0.3f);
+
+// Renders frames until settled; `limit` frames at most, then fails the test.
+GiOutput renderSettled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
+                       const View& view, const Settings& settings, int limit = 1000);
+
+bool sameBits(const Image& a, const Image& b);
+
+}  // namespace lamplighter::test
