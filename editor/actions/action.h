@@ -14,10 +14,10 @@ namespace lamplighter {
 class Session;
 
 struct Action {
-  std::string name;   // "light.add"
-  std::string label;  // "Add area light"
-  std::string usage;  // arguments: "rectangle|disk|sphere"
-  std::string help;   // one sentence
+  std::string name;      // "light.add"
+  std::string label;     // "Add area light"
+  std::string usage;     // arguments: "rectangle|disk|sphere"
+  std::string help;      // one sentence
   std::string shortcut;  // "Ctrl+D", "" for none; rebindable
   std::function<void(Session&, const std::vector<std::string>& arguments)> run;
   std::function<bool(const Session&)> enabled;  // null: always

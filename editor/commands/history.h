@@ -1,6 +1,7 @@
 // Undo and redo without limit.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,12 +42,15 @@ class History {
     std::string label;
     std::vector<std::unique_ptr<Command>> commands;
   };
+  void push(Step step);
+
   Document& document_;
   std::vector<Step> steps_;
   size_t done_ = 0;
   std::unique_ptr<Step> open_;
   Scene shown_;         // the scene as of the last takeChanges()
-  bool first_ = true;
+  bool first_ = true;   // nothing was shown yet: everything is new
+  bool dirty_ = false;  // something was done since the last takeChanges()
 };
 
 }  // namespace lamplighter

@@ -1,5 +1,5 @@
-// What is being edited: scene, selection, settings, and where it came from. Changed by commands only
-// (editor/commands), except the selection, which is no change to the work.
+// What is being edited: scene, selection, settings, and where it came from. Changed by commands
+// only (editor/commands), except the selection, which is no change to the work.
 #pragma once
 
 #include <cstdint>

@@ -14,12 +14,78 @@ enum class EventKind : uint8_t { pointer, button, wheel, key, text, action };
 // Names are what recordings hold: letters and digits as themselves, others as listed in event.cpp.
 enum class Key : uint8_t {
   none,
-  a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
-  n0, n1, n2, n3, n4, n5, n6, n7, n8, n9,
-  f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12,
-  escape, enter, tab, backspace, insert, del, left, right, up, down, pageUp, pageDown, home, end,
-  space, minus, equal, comma, period, slash,
-  shift, ctrl, alt, super,
+  a,
+  b,
+  c,
+  d,
+  e,
+  f,
+  g,
+  h,
+  i,
+  j,
+  k,
+  l,
+  m,
+  n,
+  o,
+  p,
+  q,
+  r,
+  s,
+  t,
+  u,
+  v,
+  w,
+  x,
+  y,
+  z,
+  n0,
+  n1,
+  n2,
+  n3,
+  n4,
+  n5,
+  n6,
+  n7,
+  n8,
+  n9,
+  f1,
+  f2,
+  f3,
+  f4,
+  f5,
+  f6,
+  f7,
+  f8,
+  f9,
+  f10,
+  f11,
+  f12,
+  escape,
+  enter,
+  tab,
+  backspace,
+  insert,
+  del,
+  left,
+  right,
+  up,
+  down,
+  pageUp,
+  pageDown,
+  home,
+  end,
+  space,
+  minus,
+  equal,
+  comma,
+  period,
+  slash,
+  shift,
+  ctrl,
+  alt,
+  super,
   count
 };
 
@@ -34,11 +100,11 @@ struct InputEvent {
   // else a widget by its registered name, with x and y in [0, 1] across it.
   std::string target;
   vec2 position{0.0f};
-  int button = 0;      // 0 left, 1 right, 2 middle
-  bool down = false;   // button, key
-  vec2 wheel{0.0f};    // notches
+  int button = 0;     // 0 left, 1 right, 2 middle
+  bool down = false;  // button, key
+  vec2 wheel{0.0f};   // notches
   Key key = Key::none;
-  std::string text;    // text: UTF-8; action: the action's text, "light.add rectangle"
+  std::string text;  // text: UTF-8; action: the action's text, "light.add rectangle"
   bool operator==(const InputEvent&) const = default;
 };
 

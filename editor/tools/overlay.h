@@ -1,4 +1,5 @@
-// Lines and marks that tools and views ask the ui to draw over the viewport. Viewport pixels, y down.
+// Lines and marks that tools and views ask the ui to draw over the viewport. Viewport pixels, y
+// down.
 #pragma once
 
 #include <string>

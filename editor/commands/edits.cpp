@@ -1,0 +1,140 @@
+#include "editor/commands/edits.h"
+
+#include <algorithm>
+#include <map>
+
+namespace lamplighter {
+
+EditNodes::EditNodes(std::string label, const Document& document, std::vector<Node> after)
+    : label_(std::move(label)) {
+  for (Node& node : after) {
+    const Node* now = document.scene.find(node.id);
+    if (now == nullptr) continue;
+    before_.push_back(*now);
+    after_.push_back(std::move(node));
+  }
+}
+
+void EditNodes::put(Document& document, const std::vector<Node>& nodes) {
+  for (const Node& node : nodes) {
+    if (Node* now = document.scene.find(node.id)) *now = node;
+  }
+}
+
+bool EditNodes::absorb(const Command& later) {
+  const auto* other = dynamic_cast<const EditNodes*>(&later);
+  const auto sameId = [](const Node& a, const Node& b) { return a.id == b.id; };
+  if (other == nullptr || !std::equal(after_.begin(), after_.end(), other->after_.begin(),
+                                      other->after_.end(), sameId)) {
+    return false;
+  }
+  after_ = other->after_;
+  return true;
+}
+
+EditMaterial::EditMaterial(const Document& document, int index, Material after)
+    : index_(index),
+      before_(document.scene.materials[static_cast<size_t>(index)]),
+      after_(std::move(after)) {}
+
+std::string EditMaterial::label() const { return "Change material " + after_.name; }
+
+bool EditMaterial::absorb(const Command& later) {
+  const auto* other = dynamic_cast<const EditMaterial*>(&later);
+  if (other == nullptr || other->index_ != index_) return false;
+  after_ = other->after_;
+  return true;
+}
+
+EditRender::EditRender(const Document& document, RenderSettings after)
+    : before_(document.render), after_(std::move(after)) {}
+
+bool EditRender::absorb(const Command& later) {
+  const auto* other = dynamic_cast<const EditRender*>(&later);
+  if (other == nullptr) return false;
+  after_ = other->after_;
+  return true;
+}
+
+void AddNodes::apply(Document& document) {
+  document.scene.nodes.insert(document.scene.nodes.end(), nodes_.begin(), nodes_.end());
+}
+
+void AddNodes::revert(Document& document) {
+  // They stand at the end: whatever came after them was undone before.
+  document.scene.nodes.resize(document.scene.nodes.size() - nodes_.size());
+}
+
+namespace {
+
+// For each node of the scene whether it is one of `ids` or hangs below one.
+std::vector<bool> withDescendants(const Scene& scene, const std::vector<NodeId>& ids) {
+  std::vector<NodeId> taken(ids);
+  std::sort(taken.begin(), taken.end());
+  std::vector<bool> in(scene.nodes.size());
+  for (size_t i = 0; i < scene.nodes.size(); ++i) {  // parents come first
+    const Node& n = scene.nodes[i];
+    in[i] = std::binary_search(taken.begin(), taken.end(), n.id) ||
+            (n.parent != kNoNode && std::binary_search(taken.begin(), taken.end(), n.parent));
+    if (in[i]) taken.insert(std::lower_bound(taken.begin(), taken.end(), n.id), n.id);
+  }
+  return in;
+}
+
+}  // namespace
+
+DeleteNodes::DeleteNodes(const Document& document, const std::vector<NodeId>& ids) {
+  const std::vector<bool> gone = withDescendants(document.scene, ids);
+  for (size_t i = 0; i < gone.size(); ++i) {
+    if (gone[i]) removed_.emplace_back(i, document.scene.nodes[i]);
+  }
+}
+
+std::string DeleteNodes::label() const {
+  return removed_.size() == 1 ? "Delete " + removed_.front().second.name : "Delete objects";
+}
+
+void DeleteNodes::apply(Document& document) {
+  std::vector<Node>& nodes = document.scene.nodes;
+  for (auto r = removed_.rbegin(); r != removed_.rend(); ++r)
+    nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(r->first));
+}
+
+void DeleteNodes::revert(Document& document) {
+  std::vector<Node>& nodes = document.scene.nodes;
+  for (const auto& [index, node] : removed_)
+    nodes.insert(nodes.begin() + static_cast<std::ptrdiff_t>(index), node);
+}
+
+Copies copyNodes(Scene& scene, const std::vector<NodeId>& ids) {
+  const std::vector<NodeId> roots = topmost(scene, ids);
+  const std::vector<bool> copied = withDescendants(scene, roots);
+  Copies out;
+  std::map<NodeId, NodeId> newId;
+  for (size_t i = 0; i < copied.size(); ++i) {
+    if (!copied[i]) continue;
+    Node n = scene.nodes[i];
+    newId[n.id] = scene.nextId;
+    if (std::find(roots.begin(), roots.end(), n.id) != roots.end())
+      out.roots.push_back(scene.nextId);
+    n.id = scene.nextId++;
+    if (const auto parent = newId.find(n.parent); parent != newId.end()) n.parent = parent->second;
+    out.nodes.push_back(std::move(n));
+  }
+  return out;
+}
+
+std::vector<NodeId> topmost(const Scene& scene, const std::vector<NodeId>& ids) {
+  std::vector<NodeId> out;
+  for (const Node& n : scene.nodes) {
+    if (std::find(ids.begin(), ids.end(), n.id) == ids.end()) continue;
+    bool below = false;
+    for (const Node* p = scene.find(n.parent); p != nullptr && !below; p = scene.find(p->parent)) {
+      below = std::find(ids.begin(), ids.end(), p->id) != ids.end();
+    }
+    if (!below) out.push_back(n.id);
+  }
+  return out;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,88 @@
+#include "editor/document/document.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace lamplighter {
+
+namespace {
+
+// FNV-1a, 64 bits, over the values' bytes in a fixed order; no padding and no pointers go in, so
+// the hash is the same on every machine.
+class Hasher {
+ public:
+  void bytes(const void* data, size_t size) {
+    const auto* p = static_cast<const uint8_t*>(data);
+    for (size_t i = 0; i < size; ++i) hash_ = (hash_ ^ p[i]) * 0x100000001b3ull;
+  }
+  void add(uint32_t v) {
+    for (int i = 0; i < 4; ++i, v >>= 8) {
+      const auto byte = static_cast<uint8_t>(v);
+      bytes(&byte, 1);
+    }
+  }
+  void add(int v) { add(static_cast<uint32_t>(v)); }
+  void add(bool v) { add(v ? 1u : 0u); }
+  void add(float v) { add(std::bit_cast<uint32_t>(v == 0.0f ? 0.0f : v)); }  // −0 is 0
+  void add(const std::string& s) {
+    add(static_cast<uint32_t>(s.size()));
+    bytes(s.data(), s.size());
+  }
+  void add(const vec2& v) { add(v.x), add(v.y); }
+  void add(const vec3& v) { add(v.x), add(v.y), add(v.z); }
+  void add(const vec4& v) { add(v.x), add(v.y), add(v.z), add(v.w); }
+  void add(const TextureRef& r) {
+    add(r.texture), add(r.texCoord), add(r.offset), add(r.rotation), add(r.scale);
+  }
+  uint64_t value() const { return hash_; }
+
+ private:
+  uint64_t hash_ = 0xcbf29ce484222325ull;
+};
+
+void addNode(Hasher& h, const Node& n) {
+  h.add(n.id), h.add(n.name), h.add(n.parent);
+  h.add(n.local.translation), h.add(n.local.scale), h.add(n.local.shear);
+  const quat& q = n.local.rotation;
+  h.add(vec4(q.x, q.y, q.z, q.w));
+  h.add(n.mesh), h.add(n.camera), h.add(n.visible);
+  h.add(n.punctual.has_value());
+  if (n.punctual) {
+    const PunctualLight& l = *n.punctual;
+    h.add(static_cast<int>(l.kind)), h.add(l.intensity), h.add(l.range), h.add(l.innerCone),
+        h.add(l.outerCone);
+  }
+  h.add(n.area.has_value());
+  if (n.area) h.add(static_cast<int>(n.area->shape)), h.add(n.area->radiance), h.add(n.area->size);
+}
+
+void addMaterial(Hasher& h, const Material& m) {
+  h.add(m.name), h.add(m.baseColor), h.add(m.baseColorTexture), h.add(m.normalTexture),
+      h.add(m.normalScale);
+  h.add(m.emissive), h.add(m.emissiveTexture), h.add(m.metallic), h.add(m.roughness),
+      h.add(m.transmission);
+  h.add(static_cast<int>(m.alphaMode)), h.add(m.alphaCutoff), h.add(m.doubleSided);
+}
+
+}  // namespace
+
+bool Document::isSelected(NodeId id) const {
+  return std::find(selection.begin(), selection.end(), id) != selection.end();
+}
+
+uint64_t documentHash(const Document& d) {
+  Hasher h;
+  h.add(static_cast<uint32_t>(d.scene.nodes.size()));
+  for (const Node& n : d.scene.nodes) addNode(h, n);
+  h.add(static_cast<uint32_t>(d.scene.materials.size()));
+  for (const Material& m : d.scene.materials) addMaterial(h, m);
+  h.add(d.scene.sky);
+  h.add(d.render.method), h.add(d.render.exposureEv);
+  for (const auto& [name, value] : d.render.values.values()) {
+    h.add(name);
+    h.add(Settings::format(value));
+  }
+  return h.value();
+}
+
+}  // namespace lamplighter
