@@ -24,6 +24,8 @@ GiOutput FrameRenderer::render(const Request& request) {
   if (!method_ || methodName_ != request.method) {
     method_ = findMethod(request.method).make();
     methodName_ = request.method;
+  } else if (request.changes.everything) {
+    method_->reset();  // another scene: nothing of the last one may show in it
   }
   return method_->render(
       {scene_, changes, *rays_, request.view, *backend_, request.settings, frame_++, stopwatch_});

@@ -1,0 +1,56 @@
+// many_lights against pictures of the Cornell box from an independent renderer.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "renderer/image/image_io.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/lit_scene.h"
+
+namespace lamplighter {
+namespace {
+
+const std::filesystem::path kReferences =
+    std::filesystem::path(LAMPLIGHTER_SHARED_DIR) / "references";
+
+Metrics compareCornell(const std::string& name, int vpls, int bounces) {
+  const Scene scene = loadGltf(kReferences / "scenes" / (name + ".gltf")).scene;
+  Settings settings;
+  settings.set(parameters::vpls().name, vpls);
+  settings.set(parameters::bounces().name, bounces);
+  settings.set(parameters::updates().name, vpls);
+  View view;
+  for (const Node& node : scene.nodes) {
+    if (node.camera != kNone) view = viewOfCamera(scene, node, 512, 384);
+  }
+  FrameRenderer renderer(makeCpuBackend());
+  const GiOutput out = test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+  const auto file = name + "_b" + std::to_string(bounces) + ".exr";
+  const Image reference = readImage(kReferences / "refs" / file);
+  const Image mask = readImage(kReferences / "refs" / (name + "_mask.exr"));
+  return compareImages(out.radiance->pixels(), reference, &mask);
+}
+
+TEST(ManyLightsCornell, DirectLightOf1024VplsIsWithinFivePercent) {
+  if (!std::filesystem::exists(kReferences)) GTEST_SKIP() << "no " << kReferences;
+  for (const char* name : {"cornell", "cornell_lightmoved"}) {
+    const Metrics m = compareCornell(name, 1024, 0);
+    RecordProperty(name, std::to_string(m.relRmse));
+    EXPECT_LT(m.relRmse, 0.05) << name;
+    EXPECT_LT(std::abs(m.bias - 1.0), 0.005) << name;
+  }
+}
+
+// One bounce more: what is left is the noise of 512 bounced samples, the clamp, and the maps.
+TEST(ManyLightsCornell, OneBounceKeepsTheBrightness) {
+  if (!std::filesystem::exists(kReferences)) GTEST_SKIP() << "no " << kReferences;
+  const Metrics m = compareCornell("cornell", 1024, 1);
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  EXPECT_LT(m.relRmse, 0.10);
+  EXPECT_LT(std::abs(m.bias - 1.0), 0.02);
+}
+
+}  // namespace
+}  // namespace lamplighter
