@@ -16,6 +16,8 @@ namespace {
 constexpr uint32_t kPathsPerVpl = 16;
 // Dimension pairs of a path's points: where and whereto it leaves; those of bounce b > 0 follow.
 constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
+// A square around the scene, with what lies on its very edge.
+constexpr float kWholeScene = 1.0001f;
 constexpr uint32_t kDirectSet = 0x0d, kIndirectSet = 0x1d;
 
 float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
@@ -142,6 +144,7 @@ class Generator {
   SceneVpl& addDirectional(const vec3& towards, const vec3& irradiance) {
     SceneVpl& added = add(shared::kVplDirectional, lights_.sceneCentre(), towards, irradiance);
     added.vpl.normal.w = lights_.sceneRadius();
+    added.vpl.tangent.w = kWholeScene * lights_.sceneRadius();
     return added;
   }
 

@@ -12,10 +12,13 @@ SHARED_CONST float kVplDirectional = 2.0f;  // parallel light from +normal (sun,
 
 // All in world space. The shadow map's frame is (tangent, cross(normal, tangent), normal).
 struct Vpl {
-  vec4 position;   // xyz: place [m] (directional: middle of the scene); w: kind
+  vec4 position;   // xyz: place [m] (directional: middle of its square); w: kind
   vec4 normal;     // xyz: unit axis of the hemisphere lit (directional: towards the light);
-                   // w: spot: angular scale; directional: radius of the scene [m]
-  vec4 tangent;    // xyz: unit; w: spot: angular offset (no spot: scale 0, offset 1)
+                   // w: spot: angular scale; directional: R [m], all of the scene is within R of
+                   // the plane through its position
+  vec4 tangent;    // xyz: unit; w: spot: angular offset (no spot: scale 0, offset 1);
+                   // directional: S [m], it lights (and its map covers) only what is within ±S
+                   // along tangent and bitangent, so that a sun can be several squares
   vec4 intensity;  // rgb: on-axis intensity [W/sr], directional: irradiance [W/m²];
                    // w: slot of its shadow map, < 0: casts no shadow
 };

@@ -51,21 +51,22 @@ SHARED_FUNCTION bool hemisphereOccluded(float stored, vec3 q, vec3 n, vec2 centr
          stored * -dot(n, q) > (1.0f + bias) * -dot(n, e);
 }
 
-// Maps of directional VPLs: orthographic, [-1, 1]² is [-R, R]² along (tangent, bitangent) about the
-// scene's middle; stored is (h + R) / 2R, h the occluder's height along the normal, so that nearer
-// to the light is larger here too; 0: none.
-SHARED_FUNCTION vec2 directionalEncode(vec3 q, float radius) {
-  return vec2(q.x, q.y) * (1.0f / radius);
+// Maps of directional VPLs: orthographic, [-1, 1]² is [-S, S]² along (tangent, bitangent) about its
+// position; stored is (h + R) / 2R, h the occluder's height along the normal, so that nearer to the
+// light is larger here too; 0: none.
+SHARED_FUNCTION vec2 directionalEncode(Vpl vpl, vec3 q) {
+  return vec2(q.x, q.y) * (1.0f / vpl.tangent.w);
 }
 
-// bias is a share of the radius here.
-SHARED_FUNCTION bool directionalOccluded(float stored, vec3 q, vec3 n, vec2 centre, float radius,
+// bias and half a texel are shares of S here.
+SHARED_FUNCTION bool directionalOccluded(Vpl vpl, float stored, vec3 q, vec3 n, vec2 centre,
                                          float bias, float resolution) {
-  float above = (2.0f * stored - 1.0f - bias) * radius - q.z;  // of the occluder over the point
-  // and over the receiver's plane at the centre, × n.z > 0
-  float dx = centre.x * radius - q.x;
-  float dy = centre.y * radius - q.y;
-  return above > radius / resolution && above * n.z > -(n.x * dx + n.y * dy);
+  float side = vpl.tangent.w;
+  // Of the occluder over the point, and over the receiver's plane at the centre (× n.z > 0).
+  float above = (2.0f * stored - 1.0f) * vpl.normal.w - bias * side - q.z;
+  float dx = centre.x * side - q.x;
+  float dy = centre.y * side - q.y;
+  return above > side / resolution && above * n.z > -(n.x * dx + n.y * dy);
 }
 
 // E / I: irradiance at the point x with shading normal ns and geometric normal ng, both on the side
@@ -73,10 +74,15 @@ SHARED_FUNCTION bool directionalOccluded(float stored, vec3 q, vec3 n, vec2 cent
 // clampDistance bounds 1/d² of the VPLs that stand for a surface; that of a punctual light is real.
 SHARED_FUNCTION float vplGeometry(Vpl vpl, vec3 x, vec3 ns, vec3 ng, float clampDistance) {
   vec3 axis = vec3(vpl.normal);
-  if (vpl.position.w == kVplDirectional) {
-    return dot(ng, axis) > 0.0f ? max(dot(ns, axis), 0.0f) : 0.0f;
-  }
   vec3 v = x - vec3(vpl.position);
+  if (vpl.position.w == kVplDirectional) {
+    vec3 q = vplToLight(vpl, v);
+    float side = vpl.tangent.w;
+    if (q.x < -side || q.x >= side || q.y < -side || q.y >= side || dot(ng, axis) <= 0.0f) {
+      return 0.0f;
+    }
+    return max(dot(ns, axis), 0.0f);
+  }
   float z = dot(v, axis);
   float s = -dot(ns, v);
   if (z <= 0.0f || s <= 0.0f || -dot(ng, v) <= 0.0f) {

@@ -18,9 +18,8 @@ Ray hemisphereRay(const shared::Vpl& vpl, const mat3& frame, float tNear, vec2 c
 
 // The ray of an orthographic map's texel, from outside the scene against the light.
 Ray directionalRay(const shared::Vpl& vpl, const mat3& frame, vec2 centre) {
-  const float radius = vpl.normal.w;
-  return {vec3(vpl.position) + radius * (frame * vec3(centre, 1.0f)), 0.0f, -frame[2],
-          2.0f * radius};
+  const float radius = vpl.normal.w, side = vpl.tangent.w;
+  return {vec3(vpl.position) + frame * vec3(side * centre, radius), 0.0f, -frame[2], 2.0f * radius};
 }
 
 }  // namespace

@@ -76,19 +76,21 @@ HWY_INLINE Mask hemisphereOccluded(const LightRecord& light, const SumConstants&
   return hn::And(beforePoint, beforePlane);
 }
 
+// q: the point in the light's frame.
 HWY_INLINE Mask directionalOccluded(const LightRecord& light, const SumConstants& c,
-                                    const Vector3& v, const Vector3& geometric, Floats facing) {
-  const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent), z = dot(v, light.normal);
-  const Floats scale = all(1.0f / light.radius), radius = all(light.radius);
-  const Texel s = texelOf(hn::Mul(x, scale), c.resolution);
-  const Texel t = texelOf(hn::Mul(y, scale), c.resolution);
+                                    const Vector3& q, const Vector3& geometric, Floats facing) {
+  const float size = static_cast<float>(c.resolution);
+  const Floats side = all(light.side), inverse = all(1.0f / light.side);
+  const Texel s = texelOf(hn::Mul(q.x, inverse), c.resolution);
+  const Texel t = texelOf(hn::Mul(q.y, inverse), c.resolution);
   const Floats stored = fetch(light.map, c.resolution, s, t);
-  const Floats height = hn::MulSub(stored, all(2.0f), all(1.0f + c.bias));
-  const Floats above = hn::MulSub(height, radius, z);
-  const Floats dx = hn::MulSub(s.centre, radius, x), dy = hn::MulSub(t.centre, radius, y);
+  const Floats height =
+      hn::MulAdd(stored, all(2.0f * light.radius), all(-light.radius - c.bias * light.side));
+  const Floats above = hn::Sub(height, q.z);
+  const Floats dx = hn::MulSub(s.centre, side, q.x), dy = hn::MulSub(t.centre, side, q.y);
   const Floats slope =
       hn::MulAdd(dot(geometric, light.tangent), dx, hn::Mul(dot(geometric, light.bitangent), dy));
-  const Mask beforePoint = hn::Gt(above, all(light.radius / static_cast<float>(c.resolution)));
+  const Mask beforePoint = hn::Gt(above, all(light.side / size));
   const Mask beforePlane = hn::Gt(hn::MulAdd(above, facing, slope), hn::Zero(kTag));
   return hn::And(beforePoint, beforePlane);
 }
@@ -106,11 +108,15 @@ void addLight(const GBuffer& g, std::span<const size_t> packets, const LightReco
     Floats weight;
     Mask occluded = hn::MaskFromVec(hn::Zero(kTag));
     if constexpr (kKind == LightRecord::Kind::directional) {
+      const Vector3 q{dot(v, light.tangent), dot(v, light.bitangent), dot(v, light.normal)};
       const Floats s = dot(shading, light.normal), facing = dot(geometric, light.normal);
-      const Mask lit = hn::And(hn::Gt(s, zero), hn::Gt(facing, zero));
+      const Floats side = all(light.side);
+      const Mask within = hn::And(hn::And(hn::Ge(q.x, hn::Neg(side)), hn::Lt(q.x, side)),
+                                  hn::And(hn::Ge(q.y, hn::Neg(side)), hn::Lt(q.y, side)));
+      const Mask lit = hn::And(within, hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
       if (hn::AllFalse(kTag, lit)) continue;
       weight = hn::IfThenElseZero(lit, s);
-      if (light.map) occluded = directionalOccluded(light, c, v, geometric, facing);
+      if (light.map) occluded = directionalOccluded(light, c, q, geometric, facing);
     } else {
       const Floats z = dot(v, light.normal);
       const Floats s = hn::Neg(dot(shading, v)), facing = hn::Neg(dot(geometric, v));
@@ -155,7 +161,7 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
   light.bitangent = glm::cross(light.normal, light.tangent);
   light.intensity = vec3(vpl.intensity);
   light.coneScale = light.radius = vpl.normal.w;
-  light.coneOffset = vpl.tangent.w;
+  light.coneOffset = light.side = vpl.tangent.w;
   return light;
 }
 

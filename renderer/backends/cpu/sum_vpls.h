@@ -16,7 +16,7 @@ struct LightRecord {
   const float* map = nullptr;  // null: casts no shadow
   vec3 position, normal, tangent, bitangent, intensity;
   float coneScale = 0.0f, coneOffset = 1.0f;
-  float radius = 0.0f;
+  float radius = 0.0f, side = 1.0f;  // directional: R and S
 };
 
 struct SumConstants {

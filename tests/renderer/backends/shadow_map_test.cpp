@@ -78,14 +78,14 @@ TEST(ShadowMap, OfADirectionalLightIsLinearInHeight) {
   test::addMesh(scene, test::boxMesh(vec3(2.0f)));
   LitScene lit(scene);
   shared::Vpl vpl = makeVpl(vec3(0.0f), vec3(0, 1, 0), shared::kVplDirectional, 0.0f);
-  const float radius = vpl.normal.w = 4.0f;
+  const float radius = vpl.normal.w = 5.0f, side = vpl.tangent.w = 4.0f;
   lit.backend->reserveShadowMaps(1, kResolution);
   lit.backend->renderShadowMaps(std::vector{vpl});
   const std::vector<float> map = lit.backend->readShadowMap(0);
   int covered = 0;
   for (int i = 0; i < kResolution * kResolution; ++i) {
     const vec2 s = shared::shadowTexelCentre(vec2(i % kResolution, i / kResolution), kResolution);
-    const bool onBox = std::abs(s.x) * radius < 1.0f && std::abs(s.y) * radius < 1.0f;
+    const bool onBox = std::abs(s.x) * side < 1.0f && std::abs(s.y) * side < 1.0f;
     EXPECT_NEAR(map[i], onBox ? (1.0f + radius) / (2.0f * radius) : 0.0f, 1e-6f) << i;
     covered += onBox;
   }

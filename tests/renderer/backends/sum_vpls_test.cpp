@@ -42,6 +42,7 @@ std::vector<shared::Vpl> lights() {
   spot.tangent.w = -2.2f;
   shared::Vpl sun = makeVpl(vec3(0), vec3(0.5f, 1, 0.4f), shared::kVplDirectional, 2.0f);
   sun.normal.w = 5.0f;
+  sun.tangent.w = 1.7f;  // not all of the scene
   return {colored(makeVpl(vec3(-0.2f, 3, -0.1f), vec3(0.1f, -1, 0.2f)), vec3(3, 2, 1)),
           colored(makeVpl(vec3(0.2f, 0.3f, 1.2f), vec3(0, -1, -0.5f)), vec3(0.2f, 0.5f, 0.1f)),
           colored(spot, vec3(5, 1, 9)), colored(sun, vec3(0.3f, 0.2f, 0.4f))};
@@ -64,16 +65,14 @@ vec3 expectedRadiance(const LitScene& lit, Backend& backend, const View& view, i
     const bool directional = vpl.position.w == shared::kVplDirectional;
     const vec3 q = shared::vplToLight(vpl, s.position - vec3(vpl.position));
     const vec3 n = shared::vplToLight(vpl, ng);
-    const vec2 at =
-        directional ? shared::directionalEncode(q, vpl.normal.w) : shared::octahedralEncode(q);
+    const vec2 at = directional ? shared::directionalEncode(vpl, q) : shared::octahedralEncode(q);
     const vec2 texel = shared::shadowTexel(at, kResolution);
     const vec2 centre = shared::shadowTexelCentre(texel, kResolution);
     const size_t index = static_cast<size_t>(texel.y) * kResolution + static_cast<size_t>(texel.x);
     const float stored = backend.readShadowMap(static_cast<int>(i))[index];
     const bool occluded =
-        directional
-            ? shared::directionalOccluded(stored, q, n, centre, vpl.normal.w, kBias, kResolution)
-            : shared::hemisphereOccluded(stored, q, n, centre, kBias, kResolution);
+        directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias, kResolution)
+                    : shared::hemisphereOccluded(stored, q, n, centre, kBias, kResolution);
     if (!occluded) e += g * vec3(vpl.intensity);
   }
   return s.albedo / kPi * e;
