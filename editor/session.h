@@ -3,22 +3,24 @@
 // runAction()/edits from panels, viewport(), renderFrame(), overlay().
 #pragma once
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "editor/actions/action.h"
 #include "editor/commands/history.h"
 #include "editor/document/document.h"
+#include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/viewport_input.h"
 #include "renderer/frame.h"
 #include "renderer/view.h"
 
 namespace lamplighter {
-
-enum class ToolMode { select, move, rotate, scale };
 
 class Session {
  public:
@@ -50,7 +52,9 @@ class Session {
   void setName(NodeId id, const std::string& name);
   void setVisible(NodeId id, bool visible);
   void setRender(const RenderSettings& settings);
-  void select(std::vector<NodeId> ids) ;
+  void select(std::vector<NodeId> ids);  // those that are there; the last one is active
+  void undo();
+  void redo();
 
   // The camera and the tools.
   const View& view() const { return view_; }
@@ -58,6 +62,12 @@ class Session {
   void resizeViewport(int width, int height);
   ToolMode tool() const;
   void setTool(ToolMode mode);
+  bool snapping() const;
+  void setSnapping(bool on);
+  // The right mouse button flies: letters steer then and are no shortcuts.
+  bool flying() const;
+  void frameSelection();  // everything when nothing is selected
+  void frameAll();
   void viewport(const ViewportInput& input);  // camera, pick, gizmo
 
   // Renders one frame of what changed and keeps it. `output().settled` says when it is done.
@@ -73,6 +83,25 @@ class Session {
   bool quitRequested() const { return quit_; }
   void requestQuit() { quit_ = true; }
 
+  // What actions ask of the application, handed out once.
+  void requestOpen(std::filesystem::path path) { openRequest_ = std::move(path); }
+  std::optional<std::filesystem::path> takeOpenRequest() {
+    return std::exchange(openRequest_, std::nullopt);
+  }
+  void requestScreenshot(std::filesystem::path path) { screenshotRequest_ = std::move(path); }
+  std::optional<std::filesystem::path> takeScreenshotRequest() {
+    return std::exchange(screenshotRequest_, std::nullopt);
+  }
+
+  // Where a thing would be put: the surface under the pointer, or ahead of the camera.
+  struct Place {
+    vec3 position{0.0f};
+    vec3 normal{0.0f, 1.0f, 0.0f};  // unit, towards the viewer
+  };
+  // The nearest surface under the last pointer position that is not part of `ignored`.
+  std::optional<Place> surfaceUnderPointer(const std::vector<NodeId>& ignored) const;
+  std::optional<Place> surfaceAhead() const;  // in the middle of the view
+
  private:
   struct Tools;
   Document document_;
@@ -84,8 +113,13 @@ class Session {
   GiOutput output_;
   std::string status_;
   uint32_t frame_ = 0;
-  size_t savedPosition_ = 0;
+  uint64_t savedHash_ = 0;
   bool quit_ = false;
+  std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
+
+  void pruneSelection();
+  std::optional<Place> surfaceAlong(const vec3& direction,
+                                    const std::vector<NodeId>& ignored) const;
 };
 
 }  // namespace lamplighter

@@ -1,0 +1,46 @@
+#include "editor/actions/arguments.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+void requireArguments(const Arguments& arguments, size_t least, size_t most,
+                      const std::string& usage) {
+  if (arguments.size() >= least && arguments.size() <= most) return;
+  throw InputError(usage, std::to_string(arguments.size()) + " arguments do not fit",
+                   "give them as shown");
+}
+
+float numberOf(const std::string& text) {
+  float v = 0.0f;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(v)) {
+    throw InputError(text, "is no number", "give one such as 1.5");
+  }
+  return v;
+}
+
+vec3 vectorOf(const Arguments& a, size_t from) {
+  return {numberOf(a[from]), numberOf(a[from + 1]), numberOf(a[from + 2])};
+}
+
+const Node& nodeNamed(const Document& document, const std::string& name) {
+  const auto& nodes = document.scene.nodes;
+  const auto it =
+      std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return n.name == name; });
+  if (it == nodes.end())
+    throw InputError(name, "there is no object of that name", "look in the outliner");
+  return *it;
+}
+
+const Node& activeNode(const Document& document) {
+  const Node* n = document.scene.find(document.active());
+  if (n == nullptr) throw InputError("selection", "nothing is selected", "select an object first");
+  return *n;
+}
+
+}  // namespace lamplighter

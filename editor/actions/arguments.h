@@ -1,0 +1,25 @@
+// Reading the arguments of actions.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "editor/document/document.h"
+#include "renderer/math.h"
+
+namespace lamplighter {
+
+using Arguments = std::vector<std::string>;
+
+// Throws InputError unless there are `least` to `most` arguments.
+void requireArguments(const Arguments& arguments, size_t least, size_t most,
+                      const std::string& usage);
+float numberOf(const std::string& text);
+// Three numbers from `from` on.
+vec3 vectorOf(const Arguments& arguments, size_t from);
+// The node of that name; throws InputError when there is none.
+const Node& nodeNamed(const Document& document, const std::string& name);
+// The active node; throws InputError when nothing is selected.
+const Node& activeNode(const Document& document);
+
+}  // namespace lamplighter

@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/commands/edits.h"
+#include "editor/session.h"
+
+namespace lamplighter {
+
+namespace {
+
+bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
+
+void duplicate(Session& s) {
+  Copies copies = copyNodes(s.document().scene, s.document().selection);
+  for (Node& n : copies.nodes) {
+    if (std::find(copies.roots.begin(), copies.roots.end(), n.id) != copies.roots.end())
+      n.name += " copy";
+  }
+  const std::string label =
+      copies.roots.size() == 1 ? "Duplicate " + copies.nodes.front().name : "Duplicate objects";
+  s.history().run(std::make_unique<AddNodes>(label, std::move(copies.nodes)));
+  s.select(std::move(copies.roots));
+}
+
+}  // namespace
+
+void addEditActions(ActionRegistry& r) {
+  r.add({"edit.undo", "Undo", "", "Takes the last change back.", "Ctrl+Z",
+         [](Session& s, const Arguments&) { s.undo(); },
+         [](const Session& s) { return s.history().canUndo(); }});
+  r.add({"edit.redo", "Redo", "", "Makes the change again that was taken back.",
+         "Ctrl+Y, Ctrl+Shift+Z", [](Session& s, const Arguments&) { s.redo(); },
+         [](const Session& s) { return s.history().canRedo(); }});
+  r.add({"edit.delete", "Delete", "", "Deletes what is selected.", "Delete",
+         [](Session& s, const Arguments&) {
+           s.history().run(std::make_unique<DeleteNodes>(s.document(), s.document().selection));
+           s.select({});
+         },
+         hasSelection});
+  r.add({"edit.duplicate", "Duplicate", "", "Copies what is selected to the same place.", "Ctrl+D",
+         [](Session& s, const Arguments&) { duplicate(s); }, hasSelection});
+  r.add({"edit.rename",
+         "Rename",
+         "NAME",
+         "Gives the active object another name.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "edit.rename NAME");
+           s.setName(activeNode(s.document()).id, a[0]);
+         },
+         {}});
+  r.add({"select.name",
+         "Select by name",
+         "NAME [NAME]…",
+         "Selects the objects of these names.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1000000, "select.name NAME [NAME]…");
+           std::vector<NodeId> ids;
+           for (const std::string& name : a) ids.push_back(nodeNamed(s.document(), name).id);
+           s.select(std::move(ids));
+         },
+         {}});
+  r.add({"select.all",
+         "Select all",
+         "",
+         "Selects every object and light.",
+         "Ctrl+A",
+         [](Session& s, const Arguments&) {
+           std::vector<NodeId> ids;
+           for (const Node& n : s.document().scene.nodes) {
+             if (n.mesh != kNone || n.area || n.punctual) ids.push_back(n.id);
+           }
+           s.select(std::move(ids));
+         },
+         {}});
+  r.add({"select.none", "Deselect", "", "Selects nothing.", "Escape",
+         [](Session& s, const Arguments&) { s.select({}); }, hasSelection});
+}
+
+}  // namespace lamplighter

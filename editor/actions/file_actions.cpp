@@ -1,0 +1,60 @@
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+void addFileActions(ActionRegistry& r) {
+  r.add({"file.open",
+         "Open…",
+         "FILE",
+         "Opens a glTF level.",
+         "Ctrl+O",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "file.open FILE");
+           s.requestOpen(a[0]);
+         },
+         {}});
+  r.add({"file.save",
+         "Save",
+         "",
+         "Saves the level where it came from.",
+         "Ctrl+S",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 0, 0, "file.save");
+           if (s.document().path.empty())
+             throw InputError("file.save", "the level has no file yet", "use file.save_as FILE");
+           s.save(s.document().path);
+         },
+         {}});
+  r.add({"file.save_as",
+         "Save as…",
+         "FILE",
+         "Saves the level to another .gltf or .glb file.",
+         "Ctrl+Shift+S",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "file.save_as FILE");
+           s.save(a[0]);
+         },
+         {}});
+  r.add({"app.screenshot",
+         "Screenshot",
+         "[FILE]",
+         "Writes the window as a PNG file.",
+         "F12",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 0, 1, "app.screenshot [FILE]");
+           s.requestScreenshot(a.empty() ? "screenshot.png" : a[0]);
+         },
+         {}});
+  r.add({"app.quit",
+         "Quit",
+         "",
+         "Ends the program.",
+         "Ctrl+Q",
+         [](Session& s, const Arguments&) { s.requestQuit(); },
+         {}});
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,67 @@
+#include <algorithm>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+#include "renderer/image/exposure.h"
+
+namespace lamplighter {
+
+void addRenderActions(ActionRegistry& r) {
+  r.add({"render.method",
+         "Method",
+         "NAME",
+         "Renders with another method.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "render.method NAME");
+           RenderSettings settings = s.document().render;
+           settings.method = findMethod(a[0]).name;
+           s.setRender(settings);
+         },
+         {}});
+  r.add({"render.set",
+         "Set parameter",
+         "NAME=VALUE",
+         "Sets a parameter of the method.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "render.set NAME=VALUE");
+           const size_t equals = a[0].find('=');
+           const std::string name = a[0].substr(0, equals);
+           const auto& all = findMethod(s.document().render.method).parameters;
+           const auto spec = std::find_if(all.begin(), all.end(),
+                                          [&](const ParameterSpec& p) { return p.name == name; });
+           if (equals == std::string::npos || spec == all.end()) {
+             throw InputError(a[0], "sets no parameter of " + s.document().render.method,
+                              "give NAME=VALUE");
+           }
+           RenderSettings settings = s.document().render;
+           settings.values.set(name, Settings::parse(*spec, a[0].substr(equals + 1)));
+           s.setRender(settings);
+         },
+         {}});
+  r.add({"render.exposure",
+         "Exposure",
+         "EV",
+         "Sets the exposure in EV.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "render.exposure EV");
+           RenderSettings settings = s.document().render;
+           settings.exposureEv = std::clamp(numberOf(a[0]), -16.0f, 16.0f);
+           s.setRender(settings);
+         },
+         {}});
+  r.add({"render.auto_exposure", "Automatic exposure", "",
+         "Sets the exposure that suits the picture.", "",
+         [](Session& s, const Arguments&) {
+           RenderSettings settings = s.document().render;
+           settings.exposureEv = autoExposureEv(s.output().radiance->pixels());
+           s.setRender(settings);
+         },
+         [](const Session& s) { return s.output().radiance != nullptr; }});
+}
+
+}  // namespace lamplighter

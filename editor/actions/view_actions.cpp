@@ -1,0 +1,58 @@
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+void addViewActions(ActionRegistry& r) {
+  const auto tool = [&](const char* name, const char* label, const char* help, const char* key,
+                        ToolMode mode) {
+    r.add({name,
+           label,
+           "",
+           help,
+           key,
+           [mode](Session& s, const Arguments&) { s.setTool(mode); },
+           {}});
+  };
+  tool("tool.select", "Select", "Click selects.", "Q", ToolMode::select);
+  tool("tool.move", "Move", "Handles that move the selection.", "W", ToolMode::move);
+  tool("tool.rotate", "Rotate", "Handles that turn the selection.", "E", ToolMode::rotate);
+  tool("tool.scale", "Scale", "Handles that scale the selection.", "R", ToolMode::scale);
+  r.add({"tool.snap",
+         "Snap",
+         "",
+         "Switches snapping on or off; Ctrl does so while dragging.",
+         "S",
+         [](Session& s, const Arguments&) { s.setSnapping(!s.snapping()); },
+         {}});
+  r.add({"view.frame_selection",
+         "Frame selection",
+         "",
+         "Looks at what is selected, or at everything.",
+         "F",
+         [](Session& s, const Arguments&) { s.frameSelection(); },
+         {}});
+  r.add({"view.frame_all",
+         "Frame all",
+         "",
+         "Looks at the whole level.",
+         "Home",
+         [](Session& s, const Arguments&) { s.frameAll(); },
+         {}});
+  r.add({"view.camera",
+         "Look through camera",
+         "NAME",
+         "Looks through one of the level's cameras.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "view.camera NAME");
+           const Node& n = nodeNamed(s.document(), a[0]);
+           if (n.camera == kNone) throw InputError(a[0], "is no camera", "give the name of one");
+           s.setView(viewOfCamera(s.document().scene, n, s.view().width, s.view().height));
+         },
+         {}});
+}
+
+}  // namespace lamplighter

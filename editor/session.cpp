@@ -1,0 +1,252 @@
+#include "editor/session.h"
+
+#include <algorithm>
+
+#include "editor/actions/register_actions.h"
+#include "editor/commands/edits.h"
+#include "editor/tools/camera_controller.h"
+#include "editor/tools/picker.h"
+#include "editor/tools/scene_overlay.h"
+#include "renderer/error.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/surface.h"
+
+namespace lamplighter {
+
+struct Session::Tools {
+  CameraController camera;
+  Gizmo gizmo;
+  vec2 pointer{0.0f};  // where it was last over the viewport
+  bool pointerKnown = false;
+};
+
+Session::Session(std::unique_ptr<FrameRenderer> renderer)
+    : renderer_(std::move(renderer)), tools_(std::make_unique<Tools>()) {
+  addAllActions(actions_);
+  savedHash_ = documentHash(document_);
+}
+
+Session::~Session() = default;
+
+void Session::open(Scene scene, std::filesystem::path path,
+                   const std::vector<std::string>& warnings) {
+  document_.scene = std::move(scene);
+  document_.selection.clear();
+  document_.path = std::move(path);
+  history_.clear();
+  savedHash_ = documentHash(document_);
+  tools_->pointerKnown = false;
+
+  RenderScene world;
+  update(world, document_.scene, SceneChanges::all());
+  const auto& nodes = document_.scene.nodes;
+  const auto camera =
+      std::find_if(nodes.begin(), nodes.end(), [](const Node& n) { return n.camera != kNone; });
+  view_ = camera != nodes.end() ? viewOfCamera(document_.scene, *camera, view_.width, view_.height)
+                                : viewOfBounds(world.bounds, view_.width, view_.height);
+  // Orbiting turns about what is in the middle of the picture.
+  const RayCaster rays(world);
+  const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()});
+  tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
+  status_ = warnings.empty() ? "Opened " + document_.path.filename().string() : warnings.front();
+  if (warnings.size() > 1)
+    status_ += " (and " + std::to_string(warnings.size() - 1) + " more warnings)";
+}
+
+void Session::save(const std::filesystem::path& path) {
+  history_.commit();
+  saveGltf(document_.scene, path);
+  document_.path = path;
+  savedHash_ = documentHash(document_);
+  status_ = "Saved " + path.string();
+}
+
+bool Session::modified() const { return documentHash(document_) != savedHash_; }
+
+bool Session::runAction(std::string_view text) {
+  try {
+    actions_.run(*this, text);
+    return true;
+  } catch (const InputError& e) {
+    status_ = e.what();
+    return false;
+  }
+}
+
+namespace {
+
+// The node with one thing changed.
+template <typename Change>
+std::unique_ptr<EditNodes> nodeEdit(const Document& document, NodeId id, const std::string& what,
+                                    Change change) {
+  const Node* now = document.scene.find(id);
+  if (now == nullptr) throw InputError("object", "it is not there any more", "select another");
+  Node node = *now;
+  change(node);
+  return std::make_unique<EditNodes>(what + " " + node.name, document, std::vector<Node>{node});
+}
+
+}  // namespace
+
+void Session::setNodeTransform(NodeId id, const Transform& local) {
+  history_.run(nodeEdit(document_, id, "Transform", [&](Node& n) { n.local = local; }));
+}
+
+void Session::setAreaLight(NodeId id, const AreaLight& light) {
+  history_.run(nodeEdit(document_, id, "Change", [&](Node& n) { n.area = light; }));
+}
+
+void Session::setPunctualLight(NodeId id, const PunctualLight& light) {
+  history_.run(nodeEdit(document_, id, "Change", [&](Node& n) { n.punctual = light; }));
+}
+
+void Session::setMaterial(int index, const Material& material) {
+  history_.run(std::make_unique<EditMaterial>(document_, index, material));
+}
+
+void Session::setName(NodeId id, const std::string& name) {
+  history_.run(nodeEdit(document_, id, "Rename", [&](Node& n) { n.name = name; }));
+}
+
+void Session::setVisible(NodeId id, bool visible) {
+  history_.run(
+      nodeEdit(document_, id, visible ? "Show" : "Hide", [&](Node& n) { n.visible = visible; }));
+}
+
+void Session::setRender(const RenderSettings& settings) {
+  history_.run(std::make_unique<EditRender>(document_, settings));
+}
+
+void Session::select(std::vector<NodeId> ids) {
+  document_.selection = std::move(ids);
+  pruneSelection();
+}
+
+void Session::undo() {
+  history_.undo();
+  pruneSelection();
+}
+
+void Session::redo() {
+  history_.redo();
+  pruneSelection();
+}
+
+void Session::pruneSelection() {
+  std::erase_if(document_.selection,
+                [&](NodeId id) { return document_.scene.find(id) == nullptr; });
+}
+
+void Session::resizeViewport(int width, int height) {
+  view_.width = std::max(width, 1);
+  view_.height = std::max(height, 1);
+}
+
+ToolMode Session::tool() const { return tools_->gizmo.mode; }
+
+void Session::setTool(ToolMode mode) {
+  if (!tools_->gizmo.dragging()) tools_->gizmo.mode = mode;
+}
+
+bool Session::snapping() const { return tools_->gizmo.snap; }
+void Session::setSnapping(bool on) { tools_->gizmo.snap = on; }
+bool Session::flying() const { return tools_->camera.flying(); }
+
+void Session::frameSelection() {
+  Bounds bounds;
+  for (const RenderObject& o : renderer_->scene().objects) {
+    for (const Node* n = document_.scene.find(o.node); n != nullptr;
+         n = document_.scene.find(n->parent)) {
+      if (document_.isSelected(n->id)) {
+        bounds.add(o.bounds);
+        break;
+      }
+    }
+  }
+  for (const RenderPunctual& p : renderer_->scene().punctuals) {
+    if (document_.isSelected(p.node)) bounds.add(p.position);
+  }
+  tools_->camera.frame(view_, bounds.empty() ? renderer_->scene().bounds : bounds);
+}
+
+void Session::frameAll() { tools_->camera.frame(view_, renderer_->scene().bounds); }
+
+void Session::viewport(const ViewportInput& input) {
+  if (input.hovered) {
+    tools_->pointer = input.pointer;
+    tools_->pointerKnown = true;
+  }
+  // A drag of the gizmo goes first, since the right button takes it back; then the camera.
+  if (tools_->gizmo.dragging()) {
+    tools_->gizmo.update(view_, input, document_, history_);
+    return;
+  }
+  if (tools_->camera.update(view_, input)) return;
+  if (tools_->gizmo.update(view_, input, document_, history_)) return;
+  if (!input.pressed[0] || !input.hovered || renderer_->rays() == nullptr) return;
+
+  const NodeId id = pick(view_, renderer_->scene(), *renderer_->rays(), input.pointer);
+  std::vector<NodeId> selection;
+  if (input.modifiers.ctrl || input.modifiers.shift) {
+    selection = document_.selection;
+    const bool had = document_.isSelected(id);
+    std::erase(selection, id);
+    if (!had && id != kNoNode) selection.push_back(id);
+  } else if (id != kNoNode) {
+    selection.push_back(id);
+  }
+  select(std::move(selection));
+}
+
+std::optional<Session::Place> Session::surfaceAlong(const vec3& direction,
+                                                    const std::vector<NodeId>& ignored) const {
+  if (renderer_->rays() == nullptr) return std::nullopt;
+  const RenderScene& scene = renderer_->scene();
+  const auto isIgnored = [&](NodeId id) {
+    for (const Node* n = document_.scene.find(id); n != nullptr;
+         n = document_.scene.find(n->parent)) {
+      if (std::find(ignored.begin(), ignored.end(), n->id) != ignored.end()) return true;
+    }
+    return false;
+  };
+  Ray ray{view_.eye, 0.0f, direction};
+  constexpr int kMostLayers = 1000;  // of ignored surfaces one behind the other
+  for (int i = 0; i < kMostLayers; ++i) {
+    const Hit hit = renderer_->rays()->intersect(ray);
+    if (!hit) return std::nullopt;
+    if (!isIgnored(scene.objects[hit.object].node)) {
+      const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
+      const bool front = glm::dot(s.geometricNormal, direction) < 0.0f;
+      return Place{s.position, front ? s.geometricNormal : -s.geometricNormal};
+    }
+    ray.tNear = hit.t + rayEpsilon(view_.eye + hit.t * direction);
+  }
+  return std::nullopt;
+}
+
+std::optional<Session::Place> Session::surfaceUnderPointer(
+    const std::vector<NodeId>& ignored) const {
+  if (!tools_->pointerKnown) return std::nullopt;
+  return surfaceAlong(view_.rayDirection(tools_->pointer.x, tools_->pointer.y), ignored);
+}
+
+std::optional<Session::Place> Session::surfaceAhead() const {
+  return surfaceAlong(view_.forward(), {});
+}
+
+const GiOutput& Session::renderFrame() {
+  const SceneChanges changes = history_.takeChanges();
+  output_ = renderer_->render(
+      {document_.scene, changes, view_, document_.render.method, document_.render.values});
+  ++frame_;
+  return output_;
+}
+
+Overlay Session::overlay() const {
+  Overlay overlay;
+  drawScene(overlay, view_, document_, renderer_->scene());
+  tools_->gizmo.draw(overlay, view_, document_);
+  return overlay;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,353 @@
+#include "editor/tools/gizmo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/commands/edits.h"
+#include "editor/tools/projection.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr float kReach = 92.0f;  // pixels that an axis is long
+constexpr float kGrab = 8.0f;    // pixels about a line that take it
+constexpr float kPlaneFrom = 0.28f,
+                kPlaneTo = 0.5f;     // where the squares of planes lie along their axes
+constexpr float kScreenRing = 1.2f;  // radius of the ring that turns in the picture's plane
+constexpr float kMoveStep = 0.25f;   // m
+constexpr float kTurnStep = 15.0f * kPi / 180.0f;
+constexpr float kScaleStep = 0.1f;
+
+const vec4 kAxisColours[3] = {
+    {0.93f, 0.32f, 0.31f, 1}, {0.48f, 0.8f, 0.32f, 1}, {0.33f, 0.56f, 0.96f, 1}};
+const vec4 kScreenColour{0.85f, 0.85f, 0.85f, 1};
+const vec4 kHoverColour{1.0f, 0.85f, 0.3f, 1};
+
+struct Line {
+  vec3 origin, direction;
+};
+
+Line pointerRay(const View& view, const vec2& pointer) {
+  return {view.eye, view.rayDirection(pointer.x, pointer.y)};
+}
+
+// The parameter along the axis (unit) where it passes nearest to the ray; none when they are
+// parallel.
+std::optional<float> nearestOnAxis(const vec3& origin, const vec3& axis, const Line& ray) {
+  const float b = glm::dot(axis, ray.direction);
+  const float denominator = 1.0f - b * b;
+  if (denominator < 1e-5f) return std::nullopt;
+  const vec3 d = ray.origin - origin;
+  return (glm::dot(d, axis) - glm::dot(d, ray.direction) * b) / denominator;
+}
+
+std::optional<vec3> onPlane(const vec3& origin, const vec3& normal, const Line& ray) {
+  const float along = glm::dot(normal, ray.direction);
+  if (std::abs(along) < 1e-4f) return std::nullopt;
+  const float t = glm::dot(normal, origin - ray.origin) / along;
+  if (t <= 0.0f) return std::nullopt;
+  return ray.origin + t * ray.direction;
+}
+
+float snapped(float value, float step) { return std::round(value / step) * step; }
+
+bool insideQuad(const vec2& p, const vec2 (&q)[4]) {
+  bool positive = false, negative = false;
+  for (int i = 0; i < 4; ++i) {
+    const vec2 e = q[(i + 1) % 4] - q[i], d = p - q[i];
+    const float cross = e.x * d.y - e.y * d.x;
+    (cross > 0.0f ? positive : negative) = true;
+  }
+  return !(positive && negative);
+}
+
+}  // namespace
+
+std::optional<Gizmo::Axes> Gizmo::axesOf(const View& view, const Document& document) const {
+  if (mode == ToolMode::select || document.active() == kNoNode) return std::nullopt;
+  const mat4 world = worldMatrix(document.scene, document.active());
+  Axes a;
+  a.origin = vec3(world[3]);
+  if (glm::dot(a.origin - view.eye, view.forward()) < view.znear) return std::nullopt;
+  // Scaling is along the object's own axes, moving and turning along the world's.
+  if (mode == ToolMode::scale) a.axes = glm::mat3_cast(decompose(world).rotation);
+  a.size = kReach * metresPerPixel(view, a.origin);
+  return a;
+}
+
+Gizmo::Handle Gizmo::handleAt(const View& view, const Axes& axes, const vec2& pointer) const {
+  const auto centre = projectPoint(view, axes.origin);
+  if (!centre) return Handle::none;
+  Handle best = Handle::none;
+  float nearest = kGrab;
+  const auto offer = [&](Handle handle, float distance) {
+    if (distance < nearest) {
+      nearest = distance;
+      best = handle;
+    }
+  };
+  if (mode == ToolMode::rotate) {
+    for (int i = 0; i < 3; ++i) {
+      const auto points =
+          circle(axes.origin, axes.axes[(i + 1) % 3], axes.axes[(i + 2) % 3], axes.size);
+      for (size_t k = 0; k < points.size(); ++k) {
+        // The far half of a ring is hidden by the near one.
+        if (glm::dot(points[k] - axes.origin, view.eye - axes.origin) < 0.0f) continue;
+        const auto s = projectSegment(view, points[k], points[(k + 1) % points.size()]);
+        if (s)
+          offer(static_cast<Handle>(static_cast<int>(Handle::x) + i),
+                distanceToSegment(pointer, s->a, s->b));
+      }
+    }
+    offer(Handle::screen, std::abs(glm::length(pointer - *centre) - kScreenRing * kReach));
+    return best;
+  }
+  if (glm::length(pointer - *centre) < kGrab) return Handle::screen;
+  for (int i = 0; i < 3; ++i) {
+    const auto s = projectSegment(view, axes.origin, axes.origin + axes.size * axes.axes[i]);
+    if (s)
+      offer(static_cast<Handle>(static_cast<int>(Handle::x) + i),
+            distanceToSegment(pointer, s->a, s->b));
+  }
+  if (best != Handle::none || mode == ToolMode::scale) return best;
+  for (int i = 0; i < 3; ++i) {
+    const vec3 u = axes.size * axes.axes[(i + 1) % 3], v = axes.size * axes.axes[(i + 2) % 3];
+    vec2 q[4];
+    bool visible = true;
+    const vec2 corners[4] = {{kPlaneFrom, kPlaneFrom},
+                             {kPlaneTo, kPlaneFrom},
+                             {kPlaneTo, kPlaneTo},
+                             {kPlaneFrom, kPlaneTo}};
+    for (int k = 0; k < 4; ++k) {
+      const auto p = projectPoint(view, axes.origin + corners[k].x * u + corners[k].y * v);
+      visible = visible && p;
+      if (p) q[k] = *p;
+    }
+    if (visible && insideQuad(pointer, q))
+      return static_cast<Handle>(static_cast<int>(Handle::yz) + i);
+  }
+  return Handle::none;
+}
+
+std::optional<vec3> Gizmo::gripOf(const View& view, const Axes& a, Handle handle,
+                                  const vec2& pointer) const {
+  const Line ray = pointerRay(view, pointer);
+  const int index = (static_cast<int>(handle) - 1) % 3;
+  std::optional<vec3> point;
+  if (handle == Handle::screen) {
+    point = onPlane(a.origin, view.forward(), ray);
+  } else if (mode == ToolMode::rotate || handle >= Handle::yz) {
+    point = onPlane(a.origin, a.axes[index], ray);
+  } else if (const auto t = nearestOnAxis(a.origin, a.axes[index], ray)) {
+    return *t * a.axes[index];
+  }
+  if (!point) return std::nullopt;
+  return *point - a.origin;
+}
+
+void Gizmo::begin(const View& view, const Axes& axes, Handle handle, const vec2& pointer,
+                  const Document& document) {
+  const auto grip = gripOf(view, axes, handle, pointer);
+  if (!grip) return;
+  Drag d{handle, axes, pointer, *grip, {}, {}};
+  for (const NodeId id : topmost(document.scene, document.selection)) {
+    const Node& n = *document.scene.find(id);
+    d.nodes.push_back(n);
+    d.parents.push_back(n.parent == kNoNode ? mat4(1.0f) : worldMatrix(document.scene, n.parent));
+  }
+  drag_ = std::move(d);
+}
+
+std::vector<Node> Gizmo::moved(const vec3& offset) const {
+  std::vector<Node> nodes = drag_->nodes;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    nodes[i].local.translation += glm::inverse(mat3(drag_->parents[i])) * offset;
+  }
+  return nodes;
+}
+
+std::vector<Node> Gizmo::rotated(const vec3& axis, float angle) const {
+  std::vector<Node> nodes = drag_->nodes;
+  const quat turn = glm::angleAxis(angle, axis);
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    Transform& local = nodes[i].local;
+    const vec3 place = vec3(drag_->parents[i] * vec4(local.translation, 1.0f));
+    const vec3 newPlace = drag_->axes.origin + turn * (place - drag_->axes.origin);
+    // T(new) R T(−old) · world, back into the parent's space.
+    mat4 world = drag_->parents[i] * toMatrix(local);
+    world = glm::mat4_cast(turn) * world;
+    world[3] = vec4(newPlace, 1.0f);
+    const Transform turnedLocal = decompose(glm::inverse(drag_->parents[i]) * world);
+    // Under an unscaled parent a turn changes neither scale nor shear: keep their very bits.
+    const mat3 p(drag_->parents[i]);
+    const bool rigid = glm::length((glm::transpose(p) * p)[0] - vec3(1, 0, 0)) +
+                           glm::length((glm::transpose(p) * p)[1] - vec3(0, 1, 0)) +
+                           glm::length((glm::transpose(p) * p)[2] - vec3(0, 0, 1)) <
+                       1e-4f;
+    if (rigid) {
+      const quat parentTurn = glm::quat_cast(p);
+      local.rotation =
+          glm::normalize(glm::inverse(parentTurn) * turn * parentTurn * local.rotation);
+      local.translation = turnedLocal.translation;
+    } else {
+      local = turnedLocal;
+    }
+  }
+  return nodes;
+}
+
+std::vector<Node> Gizmo::scaled(const vec3& factors) const {
+  std::vector<Node> nodes = drag_->nodes;
+  const mat3& axes = drag_->axes.axes;
+  for (size_t i = 0; i < nodes.size(); ++i) {
+    Transform& local = nodes[i].local;
+    const vec3 place = vec3(drag_->parents[i] * vec4(local.translation, 1.0f));
+    const vec3 newPlace = drag_->axes.origin +
+                          axes * (factors * (glm::transpose(axes) * (place - drag_->axes.origin)));
+    local.translation = vec3(glm::inverse(drag_->parents[i]) * vec4(newPlace, 1.0f));
+    local.scale *= factors;
+  }
+  return nodes;
+}
+
+std::vector<Node> Gizmo::dragged(const View& view, const vec2& pointer, bool snapping) const {
+  const Drag& d = *drag_;
+  const auto grip = gripOf(view, d.axes, d.handle, pointer);
+  if (!grip) return d.nodes;
+  const int index = (static_cast<int>(d.handle) - 1) % 3;
+  switch (mode) {
+    case ToolMode::move: {
+      vec3 offset = *grip - d.grip;
+      if (snapping) {
+        for (int i = 0; i < 3; ++i) offset[i] = snapped(offset[i], kMoveStep);
+      }
+      return moved(offset);
+    }
+    case ToolMode::rotate: {
+      const vec3 axis = d.handle == Handle::screen ? -view.forward() : d.axes.axes[index];
+      if (glm::length(*grip) <= 0.0f || glm::length(d.grip) <= 0.0f) return d.nodes;
+      const vec3 from = glm::normalize(d.grip), to = glm::normalize(*grip);
+      float angle = std::atan2(glm::dot(glm::cross(from, to), axis), glm::dot(from, to));
+      if (snapping) angle = snapped(angle, kTurnStep);
+      return rotated(axis, angle);
+    }
+    case ToolMode::scale: {
+      vec3 factors(1.0f);
+      if (d.handle == Handle::screen) {
+        // To the right and up grows; a handle's length doubles.
+        const vec2 way = pointer - d.pointer;
+        float f = std::exp2((way.x - way.y) / kReach);
+        if (snapping) f = std::max(snapped(f, kScaleStep), kScaleStep);
+        factors = vec3(f);
+      } else {
+        const float before = glm::dot(d.grip, d.axes.axes[index]),
+                    now = glm::dot(*grip, d.axes.axes[index]);
+        float f = std::abs(before) > 1e-6f ? std::max(now / before, 0.01f) : 1.0f;
+        if (snapping) f = std::max(snapped(f, kScaleStep), kScaleStep);
+        factors[index] = f;
+      }
+      return scaled(factors);
+    }
+    case ToolMode::select:
+      break;
+  }
+  return d.nodes;
+}
+
+bool Gizmo::update(const View& view, const ViewportInput& in, Document& document,
+                   History& history) {
+  if (drag_) {
+    if (in.keys.contains(Key::escape) || in.pressed[1]) {
+      history.cancel();
+      drag_.reset();
+      return true;
+    }
+    static constexpr const char* kLabels[] = {"Select", "Move", "Rotate", "Scale"};
+    const std::string name = drag_->nodes.size() == 1
+                                 ? drag_->nodes[0].name
+                                 : std::to_string(drag_->nodes.size()) + " objects";
+    history.run(std::make_unique<EditNodes>(
+        std::string(kLabels[static_cast<int>(mode)]) + " " + name, document,
+        dragged(view, in.pointer, snap != in.modifiers.ctrl)));
+    if (in.released[0] || !in.down[0]) {
+      history.commit();
+      drag_.reset();
+    }
+    return true;
+  }
+  const auto axes = axesOf(view, document);
+  hovered_ = axes && in.hovered ? handleAt(view, *axes, in.pointer) : Handle::none;
+  if (hovered_ == Handle::none || !in.pressed[0]) return false;
+  begin(view, *axes, hovered_, in.pointer, document);
+  if (drag_) history.begin("");
+  return drag_.has_value();
+}
+
+void Gizmo::draw(Overlay& overlay, const View& view, const Document& document) const {
+  const auto axes = axesOf(view, document);
+  if (!axes) return;
+  const Handle lit = drag_ ? drag_->handle : hovered_;
+  const auto colour = [&](Handle h, const vec4& own) { return h == lit ? kHoverColour : own; };
+  const auto centre = projectPoint(view, axes->origin);
+  if (!centre) return;
+
+  for (int i = 0; i < 3; ++i) {
+    const Handle handle = static_cast<Handle>(static_cast<int>(Handle::x) + i);
+    const vec4 c = colour(handle, kAxisColours[i]);
+    if (mode == ToolMode::rotate) {
+      const auto points =
+          circle(axes->origin, axes->axes[(i + 1) % 3], axes->axes[(i + 2) % 3], axes->size);
+      for (size_t k = 0; k < points.size(); ++k) {
+        const bool far = glm::dot(points[k] - axes->origin, view.eye - axes->origin) < 0.0f;
+        addLine(overlay, view, points[k], points[(k + 1) % points.size()],
+                far ? c * vec4(1, 1, 1, 0.25f) : c, far ? 1.0f : 2.5f);
+      }
+      continue;
+    }
+    const vec3 end = axes->origin + axes->size * axes->axes[i];
+    addLine(overlay, view, axes->origin, end, c, 2.5f);
+    if (const auto tip = projectPoint(view, end)) {
+      const vec2 way = *tip - *centre;
+      const float length = std::max(glm::length(way), 1e-3f);
+      const vec2 d = way / length, n(-d.y, d.x);
+      if (mode == ToolMode::move) {
+        overlay.shapes.push_back(
+            {{*tip + 6.0f * d, *tip - 8.0f * d + 5.0f * n, *tip - 8.0f * d - 5.0f * n},
+             true,
+             true,
+             c,
+             1.0f});
+      } else {
+        overlay.shapes.push_back({{*tip + 5.0f * (d + n), *tip + 5.0f * (d - n),
+                                   *tip - 5.0f * (d + n), *tip - 5.0f * (d - n)},
+                                  true,
+                                  true,
+                                  c,
+                                  1.0f});
+      }
+    }
+    if (mode == ToolMode::move) {
+      const Handle plane = static_cast<Handle>(static_cast<int>(Handle::yz) + i);
+      const vec3 u = axes->size * axes->axes[(i + 1) % 3], v = axes->size * axes->axes[(i + 2) % 3];
+      std::vector<vec2> quad;
+      for (const vec2& t : {vec2(kPlaneFrom, kPlaneFrom), vec2(kPlaneTo, kPlaneFrom),
+                            vec2(kPlaneTo, kPlaneTo), vec2(kPlaneFrom, kPlaneTo)}) {
+        if (const auto p = projectPoint(view, axes->origin + t.x * u + t.y * v)) quad.push_back(*p);
+      }
+      if (quad.size() == 4)
+        overlay.shapes.push_back(
+            {quad, true, true, colour(plane, kAxisColours[i]) * vec4(1, 1, 1, 0.45f), 1.0f});
+    }
+  }
+  const float radius = mode == ToolMode::rotate ? kScreenRing * kReach : 6.0f;
+  std::vector<vec2> ring;
+  for (int i = 0; i < 48; ++i) {
+    const float a = 2.0f * kPi * static_cast<float>(i) / 48.0f;
+    ring.push_back(*centre + radius * vec2(std::cos(a), std::sin(a)));
+  }
+  overlay.shapes.push_back(
+      {ring, true, mode != ToolMode::rotate, colour(Handle::screen, kScreenColour), 1.5f});
+}
+
+}  // namespace lamplighter

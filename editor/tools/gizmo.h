@@ -1,0 +1,61 @@
+// The handles that move, rotate and scale the selection.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "editor/commands/history.h"
+#include "editor/document/document.h"
+#include "editor/tools/overlay.h"
+#include "editor/tools/viewport_input.h"
+#include "renderer/view.h"
+
+namespace lamplighter {
+
+enum class ToolMode { select, move, rotate, scale };
+
+class Gizmo {
+ public:
+  ToolMode mode = ToolMode::select;
+  bool snap = false;  // always, not only while Ctrl is held
+
+  // Hovers, begins, goes on with and ends a drag. True when the pointer is its. A drag is one
+  // transaction of `history`; Esc or the right button takes it back.
+  bool update(const View& view, const ViewportInput& input, Document& document, History& history);
+  bool dragging() const { return drag_.has_value(); }
+  void draw(Overlay& overlay, const View& view, const Document& document) const;
+
+ private:
+  // x, y, z: an axis, or the ring about it; xy, …: the plane; screen: in the plane of the picture,
+  // for scale: all axes alike.
+  enum class Handle { none, x, y, z, yz, zx, xy, screen };
+  struct Axes {
+    vec3 origin{0.0f};
+    mat3 axes{1.0f};    // unit columns
+    float size = 1.0f;  // metres that the handles reach
+  };
+  struct Drag {
+    Handle handle;
+    Axes axes;  // as they were
+    vec2 pointer{0.0f};
+    vec3 grip{0.0f};            // where the pointer's ray met the handle, relative to the origin
+    std::vector<Node> nodes;    // the topmost selected ones, before
+    std::vector<mat4> parents;  // their parents' world matrices
+  };
+
+  std::optional<Axes> axesOf(const View& view, const Document& document) const;
+  Handle handleAt(const View& view, const Axes& axes, const vec2& pointer) const;
+  std::optional<vec3> gripOf(const View& view, const Axes& axes, Handle handle,
+                             const vec2& pointer) const;
+  void begin(const View& view, const Axes& axes, Handle handle, const vec2& pointer,
+             const Document& document);
+  std::vector<Node> dragged(const View& view, const vec2& pointer, bool snapping) const;
+  std::vector<Node> moved(const vec3& offset) const;
+  std::vector<Node> rotated(const vec3& axis, float angle) const;
+  std::vector<Node> scaled(const vec3& factors) const;
+
+  std::optional<Drag> drag_;
+  Handle hovered_ = Handle::none;
+};
+
+}  // namespace lamplighter

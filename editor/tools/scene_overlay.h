@@ -1,0 +1,14 @@
+// What is drawn over the picture for the scene itself: marks of lights, the selection.
+#pragma once
+
+#include "editor/document/document.h"
+#include "editor/tools/overlay.h"
+#include "renderer/scene/render_scene.h"
+#include "renderer/view.h"
+
+namespace lamplighter {
+
+void drawScene(Overlay& overlay, const View& view, const Document& document,
+               const RenderScene& scene);
+
+}  // namespace lamplighter
