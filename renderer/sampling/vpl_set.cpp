@@ -6,6 +6,7 @@
 
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
+#include "renderer/sampling/sun_squares.h"
 #include "renderer/sampling/vpl_counts.h"
 #include "renderer/scene/surface.h"
 
@@ -18,6 +19,8 @@ constexpr uint32_t kPathsPerVpl = 16;
 constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
 // A square around the scene, with what lies on its very edge.
 constexpr float kWholeScene = 1.0001f;
+// Squares that one sun may take: an eighth of the level's width each way if it is even.
+constexpr int kMostSquares = 64;
 constexpr uint32_t kDirectSet = 0x0d, kIndirectSet = 0x1d;
 
 float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
@@ -44,9 +47,8 @@ class Generator {
                            : static_cast<int>(std::lround(share * static_cast<float>(total)));
     std::vector<SampleShare> directShares, indirectShares;
     for (const Emitter& e : emitters) {
-      const float weight = luminance(e.flux);
-      directShares.push_back({weight, partsOf(e), e.kind == EmitterKind::punctual});
-      indirectShares.push_back({weight, 1, false});
+      directShares.push_back(shareOf(e));
+      indirectShares.push_back({luminance(e.flux), 1, false});
     }
     const SampleCounts directCounts = shareSamples(directShares, direct);
     const SampleCounts indirectCounts = shareSamples(indirectShares, total - direct);
@@ -61,12 +63,13 @@ class Generator {
   }
 
  private:
-  // A two-sided emitter takes turns; a point light is two hemispheres.
-  int partsOf(const Emitter& e) const {
-    if (e.kind == EmitterKind::punctual) {
-      return scene_.punctuals[e.punctual].light.kind == PunctualKind::point ? 2 : 1;
-    }
-    return e.bothSides ? 2 : 1;
+  // The samples that an emitter cannot do without: a two-sided one takes turns, a point light is
+  // two hemispheres.
+  SampleShare shareOf(const Emitter& e) const {
+    const float weight = luminance(e.flux);
+    if (e.kind != EmitterKind::punctual) return {weight, e.bothSides ? 2 : 1, false};
+    const PunctualKind kind = scene_.punctuals[e.punctual].light.kind;
+    return {weight, kind == PunctualKind::point ? 2 : 1, kind != PunctualKind::directional};
   }
 
   // Two coordinates of the point `index` of the current emitter's sequence, stable in index.
@@ -77,16 +80,18 @@ class Generator {
                                         : sobol2(index, hash4(scramble, dimension, 0, 0));
   }
 
-  // kind, place, axis and intensity; the frame is turned about the axis by chance, so that the
-  // texel grids of many maps do not line up on the walls of a room.
-  SceneVpl& add(float kind, const vec3& position, const vec3& normal, const vec3& intensity) {
+  // Turned about the normal by chance, so that the texel grids of many maps do not line up on the
+  // walls of a room.
+  vec3 turnedTangent(const vec3& normal) const {
     const Frame frame(normal);
     const float angle =
         2.0f * kPi * toUnitFloat(hash4(id_.light, id_.emitter, id_.bounce, id_.index));
-    const vec3 tangent =
-        glm::normalize(std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent);
+    return glm::normalize(std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent);
+  }
+
+  SceneVpl& add(float kind, const vec3& position, const vec3& normal, const vec3& intensity) {
     SceneVpl& added = result_.vpls.emplace_back();
-    added.vpl = {vec4(position, kind), vec4(normal, 0.0f), vec4(tangent, 1.0f),
+    added.vpl = {vec4(position, kind), vec4(normal, 0.0f), vec4(turnedTangent(normal), 1.0f),
                  vec4(intensity, -1.0f)};
     added.id = id_;
     return added;
@@ -104,7 +109,7 @@ class Generator {
         }
         break;
       case EmitterKind::punctual:
-        addPunctual(scene_.punctuals[e.punctual], scale);
+        addPunctual(scene_.punctuals[e.punctual], count, scale);
         break;
       case EmitterKind::sky:
         for (id_.index = 0; id_.index < static_cast<uint32_t>(count); ++id_.index) {
@@ -116,7 +121,7 @@ class Generator {
     }
   }
 
-  void addPunctual(const RenderPunctual& p, float scale) {
+  void addPunctual(const RenderPunctual& p, int count, float scale) {
     const vec3 intensity = scale * p.light.intensity;
     switch (p.light.kind) {
       case PunctualKind::point:
@@ -135,9 +140,23 @@ class Generator {
         break;
       }
       case PunctualKind::directional:
-        id_.index = 0;
-        addDirectional(-p.direction, intensity).isSample = false;
+        addSun(-p.direction, intensity, std::min(count, kMostSquares));
         break;
+    }
+  }
+
+  void addSun(const vec3& towards, const vec3& irradiance, int count) {
+    id_.index = 0;
+    const vec3 tangent = turnedTangent(towards);  // the same for all its squares
+    const mat3 axes(tangent, glm::cross(towards, tangent), towards);
+    const vec3 middle = lights_.sceneCentre();
+    const float whole = kWholeScene * lights_.sceneRadius();
+    for (const SunSquare& square : sunSquares(scene_, axes, middle, whole, count)) {
+      id_.index = square.code;
+      SceneVpl& added = addDirectional(towards, irradiance);
+      added.isSample = false;
+      added.vpl.position += vec4(axes * vec3(square.centre, 0.0f), 0.0f);
+      added.vpl.tangent = vec4(tangent, square.side);
     }
   }
 

@@ -58,15 +58,16 @@ SHARED_FUNCTION vec2 directionalEncode(Vpl vpl, vec3 q) {
   return vec2(q.x, q.y) * (1.0f / vpl.tangent.w);
 }
 
-// bias and half a texel are shares of S here.
+// bias is a share of S here. Nothing is spared for corners: half a texel of a level's sky or sun is
+// more than its roofs are thick, and they would leak.
 SHARED_FUNCTION bool directionalOccluded(Vpl vpl, float stored, vec3 q, vec3 n, vec2 centre,
-                                         float bias, float resolution) {
+                                         float bias) {
   float side = vpl.tangent.w;
   // Of the occluder over the point, and over the receiver's plane at the centre (× n.z > 0).
   float above = (2.0f * stored - 1.0f) * vpl.normal.w - bias * side - q.z;
   float dx = centre.x * side - q.x;
   float dy = centre.y * side - q.y;
-  return above > side / resolution && above * n.z > -(n.x * dx + n.y * dy);
+  return above > 0.0f && above * n.z > -(n.x * dx + n.y * dy);
 }
 
 // E / I: irradiance at the point x with shading normal ns and geometric normal ng, both on the side

@@ -79,7 +79,6 @@ HWY_INLINE Mask hemisphereOccluded(const LightRecord& light, const SumConstants&
 // q: the point in the light's frame.
 HWY_INLINE Mask directionalOccluded(const LightRecord& light, const SumConstants& c,
                                     const Vector3& q, const Vector3& geometric, Floats facing) {
-  const float size = static_cast<float>(c.resolution);
   const Floats side = all(light.side), inverse = all(1.0f / light.side);
   const Texel s = texelOf(hn::Mul(q.x, inverse), c.resolution);
   const Texel t = texelOf(hn::Mul(q.y, inverse), c.resolution);
@@ -90,7 +89,7 @@ HWY_INLINE Mask directionalOccluded(const LightRecord& light, const SumConstants
   const Floats dx = hn::MulSub(s.centre, side, q.x), dy = hn::MulSub(t.centre, side, q.y);
   const Floats slope =
       hn::MulAdd(dot(geometric, light.tangent), dx, hn::Mul(dot(geometric, light.bitangent), dy));
-  const Mask beforePoint = hn::Gt(above, all(light.side / size));
+  const Mask beforePoint = hn::Gt(above, hn::Zero(kTag));
   const Mask beforePlane = hn::Gt(hn::MulAdd(above, facing, slope), hn::Zero(kTag));
   return hn::And(beforePoint, beforePlane);
 }
