@@ -29,7 +29,11 @@ const Json* lightOf(const GltfDocument& document, size_t node, const char* exten
                                  lights == nullptr ? 0 : lights->size());
   if (!light) return nullptr;
   index = *light;
-  return &(*lights)[*light];
+  if (!(*lights)[index].is_object()) {
+    document.fail({"nodes", node},
+                  std::string("refers to a light of ") + extension + " that is none", kExportAgain);
+  }
+  return &(*lights)[index];
 }
 
 // color × intensity, in double so that a saved light comes back with the same bits.

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
+#include <new>
 
 #include "renderer/error.h"
 #include "renderer/scene/gltf_io.h"
@@ -88,7 +89,9 @@ void eraseExtension(Json& object, const char* name) {
   if (extensions->empty()) object.erase("extensions");
 }
 
-void saveGltf(const Scene& scene, const std::filesystem::path& path) {
+namespace {
+
+void save(const Scene& scene, const std::filesystem::path& path) {
   GltfOutput out(scene, path);
   out.startBuffers();
   out.carryImages();
@@ -99,6 +102,22 @@ void saveGltf(const Scene& scene, const std::filesystem::path& path) {
   saveLights(out, jsonNodes);
   saveSphereMeshes(out, jsonNodes);
   writeFilesAtomically(out.finish());
+}
+
+}  // namespace
+
+void saveGltf(const Scene& scene, const std::filesystem::path& path) {
+  try {
+    save(scene, path);
+  } catch (const Json::exception& e) {
+    throw InputError(
+        path.string(),
+        "cannot be written: the file that the scene came from is odd (" + printable(e.what()) + ")",
+        "nothing was changed; export the source again");
+  } catch (const std::bad_alloc&) {
+    throw InputError(path.string(), "needs more memory to write than there is",
+                     "nothing was changed; close other programs");
+  }
 }
 
 }  // namespace lamplighter

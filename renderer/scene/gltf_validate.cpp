@@ -94,6 +94,13 @@ class StructureCheck {
       if (!std::all_of(list.begin(), list.end(), [](const Json& e) { return e.is_object(); })) {
         doc_.fail(std::string("\"") + name + "\" is no array of objects", kExportAgain);
       }
+      for (size_t i = 0; i < list.size(); ++i) objectMember(list[i], "extensions", {name, i});
+    }
+    objectMember(doc_.json, "extensions", {"glTF", 0});
+    if (const Json* used = arrayMember(doc_, doc_.json, "extensionsUsed", {"glTF", 0})) {
+      if (!std::all_of(used->begin(), used->end(), [](const Json& e) { return e.is_string(); })) {
+        doc_.fail("\"extensionsUsed\" holds no names", kExportAgain);
+      }
     }
     for (size_t i = 0; i < buffers_.size(); ++i) need(buffers_[i], "byteLength", {"buffers", i});
     for (size_t i = 0; i < views_.size(); ++i) view(i);
@@ -114,6 +121,12 @@ class StructureCheck {
     const auto value = sizeMember(doc_, object, key, at);
     if (!value) doc_.fail(at, std::string("has no \"") + key + "\"", kExportAgain);
     return *value;
+  }
+  void objectMember(const Json& object, const char* key, At at) {
+    const Json* value = member(object, key);
+    if (value != nullptr && !value->is_object()) {
+      doc_.fail(at, std::string("has \"") + key + "\" that are no object", kExportAgain);
+    }
   }
   size_t needIndex(const Json& object, const char* key, At at, size_t count) {
     need(object, key, at);
