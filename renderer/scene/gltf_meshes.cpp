@@ -4,6 +4,7 @@
 #include "renderer/scene/flat_normals.h"
 #include "renderer/scene/gltf_accessors.h"
 #include "renderer/scene/gltf_content.h"
+#include "renderer/scene/unused_vertices.h"
 
 namespace lamplighter {
 
@@ -144,6 +145,8 @@ class MeshReader {
     }
     if (const auto i = sizeMember(doc_, json, "material", at)) p.material = static_cast<int>(*i);
 
+    dropUnusedVertices(p);
+    keep(p);
     mendUvs(p.uv0, counts_);
     mendUvs(p.uv1, counts_);
     for (vec4& c : p.colors) c = isFinite(c) ? glm::max(c, vec4(0.0f)) : vec4(1.0f);
@@ -185,21 +188,27 @@ class MeshReader {
     }
   }
 
-  // A small file can name the same large accessor again and again: what is decoded is kept in
-  // proportion to what was read.
+  // A small file can name the same large accessor again and again: what is decoded, and more so
+  // what is kept of it, has to be in proportion to what was read.
   size_t spend(size_t accessor) {
     decoded_ += accessorView(doc_, accessor).count * sizeof(vec4);
-    constexpr size_t kAlwaysGood = size_t{256} << 20, kProportion = 64;
-    if (decoded_ > kAlwaysGood + kProportion * doc_.bytesRead) {
-      doc_.fail("describes more vertices than its size accounts for", kExportAgain);
-    }
+    constexpr size_t kAlwaysGood = size_t{4} << 30, kProportion = 256;
+    if (decoded_ > kAlwaysGood + kProportion * doc_.bytesRead) refuseAmount();
     return accessor;
+  }
+  void keep(const Primitive& p) {
+    kept_ += p.positions.size() * sizeof(vec4) * 4 + p.indices.size() * sizeof(uint32_t);
+    constexpr size_t kAlwaysGood = size_t{256} << 20, kProportion = 64;
+    if (kept_ > kAlwaysGood + kProportion * doc_.bytesRead) refuseAmount();
+  }
+  [[noreturn]] void refuseAmount() const {
+    doc_.fail("describes more vertices than its size accounts for", kExportAgain);
   }
 
   GltfDocument& doc_;
   const Json& accessors_;
   Counts counts_;
-  size_t decoded_ = 0;  // bytes
+  size_t decoded_ = 0, kept_ = 0;  // bytes
 };
 
 }  // namespace
