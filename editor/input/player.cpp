@@ -1,0 +1,48 @@
+#include "editor/input/player.h"
+
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+Player::Player(Recording recording, int patience)
+    : recording_(std::move(recording)), patience_(patience) {}
+
+bool Player::isDue(size_t line) const {
+  return line < recording_.lines.size() && recording_.lines[line].frame <= frame_;
+}
+
+std::vector<InputEvent> Player::beginFrame() {
+  std::vector<InputEvent> events;
+  // What stands behind a checkpoint of this frame comes after it.
+  while (isDue(next_)) {
+    const auto* event = std::get_if<InputEvent>(&recording_.lines[next_].what);
+    if (event == nullptr) break;
+    events.push_back(*event);
+    ++next_;
+  }
+  return events;
+}
+
+std::vector<Checkpoint> Player::endFrame(bool settled) {
+  std::vector<Checkpoint> reached;
+  while (isDue(next_)) {
+    const auto* checkpoint = std::get_if<Checkpoint>(&recording_.lines[next_].what);
+    if (checkpoint == nullptr) return reached;  // events of this frame are left: the clock stands
+    if (!settled) {
+      if (++waited_ > patience_) {
+        throw InputError(recording_.path.string(),
+                         "checkpoint '" + checkpoint->name +
+                             "' never settles: " + std::to_string(patience_) + " frames",
+                         "look at what keeps changing there");
+      }
+      return reached;
+    }
+    reached.push_back(*checkpoint);
+    waited_ = 0;
+    ++next_;
+  }
+  ++frame_;
+  return reached;
+}
+
+}  // namespace lamplighter
