@@ -1,0 +1,37 @@
+#include "renderer/gl/debug.h"
+
+#include <spdlog/spdlog.h>
+
+namespace lamplighter::gl {
+
+DebugLog::DebugLog() {
+  glEnable(GL_DEBUG_OUTPUT);
+  // The callback runs inside the call that it is about: no locks, and a debugger shows who called.
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+  glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+  glDebugMessageCallback(onMessage, this);
+}
+
+DebugLog::~DebugLog() {
+  glDebugMessageCallback(nullptr, nullptr);
+  glDisable(GL_DEBUG_OUTPUT);
+}
+
+void DebugLog::onMessage(GLenum, GLenum type, GLuint id, GLenum severity, GLsizei length,
+                         const GLchar* text, const void* user) {
+  if (type != GL_DEBUG_TYPE_ERROR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR &&
+      severity != GL_DEBUG_SEVERITY_HIGH) {
+    return;
+  }
+  const std::string message = length < 0 ? std::string(text) : std::string(text, length);
+  // The object belongs to whoever listens; GL hands the pointer through as const.
+  auto* log = const_cast<DebugLog*>(static_cast<const DebugLog*>(user));
+  log->errors_.push_back(message);
+#ifdef LAMPLIGHTER_DEBUG
+  spdlog::error("OpenGL {}: {}", id, message);
+#else
+  (void)id;
+#endif
+}
+
+}  // namespace lamplighter::gl

@@ -1,0 +1,101 @@
+// OpenGL objects that delete themselves. Move-only; made with direct state access. The context that
+// made one must be current when it is destroyed.
+#pragma once
+
+#include <utility>
+
+#include <epoxy/gl.h>
+
+namespace lamplighter::gl {
+
+// Kind::create() makes a name, Kind::destroy() gives it back.
+template <typename Kind>
+class Object {
+ public:
+  Object() = default;  // holds none
+  template <typename... Arguments>
+  requires(sizeof...(Arguments) > 0 || !Kind::kNeedsArguments) static Object
+      make(Arguments... arguments) {
+    Object o;
+    o.name_ = Kind::create(arguments...);
+    return o;
+  }
+  Object(Object&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Object& operator=(Object&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~Object() {
+    if (name_ != 0) Kind::destroy(name_);
+  }
+
+  GLuint name() const { return name_; }
+  explicit operator bool() const { return name_ != 0; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+struct BufferKind {
+  static constexpr bool kNeedsArguments = false;
+  static GLuint create() {
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    return name;
+  }
+  static void destroy(GLuint name) { glDeleteBuffers(1, &name); }
+};
+
+struct TextureKind {
+  static constexpr bool kNeedsArguments = true;
+  static GLuint create(GLenum target) {
+    GLuint name = 0;
+    glCreateTextures(target, 1, &name);
+    return name;
+  }
+  static void destroy(GLuint name) { glDeleteTextures(1, &name); }
+};
+
+struct FramebufferKind {
+  static constexpr bool kNeedsArguments = false;
+  static GLuint create() {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    return name;
+  }
+  static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
+};
+
+struct VertexArrayKind {
+  static constexpr bool kNeedsArguments = false;
+  static GLuint create() {
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    return name;
+  }
+  static void destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
+};
+
+struct ShaderKind {
+  static constexpr bool kNeedsArguments = true;
+  static GLuint create(GLenum stage) { return glCreateShader(stage); }
+  static void destroy(GLuint name) { glDeleteShader(name); }
+};
+
+struct ProgramKind {
+  static constexpr bool kNeedsArguments = false;
+  static GLuint create() { return glCreateProgram(); }
+  static void destroy(GLuint name) { glDeleteProgram(name); }
+};
+
+using Buffer = Object<BufferKind>;
+using Texture = Object<TextureKind>;
+using Framebuffer = Object<FramebufferKind>;
+using VertexArray = Object<VertexArrayKind>;
+using Shader = Object<ShaderKind>;
+using ProgramObject = Object<ProgramKind>;
+
+// A texture of one level without mipmaps, read by texelFetch or with linear filtering.
+Texture makeTexture2D(GLenum internalFormat, int width, int height, GLenum filter = GL_NEAREST);
+
+}  // namespace lamplighter::gl

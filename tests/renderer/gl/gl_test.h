@@ -1,0 +1,37 @@
+// What tests with an OpenGL context share.
+#pragma once
+
+#include <cstdlib>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "renderer/error.h"
+#include "renderer/gl/headless_context.h"
+
+namespace lamplighter::test {
+
+// Every test has a context of its own, with a debug log, and fails on any error the driver reports.
+// Where there is no context at all it is skipped, unless LAMPLIGHTER_REQUIRE_GL is set.
+class GlTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      context_ = std::make_unique<gl::HeadlessContext>(true);
+    } catch (const InputError& error) {
+      if (std::getenv("LAMPLIGHTER_REQUIRE_GL") != nullptr) FAIL() << error.what();
+      GTEST_SKIP() << error.what();
+    }
+  }
+  void TearDown() override {
+    if (context_ == nullptr) return;
+    for (const std::string& error : context_->debugLog()->errors()) ADD_FAILURE() << error;
+  }
+
+  gl::HeadlessContext& context() { return *context_; }
+
+ private:
+  std::unique_ptr<gl::HeadlessContext> context_;
+};
+
+}  // namespace lamplighter::test
