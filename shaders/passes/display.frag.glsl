@@ -1,0 +1,11 @@
+// The tone-mapped picture, pixel by pixel.
+#include "passes/tone_map.glsl"
+
+layout(binding = 0) uniform sampler2D uRadiance;
+layout(location = 0) uniform float uScale;  // 2^exposure
+layout(location = 0) out vec4 outColour;
+
+void main() {
+  vec3 radiance = texelFetch(uRadiance, ivec2(gl_FragCoord.xy), 0).rgb;
+  outColour = vec4(toneMap(radiance, uScale), 1.0);
+}
