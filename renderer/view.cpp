@@ -1,5 +1,6 @@
 #include "renderer/view.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -63,9 +64,19 @@ View viewOfBounds(const Bounds& bounds, int width, int height) {
   const vec3 back = glm::normalize(vec3(0.6f, 0.45f, 1.0f));
   const vec3 right = glm::normalize(glm::cross(vec3(0, 1, 0), back));
   view.orientation = glm::normalize(glm::quat_cast(mat3(right, glm::cross(back, right), back)));
+  // As near as every corner of the box allows: a corner at p (relative to the middle) is in the
+  // picture when |p·right| and |p·up| are within the frustum at its depth.
   const float radius = std::max(bounds.radius(), 1e-3f);
-  const float narrow = std::tan(0.5f * view.yfov) * std::min(1.0f, view.aspect());
-  view.eye = bounds.centre() + back * (radius / std::sin(std::atan(narrow)));
+  const float vertical = std::tan(0.5f * view.yfov), horizontal = vertical * view.aspect();
+  const vec3 half = 0.5f * bounds.extent();
+  float distance = 0.0f;
+  for (int i = 0; i < 8; ++i) {
+    const vec3 p = half * vec3((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1);
+    const float towardsEye = glm::dot(p, back);
+    distance = std::max({distance, towardsEye + std::abs(glm::dot(p, right)) / horizontal,
+                         towardsEye + std::abs(glm::dot(p, view.up())) / vertical});
+  }
+  view.eye = bounds.centre() + back * std::max(1.05f * distance, radius * 0.1f);
   view.znear = std::max(1e-4f, 0.001f * radius);
   return view;
 }
