@@ -27,66 +27,100 @@ HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
 HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
-HWY_INLINE Floats dot(const Vector3& a, const vec3& b) {
-  return hn::MulAdd(a.x, all(b.x), hn::MulAdd(a.y, all(b.y), hn::Mul(a.z, all(b.z))));
-}
 HWY_INLINE Vector3 load(const std::vector<float>& x, const std::vector<float>& y,
                         const std::vector<float>& z, size_t i) {
   return {hn::LoadU(kTag, &x[i]), hn::LoadU(kTag, &y[i]), hn::LoadU(kTag, &z[i])};
 }
 
+HWY_INLINE Vector3 all(const vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
+
+// The light in every lane, so that the loop over pixels takes it as vector operands from the stack.
+struct WideLight {
+  explicit WideLight(const LightRecord& light, const SumConstants& c)
+      : map(light.map),
+        position(all(light.position)),
+        normal(all(light.normal)),
+        tangent(all(light.tangent)),
+        bitangent(all(light.bitangent)),
+        intensity(all(light.intensity)),
+        coneScale(all(light.coneScale)),
+        coneOffset(all(light.coneOffset)),
+        side(all(light.side)),
+        inverseSide(all(1.0f / light.side)),
+        depth(all(2.0f * light.radius)),
+        deepest(all(-light.radius - c.bias * light.side)) {}
+
+  const float* map;
+  Vector3 position, normal, tangent, bitangent, intensity;
+  Floats coneScale, coneOffset;
+  Floats side, inverseSide, depth, deepest;  // directional
+};
+
+// Numbers of the map's grid and of the test in every lane.
+struct WideConstants {
+  explicit WideConstants(const SumConstants& c)
+      : resolution(hn::Set(IntTag(), c.resolution)),
+        half(all(0.5f * static_cast<float>(c.resolution))),
+        last(all(static_cast<float>(c.resolution - 1))),
+        step(all(2.0f / static_cast<float>(c.resolution))),
+        first(all(1.0f / static_cast<float>(c.resolution) - 1.0f)),
+        beforePlane(all(1.0f + c.bias)),
+        beforePoint(all(1.0f + c.bias + 1.0f / static_cast<float>(c.resolution))),
+        clampDistance2(all(c.clampDistance2)) {}
+
+  hn::Vec<IntTag> resolution;
+  Floats half, last, step, first;
+  Floats beforePlane, beforePoint;
+  Floats clampDistance2;
+};
+
 // The texel's column or row, and its centre, of one square coordinate.
 struct Texel {
   Floats index, centre;
 };
-HWY_INLINE Texel texelOf(Floats s, int resolution) {
-  const float size = static_cast<float>(resolution);
-  const Floats i = hn::Floor(hn::MulAdd(s, all(0.5f * size), all(0.5f * size)));
-  const Floats index = hn::Min(hn::Max(i, hn::Zero(kTag)), all(size - 1.0f));
-  return {index, hn::MulAdd(index, all(2.0f / size), all(1.0f / size - 1.0f))};
+HWY_INLINE Texel texelOf(Floats s, const WideConstants& c) {
+  const Floats i = hn::Floor(hn::MulAdd(s, c.half, c.half));
+  const Floats index = hn::Min(hn::Max(i, hn::Zero(kTag)), c.last);
+  return {index, hn::MulAdd(index, c.step, c.first)};
 }
 
-HWY_INLINE Floats fetch(const float* map, int resolution, const Texel& s, const Texel& t) {
+HWY_INLINE Floats fetch(const float* map, const Texel& s, const Texel& t, const WideConstants& c) {
   const IntTag ints;
   const auto column = hn::ConvertTo(ints, s.index), row = hn::ConvertTo(ints, t.index);
-  return hn::GatherIndex(kTag, map, hn::Add(hn::Mul(row, hn::Set(ints, resolution)), column));
+  return hn::GatherIndex(kTag, map, hn::Add(hn::Mul(row, c.resolution), column));
 }
 
-// v: from the light to the point; q: the same in the light's frame but for q.z, given as z.
-HWY_INLINE Mask hemisphereOccluded(const LightRecord& light, const SumConstants& c,
-                                   const Vector3& v, Floats z, const Vector3& geometric,
-                                   Floats facing) {
+// v: from the light to the point; z: its height over the light's plane, > 0.
+HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& c, const Vector3& v,
+                                   Floats z, const Vector3& geometric, Floats facing) {
   const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
   const Floats w = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), z);
   const Floats inverse = hn::Div(all(1.0f), w);
-  const Texel s = texelOf(hn::Mul(hn::Add(x, y), inverse), c.resolution);
-  const Texel t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c.resolution);
-  const Floats stored = fetch(light.map, c.resolution, s, t);
+  const Texel s = texelOf(hn::Mul(hn::Add(x, y), inverse), c);
+  const Texel t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c);
+  const Floats stored = fetch(light.map, s, t, c);
   const Floats ex = hn::Mul(hn::Add(s.centre, t.centre), all(0.5f));
   const Floats ey = hn::Mul(hn::Sub(s.centre, t.centre), all(0.5f));
   const Floats ez = hn::Sub(all(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
   const Floats plane = hn::MulAdd(
       dot(geometric, light.tangent), ex,
       hn::MulAdd(dot(geometric, light.bitangent), ey, hn::Mul(dot(geometric, light.normal), ez)));
-  const Floats k = all(1.0f + c.bias);
-  const Mask beforePoint =
-      hn::Gt(hn::Mul(stored, w), all(1.0f + c.bias + 1.0f / static_cast<float>(c.resolution)));
+  const Mask beforePoint = hn::Gt(hn::Mul(stored, w), c.beforePoint);
   // facing = −n·v > 0
-  const Mask beforePlane = hn::Gt(hn::MulAdd(stored, facing, hn::Mul(k, plane)), hn::Zero(kTag));
+  const Mask beforePlane =
+      hn::Gt(hn::MulAdd(stored, facing, hn::Mul(c.beforePlane, plane)), hn::Zero(kTag));
   return hn::And(beforePoint, beforePlane);
 }
 
 // q: the point in the light's frame.
-HWY_INLINE Mask directionalOccluded(const LightRecord& light, const SumConstants& c,
+HWY_INLINE Mask directionalOccluded(const WideLight& light, const WideConstants& c,
                                     const Vector3& q, const Vector3& geometric, Floats facing) {
-  const Floats side = all(light.side), inverse = all(1.0f / light.side);
-  const Texel s = texelOf(hn::Mul(q.x, inverse), c.resolution);
-  const Texel t = texelOf(hn::Mul(q.y, inverse), c.resolution);
-  const Floats stored = fetch(light.map, c.resolution, s, t);
-  const Floats height =
-      hn::MulAdd(stored, all(2.0f * light.radius), all(-light.radius - c.bias * light.side));
-  const Floats above = hn::Sub(height, q.z);
-  const Floats dx = hn::MulSub(s.centre, side, q.x), dy = hn::MulSub(t.centre, side, q.y);
+  const Texel s = texelOf(hn::Mul(q.x, light.inverseSide), c);
+  const Texel t = texelOf(hn::Mul(q.y, light.inverseSide), c);
+  const Floats stored = fetch(light.map, s, t, c);
+  const Floats above = hn::Sub(hn::MulAdd(stored, light.depth, light.deepest), q.z);
+  const Floats dx = hn::MulSub(s.centre, light.side, q.x);
+  const Floats dy = hn::MulSub(t.centre, light.side, q.y);
   const Floats slope =
       hn::MulAdd(dot(geometric, light.tangent), dx, hn::Mul(dot(geometric, light.bitangent), dy));
   const Mask beforePoint = hn::Gt(above, hn::Zero(kTag));
@@ -95,13 +129,15 @@ HWY_INLINE Mask directionalOccluded(const LightRecord& light, const SumConstants
 }
 
 template <LightRecord::Kind kKind>
-void addLight(const GBuffer& g, std::span<const size_t> packets, const LightRecord& light,
-              const SumConstants& c, Irradiance& out) {
+void addLight(const GBuffer& g, std::span<const size_t> packets, const LightRecord& record,
+              const SumConstants& constants, Irradiance& out) {
+  const WideLight light(record, constants);
+  const WideConstants c(constants);
   const Floats zero = hn::Zero(kTag);
   for (const size_t i : packets) {
     const Vector3 p = load(g.px, g.py, g.pz, i);
-    const Vector3 v{hn::Sub(p.x, all(light.position.x)), hn::Sub(p.y, all(light.position.y)),
-                    hn::Sub(p.z, all(light.position.z))};
+    const Vector3 v{hn::Sub(p.x, light.position.x), hn::Sub(p.y, light.position.y),
+                    hn::Sub(p.z, light.position.z)};
     const Vector3 shading = load(g.sx, g.sy, g.sz, i);
     const Vector3 geometric = load(g.gx, g.gy, g.gz, i);
     Floats weight;
@@ -109,7 +145,7 @@ void addLight(const GBuffer& g, std::span<const size_t> packets, const LightReco
     if constexpr (kKind == LightRecord::Kind::directional) {
       const Vector3 q{dot(v, light.tangent), dot(v, light.bitangent), dot(v, light.normal)};
       const Floats s = dot(shading, light.normal), facing = dot(geometric, light.normal);
-      const Floats side = all(light.side);
+      const Floats side = light.side;
       const Mask within = hn::And(hn::And(hn::Ge(q.x, hn::Neg(side)), hn::Lt(q.x, side)),
                                   hn::And(hn::Ge(q.y, hn::Neg(side)), hn::Lt(q.y, side)));
       const Mask lit = hn::And(within, hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
@@ -123,11 +159,11 @@ void addLight(const GBuffer& g, std::span<const size_t> packets, const LightReco
       if (hn::AllFalse(kTag, lit)) continue;
       const Floats d2 = dot(v, v);
       if constexpr (kKind == LightRecord::Kind::cosine) {
-        const Floats bounded = hn::Max(d2, all(c.clampDistance2));
+        const Floats bounded = hn::Max(d2, c.clampDistance2);
         weight = hn::Div(hn::Mul(s, z), hn::Mul(d2, bounded));
       } else {
         const Floats d = hn::Sqrt(d2);
-        const Floats ramp = hn::MulAdd(hn::Div(z, d), all(light.coneScale), all(light.coneOffset));
+        const Floats ramp = hn::MulAdd(hn::Div(z, d), light.coneScale, light.coneOffset);
         const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
         weight = hn::Mul(hn::Mul(cone, cone), hn::Div(s, hn::Mul(d2, d)));
       }
@@ -140,9 +176,9 @@ void addLight(const GBuffer& g, std::span<const size_t> packets, const LightReco
     float* r = &out.r[i];
     float* gr = &out.g[i];
     float* b = &out.b[i];
-    hn::StoreU(hn::MulAdd(weight, all(light.intensity.x), hn::LoadU(kTag, r)), kTag, r);
-    hn::StoreU(hn::MulAdd(weight, all(light.intensity.y), hn::LoadU(kTag, gr)), kTag, gr);
-    hn::StoreU(hn::MulAdd(weight, all(light.intensity.z), hn::LoadU(kTag, b)), kTag, b);
+    hn::StoreU(hn::MulAdd(weight, light.intensity.x, hn::LoadU(kTag, r)), kTag, r);
+    hn::StoreU(hn::MulAdd(weight, light.intensity.y, hn::LoadU(kTag, gr)), kTag, gr);
+    hn::StoreU(hn::MulAdd(weight, light.intensity.z, hn::LoadU(kTag, b)), kTag, b);
   }
 }
 
