@@ -5,6 +5,7 @@
 #include <map>
 
 #include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/parallel_start.h"
 #include "renderer/sampling/random.h"
 #include "renderer/sampling/sun_squares.h"
 #include "renderer/sampling/vpl_counts.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr uint32_t kPathsPerVpl = 16;
 // Dimension pairs of a path's points: where and whereto it leaves; those of bounce b > 0 follow.
 constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
+// And through which part of the level parallel light goes; behind those of all bounces.
+constexpr uint32_t kChoiceDimension = 100;
 // A square around the scene, with what lies on its very edge.
 constexpr float kWholeScene = 1.0001f;
 // Squares that one sun may take: an eighth of the level's width each way if it is even.
@@ -36,7 +39,11 @@ class Generator {
  public:
   Generator(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
             const VplCounts& counts)
-      : scene_(scene), rays_(rays), lights_(lights), counts_(counts) {}
+      : scene_(scene),
+        rays_(rays),
+        lights_(lights),
+        counts_(counts),
+        parallelStart_(scene, lights.sceneCentre(), lights.sceneRadius()) {}
 
   VplSet run() {
     const std::vector<Emitter>& emitters = lights_.emitters();
@@ -229,12 +236,12 @@ class Generator {
             2.0f * kPi * cap * attenuation * p.light.intensity};
   }
 
-  // From a disc that covers the scene, at its edge.
+  // From the edge of the scene, towards where the level has its detail: flux = E / density.
   Departure departParallel(const vec3& towards, const vec3& irradiance, uint32_t path) const {
-    const float radius = lights_.sceneRadius();
-    const vec2 d = sampleDisk(point(path, kPlaceDimension, kIndirectSet));
-    const vec3 origin = lights_.sceneCentre() + radius * Frame(towards).toWorld(vec3(d, 1.0f));
-    return {origin, -towards, kPi * radius * radius * irradiance};
+    const ParallelStart::Point p =
+        parallelStart_.sample(towards, point(path, kPlaceDimension, kIndirectSet),
+                              point(path, kChoiceDimension, kIndirectSet).x);
+    return {p.position + lights_.sceneRadius() * towards, -towards, irradiance / p.pdf};
   }
 
   // Paths until there are `count` VPLs. One that would leave too many is not begun, so that its
@@ -287,6 +294,7 @@ class Generator {
   const RayCaster& rays_;
   const LightSet& lights_;
   const VplCounts& counts_;
+  ParallelStart parallelStart_;
   VplSet result_;
   int emitter_ = 0;
   VplId id_;
