@@ -1,0 +1,91 @@
+#include "renderer/backends/gl/gl_backend.h"
+
+#include "renderer/backends/gl/gl_lighting.h"
+
+namespace lamplighter {
+namespace {
+
+class GlBackend final : public Backend {
+ public:
+  GlBackend(std::unique_ptr<gl::HeadlessContext> context, const std::filesystem::path& shaders)
+      : context_(std::move(context)),
+        maps_(shaders, vpls_),
+        gbuffer_(shaders),
+        lighting_(shaders, vpls_) {
+    info_.name = "gl";
+    info_.device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  }
+
+  const BackendInfo& info() const override { return info_; }
+
+  KernelCounts counts() const override {
+    KernelCounts counts = counts_;
+    counts.memoryBytes = scene_.bytes() + maps_.bytes() + gbuffer_.bytes() + lighting_.bytes();
+    return counts;
+  }
+
+  void setScene(const RenderScene& scene, const RenderSceneChanges& changes,
+                const RayCaster&) override {
+    scene_.update(scene, changes);
+  }
+
+  void reserveShadowMaps(int slots, int resolution) override { maps_.reserve(slots, resolution); }
+
+  void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
+    maps_.render(scene_, vpls, vpls_);
+    counts_.shadowMaps += vpls.size();
+  }
+
+  void renderGBuffer(const View& view, vec2 jitter) override {
+    gbuffer_.render(scene_, view, jitter);
+    lighting_.clear(view.width, view.height);
+  }
+
+  void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params) override {
+    lighting_.sum(gbuffer_, maps_, vpls_, vpls, params);
+    counts_.lightPixels +=
+        vpls.size() * static_cast<uint64_t>(gbuffer_.width()) * gbuffer_.height();
+  }
+
+  std::shared_ptr<RadianceImage> compose() override {
+    return lighting_.compose(gbuffer_, scene_.scene().sky);
+  }
+
+  std::vector<float> readShadowMap(int slot) override { return maps_.read(slot); }
+  Image readNormals() override { return gbuffer_.readNormals(); }
+  Image readAlbedo() override { return gbuffer_.readAlbedo(); }
+  void finish() override { glFinish(); }
+
+  void reload(const std::filesystem::path& shaders) {
+    maps_.reload(shaders, vpls_);
+    gbuffer_.reload(shaders);
+    lighting_.reload(shaders, vpls_);
+  }
+
+ private:
+  std::unique_ptr<gl::HeadlessContext> context_;  // first: everything else needs it to the end
+  BackendInfo info_;
+  KernelCounts counts_;
+  gl::VplBuffer vpls_;
+  gl::GlScene scene_;
+  gl::GlShadowMaps maps_;
+  gl::GlGBuffer gbuffer_;
+  gl::GlLighting lighting_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> makeGlBackend(const std::filesystem::path& shaders) {
+  return makeGlBackend(nullptr, shaders);
+}
+
+std::unique_ptr<Backend> makeGlBackend(std::unique_ptr<gl::HeadlessContext> context,
+                                       const std::filesystem::path& shaders) {
+  return std::make_unique<GlBackend>(std::move(context), shaders);
+}
+
+void reloadShaders(Backend& backend, const std::filesystem::path& shaders) {
+  if (auto* gl = dynamic_cast<GlBackend*>(&backend)) gl->reload(shaders);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,42 @@
+// Primary visibility: what each pixel sees, by rasterisation.
+#pragma once
+
+#include <filesystem>
+#include <map>
+
+#include "renderer/backends/gl/gl_scene.h"
+#include "renderer/gl/program.h"
+#include "renderer/view.h"
+
+namespace lamplighter::gl {
+
+class GlGBuffer {
+ public:
+  explicit GlGBuffer(const std::filesystem::path& shaders);
+  void reload(const std::filesystem::path& shaders);
+
+  void render(const GlScene& scene, const View& view, vec2 jitter);
+  // To the units of shaders/shared/bindings.h.
+  void bind() const;
+  Image readNormals() const;
+  Image readAlbedo() const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  uint64_t bytes() const;
+
+ private:
+  void resize(int width, int height);
+  const Program& programFor(const GlScene::Drawn& drawn);
+
+  std::filesystem::path shaders_;
+  // Compiled when first wanted: each costs tens of milliseconds on a software driver.
+  std::map<std::pair<bool, bool>, Program> programs_;  // by textured, masked
+  Program normals_;
+  VertexArray emptyVertexArray_;
+  Framebuffer framebuffer_;
+  Texture position_, normalsTexture_, albedo_, emission_, depth_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace lamplighter::gl

@@ -1,0 +1,62 @@
+// The scene's triangles, materials and textures in OpenGL's memory.
+#pragma once
+
+#include <vector>
+
+#include "renderer/backends/gl/gl_textures.h"
+#include "renderer/gl/objects.h"
+#include "renderer/scene/render_scene.h"
+#include "shaders/shared/material.h"
+
+namespace lamplighter::gl {
+
+class GlScene {
+ public:
+  GlScene();
+
+  // Throws InputError when the device can't hold it.
+  void update(const RenderScene& scene, const RenderSceneChanges& changes);
+
+  // An object that is drawn (clear ones are not).
+  struct Drawn {
+    uint32_t object = 0;  // index into RenderScene::objects
+    int material = 0;
+    bool textured = false;
+    bool masked = false;
+  };
+  // Opaque untextured ones first, then by material, so that what changes between draws is little.
+  const std::vector<Drawn>& drawn() const { return drawn_; }
+  const RenderScene& scene() const { return *scene_; }
+
+  // All vertex attributes and the index buffer.
+  GLuint vertexArray() const { return vertexArray_.name(); }
+  // Vertices as storage buffers, for the corners of a triangle.
+  void bindStorage() const;
+  // The material's block and textures.
+  void bindMaterial(int material) const;
+
+  uint64_t bytes() const { return bytes_ + textures_.bytes(); }
+
+ private:
+  void uploadGeometry();
+  void uploadObject(const RenderObject& object);
+  void uploadMaterials();
+
+  const RenderScene* scene_ = nullptr;
+  VertexArray vertexArray_;
+  Buffer positions_, normals_, tangents_, uv0_, uv1_, colors_, indices_, firstIndices_;
+  Buffer materials_;  // one SurfaceMaterial every materialStride_ bytes
+  GLintptr materialStride_ = 0;
+  struct MaterialTextures {
+    GLuint baseColor = 0, normal = 0, emissive = 0;
+  };
+  std::vector<MaterialTextures> materialTextures_;
+  TextureCache textures_;
+  std::vector<Drawn> drawn_;
+  uint64_t bytes_ = 0;
+};
+
+// The material as the shaders take it.
+shared::SurfaceMaterial surfaceMaterial(const Material& material);
+
+}  // namespace lamplighter::gl

@@ -1,0 +1,26 @@
+// The uniform block that takes a pass's VPLs to the shaders.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "renderer/gl/objects.h"
+#include "shaders/shared/vpl.h"
+
+namespace lamplighter::gl {
+
+class VplBuffer {
+ public:
+  VplBuffer();
+  int capacity() const { return capacity_; }
+  // "VPLS_A_PASS n", for shaders/common/vpls.glsl.
+  std::string define() const;
+  // At most capacity() of them, and bound.
+  void upload(std::span<const shared::Vpl> vpls) const;
+
+ private:
+  Buffer buffer_;
+  int capacity_ = 0;
+};
+
+}  // namespace lamplighter::gl

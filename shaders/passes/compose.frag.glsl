@@ -1,0 +1,20 @@
+// Outgoing radiance: Le + ρ/π · E, and the sky where nothing was hit.
+#include "shared/bindings.h"
+
+layout(binding = kGPosition) uniform sampler2D uPosition;
+layout(binding = kGAlbedo) uniform sampler2D uAlbedo;
+layout(binding = kGEmission) uniform sampler2D uEmission;
+layout(binding = kIrradiance) uniform sampler2D uIrradiance;
+layout(location = 0) uniform vec3 uSky;
+
+layout(location = 0) out vec4 outRadiance;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  const float kInversePi = 0.318309886;
+  vec3 albedo = texelFetch(uAlbedo, pixel, 0).rgb;
+  vec3 irradiance = texelFetch(uIrradiance, pixel, 0).rgb;
+  vec3 radiance = texelFetch(uEmission, pixel, 0).rgb + albedo * kInversePi * irradiance;
+  bool hit = texelFetch(uPosition, pixel, 0).w != 0.0;
+  outRadiance = vec4(hit ? radiance : uSky, 1.0);
+}

@@ -1,0 +1,38 @@
+// Where the gl backend binds what its shaders read. Textures, uniform blocks, storage blocks and
+// vertex attributes are numbered apart.
+#ifndef LAMPLIGHTER_SHARED_BINDINGS_H
+#define LAMPLIGHTER_SHARED_BINDINGS_H
+#include "interop.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kVplBlock = 0;
+SHARED_CONST int kMaterialBlock = 1;
+
+SHARED_CONST int kPositionBuffer = 0;
+SHARED_CONST int kIndexBuffer = 1;
+SHARED_CONST int kUv0Buffer = 2;
+SHARED_CONST int kUv1Buffer = 3;
+
+SHARED_CONST int kPositionAttribute = 0;
+SHARED_CONST int kNormalAttribute = 1;
+SHARED_CONST int kTangentAttribute = 2;
+SHARED_CONST int kUv0Attribute = 3;
+SHARED_CONST int kUv1Attribute = 4;
+SHARED_CONST int kColorAttribute = 5;
+SHARED_CONST int kFirstIndexAttribute = 6;  // one an object: where its indices begin
+
+SHARED_CONST int kBaseColorTexture = 0;
+SHARED_CONST int kNormalTexture = 1;
+SHARED_CONST int kEmissiveTexture = 2;
+
+// What the G-buffer's pass writes and the others read, in this order.
+SHARED_CONST int kGPosition = 0;  // xyz: world [m]; w: 1 where something was hit
+SHARED_CONST int kGNormals = 1;   // octahedral: xy shading, zw geometric, on the side of the eye
+SHARED_CONST int kGAlbedo = 2;
+SHARED_CONST int kGEmission = 3;  // towards the eye [W/(m² sr)]
+SHARED_CONST int kShadowMaps = 4;
+SHARED_CONST int kIrradiance = 4;
+
+SHARED_END
+#endif
