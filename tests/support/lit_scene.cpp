@@ -6,7 +6,7 @@
 
 namespace lamplighter::test {
 
-LitScene::LitScene(const Scene& scene) : backend(makeCpuBackend()) {
+LitScene::LitScene(const Scene& scene, std::unique_ptr<Backend> on) : backend(std::move(on)) {
   const RenderSceneChanges changes = update(render, scene, SceneChanges::all());
   rays = std::make_unique<RayCaster>(render);
   backend->setScene(render, changes, *rays);

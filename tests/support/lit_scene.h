@@ -1,4 +1,4 @@
-// A scene brought to the cpu backend, for tests of kernels.
+// A scene brought to a backend, for tests of kernels.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,8 @@
 namespace lamplighter::test {
 
 struct LitScene {
-  explicit LitScene(const Scene& scene);
+  // On the cpu backend unless another is given.
+  explicit LitScene(const Scene& scene, std::unique_ptr<Backend> on = makeCpuBackend());
 
   // The picture under these VPLs alone, with or without their shadow maps.
   Image sum(std::vector<shared::Vpl> vpls, const View& view, int resolution, bool shadows = true,
