@@ -23,7 +23,7 @@ struct Session::Tools {
 Session::Session(std::unique_ptr<FrameRenderer> renderer)
     : renderer_(std::move(renderer)), tools_(std::make_unique<Tools>()) {
   addAllActions(actions_);
-  savedHash_ = documentHash(document_);
+  savedHash_ = sceneHash(document_.scene);
 }
 
 Session::~Session() = default;
@@ -34,7 +34,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   document_.selection.clear();
   document_.path = std::move(path);
   history_.clear();
-  savedHash_ = documentHash(document_);
+  savedHash_ = sceneHash(document_.scene);
   tools_->pointerKnown = false;
 
   RenderScene world;
@@ -57,11 +57,11 @@ void Session::save(const std::filesystem::path& path) {
   history_.commit();
   saveGltf(document_.scene, path);
   document_.path = path;
-  savedHash_ = documentHash(document_);
+  savedHash_ = sceneHash(document_.scene);
   status_ = "Saved " + path.string();
 }
 
-bool Session::modified() const { return documentHash(document_) != savedHash_; }
+bool Session::modified() const { return sceneHash(document_.scene) != savedHash_; }
 
 bool Session::runAction(std::string_view text) {
   try {

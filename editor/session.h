@@ -81,7 +81,7 @@ class Session {
   const std::string& status() const { return status_; }
   void setStatus(std::string text) { status_ = std::move(text); }
   bool quitRequested() const { return quit_; }
-  void requestQuit() { quit_ = true; }
+  void requestQuit(bool quit = true) { quit_ = quit; }
 
   // What actions ask of the application, handed out once.
   void requestOpen(std::filesystem::path path) { openRequest_ = std::move(path); }

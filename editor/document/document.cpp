@@ -64,19 +64,29 @@ void addMaterial(Hasher& h, const Material& m) {
   h.add(static_cast<int>(m.alphaMode)), h.add(m.alphaCutoff), h.add(m.doubleSided);
 }
 
+void addScene(Hasher& h, const Scene& scene) {
+  h.add(static_cast<uint32_t>(scene.nodes.size()));
+  for (const Node& n : scene.nodes) addNode(h, n);
+  h.add(static_cast<uint32_t>(scene.materials.size()));
+  for (const Material& m : scene.materials) addMaterial(h, m);
+  h.add(scene.sky);
+}
+
 }  // namespace
 
 bool Document::isSelected(NodeId id) const {
   return std::find(selection.begin(), selection.end(), id) != selection.end();
 }
 
+uint64_t sceneHash(const Scene& scene) {
+  Hasher h;
+  addScene(h, scene);
+  return h.value();
+}
+
 uint64_t documentHash(const Document& d) {
   Hasher h;
-  h.add(static_cast<uint32_t>(d.scene.nodes.size()));
-  for (const Node& n : d.scene.nodes) addNode(h, n);
-  h.add(static_cast<uint32_t>(d.scene.materials.size()));
-  for (const Material& m : d.scene.materials) addMaterial(h, m);
-  h.add(d.scene.sky);
+  addScene(h, d.scene);
   h.add(d.render.method), h.add(d.render.exposureEv);
   for (const auto& [name, value] : d.render.values.values()) {
     h.add(name);

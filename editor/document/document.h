@@ -33,5 +33,7 @@ struct Document {
 // A hash of everything in the document that a user can change (scene and render settings, not the
 // selection), equal on every machine: what recordings' checkpoints compare.
 uint64_t documentHash(const Document& document);
+// The scene's part of it: what a file would hold.
+uint64_t sceneHash(const Scene& scene);
 
 }  // namespace lamplighter

@@ -1,0 +1,283 @@
+#include "ui/app/application.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <imgui.h>
+
+#include "renderer/error.h"
+#include "renderer/image/exposure.h"
+#include "renderer/image/image_io.h"
+
+namespace lamplighter {
+namespace {
+
+// A scene that was just opened is shown for so long before an exposure is found for it, or until it
+// is settled: by then most of its light samples are in.
+constexpr int kFramesToExposure = 8;
+
+constexpr ImGuiWindowFlags kPanelFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                         ImGuiWindowFlags_NoSavedSettings |
+                                         ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+// A panel's window at a fixed place.
+void beginPanel(const char* id, const Rect& rect, bool scrolls = true) {
+  ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
+  ImGui::SetNextWindowSize({rect.size().x, rect.size().y});
+  ImGuiWindowFlags flags = kPanelFlags;
+  if (scrolls) flags &= ~ImGuiWindowFlags_NoScrollbar;
+  ImGui::Begin(id, nullptr, flags);
+}
+
+}  // namespace
+
+Application::Application(Platform& platform, std::unique_ptr<Session> session)
+    : platform_(platform), session_(std::move(session)), gui_(platform) {
+  lastSeconds_ = platform_.seconds();
+}
+
+void Application::openNow(const std::filesystem::path& path) {
+  LoadedScene loaded = loadGltf(path);
+  session_->open(std::move(loaded.scene), path, loaded.warnings);
+}
+
+void Application::showError(const std::string& text) {
+  messageBox_.show("Error", text);
+}
+
+void Application::frame() {
+  widgets_.flip();
+  takeInput();
+  takeLoaded();
+
+  const double now = platform_.seconds();
+  frameSeconds_ += 0.15 * (now - lastSeconds_ - frameSeconds_);
+  dt_ = timeStep_ > 0.0f ? timeStep_
+                         : std::clamp(static_cast<float>(now - lastSeconds_), 1e-4f, 0.25f);
+  lastSeconds_ = now;
+
+  gui_.beginFrame(router_.state(), dt_);
+  const PanelContext ui{*session_, widgets_, platform_.contentScale(), ""};
+  drawPanels(ui);
+  viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
+  session_->renderFrame();
+  if (framesToExposure_ > 0 && (--framesToExposure_ == 0 || session_->output().settled)) {
+    framesToExposure_ = 0;
+    exposeAutomatically();
+  }
+  present();
+  viewport_.draw(ui, picture_.texture());
+  drawDialogs(ui);
+  gui_.endFrame();
+  answerRequests();
+  platform_.present();
+  updateTitle();
+}
+
+void Application::takeInput() {
+  router_.beginFrame();
+  const std::vector<InputEvent> events = input_.takeFrame();
+  if (listener_) {
+    std::vector<InputEvent> named;
+    named.reserve(events.size());
+    for (const InputEvent& event : events) named.push_back(router_.named(event));
+    listener_(named);
+  }
+  for (const InputEvent& event : events) handle(event);
+  quietFrames_ = events.empty() ? quietFrames_ + 1 : 0;
+}
+
+void Application::handle(const InputEvent& event) {
+  if (event.kind == EventKind::action) {
+    runAction(event.text);
+    return;
+  }
+  router_.apply(event);
+  if (event.kind == EventKind::key && event.down) pressKey(event.key);
+}
+
+void Application::pressKey(Key key) {
+  // Keys belong to a text field, a dialog or the flying camera before they are shortcuts.
+  const Modifiers modifiers = router_.state().modifiers();
+  if (ImGui::GetIO().WantTextInput || dialogOpen()) return;
+  if (session_->flying() && !modifiers.ctrl) return;
+  if (const Action* action = session_->actions().forKey(key, modifiers)) runAction(action->name);
+}
+
+bool Application::dialogOpen() const {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+void Application::runAction(const std::string& text) {
+  // Actions that need a file ask for it where none is given.
+  if (text == "file.open") {
+    requests_.openDialog = true;
+  } else if (text == "file.save_as" ||
+             (text == "file.save" && session_->document().path.empty())) {
+    requests_.saveDialog = true;
+  } else if (text == "edit.rename") {
+    inspectorState_.focusName = true;
+  } else if (!session_->runAction(text) && replaying_) {
+    throw InputError(text + ": " + session_->status());
+  }
+}
+
+void Application::drawPanels(PanelContext ui) {
+  menuBar(ui, requests_);
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  layout_.divide({window.x, window.y}, ImGui::GetFrameHeight(), ui.scale);
+
+  beginPanel("##toolbar", layout_.toolbar, false);
+  toolbar(ui, requests_);
+  ImGui::End();
+  beginPanel("##outliner", layout_.left, false);
+  outliner(ui, outlinerState_);
+  ImGui::End();
+  beginPanel("##inspector", layout_.inspector);
+  inspector(ui, inspectorState_);
+  ImGui::End();
+  beginPanel("##render", layout_.render);
+  renderPanel(ui);
+  ImGui::End();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(2)});
+  beginPanel("##status", layout_.status, false);
+  statusLine(ui, {frameSeconds_, static_cast<bool>(listener_), replaying_});
+  ImGui::End();
+  ImGui::PopStyleVar();
+  layout_.splitters(ui);
+  // At once, so that this frame shows what they do.
+  for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
+
+  // A field that went away while it was being edited leaves its step open.
+  if (session_->history().inTransaction() && !ImGui::IsAnyItemActive() &&
+      !router_.state().buttons[0])
+    session_->history().commit();
+}
+
+void Application::drawDialogs(PanelContext ui) {
+  if (loader_.running()) {
+    const Progress progress{"Opening", loader_.what(), loader_.done(), true};
+    if (progressBox_.draw(ui, &progress)) loader_.cancel();
+  } else {
+    progressBox_.draw(ui, nullptr);
+  }
+  if (const auto path = fileDialog_.draw(ui)) {
+    if (fileDialog_.kind() == FileDialog::Kind::open)
+      session_->requestOpen(*path);
+    else
+      openSave(*path);
+  }
+  switch (saveQuestion_.draw(ui)) {
+    case SaveQuestion::Answer::none:
+      break;
+    case SaveQuestion::Answer::cancel:
+      pending_ = Pending::none;
+      break;
+    case SaveQuestion::Answer::discard:
+      closeIfSaved();
+      break;
+    case SaveQuestion::Answer::save:
+      if (session_->document().path.empty())
+        requests_.saveDialog = true;
+      else
+        openSave(session_->document().path);
+      break;
+  }
+  messageBox_.draw(ui);
+}
+
+void Application::openSave(const std::filesystem::path& path) {
+  try {
+    session_->save(path);
+    closeIfSaved();
+  } catch (const InputError& e) {
+    pending_ = Pending::none;
+    showError(e.what());
+  }
+}
+
+// Does what waited for the changes to be saved or given up.
+void Application::closeIfSaved() {
+  const Pending pending = std::exchange(pending_, Pending::none);
+  if (pending == Pending::quit) finished_ = true;
+  if (pending == Pending::open) openInBackground(pendingOpen_);
+}
+
+void Application::present() {
+  if (!platform_.hasGl()) return;
+  picture_.show(session_->output().radiance, session_->document().render.exposureEv);
+}
+
+void Application::takeLoaded() {
+  std::optional<SceneLoader::Result> result = loader_.take();
+  if (!result) return;
+  if (result->loaded) {
+    session_->open(std::move(result->loaded->scene), result->path, result->loaded->warnings);
+    framesToExposure_ = kFramesToExposure;
+  } else if (!result->error.empty()) {
+    showError(result->error);
+  }
+}
+
+void Application::exposeAutomatically() {
+  if (session_->output().radiance)
+    session_->document().render.exposureEv =
+        autoExposureEv(session_->output().radiance->pixels());
+}
+
+void Application::answerRequests() {
+  const Requests requests = std::exchange(requests_, {});
+  if (requests.openDialog) fileDialog_.open(FileDialog::Kind::open, session_->document().path);
+  if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
+
+  if (const auto path = session_->takeScreenshotRequest()) {
+    try {
+      const Image8 image = platform_.screenshot();
+      if (image.width == 0) throw InputError("there is no window to take a picture of");
+      writePng(image, *path);
+      session_->setStatus("Wrote " + path->string());
+    } catch (const InputError& e) {
+      session_->setStatus(e.what());
+    }
+  }
+  if (const auto path = session_->takeOpenRequest()) {
+    if (replaying_) {
+      openNow(*path);  // a frame count must not depend on how long a file takes to load
+    } else if (session_->modified()) {
+      pending_ = Pending::open;
+      pendingOpen_ = *path;
+      saveQuestion_.ask();
+    } else {
+      openInBackground(*path);
+    }
+  }
+  if (session_->quitRequested() || platform_.closeRequested()) {
+    session_->requestQuit(false);
+    platform_.refuseClose();
+    if (replaying_ || !session_->modified()) {
+      finished_ = true;
+    } else if (pending_ == Pending::none) {
+      pending_ = Pending::quit;
+      saveQuestion_.ask();
+    }
+  }
+}
+
+void Application::updateTitle() {
+  if (!platform_.hasGl() || session_->history().position() == titlePosition_) return;
+  titlePosition_ = session_->history().position();
+  const std::string name = session_->document().path.filename().string();
+  const std::string title = (name.empty() ? "untitled" : name) +
+                            (session_->modified() ? " *" : "") + " \u2013 Lamplighter";
+  if (title != title_) platform_.setTitle(title);
+  title_ = title;
+}
+
+bool Application::idle() const {
+  // A few frames more, for what reacts a frame late: hover colours, layouts, popups.
+  constexpr int kAfterglow = 4;
+  return quietFrames_ > kAfterglow && input_.empty() && session_->output().settled &&
+         !loader_.running();
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,108 @@
+// The editor as a running program: input comes in, panels and tools act on the session, a picture
+// goes out. It runs in a window or in nothing at all, from a hand or from a recording, by the same
+// code.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "editor/session.h"
+#include "ui/app/imgui_layer.h"
+#include "ui/app/input_queue.h"
+#include "ui/app/input_router.h"
+#include "ui/app/layout.h"
+#include "ui/app/scene_loader.h"
+#include "ui/app/widget_map.h"
+#include "ui/panels/panels.h"
+#include "ui/platform/platform.h"
+#include "ui/viewport/picture.h"
+#include "ui/viewport/viewport.h"
+
+namespace lamplighter {
+
+class Application {
+ public:
+  Application(Platform& platform, std::unique_ptr<Session> session);
+
+  Session& session() { return *session_; }
+  InputQueue& input() { return input_; }
+  const WidgetMap& widgets() const { return widgets_; }
+
+  // Every frame lasts this long for tools and panels; 0: as long as it did. Recordings need it fixed.
+  void setTimeStep(float seconds) { timeStep_ = seconds; }
+  // Told of each frame's events, with their targets named.
+  using Listener = std::function<void(const std::vector<InputEvent>&)>;
+  void setListener(Listener listener) { listener_ = std::move(listener); }
+  void setReplaying(bool replaying) { replaying_ = replaying; }
+
+  // Loads on another thread; the frames go on meanwhile.
+  void openInBackground(const std::filesystem::path& path) { loader_.start(path); }
+  // Loads before it returns. Throws InputError.
+  void openNow(const std::filesystem::path& path);
+  bool loading() const { return loader_.running(); }
+  // An exposure that suits the picture; no step of the history, since nobody chose it.
+  void exposeAutomatically();
+  void showError(const std::string& text);
+
+  void frame();
+  bool finished() const { return finished_; }
+  // Frames since the last input.
+  int quietFrames() const { return quietFrames_; }
+  // Nothing will change without input.
+  bool idle() const;
+
+ private:
+  void takeInput();
+  void handle(const InputEvent& event);
+  void pressKey(Key key);
+  void runAction(const std::string& text);
+  void drawPanels(PanelContext ui);
+  void drawDialogs(PanelContext ui);
+  void present();
+  void takeLoaded();
+  void answerRequests();
+  void openSave(const std::filesystem::path& path);
+  void closeIfSaved();
+  void updateTitle();
+  bool dialogOpen() const;
+
+  Platform& platform_;
+  std::unique_ptr<Session> session_;
+  WidgetMap widgets_;
+  InputQueue input_;
+  InputRouter router_{widgets_};
+  ImGuiLayer gui_;
+  Picture picture_;
+  Viewport viewport_;
+  Layout layout_;
+  SceneLoader loader_;
+  Listener listener_;
+
+  OutlinerState outlinerState_;
+  InspectorState inspectorState_;
+  Requests requests_;
+  FileDialog fileDialog_;
+  MessageBox messageBox_;
+  SaveQuestion saveQuestion_;
+  ProgressBox progressBox_;
+
+  // What to do once the question of unsaved changes is answered.
+  enum class Pending { none, quit, open };
+  Pending pending_ = Pending::none;
+  std::filesystem::path pendingOpen_;
+
+  float timeStep_ = 0.0f;
+  double lastSeconds_ = 0.0;
+  double frameSeconds_ = 0.0;
+  float dt_ = 1.0f / 60.0f;
+  bool replaying_ = false;
+  bool finished_ = false;
+  int framesToExposure_ = 0;
+  int quietFrames_ = 0;
+  size_t titlePosition_ = ~size_t{0};  // of the history, when the title was made
+  std::string title_;
+};
+
+}  // namespace lamplighter

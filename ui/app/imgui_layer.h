@@ -1,0 +1,32 @@
+// Dear ImGui's context: its set-up, what it is fed each frame, and how its draw lists reach OpenGL.
+// Nothing but this class writes to ImGuiIO, so a recording sees all that ImGui sees.
+#pragma once
+
+#include "ui/app/input_router.h"
+#include "ui/platform/platform.h"
+
+struct ImGuiContext;
+
+namespace lamplighter {
+
+class ImGuiLayer {
+ public:
+  explicit ImGuiLayer(Platform& platform);
+  ~ImGuiLayer();
+  ImGuiLayer(const ImGuiLayer&) = delete;
+  ImGuiLayer& operator=(const ImGuiLayer&) = delete;
+
+  void beginFrame(const PointerKeys& input, float seconds);
+  // Lays out what was drawn and, where there is OpenGL, draws it into the platform's framebuffer.
+  void endFrame();
+
+ private:
+  void rescale(float scale);
+
+  Platform& platform_;
+  ImGuiContext* context_;
+  float scale_ = 0.0f;
+  std::string clipboard_;
+};
+
+}  // namespace lamplighter

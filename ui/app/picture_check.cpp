@@ -1,0 +1,71 @@
+#include "ui/app/picture_check.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "renderer/error.h"
+#include "renderer/image/image_io.h"
+
+namespace lamplighter {
+namespace {
+
+int largestDifference(const uint8_t* a, const uint8_t* b) {
+  int largest = 0;
+  for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[c] - b[c]));
+  return largest;
+}
+
+}  // namespace
+
+std::string PictureDifference::text() const {
+  if (!sameSize) return "the picture is of another size than its baseline";
+  char text[128];
+  std::snprintf(text, sizeof text,
+                "the picture differs in %zu pixels, by %d of 255 at most and %.4f in the mean",
+                pixels, max, mean);
+  return text;
+}
+
+PictureDifference comparePictures(const Image8& a, const Image8& b) {
+  PictureDifference d;
+  d.sameSize = a.width == b.width && a.height == b.height;
+  if (!d.sameSize) return d;
+  uint64_t sum = 0;
+  const size_t count = a.pixels.size() / 4;
+  for (size_t i = 0; i < count; ++i) {
+    const uint8_t *pa = &a.pixels[4 * i], *pb = &b.pixels[4 * i];
+    const int largest = largestDifference(pa, pb);
+    if (largest > 0) ++d.pixels;
+    d.max = std::max(d.max, largest);
+    for (int c = 0; c < 3; ++c) sum += static_cast<uint64_t>(std::abs(pa[c] - pb[c]));
+  }
+  if (count > 0) d.mean = static_cast<double>(sum) / (3.0 * static_cast<double>(count));
+  return d;
+}
+
+Image8 differencePicture(const Image8& a, const Image8& b) {
+  constexpr int kWhite = 64;
+  Image8 out(a.width, a.height);
+  for (size_t i = 0; i + 3 < a.pixels.size(); i += 4) {
+    const int level = std::min(largestDifference(&a.pixels[i], &b.pixels[i]), kWhite) * 510 / kWhite;
+    out.pixels[i] = static_cast<uint8_t>(std::min(level, 255));
+    out.pixels[i + 1] = out.pixels[i + 2] = static_cast<uint8_t>(std::max(level - 255, 0));
+  }
+  return out;
+}
+
+Image8 readPicture(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)), {});
+  std::string why;
+  const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
+  std::optional<Image8> image = decodeImage8({data, bytes.size()}, why);
+  if (!image) throw InputError(path.string(), "is no picture: " + why, "write it anew");
+  return std::move(*image);
+}
+
+}  // namespace lamplighter

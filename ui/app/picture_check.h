@@ -1,0 +1,31 @@
+// Comparing a replay's pictures with its baselines.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "renderer/image/image.h"
+
+namespace lamplighter {
+
+struct PictureDifference {
+  bool sameSize = true;
+  int max = 0;          // of a channel, of 255
+  double mean = 0.0;    // over pixels and channels, of 255
+  size_t pixels = 0;    // that differ at all
+
+  bool within(double mostMax, double mostMean) const {
+    return sameSize && max <= mostMax && mean <= mostMean;
+  }
+  std::string text() const;
+};
+
+// Display-referred pictures, alpha aside.
+PictureDifference comparePictures(const Image8& a, const Image8& b);
+// Where they differ: black is equal, through red to white where a channel is 64 of 255 off or more.
+// Both of one size.
+Image8 differencePicture(const Image8& a, const Image8& b);
+// A picture as it was written, without any conversion. Throws InputError.
+Image8 readPicture(const std::filesystem::path& path);
+
+}  // namespace lamplighter

@@ -1,0 +1,185 @@
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "editor/input/player.h"
+#include "renderer/error.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/tone_map.h"
+#include "renderer/threads.h"
+#include "ui/app/application.h"
+#include "ui/app/backends.h"
+#include "ui/app/picture_check.h"
+#include "ui/app/run.h"
+#include "ui/platform/headless.h"
+#include "ui/platform/window.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Frames that a checkpoint may take to settle before the recording counts as broken.
+constexpr int kPatience = 5000;
+// Frames without input before a checkpoint counts: some widgets act a frame after the input.
+constexpr int kQuietFrames = 2;
+
+class Replay {
+ public:
+  Replay(const ReplayOptions& options, Recording recording)
+      : options_(options), updated_(recording), player_(std::move(recording), kPatience) {}
+
+  int run(Platform& platform, std::unique_ptr<FrameRenderer> renderer);
+
+ private:
+  const RecordingHeader& header() const { return player_.recording().header; }
+  void start(Application& app);
+  void check(Application& app, Platform& platform, const Checkpoint& checkpoint);
+  std::string documentProblem(const Session& session, const Checkpoint& checkpoint);
+  std::string pictureProblem(Session& session, const Image8& picture,
+                             const Checkpoint& checkpoint);
+  void writePictures(Platform& platform, const Image8& picture, const Checkpoint& checkpoint);
+  fs::path outputOf(const Checkpoint& checkpoint, const char* ending) const;
+
+  const ReplayOptions& options_;
+  Recording updated_;  // with the hashes of this run
+  Player player_;
+  int passed_ = 0, failed_ = 0;
+};
+
+void Replay::start(Application& app) {
+  app.setReplaying(true);
+  app.setTimeStep(1.0f / static_cast<float>(std::max(header().framesPerSecond, 1)));
+  Session& session = app.session();
+  session.document().render = header().render;
+  if (!options_.method.empty()) session.document().render.method = options_.method;
+  for (int i = 0; i < 2; ++i) app.frame();  // the layout's sizes are known after these
+  const fs::path scene = player_.recording().scenePath();
+  if (scene.empty()) return;
+  const std::string hash = hashText(fileHash(scene));
+  if (options_.updateBaselines)
+    updated_.header.sceneHash = hash;
+  else if (!header().sceneHash.empty() && header().sceneHash != hash)
+    throw InputError(options_.recording,
+                     "the scene " + scene.string() + " is not the one that was recorded",
+                     "replay with --update-baselines if it was changed on purpose");
+  app.openNow(scene);
+}
+
+int Replay::run(Platform& platform, std::unique_ptr<FrameRenderer> renderer) {
+  Application app(platform, std::make_unique<Session>(std::move(renderer)));
+  start(app);
+  while (!player_.finished() && !app.finished()) {
+    std::vector<InputEvent> ignored;
+    platform.poll(ignored, 0.0);
+    for (InputEvent& event : player_.beginFrame()) app.input().push(std::move(event));
+    try {
+      app.frame();
+    } catch (const InputError& e) {
+      throw InputError(options_.recording + ": frame " + std::to_string(player_.frame()) + ": " +
+                       e.what());
+    }
+    const bool settled =
+        app.session().output().settled && app.quietFrames() >= kQuietFrames;
+    for (const Checkpoint& checkpoint : player_.endFrame(settled))
+      check(app, platform, checkpoint);
+  }
+  if (options_.updateBaselines) writeRecording(updated_);
+  if (options_.check)
+    std::cout << passed_ << " checks passed, " << failed_ << " failed\n";
+  return failed_ == 0 ? 0 : 1;
+}
+
+fs::path Replay::outputOf(const Checkpoint& checkpoint, const char* ending) const {
+  // A failed check leaves something to look at even when nobody said where.
+  const fs::path folder = options_.outputFolder.empty() ? "out/replay" : options_.outputFolder;
+  return folder / (player_.recording().path.stem().string() + "." + checkpoint.name + ending);
+}
+
+std::string Replay::documentProblem(const Session& session, const Checkpoint& checkpoint) {
+  Document document = session.document();
+  // The method that the command line asked for is no edit of the recording's.
+  if (!options_.method.empty() && document.render.method == options_.method)
+    document.render.method = header().render.method;
+  const std::string hash = hashText(documentHash(document));
+  if (options_.updateBaselines) {
+    for (RecordingLine& line : updated_.lines)
+      if (auto* c = std::get_if<Checkpoint>(&line.what); c && c->name == checkpoint.name)
+        c->document = hash;
+    return "";
+  }
+  if (checkpoint.document.empty() || checkpoint.document == hash) return "";
+  return "the document is " + hash + " and should be " + checkpoint.document;
+}
+
+std::string Replay::pictureProblem(Session& session, const Image8& picture,
+                                   const Checkpoint& checkpoint) {
+  // Another method gives another picture.
+  if (!checkpoint.image || !options_.method.empty()) return "";
+  const fs::path path = player_.recording().baselineOf(checkpoint);
+  if (options_.updateBaselines) {
+    writePng(picture, path);
+    return "";
+  }
+  if (!fs::exists(path))
+    return "there is no " + path.filename().string() + "; write it with --update-baselines";
+  const Image8 baseline = readPicture(path);
+  const PictureDifference difference = comparePictures(picture, baseline);
+  const bool exact = session.renderer().backend().info().name == "cpu";
+  if (difference.within(exact ? 0.0 : checkpoint.max, exact ? 0.0 : checkpoint.mean)) return "";
+  const fs::path heat = outputOf(checkpoint, ".difference.png");
+  fs::create_directories(heat.parent_path());
+  writePng(picture, outputOf(checkpoint, ".png"));
+  if (difference.sameSize) writePng(differencePicture(picture, baseline), heat);
+  return difference.text() + "; see " + heat.string();
+}
+
+void Replay::writePictures(Platform& platform, const Image8& picture,
+                           const Checkpoint& checkpoint) {
+  if (options_.outputFolder.empty()) return;
+  fs::create_directories(options_.outputFolder);
+  writePng(picture, outputOf(checkpoint, ".png"));
+  if (platform.hasGl()) writePng(platform.screenshot(), outputOf(checkpoint, ".window.png"));
+}
+
+void Replay::check(Application& app, Platform& platform, const Checkpoint& checkpoint) {
+  Session& session = app.session();
+  const Image8 picture =
+      toneMap(session.output().radiance->pixels(), session.document().render.exposureEv);
+  writePictures(platform, picture, checkpoint);
+  if (!options_.check && !options_.updateBaselines) {
+    std::cout << checkpoint.name << ": document " << hashText(documentHash(session.document()))
+              << '\n';
+    return;
+  }
+  std::string problem = documentProblem(session, checkpoint);
+  const std::string seen = pictureProblem(session, picture, checkpoint);
+  if (!problem.empty() && !seen.empty()) problem += "; ";
+  problem += seen;
+  (problem.empty() ? passed_ : failed_) += 1;
+  std::cout << checkpoint.name << ": "
+            << (!problem.empty()            ? "FAILED: " + problem
+                : options_.updateBaselines ? "written"
+                                           : "passed")
+            << std::endl;
+}
+
+}  // namespace
+
+int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
+  const ThreadLimit limit(options.threads);
+  Recording recording = readRecording(options.recording);
+  const RecordingHeader header = recording.header;
+  Replay replay(options, std::move(recording));
+  if (!options.headless) {
+    Window window(header.width, header.height, "Lamplighter: replay", Window::Kind::fixed);
+    return replay.run(window, std::make_unique<FrameRenderer>(makeBackend(options.backend, true),
+                                                              stopwatch));
+  }
+  // Only pictures of the panels and the gl backend need OpenGL.
+  Headless headless(header.width, header.height, false);
+  return replay.run(headless, std::make_unique<FrameRenderer>(
+                                  makeBackend(options.backend, false), stopwatch));
+}
+
+}  // namespace lamplighter

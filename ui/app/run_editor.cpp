@@ -1,0 +1,92 @@
+#include <filesystem>
+#include <optional>
+
+#include "editor/input/recorder.h"
+#include "renderer/error.h"
+#include "ui/app/application.h"
+#include "ui/app/backends.h"
+#include "ui/app/run.h"
+#include "ui/panels/panels.h"
+#include "ui/platform/window.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 1280, kHeight = 720;
+constexpr int kFramesPerSecond = 60;  // of recordings
+
+// What the user sees while OpenGL compiles: the only work that must be done on this thread.
+void showPreparing(Window& window) {
+  ImGuiLayer gui(window);
+  WidgetMap widgets;
+  for (int i = 0; i < 2; ++i) {  // the first frame only measures
+    std::vector<InputEvent> ignored;
+    window.poll(ignored, 0.0);
+    gui.beginFrame({}, 1.0f / 60.0f);
+    centredNotice(window.contentScale(), "Preparing shaders\u2026");
+    gui.endFrame();
+    window.present();
+  }
+}
+
+fs::path defaultScene() {
+  return fs::path(LAMPLIGHTER_ASSET_DIR) / "scenes" / "default.gltf";
+}
+
+RecordingHeader headerFor(const fs::path& scene, const fs::path& recording,
+                          const RenderSettings& render) {
+  RecordingHeader header;
+  std::error_code ignored;
+  const fs::path folder = fs::absolute(recording, ignored).parent_path();
+  const fs::path relative = fs::relative(fs::absolute(scene, ignored), folder, ignored);
+  header.scene = (relative.empty() ? fs::absolute(scene, ignored) : relative).generic_string();
+  header.sceneHash = hashText(fileHash(scene));
+  header.width = kWidth;
+  header.height = kHeight;
+  header.framesPerSecond = kFramesPerSecond;
+  header.render = render;
+  return header;
+}
+
+void pump(Platform& platform, Application& app) {
+  std::vector<InputEvent> events;
+  // An idle program leaves the processor alone; it looks up now and then for blinking cursors.
+  platform.poll(events, app.idle() ? 0.2 : 0.0);
+  for (InputEvent& event : events) app.input().push(std::move(event));
+}
+
+}  // namespace
+
+int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
+  const fs::path scene = options.scene.empty() ? defaultScene() : fs::path(options.scene);
+  const bool recording = !options.record.empty();
+  // A recording must mean the same in another window, so its window has one size and one scale.
+  Window window(kWidth, kHeight, "Lamplighter",
+                recording ? Window::Kind::fixed : Window::Kind::resizable);
+  showPreparing(window);
+  auto renderer =
+      std::make_unique<FrameRenderer>(makeBackend(options.backend, true), stopwatch);
+  Application app(window, std::make_unique<Session>(std::move(renderer)));
+  std::optional<Recorder> recorder;
+  if (!recording) {
+    app.openInBackground(scene);
+  } else {
+    app.setTimeStep(1.0f / kFramesPerSecond);
+    for (int i = 0; i < 2; ++i) app.frame();  // the layout's sizes are known after these
+    app.openNow(scene);
+    app.frame();
+    app.exposeAutomatically();
+    recorder.emplace(options.record,
+                     headerFor(scene, options.record, app.session().document().render));
+    app.setListener([&](const std::vector<InputEvent>& events) { recorder->frame(events); });
+  }
+  while (!app.finished()) {
+    pump(window, app);
+    app.frame();
+  }
+  return 0;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <array>
+#include <set>
+#include <sstream>
+
+#include "ui/panels/panels.h"
+
+namespace lamplighter {
+namespace {
+
+// The order within menus; "-" is a line. Actions that are not listed follow at the end of the menu
+// of their group, so that none is out of reach.
+struct Menu {
+  const char* title;
+  std::vector<std::string> groups;  // first parts of action names
+  std::vector<std::string> first;
+};
+
+const std::vector<Menu>& menus() {
+  static const std::vector<Menu> kMenus = {
+      {"File", {"file", "app"}, {"file.new", "file.open", "-", "file.save", "file.save_as"}},
+      {"Edit",
+       {"edit", "selection", "select"},
+       {"edit.undo", "edit.redo", "-", "edit.duplicate", "edit.delete"}},
+      {"Light", {"light"}, {"light.add"}},
+      {"Object", {"object", "node"}, {}},
+      {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
+      {"View", {"view", "camera"}, {}},
+      {"Render", {"render"}, {}},
+  };
+  return kMenus;
+}
+
+std::string groupOf(const std::string& name) {
+  return name.substr(0, name.find('.'));
+}
+
+// "rectangle|disk|sphere": one item for each.
+std::vector<std::string> choicesOf(const std::string& usage) {
+  std::vector<std::string> choices;
+  if (usage.find('|') == std::string::npos || usage.find(' ') != std::string::npos) return choices;
+  std::string plain;
+  std::copy_if(usage.begin(), usage.end(), std::back_inserter(plain),
+               [](char c) { return c != '[' && c != ']' && c != '<' && c != '>'; });
+  std::istringstream in(plain);
+  for (std::string choice; std::getline(in, choice, '|');) choices.push_back(choice);
+  return choices;
+}
+
+// Whether it can be run without arguments.
+bool standsAlone(const Action& action) {
+  return action.usage.empty() || action.usage.front() == '[';
+}
+
+void menuItem(const PanelContext& ui, const Action& action, Requests& requests) {
+  const bool enabled = !action.enabled || action.enabled(ui.session);
+  const char* shortcut = action.shortcut.empty() ? nullptr : action.shortcut.c_str();
+  const std::vector<std::string> choices = choicesOf(action.usage);
+  if (!choices.empty()) {
+    const bool open = ImGui::BeginMenu(action.label.c_str(), enabled);
+    ui.name(action.name);
+    if (!open) return;
+    for (const std::string& choice : choices) {
+      std::string label = choice;
+      label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+      if (ImGui::MenuItem(label.c_str())) requests.actions.push_back(action.name + " " + choice);
+      ui.name(action.name + " " + choice);
+    }
+    ImGui::EndMenu();
+    return;
+  }
+  // Those that need a file get a dialog; others that need arguments are for scripts.
+  const bool opens = action.name == "file.open";
+  const bool saves = action.name == "file.save_as" || action.name == "file.saveAs";
+  if (!standsAlone(action) && !opens && !saves) return;
+  if (ImGui::MenuItem(action.label.c_str(), shortcut, false, enabled)) {
+    if (opens)
+      requests.openDialog = true;
+    else if (saves)
+      requests.saveDialog = true;
+    else
+      requests.actions.push_back(action.name);
+  }
+  ui.name(action.name);
+  tooltip(ui, action.help);
+}
+
+void drawMenu(const PanelContext& ui, const Menu& menu, Requests& requests) {
+  const auto& all = ui.session.actions().all();
+  std::vector<const Action*> rest;
+  for (const auto& [name, action] : all) {
+    const bool inGroup =
+        std::find(menu.groups.begin(), menu.groups.end(), groupOf(name)) != menu.groups.end();
+    const bool listed = std::find(menu.first.begin(), menu.first.end(), name) != menu.first.end();
+    if (inGroup && !listed) rest.push_back(&action);
+  }
+  const bool anyListed = std::any_of(menu.first.begin(), menu.first.end(),
+                                     [&](const std::string& n) { return all.contains(n); });
+  if (!anyListed && rest.empty()) return;
+  const bool open = ImGui::BeginMenu(menu.title);
+  ui.name(menu.title);
+  if (!open) return;
+  bool line = false, any = false;
+  for (const std::string& name : menu.first) {
+    if (name == "-") {
+      line = any;
+      continue;
+    }
+    const Action* action = ui.session.actions().find(name);
+    if (!action) continue;
+    if (line) ImGui::Separator();
+    line = false;
+    any = true;
+    menuItem(ui, *action, requests);
+  }
+  if (any && !rest.empty()) ImGui::Separator();
+  for (const Action* action : rest) menuItem(ui, *action, requests);
+  ImGui::EndMenu();
+}
+
+}  // namespace
+
+void menuBar(PanelContext ui, Requests& requests) {
+  ui.prefix = "menu/";
+  if (!ImGui::BeginMainMenuBar()) return;
+  for (const Menu& menu : menus()) drawMenu(ui, menu, requests);
+  ImGui::EndMainMenuBar();
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,118 @@
+// The panels, one function each; called every frame within an ImGui window that app/layout made.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ui/panels/widgets.h"
+
+namespace lamplighter {
+
+// What panels ask of the application, which does it after the frame.
+struct Requests {
+  bool openDialog = false;
+  bool saveDialog = false;
+  std::vector<std::string> actions;  // to run, as text
+};
+
+void menuBar(PanelContext ui, Requests& requests);
+void toolbar(PanelContext ui, Requests& requests);
+
+struct OutlinerState {
+  std::string search;
+  NodeId scrolledTo = kNoNode;
+};
+void outliner(PanelContext ui, OutlinerState& state);
+
+struct InspectorState {
+  NodeId node = kNoNode;
+  std::string name;             // being typed
+  vec3 degrees{0.0f};           // of the rotation below, as the fields show it
+  quat rotation{1, 0, 0, 0};
+  int slot = 0;                 // which of the mesh's materials
+  bool lumens = false;          // area lights by flux and not by radiance
+  bool focusName = false;       // give the name field the keyboard
+};
+void inspector(PanelContext ui, InspectorState& state);
+// Parts of the inspector.
+void transformFields(PanelContext ui, const Node& node, InspectorState& state);
+void materialFields(PanelContext ui, const Node& node, InspectorState& state);
+void areaLightFields(PanelContext ui, const Node& node, InspectorState& state);
+void punctualLightFields(PanelContext ui, const Node& node);
+
+void renderPanel(PanelContext ui);
+
+struct StatusInfo {
+  double frameSeconds = 0.0;  // smoothed
+  bool recording = false;
+  bool replaying = false;
+};
+void statusLine(PanelContext ui, const StatusInfo& info);
+
+// Modal dialogs. They are opened by open() and draw themselves each frame.
+class FileDialog {
+ public:
+  enum class Kind { open, save };
+  void open(Kind kind, const std::filesystem::path& start);
+  // The chosen file, once.
+  std::optional<std::filesystem::path> draw(PanelContext ui);
+  Kind kind() const { return kind_; }
+
+ private:
+  struct Entry {
+    std::string name;
+    bool folder;
+  };
+  void list();
+
+  Kind kind_ = Kind::open;
+  bool opening_ = false;
+  std::filesystem::path folder_;
+  std::string file_;
+  std::vector<Entry> entries_;
+  std::string error_;
+};
+
+// A message with an OK button.
+class MessageBox {
+ public:
+  void show(std::string title, std::string text);
+  bool visible() const { return !text_.empty(); }
+  void draw(PanelContext ui);
+
+ private:
+  std::string title_, text_;
+};
+
+// "Save changes?" before something that would lose them.
+class SaveQuestion {
+ public:
+  enum class Answer { none, save, discard, cancel };
+  void ask() { opening_ = true; }
+  Answer draw(PanelContext ui);
+
+ private:
+  bool opening_ = false;
+};
+
+// A line of text in the middle of the window.
+void centredNotice(float scale, const char* text);
+
+// A bar over everything while long work runs.
+struct Progress {
+  std::string title, what;
+  float done = 0.0f;
+  bool cancellable = true;
+};
+class ProgressBox {
+ public:
+  // nullptr: nothing runs, so it closes. True when Cancel was clicked.
+  bool draw(PanelContext ui, const Progress* progress);
+
+ private:
+  bool shown_ = false;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,94 @@
+#include "ui/viewport/viewport.h"
+
+#include <cmath>
+
+#include "ui/theme.h"
+
+namespace lamplighter {
+namespace {
+
+ImU32 packed(const vec4& c) {
+  return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
+}
+
+std::vector<ImVec2> moved(const std::vector<vec2>& points, vec2 origin) {
+  std::vector<ImVec2> result;
+  result.reserve(points.size());
+  for (const vec2& p : points) result.emplace_back(p.x + origin.x, p.y + origin.y);
+  return result;
+}
+
+void drawShape(ImDrawList& list, const OverlayShape& shape, vec2 origin, float scale) {
+  const std::vector<ImVec2> points = moved(shape.points, origin);
+  const int count = static_cast<int>(points.size());
+  const ImU32 colour = packed(shape.colour);
+  if (shape.filled)
+    list.AddConvexPolyFilled(points.data(), count, colour);
+  else
+    list.AddPolyline(points.data(), count, colour, shape.closed ? ImDrawFlags_Closed : 0,
+                     shape.thickness * scale);
+}
+
+}  // namespace
+
+void Viewport::takeInput(PanelContext ui, const Rect& area, const PointerKeys& input,
+                         float seconds) {
+  area_ = area;
+  const vec2 size = glm::max(area.size(), vec2(16.0f));
+  ui.session.resizeViewport(static_cast<int>(std::lround(size.x)),
+                            static_cast<int>(std::lround(size.y)));
+  ImGui::SetNextWindowPos({area.min.x, area.min.y});
+  ImGui::SetNextWindowSize({size.x, size.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::Begin("##viewport", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground |
+                   ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                   ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
+  ImGui::InvisibleButton("view", {size.x, size.y},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  ui.prefix.clear();
+  ui.name(kViewportTarget);
+  const bool hovered = ImGui::IsItemHovered();
+  ImGui::End();
+
+  ViewportInput in;
+  in.pointer = input.pointer - area.min;
+  in.hovered = hovered;
+  for (int i = 0; i < 3; ++i) {
+    in.pressed[i] = hovered && ImGui::IsMouseClicked(i);
+    in.released[i] = down_[i] && !input.buttons[static_cast<size_t>(i)];
+    if (in.pressed[i]) down_[i] = true;
+    if (in.released[i]) down_[i] = false;
+    in.down[i] = down_[i];
+  }
+  in.doubleClicked = hovered && ImGui::IsMouseDoubleClicked(0);
+  in.wheel = hovered ? input.wheel.y : 0.0f;
+  if (!ImGui::GetIO().WantTextInput)
+    for (size_t i = 1; i < input.keys.size(); ++i)
+      if (input.keys[i]) in.keys.insert(static_cast<Key>(i));
+  in.modifiers = input.modifiers();
+  in.seconds = seconds;
+  ui.session.viewport(in);
+}
+
+void Viewport::draw(PanelContext ui, uint32_t texture) const {
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const ImVec2 low{area_.min.x, area_.min.y}, high{area_.max.x, area_.max.y};
+  list.PushClipRect(low, high, true);
+  if (texture != 0)
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture)), low, high);
+  else
+    list.AddRectFilled(low, high, theme::colour(0x000000));
+  const Overlay overlay = ui.session.overlay();
+  for (const OverlayShape& shape : overlay.shapes) drawShape(list, shape, area_.min, ui.scale);
+  for (const OverlayText& text : overlay.texts) {
+    const ImVec2 at{text.position.x + area_.min.x, text.position.y + area_.min.y};
+    list.AddText({at.x + 1, at.y + 1}, theme::colour(0, 160), text.text.c_str());
+    list.AddText(at, packed(text.colour), text.text.c_str());
+  }
+  list.PopClipRect();
+}
+
+}  // namespace lamplighter

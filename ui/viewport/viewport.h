@@ -1,0 +1,21 @@
+// The 3D view: takes the pointer over it to the tools, and shows picture and overlay.
+#pragma once
+
+#include "ui/app/input_router.h"
+#include "ui/panels/widgets.h"
+
+namespace lamplighter {
+
+class Viewport {
+ public:
+  // Lays the view over `area` of the window and hands the session what the hand does there.
+  void takeInput(PanelContext ui, const Rect& area, const PointerKeys& input, float seconds);
+  // Draws the picture (an OpenGL texture, 0: none) and the session's overlay behind all panels.
+  void draw(PanelContext ui, uint32_t texture) const;
+
+ private:
+  Rect area_;
+  bool down_[3] = {};  // pressed within the view and still held
+};
+
+}  // namespace lamplighter
