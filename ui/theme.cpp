@@ -13,8 +13,8 @@ constexpr const char* kIconFont = "/usr/share/fonts/truetype/fork-awesome/forkaw
 
 ImVec4 rgb(unsigned value, float alpha = 1.0f) {
   return {static_cast<float>((value >> 16) & 255) / 255.0f,
-          static_cast<float>((value >> 8) & 255) / 255.0f,
-          static_cast<float>(value & 255) / 255.0f, alpha};
+          static_cast<float>((value >> 8) & 255) / 255.0f, static_cast<float>(value & 255) / 255.0f,
+          alpha};
 }
 
 void loadFonts(float scale) {
@@ -22,9 +22,9 @@ void loadFonts(float scale) {
   io.Fonts->Clear();
   const float size = std::round(kFontSize * scale);
   // Latin with its supplements, general punctuation, superscripts, arrows and mathematical signs.
-  static constexpr ImWchar kText[] = {0x20, 0x17f, 0x2010, 0x2027, 0x2030, 0x2044, 0x2070, 0x209c,
-                                      0x2190, 0x2193, 0x2212, 0x2212, 0x2248, 0x2265, 0x3bb, 0x3c1,
-                                      0};
+  static constexpr ImWchar kText[] = {0x20,   0x17f,  0x2010, 0x2027, 0x2030, 0x2044,
+                                      0x2070, 0x209c, 0x2190, 0x2193, 0x2212, 0x2212,
+                                      0x2248, 0x2265, 0x3bb,  0x3c1,  0};
   std::error_code ignored;
   if (!std::filesystem::exists(kTextFont, ignored) ||
       !io.Fonts->AddFontFromFileTTF(kTextFont, size, nullptr, kText)) {
@@ -59,7 +59,7 @@ void setColours(ImGuiStyle& style) {
   c[ImGuiCol_ScrollbarGrabHovered] = rgb(kFrameActive);
   c[ImGuiCol_ScrollbarGrabActive] = rgb(kAccent);
   c[ImGuiCol_CheckMark] = rgb(kAccent);
-  c[ImGuiCol_SliderGrab] = rgb(0x8d7a5b);
+  c[ImGuiCol_SliderGrab] = rgb(0x6f6350);
   c[ImGuiCol_SliderGrabActive] = rgb(kAccent);
   c[ImGuiCol_Button] = rgb(kFrame);
   c[ImGuiCol_ButtonHovered] = rgb(kFrameHovered);
@@ -102,8 +102,6 @@ void apply(float scale) {
   loadFonts(scale);
 }
 
-bool hasIcons() {
-  return ImGui::GetFont()->FindGlyphNoFallback(icon::kProbe) != nullptr;
-}
+bool hasIcons() { return ImGui::GetFont()->FindGlyphNoFallback(icon::kProbe) != nullptr; }
 
 }  // namespace lamplighter::theme

@@ -41,9 +41,7 @@ void Application::openNow(const std::filesystem::path& path) {
   session_->open(std::move(loaded.scene), path, loaded.warnings);
 }
 
-void Application::showError(const std::string& text) {
-  messageBox_.show("Error", text);
-}
+void Application::showError(const std::string& text) { messageBox_.show("Error", text); }
 
 void Application::frame() {
   widgets_.flip();
@@ -112,8 +110,7 @@ void Application::runAction(const std::string& text) {
   // Actions that need a file ask for it where none is given.
   if (text == "file.open") {
     requests_.openDialog = true;
-  } else if (text == "file.save_as" ||
-             (text == "file.save" && session_->document().path.empty())) {
+  } else if (text == "file.save_as" || (text == "file.save" && session_->document().path.empty())) {
     requests_.saveDialog = true;
   } else if (text == "edit.rename") {
     inspectorState_.focusName = true;
@@ -221,8 +218,7 @@ void Application::takeLoaded() {
 
 void Application::exposeAutomatically() {
   if (session_->output().radiance)
-    session_->document().render.exposureEv =
-        autoExposureEv(session_->output().radiance->pixels());
+    session_->document().render.exposureEv = autoExposureEv(session_->output().radiance->pixels());
 }
 
 void Application::answerRequests() {

@@ -30,7 +30,8 @@ class Application {
   InputQueue& input() { return input_; }
   const WidgetMap& widgets() const { return widgets_; }
 
-  // Every frame lasts this long for tools and panels; 0: as long as it did. Recordings need it fixed.
+  // Every frame lasts this long for tools and panels; 0: as long as it did. Recordings need it
+  // fixed.
   void setTimeStep(float seconds) { timeStep_ = seconds; }
   // Told of each frame's events, with their targets named.
   using Listener = std::function<void(const std::vector<InputEvent>&)>;

@@ -13,12 +13,18 @@ namespace {
 
 Cursor cursorOf(ImGuiMouseCursor cursor) {
   switch (cursor) {
-    case ImGuiMouseCursor_TextInput: return Cursor::text;
-    case ImGuiMouseCursor_ResizeEW: return Cursor::resizeHorizontal;
-    case ImGuiMouseCursor_ResizeNS: return Cursor::resizeVertical;
-    case ImGuiMouseCursor_Hand: return Cursor::hand;
-    case ImGuiMouseCursor_Arrow: return Cursor::arrow;
-    default: return Cursor::other;
+    case ImGuiMouseCursor_TextInput:
+      return Cursor::text;
+    case ImGuiMouseCursor_ResizeEW:
+      return Cursor::resizeHorizontal;
+    case ImGuiMouseCursor_ResizeNS:
+      return Cursor::resizeVertical;
+    case ImGuiMouseCursor_Hand:
+      return Cursor::hand;
+    case ImGuiMouseCursor_Arrow:
+      return Cursor::arrow;
+    default:
+      return Cursor::other;
   }
 }
 
@@ -49,8 +55,7 @@ void mapKeys(ImGuiIO& io) {
 
 }  // namespace
 
-ImGuiLayer::ImGuiLayer(Platform& platform)
-    : platform_(platform), context_(ImGui::CreateContext()) {
+ImGuiLayer::ImGuiLayer(Platform& platform) : platform_(platform), context_(ImGui::CreateContext()) {
   ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // the layout is fixed, and a replay must not depend on a file

@@ -6,7 +6,8 @@
 namespace lamplighter {
 
 void InputQueue::push(InputEvent event) {
-  // A mouse reports hundreds of places a second; only the last before something else happens counts.
+  // A mouse reports hundreds of places a second; only the last before something else happens
+  // counts.
   if (event.kind == EventKind::pointer && !queue_.empty() &&
       queue_.back().kind == EventKind::pointer) {
     queue_.back() = std::move(event);

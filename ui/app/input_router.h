@@ -1,5 +1,5 @@
-// From events to the state of pointer, buttons and keys that a frame sees; and from window pixels back
-// to names for recordings.
+// From events to the state of pointer, buttons and keys that a frame sees; and from window pixels
+// back to names for recordings.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ namespace lamplighter {
 struct PointerKeys {
   vec2 pointer{-1.0f};  // window pixels
   std::array<bool, 3> buttons{};
-  vec2 wheel{0.0f};                                            // this frame
+  vec2 wheel{0.0f};                                          // this frame
   std::array<bool, static_cast<size_t>(Key::count)> keys{};  // held
-  std::vector<Key> pressed;                                    // this frame, in order
-  std::string text;                                            // typed this frame, UTF-8
+  std::vector<Key> pressed;                                  // this frame, in order
+  std::string text;                                          // typed this frame, UTF-8
 
   bool held(Key key) const { return keys[static_cast<size_t>(key)]; }
   Modifiers modifiers() const { return {held(Key::ctrl), held(Key::shift), held(Key::alt)}; }

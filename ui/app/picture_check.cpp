@@ -51,7 +51,8 @@ Image8 differencePicture(const Image8& a, const Image8& b) {
   constexpr int kWhite = 64;
   Image8 out(a.width, a.height);
   for (size_t i = 0; i + 3 < a.pixels.size(); i += 4) {
-    const int level = std::min(largestDifference(&a.pixels[i], &b.pixels[i]), kWhite) * 510 / kWhite;
+    const int level =
+        std::min(largestDifference(&a.pixels[i], &b.pixels[i]), kWhite) * 510 / kWhite;
     out.pixels[i] = static_cast<uint8_t>(std::min(level, 255));
     out.pixels[i + 1] = out.pixels[i + 2] = static_cast<uint8_t>(std::max(level - 255, 0));
   }

@@ -10,9 +10,9 @@ namespace lamplighter {
 
 struct PictureDifference {
   bool sameSize = true;
-  int max = 0;          // of a channel, of 255
-  double mean = 0.0;    // over pixels and channels, of 255
-  size_t pixels = 0;    // that differ at all
+  int max = 0;        // of a channel, of 255
+  double mean = 0.0;  // over pixels and channels, of 255
+  size_t pixels = 0;  // that differ at all
 
   bool within(double mostMax, double mostMean) const {
     return sameSize && max <= mostMax && mean <= mostMean;

@@ -36,8 +36,7 @@ class Replay {
   void start(Application& app);
   void check(Application& app, Platform& platform, const Checkpoint& checkpoint);
   std::string documentProblem(const Session& session, const Checkpoint& checkpoint);
-  std::string pictureProblem(Session& session, const Image8& picture,
-                             const Checkpoint& checkpoint);
+  std::string pictureProblem(Session& session, const Image8& picture, const Checkpoint& checkpoint);
   void writePictures(Platform& platform, const Image8& picture, const Checkpoint& checkpoint);
   fs::path outputOf(const Checkpoint& checkpoint, const char* ending) const;
 
@@ -79,14 +78,11 @@ int Replay::run(Platform& platform, std::unique_ptr<FrameRenderer> renderer) {
       throw InputError(options_.recording + ": frame " + std::to_string(player_.frame()) + ": " +
                        e.what());
     }
-    const bool settled =
-        app.session().output().settled && app.quietFrames() >= kQuietFrames;
-    for (const Checkpoint& checkpoint : player_.endFrame(settled))
-      check(app, platform, checkpoint);
+    const bool settled = app.session().output().settled && app.quietFrames() >= kQuietFrames;
+    for (const Checkpoint& checkpoint : player_.endFrame(settled)) check(app, platform, checkpoint);
   }
   if (options_.updateBaselines) writeRecording(updated_);
-  if (options_.check)
-    std::cout << passed_ << " checks passed, " << failed_ << " failed\n";
+  if (options_.check) std::cout << passed_ << " checks passed, " << failed_ << " failed\n";
   return failed_ == 0 ? 0 : 1;
 }
 
@@ -158,7 +154,7 @@ void Replay::check(Application& app, Platform& platform, const Checkpoint& check
   problem += seen;
   (problem.empty() ? passed_ : failed_) += 1;
   std::cout << checkpoint.name << ": "
-            << (!problem.empty()            ? "FAILED: " + problem
+            << (!problem.empty()           ? "FAILED: " + problem
                 : options_.updateBaselines ? "written"
                                            : "passed")
             << std::endl;
@@ -173,13 +169,13 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   Replay replay(options, std::move(recording));
   if (!options.headless) {
     Window window(header.width, header.height, "Lamplighter: replay", Window::Kind::fixed);
-    return replay.run(window, std::make_unique<FrameRenderer>(makeBackend(options.backend, true),
-                                                              stopwatch));
+    return replay.run(
+        window, std::make_unique<FrameRenderer>(makeBackend(options.backend, true), stopwatch));
   }
   // Only pictures of the panels and the gl backend need OpenGL.
   Headless headless(header.width, header.height, false);
-  return replay.run(headless, std::make_unique<FrameRenderer>(
-                                  makeBackend(options.backend, false), stopwatch));
+  return replay.run(
+      headless, std::make_unique<FrameRenderer>(makeBackend(options.backend, false), stopwatch));
 }
 
 }  // namespace lamplighter

@@ -31,9 +31,7 @@ void showPreparing(Window& window) {
   }
 }
 
-fs::path defaultScene() {
-  return fs::path(LAMPLIGHTER_ASSET_DIR) / "scenes" / "default.gltf";
-}
+fs::path defaultScene() { return fs::path(LAMPLIGHTER_ASSET_DIR) / "scenes" / "default.gltf"; }
 
 RecordingHeader headerFor(const fs::path& scene, const fs::path& recording,
                           const RenderSettings& render) {
@@ -66,8 +64,7 @@ int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
   Window window(kWidth, kHeight, "Lamplighter",
                 recording ? Window::Kind::fixed : Window::Kind::resizable);
   showPreparing(window);
-  auto renderer =
-      std::make_unique<FrameRenderer>(makeBackend(options.backend, true), stopwatch);
+  auto renderer = std::make_unique<FrameRenderer>(makeBackend(options.backend, true), stopwatch);
   Application app(window, std::make_unique<Session>(std::move(renderer)));
   std::optional<Recorder> recorder;
   if (!recording) {

@@ -4,9 +4,7 @@
 
 namespace lamplighter {
 
-void WidgetMap::flip() {
-  shown_ = std::exchange(next_, {});
-}
+void WidgetMap::flip() { shown_ = std::exchange(next_, {}); }
 
 void WidgetMap::add(const std::string& name, const Rect& rect, const Rect& visible) {
   if (visible.empty()) return;

@@ -1,6 +1,6 @@
-// Where each named widget lies, so that recordings can say "render/vpls" and not pixels: a new layout
-// does not break them. Panels fill it each frame; input is resolved with the map of the frame before,
-// which is the one on the screen when a hand points at something.
+// Where each named widget lies, so that recordings can say "render/vpls" and not pixels: a new
+// layout does not break them. Panels fill it each frame; input is resolved with the map of the
+// frame before, which is the one on the screen when a hand points at something.
 #pragma once
 
 #include <map>

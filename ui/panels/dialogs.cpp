@@ -6,14 +6,12 @@ namespace {
 bool beginModal(const PanelContext& ui, const char* title, float width) {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({ui.px(width), 0});
-  return ImGui::BeginPopupModal(title, nullptr,
-                                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                    ImGuiWindowFlags_NoSavedSettings);
+  return ImGui::BeginPopupModal(
+      title, nullptr,
+      ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
 }
 
-bool pressed(ImGuiKey key) {
-  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
-}
+bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); }
 
 }  // namespace
 
@@ -48,8 +46,9 @@ SaveQuestion::Answer SaveQuestion::draw(PanelContext ui) {
   if (!beginModal(ui, "Unsaved changes", 420)) return Answer::none;
   const std::string file = ui.session.document().path.filename().string();
   ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(("Save the changes to " + (file.empty() ? "the scene" : file) +
-                          "? They are lost otherwise.").c_str());
+  ImGui::TextUnformatted(
+      ("Save the changes to " + (file.empty() ? "the scene" : file) + "? They are lost otherwise.")
+          .c_str());
   ImGui::PopTextWrapPos();
   ImGui::Dummy({0, ui.px(6)});
   Answer answer = Answer::none;

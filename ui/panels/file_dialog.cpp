@@ -60,8 +60,7 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
   std::optional<fs::path> chosen;
-  if (!ImGui::BeginPopupModal(title, nullptr,
-                              ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
+  if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
     return chosen;
 
   if (ImGui::Button("Up")) {
@@ -79,9 +78,9 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   for (const Entry& entry : entries_) {
     const std::string label =
         withIcon(entry.folder ? icon::kFolder : icon::kFile, entry.name) + "##" + entry.name;
-    const bool clicked = ImGui::Selectable(label.c_str(), file_ == entry.name,
-                                           ImGuiSelectableFlags_AllowDoubleClick |
-                                               ImGuiSelectableFlags_DontClosePopups);
+    const bool clicked = ImGui::Selectable(
+        label.c_str(), file_ == entry.name,
+        ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
     ui.name(entry.name);
     if (!clicked) continue;
     if (entry.folder) {
@@ -103,7 +102,8 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   ui.name("file");
   const float width = ui.px(96);
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2 * width - ui.px(7));
-  if (ImGui::Button("Cancel", {width, 0}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+  if (ImGui::Button("Cancel", {width, 0}) ||
+      ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
     ImGui::CloseCurrentPopup();
   ui.name("cancel");
   ImGui::SameLine(0, ui.px(7));

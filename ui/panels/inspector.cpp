@@ -13,9 +13,12 @@ const char* kindOf(const Node& node) {
   if (node.area) return "Area light";
   if (node.punctual) {
     switch (node.punctual->kind) {
-      case PunctualKind::point: return "Point light";
-      case PunctualKind::spot: return "Spot light";
-      case PunctualKind::directional: return "Directional light";
+      case PunctualKind::point:
+        return "Point light";
+      case PunctualKind::spot:
+        return "Spot light";
+      case PunctualKind::directional:
+        return "Directional light";
     }
   }
   if (node.camera != kNone) return "Camera";

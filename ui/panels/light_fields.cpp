@@ -58,13 +58,12 @@ bool strengthField(const PanelContext& ui, const std::string& step, float area,
   const float unitWidth = ui.px(52);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - unitWidth - ui.px(5));
   float value = byFlux ? light.strength * lumensOfUnit : light.strength;
-  const bool changed = dragField(ui, "strength", value, std::max(0.01f, value * 0.01f), "%.4g",
-                                 0.0f, 1e8f);
+  const bool changed =
+      dragField(ui, "strength", value, std::max(0.01f, value * 0.01f), "%.4g", 0.0f, 1e8f);
   trackEdit(ui, step);
   if (changed) light.strength = byFlux ? value / lumensOfUnit : value;
   ImGui::SameLine(0, ui.px(5));
-  if (ImGui::Button(byFlux ? "lm##unit" : "nt##unit", {unitWidth, 0}))
-    state.lumens = !state.lumens;
+  if (ImGui::Button(byFlux ? "lm##unit" : "nt##unit", {unitWidth, 0})) state.lumens = !state.lumens;
   ui.name("unit");
   tooltip(ui, "Switch between nits and lumens.");
   return changed;
@@ -119,9 +118,9 @@ void punctualLightFields(PanelContext ui, const Node& node) {
   labelledRow(ui, directional ? "Illuminance" : "Intensity",
               directional ? "On a surface that faces the light; the sun gives 100,000 lx."
                           : "Light in each direction, in candela.");
-  changed |= dragField(ui, "strength", intensity.strength,
-                       std::max(0.01f, intensity.strength * 0.01f),
-                       directional ? "%.4g lx" : "%.4g cd", 0.0f, 1e8f);
+  changed |=
+      dragField(ui, "strength", intensity.strength, std::max(0.01f, intensity.strength * 0.01f),
+                directional ? "%.4g lx" : "%.4g cd", 0.0f, 1e8f);
   trackEdit(ui, step);
   light.intensity = join(intensity);
   if (light.kind == PunctualKind::spot) {

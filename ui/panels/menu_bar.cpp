@@ -31,9 +31,7 @@ const std::vector<Menu>& menus() {
   return kMenus;
 }
 
-std::string groupOf(const std::string& name) {
-  return name.substr(0, name.find('.'));
-}
+std::string groupOf(const std::string& name) { return name.substr(0, name.find('.')); }
 
 // "rectangle|disk|sphere": one item for each.
 std::vector<std::string> choicesOf(const std::string& usage) {

@@ -74,12 +74,11 @@ class Tree {
     ImGui::PushID(static_cast<int>(node.id));
     const std::string name = node.name.empty() ? "(unnamed)" : node.name;
     if (!node.visible) ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
-    const bool open = ImGui::TreeNodeEx("##node", flags, "%s",
-                                        withIcon(iconOf(node), name).c_str());
+    const bool open =
+        ImGui::TreeNodeEx("##node", flags, "%s", withIcon(iconOf(node), name).c_str());
     if (!node.visible) ImGui::PopStyleColor();
-    const std::string widget = named_[node.name] > 1 || node.name.empty()
-                                   ? name + "#" + std::to_string(node.id)
-                                   : name;
+    const std::string widget =
+        named_[node.name] > 1 || node.name.empty() ? name + "#" + std::to_string(node.id) : name;
     ui_.name(widget);
     if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) select(node.id);
     if (node.id == reveal_ && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();

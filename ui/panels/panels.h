@@ -28,12 +28,12 @@ void outliner(PanelContext ui, OutlinerState& state);
 
 struct InspectorState {
   NodeId node = kNoNode;
-  std::string name;             // being typed
-  vec3 degrees{0.0f};           // of the rotation below, as the fields show it
+  std::string name;    // being typed
+  vec3 degrees{0.0f};  // of the rotation below, as the fields show it
   quat rotation{1, 0, 0, 0};
-  int slot = 0;                 // which of the mesh's materials
-  bool lumens = false;          // area lights by flux and not by radiance
-  bool focusName = false;       // give the name field the keyboard
+  int slot = 0;            // which of the mesh's materials
+  bool lumens = false;     // area lights by flux and not by radiance
+  bool focusName = false;  // give the name field the keyboard
 };
 void inspector(PanelContext ui, InspectorState& state);
 // Parts of the inspector.

@@ -56,7 +56,8 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
   const BackendInfo& backend = ui.session.renderer().backend().info();
   part(ui, "backend", backend.name, theme::kTextDim, backend.name + ": " + backend.device);
   if (info.recording) part(ui, "recording", "recording", 0xe06a5a, "Input is being recorded.");
-  if (info.replaying) part(ui, "replaying", "replaying", theme::kAccent, "Input is from a recording.");
+  if (info.replaying)
+    part(ui, "replaying", "replaying", theme::kAccent, "Input is from a recording.");
 
   // What there is to tell stands at the end, so that what stands before does not move.
   const std::string& status = ui.session.status();

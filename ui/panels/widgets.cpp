@@ -11,9 +11,7 @@
 
 namespace lamplighter {
 
-float PanelContext::px(float designPixels) const {
-  return std::round(designPixels * scale);
-}
+float PanelContext::px(float designPixels) const { return std::round(designPixels * scale); }
 
 void PanelContext::name(const std::string& widget) const {
   const ImVec2 low = ImGui::GetItemRectMin();
@@ -26,9 +24,7 @@ void PanelContext::name(const std::string& widget) const {
   widgets.add(prefix + widget, rect, visible);
 }
 
-float labelWidth(const PanelContext& ui) {
-  return ui.px(104);
-}
+float labelWidth(const PanelContext& ui) { return ui.px(112); }
 
 void labelledRow(const PanelContext& ui, const char* label, const char* help) {
   ImGui::AlignTextToFramePadding();
@@ -129,8 +125,9 @@ vec3 srgbToLinear(const vec3& c) {
 std::string grouped(long long value) {
   std::string digits = std::to_string(value < 0 ? -value : value);
   for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3)
-    digits.insert(static_cast<size_t>(i), ",");
-  return value < 0 ? "-" + digits : digits;
+    digits.insert(static_cast<size_t>(i), 1, ',');
+  if (value < 0) digits.insert(digits.begin(), '-');
+  return digits;
 }
 
 std::string short3(double value) {

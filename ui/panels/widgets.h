@@ -1,4 +1,5 @@
-// Small building blocks of panels: named widgets, labelled rows, edits that are one undo step a drag.
+// Small building blocks of panels: named widgets, labelled rows, edits that are one undo step a
+// drag.
 #pragma once
 
 #include <string>

@@ -38,8 +38,7 @@ Image8 Headless::screenshot() {
 }
 
 double Headless::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace lamplighter

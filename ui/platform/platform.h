@@ -1,4 +1,5 @@
-// What the program runs in: a window, or nothing at all. All input comes out of here as InputEvents.
+// What the program runs in: a window, or nothing at all. All input comes out of here as
+// InputEvents.
 #pragma once
 
 #include <string>
@@ -15,7 +16,7 @@ class Platform {
  public:
   virtual ~Platform() = default;
 
-  virtual glm::ivec2 size() const = 0;  // framebuffer pixels
+  virtual glm::ivec2 size() const = 0;     // framebuffer pixels
   virtual float contentScale() const = 0;  // pixels a design pixel
   // Appends what happened since the last call; waits up to `seconds` for something to happen.
   virtual void poll(std::vector<InputEvent>& events, double seconds) = 0;

@@ -103,8 +103,7 @@ struct Window::Callbacks {
 
 Window::Window(int width, int height, const std::string& title, Kind kind) : kind_(kind) {
   if (!glfwInit())
-    throw InputError("no display: " + glfwReason() +
-                     "; set DISPLAY or use 'lamplighter render'");
+    throw InputError("no display: " + glfwReason() + "; set DISPLAY or use 'lamplighter render'");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -168,17 +167,11 @@ void Window::poll(std::vector<InputEvent>& events, double seconds) {
   events_.clear();
 }
 
-bool Window::closeRequested() const {
-  return glfwWindowShouldClose(window_);
-}
+bool Window::closeRequested() const { return glfwWindowShouldClose(window_); }
 
-void Window::refuseClose() {
-  glfwSetWindowShouldClose(window_, GLFW_FALSE);
-}
+void Window::refuseClose() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 
-void Window::setTitle(const std::string& title) {
-  glfwSetWindowTitle(window_, title.c_str());
-}
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
 void Window::setCursor(Cursor cursor) {
   if (cursor == cursor_) return;
@@ -208,9 +201,7 @@ void Window::beginDrawing() {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void Window::present() {
-  glfwSwapBuffers(window_);
-}
+void Window::present() { glfwSwapBuffers(window_); }
 
 Image8 Window::screenshot() {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
@@ -218,8 +209,6 @@ Image8 Window::screenshot() {
   return readPixels(size());
 }
 
-double Window::seconds() const {
-  return glfwGetTime();
-}
+double Window::seconds() const { return glfwGetTime(); }
 
 }  // namespace lamplighter

@@ -13,7 +13,8 @@ namespace lamplighter {
 
 class Window final : public Platform {
  public:
-  // fixed: the size is in pixels and cannot be changed, whatever the screen's scale; for recordings.
+  // fixed: the size is in pixels and cannot be changed, whatever the screen's scale; for
+  // recordings.
   enum class Kind { resizable, fixed };
   // Throws InputError when there is no display or no OpenGL 4.5.
   Window(int width, int height, const std::string& title, Kind kind);

@@ -4,9 +4,13 @@
 #include <cstdint>
 #include <memory>
 
-#include "renderer/methods/gi_method.h"
+#include "renderer/backends/kernels.h"
 
 namespace lamplighter {
+
+namespace gl {
+class DisplayPass;
+}
 
 class Picture {
  public:
@@ -15,13 +19,13 @@ class Picture {
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
 
-  // Shows this radiance at this exposure. Needs a current OpenGL context.
+  // Shows this radiance at this exposure. Needs a current OpenGL context, then and when this ends.
   void show(const std::shared_ptr<RadianceImage>& radiance, float exposureEv);
   uint32_t texture() const { return texture_; }  // 0: nothing yet
 
  private:
+  std::unique_ptr<gl::DisplayPass> pass_;  // made when first needed: there may be no OpenGL
   uint32_t texture_ = 0;
-  int width_ = 0, height_ = 0;
 };
 
 }  // namespace lamplighter

@@ -7,9 +7,7 @@
 namespace lamplighter {
 namespace {
 
-ImU32 packed(const vec4& c) {
-  return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a});
-}
+ImU32 packed(const vec4& c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, c.a}); }
 
 std::vector<ImVec2> moved(const std::vector<vec2>& points, vec2 origin) {
   std::vector<ImVec2> result;
