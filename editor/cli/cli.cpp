@@ -61,7 +61,8 @@ void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
   sub->add_option("--backend", o->backend, "gl, cpu or auto")
       ->check(kBackends)
       ->capture_default_str();
-  sub->add_option("--set", o->assignments, "name=value of any parameter of the method; repeatable");
+  sub->add_option("--set", o->assignments, "name=value of any parameter of the method; repeatable")
+      ->allow_extra_args(false);  // one value a flag: the next word may be the scene
   sub->add_option("--exposure", o->exposure, "EV for PNG, or auto")->capture_default_str();
   sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
       ->check(CLI::Range(0, 1024));
@@ -77,6 +78,7 @@ void addMethods(CLI::App& app, Run& run) {
   auto o = std::make_shared<cli::MethodsOptions>();
   sub->add_flag("--json", o->json, "As JSON");
   sub->add_flag("--markdown", o->markdown, "As the tables of docs/parameters.md");
+  sub->footer("Example: lamplighter methods --json");
   sub->callback([=, &run] { run = [=] { return cli::methods(*o); }; });
 }
 
@@ -102,6 +104,7 @@ void addTonemap(CLI::App& app, Run& run) {
   sub->add_option("IMAGE", o->input, "EXR or HDR file")->required();
   sub->add_option("-o,--output", o->output, "PNG file")->required();
   sub->add_option("--exposure", o->exposure, "EV, or auto")->capture_default_str();
+  sub->footer("Example: lamplighter tonemap live.exr -o live.png --exposure auto");
   sub->callback([=, &run] { run = [=] { return cli::tonemap(*o); }; });
 }
 
@@ -128,7 +131,7 @@ void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
 
 int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) {
   CLI::App app("Lamplighter: a lighting editor for level designers", "lamplighter");
-  app.set_version_flag("--version", "lamplighter 0.1.0");
+  app.set_version_flag("--version", "lamplighter " LAMPLIGHTER_VERSION);
   app.footer(
       "Exit codes: 0 good, 1 a check failed, 2 bad use or bad input.\nExample: lamplighter "
       "level.glb");
@@ -149,11 +152,16 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
 
   try {
     app.parse(argc, argv);
-    return run ? run() : frontend.runEditor(editor);
+    const int code = run ? run() : frontend.runEditor(editor);
+    std::cout.flush();
+    if (!std::cout) return fail("standard output: cannot be written; check the space left");
+    return code;
   } catch (const CLI::Success& e) {  // --help, --version
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return fail(std::string(e.what()) + "; see 'lamplighter --help'");
+    std::string help = "lamplighter ";
+    for (const CLI::App* sub : app.get_subcommands()) help += sub->get_name() + " ";
+    return fail(std::string(e.what()) + "; see '" + help + "--help'");
   } catch (const InputError& e) {
     return fail(e.what());
   } catch (const std::bad_alloc&) {

@@ -61,12 +61,15 @@ Json describe(const std::string& file, const LoadedScene& loaded) {
                  {"extent", toJson(world.bounds.extent())}};
 
   j["lights"] = Json::array();
+  j["light_counts"] = Json::object();
   for (const Emitter& e : lights.emitters()) {
     if (e.kind == EmitterKind::sky) continue;
     const Node& node = *scene.find(e.node);
     Json light{{"name", node.name}, {"kind", kindOf(node, true)}, {"flux_w", toJson(e.flux)}};
     if (e.kind == EmitterKind::surface) light["area_m2"] = e.area;
     j["lights"].push_back(light);
+    Json& count = j["light_counts"][light["kind"].get<std::string>()];
+    count = count.is_null() ? 1 : count.get<int>() + 1;
   }
   j["sky"] = scene.sky == vec3(0.0f) ? Json() : toJson(scene.sky);
 
@@ -77,6 +80,7 @@ Json describe(const std::string& file, const LoadedScene& loaded) {
     j["cameras"].push_back({{"name", n.name.empty() ? camera.name : n.name},
                             {"yfov_degrees", glm::degrees(camera.yfov)}});
   }
+  j["extensions"] = loaded.extensions;
   j["warnings"] = loaded.warnings;
   return j;
 }
@@ -107,6 +111,11 @@ void printText(const Json& j) {
   for (const Json& c : j["cameras"]) {
     std::cout << fmt::format("    '{}', {:.1f} degrees\n", c["name"].get<std::string>(),
                              c["yfov_degrees"].get<float>());
+  }
+  if (!j["extensions"].empty()) {
+    std::cout << "  extensions";
+    for (const Json& name : j["extensions"]) std::cout << ' ' << name.get<std::string>();
+    std::cout << '\n';
   }
 }
 

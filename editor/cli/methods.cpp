@@ -17,6 +17,9 @@ std::string kindOf(const ParameterSpec& p) {
 std::string rangeOf(const ParameterSpec& p) {
   if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, ", "));
   if (std::holds_alternative<bool>(p.defaultValue)) return "true, false";
+  if (std::holds_alternative<int>(p.defaultValue)) {
+    return fmt::format("{} … {}", static_cast<int64_t>(p.minimum), static_cast<int64_t>(p.maximum));
+  }
   return fmt::format("{:g} … {:g}", p.minimum, p.maximum);
 }
 

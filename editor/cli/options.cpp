@@ -85,11 +85,17 @@ void requireWritable(const std::filesystem::path& file, const std::vector<std::s
     throw InputError(file.string(), "ends in no known format", "name a file that ends in " + names);
   }
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder)) {
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
     throw InputError(file.string(), "its folder is not there",
                      "make the folder first or name another");
   }
-  if (fs::is_directory(file) || ::access(folder.c_str(), W_OK) != 0) {
+  // Only making a file tells for sure: rights, read-only file systems, names that are too long.
+  const fs::path probe =
+      folder / ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".part");
+  const bool made = !fs::is_directory(file, ignored) && std::ofstream(probe).is_open();
+  fs::remove(probe, ignored);
+  if (!made) {
     throw InputError(file.string(), "cannot be written there",
                      "name a file in a folder that you may write to");
   }
@@ -97,7 +103,7 @@ void requireWritable(const std::filesystem::path& file, const std::vector<std::s
 
 void writeText(const std::filesystem::path& file, const std::string& text) {
   namespace fs = std::filesystem;
-  const fs::path temporary = file.string() + ".part";
+  const fs::path temporary = file.string() + "." + std::to_string(::getpid()) + ".part";
   std::ofstream out(temporary, std::ios::binary);
   out << text;
   out.close();

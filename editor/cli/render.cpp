@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "editor/cli/options.h"
@@ -65,6 +66,30 @@ struct Totals {
   double loadSeconds = 0.0, renderSeconds = 0.0;
 };
 
+// One line on a terminal that is written over frame by frame and gone in the end, whichever way
+// that comes, so that an error has its line to itself. Nothing where standard error is no terminal.
+class ProgressLine {
+ public:
+  ~ProgressLine() {
+    if (shown_) std::cerr << "\r\033[K" << std::flush;
+  }
+  void show(const std::string& text) {
+    if (!terminal_) return;
+    std::cerr << "\r\033[K" << text << std::flush;
+    shown_ = true;
+  }
+
+ private:
+  bool terminal_ = ::isatty(STDERR_FILENO) == 1;
+  bool shown_ = false;
+};
+
+uint64_t peakMemoryBytes() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
+}
+
 std::string statsText(const RenderOptions& o, const View& view, const GiOutput& out,
                       const Totals& t, Backend& backend) {
   const KernelCounts counts = backend.counts();
@@ -72,19 +97,23 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   j["scene"] = o.scene;
   j["method"] = o.method;
   j["backend"] = backend.info().name;
-  j["device"] = backend.info().device;  // the GL renderer's name where that is what runs
+  j["device"] = backend.info().device;
+  if (backend.info().name == "gl") j["gl_renderer"] = backend.info().device;
   j["width"] = view.width;
   j["height"] = view.height;
   j["frames"] = t.frames;
   j["settled"] = out.settled;
-  j["seconds"] = {{"load", t.loadSeconds}, {"render", t.renderSeconds}};
+  j["seconds"] = {{"load", t.loadSeconds},
+                  {"render", t.renderSeconds},
+                  {"total", t.loadSeconds + t.renderSeconds}};
   j["stages"] = t.stageSeconds;  // seconds
   j["vpls"] = out.stats.vpls;
   j["samples_per_pixel"] = out.stats.samplesPerPixel;
   j["shadow_maps"] = counts.shadowMaps;
   j["light_pixels"] = counts.lightPixels;
   j["rays"] = counts.rays + t.raysOfMethod;
-  j["memory_bytes"] = counts.memoryBytes;
+  j["memory_bytes"] = counts.memoryBytes;  // of the backend: maps, G-buffer, copies of the scene
+  j["peak_memory_bytes"] = peakMemoryBytes();  // of the whole process
   return j.dump(2) + "\n";
 }
 
@@ -122,7 +151,7 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   FrameRenderer renderer(frontend.makeBackend(o.backend), frontend.stopwatch);
   SceneChanges changes = SceneChanges::all();
   GiOutput out;
-  const bool terminal = ::isatty(STDERR_FILENO) == 1;
+  ProgressLine progress;
   do {
     out = renderer.render({loaded.scene, changes, view, o.method, settings});
     changes = SceneChanges();
@@ -130,13 +159,10 @@ int render(const RenderOptions& o, const Frontend& frontend) {
     totals.raysOfMethod += out.stats.raysTraced;
     for (const auto& [stage, seconds] : out.stats.stageSeconds)
       totals.stageSeconds[stage] += seconds;
-    if (terminal) {
-      std::cerr << fmt::format("\r{}: frame {}, {} light samples pending, {} paths a pixel ",
-                               o.method, totals.frames, out.stats.vplsPending,
-                               out.stats.samplesPerPixel);
-    }
+    progress.show(fmt::format("{}: frame {}, {} light samples pending, {} samples a pixel",
+                              o.method, totals.frames, out.stats.vplsPending,
+                              out.stats.samplesPerPixel));
   } while (!out.settled);
-  if (terminal) std::cerr << "\r\033[K";
   const Image& image = out.radiance->pixels();
   totals.renderSeconds = frontend.stopwatch() - start - totals.loadSeconds;
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include <OpenImageIO/imageio.h>
+#include <unistd.h>
 
 #include "renderer/error.h"
 
@@ -32,9 +33,10 @@ void writeAtomically(const std::filesystem::path& path, const OIIO::ImageSpec& s
     throw InputError(path.string(), "cannot be written: " + oneLine(why),
                      "check the folder and the space left");
   };
-  // The format is told by the name's end.
+  // The format is told by the name's end; two processes that write the same picture do not meet.
   fs::path temporary = path;
-  temporary.replace_filename("." + path.stem().string() + ".part" + path.extension().string());
+  temporary.replace_filename("." + path.stem().string() + "." + std::to_string(::getpid()) +
+                             path.extension().string());
   const auto out = OIIO::ImageOutput::create(temporary.string());
   if (!out) fail(OIIO::geterror());
   std::error_code ignored;

@@ -57,8 +57,9 @@ std::vector<float> gaussian(const std::vector<float>& in, int width, int height)
 }
 
 // Structural similarity, Wang, Bovik, Sheikh and Simoncelli 2004, eq. 13, its mean over the
-// picture.
-double ssim(const Image& a, const Image& b) {
+// pixels that count.
+template <typename Counts>
+double ssim(const Image& a, const Image& b, const Counts& counts) {
   const int w = a.width, h = a.height;
   const std::vector<float> x = luma(a), y = luma(b);
   std::vector<float> xx(x.size()), yy(x.size()), xy(x.size());
@@ -71,12 +72,15 @@ double ssim(const Image& a, const Image& b) {
   const auto mxx = gaussian(xx, w, h), myy = gaussian(yy, w, h), mxy = gaussian(xy, w, h);
   constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
   double sum = 0.0;
+  size_t n = 0;
   for (size_t i = 0; i < x.size(); ++i) {
+    if (!counts(i)) continue;
+    ++n;
     const double ux = mx[i], uy = my[i];
     const double vx = mxx[i] - ux * ux, vy = myy[i] - uy * uy, cov = mxy[i] - ux * uy;
     sum += (2.0 * ux * uy + c1) * (2.0 * cov + c2) / ((ux * ux + uy * uy + c1) * (vx + vy + c2));
   }
-  return sum / static_cast<double>(x.size());
+  return sum / static_cast<double>(n);
 }
 
 // Black through deep red and orange to white, brighter for more: a black body that grows hotter.
@@ -122,7 +126,7 @@ Metrics compareImages(const Image& a, const Image& b, const Image* mask) {
   m.relRmse = squares == 0.0 ? 0.0 : std::sqrt(squares / static_cast<double>(n)) / m.meanB;
   m.relMse = relative / static_cast<double>(n);
   m.bias = m.meanA == m.meanB ? 1.0 : m.meanA / m.meanB;
-  m.ssim = std::isnan(squares) ? std::numeric_limits<double>::quiet_NaN() : ssim(a, b);
+  m.ssim = std::isnan(squares) ? std::numeric_limits<double>::quiet_NaN() : ssim(a, b, counts);
   return m;
 }
 

@@ -17,6 +17,7 @@ using LoadProgress = std::function<bool(float done, const std::string& what)>;
 struct LoadedScene {
   Scene scene;
   std::vector<std::string> warnings;  // each one line, "FILE: …", for standard error and the status
+  std::vector<std::string> extensions;  // the file's extensionsUsed
 };
 
 // Reads .gltf or .glb, told apart by content. Throws InputError ("FILE: what is wrong and where;

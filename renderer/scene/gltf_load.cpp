@@ -64,6 +64,9 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
   source->meshes = scene.meshes;
   source->textures = scene.textures;
   source->nodes = scene.nodes;
+  for (const Json& name : listOf(document, "extensionsUsed")) {
+    if (name.is_string()) loaded.extensions.push_back(printable(name.get<std::string>()));
+  }
   loaded.warnings = std::move(document.warnings);
   document.warnings.clear();
   scene.source = std::move(source);

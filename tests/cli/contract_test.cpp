@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/image/image_io.h"
+#include "renderer/image/tone_map.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {
@@ -83,6 +84,12 @@ TEST_F(CommandLine, HelpAndVersionAreGood) {
   EXPECT_EQ(runLamplighter({"--version"}).code, 0);
 }
 
+TEST_F(CommandLine, AnErrorNamesTheHelpOfItsSubcommand) {
+  expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--frobnicate"}),
+                 "'lamplighter render --help'");
+  expectOneError(runLamplighter({"render", kScene, "-o"}), "--output");
+}
+
 TEST_F(CommandLine, InfoCountsAndIsJson) {
   const ProcessResult r = runLamplighter({"info", kScene, "--json"});
   ASSERT_EQ(r.code, 0) << r.err;
@@ -90,6 +97,9 @@ TEST_F(CommandLine, InfoCountsAndIsJson) {
   EXPECT_GT(j["triangles"].get<int>(), 10);
   EXPECT_GE(j["lights"].size(), 1u);
   EXPECT_GE(j["cameras"].size(), 1u);
+  EXPECT_EQ(j["light_counts"], json::parse(R"({"rectangle": 1})"));
+  EXPECT_EQ(j["cameras"][0]["name"], "camera");
+  EXPECT_EQ(j["extensions"], json::parse(R"(["EXT_lights_area"])"));
   EXPECT_TRUE(j["warnings"].empty());
   EXPECT_EQ(runLamplighter({"info", kScene}).code, 0);
 }
@@ -145,6 +155,76 @@ TEST_F(CommandLine, SetReachesADeclaredParameter) {
         0);
     EXPECT_EQ(json::parse(text("s.json"))["vpls"], wanted);
   }
+}
+
+TEST_F(CommandLine, EachShortcutIsTheParameterOfItsName) {
+  // --set stands before the scene: it takes one word only.
+  const auto pixels = [&](const std::string& flag, const std::string& assignment) {
+    const ProcessResult r =
+        runLamplighter({"render", "--set", assignment, kScene, "-o", file("a.exr"), "--size",
+                        "24x16", "--backend", "cpu", flag});
+    EXPECT_EQ(r.code, 0) << r.err;
+    return readImage(file("a.exr")).pixels;
+  };
+  const auto plain = pixels("--vpls=60", "bounces=2");
+  const auto differs = [&](const std::vector<vec3>& other) { return other != plain; };
+  for (const auto& [flag, assignment] :
+       {std::pair{"--vpls=50", "vpls=50"}, std::pair{"--bounces=0", "bounces=0"},
+        std::pair{"--direct-share=0.2", "direct_share=0.2"}, std::pair{"--seed=7", "seed=7"},
+        std::pair{"--spp=3", "antialias=3"}}) {
+    const bool isVpls = std::string(flag).starts_with("--vpls");
+    const auto byFlag = pixels(flag, isVpls ? "bounces=2" : "vpls=60");
+    const auto byAssignment = pixels(isVpls ? "--bounces=2" : "--vpls=60", assignment);
+    EXPECT_TRUE(differs(byFlag)) << flag;
+    EXPECT_TRUE(byFlag == byAssignment) << flag;
+  }
+}
+
+TEST_F(CommandLine, CamerasGoByNameAndNumber) {
+  const auto pixels = [&](std::vector<std::string> flags) {
+    std::vector<std::string> words{"render",    kScene,  "-o",        file("a.exr"),
+                                   "--size",    "24x16", "--backend", "cpu",
+                                   "--bounces", "0",     "--vpls",    "8"};
+    words.insert(words.end(), flags.begin(), flags.end());
+    EXPECT_EQ(runLamplighter(words).code, 0);
+    return readImage(file("a.exr")).pixels;
+  };
+  EXPECT_EQ(pixels({"--camera", "camera"}), pixels({"--camera", "0"}));
+}
+
+TEST_F(CommandLine, PngIsTheToneMappedExr) {
+  for (const char* ending : {".exr", ".png"}) {
+    ASSERT_EQ(runLamplighter({"render", kScene, "-o", file(std::string("a") + ending), "--size",
+                              "24x16", "--backend", "cpu", "--vpls", "16", "--exposure", "-1"})
+                  .code,
+              0);
+  }
+  writePng(toneMap(readImage(file("a.exr")), -1.0f), file("b.png"));
+  EXPECT_EQ(readImage(file("a.png")).pixels, readImage(file("b.png")).pixels);
+  ASSERT_EQ(
+      runLamplighter({"tonemap", file("a.exr"), "-o", file("c.png"), "--exposure", "-1"}).code, 0);
+  EXPECT_EQ(text("c.png"), text("b.png"));
+}
+
+TEST_F(CommandLine, StatisticsNameWhatTheContractNames) {
+  ASSERT_EQ(runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "24x16", "--backend",
+                            "cpu", "--vpls", "16", "--stats", file("s.json")})
+                .code,
+            0);
+  const json j = json::parse(text("s.json"));
+  for (const char* key : {"vpls", "shadow_maps", "rays", "light_pixels", "memory_bytes",
+                          "peak_memory_bytes", "frames", "width", "height"}) {
+    EXPECT_GT(j[key].get<double>(), 0.0) << key;
+  }
+  for (const char* stage : {"shadow maps", "light sums", "g-buffer"})
+    EXPECT_GT(j["stages"][stage].get<double>(), 0.0) << stage;
+  EXPECT_GT(j["seconds"]["total"].get<double>(), 0.0);
+  EXPECT_FALSE(j["device"].get<std::string>().empty());
+}
+
+TEST_F(CommandLine, FullDisksAreErrors) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  expectOneError(test::runLamplighter({"methods"}, "/dev/full"), "standard output");
 }
 
 TEST_F(CommandLine, TheSameBitsAtAnyNumberOfThreads) {

@@ -26,7 +26,7 @@ std::string readFile(const std::filesystem::path& path) {
 
 }  // namespace
 
-ProcessResult runLamplighter(const std::vector<std::string>& arguments) {
+ProcessResult runLamplighter(const std::vector<std::string>& arguments, const std::string& output) {
   namespace fs = std::filesystem;
   std::string pattern = (fs::temp_directory_path() / "lamplighter-cli-XXXXXX").string();
   if (::mkdtemp(pattern.data()) == nullptr) return {};
@@ -48,7 +48,8 @@ ProcessResult runLamplighter(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT, 0600);
+  posix_spawn_file_actions_addopen(&actions, 1, output.empty() ? out.c_str() : output.c_str(),
+                                   O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
   ProcessResult result;
   pid_t pid = 0;

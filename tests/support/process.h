@@ -12,7 +12,9 @@ struct ProcessResult {
 };
 
 // `arguments` after the program's name; the shell is not involved. No standard input, no DISPLAY.
-ProcessResult runLamplighter(const std::vector<std::string>& arguments);
+// `output`: where standard output goes instead of into the result.
+ProcessResult runLamplighter(const std::vector<std::string>& arguments,
+                             const std::string& output = "");
 
 // The number of lines in a text.
 int lines(const std::string& text);

@@ -1,6 +1,7 @@
 #include "renderer/image/image_io.h"
 
 #include <filesystem>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,28 @@ TEST(ImageIo, AFolderThatIsNotThereIsOneClearLine) {
 TEST(ImageIo, WhatIsNoImageIsRefused) {
   EXPECT_THROW(readImage(temporary("absent.exr")), InputError);
   EXPECT_THROW(readImage(fs::path(LAMPLIGHTER_SOURCE_DIR) / "README.md"), InputError);
+}
+
+TEST(ImageIo, AFailedWriteLeavesTheOldFile) {
+  const fs::path folder = temporary("folder");
+  fs::create_directories(folder / "taken.exr");  // a folder where the file should go
+  EXPECT_THROW(writeExr(Image(2, 2), folder / "taken.exr"), InputError);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+  fs::remove_all(folder);
+}
+
+// The curve and the sRGB encoding by hand: 1 → 2.54 / 3.16 = 0.80380 → 0.90823,
+// 0.18 → 0.086724 / 0.324932 = 0.26690 → 0.55346.
+TEST(ToneMap, IsTheCurveThenTheEncoding) {
+  EXPECT_NEAR(toneMapPixel(vec3(1.0f), 0.0f).r, 0.90823f, 1e-5f);
+  EXPECT_NEAR(toneMapPixel(vec3(0.18f), 0.0f).g, 0.55346f, 1e-5f);
+  Image image(2, 1);
+  image.at(0, 0) = vec3(1.0f, 0.18f, 0.0f);
+  image.at(1, 0) =
+      vec3(std::numeric_limits<float>::quiet_NaN(), -1.0f, std::numeric_limits<float>::infinity());
+  const Image8 out = toneMap(image, 0.0f);
+  EXPECT_EQ(std::vector<int>(out.at(0, 0), out.at(0, 0) + 4), (std::vector<int>{232, 141, 0, 255}));
+  EXPECT_EQ(std::vector<int>(out.at(1, 0), out.at(1, 0) + 4), (std::vector<int>{0, 0, 255, 255}));
 }
 
 TEST(ToneMap, GrowsWithRadianceAndExposureAndEndsInWhite) {

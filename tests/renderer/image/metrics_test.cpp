@@ -45,6 +45,23 @@ TEST(Metrics, NoiseLowersSimilarity) {
   EXPECT_LT(compareImages(much, a).ssim, 0.5);
 }
 
+// Flat pictures of radiance 1 and 0.18, tone-mapped to x = 0.90823 and y = 0.55346: without
+// variance the index is (2xy + 0.01²) / (x² + y² + 0.01²).
+TEST(Metrics, SimilarityOfFlatPicturesIsThatOfTheirLuminance) {
+  EXPECT_NEAR(compareImages(Image(16, 12, vec3(1.0f)), Image(16, 12, vec3(0.18f))).ssim, 0.88874,
+              1e-3);
+}
+
+TEST(Metrics, SimilarityIsOfTheMaskedPixels) {
+  Image a(64, 8, vec3(0.3f)), b = a, mask(64, 8);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 16; ++x) a.at(x, y) = vec3(x % 2 == 0 ? 0.0f : 1.0f);
+    for (int x = 32; x < 64; ++x) mask.at(x, y) = vec3(1.0f);  // out of the window's reach
+  }
+  EXPECT_LT(compareImages(a, b).ssim, 0.9);
+  EXPECT_NEAR(compareImages(a, b, &mask).ssim, 1.0, 1e-4);
+}
+
 TEST(Metrics, NanPoisonsEveryMean) {
   Image a(4, 4, vec3(1.0f)), b = a;
   a.at(2, 2).g = std::numeric_limits<float>::quiet_NaN();
@@ -59,6 +76,32 @@ TEST(Metrics, OnlyMaskedPixelsCount) {
   mask.at(1, 0) = vec3(1.0f);
   EXPECT_EQ(compareImages(a, b, &mask).relRmse, 0.0);
   EXPECT_THROW(compareImages(a, b, std::make_unique<Image>(2, 1).get()), InputError);
+}
+
+TEST(HeatMap, GrowsFromBlackToWhiteWithTheError) {
+  const int n = 201;
+  Image a(n, 1), b(n, 1, vec3(2.0f));
+  for (int x = 0; x < n; ++x) a.at(x, 0) = b.at(x, 0) + 2.0f * static_cast<float>(x) / (n - 1);
+  const Image8 map = heatMap(a, b);
+  double last = -1.0;
+  for (int x = 0; x < n; ++x) {
+    const uint8_t* p = map.at(x, 0);
+    const double luma = 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2];
+    EXPECT_GE(luma, last) << x;
+    last = luma;
+  }
+  EXPECT_EQ(map.at(0, 0)[0] + map.at(0, 0)[1] + map.at(0, 0)[2], 0);
+  EXPECT_EQ(map.at(n - 1, 0)[0] + map.at(n - 1, 0)[1] + map.at(n - 1, 0)[2], 3 * 255);
+}
+
+TEST(HeatMap, ShowsWhatIsNoNumber) {
+  Image a(2, 1, vec3(1.0f)), b = a;
+  a.at(1, 0).g = std::numeric_limits<float>::quiet_NaN();
+  const Image8 map = heatMap(a, b);
+  EXPECT_EQ(map.at(0, 0)[0], 0);
+  EXPECT_EQ(map.at(1, 0)[0], 255);
+  EXPECT_EQ(map.at(1, 0)[1], 0);  // magenta is in no heat map
+  EXPECT_EQ(map.at(1, 0)[2], 255);
 }
 
 TEST(Metrics, SizesMustAgree) { EXPECT_THROW(compareImages(Image(2, 1), Image(1, 2)), InputError); }
