@@ -1,0 +1,112 @@
+// The structs that GLSL and C++ share lie the same in memory on both sides, in uniform and in
+// storage blocks: asked of the compiler, member by member.
+#include <cstddef>
+
+#include "renderer/gl/program.h"
+#include "renderer/gl/shader_source.h"
+#include "shaders/shared/material.h"
+#include "shaders/shared/vpl.h"
+#include "tests/renderer/gl/gl_test.h"
+#include "tests/support/gltf_files.h"
+
+namespace lamplighter {
+namespace {
+
+struct Member {
+  const char* name;
+  size_t offset;
+};
+
+class StructLayout : public test::GlTest {
+ protected:
+  // Two of the struct in a block of each layout, so that the distance between them shows too.
+  void expectLayout(const std::string& header, const std::string& type, size_t size,
+                    const std::vector<Member>& members) {
+    const test::TemporaryFolder folder;
+    std::filesystem::copy(gl::defaultShaderFolder(), folder.path(),
+                          std::filesystem::copy_options::recursive);
+    folder.write("layout.vert.glsl",
+                 "#include \"" + header + "\"\n" + "layout(std140, binding = 0) uniform U { " +
+                     type + " u[2]; };\n" + "layout(std430, binding = 0) readonly buffer S { " +
+                     type + " s[2]; };\n" + "void main() { gl_Position = u[gl_VertexID]." +
+                     members[0].name + " + s[gl_VertexID]." + members[0].name + "; }\n");
+    const gl::Program program(folder.path(), {"layout.vert.glsl", ""});
+    for (int i = 0; i < 2; ++i) {
+      for (const Member& m : members) {
+        const std::string element = "[" + std::to_string(i) + "]." + m.name;
+        const size_t expected = static_cast<size_t>(i) * size + m.offset;
+        EXPECT_EQ(offset(program, GL_UNIFORM, "u" + element), expected) << type << element;
+        // A storage block's array names its first element only; the rest is the stride.
+        if (i == 0) {
+          EXPECT_EQ(offset(program, GL_BUFFER_VARIABLE, "s" + element), expected)
+              << type << element;
+        }
+      }
+    }
+    const GLenum property = GL_TOP_LEVEL_ARRAY_STRIDE;
+    GLint stride = 0;
+    glGetProgramResourceiv(
+        program.name(), GL_BUFFER_VARIABLE,
+        index(program, GL_BUFFER_VARIABLE, std::string("s[0].") + members[0].name), 1, &property, 1,
+        nullptr, &stride);
+    EXPECT_EQ(static_cast<size_t>(stride), size) << type;
+  }
+
+ private:
+  static GLuint index(const gl::Program& program, GLenum interface, const std::string& name) {
+    const GLuint i = glGetProgramResourceIndex(program.name(), interface, name.c_str());
+    EXPECT_NE(i, GL_INVALID_INDEX) << name;
+    return i;
+  }
+  static size_t offset(const gl::Program& program, GLenum interface, const std::string& name) {
+    const GLenum property = GL_OFFSET;
+    GLint value = -1;
+    glGetProgramResourceiv(program.name(), interface, index(program, interface, name), 1, &property,
+                           1, nullptr, &value);
+    return static_cast<size_t>(value);
+  }
+};
+
+#define MEMBER(type, name) \
+  Member { #name, offsetof(type, name) }
+
+TEST_F(StructLayout, OfVpl) {
+  using shared::Vpl;
+  expectLayout(
+      "shared/vpl.h", "Vpl", sizeof(Vpl),
+      {MEMBER(Vpl, position), MEMBER(Vpl, normal), MEMBER(Vpl, tangent), MEMBER(Vpl, intensity)});
+}
+
+TEST_F(StructLayout, OfShadingParams) {
+  using shared::ShadingParams;
+  expectLayout("shared/vpl.h", "ShadingParams", sizeof(ShadingParams),
+               {MEMBER(ShadingParams, clampAndBias)});
+}
+
+TEST_F(StructLayout, OfSurfaceMaterial) {
+  using shared::SurfaceMaterial;
+  expectLayout("shared/material.h", "SurfaceMaterial", sizeof(SurfaceMaterial),
+               {MEMBER(SurfaceMaterial, baseColor), MEMBER(SurfaceMaterial, emissive),
+                MEMBER(SurfaceMaterial, options), MEMBER(SurfaceMaterial, baseColorLookup.u),
+                MEMBER(SurfaceMaterial, baseColorLookup.v), MEMBER(SurfaceMaterial, normalLookup.u),
+                MEMBER(SurfaceMaterial, normalLookup.v), MEMBER(SurfaceMaterial, emissiveLookup.u),
+                MEMBER(SurfaceMaterial, emissiveLookup.v)});
+}
+
+// Whoever adds a struct to shaders/shared must add it here.
+TEST(SharedStructs, AreAllTestedHere) {
+  int structs = 0;
+  for (const auto& file : std::filesystem::directory_iterator(
+           std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "shaders/shared")) {
+    const std::string text = test::readText(file.path());
+    for (size_t at = text.find("\nstruct "); at != std::string::npos;
+         at = text.find("\nstruct ", at + 1)) {
+      ++structs;
+    }
+  }
+  // Vpl, ShadingParams, TextureLookup (within SurfaceMaterial), SurfaceMaterial.
+  EXPECT_EQ(structs, 4);
+}
+
+}  // namespace
+}  // namespace lamplighter
