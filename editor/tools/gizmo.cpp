@@ -33,13 +33,15 @@ Line pointerRay(const View& view, const vec2& pointer) {
 }
 
 // The parameter along the axis (unit) where it passes nearest to the ray; none when they are
-// parallel.
+// parallel, or when that is behind the eye: past the axis' vanishing point.
 std::optional<float> nearestOnAxis(const vec3& origin, const vec3& axis, const Line& ray) {
   const float b = glm::dot(axis, ray.direction);
   const float denominator = 1.0f - b * b;
   if (denominator < 1e-5f) return std::nullopt;
   const vec3 d = ray.origin - origin;
-  return (glm::dot(d, axis) - glm::dot(d, ray.direction) * b) / denominator;
+  const float t = (glm::dot(d, axis) - glm::dot(d, ray.direction) * b) / denominator;
+  if (glm::dot(origin + t * axis - ray.origin, ray.direction) <= 0.0f) return std::nullopt;
+  return t;
 }
 
 std::optional<vec3> onPlane(const vec3& origin, const vec3& normal, const Line& ray) {
@@ -48,6 +50,26 @@ std::optional<vec3> onPlane(const vec3& origin, const vec3& normal, const Line& 
   const float t = glm::dot(normal, origin - ray.origin) / along;
   if (t <= 0.0f) return std::nullopt;
   return ray.origin + t * ray.direction;
+}
+
+// A parent that squeezes space flat has no inverse: nothing below it can be put at a place.
+bool hasVolume(const mat4& m) {
+  const mat3 a(m);
+  const float sides = glm::length(a[0]) * glm::length(a[1]) * glm::length(a[2]);
+  return sides > 0.0f && std::abs(glm::determinant(a)) > 1e-6f * sides;
+}
+
+// The rotation in a matrix that turns, scales all axes alike and may mirror; none for others. A
+// mirroring one is minus a rotation, and the minus cancels where a turn is carried through it.
+std::optional<quat> turnOf(const mat3& a) {
+  const float determinant = glm::determinant(a);
+  const float scale = std::copysign(std::cbrt(std::abs(determinant)), determinant);
+  const mat3 q = a / scale;
+  const mat3 square = glm::transpose(q) * q;
+  float off = 0.0f;
+  for (int i = 0; i < 3; ++i) off += glm::length(square[i] - mat3(1.0f)[i]);
+  if (!(off < 1e-4f)) return std::nullopt;
+  return glm::normalize(glm::quat_cast(q));
 }
 
 float snapped(float value, float step) { return std::round(value / step) * step; }
@@ -142,21 +164,45 @@ std::optional<vec3> Gizmo::gripOf(const View& view, const Axes& a, Handle handle
   } else if (const auto t = nearestOnAxis(a.origin, a.axes[index], ray)) {
     return *t * a.axes[index];
   }
-  if (!point) return std::nullopt;
+  // Near the horizon a pixel is kilometres.
+  constexpr float kFarthest = 100.0f;  // times the distance to the eye
+  if (!point || glm::length(*point - view.eye) > kFarthest * glm::length(a.origin - view.eye)) {
+    return std::nullopt;
+  }
   return *point - a.origin;
+}
+
+// A ring seen nearly from the side has no use for where the ray meets its plane: the pointer pulls
+// at the ring's nearest point along the ring.
+std::optional<vec2> Gizmo::pullOf(const View& view, const Axes& a, Handle handle) const {
+  if (mode != ToolMode::rotate || handle == Handle::screen) return std::nullopt;
+  const vec3& axis = a.axes[(static_cast<int>(handle) - 1) % 3];
+  const vec3 toEye = glm::normalize(view.eye - a.origin);
+  constexpr float kFlat = 0.1f;  // cosine between axis and view
+  if (std::abs(glm::dot(axis, toEye)) > kFlat) return std::nullopt;
+  const vec3 nearest = glm::normalize(toEye - glm::dot(toEye, axis) * axis);
+  constexpr float kStep = 0.01f;  // rad
+  const auto from = projectPoint(view, a.origin + a.size * nearest);
+  const auto to = projectPoint(
+      view, a.origin + a.size * glm::normalize(nearest + kStep * glm::cross(axis, nearest)));
+  if (!from || !to || glm::length(*to - *from) < 0.1f * kStep * kReach) return std::nullopt;
+  return (*to - *from) / kStep;
 }
 
 void Gizmo::begin(const View& view, const Axes& axes, Handle handle, const vec2& pointer,
                   const Document& document) {
+  const auto pull = pullOf(view, axes, handle);
   const auto grip = gripOf(view, axes, handle, pointer);
-  if (!grip) return;
-  Drag d{handle, axes, pointer, *grip, {}, {}};
+  if (!grip && !pull) return;
+  Drag d{handle, axes, pointer, grip.value_or(vec3(0.0f)), pull, {}, {}};
   for (const NodeId id : topmost(document.scene, document.selection)) {
     const Node& n = *document.scene.find(id);
+    const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(document.scene, n.parent);
+    if (!hasVolume(parent)) continue;
     d.nodes.push_back(n);
-    d.parents.push_back(n.parent == kNoNode ? mat4(1.0f) : worldMatrix(document.scene, n.parent));
+    d.parents.push_back(parent);
   }
-  drag_ = std::move(d);
+  if (!d.nodes.empty()) drag_ = std::move(d);
 }
 
 std::vector<Node> Gizmo::moved(const vec3& offset) const {
@@ -174,24 +220,16 @@ std::vector<Node> Gizmo::rotated(const vec3& axis, float angle) const {
     Transform& local = nodes[i].local;
     const vec3 place = vec3(drag_->parents[i] * vec4(local.translation, 1.0f));
     const vec3 newPlace = drag_->axes.origin + turn * (place - drag_->axes.origin);
-    // T(new) R T(−old) · world, back into the parent's space.
-    mat4 world = drag_->parents[i] * toMatrix(local);
-    world = glm::mat4_cast(turn) * world;
-    world[3] = vec4(newPlace, 1.0f);
-    const Transform turnedLocal = decompose(glm::inverse(drag_->parents[i]) * world);
-    // Under an unscaled parent a turn changes neither scale nor shear: keep their very bits.
-    const mat3 p(drag_->parents[i]);
-    const bool rigid = glm::length((glm::transpose(p) * p)[0] - vec3(1, 0, 0)) +
-                           glm::length((glm::transpose(p) * p)[1] - vec3(0, 1, 0)) +
-                           glm::length((glm::transpose(p) * p)[2] - vec3(0, 0, 1)) <
-                       1e-4f;
-    if (rigid) {
-      const quat parentTurn = glm::quat_cast(p);
+    const mat4 toParent = glm::inverse(drag_->parents[i]);
+    if (const auto parentTurn = turnOf(mat3(drag_->parents[i]))) {
+      // Scale and shear stay as they are, to the bit.
       local.rotation =
-          glm::normalize(glm::inverse(parentTurn) * turn * parentTurn * local.rotation);
-      local.translation = turnedLocal.translation;
+          glm::normalize(glm::inverse(*parentTurn) * turn * *parentTurn * local.rotation);
+      local.translation = vec3(toParent * vec4(newPlace, 1.0f));
     } else {
-      local = turnedLocal;
+      mat4 world = glm::mat4_cast(turn) * (drag_->parents[i] * toMatrix(local));
+      world[3] = vec4(newPlace, 1.0f);
+      local = decompose(toParent * world);
     }
   }
   return nodes;
@@ -211,10 +249,16 @@ std::vector<Node> Gizmo::scaled(const vec3& factors) const {
   return nodes;
 }
 
-std::vector<Node> Gizmo::dragged(const View& view, const vec2& pointer, bool snapping) const {
+std::optional<std::vector<Node>> Gizmo::dragged(const View& view, const vec2& pointer,
+                                                bool snapping) const {
   const Drag& d = *drag_;
+  if (d.pull) {
+    float angle = glm::dot(pointer - d.pointer, *d.pull) / glm::dot(*d.pull, *d.pull);
+    if (snapping) angle = snapped(angle, kTurnStep);
+    return rotated(d.axes.axes[(static_cast<int>(d.handle) - 1) % 3], angle);
+  }
   const auto grip = gripOf(view, d.axes, d.handle, pointer);
-  if (!grip) return d.nodes;
+  if (!grip) return std::nullopt;
   const int index = (static_cast<int>(d.handle) - 1) % 3;
   switch (mode) {
     case ToolMode::move: {
@@ -255,25 +299,30 @@ std::vector<Node> Gizmo::dragged(const View& view, const vec2& pointer, bool sna
   return d.nodes;
 }
 
-bool Gizmo::update(const View& view, const ViewportInput& in, Document& document,
-                   History& history) {
+bool Gizmo::update(const View& view, const ViewportInput& in, Document& document, History& history,
+                   const SurfaceSnap& surface) {
+  if (drag_ && !history.inTransaction()) drag_.reset();  // somebody else has ended the step
   if (drag_) {
     if (in.keys.contains(Key::escape) || in.pressed[1]) {
-      history.cancel();
-      drag_.reset();
+      cancel(history);
       return true;
     }
     static constexpr const char* kLabels[] = {"Select", "Move", "Rotate", "Scale"};
     const std::string name = drag_->nodes.size() == 1
                                  ? drag_->nodes[0].name
                                  : std::to_string(drag_->nodes.size()) + " objects";
-    history.run(std::make_unique<EditNodes>(
-        std::string(kLabels[static_cast<int>(mode)]) + " " + name, document,
-        dragged(view, in.pointer, snap != in.modifiers.ctrl)));
-    if (in.released[0] || !in.down[0]) {
-      history.commit();
-      drag_.reset();
+    std::optional<std::vector<Node>> nodes;
+    if (mode == ToolMode::move && in.modifiers.shift && surface) {
+      if (const auto place = surface()) nodes = moved(*place - drag_->axes.origin);
+    } else {
+      nodes = dragged(view, in.pointer, snap != in.modifiers.ctrl);
     }
+    // Where the pointer means no place, beyond the horizon say, all stays as it was last.
+    if (nodes) {
+      history.run(std::make_unique<EditNodes>(
+          std::string(kLabels[static_cast<int>(mode)]) + " " + name, document, std::move(*nodes)));
+    }
+    if (in.released[0] || !in.down[0]) finish(history);
     return true;
   }
   const auto axes = axesOf(view, document);
@@ -282,6 +331,18 @@ bool Gizmo::update(const View& view, const ViewportInput& in, Document& document
   begin(view, *axes, hovered_, in.pointer, document);
   if (drag_) history.begin("");
   return drag_.has_value();
+}
+
+void Gizmo::finish(History& history) {
+  if (!drag_) return;
+  history.commit();
+  drag_.reset();
+}
+
+void Gizmo::cancel(History& history) {
+  if (!drag_) return;
+  history.cancel();
+  drag_.reset();
 }
 
 void Gizmo::draw(Overlay& overlay, const View& view, const Document& document) const {

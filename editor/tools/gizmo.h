@@ -1,6 +1,7 @@
 // The handles that move, rotate and scale the selection.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -14,15 +15,24 @@ namespace lamplighter {
 
 enum class ToolMode { select, move, rotate, scale };
 
+// Where the active node's origin comes to lie when it is put on the surface under the pointer.
+using SurfaceSnap = std::function<std::optional<vec3>()>;
+
 class Gizmo {
  public:
   ToolMode mode = ToolMode::select;
   bool snap = false;  // always, not only while Ctrl is held
 
   // Hovers, begins, goes on with and ends a drag. True when the pointer is its. A drag is one
-  // transaction of `history`; Esc or the right button takes it back.
-  bool update(const View& view, const ViewportInput& input, Document& document, History& history);
+  // transaction of `history`; Esc or the right button takes it back. While Shift is held a move
+  // follows `surface`.
+  bool update(const View& view, const ViewportInput& input, Document& document, History& history,
+              const SurfaceSnap& surface = {});
   bool dragging() const { return drag_.has_value(); }
+  // Something comes in between: the drag ends as it is, is taken back, or its document is gone.
+  void finish(History& history);
+  void cancel(History& history);
+  void forget() { drag_.reset(); }
   void draw(Overlay& overlay, const View& view, const Document& document) const;
 
  private:
@@ -39,6 +49,7 @@ class Gizmo {
     Axes axes;  // as they were
     vec2 pointer{0.0f};
     vec3 grip{0.0f};            // where the pointer's ray met the handle, relative to the origin
+    std::optional<vec2> pull;   // a ring seen from the side: pixels a radian, along the ring
     std::vector<Node> nodes;    // the topmost selected ones, before
     std::vector<mat4> parents;  // their parents' world matrices
   };
@@ -49,7 +60,9 @@ class Gizmo {
                              const vec2& pointer) const;
   void begin(const View& view, const Axes& axes, Handle handle, const vec2& pointer,
              const Document& document);
-  std::vector<Node> dragged(const View& view, const vec2& pointer, bool snapping) const;
+  std::optional<vec2> pullOf(const View& view, const Axes& axes, Handle handle) const;
+  std::optional<std::vector<Node>> dragged(const View& view, const vec2& pointer,
+                                           bool snapping) const;
   std::vector<Node> moved(const vec3& offset) const;
   std::vector<Node> rotated(const vec3& axis, float angle) const;
   std::vector<Node> scaled(const vec3& factors) const;

@@ -1,0 +1,101 @@
+// A session on a floor with a box and a light, driven by pointer and keys as the ui drives it.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "editor/session.h"
+#include "editor/tools/projection.h"
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter::test {
+
+class SessionFixture : public testing::Test {
+ protected:
+  Session session_{std::make_unique<FrameRenderer>(makeCpuBackend())};
+  NodeId floor_ = 0, box_ = 0, light_ = 0;
+  ViewportInput input_;  // as of the last frame
+
+  virtual void addMore(Scene&) {}  // nodes that a test wants besides
+
+  void SetUp() override {
+    Scene scene;
+    const int grey = addMaterial(scene, vec3(0.6f));
+    floor_ = addMesh(scene, squareMesh(10.0f, grey));
+    box_ = addMesh(scene, boxMesh(vec3(1.0f), grey), vec3(0, 0.5f, 0));
+    scene.find(floor_)->name = "floor";
+    scene.find(box_)->name = "box";
+    light_ = addRectangleLight(scene, vec3(0, 4, 0), vec2(1.0f), vec3(10.0f));
+    addMore(scene);
+    open(std::move(scene));
+  }
+
+  void open(Scene scene) {
+    session_.resizeViewport(320, 200);
+    session_.open(std::move(scene), "test.gltf", {});
+    lookFrom(vec3(0, 2, 6), -0.25f);
+    RenderSettings r = session_.document().render;
+    r.values.set("vpls", 16);
+    r.values.set("map_resolution", 16);
+    session_.document().render = r;
+    session_.renderFrame();
+    input_ = {};
+    input_.hovered = true;
+  }
+
+  // Towards −Z, pitched by an angle in radians.
+  void lookFrom(const vec3& eye, float pitch) {
+    View view = session_.view();
+    view.eye = eye;
+    view.orientation = glm::angleAxis(pitch, vec3(1, 0, 0));
+    session_.setView(view);
+  }
+
+  vec2 pixelOf(const vec3& world) const { return vec2(session_.view().project(world)); }
+  const Node& node(NodeId id) const { return *session_.document().scene.find(id); }
+  const Transform& local(NodeId id) const { return node(id).local; }
+  vec3 placeOf(NodeId id) const { return vec3(worldMatrix(session_.document().scene, id)[3]); }
+  uint64_t hash() const { return documentHash(session_.document()); }
+
+  // Frames of a drag with a mouse button, one call each.
+  void press(const vec2& at, int button = 0, Modifiers modifiers = {}) {
+    input_.pointer = at;
+    input_.modifiers = modifiers;
+    session_.viewport(input_);  // hovers
+    input_.pressed[button] = input_.down[button] = true;
+    frame();
+  }
+  void dragTo(const vec2& at) {
+    input_.pointer = at;
+    frame();
+  }
+  void release(int button = 0) {
+    input_.down[button] = false;
+    input_.released[button] = true;
+    frame();
+    input_.modifiers = {};
+  }
+  void frame() {
+    session_.viewport(input_);
+    for (int i = 0; i < 3; ++i) input_.pressed[i] = input_.released[i] = false;
+    input_.wheel = 0.0f;
+  }
+
+  // World metres of a point on a handle of the gizmo at `origin`, `pixels` along.
+  float along(const vec3& origin, float pixels = 60.0f) const {
+    return pixels * metresPerPixel(session_.view(), origin);
+  }
+  // Takes hold of the selection's X arrow.
+  void pressXArrow(Modifiers modifiers = {}) {
+    const vec3 origin = placeOf(session_.document().active());
+    press(pixelOf(origin + vec3(along(origin), 0, 0)), 0, modifiers);
+  }
+};
+
+}  // namespace lamplighter::test
