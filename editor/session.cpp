@@ -30,6 +30,7 @@ Session::~Session() = default;
 
 void Session::open(Scene scene, std::filesystem::path path,
                    const std::vector<std::string>& warnings) {
+  tools_->gizmo.forget();
   document_.scene = std::move(scene);
   document_.selection.clear();
   document_.path = std::move(path);
@@ -54,6 +55,7 @@ void Session::open(Scene scene, std::filesystem::path path,
 }
 
 void Session::save(const std::filesystem::path& path) {
+  finishDrag();
   history_.commit();
   saveGltf(document_.scene, path);
   document_.path = path;
@@ -123,11 +125,13 @@ void Session::select(std::vector<NodeId> ids) {
 }
 
 void Session::undo() {
+  if (dragging()) return cancelDrag();  // what is under way is the last change
   history_.undo();
   pruneSelection();
 }
 
 void Session::redo() {
+  finishDrag();
   history_.redo();
   pruneSelection();
 }
@@ -148,6 +152,9 @@ void Session::setTool(ToolMode mode) {
   if (!tools_->gizmo.dragging()) tools_->gizmo.mode = mode;
 }
 
+bool Session::dragging() const { return tools_->gizmo.dragging(); }
+void Session::finishDrag() { tools_->gizmo.finish(history_); }
+void Session::cancelDrag() { tools_->gizmo.cancel(history_); }
 bool Session::snapping() const { return tools_->gizmo.snap; }
 void Session::setSnapping(bool on) { tools_->gizmo.snap = on; }
 bool Session::flying() const { return tools_->camera.flying(); }
@@ -236,8 +243,17 @@ std::optional<Session::Place> Session::surfaceAhead() const {
 
 const GiOutput& Session::renderFrame() {
   const SceneChanges changes = history_.takeChanges();
-  output_ = renderer_->render(
-      {document_.scene, changes, view_, document_.render.method, document_.render.values});
+  renderError_.clear();
+  try {
+    output_ = renderer_->render(
+        {document_.scene, changes, view_, document_.render.method, document_.render.values});
+  } catch (const InputError& e) {
+    history_.showAll();  // part of it may have arrived: the next frame begins anew
+    renderError_ = status_ = e.what();
+    if (!output_.radiance)
+      output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
+    output_.settled = true;  // trying the same again changes nothing
+  }
   ++frame_;
   return output_;
 }

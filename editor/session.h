@@ -32,7 +32,7 @@ class Session {
   void open(Scene scene, std::filesystem::path path, const std::vector<std::string>& warnings);
   // Saves as glTF; throws InputError with the document untouched when that fails.
   void save(const std::filesystem::path& path);
-  bool modified() const;  // since opened or saved
+  bool modified() const;  // since opened or saved; render settings are not saved and do not count
 
   Document& document() { return document_; }
   const Document& document() const { return document_; }
@@ -64,14 +64,21 @@ class Session {
   void setTool(ToolMode mode);
   bool snapping() const;
   void setSnapping(bool on);
+  // A drag of the gizmo is under way. It can be ended as a step, or taken back.
+  bool dragging() const;
+  void finishDrag();
+  void cancelDrag();
   // The right mouse button flies: letters steer then and are no shortcuts.
   bool flying() const;
   void frameSelection();  // everything when nothing is selected
   void frameAll();
   void viewport(const ViewportInput& input);  // camera, pick, gizmo
 
-  // Renders one frame of what changed and keeps it. `output().settled` says when it is done.
+  // Renders one frame of what changed and keeps it. `output().settled` says when it is done. When
+  // it cannot be rendered (no memory for that many maps, say) the last picture stays, renderError()
+  // and the status say why, and nothing of the work is lost.
   const GiOutput& renderFrame();
+  const std::string& renderError() const { return renderError_; }  // "": it was rendered
   const GiOutput& output() const { return output_; }
   uint32_t frame() const { return frame_; }
 
@@ -111,7 +118,7 @@ class Session {
   std::unique_ptr<Tools> tools_;
   View view_;
   GiOutput output_;
-  std::string status_;
+  std::string status_, renderError_;
   uint32_t frame_ = 0;
   uint64_t savedHash_ = 0;
   bool quit_ = false;

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <utility>
 
+#include "editor/session.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -67,8 +68,11 @@ void ActionRegistry::run(Session& session, std::string_view text) const {
   const Action* action = find(words.front());
   if (action == nullptr)
     throw InputError(words.front(), "there is no such action", "look at the menus for their names");
-  if (action->enabled && !action->enabled(session)) return;
   words.erase(words.begin());
+  if (action->usage.empty() && !words.empty())
+    throw InputError(action->name, "takes no arguments", "give the name alone");
+  if (!action->duringDrag) session.finishDrag();
+  if (action->enabled && !action->enabled(session)) return;
   action->run(session, words);
 }
 

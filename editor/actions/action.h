@@ -21,6 +21,7 @@ struct Action {
   std::string shortcut;  // "Ctrl+D", "" for none; rebindable
   std::function<void(Session&, const std::vector<std::string>& arguments)> run;
   std::function<bool(const Session&)> enabled;  // null: always
+  bool duringDrag = false;  // leaves a drag under way alone; others end it as a step of its own
 };
 
 class ActionRegistry {

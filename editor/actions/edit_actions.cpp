@@ -28,7 +28,7 @@ void duplicate(Session& s) {
 void addEditActions(ActionRegistry& r) {
   r.add({"edit.undo", "Undo", "", "Takes the last change back.", "Ctrl+Z",
          [](Session& s, const Arguments&) { s.undo(); },
-         [](const Session& s) { return s.history().canUndo(); }});
+         [](const Session& s) { return s.dragging() || s.history().canUndo(); }, true});
   r.add({"edit.redo", "Redo", "", "Makes the change again that was taken back.",
          "Ctrl+Y, Ctrl+Shift+Z", [](Session& s, const Arguments&) { s.redo(); },
          [](const Session& s) { return s.history().canRedo(); }});
@@ -75,8 +75,15 @@ void addEditActions(ActionRegistry& r) {
            s.select(std::move(ids));
          },
          {}});
-  r.add({"select.none", "Deselect", "", "Selects nothing.", "Escape",
-         [](Session& s, const Arguments&) { s.select({}); }, hasSelection});
+  r.add({"select.none", "Deselect", "", "Takes back a drag under way, else selects nothing.",
+         "Escape",
+         [](Session& s, const Arguments&) {
+           if (s.dragging())
+             s.cancelDrag();
+           else
+             s.select({});
+         },
+         hasSelection, true});
 }
 
 }  // namespace lamplighter

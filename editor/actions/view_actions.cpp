@@ -26,7 +26,8 @@ void addViewActions(ActionRegistry& r) {
          "Switches snapping on or off; Ctrl does so while dragging.",
          "S",
          [](Session& s, const Arguments&) { s.setSnapping(!s.snapping()); },
-         {}});
+         {},
+         true});
   r.add({"view.frame_selection",
          "Frame selection",
          "",

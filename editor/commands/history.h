@@ -36,6 +36,8 @@ class History {
 
   // What changed since the last call, found by comparing scenes; the frame's SceneChanges.
   SceneChanges takeChanges();
+  // What was taken did not arrive: the next changes are everything.
+  void showAll() { first_ = true; }
 
  private:
   struct Step {
