@@ -1,0 +1,43 @@
+// The lamplighter program: checks the machine and hands the command line what needs a window or
+// OpenGL.
+#include <chrono>
+#include <cstdio>
+
+#include "editor/cli/cli.h"
+#include "ui/app/backends.h"
+#include "ui/app/run.h"
+
+namespace {
+
+// All code is built for x86-64-v3, so that pictures are the same everywhere. An older processor
+// would stop with an illegal instruction; it should say why.
+bool processorSuffices() {
+  __builtin_cpu_init();
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+         __builtin_cpu_supports("bmi2");
+}
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (!processorSuffices()) {
+    std::fputs("error: this processor has no AVX2 and FMA; use one of 2013 or later\n", stderr);
+    return 2;
+  }
+  lamplighter::Frontend frontend;
+  frontend.stopwatch = seconds;
+  frontend.makeBackend = [](const std::string& kind) {
+    return lamplighter::makeBackend(kind, false);
+  };
+  frontend.runEditor = [](const lamplighter::EditorOptions& options) {
+    return lamplighter::runEditor(options, seconds);
+  };
+  frontend.runReplay = [](const lamplighter::ReplayOptions& options) {
+    return lamplighter::runReplay(options, seconds);
+  };
+  return lamplighter::runCommandLine(argc, argv, frontend);
+}
