@@ -1,3 +1,27 @@
+#include <iostream>
+#include <memory>
+
 #include <benchmark/benchmark.h>
 
-BENCHMARK_MAIN();
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/error.h"
+#include "tests/bench/naive_bench.h"
+
+int main(int argc, char** argv) {
+  using namespace lamplighter;
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  addNaiveBenchmarks("cpu", makeCpuBackend);
+  std::unique_ptr<gl::HeadlessContext> context;
+  try {
+    context = std::make_unique<gl::HeadlessContext>();
+    benchmark::AddCustomContext("OpenGL", context->renderer());
+    addNaiveBenchmarks("gl", [] { return makeGlBackend(); });
+  } catch (const InputError& error) {
+    std::cerr << "without the gl backend: " << error.what() << "\n";
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

@@ -1,11 +1,12 @@
 // What `many_lights` costs with the technique `naive`: the scenes of paper 1, figure 5-1, against
 // the number of VPLs (figure 5-3's baseline), and the kernels on their own.
+#include "tests/bench/naive_bench.h"
+
 #include <chrono>
 #include <filesystem>
 
 #include <benchmark/benchmark.h>
 
-#include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
@@ -46,10 +47,8 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-using MakeBackend = std::unique_ptr<Backend> (*)();
-
 // The camera orbits: G-buffer and all sums anew in each frame, maps kept.
-void cameraMoves(benchmark::State& state, const char* name, MakeBackend make) {
+void cameraMoves(benchmark::State& state, const std::string& name, const MakeBackend& make) {
   const int vpls = static_cast<int>(state.range(0));
   Level level(name);
   FrameRenderer renderer(make());
@@ -68,7 +67,7 @@ void cameraMoves(benchmark::State& state, const char* name, MakeBackend make) {
 
 // The mover moves: besides, every map that sees it is rendered, and the bounced VPLs are sampled
 // anew.
-void objectMoves(benchmark::State& state, const char* name, MakeBackend make) {
+void objectMoves(benchmark::State& state, const std::string& name, const MakeBackend& make) {
   const int vpls = static_cast<int>(state.range(0));
   Level level(name);
   FrameRenderer renderer(make());
@@ -91,7 +90,7 @@ void objectMoves(benchmark::State& state, const char* name, MakeBackend make) {
 }
 
 // Nanoseconds a light and pixel of the sum alone, and maps a second, on one scene.
-void kernels(benchmark::State& state, const char* name, MakeBackend make) {
+void kernels(benchmark::State& state, const std::string& name, const MakeBackend& make) {
   Level level(name);
   FrameRenderer renderer(make(), seconds);
   const int vpls = static_cast<int>(state.range(0));
@@ -115,8 +114,10 @@ void kernels(benchmark::State& state, const char* name, MakeBackend make) {
   state.counters["gbuffer_ms"] = 1e3 * gbuffer / static_cast<double>(state.iterations());
 }
 
-void addAll(const std::string& backend, MakeBackend make) {
-  for (const char* scene : kScenes) {
+}  // namespace
+
+void addNaiveBenchmarks(const std::string& backend, const MakeBackend& make) {
+  for (const std::string scene : kScenes) {
     const auto name = [&](const char* what) {
       return std::string("naive/") + what + "/" + scene + "/" + backend;
     };
@@ -137,10 +138,4 @@ void addAll(const std::string& backend, MakeBackend make) {
   }
 }
 
-[[maybe_unused]] const bool kRegistered = [] {
-  addAll("cpu", makeCpuBackend);
-  return true;
-}();
-
-}  // namespace
 }  // namespace lamplighter

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "renderer/backends/kernels.h"
+
+namespace lamplighter {
+
+using MakeBackend = std::function<std::unique_ptr<Backend>()>;
+
+// Adds the benchmarks of the technique `naive` on one backend.
+void addNaiveBenchmarks(const std::string& backend, const MakeBackend& make);
+
+}  // namespace lamplighter
