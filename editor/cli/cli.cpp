@@ -36,7 +36,7 @@ void addInfo(CLI::App& app, Run& run) {
   auto* sub =
       app.add_subcommand("info", "Counts, extents, lights, cameras and warnings of a scene");
   auto o = std::make_shared<cli::InfoOptions>();
-  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->required();
+  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
   sub->add_flag("--json", o->json, "As JSON");
   sub->footer("Example: lamplighter info level.glb --json");
   sub->callback([=, &run] { run = [=] { return cli::info(*o); }; });
@@ -45,28 +45,37 @@ void addInfo(CLI::App& app, Run& run) {
 void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
   auto* sub = app.add_subcommand("render", "Render a scene until it is settled");
   auto o = std::make_shared<cli::RenderOptions>();
-  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->required();
+  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
   sub->add_option("-o,--output", o->output, "EXR (linear radiance) or PNG (tone-mapped)")
+      ->type_name("FILE")
       ->required();
-  sub->add_option("--method", o->method, "See 'lamplighter methods'")->capture_default_str();
-  sub->add_option("--camera", o->camera,
-                  "Name or number of a camera [the first, or a view of all]");
-  sub->add_option("--size", o->size, "WxH in pixels")->capture_default_str();
-  sub->add_option("--vpls", o->vpls, "Light samples in all");
+  sub->add_option("--method", o->method, "See 'lamplighter methods'")
+      ->type_name("NAME")
+      ->capture_default_str();
+  sub->add_option("--camera", o->camera, "Name or number of a camera [the first, or a view of all]")
+      ->type_name("NAME|INDEX");
+  sub->add_option("--size", o->size, "WxH in pixels")->type_name("WxH")->capture_default_str();
+  sub->add_option("--vpls", o->vpls, "Light samples in all")->type_name("N");
   sub->add_option("--direct-share", o->directShare,
-                  "Share of them on the lights themselves, 0 to 1");
-  sub->add_option("--bounces", o->bounces, "Indirect bounces; 0 is direct light only");
-  sub->add_option("--seed", o->seed, "Another set of random numbers");
-  sub->add_option("--spp", o->spp, "Samples a pixel");
+                  "Share of them on the lights themselves, 0 to 1")
+      ->type_name("F");
+  sub->add_option("--bounces", o->bounces, "Indirect bounces; 0 is direct light only")
+      ->type_name("N");
+  sub->add_option("--seed", o->seed, "Another set of random numbers")->type_name("N");
+  sub->add_option("--spp", o->spp, "Samples a pixel")->type_name("N");
   sub->add_option("--backend", o->backend, "gl, cpu or auto")
       ->check(kBackends)
       ->capture_default_str();
   sub->add_option("--set", o->assignments, "name=value of any parameter of the method; repeatable")
+      ->type_name("NAME=VALUE")
       ->allow_extra_args(false);  // one value a flag: the next word may be the scene
-  sub->add_option("--exposure", o->exposure, "EV for PNG, or auto")->capture_default_str();
+  sub->add_option("--exposure", o->exposure, "EV for PNG, or auto")
+      ->type_name("EV")
+      ->capture_default_str();
   sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
+      ->type_name("N")
       ->check(CLI::Range(0, 1024));
-  sub->add_option("--stats", o->stats, "JSON file for timings and counts");
+  sub->add_option("--stats", o->stats, "JSON file for timings and counts")->type_name("FILE");
   sub->footer(
       "Example: lamplighter render level.glb -o level.png --vpls 1024 --bounces 3 --exposure auto");
   sub->callback(
@@ -85,11 +94,14 @@ void addMethods(CLI::App& app, Run& run) {
 void addCompare(CLI::App& app, Run& run) {
   auto* sub = app.add_subcommand("compare", "How far picture A is from the reference B");
   auto o = std::make_shared<cli::CompareOptions>();
-  sub->add_option("A", o->a, "Image")->required();
-  sub->add_option("B", o->b, "Image of the same size, the reference")->required();
-  sub->add_option("--mask", o->mask, "Only pixels over 0.5 in this image count");
-  sub->add_option("--heatmap", o->heatmap, "PNG file for where they differ");
+  sub->add_option("A", o->a, "Image")->type_name("FILE")->required();
+  sub->add_option("B", o->b, "Image of the same size, the reference")
+      ->type_name("FILE")
+      ->required();
+  sub->add_option("--mask", o->mask, "Only pixels over 0.5 in this image count")->type_name("FILE");
+  sub->add_option("--heatmap", o->heatmap, "PNG file for where they differ")->type_name("FILE");
   sub->add_option("--max-relrmse", o->maxRelRmse, "A check: exit code 1 when relRMSE is larger")
+      ->type_name("X")
       ->check(CLI::NonNegativeNumber);
   sub->add_flag("--json", o->json, "As JSON");
   sub->footer(
@@ -101,9 +113,9 @@ void addCompare(CLI::App& app, Run& run) {
 void addTonemap(CLI::App& app, Run& run) {
   auto* sub = app.add_subcommand("tonemap", "A radiance image as the editor would show it");
   auto o = std::make_shared<cli::TonemapOptions>();
-  sub->add_option("IMAGE", o->input, "EXR or HDR file")->required();
-  sub->add_option("-o,--output", o->output, "PNG file")->required();
-  sub->add_option("--exposure", o->exposure, "EV, or auto")->capture_default_str();
+  sub->add_option("IMAGE", o->input, "EXR or HDR file")->type_name("FILE")->required();
+  sub->add_option("-o,--output", o->output, "PNG file")->type_name("FILE")->required();
+  sub->add_option("--exposure", o->exposure, "EV, or auto")->type_name("EV")->capture_default_str();
   sub->footer("Example: lamplighter tonemap live.exr -o live.png --exposure auto");
   sub->callback([=, &run] { run = [=] { return cli::tonemap(*o); }; });
 }
@@ -111,17 +123,19 @@ void addTonemap(CLI::App& app, Run& run) {
 void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
   auto* sub = app.add_subcommand("replay", "Play a recording of input");
   auto o = std::make_shared<ReplayOptions>();
-  sub->add_option("FILE", o->recording, "Recording (.jsonl)")->required();
+  sub->add_option("FILE", o->recording, "Recording (.jsonl)")->type_name("FILE")->required();
   sub->add_flag("--headless", o->headless, "Without a window");
-  sub->add_option("-o,--output", o->outputFolder, "Folder for the pictures of its checkpoints");
+  sub->add_option("-o,--output", o->outputFolder, "Folder for the pictures of its checkpoints")
+      ->type_name("FOLDER");
   sub->add_flag("--check", o->check,
                 "Compare with the baselines; exit code 1 when something differs");
   sub->add_flag("--update-baselines", o->updateBaselines, "Write the baselines anew");
-  sub->add_option("--method", o->method, "Another method than the recorded one");
+  sub->add_option("--method", o->method, "Another method than the recorded one")->type_name("NAME");
   sub->add_option("--backend", o->backend, "gl, cpu or auto")
       ->check(kBackends)
       ->capture_default_str();
   sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
+      ->type_name("N")
       ->check(CLI::Range(0, 1024));
   sub->footer("Example: lamplighter replay tests/recordings/place_light.jsonl --headless --check");
   sub->callback([=, &run, &frontend] { run = [=, &frontend] { return frontend.runReplay(*o); }; });
@@ -137,8 +151,9 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
       "level.glb");
   Run run;
   EditorOptions editor;
-  app.add_option("SCENE", editor.scene, ".gltf or .glb file to edit [the default scene]");
-  app.add_option("--record", editor.record, "Record all input to this file");
+  app.add_option("SCENE", editor.scene, ".gltf or .glb file to edit [the default scene]")
+      ->type_name("FILE");
+  app.add_option("--record", editor.record, "Record all input to this file")->type_name("FILE");
   app.add_option("--backend", editor.backend, "gl, cpu or auto")
       ->check(kBackends)
       ->capture_default_str();

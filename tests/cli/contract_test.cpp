@@ -1,6 +1,7 @@
 // The command line as other programs call it.
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -88,6 +89,23 @@ TEST_F(CommandLine, AnErrorNamesTheHelpOfItsSubcommand) {
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--frobnicate"}),
                  "'lamplighter render --help'");
   expectOneError(runLamplighter({"render", kScene, "-o"}), "--output");
+}
+
+TEST_F(CommandLine, EveryFlagIsInTheDocs) {
+  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/cli.md");
+  const std::string docs{std::istreambuf_iterator<char>(in), {}};
+  for (const char* sub : {"info", "render", "methods", "compare", "tonemap", "replay"}) {
+    const std::string help = runLamplighter({sub, "--help"}).out;
+    EXPECT_NE(help.find("Example: lamplighter " + std::string(sub)), std::string::npos) << sub;
+    const size_t from = docs.find("\n## " + std::string(sub) + "\n");
+    ASSERT_NE(from, std::string::npos) << sub;
+    const std::string section = docs.substr(from, docs.find("\n## ", from + 1) - from);
+    const std::regex flag("--[a-z][a-z-]*");
+    for (std::sregex_iterator i(help.begin(), help.end(), flag), end; i != end; ++i) {
+      if (i->str() == "--help") continue;
+      EXPECT_NE(section.find(i->str()), std::string::npos) << sub << " " << i->str();
+    }
+  }
 }
 
 TEST_F(CommandLine, InfoCountsAndIsJson) {
