@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include <embree3/rtcore.h>
 
@@ -12,9 +14,12 @@ namespace lamplighter {
 
 namespace {
 
-void onError(void*, RTCError code, const char* message) {
-  throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(code)) + ": " +
-                           message);
+// Keeps the first error, for RayCaster::Impl::check(): nothing may be thrown through Embree itself.
+void onError(void* first, RTCError code, const char* message) {
+  auto& text = *static_cast<std::string*>(first);
+  if (text.empty())
+    text = "Embree error " + std::to_string(static_cast<int>(code)) + ": " +
+           (message != nullptr ? message : "");
 }
 
 // Leaves out hits where the alpha mask has a hole. N is 1 or 8; valid lanes are −1.
@@ -45,10 +50,14 @@ RTCRay toEmbree(const Ray& r) {
 
 }  // namespace
 
-// One geometry an object, with the object's number as its id, in one flat scene: Embree's dynamic
-// scenes keep a tree a geometry, so a moved object costs its own tree and the one above all.
+// One geometry an object, with the object's number as its id, in one scene without instances. At
+// low build quality Embree keeps a tree a geometry and one above them all, so that a moved object
+// costs its own tree and the upper one; rays pay up to 15% for it (tests/bench/raycast_bench.cpp).
+// The trees of the geometries are built at medium quality, by the surface area heuristic, and
+// always anew: what a ray hits does not depend on where things were before.
 struct RayCaster::Impl {
   const RenderScene& scene;
+  std::string error;  // the first that Embree reported
   RTCDevice device = nullptr;
   RTCScene embree = nullptr;
 
@@ -57,7 +66,7 @@ struct RayCaster::Impl {
     device = rtcNewDevice("isa=avx2,set_affinity=0");
     if (device == nullptr)
       throw std::runtime_error("Embree cannot start: it needs a processor with AVX2");
-    rtcSetDeviceErrorFunction(device, onError, nullptr);
+    rtcSetDeviceErrorFunction(device, onError, &error);
   }
   ~Impl() {
     if (embree != nullptr) rtcReleaseScene(embree);
@@ -65,6 +74,11 @@ struct RayCaster::Impl {
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
+
+  void commit() {
+    rtcCommitScene(embree);
+    if (!error.empty()) throw std::runtime_error(std::exchange(error, {}));
+  }
 
   const Material& materialOf(uint32_t object) const {
     return scene.materials[scene.objects[object].material];
@@ -87,6 +101,7 @@ struct RayCaster::Impl {
     embree = rtcNewScene(device);
     rtcSetSceneFlags(embree,
                      static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
+    rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_LOW);
     for (uint32_t i = 0; i < scene.objects.size(); ++i) {
       const RenderObject& o = scene.objects[i];
       RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -94,6 +109,11 @@ struct RayCaster::Impl {
                               o.vertexCount);
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(uint32_t), o.triangleCount());
+      if (!error.empty()) {  // no room for the buffers
+        rtcReleaseGeometry(geometry);
+        commit();
+      }
+      rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
       copyVertices(geometry, o);
       copyIndices(geometry, o);
       // The scene belongs to the FrameRenderer, which outlives this; the filter only reads it.
@@ -103,7 +123,7 @@ struct RayCaster::Impl {
       rtcAttachGeometryByID(embree, geometry, i);
       rtcReleaseGeometry(geometry);
     }
-    rtcCommitScene(embree);
+    commit();
   }
 
   void applyMaterial(RTCGeometry geometry, uint32_t object) const {
@@ -139,7 +159,7 @@ struct RayCaster::Impl {
         rtcCommitGeometry(geometry);
       }
     }
-    rtcCommitScene(embree);
+    commit();
   }
 };
 

@@ -1,10 +1,12 @@
 #include "renderer/raycast/ray_caster.h"
 
 #include <array>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "renderer/sampling/low_discrepancy.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -80,6 +82,62 @@ TEST(RayCaster, SeesAMovedObjectWhereItIs) {
   rays.update(update(world, moved, compare(scene, moved)));
   EXPECT_FLOAT_EQ(rays.intersect(down(0, 0)).t, 13.0f);
   EXPECT_FLOAT_EQ(rays.intersect(down(5, 0)).t, 9.5f);
+}
+
+// What is hit, distance and weights included, must not tell where things were before: recordings
+// compare bits after an undo.
+TEST(RayCaster, AnUpdatedTreeGivesTheBitsOfANewOne) {
+  Scene before;
+  for (int i = 0; i < 40; ++i) {
+    const float x = static_cast<float>(i);
+    test::addMesh(before, test::boxMesh(vec3(1.0f, 0.3f + 0.02f * x, 0.7f)),
+                  vec3(std::fmod(x * 0.37f, 4.0f) - 2.0f, 0.0f, std::fmod(x * 0.73f, 4.0f) - 2.0f));
+  }
+  Scene after = before;
+  for (const int i : {3, 17, 18, 30}) after.nodes[i].local.translation.y += 0.25f;
+  RenderScene world = worldOf(before);
+  RayCaster moved(world);
+  moved.update(update(world, after, compare(before, after)));
+  const RenderScene anew = worldOf(after);
+  const RayCaster built(anew);
+  int hits = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const vec2 at = 5.0f * sobol2(i, 1) - 2.5f, to = 5.0f * sobol2(i, 2) - 2.5f;
+    const Ray ray{vec3(at.x, 3.0f, at.y), 0.0f, vec3(to.x - at.x, -3.0f, to.y - at.y)};
+    const Hit a = moved.intersect(ray), b = built.intersect(ray);
+    ASSERT_EQ(a.object, b.object);
+    ASSERT_EQ(a.triangle, b.triangle);
+    ASSERT_EQ(a.t, b.t);
+    ASSERT_EQ(a.u, b.u);
+    ASSERT_EQ(a.v, b.v);
+    ASSERT_EQ(moved.occluded(ray), static_cast<bool>(a));
+    hits += a ? 1 : 0;
+  }
+  EXPECT_GT(hits, 5000);
+}
+
+TEST(RayCaster, FollowsMaterialsThatBecomeClearOrMasked) {
+  Scene before;
+  const int m = test::addMaterial(before, vec3(1.0f));
+  test::addMesh(before, test::squareMesh(2.0f, m), vec3(0, 2, 0));
+  test::addMesh(before, test::squareMesh(2.0f));
+  RenderScene world = worldOf(before);
+  RayCaster rays(world);
+  const auto change = [&](auto edit) {
+    Scene after = before;
+    edit(after.materials[m]);
+    rays.update(update(world, after, compare(before, after)));
+    before = after;
+    return rays.intersect(down(0.1f, 0.2f)).object;
+  };
+  EXPECT_EQ(change([](Material& x) { x.transmission = 1.0f; }), 1u);
+  EXPECT_EQ(change([](Material& x) { x.transmission = 0.0f; }), 0u);
+  EXPECT_EQ(change([](Material& x) {
+              x.alphaMode = AlphaMode::mask;
+              x.baseColor.a = 0.2f;
+            }),
+            1u);
+  EXPECT_EQ(change([](Material& x) { x.alphaCutoff = 0.1f; }), 0u);
 }
 
 TEST(RayCaster, PassesClearPanesAndHolesOfMasks) {
