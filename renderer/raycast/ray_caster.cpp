@@ -52,9 +52,9 @@ RTCRay toEmbree(const Ray& r) {
 
 // One geometry an object, with the object's number as its id, in one scene without instances. At
 // low build quality Embree keeps a tree a geometry and one above them all, so that a moved object
-// costs its own tree and the upper one; rays pay up to 15% for it (tests/bench/raycast_bench.cpp).
-// The trees of the geometries are built at medium quality, by the surface area heuristic, and
-// always anew: what a ray hits does not depend on where things were before.
+// costs its own tree and the upper one; rays cost the same within what could be measured
+// (tests/bench/raycast_bench.cpp). The trees of the geometries are built at medium quality, by the
+// surface area heuristic, and always anew: what a ray hits does not depend on where things were.
 struct RayCaster::Impl {
   const RenderScene& scene;
   std::string error;  // the first that Embree reported

@@ -40,7 +40,7 @@ class Tracer {
   Tracer(const RenderScene& scene, const RayCaster& rays, const LightSet& lights)
       : scene_(scene), rays_(rays), lights_(lights) {}
 
-  vec3 trace(Ray ray, PathSampler& sampler, int bounces) const {
+  vec3 trace(Ray ray, PathSampler& sampler, int bounces) {
     vec3 radiance(0.0f), throughput(1.0f);
     // The density by solid angle with which the last surface chose this direction; 0: the camera's,
     // which no light sampling competes with.
@@ -48,6 +48,7 @@ class Tracer {
     vec3 from(0.0f);
 
     for (int depth = 0;; ++depth) {
+      ++raysTraced_;
       const Hit hit = rays_.intersect(ray);
       if (!hit) return radiance + throughput * skySeen(pdfDirection);
       const Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
@@ -75,6 +76,8 @@ class Tracer {
     }
   }
 
+  uint64_t raysTraced() const { return raysTraced_; }
+
  private:
   vec3 skySeen(float pdfDirection) const {
     if (scene_.sky == vec3(0.0f)) return vec3(0.0f);
@@ -98,7 +101,7 @@ class Tracer {
   }
 
   // One sample of the light that arrives straight from an emitter, times f · cos.
-  vec3 directLight(const LocalSurface& at, PathSampler& sampler) const {
+  vec3 directLight(const LocalSurface& at, PathSampler& sampler) {
     float probability = 0.0f;
     const int emitter = lights_.choose(sampler.next1(), probability);
     const vec2 u = sampler.next2();
@@ -116,12 +119,13 @@ class Tracer {
     return vec3(0.0f);
   }
 
-  bool visible(const LocalSurface& at, const vec3& direction, float distance) const {
+  bool visible(const LocalSurface& at, const vec3& direction, float distance) {
+    ++raysTraced_;
     return !rays_.occluded(
         {at.s.position + rayEpsilon(at.s.position) * at.ng, 0.0f, direction, distance});
   }
 
-  vec3 fromSurface(const LocalSurface& at, int emitter, vec2 u) const {
+  vec3 fromSurface(const LocalSurface& at, int emitter, vec2 u) {
     const EmitterPoint p = lights_.samplePoint(scene_, emitter, u);
     const vec3 d = p.position - at.s.position;
     const float d2 = glm::dot(d, d);
@@ -140,7 +144,7 @@ class Tracer {
     return p.radiance * (cosHere / pdfAngle * misWeight(pdfLight, pdfBsdf));
   }
 
-  vec3 fromPunctual(const LocalSurface& at, const RenderPunctual& light) const {
+  vec3 fromPunctual(const LocalSurface& at, const RenderPunctual& light) {
     vec3 w = -light.direction;
     float distance = std::numeric_limits<float>::infinity();
     vec3 irradiance = light.light.intensity;
@@ -163,7 +167,7 @@ class Tracer {
     return irradiance * cosHere;
   }
 
-  vec3 fromSky(const LocalSurface& at, vec2 u) const {
+  vec3 fromSky(const LocalSurface& at, vec2 u) {
     const vec3 w = sampleSphere(u);
     const float cosHere = at.cosine(w);
     if (cosHere <= 0.0f || !visible(at, w, std::numeric_limits<float>::infinity()))
@@ -181,17 +185,22 @@ class Tracer {
   const RenderScene& scene_;
   const RayCaster& rays_;
   const LightSet& lights_;
+  uint64_t raysTraced_ = 0;
 };
 
 }  // namespace
 
-vec3 tracePath(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
-               const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options) {
+vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
+               const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options,
+               uint64_t* raysTraced) {
   PathSampler sampler(static_cast<uint32_t>(y * view.width + x), sample, options.seed);
   const vec2 inPixel = sampler.next2();
   const vec3 direction =
       view.rayDirection(static_cast<float>(x) + inPixel.x, static_cast<float>(y) + inPixel.y);
-  return Tracer(scene, rays, lights).trace({view.eye, 0.0f, direction}, sampler, options.bounces);
+  Tracer tracer(scene, caster, lights);
+  const vec3 radiance = tracer.trace({view.eye, 0.0f, direction}, sampler, options.bounces);
+  if (raysTraced != nullptr) *raysTraced += tracer.raysTraced();
+  return radiance;
 }
 
 }  // namespace lamplighter

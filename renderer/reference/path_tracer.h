@@ -15,8 +15,10 @@ struct PathTracerOptions {
 };
 
 // An unbiased estimate of the radiance [W/(m² sr)] that the pixel's box filter gathers: sample
-// number `sample` of pixel (x, y). A function of its arguments alone.
-vec3 tracePath(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
-               const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options);
+// number `sample` of pixel (x, y). A function of its arguments alone. Adds to
+// `raysTraced`, if given, how many rays that took.
+vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
+               const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options,
+               uint64_t* raysTraced = nullptr);
 
 }  // namespace lamplighter

@@ -1,6 +1,7 @@
 #include "renderer/reference/reference_method.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
@@ -33,13 +34,13 @@ class ReferenceMethod final : public GiMethod {
       samples_ = 0;
     }
 
+    GiOutput out;
     const int next = std::min(wanted, samples_ + s.integer(parameters::samplesPerFrame()));
     if (next > samples_) {
-      addSamples(in, next);
+      out.stats.raysTraced = addSamples(in, next);
       picture_ = std::make_shared<HostImage>(mean());
     }
 
-    GiOutput out;
     out.radiance = picture_;
     out.settled = samples_ >= wanted;
     out.stats.samplesPerPixel = samples_;
@@ -51,20 +52,24 @@ class ReferenceMethod final : public GiMethod {
 
  private:
   // Tiles are fixed and a pixel's samples are added in their order, so that neither the number of
-  // threads nor the split of samples over frames changes a bit.
-  void addSamples(const FrameInputs& in, int until) {
+  // threads nor the split of samples over frames changes a bit. Returns the count of rays.
+  uint64_t addSamples(const FrameInputs& in, int until) {
     const tbb::blocked_range2d<int> pixels(0, view_.height, 16, 0, view_.width, 16);
+    std::atomic<uint64_t> rays = 0;
     tbb::parallel_for(pixels, [&](const tbb::blocked_range2d<int>& tile) {
+      uint64_t here = 0;
       for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
         for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
           for (int i = samples_; i < until; ++i) {
             sum_.at(x, y) += tracePath(in.scene, in.rays, lights_, view_, x, y,
-                                       static_cast<uint32_t>(i), options_);
+                                       static_cast<uint32_t>(i), options_, &here);
           }
         }
       }
+      rays += here;
     });
     samples_ = until;
+    return rays;
   }
 
   Image mean() const {

@@ -1,13 +1,14 @@
 #include "renderer/sampling/alias_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lamplighter {
 
 AliasTable::AliasTable(std::span<const float> weights) {
   double sum = 0.0;
   for (const float w : weights) sum += static_cast<double>(w);
-  if (!(sum > 0.0)) return;
+  if (!(sum > 0.0) || !std::isfinite(sum)) return;
 
   bins_.resize(weights.size());
   // Each entry's share of n bins; the poor are filled up by the rich (Vose).

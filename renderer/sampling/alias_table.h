@@ -10,7 +10,7 @@ namespace lamplighter {
 class AliasTable {
  public:
   AliasTable() = default;
-  // Weights ≥ 0, not all zero; else the table is empty.
+  // Weights ≥ 0, finite, not all zero; else the table is empty.
   explicit AliasTable(std::span<const float> weights);
 
   bool empty() const { return bins_.empty(); }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "renderer/sampling/low_discrepancy.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -17,6 +19,38 @@ float triangleArea(const RenderScene& s, const RenderObject& o, uint32_t t) {
                                        s.positions[i[2]] - s.positions[i[0]]));
 }
 
+// Uniform over a triangle: the weights of its second and third corner (Turk 1990).
+vec2 sampleTriangle(vec2 u) {
+  const float root = std::sqrt(u.x);
+  return {u.y * root, 1.0f - root};
+}
+
+// What leaves the front at a point of an emitter: nothing where the alpha mask has a hole.
+Surface emittingSurface(const RenderScene& s, uint32_t object, uint32_t triangle, vec2 b) {
+  Surface at = surfaceAt(s, object, triangle, b.x, b.y);
+  const Material& m = s.materials[s.objects[object].material];
+  if (m.alphaMode == AlphaMode::mask && alphaAt(s, object, triangle, b.x, b.y) < m.alphaCutoff)
+    at.emission = vec3(0.0f);
+  return at;
+}
+
+// The mean radiance of an object whose emission varies, from points spread by area, at least four a
+// triangle. It steers the choice of lights and the share of VPLs, never how bright a light is.
+vec3 meanRadiance(const RenderScene& s, uint32_t object, std::span<const float> areas,
+                  double total) {
+  constexpr double kPoints = 4096.0;
+  glm::dvec3 sum(0.0);
+  for (uint32_t t = 0; t < areas.size(); ++t) {
+    const double share = static_cast<double>(areas[t]) / total;
+    const auto points = static_cast<uint32_t>(std::max(4.0, std::ceil(share * kPoints)));
+    glm::dvec3 here(0.0);
+    for (uint32_t i = 0; i < points; ++i)
+      here += glm::dvec3(emittingSurface(s, object, t, sampleTriangle(sobol2(i, t))).emission);
+    sum += here * (share / points);
+  }
+  return vec3(sum);
+}
+
 Emitter surfaceEmitter(const RenderScene& s, uint32_t object) {
   const RenderObject& o = s.objects[object];
   const Material& m = s.materials[o.material];
@@ -25,26 +59,14 @@ Emitter surfaceEmitter(const RenderScene& s, uint32_t object) {
   e.node = o.node;
   e.bothSides = m.doubleSided;
   std::vector<float> areas(o.triangleCount());
-  double area = 0.0;
-  glm::dvec3 radiance(0.0);
-  for (uint32_t t = 0; t < areas.size(); ++t) {
-    areas[t] = triangleArea(s, o, t);
-    area += static_cast<double>(areas[t]);
-    // With a texture, the triangle's radiance at four points; its true mean only steers the choice
-    // of lights and the share of VPLs, never the light that is computed.
-    vec3 mean = m.emissive;
-    if (m.emissiveTexture.texture != kNone) {
-      mean = vec3(0.0f);
-      for (const vec2& b :
-           {vec2(1 / 3.f, 1 / 3.f), vec2(.6f, .2f), vec2(.2f, .6f), vec2(.2f, .2f)}) {
-        mean += 0.25f * surfaceAt(s, object, t, b.x, b.y).emission;
-      }
-    }
-    radiance += glm::dvec3(mean) * static_cast<double>(areas[t]);
-  }
-  e.area = static_cast<float>(area);
-  e.flux = vec3(radiance) * kPi * (e.bothSides ? 2.0f : 1.0f);
+  for (uint32_t t = 0; t < areas.size(); ++t) areas[t] = triangleArea(s, o, t);
+  const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
   e.triangles = AliasTable(areas);
+  if (e.triangles.empty()) return e;
+  e.area = static_cast<float>(area);
+  const bool varies = m.emissiveTexture.texture != kNone || m.alphaMode == AlphaMode::mask;
+  const vec3 radiance = varies ? meanRadiance(s, object, areas, area) : m.emissive;
+  e.flux = kPi * e.area * (e.bothSides ? 2.0f : 1.0f) * radiance;
   return e;
 }
 
@@ -77,7 +99,7 @@ LightSet::LightSet(const RenderScene& s) {
     const Material& m = s.materials[s.objects[i].material];
     if (!m.emits() || m.isClear()) continue;
     Emitter e = surfaceEmitter(s, i);
-    if (e.triangles.empty() || luminance(e.flux) <= 0.0f) continue;  // no area, or a black texture
+    if (e.triangles.empty() || luminance(e.flux) <= 0.0f) continue;  // no area, or all black
     emitterOfObject_[i] = static_cast<int>(emitters_.size());
     emitters_.push_back(std::move(e));
   }
@@ -119,9 +141,7 @@ EmitterPoint LightSet::samplePoint(const RenderScene& s, int emitter, vec2 u) co
   const Emitter& e = emitters_[static_cast<size_t>(emitter)];
   float rest;
   const auto triangle = static_cast<uint32_t>(e.triangles.sample(u.x, rest));
-  // Uniform over the triangle (Turk 1990).
-  const float root = std::sqrt(rest);
-  const Surface at = surfaceAt(s, e.object, triangle, u.y * root, 1.0f - root);
+  const Surface at = emittingSurface(s, e.object, triangle, sampleTriangle({rest, u.y}));
   EmitterPoint p;
   p.position = at.position;
   p.normal = at.geometricNormal;

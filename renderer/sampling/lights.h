@@ -28,7 +28,7 @@ struct Emitter {
 struct EmitterPoint {
   vec3 position{0.0f};
   vec3 normal{0.0f, 0.0f, 1.0f};  // unit, the front side
-  vec3 radiance{0.0f};            // W/(m² sr), texture included
+  vec3 radiance{0.0f};            // W/(m² sr), texture included, 0 in a hole of the alpha mask
   float pdfArea = 0.0f;           // 1/m²
   bool bothSides = false;
 };
