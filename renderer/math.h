@@ -19,6 +19,9 @@ using glm::vec4;
 
 inline constexpr float kPi = 3.14159265358979323846f;
 
+// Of a linear colour in Rec. 709 primaries.
+inline float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
 // An axis-aligned box; empty (min > max) until a point is added.
 struct Bounds {
   vec3 min{std::numeric_limits<float>::infinity()};

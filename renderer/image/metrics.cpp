@@ -24,9 +24,8 @@ void requireSameSize(const Image& a, const Image& b, const std::string& what) {
 // The tone-mapped picture's luma, in [0, 1].
 std::vector<float> luma(const Image& image) {
   std::vector<float> out(image.pixels.size());
-  std::transform(image.pixels.begin(), image.pixels.end(), out.begin(), [](const vec3& p) {
-    return glm::dot(toneMapPixel(p, 0.0f), vec3(0.2126f, 0.7152f, 0.0722f));
-  });
+  std::transform(image.pixels.begin(), image.pixels.end(), out.begin(),
+                 [](const vec3& p) { return luminance(toneMapPixel(p, 0.0f)); });
   return out;
 }
 

@@ -49,8 +49,8 @@ class Tracer {
 
     for (int depth = 0;; ++depth) {
       ++raysTraced_;
-      const Hit hit = rays_.intersect(ray);
-      if (!hit) return radiance + throughput * skySeen(pdfDirection);
+      const Hit hit = rays_.intersect(ray, depth == 0 ? Surfaces::seen : Surfaces::all);
+      if (!hit) return radiance + throughput * scene_.sky;
       const Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
       const LocalSurface at(surface, -ray.direction);
       radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
@@ -72,19 +72,13 @@ class Tracer {
       if (throughput == vec3(0.0f)) return radiance;
       pdfDirection = local.z / kPi;
       from = at.s.position;
-      ray = {at.s.position + rayEpsilon(at.s.position) * at.ng, 0.0f, direction};
+      ray = {start(at), 0.0f, direction};
     }
   }
 
   uint64_t raysTraced() const { return raysTraced_; }
 
  private:
-  vec3 skySeen(float pdfDirection) const {
-    if (scene_.sky == vec3(0.0f)) return vec3(0.0f);
-    if (pdfDirection == 0.0f) return scene_.sky;
-    return scene_.sky * misWeight(pdfDirection, skyPdf());
-  }
-
   // Emission of a surface that a ray has hit, weighted against having sampled it as a light.
   vec3 emissionSeen(const Hit& hit, const Surface& surface, const vec3& direction, const vec3& from,
                     float pdfDirection) const {
@@ -95,34 +89,42 @@ class Tracer {
     const int emitter = lights_.emitterOfObject(hit.object);
     if (emitter == kNone) return surface.emission;
     const vec3 d = surface.position - from;
-    const float pdfLight = lights_.probability(emitter) / lights_.emitters()[emitter].area *
+    const float pdfLight = lights_.surfaceProbability(emitter) / lights_.emitters()[emitter].area *
                            glm::dot(d, d) / std::abs(cosine);
     return surface.emission * misWeight(pdfDirection, pdfLight);
   }
 
-  // One sample of the light that arrives straight from an emitter, times f · cos.
+  // The light that arrives straight from emitters, times f · cos: one sample of all surfaces that
+  // emit, one of all punctual lights. The even sky is left to the directions that bounces take, by
+  // cosine: no sampling of it could do better.
   vec3 directLight(const LocalSurface& at, PathSampler& sampler) {
-    float probability = 0.0f;
-    const int emitter = lights_.choose(sampler.next1(), probability);
+    const float choice = sampler.next1();
     const vec2 u = sampler.next2();
-    if (emitter == kNone || at.s.albedo == vec3(0.0f)) return vec3(0.0f);
-    const vec3 brdf = at.s.albedo / kPi;
-    const Emitter& e = lights_.emitters()[emitter];
-    switch (e.kind) {
-      case EmitterKind::surface:
-        return brdf * fromSurface(at, emitter, u) / probability;
-      case EmitterKind::punctual:
-        return brdf * fromPunctual(at, scene_.punctuals[e.punctual]) / probability;
-      case EmitterKind::sky:
-        return brdf * fromSky(at, u) / probability;
-    }
-    return vec3(0.0f);
+    const float punctualChoice = sampler.next1();
+    if (at.s.albedo == vec3(0.0f)) return vec3(0.0f);
+    float probability = 0.0f;
+    const int emitter = lights_.chooseSurface(choice, probability);
+    vec3 irradiance = fromPunctuals(at, punctualChoice);
+    if (emitter != kNone) irradiance += fromSurface(at, emitter, u) / probability;
+    return at.s.albedo / kPi * irradiance;
   }
 
   bool visible(const LocalSurface& at, const vec3& direction, float distance) {
     ++raysTraced_;
-    return !rays_.occluded(
-        {at.s.position + rayEpsilon(at.s.position) * at.ng, 0.0f, direction, distance});
+    return !rays_.occluded({start(at), 0.0f, direction, distance});
+  }
+
+  // Both ends stand off their surfaces. Only stopping short of the light would not do: a ray that
+  // starts off its surface meets a light seen at a grazing angle well before its end.
+  bool visible(const LocalSurface& at, const EmitterPoint& p, const vec3& toLight) {
+    const float side = glm::dot(p.normal, toLight) > 0.0f ? -1.0f : 1.0f;
+    const vec3 way = p.position + side * rayEpsilon(p.position) * p.normal - start(at);
+    const float distance = glm::length(way);
+    return distance <= 0.0f || visible(at, way / distance, distance);
+  }
+
+  static vec3 start(const LocalSurface& at) {
+    return at.s.position + rayEpsilon(at.s.position) * at.ng;
   }
 
   vec3 fromSurface(const LocalSurface& at, int emitter, vec2 u) {
@@ -135,26 +137,51 @@ class Tracer {
     const float cosHere = at.cosine(w);
     const float cosThere = p.bothSides ? std::abs(glm::dot(p.normal, w)) : -glm::dot(p.normal, w);
     if (cosHere <= 0.0f || cosThere <= 0.0f) return vec3(0.0f);
-    // Stops short of the light's own surface.
-    const float margin = 2.0f * (rayEpsilon(at.s.position) + rayEpsilon(p.position));
-    if (distance > margin && !visible(at, w, distance - margin)) return vec3(0.0f);
+    if (!visible(at, p, w)) return vec3(0.0f);
     const float pdfAngle = p.pdfArea * d2 / cosThere;  // density by solid angle
-    const float pdfLight = pdfAngle * lights_.probability(emitter);
+    const float pdfLight = pdfAngle * lights_.surfaceProbability(emitter);
     const float pdfBsdf = std::max(0.0f, glm::dot(at.ns, w)) / kPi;
     return p.radiance * (cosHere / pdfAngle * misWeight(pdfLight, pdfBsdf));
   }
 
-  vec3 fromPunctual(const LocalSurface& at, const RenderPunctual& light) {
-    vec3 w = -light.direction;
-    float distance = std::numeric_limits<float>::infinity();
-    vec3 irradiance = light.light.intensity;
-    if (light.light.kind != PunctualKind::directional) {
-      const vec3 d = light.position - at.s.position;
-      distance = glm::length(d);
-      if (distance <= 0.0f) return vec3(0.0f);
-      w = d / distance;
-      irradiance /= distance * distance;
+  // One of them, in proportion to what it would give here if nothing stood between: then whether it
+  // is seen is all the noise there is.
+  vec3 fromPunctuals(const LocalSurface& at, float u) {
+    float total = 0.0f;
+    for (const RenderPunctual& light : scene_.punctuals) total += luminance(unshadowed(at, light));
+    if (total <= 0.0f) return vec3(0.0f);
+    const RenderPunctual* chosen = nullptr;
+    float weight = 0.0f, below = 0.0f;
+    for (const RenderPunctual& light : scene_.punctuals) {
+      const float w = luminance(unshadowed(at, light));
+      if (w <= 0.0f) continue;
+      chosen = &light;
+      weight = w;
+      below += w;
+      if (u * total < below) break;
     }
+    float distance = 0.0f;
+    const vec3 w = towards(at, *chosen, distance);
+    if (!visible(at, w, distance)) return vec3(0.0f);
+    return unshadowed(at, *chosen) * (total / weight);
+  }
+
+  static vec3 towards(const LocalSurface& at, const RenderPunctual& light, float& distance) {
+    distance = std::numeric_limits<float>::infinity();
+    if (light.light.kind == PunctualKind::directional) return -light.direction;
+    const vec3 d = light.position - at.s.position;
+    distance = glm::length(d);
+    return d / std::max(distance, 1e-20f);
+  }
+
+  // Irradiance [W/m²] where nothing stands between.
+  static vec3 unshadowed(const LocalSurface& at, const RenderPunctual& light) {
+    float distance = 0.0f;
+    const vec3 w = towards(at, light, distance);
+    vec3 irradiance = light.light.intensity * at.cosine(w);
+    if (light.light.kind == PunctualKind::directional) return irradiance;
+    if (distance <= 0.0f) return vec3(0.0f);
+    irradiance /= distance * distance;
     if (light.light.kind == PunctualKind::spot) {
       // KHR_lights_punctual: linear in the cosine between the cones, squared.
       const float co = std::cos(light.light.outerCone), ci = std::cos(light.light.innerCone);
@@ -162,24 +189,7 @@ class Tracer {
           std::clamp((-glm::dot(w, light.direction) - co) / std::max(1e-3f, ci - co), 0.0f, 1.0f);
       irradiance *= t * t;
     }
-    const float cosHere = at.cosine(w);
-    if (cosHere <= 0.0f || irradiance == vec3(0.0f) || !visible(at, w, distance)) return vec3(0.0f);
-    return irradiance * cosHere;
-  }
-
-  vec3 fromSky(const LocalSurface& at, vec2 u) {
-    const vec3 w = sampleSphere(u);
-    const float cosHere = at.cosine(w);
-    if (cosHere <= 0.0f || !visible(at, w, std::numeric_limits<float>::infinity()))
-      return vec3(0.0f);
-    const float pdfBsdf = std::max(0.0f, glm::dot(at.ns, w)) / kPi;
-    return scene_.sky * (cosHere * 4.0f * kPi * misWeight(skyPdf(), pdfBsdf));
-  }
-
-  // The density with which light sampling chooses a sky direction: uniform over the sphere. The sky
-  // is the last of the emitters.
-  float skyPdf() const {
-    return lights_.probability(static_cast<int>(lights_.emitters().size()) - 1) / (4.0f * kPi);
+    return irradiance;
   }
 
   const RenderScene& scene_;

@@ -11,8 +11,6 @@ namespace lamplighter {
 
 namespace {
 
-float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
-
 float triangleArea(const RenderScene& s, const RenderObject& o, uint32_t t) {
   const uint32_t* i = &s.indices[o.firstIndex + 3 * t];
   return 0.5f * glm::length(glm::cross(s.positions[i[1]] - s.positions[i[0]],
@@ -118,12 +116,13 @@ LightSet::LightSet(const RenderScene& s) {
     emitters_.push_back(std::move(e));
   }
   std::vector<float> weights(emitters_.size());
-  std::transform(emitters_.begin(), emitters_.end(), weights.begin(),
-                 [](const Emitter& e) { return luminance(e.flux); });
+  std::transform(emitters_.begin(), emitters_.end(), weights.begin(), [](const Emitter& e) {
+    return e.kind == EmitterKind::surface ? luminance(e.flux) : 0.0f;
+  });
   choice_ = AliasTable(weights);
 }
 
-int LightSet::choose(float u, float& probability) const {
+int LightSet::chooseSurface(float u, float& probability) const {
   if (choice_.empty()) return kNone;
   float rest;
   const size_t i = choice_.sample(u, rest);
@@ -131,7 +130,7 @@ int LightSet::choose(float u, float& probability) const {
   return static_cast<int>(i);
 }
 
-float LightSet::probability(int emitter) const {
+float LightSet::surfaceProbability(int emitter) const {
   return choice_.probability(static_cast<size_t>(emitter));
 }
 

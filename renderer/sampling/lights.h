@@ -39,9 +39,10 @@ class LightSet {
   explicit LightSet(const RenderScene& scene);
 
   const std::vector<Emitter>& emitters() const { return emitters_; }
-  // Chooses an emitter in proportion to the luminance of its flux; kNone when nothing emits.
-  int choose(float u, float& probability) const;
-  float probability(int emitter) const;
+  // Chooses among the emitters that are surfaces, in proportion to the luminance of their flux;
+  // kNone when there are none.
+  int chooseSurface(float u, float& probability) const;
+  float surfaceProbability(int emitter) const;
   // The emitter whose surface this object is, or kNone.
   int emitterOfObject(uint32_t object) const;
   // u selects the triangle (u.x, reused within it) and the point on it.

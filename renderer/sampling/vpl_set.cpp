@@ -26,7 +26,6 @@ constexpr float kWholeScene = 1.0001f;
 constexpr int kMostSquares = 64;
 constexpr uint32_t kDirectSet = 0x0d, kIndirectSet = 0x1d;
 
-float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 bool isBlack(const vec3& c) { return !(c.r > 0.0f || c.g > 0.0f || c.b > 0.0f); }
 
 // A path on its way: from where, whereto, and the flux it carries if it were the only one.

@@ -19,7 +19,4 @@ struct ColouredStrength {
 ColouredStrength split(const vec3& value);
 inline vec3 join(const ColouredStrength& c) { return c.colour * c.strength; }
 
-// Luminance of linear Rec.709.
-inline float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
-
 }  // namespace lamplighter

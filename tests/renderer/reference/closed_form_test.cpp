@@ -41,6 +41,14 @@ TEST_P(Furnace, RadianceIsTheGeometricSeries) {
 }
 INSTANTIATE_TEST_SUITE_P(Bounces, Furnace, testing::Values(0, 1, 2, 5, 20));
 
+// A third of this light is carried by bounces after the eighth, where paths are ended by chance.
+TEST(ClosedForm, RussianRouletteKeepsTheMean) {
+  const View view = lookAt(vec3(0.2f, 0.1f, 0.0f), vec3(0, 0, -1), 16, 16, 1.2f);
+  const Image image = renderReference(furnace(0.9f, 1.0f), view, 256, 64);
+  const double expected = (1.0 - std::pow(0.9, 66.0)) / 0.1;
+  EXPECT_NEAR(static_cast<double>(meanOf(image).g) / expected, 1.0, 6e-3);
+}
+
 // A convex body under a sky of constant radiance L sees nothing else: ρL, whatever its normals.
 TEST(ClosedForm, AConvexBodyUnderAnEvenSkyHasRadianceRhoL) {
   Scene scene;
@@ -69,7 +77,7 @@ TEST(ClosedForm, APatchUnderARectangleLightHasThePolygonsFormFactor) {
   for (const vec3& x : {vec3(0), vec3(0.5f, 0, -0.3f), vec3(-2, 0, 1), vec3(3, 0, 3)}) {
     const double f = test::polygonFormFactor(x, vec3(0, 1, 0), light);
     const double expected = 0.6 * 7.0 * f;  // ρ/π · E, E = π L F
-    EXPECT_NEAR(meanOf(renderReference(scene, viewOfFloor(x), 64, 0)).r / expected, 1.0, 4e-3)
+    EXPECT_NEAR(meanOf(renderReference(scene, viewOfFloor(x), 256, 0)).r / expected, 1.0, 4e-3)
         << x.x;
   }
 }

@@ -106,12 +106,71 @@ TEST(LightSet, PointsLieOnTheLightEvenly) {
   EXPECT_NEAR(sum.z / n, 2.0f, 5e-3f);
 }
 
+// A triangle without area is never chosen, and a light of nothing else is none.
+TEST(LightSet, SkipsTrianglesWithoutArea) {
+  Scene scene;
+  const int glowing = test::addMaterial(scene, vec3(0.0f), vec3(4.0f));
+  auto mesh = std::make_shared<Mesh>(*test::squareMesh(1.0f, glowing));
+  mesh->primitives[0].indices.insert(mesh->primitives[0].indices.begin(), {0, 0, 1, 2, 1, 2});
+  test::addMesh(scene, mesh);
+  auto flat = std::make_shared<Mesh>(*mesh);
+  flat->primitives[0].indices.resize(6);
+  test::addMesh(scene, flat);
+  const LightsOf s(scene);
+  ASSERT_EQ(s.lights.emitters().size(), 1u);
+  EXPECT_FLOAT_EQ(s.lights.emitters()[0].area, 1.0f);
+  EXPECT_EQ(s.lights.emitterOfObject(1), kNone);
+  for (uint32_t i = 0; i < 256; ++i) {
+    const EmitterPoint p = s.lights.samplePoint(s.world, 0, sobol2(i, 3));
+    EXPECT_NEAR(p.normal.y, 1.0f, 1e-6f);
+    EXPECT_TRUE(std::isfinite(p.position.x + p.position.z + p.pdfArea));
+  }
+}
+
+// An eighth of each side of a texture glows: 1/64 of the square.
+TEST(LightSet, TheFluxOfATextureIsThatOfItsMean) {
+  Scene scene;
+  auto image = std::make_shared<Image8>(64, 64);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      for (int c = 0; c < 3; ++c)
+        image->at(x, y)[c] = x >= 40 && x < 48 && y >= 16 && y < 24 ? 255 : 0;
+    }
+  }
+  scene.textures.push_back({"spot", image});
+  const int glowing = test::addMaterial(scene, vec3(0.0f), vec3(10.0f));
+  scene.materials[glowing].emissiveTexture.texture = 0;
+  test::addMesh(scene, test::squareMesh(2.0f, glowing));
+  const LightsOf s(scene);
+  ASSERT_EQ(s.lights.emitters().size(), 1u);
+  const float expected = kPi * 4.0f * 10.0f / 64.0f;
+  EXPECT_NEAR(s.lights.emitters()[0].flux.g / expected, 1.0f, 0.05f);
+}
+
+TEST(LightSet, NothingComesFromTheHolesOfAMask) {
+  Scene scene;
+  auto image = std::make_shared<Image8>(2, 1);
+  image->at(0, 0)[3] = 0;  // the left half
+  scene.textures.push_back({"half", image, Wrap::clamp, Wrap::clamp, true, false});
+  const int glowing = test::addMaterial(scene, vec3(1.0f), vec3(3.0f));
+  scene.materials[glowing].alphaMode = AlphaMode::mask;
+  scene.materials[glowing].baseColorTexture.texture = 0;
+  test::addMesh(scene, test::squareMesh(2.0f, glowing));
+  const LightsOf s(scene);
+  ASSERT_EQ(s.lights.emitters().size(), 1u);
+  EXPECT_NEAR(s.lights.emitters()[0].flux.r / (kPi * 2.0f * 3.0f), 1.0f, 0.01f);
+  for (uint32_t i = 0; i < 256; ++i) {
+    const EmitterPoint p = s.lights.samplePoint(s.world, 0, sobol2(i, 3));
+    EXPECT_EQ(p.radiance.r, p.position.x < 0.0f ? 0.0f : 3.0f) << p.position.x;
+  }
+}
+
 TEST(LightSet, NothingEmitsInTheDark) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(2.0f)));
   const LightsOf s(scene);
   float p;
-  EXPECT_EQ(s.lights.choose(0.5f, p), kNone);
+  EXPECT_EQ(s.lights.chooseSurface(0.5f, p), kNone);
 }
 
 }  // namespace
