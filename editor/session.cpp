@@ -6,6 +6,7 @@
 #include "editor/commands/edits.h"
 #include "editor/tools/camera_controller.h"
 #include "editor/tools/picker.h"
+#include "editor/tools/placement.h"
 #include "editor/tools/scene_overlay.h"
 #include "renderer/error.h"
 #include "renderer/scene/gltf_io.h"
@@ -37,6 +38,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   history_.clear();
   savedHash_ = sceneHash(document_.scene);
   tools_->pointerKnown = false;
+  clipboard_.clear();  // its meshes and materials are the other level's
 
   RenderScene world;
   update(world, document_.scene, SceneChanges::all());
@@ -47,7 +49,7 @@ void Session::open(Scene scene, std::filesystem::path path,
                                 : viewOfBounds(world.bounds, view_.width, view_.height);
   // Orbiting turns about what is in the middle of the picture.
   const RayCaster rays(world);
-  const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()});
+  const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()}, Surfaces::seen);
   tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
   status_ = warnings.empty() ? "Opened " + document_.path.filename().string() : warnings.front();
   if (warnings.size() > 1)
@@ -120,7 +122,12 @@ void Session::setRender(const RenderSettings& settings) {
 }
 
 void Session::select(std::vector<NodeId> ids) {
-  document_.selection = std::move(ids);
+  // Of an id given twice the last one counts.
+  document_.selection.clear();
+  for (const NodeId id : ids) {
+    std::erase(document_.selection, id);
+    document_.selection.push_back(id);
+  }
   pruneSelection();
 }
 
@@ -179,13 +186,18 @@ void Session::frameSelection() {
 void Session::frameAll() { tools_->camera.frame(view_, renderer_->scene().bounds); }
 
 void Session::viewport(const ViewportInput& input) {
-  if (input.hovered) {
+  if (input.hovered || dragging()) {
     tools_->pointer = input.pointer;
     tools_->pointerKnown = true;
   }
   // A drag of the gizmo goes first, since the right button takes it back; then the camera.
   if (tools_->gizmo.dragging()) {
-    tools_->gizmo.update(view_, input, document_, history_);
+    tools_->gizmo.update(view_, input, document_, history_, [&]() -> std::optional<vec3> {
+      const auto place = surfaceUnderPointer(document_.selection);
+      if (!place) return std::nullopt;
+      return place->position +
+             standOff(document_.scene, document_.active(), place->normal) * place->normal;
+    });
     return;
   }
   if (tools_->camera.update(view_, input)) return;
@@ -219,7 +231,7 @@ std::optional<Session::Place> Session::surfaceAlong(const vec3& direction,
   Ray ray{view_.eye, 0.0f, direction};
   constexpr int kMostLayers = 1000;  // of ignored surfaces one behind the other
   for (int i = 0; i < kMostLayers; ++i) {
-    const Hit hit = renderer_->rays()->intersect(ray);
+    const Hit hit = renderer_->rays()->intersect(ray, Surfaces::seen);
     if (!hit) return std::nullopt;
     if (!isIgnored(scene.objects[hit.object].node)) {
       const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
@@ -237,8 +249,8 @@ std::optional<Session::Place> Session::surfaceUnderPointer(
   return surfaceAlong(view_.rayDirection(tools_->pointer.x, tools_->pointer.y), ignored);
 }
 
-std::optional<Session::Place> Session::surfaceAhead() const {
-  return surfaceAlong(view_.forward(), {});
+std::optional<Session::Place> Session::surfaceAhead(const std::vector<NodeId>& ignored) const {
+  return surfaceAlong(view_.forward(), ignored);
 }
 
 const GiOutput& Session::renderFrame() {

@@ -87,6 +87,10 @@ class Session {
 
   const std::string& status() const { return status_; }
   void setStatus(std::string text) { status_ = std::move(text); }
+  // What edit.copy has put by: nodes, parents before children.
+  const std::vector<Node>& clipboard() const { return clipboard_; }
+  void setClipboard(std::vector<Node> nodes) { clipboard_ = std::move(nodes); }
+
   bool quitRequested() const { return quit_; }
   void requestQuit(bool quit = true) { quit_ = quit; }
 
@@ -107,7 +111,7 @@ class Session {
   };
   // The nearest surface under the last pointer position that is not part of `ignored`.
   std::optional<Place> surfaceUnderPointer(const std::vector<NodeId>& ignored) const;
-  std::optional<Place> surfaceAhead() const;  // in the middle of the view
+  std::optional<Place> surfaceAhead(const std::vector<NodeId>& ignored = {}) const;  // mid-view
 
  private:
   struct Tools;
@@ -122,6 +126,7 @@ class Session {
   uint32_t frame_ = 0;
   uint64_t savedHash_ = 0;
   bool quit_ = false;
+  std::vector<Node> clipboard_;
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 
   void pruneSelection();

@@ -4,6 +4,7 @@
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
 #include "editor/session.h"
+#include "editor/tools/placement.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -12,62 +13,48 @@ namespace {
 
 bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
 
-// How far the node's own meshes and those below it reach along −n from its origin, in metres: where
-// it touches when it is set down with its underside on a plane of normal n. 0 for lights.
-float depthBelow(const Scene& scene, NodeId id, const vec3& n) {
-  const std::vector<mat4> world = worldMatrices(scene);
-  const vec3 origin = vec3(worldMatrix(scene, id)[3]);
-  float lowest = 0.0f;
-  bool found = false;
-  for (size_t i = 0; i < scene.nodes.size(); ++i) {
-    const Node& node = scene.nodes[i];
-    if (node.mesh == kNone) continue;
-    bool mine = node.id == id;
-    for (const Node* p = scene.find(node.parent); p != nullptr && !mine; p = scene.find(p->parent))
-      mine = p->id == id;
-    if (!mine) continue;
-    for (const Primitive& primitive : scene.meshes[node.mesh]->primitives) {
-      for (const vec3& q : primitive.positions) {
-        const float height = glm::dot(vec3(world[i] * vec4(q, 1.0f)) - origin, n);
-        lowest = found ? std::min(lowest, height) : height;
-        found = true;
-      }
-    }
-  }
-  return lowest;
-}
-
 // Puts the active object on the surface under the pointer: objects stand on it, lights face away.
+// The rest of the selection goes along and keeps its places relative to it.
 void drop(Session& s) {
-  const Node& node = activeNode(s.document());
+  const Scene& scene = s.document().scene;
+  const Node& active = activeNode(s.document());
   auto place = s.surfaceUnderPointer(s.document().selection);
-  if (!place) place = s.surfaceAhead();
+  if (!place) place = s.surfaceAhead(s.document().selection);
   if (!place)
     throw InputError("object.drop", "there is no surface under the pointer", "point at one");
-  const mat4 parent =
-      node.parent == kNoNode ? mat4(1.0f) : worldMatrix(s.document().scene, node.parent);
-  Transform local = node.local;
-  vec3 at = place->position;
-  if (node.area || node.punctual) {
-    constexpr float kLift = 0.01f;  // m: off the surface, so that it is not hidden in it
-    at += kLift * place->normal;
-    if (node.area && node.area->shape == AreaShape::sphere)
-      at += 0.5f * node.area->size.x * place->normal;
-    const Frame f(-place->normal);  // −Z of the light along the normal: Z along −normal
-    const quat world = glm::quat_cast(mat3(f.tangent, f.bitangent, f.normal));
-    local.rotation = glm::normalize(glm::inverse(decompose(parent).rotation) * world);
-  } else {
-    at -= depthBelow(s.document().scene, node.id, place->normal) * place->normal;
+  // A selected object above the active one in the tree takes it along.
+  const std::vector<NodeId> roots = topmost(scene, s.document().selection);
+  NodeId leader = active.id;
+  for (const Node* n = &active; n != nullptr; n = scene.find(n->parent)) {
+    if (std::find(roots.begin(), roots.end(), n->id) != roots.end()) leader = n->id;
   }
-  local.translation = vec3(glm::inverse(parent) * vec4(at, 1.0f));
-  s.setNodeTransform(node.id, local);
+  const auto local = placedOn(scene, leader, {place->position, place->normal});
+  if (!local) {
+    throw InputError(active.name, "hangs below an object that has no volume",
+                     "give that one a scale other than 0");
+  }
+  std::vector<Node> nodes{*scene.find(leader)};
+  const mat4 above = nodes[0].parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, nodes[0].parent);
+  const vec3 way =
+      vec3(above * vec4(local->translation, 1.0f)) - vec3(worldMatrix(scene, leader)[3]);
+  nodes[0].local = *local;
+  for (const NodeId id : roots) {
+    if (id == leader) continue;
+    Node n = *scene.find(id);
+    const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, n.parent);
+    if (!hasVolume(parent)) continue;
+    n.local.translation += glm::inverse(mat3(parent)) * way;
+    nodes.push_back(std::move(n));
+  }
+  const std::string what = nodes.size() == 1 ? nodes[0].name : "objects";
+  s.history().run(std::make_unique<EditNodes>("Drop " + what, s.document(), std::move(nodes)));
 }
 
 }  // namespace
 
 void addObjectActions(ActionRegistry& r) {
   r.add({"object.drop", "Drop under the cursor", "",
-         "Puts the active object on the surface under the pointer.", "Ctrl+T",
+         "Puts the selection on the surface under the pointer.", "Ctrl+T",
          [](Session& s, const Arguments&) { drop(s); }, hasSelection});
   r.add({"object.move",
          "Move to",

@@ -83,7 +83,8 @@ std::vector<bool> withDescendants(const Scene& scene, const std::vector<NodeId>&
 
 }  // namespace
 
-DeleteNodes::DeleteNodes(const Document& document, const std::vector<NodeId>& ids) {
+DeleteNodes::DeleteNodes(const Document& document, const std::vector<NodeId>& ids, std::string verb)
+    : verb_(std::move(verb)) {
   const std::vector<bool> gone = withDescendants(document.scene, ids);
   for (size_t i = 0; i < gone.size(); ++i) {
     if (gone[i]) removed_.emplace_back(i, document.scene.nodes[i]);
@@ -91,7 +92,7 @@ DeleteNodes::DeleteNodes(const Document& document, const std::vector<NodeId>& id
 }
 
 std::string DeleteNodes::label() const {
-  return removed_.size() == 1 ? "Delete " + removed_.front().second.name : "Delete objects";
+  return removed_.size() == 1 ? verb_ + " " + removed_.front().second.name : verb_ + " objects";
 }
 
 void DeleteNodes::apply(Document& document) {

@@ -74,7 +74,8 @@ class AddNodes final : public Command {
 // Takes nodes and all that hangs below them away; undoing puts each back in its place.
 class DeleteNodes final : public Command {
  public:
-  DeleteNodes(const Document& document, const std::vector<NodeId>& ids);
+  DeleteNodes(const Document& document, const std::vector<NodeId>& ids,
+              std::string verb = "Delete");
   std::string label() const override;
   void apply(Document& document) override;
   void revert(Document& document) override;
@@ -82,6 +83,7 @@ class DeleteNodes final : public Command {
   bool changesNothing() const override { return removed_.empty(); }
 
  private:
+  std::string verb_;
   std::vector<std::pair<size_t, Node>> removed_;  // index before, growing
 };
 

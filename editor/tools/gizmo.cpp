@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "editor/commands/edits.h"
+#include "editor/tools/placement.h"
 #include "editor/tools/projection.h"
 
 namespace lamplighter {
@@ -50,13 +51,6 @@ std::optional<vec3> onPlane(const vec3& origin, const vec3& normal, const Line& 
   const float t = glm::dot(normal, origin - ray.origin) / along;
   if (t <= 0.0f) return std::nullopt;
   return ray.origin + t * ray.direction;
-}
-
-// A parent that squeezes space flat has no inverse: nothing below it can be put at a place.
-bool hasVolume(const mat4& m) {
-  const mat3 a(m);
-  const float sides = glm::length(a[0]) * glm::length(a[1]) * glm::length(a[2]);
-  return sides > 0.0f && std::abs(glm::determinant(a)) > 1e-6f * sides;
 }
 
 // The rotation in a matrix that turns, scales all axes alike and may mirror; none for others. A

@@ -6,7 +6,8 @@ namespace lamplighter {
 
 NodeId pick(const View& view, const RenderScene& scene, const RayCaster& rays,
             const vec2& pointer) {
-  const Hit hit = rays.intersect({view.eye, 0.0f, view.rayDirection(pointer.x, pointer.y)});
+  const Hit hit =
+      rays.intersect({view.eye, 0.0f, view.rayDirection(pointer.x, pointer.y)}, Surfaces::seen);
   NodeId best = hit ? scene.objects[hit.object].node : kNoNode;
   float nearest = hit ? hit.t : std::numeric_limits<float>::infinity();
   for (const RenderPunctual& light : scene.punctuals) {

@@ -21,6 +21,8 @@ PassState::~PassState() {
   for (int i = 0; i < clipDistances_; ++i) glDisable(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glFrontFace(GL_CCW);
   glDepthFunc(GL_LESS);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
   glUseProgram(0);
@@ -32,6 +34,13 @@ void PassState::reversedDepth() {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glDepthMask(GL_TRUE);
+}
+
+void PassState::cullBackFaces(bool on) {
+  if (!on) return glDisable(GL_CULL_FACE);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  glFrontFace(GL_CW);
 }
 
 void PassState::additive() {

@@ -15,7 +15,9 @@ class PassState {
   PassState& operator=(const PassState&) = delete;
 
   void reversedDepth();  // depth test and write, the greater one stays
-  void additive();       // colour is added to what is there
+  // Front faces are clockwise in the pictures' pixels, since row 0 is the top there.
+  void cullBackFaces(bool on);
+  void additive();  // colour is added to what is there
   void clipDistances(int count);
 
  private:

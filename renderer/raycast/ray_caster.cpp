@@ -34,6 +34,25 @@ void alphaFilter(const RTCFilterFunctionNArguments* a) {
   }
 }
 
+// Leaves out back faces that no camera sees. N is 1 or 8; valid lanes are −1.
+void backFaceFilter(const RTCFilterFunctionNArguments* a) {
+  const auto& scene = *static_cast<const RenderScene*>(a->geometryUserPtr);
+  for (unsigned int i = 0; i < a->N; ++i) {
+    if (a->valid[i] != -1 || !scene.backIsUnseen(RTCHitN_geomID(a->hit, a->N, i))) continue;
+    const float along = RTCHitN_Ng_x(a->hit, a->N, i) * RTCRayN_dir_x(a->ray, a->N, i) +
+                        RTCHitN_Ng_y(a->hit, a->N, i) * RTCRayN_dir_y(a->ray, a->N, i) +
+                        RTCHitN_Ng_z(a->hit, a->N, i) * RTCRayN_dir_z(a->ray, a->N, i);
+    if (along > 0.0f) a->valid[i] = 0;
+  }
+}
+
+RTCIntersectContext contextFor(Surfaces which) {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (which == Surfaces::seen) context.filter = backFaceFilter;
+  return context;
+}
+
 RTCRay toEmbree(const Ray& r) {
   RTCRay e{};
   e.org_x = r.origin.x;
@@ -100,7 +119,8 @@ struct RayCaster::Impl {
     if (embree != nullptr) rtcReleaseScene(embree);
     embree = rtcNewScene(device);
     rtcSetSceneFlags(embree,
-                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST));
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
+                                                RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_LOW);
     for (uint32_t i = 0; i < scene.objects.size(); ++i) {
       const RenderObject& o = scene.objects[i];
@@ -171,9 +191,8 @@ RayCaster::~RayCaster() = default;
 
 void RayCaster::update(const RenderSceneChanges& changes) { impl_->update(changes); }
 
-Hit RayCaster::intersect(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+Hit RayCaster::intersect(const Ray& ray, Surfaces which) const {
+  RTCIntersectContext context = contextFor(which);
   RTCRayHit r{toEmbree(ray), {}};
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(impl_->embree, &context, &r);
@@ -182,16 +201,15 @@ Hit RayCaster::intersect(const Ray& ray) const {
 }
 
 bool RayCaster::occluded(const Ray& ray) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  RTCIntersectContext context = contextFor(Surfaces::all);
   RTCRay r = toEmbree(ray);
   rtcOccluded1(impl_->embree, &context, &r);
   return r.tfar < 0.0f;
 }
 
-void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
+                           Surfaces which) const {
+  RTCIntersectContext context = contextFor(which);
   alignas(32) int valid[8];
   alignas(32) RTCRayHit8 r{};
   for (size_t i = 0; i < 8; ++i) {

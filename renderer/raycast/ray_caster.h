@@ -26,6 +26,9 @@ struct Hit {
   explicit operator bool() const { return object != 0xffffffffu; }
 };
 
+// What a ray meets: all surfaces, or those that a camera sees (RenderScene::backIsUnseen).
+enum class Surfaces { all, seen };
+
 class RayCaster {
  public:
   explicit RayCaster(const RenderScene& scene);  // keeps a reference: the scene must outlive it
@@ -36,10 +39,11 @@ class RayCaster {
   // After the scene was updated. Moved objects alone are refreshed; `rebuilt` builds anew.
   void update(const RenderSceneChanges& changes);
 
-  Hit intersect(const Ray& ray) const;
+  Hit intersect(const Ray& ray, Surfaces which = Surfaces::all) const;
   bool occluded(const Ray& ray) const;
   // Eight rays at a time; tFar < 0 switches a lane off. Rays need not be coherent.
-  void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits) const;
+  void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
+                  Surfaces which = Surfaces::all) const;
 
  private:
   struct Impl;

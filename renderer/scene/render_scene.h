@@ -47,6 +47,14 @@ struct RenderScene {
   Bounds bounds;  // of all objects
 
   size_t triangleCount() const { return indices.size() / 3; }
+
+  // Whether cameras see the object's front faces alone, so that one looks into a closed room from
+  // outside: back faces of materials that are not double-sided are culled (glTF 2.0, section 3.9).
+  // Light is stopped and reflected by both sides. An area light is seen from behind, dark.
+  bool backIsUnseen(uint32_t object) const {
+    const RenderObject& o = objects[object];
+    return !o.isAreaLight && !materials[static_cast<size_t>(o.material)].doubleSided;
+  }
 };
 
 // What update() did, for those who keep copies (Embree, GL buffers).

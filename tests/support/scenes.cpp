@@ -43,6 +43,14 @@ std::shared_ptr<const Mesh> boxMesh(const vec3& size, int material) {
   return meshOf(std::move(p), material);
 }
 
+std::shared_ptr<const Mesh> roomMesh(const vec3& size, int material) {
+  Mesh mesh = *boxMesh(size, material);
+  Primitive& p = mesh.primitives[0];
+  for (size_t i = 0; i < p.indices.size(); i += 3) std::swap(p.indices[i + 1], p.indices[i + 2]);
+  for (vec3& n : p.normals) n = -n;
+  return std::make_shared<const Mesh>(std::move(mesh));
+}
+
 NodeId addNode(Scene& scene, const std::string& name, NodeId parent, const vec3& at) {
   Node& node = scene.nodes.emplace_back();
   node.id = scene.nextId++;

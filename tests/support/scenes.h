@@ -11,6 +11,8 @@ namespace lamplighter::test {
 std::shared_ptr<const Mesh> squareMesh(float size, int material = kNone);
 // An axis-aligned box with outward faces, centred on its node.
 std::shared_ptr<const Mesh> boxMesh(const vec3& size, int material = kNone);
+// A box seen from within.
+std::shared_ptr<const Mesh> roomMesh(const vec3& size, int material = kNone);
 
 // Adds a node; returns its id.
 NodeId addNode(Scene& scene, const std::string& name, NodeId parent = kNoNode,

@@ -68,7 +68,7 @@ uint64_t renderGBuffer(const RenderScene& scene, const RayCaster& rays, const Vi
         r.tNear = view.znear / glm::dot(r.direction, forward);  // the near plane, as a rasteriser's
         if (x >= view.width || y >= view.height) r.tFar = -1.0f;
       }
-      rays.intersect8(ray, hit);
+      rays.intersect8(ray, hit, Surfaces::seen);
       const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
       for (int lane = 0; lane < kLanes; ++lane) {
         store(out, first + lane, scene, hit[lane], ray[lane].direction);

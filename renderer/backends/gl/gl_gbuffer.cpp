@@ -1,7 +1,9 @@
 #include "renderer/backends/gl/gl_gbuffer.h"
 
+#include <algorithm>
 #include <array>
 
+#include "renderer/error.h"
 #include "renderer/gl/pass_state.h"
 #include "renderer/gl/radiance_texture.h"
 #include "shaders/shared/bindings.h"
@@ -72,6 +74,13 @@ const Program& GlGBuffer::programFor(const GlScene::Drawn& drawn) {
 }
 
 void GlGBuffer::resize(int width, int height) {
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  if (std::max(width, height) > limit) {
+    throw InputError("OpenGL",
+                     "pictures have " + std::to_string(limit) + " pixels a side at most here",
+                     "render a smaller one or use --backend cpu");
+  }
   width_ = width;
   height_ = height;
   position_ = makeTexture2D(GL_RGBA32F, width, height);
@@ -116,6 +125,7 @@ void GlGBuffer::render(const GlScene& scene, const View& view, vec2 jitter) {
       program.set(1, view.eye);
       inUse = &program;
     }
+    state.cullBackFaces(d.culled);
     if (d.material != material) scene.bindMaterial(material = d.material);
     glDrawElementsInstancedBaseInstance(
         GL_TRIANGLES, static_cast<GLsizei>(o.indexCount), GL_UNSIGNED_INT,

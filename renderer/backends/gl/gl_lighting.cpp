@@ -51,6 +51,7 @@ void GlLighting::clear(int width, int height) {
                               irradiance_.name(), 0);
     pictures_.clear();
   }
+  const PassState state(irradianceFramebuffer_.name(), width_, height_);
   const float zero[4] = {0.0f, 0.0f, 0.0f, 0.0f};
   glClearNamedFramebufferfv(irradianceFramebuffer_.name(), GL_COLOR, 0, zero);
 }

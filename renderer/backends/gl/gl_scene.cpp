@@ -151,7 +151,8 @@ void GlScene::uploadMaterials() {
     const Material& m = s.materials[s.objects[i].material];
     if (m.isClear()) continue;
     used[s.objects[i].material] = true;
-    drawn_.push_back({i, s.objects[i].material, isTextured(m), m.alphaMode == AlphaMode::mask});
+    drawn_.push_back({i, s.objects[i].material, isTextured(m), m.alphaMode == AlphaMode::mask,
+                      s.backIsUnseen(i)});
   }
   std::stable_sort(drawn_.begin(), drawn_.end(), [](const Drawn& a, const Drawn& b) {
     return std::tuple(a.masked, a.textured, a.material) <

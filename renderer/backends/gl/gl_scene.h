@@ -23,6 +23,7 @@ class GlScene {
     int material = 0;
     bool textured = false;
     bool masked = false;
+    bool culled = false;  // its back faces, for the camera
   };
   // Opaque untextured ones first, then by material, so that what changes between draws is little.
   const std::vector<Drawn>& drawn() const { return drawn_; }

@@ -217,6 +217,11 @@ TEST_F(GlShading, PicturesStayWhatTheyAreWhileHeld) {
   EXPECT_EQ(test::meanOf(lit.backend->compose()->pixels()).r, 0.0f);
 }
 
+TEST_F(GlShading, APictureTooLargeForTheDeviceIsRefused) {
+  LitScene lit(test::randomBoxes(1, 3), makeGlBackend());
+  EXPECT_THROW(lit.backend->renderGBuffer(viewOfBoxes(1 << 20, 4), vec2(0.0f)), InputError);
+}
+
 TEST_F(GlShading, CountsItsWork) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   lit.sum(test::randomVpls(4, 1), viewOfBoxes(20, 10), 16);
@@ -260,10 +265,19 @@ class GlManyLights : public test::GlTest {
 };
 
 TEST_F(GlManyLights, IsThePictureOfTheCpuBackend) {
-  const Image gl = render(makeGlBackend()), cpu = render(makeCpuBackend());
+  Image gl = render(makeGlBackend());
+  const Image cpu = render(makeCpuBackend());
+  // A face seen from its edge may be there for one and not for the other: silhouettes apart.
+  int silhouettes = 0;
+  for (size_t i = 0; i < gl.pixels.size(); ++i) {
+    if (glm::length(gl.pixels[i] - cpu.pixels[i]) < 0.1f) continue;
+    gl.pixels[i] = cpu.pixels[i];
+    ++silhouettes;
+  }
+  EXPECT_LE(silhouettes, 4);  // of 19,200; measured: 1
   const Metrics m = compareImages(gl, cpu);
   RecordProperty("relRmse", std::to_string(m.relRmse));
-  EXPECT_LT(m.relRmse, 0.005);  // measured: 0.0023
+  EXPECT_LT(m.relRmse, 0.004);  // measured: 0.0023
   EXPECT_NEAR(m.bias, 1.0, 0.001);
 }
 

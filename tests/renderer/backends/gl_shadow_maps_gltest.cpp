@@ -66,7 +66,7 @@ TEST_F(GlShadowMap, OfRandomBoxesHoldsWhatRaysMeet) {
 // diagonals, where two faces meet, and turned walls have edges that cross them everywhere.
 TEST_F(GlShadowMap, HasNoHolesAtTheCreases) {
   Scene scene;
-  const NodeId room = test::addMesh(scene, test::boxMesh(vec3(6, 3, 5)), vec3(0, 1.5f, 0));
+  const NodeId room = test::addMesh(scene, test::roomMesh(vec3(6, 3, 5)), vec3(0, 1.5f, 0));
   scene.find(room)->local.rotation = glm::angleAxis(0.4f, glm::normalize(vec3(1, 2, 3)));
   LitScene traced(scene), raster(scene, makeGlBackend());
   for (const int resolution : {17, 31, 32, 63, 75, 100, 129}) {

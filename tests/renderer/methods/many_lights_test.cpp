@@ -34,7 +34,7 @@ struct Room {
 
   Room() {
     const int white = test::addMaterial(scene, vec3(0.7f, 0.6f, 0.5f));
-    test::addMesh(scene, test::boxMesh(vec3(6, 4, 6), white), vec3(0, 2, 0));
+    test::addMesh(scene, test::roomMesh(vec3(6, 4, 6), white), vec3(0, 2, 0));
     box = test::addMesh(scene, test::boxMesh(vec3(1), white), vec3(0, 0.5f, 0));
     light = test::addRectangleLight(scene, vec3(-0.5f, 3.5f, 0.5f), vec2(1, 0.6f), vec3(10, 8, 6));
   }

@@ -70,6 +70,31 @@ TEST(RayCaster, EightAtATimeAreTheSameAsOneByOne) {
   }
 }
 
+// A room is looked into through its ceiling, mirrored or not, unless its material is double-sided;
+// light is stopped by both sides.
+TEST(RayCaster, CamerasSeeThroughTheBacksOfSingleSidedFaces) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(0.5f));
+  const NodeId room = test::addMesh(scene, test::roomMesh(vec3(2.0f), white));
+  for (const float mirror : {1.0f, -1.0f}) {
+    scene.find(room)->local.scale.x = mirror;
+    for (const bool doubleSided : {false, true}) {
+      scene.materials[white].doubleSided = doubleSided;
+      const RenderScene world = worldOf(scene);
+      const RayCaster rays(world);
+      const float expected = doubleSided ? 9.0f : 11.0f;
+      EXPECT_FLOAT_EQ(rays.intersect(down(0.1f, 0.2f), Surfaces::seen).t, expected);
+      std::array<Ray, 8> r;
+      std::array<Hit, 8> h;
+      r.fill(down(0.1f, 0.2f));
+      rays.intersect8(r, h, Surfaces::seen);
+      EXPECT_FLOAT_EQ(h[3].t, expected);
+      EXPECT_FLOAT_EQ(rays.intersect(down(0.1f, 0.2f)).t, 9.0f);
+      EXPECT_TRUE(rays.occluded({vec3(0.1f, 10, 0.2f), 0.0f, vec3(0, -1, 0), 10.0f}));
+    }
+  }
+}
+
 TEST(RayCaster, SeesAMovedObjectWhereItIs) {
   Scene scene;
   const NodeId box = test::addMesh(scene, test::boxMesh(vec3(1.0f)));

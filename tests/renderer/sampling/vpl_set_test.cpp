@@ -34,7 +34,7 @@ void expectNear(const vec3& actual, const vec3& expected, float relative = 1e-4f
 Scene room(const vec3& albedo) {  // closed: no path escapes
   Scene scene;
   const int material = test::addMaterial(scene, albedo);
-  test::addMesh(scene, test::boxMesh(vec3(6, 4, 5), material));
+  test::addMesh(scene, test::roomMesh(vec3(6, 4, 5), material));
   return scene;
 }
 
