@@ -1,8 +1,11 @@
 #include "editor/input/recording.h"
 
 #include <array>
-#include <charconv>
+#include <cmath>
 #include <fstream>
+#include <limits>
+#include <optional>
+#include <set>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -17,6 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kFormat = 1;
+constexpr int64_t kMostFrames = 10'000'000;  // two days at 60 a second; more is a slip of the hand
 
 // Floats as short as they read back.
 Json numbers(std::initializer_list<float> values) {
@@ -27,39 +31,98 @@ Json numbers(std::initializer_list<float> values) {
 
 std::string text(const Json& j) { return j.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-vec2 pairOf(const Json& j) {
-  if (!j.is_array() || j.size() != 2) throw std::invalid_argument("is no pair of numbers");
-  return {j[0].get<float>(), j[1].get<float>()};
+// Fields of a line, of the kind and range that they must have; `usual` where the line has none.
+const Json& fieldOf(const Json& j, const char* name) {
+  const auto it = j.find(name);
+  if (it == j.end()) throw std::invalid_argument(fmt::format("lacks \"{}\"", name));
+  return *it;
 }
 
-// Values keep their kind: a JSON number is int or float by the method's declaration.
-ParameterValue valueOf(const std::string& method, const std::string& name, const Json& j) {
-  for (const ParameterSpec& p : findMethod(method).parameters) {
-    if (p.name != name) continue;
-    const std::string given = j.is_string() ? j.get<std::string>() : j.dump();
-    return Settings::parse(p, given);
+std::string stringOf(const Json& j, const char* name) {
+  const Json& field = fieldOf(j, name);
+  if (!field.is_string()) throw std::invalid_argument(fmt::format("\"{}\" is no text", name));
+  return field.get<std::string>();
+}
+
+std::string stringOf(const Json& j, const char* name, const std::string& usual) {
+  return j.contains(name) ? stringOf(j, name) : usual;
+}
+
+bool boolOf(const Json& j, const char* name) {
+  const Json& field = fieldOf(j, name);
+  if (!field.is_boolean())
+    throw std::invalid_argument(fmt::format("\"{}\" is neither true nor false", name));
+  return field.get<bool>();
+}
+
+int64_t integerOf(const Json& j, const char* name, int64_t least, int64_t most) {
+  const Json& field = fieldOf(j, name);
+  // Unsigned first: what is beyond int64 would wrap.
+  const bool fits =
+      field.is_number_integer() &&
+      (!field.is_number_unsigned() || field.get<uint64_t>() <= static_cast<uint64_t>(most)) &&
+      field.get<int64_t>() >= least && field.get<int64_t>() <= most;
+  if (!fits) {
+    throw std::invalid_argument(
+        fmt::format("\"{}\" is no whole number from {} to {}", name, least, most));
   }
-  throw std::invalid_argument("'" + name + "' is no parameter of " + method);
+  return field.get<int64_t>();
+}
+
+float floatOf(const Json& value, const char* name) {
+  const double v = value.is_number() ? value.get<double>() : std::nan("");
+  if (!(std::abs(v) <= std::numeric_limits<float>::max()))
+    throw std::invalid_argument(fmt::format("\"{}\" holds what is no number", name));
+  return static_cast<float>(v);
+}
+
+float floatOf(const Json& j, const char* name, float usual) {
+  return j.contains(name) ? floatOf(j[name], name) : usual;
+}
+
+vec2 pairOf(const Json& j, const char* name) {
+  const Json& field = fieldOf(j, name);
+  if (!field.is_array() || field.size() != 2)
+    throw std::invalid_argument(fmt::format("\"{}\" is no pair of numbers", name));
+  return {floatOf(field[0], name), floatOf(field[1], name)};
+}
+
+// Values keep their kind: a JSON number is int or float by the declaration. A parameter may be
+// another method's, set before this one was chosen.
+ParameterValue valueOf(const std::string& method, const std::string& name, const Json& j) {
+  const std::string given = j.is_string() ? j.get<std::string>() : j.dump();
+  const auto from = [&](const MethodInfo& info) -> std::optional<ParameterValue> {
+    for (const ParameterSpec& p : info.parameters) {
+      if (p.name == name) return Settings::parse(p, given);
+    }
+    return std::nullopt;
+  };
+  if (const auto own = from(findMethod(method))) return *own;
+  for (const MethodInfo& other : methods()) {
+    if (const auto value = from(other)) return *value;
+  }
+  throw std::invalid_argument("'" + name + "' is no parameter of any method");
 }
 
 RecordingHeader headerOf(const Json& j) {
   if (!j.contains("lamplighter")) throw std::invalid_argument("is no header of a recording");
   if (j["lamplighter"] != kFormat) throw std::invalid_argument("is of another format version");
   RecordingHeader h;
-  h.scene = j.value("scene", "");
-  h.sceneHash = j.value("sceneHash", "");
+  h.scene = stringOf(j, "scene", "");
+  h.sceneHash = stringOf(j, "sceneHash", "");
   if (j.contains("window")) {
-    const vec2 size = pairOf(j["window"]);
-    h.width = static_cast<int>(size.x);
-    h.height = static_cast<int>(size.y);
+    const Json& window = j["window"];
+    if (!window.is_array() || window.size() != 2)
+      throw std::invalid_argument("\"window\" is no pair of numbers");
+    const Json size{{"width", window[0]}, {"height", window[1]}};
+    h.width = static_cast<int>(integerOf(size, "width", 1, 16384));
+    h.height = static_cast<int>(integerOf(size, "height", 1, 16384));
   }
-  h.framesPerSecond = j.value("fps", 60);
-  if (h.width < 1 || h.height < 1 || h.width > 16384 || h.height > 16384 || h.framesPerSecond < 1) {
-    throw std::invalid_argument("has no sensible window or fps");
-  }
-  h.render.method = findMethod(j.value("method", h.render.method)).name;
-  h.render.exposureEv = j.value("exposure", 0.0f);
+  if (j.contains("fps")) h.framesPerSecond = static_cast<int>(integerOf(j, "fps", 1, 100000));
+  h.render.method = findMethod(stringOf(j, "method", h.render.method)).name;
+  h.render.exposureEv = floatOf(j, "exposure", 0.0f);
   if (j.contains("settings")) {
+    if (!j["settings"].is_object()) throw std::invalid_argument("\"settings\" is no object");
     for (const auto& [name, value] : j["settings"].items())
       h.render.values.set(name, valueOf(h.render.method, name, value));
   }
@@ -70,28 +133,26 @@ InputEvent eventOf(const Json& j) {
   InputEvent e;
   if (j.contains("pointer")) {
     e.kind = EventKind::pointer;
-    e.position = pairOf(j["pointer"]);
-    e.target = j.value("on", "");
+    e.position = pairOf(j, "pointer");
+    e.target = stringOf(j, "on", "");
   } else if (j.contains("button")) {
     e.kind = EventKind::button;
-    e.button = j["button"].get<int>();
-    e.down = j.at("down").get<bool>();
-    if (e.button < 0 || e.button > 2)
-      throw std::invalid_argument("names a button that is none of 0, 1, 2");
+    e.button = static_cast<int>(integerOf(j, "button", 0, 2));
+    e.down = boolOf(j, "down");
   } else if (j.contains("wheel")) {
     e.kind = EventKind::wheel;
-    e.wheel = pairOf(j["wheel"]);
+    e.wheel = pairOf(j, "wheel");
   } else if (j.contains("key")) {
     e.kind = EventKind::key;
-    e.key = keyOf(j["key"].get<std::string>());
-    e.down = j.at("down").get<bool>();
+    e.key = keyOf(stringOf(j, "key"));
+    e.down = boolOf(j, "down");
     if (e.key == Key::none) throw std::invalid_argument("names no known key");
   } else if (j.contains("text")) {
     e.kind = EventKind::text;
-    e.text = j["text"].get<std::string>();
+    e.text = stringOf(j, "text");
   } else if (j.contains("action")) {
     e.kind = EventKind::action;
-    e.text = j["action"].get<std::string>();
+    e.text = stringOf(j, "action");
   } else {
     throw std::invalid_argument("is neither an event nor a checkpoint");
   }
@@ -100,11 +161,12 @@ InputEvent eventOf(const Json& j) {
 
 Checkpoint checkpointOf(const Json& j) {
   Checkpoint c;
-  c.name = j["check"].get<std::string>();
-  c.document = j.value("document", "");
-  c.image = j.value("image", true);
-  c.max = j.value("max", c.max);
-  c.mean = j.value("mean", c.mean);
+  c.name = stringOf(j, "check");
+  c.document = stringOf(j, "document", "");
+  if (j.contains("image")) c.image = boolOf(j, "image");
+  c.max = floatOf(j, "max", c.max);
+  c.mean = floatOf(j, "mean", c.mean);
+  if (c.max < 0.0f || c.mean < 0.0f) throw std::invalid_argument("allows less than no difference");
   if (c.name.empty() || c.name.find_first_of("/\\") != std::string::npos)
     throw std::invalid_argument("has no usable name");
   return c;
@@ -129,11 +191,13 @@ Recording readRecording(const std::filesystem::path& path) {
   r.path = path;
   int number = 0;
   bool hasHeader = false;
+  std::set<std::string> checks;  // by name, which is that of the baseline
   for (std::string line; std::getline(in, line);) {
     ++number;
+    if (line.ends_with('\r')) line.pop_back();
     if (line.empty()) continue;
     try {
-      const Json j = Json::parse(line);
+      const Json j = Json::parse(line, nullptr, false);
       if (!j.is_object()) throw std::invalid_argument("is no JSON object");
       if (!hasHeader) {
         r.header = headerOf(j);
@@ -141,11 +205,14 @@ Recording readRecording(const std::filesystem::path& path) {
         continue;
       }
       RecordingLine l;
-      l.frame = j.at("f").get<uint32_t>();
+      l.frame = static_cast<uint32_t>(integerOf(j, "f", 0, kMostFrames));
       if (!r.lines.empty() && l.frame < r.lines.back().frame)
         throw std::invalid_argument("goes back in time");
       if (j.contains("check")) {
-        l.what = checkpointOf(j);
+        Checkpoint c = checkpointOf(j);
+        if (!checks.insert(c.name).second)
+          throw std::invalid_argument("checks under the name of an earlier line");
+        l.what = std::move(c);
       } else {
         l.what = eventOf(j);
       }

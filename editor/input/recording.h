@@ -38,7 +38,8 @@ struct Checkpoint {
   std::string name;
   std::string document;  // hash as hex; "": not compared
   bool image = true;     // the picture is compared
-  float max = 16.0f;     // largest and mean difference allowed, of 255, where the backend is gl
+  // Largest (one pixel in a thousand apart) and mean difference allowed, of 255, on the gl backend.
+  float max = 16.0f;
   float mean = 0.5f;
   bool operator==(const Checkpoint&) const = default;
 };
