@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   lamplighter::Frontend frontend;
   frontend.stopwatch = seconds;
   frontend.makeBackend = [](const std::string& kind) {
-    return lamplighter::makeBackend(kind, false);
+    return lamplighter::makeHeadlessBackend(kind, seconds);
   };
   frontend.runEditor = [](const lamplighter::EditorOptions& options) {
     return lamplighter::runEditor(options, seconds);

@@ -6,19 +6,19 @@
 
 #ifdef __cplusplus
 #include <glm/glm.hpp>
-#define SHARED_BEGIN                \
-  namespace lamplighter::shared {   \
-  using glm::abs;                   \
-  using glm::clamp;                 \
-  using glm::cross;                 \
-  using glm::dot;                   \
-  using glm::floor;                 \
-  using glm::mat4;                  \
-  using glm::max;                   \
-  using glm::min;                   \
-  using glm::sqrt;                  \
-  using glm::vec2;                  \
-  using glm::vec3;                  \
+#define SHARED_BEGIN              \
+  namespace lamplighter::shared { \
+  using glm::abs;                 \
+  using glm::clamp;               \
+  using glm::cross;               \
+  using glm::dot;                 \
+  using glm::floor;               \
+  using glm::mat4;                \
+  using glm::max;                 \
+  using glm::min;                 \
+  using glm::sqrt;                \
+  using glm::vec2;                \
+  using glm::vec3;                \
   using glm::vec4;
 #define SHARED_END }
 #define SHARED_FUNCTION inline

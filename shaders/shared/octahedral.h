@@ -1,6 +1,6 @@
-// The octahedral hemisphere map (paper 1, 4.2.1, figure 4-4): the upper four faces of the octahedron
-// |x| + |y| + z = 1 seen from above and turned by 45°, so that they fill the square [-1, 1]².
-// On each face the projection is linear in homogeneous coordinates:
+// The octahedral hemisphere map (paper 1, 4.2.1, figure 4-4): the upper four faces of the
+// octahedron |x| + |y| + z = 1 seen from above and turned by 45°, so that they fill the square [-1,
+// 1]². On each face the projection is linear in homogeneous coordinates:
 //   (s, t, w) = (x + y, x − y, |x| + |y| + z), and s/w, t/w lie in the square.
 // The map stores 1/w [1/m] of the nearest occluder (0: none): it is linear over a face for a plane,
 // so rasterisation interpolates it exactly, and nearer means larger, which keeps float precision.

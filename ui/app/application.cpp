@@ -65,6 +65,7 @@ void Application::frame() {
   }
   present();
   viewport_.draw(ui, picture_.texture());
+  drawStatusLine(ui);
   drawDialogs(ui);
   gui_.endFrame();
   answerRequests();
@@ -99,6 +100,7 @@ void Application::pressKey(Key key) {
   const Modifiers modifiers = router_.state().modifiers();
   if (ImGui::GetIO().WantTextInput || dialogOpen()) return;
   if (session_->flying() && !modifiers.ctrl) return;
+  if (session_->dragging() && key == Key::escape) return;  // it takes back the drag
   if (const Action* action = session_->actions().forKey(key, modifiers)) runAction(action->name);
 }
 
@@ -119,6 +121,15 @@ void Application::runAction(const std::string& text) {
   }
 }
 
+// After the frame was rendered: it tells of the picture beside it, not of the one before.
+void Application::drawStatusLine(const PanelContext& ui) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(2)});
+  beginPanel("##status", layout_.status, false);
+  statusLine(ui, {frameSeconds_, static_cast<bool>(listener_), replaying_});
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
 void Application::drawPanels(PanelContext ui) {
   menuBar(ui, requests_);
   const ImVec2 window = ImGui::GetIO().DisplaySize;
@@ -136,18 +147,12 @@ void Application::drawPanels(PanelContext ui) {
   beginPanel("##render", layout_.render);
   renderPanel(ui);
   ImGui::End();
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(2)});
-  beginPanel("##status", layout_.status, false);
-  statusLine(ui, {frameSeconds_, static_cast<bool>(listener_), replaying_});
-  ImGui::End();
-  ImGui::PopStyleVar();
   layout_.splitters(ui);
   // At once, so that this frame shows what they do.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
 
   // A field that went away while it was being edited leaves its step open.
-  if (session_->history().inTransaction() && !ImGui::IsAnyItemActive() &&
-      !router_.state().buttons[0])
+  if (session_->history().inTransaction() && !ImGui::IsAnyItemActive() && !session_->dragging())
     session_->history().commit();
 }
 

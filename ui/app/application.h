@@ -60,6 +60,7 @@ class Application {
   void pressKey(Key key);
   void runAction(const std::string& text);
   void drawPanels(PanelContext ui);
+  void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
   void present();
   void takeLoaded();

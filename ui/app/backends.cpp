@@ -1,13 +1,30 @@
 #include "ui/app/backends.h"
 
 #include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/backends/gl/choose_backend.h"
+#include "renderer/backends/gl/gl_backend.h"
 #include "renderer/error.h"
+#include "renderer/gl/headless_context.h"
 
 namespace lamplighter {
 
-std::unique_ptr<Backend> makeBackend(const std::string& kind, bool) {
-  if (kind == "gl") throw InputError("--backend gl: this build has no gl backend; use cpu");
-  return makeCpuBackend();
+std::unique_ptr<Backend> makeBackend(const std::string& kind, const Stopwatch& stopwatch) {
+  if (kind == "cpu") return makeCpuBackend();
+  if (kind == "gl") return makeGlBackend();
+  return chooseBackend(stopwatch);
+}
+
+std::unique_ptr<Backend> makeHeadlessBackend(const std::string& kind, const Stopwatch& stopwatch) {
+  if (kind == "cpu") return makeCpuBackend();
+  std::unique_ptr<gl::HeadlessContext> context;
+  try {
+    context = std::make_unique<gl::HeadlessContext>();
+  } catch (const InputError&) {
+    if (kind == "gl") throw;
+    return makeCpuBackend();
+  }
+  if (kind != "gl" && chooseBackend(stopwatch)->info().name == "cpu") return makeCpuBackend();
+  return makeGlBackend(std::move(context));
 }
 
 }  // namespace lamplighter

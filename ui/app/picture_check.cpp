@@ -1,6 +1,7 @@
 #include "ui/app/picture_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -23,10 +24,12 @@ int largestDifference(const uint8_t* a, const uint8_t* b) {
 
 std::string PictureDifference::text() const {
   if (!sameSize) return "the picture is of another size than its baseline";
-  char text[128];
-  std::snprintf(text, sizeof text,
-                "the picture differs in %zu pixels, by %d of 255 at most and %.4f in the mean",
-                pixels, max, mean);
+  char text[192];
+  std::snprintf(
+      text, sizeof text,
+      "the picture differs in %zu pixels, by %d of 255 at most, %d silhouettes apart, and %.4f "
+      "in the mean",
+      pixels, max, largest, mean);
   return text;
 }
 
@@ -35,13 +38,20 @@ PictureDifference comparePictures(const Image8& a, const Image8& b) {
   d.sameSize = a.width == b.width && a.height == b.height;
   if (!d.sameSize) return d;
   uint64_t sum = 0;
+  std::array<size_t, 256> counts{};
   const size_t count = a.pixels.size() / 4;
   for (size_t i = 0; i < count; ++i) {
     const uint8_t *pa = &a.pixels[4 * i], *pb = &b.pixels[4 * i];
     const int largest = largestDifference(pa, pb);
     if (largest > 0) ++d.pixels;
     d.max = std::max(d.max, largest);
+    ++counts[static_cast<size_t>(largest)];
     for (int c = 0; c < 3; ++c) sum += static_cast<uint64_t>(std::abs(pa[c] - pb[c]));
+  }
+  d.largest = 255;
+  for (size_t over = counts[255]; d.largest > 0 && over <= count / 1000;) {
+    --d.largest;
+    over += counts[static_cast<size_t>(d.largest)];
   }
   if (count > 0) d.mean = static_cast<double>(sum) / (3.0 * static_cast<double>(count));
   return d;

@@ -4,6 +4,7 @@
 
 #include "editor/input/player.h"
 #include "renderer/error.h"
+#include "renderer/gl/headless_context.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/threads.h"
@@ -78,6 +79,7 @@ int Replay::run(Platform& platform, std::unique_ptr<FrameRenderer> renderer) {
       throw InputError(options_.recording + ": frame " + std::to_string(player_.frame()) + ": " +
                        e.what());
     }
+    if (!app.session().renderError().empty()) throw InputError(app.session().renderError());
     const bool settled = app.session().output().settled && app.quietFrames() >= kQuietFrames;
     for (const Checkpoint& checkpoint : player_.endFrame(settled)) check(app, platform, checkpoint);
   }
@@ -122,7 +124,7 @@ std::string Replay::pictureProblem(Session& session, const Image8& picture,
   const Image8 baseline = readPicture(path);
   const PictureDifference difference = comparePictures(picture, baseline);
   const bool exact = session.renderer().backend().info().name == "cpu";
-  if (difference.within(exact ? 0.0 : checkpoint.max, exact ? 0.0 : checkpoint.mean)) return "";
+  if (exact ? difference.none() : difference.within(checkpoint.max, checkpoint.mean)) return "";
   const fs::path heat = outputOf(checkpoint, ".difference.png");
   fs::create_directories(heat.parent_path());
   writePng(picture, outputOf(checkpoint, ".png"));
@@ -167,15 +169,25 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   Recording recording = readRecording(options.recording);
   const RecordingHeader header = recording.header;
   Replay replay(options, std::move(recording));
+  // The cpu backend gives the same bits everywhere, so that is what a replay takes unless told.
+  const std::string backend = options.backend == "auto" ? "cpu" : options.backend;
+  const auto renderer = [&] {
+    return std::make_unique<FrameRenderer>(makeBackend(backend, stopwatch), stopwatch);
+  };
   if (!options.headless) {
     Window window(header.width, header.height, "Lamplighter: replay", Window::Kind::fixed);
-    return replay.run(
-        window, std::make_unique<FrameRenderer>(makeBackend(options.backend, true), stopwatch));
+    return replay.run(window, renderer());
   }
-  // Only pictures of the panels and the gl backend need OpenGL.
-  Headless headless(header.width, header.height, false);
-  return replay.run(
-      headless, std::make_unique<FrameRenderer>(makeBackend(options.backend, false), stopwatch));
+  // OpenGL is needed only by the gl backend and for pictures of the panels.
+  std::unique_ptr<gl::HeadlessContext> context;
+  try {
+    if (backend == "gl" || !options.outputFolder.empty())
+      context = std::make_unique<gl::HeadlessContext>();
+  } catch (const InputError&) {
+    if (backend == "gl") throw;
+  }
+  Headless headless(header.width, header.height, context != nullptr);
+  return replay.run(headless, renderer());
 }
 
 }  // namespace lamplighter

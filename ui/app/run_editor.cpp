@@ -64,7 +64,8 @@ int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
   Window window(kWidth, kHeight, "Lamplighter",
                 recording ? Window::Kind::fixed : Window::Kind::resizable);
   showPreparing(window);
-  auto renderer = std::make_unique<FrameRenderer>(makeBackend(options.backend, true), stopwatch);
+  auto renderer =
+      std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
   Application app(window, std::make_unique<Session>(std::move(renderer)));
   std::optional<Recorder> recorder;
   if (!recording) {

@@ -70,7 +70,7 @@ void inspector(PanelContext ui, InspectorState& state) {
 void transformFields(PanelContext ui, const Node& node, InspectorState& state) {
   if (state.rotation != node.local.rotation) {
     state.rotation = node.local.rotation;
-    state.degrees = glm::degrees(glm::eulerAngles(state.rotation));
+    state.degrees = glm::degrees(glm::eulerAngles(state.rotation)) + vec3(0.0f);  // no "-0.0"
   }
   Transform local = node.local;
   labelledRow(ui, "Position", "In metres, relative to the parent.");

@@ -21,7 +21,7 @@ const std::vector<Menu>& menus() {
       {"File", {"file", "app"}, {"file.new", "file.open", "-", "file.save", "file.save_as"}},
       {"Edit",
        {"edit", "selection", "select"},
-       {"edit.undo", "edit.redo", "-", "edit.duplicate", "edit.delete"}},
+       {"edit.undo", "edit.redo", "-", "edit.duplicate", "edit.delete", "edit.rename"}},
       {"Light", {"light"}, {"light.add"}},
       {"Object", {"object", "node"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
@@ -67,18 +67,12 @@ void menuItem(const PanelContext& ui, const Action& action, Requests& requests) 
     ImGui::EndMenu();
     return;
   }
-  // Those that need a file get a dialog; others that need arguments are for scripts.
-  const bool opens = action.name == "file.open";
-  const bool saves = action.name == "file.save_as" || action.name == "file.saveAs";
-  if (!standsAlone(action) && !opens && !saves) return;
-  if (ImGui::MenuItem(action.label.c_str(), shortcut, false, enabled)) {
-    if (opens)
-      requests.openDialog = true;
-    else if (saves)
-      requests.saveDialog = true;
-    else
-      requests.actions.push_back(action.name);
-  }
+  // The application asks for what these need; others that need arguments are for scripts.
+  const bool asks =
+      action.name == "file.open" || action.name == "file.save_as" || action.name == "edit.rename";
+  if (!standsAlone(action) && !asks) return;
+  if (ImGui::MenuItem(action.label.c_str(), shortcut, false, enabled))
+    requests.actions.push_back(action.name);
   ui.name(action.name);
   tooltip(ui, action.help);
 }

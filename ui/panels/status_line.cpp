@@ -50,7 +50,7 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
     part(ui, "pending", pending, stats.vplsPending > 0 ? theme::kAccent : theme::kTextDim,
          "Shadow maps that wait to be rendered anew, and for how long the oldest has waited.");
   }
-  if (stats.samplesPerPixel > 0)
+  if (stats.samplesPerPixel > 1)
     part(ui, "samples", grouped(stats.samplesPerPixel) + " samples a pixel", theme::kText,
          "Paths traced for each pixel so far.");
   const BackendInfo& backend = ui.session.renderer().backend().info();

@@ -1,0 +1,130 @@
+// Replays as other programs call them: what a check compares, and that it can fail. The recordings
+// themselves are checked by a test each (tests/CMakeLists.txt).
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/process.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProcessResult;
+using test::runLamplighter;
+
+const fs::path kRecordings = fs::path(LAMPLIGHTER_SOURCE_DIR) / "tests/recordings";
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class Replay : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("lamplighter_replay_" +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "recordings");
+    // As deep below the copied scenes as in the repository, so that relative paths hold.
+    fs::create_directories(folder_ / "assets");
+    fs::copy(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes", folder_ / "assets/scenes",
+             fs::copy_options::recursive);
+    std::string text = contents(kRecordings / "place_light.jsonl");
+    replace(text, "../../assets", "../assets");
+    write(text);
+    for (const auto& entry : fs::directory_iterator(kRecordings)) {
+      if (entry.path().filename().string().starts_with("place_light.") &&
+          entry.path().extension() == ".png")
+        fs::copy(entry.path(), folder_ / "recordings");
+    }
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static void replace(std::string& text, const std::string& what, const std::string& by) {
+    const size_t at = text.find(what);
+    ASSERT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), by);
+  }
+  fs::path recording() const { return folder_ / "recordings/place_light.jsonl"; }
+  void write(const std::string& text) const { std::ofstream(recording()) << text; }
+  ProcessResult replay(std::vector<std::string> more) const {
+    std::vector<std::string> arguments{"replay", recording().string(), "--headless", "-o",
+                                       (folder_ / "out").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runLamplighter(arguments);
+  }
+  std::map<std::string, std::string> pictures() const {
+    std::map<std::string, std::string> out;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out"))
+      out[entry.path().filename().string()] = contents(entry.path());
+    return out;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Replay, GivesTheSameHashesAndBitsTwiceAndAtAnyNumberOfThreads) {
+  std::map<std::string, std::string> first;
+  std::string hashes;
+  for (const char* threads : {"1", "2", "3"}) {
+    const ProcessResult r = replay({"--threads", threads});
+    ASSERT_EQ(r.code, 0) << r.err;
+    std::map<std::string, std::string> seen = pictures();
+    // Pictures of the whole window show times, which differ.
+    std::erase_if(seen, [](const auto& p) { return p.first.find(".window.") != std::string::npos; });
+    EXPECT_EQ(seen.size(), 6u);
+    if (first.empty()) {
+      first = seen;
+      hashes = r.out;
+    }
+    EXPECT_TRUE(seen == first) << threads;
+    EXPECT_EQ(r.out, hashes);
+  }
+}
+
+TEST_F(Replay, FailsACheckWhereTheDocumentDiffers) {
+  std::string text = contents(recording());
+  const size_t at = text.find("\"document\":\"") + 12;
+  text[at] = text[at] == '0' ? '1' : '0';
+  write(text);
+  const ProcessResult r = replay({"--check"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_NE(r.out.find("start: FAILED: the document is "), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("5 checks passed, 1 failed"), std::string::npos) << r.out;
+}
+
+TEST_F(Replay, FailsACheckWhereThePictureDiffersAndShowsWhere) {
+  // The light's picture before it was moved, for the one after.
+  fs::copy_file(folder_ / "recordings/place_light.placed.png",
+                folder_ / "recordings/place_light.moved.png", fs::copy_options::overwrite_existing);
+  const ProcessResult r = replay({"--check"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_NE(r.out.find("moved: FAILED: "), std::string::npos) << r.out;
+  EXPECT_TRUE(fs::exists(folder_ / "out/place_light.moved.png"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/place_light.moved.difference.png"));
+}
+
+TEST_F(Replay, FailsACheckWithoutABaselineAndWritesItWhenTold) {
+  fs::remove(folder_ / "recordings/place_light.moved.png");
+  EXPECT_EQ(replay({"--check"}).code, 1);
+  const ProcessResult written = replay({"--update-baselines"});
+  EXPECT_EQ(written.code, 0) << written.err;
+  EXPECT_EQ(replay({"--check"}).code, 0);
+  EXPECT_EQ(contents(folder_ / "recordings/place_light.moved.png"),
+            contents(kRecordings / "place_light.moved.png"));
+}
+
+TEST_F(Replay, RefusesASceneThatIsNotTheRecordedOne) {
+  std::ofstream(folder_ / "assets/scenes/cornell_style.gltf", std::ios::app) << "\n";
+  const ProcessResult r = replay({"--check"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_NE(r.err.find("is not the one that was recorded"), std::string::npos) << r.err;
+}
+
+}  // namespace
+}  // namespace lamplighter

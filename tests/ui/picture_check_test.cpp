@@ -1,0 +1,46 @@
+#include "ui/app/picture_check.h"
+
+#include <gtest/gtest.h>
+
+namespace lamplighter {
+namespace {
+
+Image8 grey(int width, int height) {
+  Image8 image(width, height);
+  std::fill(image.pixels.begin(), image.pixels.end(), uint8_t{100});
+  return image;
+}
+
+TEST(PictureCheck, EqualPicturesDoNotDiffer) {
+  const PictureDifference d = comparePictures(grey(40, 50), grey(40, 50));
+  EXPECT_TRUE(d.none());
+  EXPECT_EQ(d.largest, 0);
+  EXPECT_TRUE(d.within(0.0, 0.0));
+}
+
+// 2,000 pixels: two may be silhouettes.
+TEST(PictureCheck, LeavesOnePixelInAThousandOut) {
+  Image8 a = grey(40, 50);
+  a.at(3, 4)[0] = 250;
+  a.at(7, 9)[2] = 0;
+  for (int x = 0; x < 40; ++x) a.at(x, 20)[1] = 105;
+  PictureDifference d = comparePictures(a, grey(40, 50));
+  EXPECT_EQ(d.pixels, 42u);
+  EXPECT_EQ(d.max, 150);
+  EXPECT_EQ(d.largest, 5);
+  EXPECT_NEAR(d.mean, (150.0 + 100.0 + 40 * 5) / 6000.0, 1e-9);
+  EXPECT_TRUE(d.within(5.0, 0.1));
+  EXPECT_FALSE(d.within(4.0, 0.1));
+  EXPECT_FALSE(d.within(5.0, 0.05));
+  a.at(30, 40)[1] = 200;
+  EXPECT_EQ(comparePictures(a, grey(40, 50)).largest, 100);
+}
+
+TEST(PictureCheck, PicturesOfAnotherSizeDiffer) {
+  const PictureDifference d = comparePictures(grey(4, 5), grey(5, 4));
+  EXPECT_FALSE(d.none());
+  EXPECT_FALSE(d.within(255.0, 255.0));
+}
+
+}  // namespace
+}  // namespace lamplighter
