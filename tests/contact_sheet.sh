@@ -24,7 +24,7 @@ render() {  # render SCENE SIZE NAME: both pictures, joined, into $work/NAME.png
   "$program" tonemap "$work/$name-a.exr" -o "$work/$name-a.png" --exposure "$(cat "$work/$name.ev")" >/dev/null
   oiiotool "$work/$name-a.png" "$work/$name-b.png" --mosaic:pad=2 2x1 -o "$work/$name.png"
   row=$("$program" compare "$work/$name-a.exr" "$work/$name-b.exr" --json)
-  printf '| %s | %s | %s | %s |\n' "$name" "$(cat "$work/$name.ev")" \
+  printf '| %s | %s | %.3f | %.3f |\n' "$name" "$(cat "$work/$name.ev")" \
     "$(sed -n 's/.*"relRMSE": *\([0-9.e-]*\).*/\1/p' <<<"$row")" \
     "$(sed -n 's/.*"bias": *\([0-9.e-]*\).*/\1/p' <<<"$row")"
 }

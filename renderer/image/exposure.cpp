@@ -20,7 +20,9 @@ float autoExposureEv(const Image& radiance) {
   std::sort(values.begin(), values.end());  // the sum's order is then the same everywhere
   double sum = 0.0;
   for (const float y : values) sum += std::log2(static_cast<double>(y));
-  const double ev = std::log2(0.18) - sum / static_cast<double>(kept);
+  const double middle = std::log2(0.18) - sum / static_cast<double>(kept);
+  const double bright = -std::log2(static_cast<double>(values[(kept - 1) * 85 / 100]));
+  const double ev = std::min(middle, bright);
   return std::clamp(static_cast<float>(std::round(4.0 * ev) / 4.0), -16.0f, 16.0f);
 }
 

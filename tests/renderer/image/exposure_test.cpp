@@ -17,6 +17,13 @@ TEST(AutoExposure, ALampInViewChangesNothing) {
   EXPECT_EQ(autoExposureEv(image), 0.0f);
 }
 
+TEST(AutoExposure, KeepsWhiteThingsInADarkRoom) {
+  Image image(10, 10, vec3(0.002f));
+  for (int y = 0; y < 3; ++y)
+    for (int x = 0; x < 10; ++x) image.at(x, y) = vec3(0.5f);
+  EXPECT_EQ(autoExposureEv(image), 1.0f);
+}
+
 TEST(AutoExposure, ABlackPictureIsLeftAlone) { EXPECT_EQ(autoExposureEv(Image(4, 4)), 0.0f); }
 
 }  // namespace

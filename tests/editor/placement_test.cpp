@@ -1,0 +1,95 @@
+// Copying, pasting, and putting objects on surfaces.
+#include <cmath>
+
+#include "tests/editor/session_fixture.h"
+
+namespace lamplighter {
+namespace {
+
+using Clipboard = test::SessionFixture;
+
+TEST_F(Clipboard, PastedNodesAreNewOnesInTheSamePlaceAndOneStep) {
+  session_.select({box_, light_});
+  const uint64_t before = hash();
+  session_.actions().run(session_, "edit.copy");
+  EXPECT_EQ(hash(), before);
+  session_.actions().run(session_, "edit.paste");
+  const auto& selection = session_.document().selection;
+  ASSERT_EQ(selection.size(), 2u);
+  EXPECT_EQ(session_.document().scene.nodes.size(), 5u);
+  for (const NodeId id : selection) EXPECT_TRUE(id != box_ && id != light_);
+  EXPECT_EQ(placeOf(selection[0]), placeOf(box_));
+  EXPECT_TRUE(node(selection[1]).area);
+  session_.undo();
+  EXPECT_EQ(session_.document().scene.nodes.size(), 3u);
+  session_.undo();  // nothing is left to undo
+  EXPECT_EQ(session_.document().scene.nodes.size(), 3u);
+}
+
+TEST_F(Clipboard, CutNodesComeBackByPastingOrByUndoing) {
+  session_.select({box_});
+  session_.actions().run(session_, "edit.cut");
+  EXPECT_EQ(session_.document().scene.find(box_), nullptr);
+  session_.actions().run(session_, "edit.paste");
+  ASSERT_EQ(session_.document().selection.size(), 1u);
+  EXPECT_EQ(placeOf(session_.document().active()), vec3(0, 0.5f, 0));
+  session_.undo();
+  session_.undo();
+  EXPECT_NE(session_.document().scene.find(box_), nullptr);
+}
+
+// What hangs below a copied node goes along, once.
+TEST_F(Clipboard, CopiesATreeOnce) {
+  Scene scene = session_.document().scene;
+  scene.find(light_)->parent = box_;
+  scene.find(light_)->local.translation = vec3(0, 1, 0);
+  open(std::move(scene));
+  session_.select({box_, light_});
+  session_.actions().run(session_, "edit.copy");
+  session_.actions().run(session_, "edit.paste");
+  ASSERT_EQ(session_.document().scene.nodes.size(), 5u);
+  ASSERT_EQ(session_.document().selection.size(), 1u);
+  const Node& child = session_.document().scene.nodes.back();
+  EXPECT_EQ(child.parent, session_.document().active());
+  EXPECT_EQ(placeOf(child.id), placeOf(light_));
+}
+
+TEST_F(Clipboard, AnotherLevelHasNoneOfItsMeshes) {
+  session_.select({box_});
+  session_.actions().run(session_, "edit.copy");
+  open(Scene());
+  EXPECT_TRUE(session_.clipboard().empty());
+}
+
+using Placing = test::SessionFixture;
+
+// The active object is put down; the others keep their places beside it.
+TEST_F(Placing, DroppingAGroupKeepsItTogetherAsOneStep) {
+  session_.select({light_, box_});
+  const vec3 offset = placeOf(light_) - placeOf(box_);
+  input_.pointer = pixelOf(vec3(1.5f, 0, 1.0f));
+  frame();
+  session_.actions().run(session_, "object.drop");
+  EXPECT_NEAR(placeOf(box_).x, 1.5f, 0.02f);
+  EXPECT_NEAR(placeOf(box_).y, 0.5f, 1e-3f);  // it stands on the floor
+  EXPECT_NEAR(glm::length(placeOf(light_) - placeOf(box_) - offset), 0.0f, 1e-4f);
+  session_.undo();
+  EXPECT_EQ(placeOf(box_), vec3(0, 0.5f, 0));
+  EXPECT_EQ(placeOf(light_), vec3(0, 4, 0));
+}
+
+TEST_F(Placing, WhileShiftIsHeldADragFollowsTheSurfaces) {
+  session_.select({box_});
+  session_.actions().run(session_, "tool.move");
+  Modifiers shift;
+  shift.shift = true;
+  pressXArrow(shift);
+  dragTo(pixelOf(vec3(2.0f, 0, 1.0f)));
+  release();
+  EXPECT_NEAR(placeOf(box_).x, 2.0f, 0.02f);
+  EXPECT_NEAR(placeOf(box_).y, 0.5f, 1e-3f);
+  EXPECT_NEAR(placeOf(box_).z, 1.0f, 0.02f);
+}
+
+}  // namespace
+}  // namespace lamplighter
