@@ -121,6 +121,16 @@ void Session::setRender(const RenderSettings& settings) {
   history_.run(std::make_unique<EditRender>(document_, settings));
 }
 
+void Session::toggleReference() {
+  RenderSettings settings = document_.render;
+  if (settings.method == "reference") {
+    settings.method = methodBeforeReference_;
+  } else {
+    methodBeforeReference_ = std::exchange(settings.method, "reference");
+  }
+  setRender(settings);
+}
+
 void Session::select(std::vector<NodeId> ids) {
   // Of an id given twice the last one counts.
   document_.selection.clear();

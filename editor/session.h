@@ -91,6 +91,9 @@ class Session {
   const std::vector<Node>& clipboard() const { return clipboard_; }
   void setClipboard(std::vector<Node> nodes) { clipboard_ = std::move(nodes); }
 
+  // The reference, and from it back to the method that was shown before.
+  void toggleReference();
+
   bool quitRequested() const { return quit_; }
   void requestQuit(bool quit = true) { quit_ = quit; }
 
@@ -103,6 +106,9 @@ class Session {
   std::optional<std::filesystem::path> takeScreenshotRequest() {
     return std::exchange(screenshotRequest_, std::nullopt);
   }
+
+  void requestShaders() { shadersRequested_ = true; }
+  bool takeShadersRequest() { return std::exchange(shadersRequested_, false); }
 
   // Where a thing would be put: the surface under the pointer, or ahead of the camera.
   struct Place {
@@ -125,7 +131,8 @@ class Session {
   std::string status_, renderError_;
   uint32_t frame_ = 0;
   uint64_t savedHash_ = 0;
-  bool quit_ = false;
+  bool quit_ = false, shadersRequested_ = false;
+  std::string methodBeforeReference_ = "many_lights";
   std::vector<Node> clipboard_;
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 

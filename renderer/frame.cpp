@@ -31,4 +31,8 @@ GiOutput FrameRenderer::render(const Request& request) {
       {scene_, changes, *rays_, request.view, *backend_, request.settings, frame_++, stopwatch_});
 }
 
+void FrameRenderer::restart() {
+  if (method_) method_->reset();
+}
+
 }  // namespace lamplighter

@@ -24,6 +24,9 @@ class FrameRenderer {
   // One frame. Throws InputError for an unknown method.
   GiOutput render(const Request& request);
 
+  // Forgets what the method keeps: the next picture is made from nothing.
+  void restart();
+
   Backend& backend() { return *backend_; }
   const RenderScene& scene() const { return scene_; }
   const RayCaster* rays() const { return rays_.get(); }  // null before the first frame

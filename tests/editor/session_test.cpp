@@ -252,6 +252,17 @@ TEST_F(SessionTest, WhatDoesNotFitChangesNothingAndSaysSo) {
   EXPECT_FALSE(session_.history().canUndo());
 }
 
+TEST_F(SessionTest, SpaceShowsTheReferenceAndGoesBack) {
+  const Action* action = session_.actions().forKey(Key::space, {});
+  ASSERT_NE(action, nullptr);
+  session_.actions().run(session_, action->name);
+  EXPECT_EQ(session_.document().render.method, "reference");
+  session_.renderFrame();
+  EXPECT_EQ(session_.renderError(), "");
+  session_.actions().run(session_, action->name);
+  EXPECT_EQ(session_.document().render.method, "many_lights");
+}
+
 TEST_F(SessionTest, EveryKeyHasOneAction) {
   std::map<std::string, std::string> takenBy;
   for (const auto& [name, action] : session_.actions().all()) {

@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include "renderer/backends/gl/gl_backend.h"
 #include "renderer/error.h"
 #include "renderer/image/exposure.h"
 #include "renderer/image/image_io.h"
@@ -239,6 +240,18 @@ void Application::answerRequests() {
       session_->setStatus("Wrote " + path->string());
     } catch (const InputError& e) {
       session_->setStatus(e.what());
+    }
+  }
+  if (session_->takeShadersRequest()) {
+    FrameRenderer& renderer = session_->renderer();
+    try {
+      reloadShaders(renderer.backend(), gl::defaultShaderFolder());
+      renderer.restart();
+      session_->setStatus(renderer.backend().info().name == "gl"
+                              ? "Shaders compiled anew"
+                              : "The cpu backend has no shaders");
+    } catch (const gl::ShaderError& e) {
+      session_->setStatus(e.what());  // what was good stays in use
     }
   }
   if (const auto path = session_->takeOpenRequest()) {

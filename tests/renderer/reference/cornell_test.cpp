@@ -6,6 +6,7 @@
 // whose difference the noise is taken off, known from two halves with different seeds.
 #include <cmath>
 #include <filesystem>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -63,6 +64,8 @@ struct Case {
   int samples;   // a pixel, in each half
   double noise;  // of the independent picture, relative to its mean
 };
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.scene << ", " << c.samples; }
 
 class ReferenceCornell : public testing::TestWithParam<Case> {};
 
