@@ -25,7 +25,7 @@ row() {  # row LABEL SCENE BOUNCES ARGUMENTS... : renders and compares
 
 echo "| method | scene | bounces | relRMSE | bias |"
 echo "| --- | --- | --- | --- | --- |"
-for vpls in 256 1024 4096; do
+for vpls in 300 1024 4096; do
   for bounces in 0 1 5; do
     row "many_lights, $vpls light samples" cornell $bounces --method many_lights --vpls "$vpls"
   done

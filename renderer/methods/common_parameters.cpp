@@ -65,7 +65,7 @@ const ParameterSpec& clampDistance() {
       "Clamp distance",
       "m",
       "Light samples nearer than this light as if they were this far: bounds 1/d².",
-      0.2f,
+      0.5f,
       0.0,
       10.0,
       false,
