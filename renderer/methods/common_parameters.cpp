@@ -102,7 +102,7 @@ const ParameterSpec& samplesPerPixel() {
 
 const ParameterSpec& samplesPerFrame() {
   static const ParameterSpec spec{"samples_per_frame",
-                                  "Paths a pixel and frame",
+                                  "Paths a frame",
                                   "",
                                   "Paths traced for each pixel in one frame.",
                                   1,
