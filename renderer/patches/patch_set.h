@@ -1,0 +1,36 @@
+// Patches: the pieces of surface for which it is known, light by light, whether anything can stand
+// between (paper 1, 4.3.1). Rectangles of charts, and boxes around what is in no chart; each a
+// tree.
+#pragma once
+
+#include <vector>
+
+#include "renderer/patches/charts.h"
+
+namespace lamplighter {
+
+struct Patch {
+  int chart = kNone;          // of the object's charts; kNone: a cluster of triangles, with a box
+  vec2 min{0.0f}, max{0.0f};  // chart: its rectangle, in the chart's frame
+  Bounds box;                 // cluster: world space
+  int firstChild = kNone;     // its two children stand one after the other
+  int axis = 0;               // chart: 0: split across tangent, 1: across bitangent, in the middle
+  bool isLeaf() const { return firstChild == kNone; }
+};
+
+// The charts and patches of one object. Made from its triangles alone, so that they do not tell
+// where it was before.
+struct ObjectPatches {
+  std::vector<Chart> charts;
+  std::vector<Patch> patches;        // children after their parents
+  std::vector<int> roots;            // into patches
+  std::vector<int> patchOfTriangle;  // the root of its chart, or the leaf of its cluster
+
+  // The leaf that a point of a triangle of the object lies in.
+  int leafAt(uint32_t triangle, const vec3& position) const;
+};
+
+// Rectangles are halved six times at most, and only where both halves are at least 0.4 m long.
+ObjectPatches makePatches(const RenderScene& scene, uint32_t object);
+
+}  // namespace lamplighter
