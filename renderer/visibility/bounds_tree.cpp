@@ -1,0 +1,45 @@
+#include "renderer/visibility/bounds_tree.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr uint32_t kLeafBoxes = 4;
+
+}  // namespace
+
+BoundsTree::BoundsTree(std::span<const Bounds> boxes) {
+  if (boxes.empty()) return;
+  order_.resize(boxes.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  nodes_.reserve(boxes.size());
+  nodes_.push_back({{}, 0, static_cast<uint32_t>(boxes.size())});
+  split(0, boxes);
+}
+
+// By the median of the middles along the longest side: depth is logarithmic, so the stack holds.
+void BoundsTree::split(uint32_t index, std::span<const Bounds> boxes) {
+  const uint32_t first = nodes_[index].first, count = nodes_[index].count;
+  Bounds all, middles;
+  for (uint32_t i = first; i < first + count; ++i) {
+    all.add(boxes[order_[i]]);
+    middles.add(boxes[order_[i]].centre());
+  }
+  nodes_[index].bounds = all;
+  const vec3 size = middles.extent();
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  if (count <= kLeafBoxes) return;
+  const auto begin = order_.begin() + first, middle = begin + count / 2;
+  std::nth_element(begin, middle, begin + count, [&](uint32_t a, uint32_t b) {
+    const float ca = boxes[a].centre()[axis], cb = boxes[b].centre()[axis];
+    return ca != cb ? ca < cb : a < b;
+  });
+  const auto children = static_cast<uint32_t>(nodes_.size());
+  nodes_[index].first = children;
+  nodes_[index].count = 0;
+  nodes_.push_back({{}, first, count / 2});
+  nodes_.push_back({{}, first + count / 2, count - count / 2});
+  split(children, boxes);
+  split(children + 1, boxes);
+}
+
+}  // namespace lamplighter

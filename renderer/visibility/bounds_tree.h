@@ -1,0 +1,52 @@
+// A binary tree over boxes, for pyramids to search: what is near the pyramid costs, not the scene.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "renderer/math.h"
+
+namespace lamplighter {
+
+class BoundsTree {
+ public:
+  BoundsTree() = default;
+  explicit BoundsTree(std::span<const Bounds> boxes);
+
+  // Calls take(i) for each box i in a subtree that enter(bounds) does not refuse; stops when take
+  // returns false. Returns whether it went through.
+  template <typename Enter, typename Take>
+  bool visit(const Enter& enter, const Take& take) const {
+    if (nodes_.empty()) return true;
+    uint32_t stack[64];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+      const Node& node = nodes_[stack[--top]];
+      if (!enter(node.bounds)) continue;
+      if (node.count > 0) {
+        for (uint32_t i = node.first; i < node.first + node.count; ++i)
+          if (!take(order_[i])) return false;
+      } else {
+        stack[top++] = node.first + 1;
+        stack[top++] = node.first;
+      }
+    }
+    return true;
+  }
+
+ private:
+  struct Node {
+    Bounds bounds;
+    uint32_t first = 0, count = 0;  // leaf: into order_; else count 0 and the first of two children
+  };
+  void split(uint32_t node, std::span<const Bounds> boxes);
+
+  std::vector<Node> nodes_;
+  std::vector<uint32_t> order_;
+};
+
+}  // namespace lamplighter

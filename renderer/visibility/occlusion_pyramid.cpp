@@ -1,0 +1,160 @@
+#include "renderer/visibility/occlusion_pyramid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/raycast/ray_caster.h"
+
+namespace lamplighter {
+namespace {
+
+// A triangle clipped by each plane gains a corner at most.
+constexpr size_t kMostCorners = 3 + 20;
+
+// The pairs of a box's corners that its edges join.
+constexpr int kBoxEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
+                                  {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+
+}  // namespace
+
+PatchRegion::PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
+                         const Patch& patch) {
+  if (patch.chart == kNone) {
+    count = 8;
+    for (int i = 0; i < 8; ++i) {
+      for (int c = 0; c < 3; ++c)
+        corners[static_cast<size_t>(i)][c] =
+            ((i >> c) & 1) != 0 ? patch.box.max[c] : patch.box.min[c];
+    }
+    return;
+  }
+  const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
+  count = 4;
+  corners = {chart.at(patch.min), chart.at({patch.max.x, patch.min.y}), chart.at(patch.max),
+             chart.at({patch.min.x, patch.max.y})};
+  normal = chart.normal;
+  thickness = chart.thickness;
+  frontOnly = scene.backIsUnseen(object);
+}
+
+OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& region)
+    : parallel_(vpl.position.w == shared::kVplDirectional),
+      apex_(vpl.position),
+      towards_(vpl.normal),
+      region_(region) {
+  margin_ = parallel_ ? 0.0f : rayEpsilon(apex_);
+  for (const vec3& c : region_.points()) margin_ = std::max(margin_, rayEpsilon(c));
+  const float slab = region_.thickness + margin_;
+
+  // Only the half-space over the light's own plane gets light; what lies in that plane, the surface
+  // that the light is on before all, is not between.
+  if (!parallel_) {
+    const auto height = [&](const vec3& p) { return glm::dot(p - apex_, towards_); };
+    dark_ = std::all_of(region_.points().begin(), region_.points().end(),
+                        [&](const vec3& c) { return height(c) <= -slab; });
+    if (dark_) return;
+    add(towards_, apex_, -margin_);
+  }
+
+  if (region_.count == 4) {
+    const vec3 middle = 0.5f * (region_.corners[0] + region_.corners[2]);
+    const float height =
+        parallel_ ? glm::dot(towards_, region_.normal) : glm::dot(apex_ - middle, region_.normal);
+    dark_ = region_.frontOnly && height <= (parallel_ ? -1e-4f : -4.0f * slab);
+    if (dark_) return;
+    degenerate_ = std::abs(height) <= (parallel_ ? 1e-4f : 4.0f * slab);
+    if (degenerate_) return;
+    // What lies in the plane of the patch, itself before all, is not between.
+    add(height > 0.0f ? region_.normal : -region_.normal, middle, -slab);
+    for (int i = 0; i < 4; ++i)
+      addSide(region_.corners[static_cast<size_t>(i)],
+              region_.corners[static_cast<size_t>((i + 1) % 4)]);
+    return;
+  }
+  const vec3 &low = region_.corners[0], &high = region_.corners[7];
+  bool inside = !parallel_;
+  for (int c = 0; c < 3; ++c) {
+    vec3 n(0.0f);
+    n[c] = 1.0f;
+    if (parallel_ ? towards_[c] >= 0.0f : apex_[c] >= low[c]) add(n, low, 3.0f * margin_);
+    if (parallel_ ? towards_[c] <= 0.0f : apex_[c] <= high[c]) add(-n, high, 3.0f * margin_);
+    inside = inside && apex_[c] >= low[c] - margin_ && apex_[c] <= high[c] + margin_;
+  }
+  degenerate_ = inside;
+  if (degenerate_) return;
+  for (const auto& e : kBoxEdges)
+    addSide(region_.corners[static_cast<size_t>(e[0])], region_.corners[static_cast<size_t>(e[1])]);
+}
+
+void OcclusionPyramid::add(const vec3& normal, const vec3& on, float margin) {
+  if (count_ == static_cast<int>(planes_.size())) return;  // fewer planes: larger, conservative
+  planes_[static_cast<size_t>(count_++)] = {normal, margin - glm::dot(normal, on)};
+}
+
+// The plane through the light and an edge, if all of the patch is on one side of it.
+void OcclusionPyramid::addSide(const vec3& a, const vec3& b) {
+  vec3 n = glm::cross(parallel_ ? towards_ : a - apex_, b - a);
+  const float length = glm::length(n);
+  if (length <= 0.0f) return;
+  n /= length;
+  float least = 0.0f, most = 0.0f;
+  for (const vec3& c : region_.points()) {
+    const float d = glm::dot(n, c - a);
+    least = std::min(least, d);
+    most = std::max(most, d);
+  }
+  if (least < -margin_ && most > margin_) return;
+  // Rays begin and end a little off both surfaces, and so a little out of the exact pyramid.
+  add(most > margin_ ? n : -n, a, 3.0f * (region_.thickness + margin_));
+}
+
+bool OcclusionPyramid::mayMeet(const Bounds& box) const {
+  const vec3 centre = box.centre(), half = 0.5f * box.extent();
+  for (int i = 0; i < count_; ++i) {
+    const Plane& p = planes_[static_cast<size_t>(i)];
+    if (glm::dot(p.normal, centre) + p.offset + glm::dot(glm::abs(p.normal), half) < 0.0f)
+      return false;
+  }
+  return true;
+}
+
+bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const {
+  std::array<vec3, kMostCorners> corners{a, b, c}, clipped;
+  size_t count = 3;
+  for (int i = 0; i < count_; ++i) {
+    const Plane& p = planes_[static_cast<size_t>(i)];
+    size_t kept = 0;
+    for (size_t k = 0; k < count; ++k) {
+      const vec3 &from = corners[k], &to = corners[(k + 1) % count];
+      const float df = glm::dot(p.normal, from) + p.offset, dt = glm::dot(p.normal, to) + p.offset;
+      if (df >= 0.0f) clipped[kept++] = from;
+      if ((df >= 0.0f) != (dt >= 0.0f)) clipped[kept++] = from + (df / (df - dt)) * (to - from);
+      if (kept + 2 > kMostCorners) return true;
+    }
+    if (kept == 0) return false;
+    corners = clipped;
+    count = kept;
+  }
+  return true;
+}
+
+bool OcclusionPyramid::isCutBy(std::span<const vec3> polygon, const vec3& n) const {
+  const vec3& on = polygon[0];
+  const float inset = 8.0f * margin_ + region_.thickness;
+  const float lightSide = parallel_ ? glm::dot(n, towards_) : glm::dot(n, apex_ - on);
+  if (std::abs(lightSide) <= (parallel_ ? 1e-4f : inset)) return false;
+  for (const vec3& corner : region_.points()) {
+    const float side = glm::dot(n, corner - on);
+    if (side * lightSide >= 0.0f || std::abs(side) <= inset) return false;
+    const vec3 across = parallel_ ? corner - (side / lightSide) * towards_
+                                  : apex_ + (lightSide / (lightSide - side)) * (corner - apex_);
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const vec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
+      if (glm::dot(glm::cross(n, edge), across - polygon[i]) < inset * glm::length(edge))
+        return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace lamplighter

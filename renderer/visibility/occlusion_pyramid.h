@@ -1,0 +1,66 @@
+// The occlusion pyramid (paper 1, 4.3.1, figure 4-5): all segments from a light to the points of a
+// patch. What does not meet it cannot cast a shadow of that light on the patch. A parallel light's
+// is a prism without end; the patch is a rectangle or a box.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "renderer/patches/patch_set.h"
+#include "shaders/shared/vpl.h"
+
+namespace lamplighter {
+
+// State of a light on a patch. Conservative: partial when unsure.
+enum class Occlusion : uint8_t {
+  none,     // nothing stands between the light and any point of the patch
+  partial,  // something may
+  full      // no point that is seen gets light of it: it is hidden, or one is behind the other
+};
+
+// A patch in the world: the corners of its convex hull.
+struct PatchRegion {
+  std::array<vec3, 8> corners{};
+  int count = 0;           // 4: a rectangle, in order; 8: a box, bit c of the index chooses max[c]
+  vec3 normal{0.0f};       // rectangle: unit
+  float thickness = 0.0f;  // rectangle: the surface is within this of it [m]
+  bool frontOnly = false;  // rectangle: its back is never seen
+
+  PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
+              const Patch& patch);
+  std::span<const vec3> points() const { return {corners.data(), static_cast<size_t>(count)}; }
+};
+
+class OcclusionPyramid {
+ public:
+  OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& region);
+
+  // No point of the patch is on the lit side of the light, or the light is behind all that is seen.
+  bool isDark() const { return dark_; }
+  // The light is so near the patch or its plane that nothing can be said.
+  bool isDegenerate() const { return degenerate_; }
+
+  // Whether it may be met; exact for triangles but for a margin of rounding.
+  bool mayMeet(const Bounds& box) const;
+  bool meets(const vec3& a, const vec3& b, const vec3& c) const;
+  // Whether a convex polygon with unit normal n stands wholly across it, between light and patch.
+  bool isCutBy(std::span<const vec3> polygon, const vec3& n) const;
+
+ private:
+  struct Plane {
+    vec3 normal;   // unit, inwards
+    float offset;  // inside: dot(normal, x) + offset >= 0
+  };
+  void addSide(const vec3& a, const vec3& b);
+  void add(const vec3& normal, const vec3& on, float margin);
+
+  bool parallel_ = false, dark_ = false, degenerate_ = false;
+  vec3 apex_{0.0f};      // a parallel light: unused
+  vec3 towards_{0.0f};   // the light's axis; a parallel light: unit, towards the light
+  float margin_ = 0.0f;  // what rounding may make of a place here [m]
+  PatchRegion region_;
+  std::array<Plane, 20> planes_{};
+  int count_ = 0;
+};
+
+}  // namespace lamplighter

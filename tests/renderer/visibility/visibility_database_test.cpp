@@ -1,0 +1,220 @@
+// The visibility database against rays: none and full are never wrong. And against one built from
+// nothing: edits leave no trace.
+#include "renderer/visibility/visibility_database.h"
+
+#include <filesystem>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/random_boxes.h"
+#include "tests/support/scenes.h"
+#include "tests/support/shared_files.h"
+
+namespace lamplighter {
+namespace {
+
+struct World {
+  RenderScene scene;
+  std::unique_ptr<RayCaster> rays;
+  std::vector<shared::Vpl> lights;
+
+  explicit World(const Scene& from, int vpls = 60) {
+    update(scene, from, SceneChanges::all());
+    rays = std::make_unique<RayCaster>(scene);
+    for (const SceneVpl& v : generateVpls(scene, *rays, LightSet(scene), {vpls, 0.5f, 2, 1}).vpls)
+      lights.push_back(v.vpl);
+  }
+};
+
+// Whether light gets from the VPL to a point of the patch's rectangle or box. Both ends stand off
+// by what the database takes for the surfaces themselves.
+bool reaches(const World& w, const shared::Vpl& vpl, const PatchRegion& region, vec3 point) {
+  const bool parallel = vpl.position.w == shared::kVplDirectional;
+  const vec3 axis(vpl.normal), apex(vpl.position);
+  float margin = rayEpsilon(point);
+  if (!parallel) margin = std::max(margin, rayEpsilon(apex));
+  for (const vec3& c : region.points()) margin = std::max(margin, rayEpsilon(c));
+  const vec3 rough = parallel ? axis : apex - point;
+  if (region.count == 4) {
+    const float side = glm::dot(rough, region.normal) < 0.0f ? -1.0f : 1.0f;
+    point += side * 2.0f * (region.thickness + margin) * region.normal;
+  }
+  if (parallel) return !w.rays->occluded({point, 0.0f, axis});
+  const vec3 end = apex + 2.0f * margin * axis;
+  if (glm::dot(point - end, axis) <= 0.0f) return false;
+  return !w.rays->occluded({point, 0.0f, end - point, 1.0f});
+}
+
+vec3 pointOf(const PatchRegion& region, uint32_t i, uint32_t seed) {
+  const vec2 u = sobol2(i, seed), v = sobol2(i, seed + 77);
+  if (region.count == 4)
+    return region.corners[0] + u.x * (region.corners[1] - region.corners[0]) +
+           u.y * (region.corners[3] - region.corners[0]);
+  return region.corners[0] + (region.corners[7] - region.corners[0]) * vec3(u, v.x);
+}
+
+struct Misses {
+  int none = 0, full = 0;        // rays that say otherwise
+  int entries = 0, partial = 0;  // leaves × lights
+  int needless = 0;              // partial, and all rays agree
+};
+
+Misses compareWithRays(const World& w, const VisibilityDatabase& database, uint32_t raysEach,
+                       int every = 1) {
+  Misses m;
+  uint32_t seed = 0;
+  for (uint32_t object = 0; object < database.objects(); ++object) {
+    const ObjectPatches& patches = database.patches(object);
+    for (size_t p = 0; p < patches.patches.size(); ++p) {
+      if (!patches.patches[p].isLeaf()) continue;
+      const PatchRegion region(w.scene, object, patches, patches.patches[p]);
+      for (size_t slot = 0; slot < w.lights.size(); ++slot) {
+        if (++seed % static_cast<uint32_t>(every) != 0) continue;
+        const Occlusion state = database.state(object, static_cast<int>(p), static_cast<int>(slot));
+        uint32_t lit = 0;
+        for (uint32_t i = 0; i < raysEach; ++i)
+          lit += reaches(w, w.lights[slot], region, pointOf(region, i, seed)) ? 1 : 0;
+        const vec3 apex(w.lights[slot].position), axis(w.lights[slot].normal);
+        ++m.entries;
+        m.partial += state == Occlusion::partial;
+        m.needless += state == Occlusion::partial && (lit == 0 || lit == raysEach);
+        // Light on a back that nobody sees does not count.
+        const vec3 rough =
+            w.lights[slot].position.w == shared::kVplDirectional ? axis : apex - region.corners[0];
+        const bool unseen = region.frontOnly && glm::dot(rough, region.normal) <= 0.0f;
+        m.full += state == Occlusion::full && lit > 0 && !unseen;
+        if (state != Occlusion::none) continue;
+        // Points behind the light's own plane are dark without anything between.
+        uint32_t behind = 0;
+        if (w.lights[slot].position.w != shared::kVplDirectional) {
+          for (uint32_t i = 0; i < raysEach; ++i)
+            behind += glm::dot(pointOf(region, i, seed) - apex, axis) <= 1e-3f ? 1 : 0;
+        }
+        m.none += lit + behind < raysEach;
+      }
+    }
+  }
+  return m;
+}
+
+void expectNoMiss(const Scene& scene, uint32_t raysEach, int every = 1, int vpls = 60) {
+  const World w(scene, vpls);
+  VisibilityDatabase database;
+  RenderSceneChanges all;
+  all.rebuilt = true;
+  database.setScene(w.scene, all);
+  database.setLights(w.scene, w.lights);
+  const Misses m = compareWithRays(w, database, raysEach, every);
+  EXPECT_EQ(m.none, 0) << "of " << m.entries;
+  EXPECT_EQ(m.full, 0) << "of " << m.entries;
+  EXPECT_GT(m.entries, 0);
+  ::testing::Test::RecordProperty("partialPercent", 100 * m.partial / m.entries);
+  ::testing::Test::RecordProperty("needlessPercent", 100 * m.needless / m.entries);
+}
+
+class RandomBoxes : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(RandomBoxes, NoRaySaysOtherwise) {
+  Scene scene = test::randomBoxes(20, GetParam());
+  test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12.0f));
+  expectNoMiss(scene, 64);
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomBoxes, testing::Range(1u, 7u));
+
+class OwnScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(OwnScene, NoRaySaysOtherwise) {
+  expectNoMiss(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
+                        (std::string(GetParam()) + ".gltf"))
+                   .scene,
+               64, 3);
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, OwnScene,
+                         testing::Values("default", "area_light_room", "table_room", "pillar_room",
+                                         "cornell_style"));
+
+class SharedLevel : public testing::TestWithParam<const char*> {};
+
+TEST_P(SharedLevel, NoRaySaysOtherwise) {
+  const std::filesystem::path path = test::sharedScenes() / GetParam();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+  expectNoMiss(loadGltf(path).scene, 32, 101, 20);
+}
+INSTANTIATE_TEST_SUITE_P(Levels, SharedLevel,
+                         testing::Values("modern-hall/modern-hall.glb", "zdm2-map/zdm2.glb",
+                                         "kenney-fps-level/kenney-fps-level.gltf"));
+
+// The same states as a database that never saw anything else.
+void expectSame(const VisibilityDatabase& a, const VisibilityDatabase& b) {
+  ASSERT_EQ(a.objects(), b.objects());
+  for (uint32_t object = 0; object < a.objects(); ++object) {
+    ASSERT_EQ(a.patches(object).patches.size(), b.patches(object).patches.size());
+    for (size_t p = 0; p < a.patches(object).patches.size(); ++p) {
+      const auto ra = a.row(object, static_cast<int>(p)), rb = b.row(object, static_cast<int>(p));
+      for (size_t i = 0; i < ra.size(); ++i)
+        ASSERT_EQ(ra[i], rb[i]) << "object " << object << " patch " << p << " slot " << i
+                                << " leaf " << a.patches(object).patches[p].isLeaf();
+    }
+  }
+}
+
+TEST(VisibilityDatabase, AfterAnyEditsIsTheOneBuiltFromNothing) {
+  Scene scene = test::randomBoxes(16, 5);
+  test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12.0f));
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> u(-1.0f, 1.0f);
+
+  RenderScene render;
+  VisibilityDatabase kept;
+  kept.setScene(render, update(render, scene, SceneChanges::all()));
+  kept.setLights(render, World(scene).lights);
+  for (int step = 0; step < 12; ++step) {
+    Scene edited = scene;
+    for (int k = 0; k <= step % 3; ++k) {
+      Node& node = edited.nodes[random() % edited.nodes.size()];
+      switch (random() % 4) {
+        case 0:
+        case 1:
+          node.local.translation += vec3(u(random), 0.5f * u(random), u(random));
+          break;
+        case 2:
+          node.visible = !node.visible;
+          break;
+        default:
+          node.local.scale *= 1.0f + 0.4f * u(random);
+      }
+    }
+    kept.setScene(render, update(render, edited, compare(scene, edited)));
+    const World now(edited);
+    kept.setLights(render, now.lights);
+    scene = edited;
+
+    VisibilityDatabase fresh;
+    RenderSceneChanges all;
+    all.rebuilt = true;
+    fresh.setScene(now.scene, all);
+    fresh.setLights(now.scene, now.lights);
+    expectSame(kept, fresh);
+  }
+}
+
+TEST(VisibilityDatabase, AMovedObjectCostsFewTests) {
+  Scene scene = test::randomBoxes(40, 3);
+  test::addRectangleLight(scene, vec3(0, 3.9f, 0), vec2(1.0f), vec3(12.0f));
+  RenderScene render;
+  VisibilityDatabase database;
+  database.setScene(render, update(render, scene, SceneChanges::all()));
+  database.setLights(render, World(scene).lights);
+  const uint64_t built = database.tests();
+  Scene moved = scene;
+  moved.nodes[10].local.translation.x += 0.1f;
+  database.setScene(render, update(render, moved, compare(scene, moved)));
+  EXPECT_LT(database.tests() - built, built / 4);
+}
+
+}  // namespace
+}  // namespace lamplighter
