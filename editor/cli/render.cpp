@@ -61,7 +61,7 @@ Settings settingsOf(const RenderOptions& o, const MethodInfo& method) {
 
 struct Totals {
   int frames = 0;
-  uint64_t raysOfMethod = 0;
+  uint64_t raysOfMethod = 0, visibilityTests = 0;
   std::map<std::string, double> stageSeconds;
   double loadSeconds = 0.0, renderSeconds = 0.0;
 };
@@ -111,6 +111,8 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   j["samples_per_pixel"] = out.stats.samplesPerPixel;
   j["shadow_maps"] = counts.shadowMaps;
   j["light_pixels"] = counts.lightPixels;
+  j["map_look_ups"] = counts.lookUps;
+  j["visibility_tests"] = t.visibilityTests;
   j["rays"] = counts.rays + t.raysOfMethod;
   j["memory_bytes"] = counts.memoryBytes;  // of the backend: maps, G-buffer, copies of the scene
   j["peak_memory_bytes"] = peakMemoryBytes();  // of the whole process
@@ -157,6 +159,7 @@ int render(const RenderOptions& o, const Frontend& frontend) {
     changes = SceneChanges();
     ++totals.frames;
     totals.raysOfMethod += out.stats.raysTraced;
+    totals.visibilityTests += out.stats.visibilityTests;
     for (const auto& [stage, seconds] : out.stats.stageSeconds)
       totals.stageSeconds[stage] += seconds;
     progress.show(fmt::format("{}: frame {}, {} light samples pending, {} samples a pixel",

@@ -16,6 +16,8 @@
 
 namespace lamplighter {
 
+class VisibilityDatabase;
+
 // A frame's picture, wherever it lies. A GL backend keeps it in a texture and reads it back once,
 // on the first call of pixels().
 class RadianceImage {
@@ -48,6 +50,7 @@ struct KernelCounts {
   uint64_t shadowMaps = 0;   // maps rendered
   uint64_t rays = 0;         // traced by the backend (cpu)
   uint64_t lightPixels = 0;  // VPL × pixel sums
+  uint64_t lookUps = 0;      // of those, with a look-up in a shadow map (cpu; in packets of pixels)
   uint64_t memoryBytes = 0;  // held now: maps, G-buffer, scene copies
 };
 
@@ -75,7 +78,10 @@ class Backend {
   virtual void renderGBuffer(const View& view, vec2 jitter) = 0;
 
   // E at each G-buffer pixel: the sum over the VPLs, with shadows, into the irradiance image.
-  virtual void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params) = 0;
+  // `visibility`, if any, knows the VPLs by their slots and spares look-ups (paper 1, 4.3.1): where
+  // nothing can stand between, and all of a light where it is hidden. A backend may do without.
+  virtual void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
+                       const VisibilityDatabase* visibility) = 0;
 
   // Le + ρ/π · E, and the sky where nothing was hit.
   virtual std::shared_ptr<RadianceImage> compose() = 0;

@@ -32,12 +32,13 @@ struct FrameInputs {
 };
 
 struct GiStats {
-  int vpls = 0;             // shown
-  int vplsPending = 0;      // not yet what the scene asks for
-  int mapsPending = 0;      // of them, those whose map must be rendered
-  int oldestFrames = 0;     // frames the oldest pending one has waited
-  int mapsRendered = 0;     // this frame
-  uint64_t raysTraced = 0;  // this frame, by the method itself
+  int vpls = 0;                  // shown
+  int vplsPending = 0;           // not yet what the scene asks for
+  int mapsPending = 0;           // of them, those whose map must be rendered
+  int oldestFrames = 0;          // frames the oldest pending one has waited
+  int mapsRendered = 0;          // this frame
+  uint64_t raysTraced = 0;       // this frame, by the method itself
+  uint64_t visibilityTests = 0;  // this frame: occlusion pyramids against the scene
   int samplesPerPixel = 0;
   std::map<std::string, double> stageSeconds;  // by stage name
 };

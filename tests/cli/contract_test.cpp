@@ -225,13 +225,15 @@ TEST_F(CommandLine, PngIsTheToneMappedExr) {
 }
 
 TEST_F(CommandLine, StatisticsNameWhatTheContractNames) {
-  ASSERT_EQ(runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "24x16", "--backend",
-                            "cpu", "--vpls", "16", "--stats", file("s.json")})
-                .code,
-            0);
+  ASSERT_EQ(
+      runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "24x16", "--backend", "cpu",
+                      "--vpls", "16", "--set", "technique=visibility", "--stats", file("s.json")})
+          .code,
+      0);
   const json j = json::parse(text("s.json"));
-  for (const char* key : {"vpls", "shadow_maps", "rays", "light_pixels", "memory_bytes",
-                          "peak_memory_bytes", "frames", "width", "height"}) {
+  for (const char* key :
+       {"vpls", "shadow_maps", "rays", "light_pixels", "map_look_ups", "visibility_tests",
+        "memory_bytes", "peak_memory_bytes", "frames", "width", "height"}) {
     EXPECT_GT(j[key].get<double>(), 0.0) << key;
   }
   for (const char* stage : {"shadow maps", "light sums", "g-buffer"})

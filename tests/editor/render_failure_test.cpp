@@ -24,8 +24,9 @@ class SmallBackend final : public Backend {
   void renderGBuffer(const View& view, vec2 jitter) override {
     inner_->renderGBuffer(view, jitter);
   }
-  void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params) override {
-    inner_->sumVpls(vpls, params);
+  void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
+               const VisibilityDatabase* visibility) override {
+    inner_->sumVpls(vpls, params, visibility);
   }
   std::shared_ptr<RadianceImage> compose() override { return inner_->compose(); }
   std::vector<float> readShadowMap(int slot) override { return inner_->readShadowMap(slot); }

@@ -20,7 +20,7 @@ Image LitScene::sum(std::vector<shared::Vpl> vpls, const View& view, int resolut
   }
   if (shadows) backend->renderShadowMaps(vpls);
   backend->renderGBuffer(view, vec2(0.0f));
-  backend->sumVpls(vpls, {vec4(clampDistance, bias, resolution, vpls.size())});
+  backend->sumVpls(vpls, {vec4(clampDistance, bias, resolution, vpls.size())}, nullptr);
   return backend->compose()->pixels();
 }
 

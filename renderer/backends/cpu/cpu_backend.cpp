@@ -1,6 +1,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 
 #include <algorithm>
+#include <atomic>
 #include <new>
 
 #include <tbb/parallel_for.h>
@@ -72,7 +73,8 @@ class CpuBackend final : public Backend {
     }
   }
 
-  void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params) override {
+  void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
+               const VisibilityDatabase* visibility) override {
     std::vector<cpu::LightRecord> lights;
     lights.reserve(vpls.size());
     for (const shared::Vpl& vpl : vpls) {
@@ -80,9 +82,11 @@ class CpuBackend final : public Backend {
     }
     const float d0 = params.clampAndBias.x;
     const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_};
+    std::atomic<uint64_t> lookUps = 0;
     tbb::parallel_for(0, gbuffer_.tiles(), [&](int tile) {
-      cpu::sumTile(gbuffer_, tile, lights, constants, irradiance_);
+      lookUps += cpu::sumTile(gbuffer_, tile, lights, constants, visibility, irradiance_);
     });
+    counts_.lookUps += lookUps;
     counts_.lightPixels += vpls.size() * static_cast<uint64_t>(gbuffer_.width) * gbuffer_.height;
   }
 

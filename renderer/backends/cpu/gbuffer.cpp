@@ -18,9 +18,11 @@ void GBuffer::resize(int w, int h) {
   albedo.assign(n, vec3(0.0f));
   emission.assign(n, vec3(0.0f));
   hit.assign(n, 0);
+  object.assign(n, 0);
+  triangle.assign(n, 0);
 }
 
-size_t GBuffer::bytes() const { return px.size() * (9 * sizeof(float) + 2 * sizeof(vec3) + 1); }
+size_t GBuffer::bytes() const { return px.size() * (9 * sizeof(float) + 2 * sizeof(vec3) + 9); }
 
 namespace {
 
@@ -31,6 +33,8 @@ void store(GBuffer& out, size_t i, const RenderScene& scene, const Hit& hit,
     for (auto* v : {&out.sx, &out.sy, &out.sz, &out.gx, &out.gy, &out.gz}) (*v)[i] = 0.0f;
     return;
   }
+  out.object[i] = hit.object;
+  out.triangle[i] = hit.triangle;
   const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
   const bool front = glm::dot(direction, s.geometricNormal) < 0.0f;
   const float side = front ? 1.0f : -1.0f;

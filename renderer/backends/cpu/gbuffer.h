@@ -30,6 +30,7 @@ struct GBuffer {
   std::vector<vec3> albedo;
   std::vector<vec3> emission;  // towards the eye [W/(m² sr)]
   std::vector<uint8_t> hit;
+  std::vector<uint32_t> object, triangle;  // where something was hit
 
   void resize(int w, int h);
   int tiles() const { return tilesX * tilesY; }

@@ -4,8 +4,11 @@
 #include "renderer/backends/cpu/sum_vpls.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <hwy/highway.h>
+
+#include "renderer/visibility/visibility_database.h"
 
 // shaders/shared/vpl_shading.h is the definition, with the reasons; this is the same, eight points
 // at a time, with multiply-adds fused where written so.
@@ -182,6 +185,62 @@ void addLight(const GBuffer& g, std::span<const size_t> packets, const LightReco
   }
 }
 
+void addLight(const GBuffer& gbuffer, std::span<const size_t> packets, const LightRecord& light,
+              const SumConstants& constants, Irradiance& out) {
+  switch (light.kind) {
+    case LightRecord::Kind::cosine:
+      return addLight<LightRecord::Kind::cosine>(gbuffer, packets, light, constants, out);
+    case LightRecord::Kind::uniform:
+      return addLight<LightRecord::Kind::uniform>(gbuffer, packets, light, constants, out);
+    case LightRecord::Kind::directional:
+      return addLight<LightRecord::Kind::directional>(gbuffer, packets, light, constants, out);
+  }
+}
+
+// What the visibility database says of each packet of a tile and each light: of the patches under
+// its pixels, partial where they differ. Few kinds of packets are in a tile; each has a row.
+class TileStates {
+ public:
+  TileStates(const GBuffer& g, std::span<const size_t> packets, std::span<const LightRecord> lights,
+             const VisibilityDatabase& visibility) {
+    kinds_.reserve(packets.size());
+    std::vector<std::vector<Patch>> known;
+    for (const size_t first : packets) {
+      std::vector<Patch> patches;
+      for (size_t i = first; i < first + kLanes; ++i) {
+        if (g.hit[i] == 0) continue;
+        const vec3 p(g.px[i], g.py[i], g.pz[i]);
+        const Patch patch{g.object[i], visibility.patches(g.object[i]).leafAt(g.triangle[i], p)};
+        if (std::find(patches.begin(), patches.end(), patch) == patches.end())
+          patches.push_back(patch);
+      }
+      std::sort(patches.begin(), patches.end());
+      const auto it = std::find(known.begin(), known.end(), patches);
+      kinds_.push_back(static_cast<size_t>(it - known.begin()));
+      if (it == known.end()) known.push_back(std::move(patches));
+    }
+    rows_.resize(known.size());
+    for (size_t kind = 0; kind < known.size(); ++kind) {
+      for (const LightRecord& light : lights) {
+        Occlusion state = stateOf(visibility, known[kind][0], light.slot);
+        for (const Patch& patch : known[kind])
+          if (stateOf(visibility, patch, light.slot) != state) state = Occlusion::partial;
+        rows_[kind].push_back(state);
+      }
+    }
+  }
+  Occlusion of(size_t packet, size_t light) const { return rows_[kinds_[packet]][light]; }
+
+ private:
+  using Patch = std::pair<uint32_t, int>;  // object, leaf
+  static Occlusion stateOf(const VisibilityDatabase& v, const Patch& p, int slot) {
+    return slot < 0 ? Occlusion::none : v.state(p.first, p.second, slot);
+  }
+
+  std::vector<size_t> kinds_;                 // by packet
+  std::vector<std::vector<Occlusion>> rows_;  // by kind, then light
+};
+
 }  // namespace
 
 LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
@@ -190,6 +249,7 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
                : vpl.position.w == shared::kVplUniform ? LightRecord::Kind::uniform
                                                        : LightRecord::Kind::directional;
   light.map = map;
+  light.slot = static_cast<int>(vpl.intensity.w);
   light.position = vec3(vpl.position);
   light.normal = vec3(vpl.normal);
   light.tangent = vec3(vpl.tangent);
@@ -200,8 +260,9 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
   return light;
 }
 
-void sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
-             const SumConstants& constants, Irradiance& out) {
+uint64_t sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
+                 const SumConstants& constants, const VisibilityDatabase* visibility,
+                 Irradiance& out) {
   static_assert(hn::MaxLanes(kTag) == kLanes);
   const size_t first = static_cast<size_t>(tile) * kTilePixels;
   std::fill_n(&out.r[first], kTilePixels, 0.0f);
@@ -216,21 +277,29 @@ void sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> ligh
     for (int lane = 0; lane < kLanes; ++lane) any = any || gbuffer.hit[i + lane] != 0;
     if (any) packets[count++] = i;
   }
-  if (count == 0) return;
+  if (count == 0) return 0;
   const std::span<const size_t> active(packets, count);
-  for (const LightRecord& light : lights) {
-    switch (light.kind) {
-      case LightRecord::Kind::cosine:
-        addLight<LightRecord::Kind::cosine>(gbuffer, active, light, constants, out);
-        break;
-      case LightRecord::Kind::uniform:
-        addLight<LightRecord::Kind::uniform>(gbuffer, active, light, constants, out);
-        break;
-      case LightRecord::Kind::directional:
-        addLight<LightRecord::Kind::directional>(gbuffer, active, light, constants, out);
-        break;
-    }
+  if (visibility == nullptr) {
+    for (const LightRecord& light : lights) addLight(gbuffer, active, light, constants, out);
+    return lights.size() * count * kLanes;
   }
+  const TileStates states(gbuffer, active, lights, *visibility);
+  uint64_t lookUps = 0;
+  size_t open[kPacketsPerTile], shadowed[kPacketsPerTile];
+  for (size_t k = 0; k < lights.size(); ++k) {
+    size_t opens = 0, shadoweds = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const Occlusion state = states.of(i, k);
+      if (state == Occlusion::none) open[opens++] = packets[i];
+      if (state == Occlusion::partial) shadowed[shadoweds++] = packets[i];
+    }
+    LightRecord light = lights[k];
+    if (shadoweds > 0) addLight(gbuffer, {shadowed, shadoweds}, light, constants, out);
+    light.map = nullptr;
+    if (opens > 0) addLight(gbuffer, {open, opens}, light, constants, out);
+    lookUps += shadoweds * kLanes;
+  }
+  return lookUps;
 }
 
 }  // namespace lamplighter::cpu

@@ -7,6 +7,10 @@
 #include "renderer/backends/cpu/gbuffer.h"
 #include "shaders/shared/vpl.h"
 
+namespace lamplighter {
+class VisibilityDatabase;
+}
+
 namespace lamplighter::cpu {
 
 // A VPL made ready for the inner loop.
@@ -14,6 +18,7 @@ struct LightRecord {
   enum class Kind : uint8_t { cosine, uniform, directional };
   Kind kind = Kind::cosine;
   const float* map = nullptr;  // null: casts no shadow
+  int slot = -1;
   vec3 position, normal, tangent, bitangent, intensity;
   float coneScale = 0.0f, coneOffset = 1.0f;
   float radius = 0.0f, side = 1.0f;  // directional: R and S
@@ -33,7 +38,9 @@ struct Irradiance {
 LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map);
 
 // Adds every light, in order, to E at the tile's pixels, starting from zero.
-void sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
-             const SumConstants& constants, Irradiance& out);
+// `visibility`: says which look-ups are needed; null: all. Returns how many light·pixels had one.
+uint64_t sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
+                 const SumConstants& constants, const VisibilityDatabase* visibility,
+                 Irradiance& out);
 
 }  // namespace lamplighter::cpu

@@ -101,7 +101,7 @@ double frameSeconds(Backend& backend, const RenderScene& scene, const RayCaster&
   const auto frame = [&](std::span<const shared::Vpl> maps) {
     backend.renderShadowMaps(maps);
     backend.renderGBuffer(trialView(), vec2(0.0f));
-    backend.sumVpls(vpls, params);
+    backend.sumVpls(vpls, params, nullptr);
     backend.compose();
     backend.finish();
   };

@@ -41,7 +41,8 @@ class GlBackend final : public Backend {
     lighting_.clear(view.width, view.height);
   }
 
-  void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params) override {
+  void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
+               const VisibilityDatabase*) override {
     lighting_.sum(gbuffer_, maps_, vpls_, vpls, params);
     counts_.lightPixels +=
         vpls.size() * static_cast<uint64_t>(gbuffer_.width()) * gbuffer_.height();

@@ -58,6 +58,7 @@ ManyLights::Options::Options(const Settings& settings) {
   clampDistance = settings.real(parameters::clampDistance());
   shadowBias = settings.real(parameters::shadowBias());
   antialias = settings.integer(parameters::antialias());
+  useVisibility = settings.choice(parameters::technique()) == "visibility";
 }
 
 GiOutput ManyLights::render(const FrameInputs& in) {
@@ -73,10 +74,15 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.mapsRendered = lights_.refresh(in.backend, options.updates);
   stages.end("shadow maps");
 
-  // 3. The picture, where anything in it changed.
+  // 3. Where their maps must be looked up.
+  updateVisibility(in, options, out.stats);
+  stages.end("visibility");
+
+  // 4. The picture, where anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
-  const bool shadingChanged =
-      options.clampDistance != options_.clampDistance || options.shadowBias != options_.shadowBias;
+  const bool shadingChanged = options.clampDistance != options_.clampDistance ||
+                              options.shadowBias != options_.shadowBias ||
+                              options.useVisibility != options_.useVisibility;
   if (viewChanged) gbufferIsCurrent_ = false;
   const bool shadedNow = !image_ || viewChanged || lights_.changed() || shadingChanged;
   if (shadedNow) {
@@ -88,7 +94,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   options_ = options;
   started_ = true;
 
-  // 4. Its edges made smooth when nothing else is to be done, one sample a frame.
+  // 5. Its edges made smooth when nothing else is to be done, one sample a frame.
   const int pending = lights_.pending();
   const int samples = options.antialias > 1 ? options.antialias : 0;
   if (options.antialias != samplesWanted_) samples_ = 0;
@@ -118,6 +124,26 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   in.backend.reserveShadowMaps(lights_.slots(), options.mapResolution);
 }
 
+void ManyLights::updateVisibility(const FrameInputs& in, const Options& options, GiStats& stats) {
+  if (!options.useVisibility) {
+    visibility_.reset();
+    return;
+  }
+  const uint64_t before = visibility_ ? visibility_->tests() : 0;
+  if (!visibility_) {
+    visibility_ = std::make_unique<VisibilityDatabase>();
+    RenderSceneChanges all;
+    all.rebuilt = true;
+    visibility_->setScene(in.scene, all);
+  } else {
+    visibility_->setScene(in.scene, in.changes);
+  }
+  std::vector<shared::Vpl> bySlot(static_cast<size_t>(lights_.slots()));
+  for (const shared::Vpl& vpl : lights_.shown()) bySlot[static_cast<size_t>(vpl.intensity.w)] = vpl;
+  visibility_->setLights(in.scene, bySlot);
+  stats.visibilityTests = visibility_->tests() - before;
+}
+
 std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Options& options,
                                                  vec2 jitter, Stages& stages) {
   const bool isMiddle = jitter == vec2(0.0f);
@@ -128,7 +154,7 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias,
                                           static_cast<float>(options.mapResolution),
                                           static_cast<float>(vpls.size()))};
-  in.backend.sumVpls(vpls, params);
+  in.backend.sumVpls(vpls, params, visibility_.get());
   stages.end("light sums");
   auto image = in.backend.compose();
   stages.end("composition");

@@ -1,5 +1,5 @@
-// The main engine (paper 1, chapter 4), so far in its naive form: every VPL with its shadow map at
-// every pixel.
+// The main engine (paper 1, chapter 4): every VPL with its shadow map at every pixel, or only where
+// the visibility database cannot tell.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/live_lights.h"
+#include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
 
@@ -29,11 +30,13 @@ class ManyLights final : public GiMethod {
     float clampDistance = 0.0f;
     float shadowBias = 0.0f;
     int antialias = 1;
+    bool useVisibility = false;
   };
 
   void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
+  void updateVisibility(const FrameInputs& in, const Options& options, GiStats& stats);
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
   bool started_ = false;
@@ -41,6 +44,7 @@ class ManyLights final : public GiMethod {
   View view_;
   MoverFinder movers_;
   LiveLights lights_;
+  std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
   bool gbufferIsCurrent_ = false;
   std::shared_ptr<RadianceImage> image_;  // of the pixels' middles
   // Antialiasing: the sum of the samples so far; their mean when they are complete.

@@ -3,15 +3,17 @@
 namespace lamplighter::parameters {
 
 const ParameterSpec& technique() {
-  static const ParameterSpec spec{"technique",
-                                  "Technique",
-                                  "",
-                                  "naive: every light sample with its shadow map at every pixel.",
-                                  std::string("naive"),
-                                  0,
-                                  0,
-                                  false,
-                                  {"naive"}};
+  static const ParameterSpec spec{
+      "technique",
+      "Technique",
+      "",
+      "naive: every light sample with its shadow map at every pixel. visibility: maps are looked "
+      "up only where the geometry cannot tell whether something stands between.",
+      std::string("naive"),
+      0,
+      0,
+      false,
+      {"naive", "visibility"}};
   return spec;
 }
 

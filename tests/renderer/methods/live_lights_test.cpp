@@ -26,7 +26,8 @@ class RecordingBackend : public Backend {
     rendered += static_cast<int>(vpls.size());
   }
   void renderGBuffer(const View&, vec2) override {}
-  void sumVpls(std::span<const shared::Vpl>, const shared::ShadingParams&) override {}
+  void sumVpls(std::span<const shared::Vpl>, const shared::ShadingParams&,
+               const VisibilityDatabase*) override {}
   std::shared_ptr<RadianceImage> compose() override { return nullptr; }
   std::vector<float> readShadowMap(int) override { return {}; }
   Image readNormals() override { return {}; }

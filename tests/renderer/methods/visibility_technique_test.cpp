@@ -1,0 +1,105 @@
+// The technique `visibility` gives the picture of `naive` with fewer look-ups, and edits leave no
+// trace in it.
+#include <filesystem>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/shared_files.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 192, kHeight = 128;
+
+Settings settingsOf(const std::string& technique, int vpls) {
+  Settings s;
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::updates().name, 150);
+  s.set(parameters::antialias().name, 1);
+  return s;
+}
+
+View viewOf(const Scene& scene) {
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) return viewOfCamera(scene, node, kWidth, kHeight);
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  return viewOfBounds(render.bounds, kWidth, kHeight);
+}
+
+struct Rendered {
+  Image image;
+  uint64_t lookUps;
+};
+
+Rendered rendered(const Scene& scene, const View& view, const std::string& technique, int vpls) {
+  FrameRenderer renderer(makeCpuBackend());
+  const GiOutput out =
+      test::renderSettled(renderer, scene, SceneChanges::all(), view, settingsOf(technique, vpls));
+  return {out.radiance->pixels(), renderer.backend().counts().lookUps};
+}
+
+struct Case {
+  const char* scene;
+  int vpls;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
+
+class VisibilityTechnique : public testing::TestWithParam<Case> {};
+
+TEST_P(VisibilityTechnique, IsThePictureOfNaive) {
+  const std::string name = GetParam().scene;
+  const fs::path path = name.find('/') == std::string::npos
+                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+                            : test::sharedScenes() / name;
+  if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
+  const Scene scene = loadGltf(path).scene;
+  const View view = viewOf(scene);
+  const Rendered naive = rendered(scene, view, "naive", GetParam().vpls);
+  const Rendered fast = rendered(scene, view, "visibility", GetParam().vpls);
+  const Metrics m = compareImages(fast.image, naive.image);
+  EXPECT_LT(m.relRmse, 0.01);
+  EXPECT_NEAR(m.bias, 1.0, 0.005);
+  EXPECT_LT(fast.lookUps, naive.lookUps);
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  RecordProperty("lookUpsPercent", std::to_string(100 * fast.lookUps / naive.lookUps));
+}
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, VisibilityTechnique,
+    testing::Values(Case{"default.gltf", 300}, Case{"area_light_room.gltf", 300},
+                    Case{"table_room.gltf", 300}, Case{"pillar_room.gltf", 300},
+                    Case{"cornell_style.gltf", 300}, Case{"modern-hall/modern-hall.glb", 100},
+                    Case{"bathroom/bathroom.glb", 100}, Case{"zdm2-map/zdm2.glb", 20},
+                    Case{"classroom/classroom.gltf", 300},
+                    Case{"kenney-fps-level/kenney-fps-level.gltf", 100},
+                    Case{"flight-helmet/FlightHelmet.gltf", 100}));
+
+TEST(VisibilityTechnique, APictureAfterEditsIsTheOneMadeFromNothing) {
+  Scene scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf").scene;
+  const View view = viewOf(scene);
+  FrameRenderer renderer(makeCpuBackend());
+  const Settings settings = settingsOf("visibility", 120);
+  test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+  for (Node& node : scene.nodes) {
+    if (node.name != "mover" && node.name != "ceiling light") continue;
+    const Scene before = scene;
+    node.local.translation += vec3(0.7f, 0.0f, 0.3f);
+    test::renderSettled(renderer, scene, compare(before, scene), view, settings);
+  }
+  const Image edited = test::renderSettled(renderer, scene, {}, view, settings).radiance->pixels();
+  EXPECT_TRUE(test::sameBits(edited, rendered(scene, view, "visibility", 120).image));
+}
+
+}  // namespace
+}  // namespace lamplighter
