@@ -1,6 +1,14 @@
 #include "renderer/visibility/occluders.h"
 
+#include <algorithm>
+
 namespace lamplighter {
+namespace {
+
+// Only walls and the like are tried as hiding a whole patch. In m².
+constexpr float kLargePolygon = 1.0f;
+
+}  // namespace
 
 void Occluders::rebuild(const RenderScene& s, uint32_t index, const ObjectPatches& patches) {
   const RenderObject& o = s.objects[index];
@@ -12,14 +20,15 @@ void Occluders::rebuild(const RenderScene& s, uint32_t index, const ObjectPatche
   for (uint32_t t = 0; t < o.triangleCount(); ++t)
     for (uint32_t c = 0; c < 3; ++c) boxes[t].add(s.positions[s.indices[o.firstIndex + 3 * t + c]]);
   object.triangles = BoundsTree(boxes);
-  object.polygonOf.assign(o.triangleCount(), kNone);
   if (material.alphaMode == AlphaMode::mask) return;  // has holes
+  boxes.clear();
   for (const Chart& chart : patches.charts) {
-    if (chart.outline.empty()) continue;
-    for (const uint32_t t : chart.triangles)
-      object.polygonOf[t] = static_cast<int>(object.polygons.size());
+    if (chart.outline.empty() || chart.area < kLargePolygon) continue;
     object.polygons.push_back({chart.outline, chart.normal});
+    Bounds& box = boxes.emplace_back();
+    for (const vec3& corner : chart.outline) box.add(corner);
   }
+  object.polygonTree = BoundsTree(boxes);
 }
 
 void Occluders::finish(const RenderScene& s) {
@@ -34,34 +43,53 @@ void Occluders::build(const RenderScene& s, const std::vector<ObjectPatches>& pa
   finish(s);
 }
 
-Occlusion Occluders::occlusionOf(const RenderScene& s, const OcclusionPyramid& pyramid) const {
+bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid,
+                      uint32_t object) const {
+  const RenderObject& o = s.objects[object];
+  return !objects_[object].triangles.visit(
+      [&](const Bounds& b) { return pyramid.mayMeet(b); },
+      [&](uint32_t t) {
+        const uint32_t* i = &s.indices[o.firstIndex + 3 * t];
+        return !pyramid.meets(s.positions[i[0]], s.positions[i[1]], s.positions[i[2]]);
+      });
+}
+
+bool Occluders::hides(const OcclusionPyramid& pyramid, uint32_t object) const {
+  return !objects_[object].polygonTree.visit(
+      [&](const Bounds& b) { return pyramid.mayMeet(b); },
+      [&](uint32_t p) {
+        const Polygon& polygon = objects_[object].polygons[p];
+        return !pyramid.isCutBy(polygon.corners, polygon.normal);
+      });
+}
+
+Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyramid& pyramid,
+                                      std::span<const uint32_t> objects) const {
   if (pyramid.isDark()) return Occlusion::full;
   if (pyramid.isDegenerate()) return Occlusion::partial;
-  bool met = false, hidden = false;
+  const auto counts = [&](uint32_t i) {
+    return std::find(objects.begin(), objects.end(), i) == objects.end();
+  };
   const auto enter = [&](const Bounds& b) { return pyramid.mayMeet(b); };
-  tree_.visit(enter, [&](uint32_t index) {
-    const RenderObject& o = s.objects[index];
-    const Object& object = objects_[index];
-    // Once it is met, only what may hide the patch wholly is of interest.
-    const auto enterObject = [&](const Bounds& b) {
-      return !(met && object.polygons.empty()) && pyramid.mayMeet(b);
-    };
-    int last = kNone;
-    return object.triangles.visit(enterObject, [&](uint32_t t) {
-      const int polygon = object.polygonOf[t];
-      if (met && (polygon == kNone || polygon == last)) return true;
-      const uint32_t* corner = &s.indices[o.firstIndex + 3 * t];
-      if (!pyramid.meets(s.positions[corner[0]], s.positions[corner[1]], s.positions[corner[2]]))
-        return true;
-      met = true;
-      if (polygon == kNone) return true;
-      last = polygon;
-      const Polygon& p = object.polygons[static_cast<size_t>(polygon)];
-      hidden = pyramid.isCutBy(p.corners, p.normal);
-      return !hidden;
-    });
-  });
-  return hidden ? Occlusion::full : met ? Occlusion::partial : Occlusion::none;
+  const bool isMet =
+      !tree_.visit(enter, [&](uint32_t i) { return !(counts(i) && meets(s, pyramid, i)); });
+  if (!isMet) return Occlusion::none;
+  const bool isHidden =
+      !tree_.visit(enter, [&](uint32_t i) { return !(counts(i) && hides(pyramid, i)); });
+  return isHidden ? Occlusion::full : Occlusion::partial;
+}
+
+Occlusion Occluders::occlusionBy(const RenderScene& s, const OcclusionPyramid& pyramid,
+                                 std::span<const uint32_t> objects) const {
+  if (pyramid.isDark()) return Occlusion::full;
+  if (pyramid.isDegenerate()) return Occlusion::partial;
+  Occlusion state = Occlusion::none;
+  for (const uint32_t i : objects) {
+    if (!pyramid.mayMeet(s.objects[i].bounds) || !meets(s, pyramid, i)) continue;
+    if (hides(pyramid, i)) return Occlusion::full;
+    state = Occlusion::partial;
+  }
+  return state;
 }
 
 }  // namespace lamplighter

@@ -16,8 +16,12 @@ class Occluders {
   void rebuild(const RenderScene& scene, uint32_t object, const ObjectPatches& patches);
   void finish(const RenderScene& scene);
 
-  // The state of the pyramid's light on its patch. Counts one test.
-  Occlusion occlusionOf(const RenderScene& scene, const OcclusionPyramid& pyramid) const;
+  // The state of the pyramid's light on its patch by all occluders but these objects, and by these
+  // alone. The state by all is the greater of both: something is met, or one polygon hides it.
+  Occlusion occlusionWithout(const RenderScene& scene, const OcclusionPyramid& pyramid,
+                             std::span<const uint32_t> objects) const;
+  Occlusion occlusionBy(const RenderScene& scene, const OcclusionPyramid& pyramid,
+                        std::span<const uint32_t> objects) const;
 
  private:
   struct Polygon {
@@ -26,9 +30,12 @@ class Occluders {
   };
   struct Object {
     BoundsTree triangles;
-    std::vector<Polygon> polygons;  // may hide whole patches
-    std::vector<int> polygonOf;     // a triangle's, or kNone
+    std::vector<Polygon> polygons;  // large ones, which may hide whole patches
+    BoundsTree polygonTree;
   };
+  bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object) const;
+  bool hides(const OcclusionPyramid& pyramid, uint32_t object) const;
+
   std::vector<Object> objects_;
   BoundsTree tree_;  // over the objects' bounds
 };

@@ -1,6 +1,7 @@
 #include "renderer/visibility/visibility_database.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <numeric>
 
@@ -8,6 +9,8 @@
 
 namespace lamplighter {
 namespace {
+
+constexpr uint8_t kUnknown = 255;
 
 // All but the slot and the brightness, which change nothing here.
 bool sameLight(const shared::Vpl& a, const shared::Vpl& b) {
@@ -19,14 +22,20 @@ bool sameLight(const shared::Vpl& a, const shared::Vpl& b) {
 void VisibilityDatabase::resize(size_t slots) {
   if (slots <= stride_) return;
   const size_t stride = std::max(slots, stride_ + stride_ / 2);
-  for (std::vector<uint8_t>& rows : rows_) {
+  const auto widen = [&](std::vector<uint8_t>& rows, uint8_t fill) {
     const size_t patches = stride_ > 0 ? rows.size() / stride_ : 0;
-    std::vector<uint8_t> wider(patches * stride, static_cast<uint8_t>(Occlusion::partial));
+    std::vector<uint8_t> wider(patches * stride, fill);
     for (size_t p = 0; p < patches; ++p)
       std::copy_n(&rows[p * stride_], stride_, &wider[p * stride]);
     rows = std::move(wider);
-  }
+  };
+  for (auto& rows : rows_) widen(rows, static_cast<uint8_t>(Occlusion::partial));
+  for (auto& rows : withoutMovers_) widen(rows, kUnknown);
   stride_ = stride;
+}
+
+void VisibilityDatabase::forgetOthers() {
+  for (auto& rows : withoutMovers_) std::fill(rows.begin(), rows.end(), kUnknown);
 }
 
 void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneChanges& changes) {
@@ -36,7 +45,7 @@ void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneCha
   if (all) {
     patches_.assign(scene.objects.size(), {});
     rows_.assign(scene.objects.size(), {});
-    tests_.resize(scene.objects.size(), 0);
+    withoutMovers_.assign(scene.objects.size(), {});
     changed.resize(scene.objects.size());
     std::iota(changed.begin(), changed.end(), 0u);
   }
@@ -48,8 +57,17 @@ void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneCha
     for (const uint32_t i : changed) occluders_.rebuild(scene, i, patches_[i]);
     occluders_.finish(scene);
   }
-  for (const uint32_t i : changed)
+  if (all) {
+    movers_.clear();
+    forgetOthers();
+  } else if (changed != movers_) {
+    movers_ = changed;
+    forgetOthers();
+  }
+  for (const uint32_t i : changed) {
     rows_[i].assign(patches_[i].patches.size() * stride_, static_cast<uint8_t>(Occlusion::partial));
+    withoutMovers_[i].assign(rows_[i].size(), kUnknown);
+  }
 
   std::vector<int> slots;
   for (size_t i = 0; i < lights_.size(); ++i)
@@ -74,6 +92,10 @@ void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const sha
       slots.push_back(static_cast<int>(i));
   }
   lights_.assign(bySlot.begin(), bySlot.end());
+  for (auto& rows : withoutMovers_) {
+    for (size_t first = 0; first < rows.size(); first += stride_)
+      for (const int slot : slots) rows[first + static_cast<size_t>(slot)] = kUnknown;
+  }
   std::vector<uint32_t> objects(rows_.size());
   std::iota(objects.begin(), objects.end(), 0u);
   computeAll(scene, objects, slots, {});
@@ -83,22 +105,35 @@ void VisibilityDatabase::computeAll(const RenderScene& scene, std::span<const ui
                                     std::span<const int> slots, std::span<const Moved> moved) {
   if (slots.empty()) return;
   for (const uint32_t i : objects) {
-    if (rows_[i].empty())
-      rows_[i].assign(patches_[i].patches.size() * stride_,
-                      static_cast<uint8_t>(Occlusion::partial));
+    if (!rows_[i].empty()) continue;
+    rows_[i].assign(patches_[i].patches.size() * stride_, static_cast<uint8_t>(Occlusion::partial));
+    withoutMovers_[i].assign(rows_[i].size(), kUnknown);
   }
-  tbb::parallel_for(size_t{0}, objects.size(), [&](size_t i) {
-    for (const int slot : slots) computeColumn(scene, objects[i], slot, moved);
+  // A level may be one object, and one light may be all that moved: shared out by roots and slots.
+  constexpr size_t kRoots = 64;
+  struct Share {
+    uint32_t object;
+    size_t firstRoot;
+  };
+  std::vector<Share> shares;
+  for (const uint32_t i : objects)
+    for (size_t root = 0; root < patches_[i].roots.size(); root += kRoots)
+      shares.push_back({i, root});
+  std::atomic<uint64_t> tests = 0;
+  tbb::parallel_for(size_t{0}, shares.size() * slots.size(), [&](size_t item) {
+    const Share& share = shares[item / slots.size()];
+    const std::vector<int>& roots = patches_[share.object].roots;
+    const size_t last = std::min(share.firstRoot + kRoots, roots.size());
+    uint64_t mine = 0;
+    for (size_t r = share.firstRoot; r < last; ++r)
+      compute(scene, share.object, roots[r], slots[item % slots.size()], moved, mine);
+    tests += mine;
   });
-}
-
-void VisibilityDatabase::computeColumn(const RenderScene& scene, uint32_t object, int slot,
-                                       std::span<const Moved> moved) {
-  for (const int root : patches_[object].roots) compute(scene, object, root, slot, moved);
+  tests_ += tests;
 }
 
 void VisibilityDatabase::compute(const RenderScene& scene, uint32_t object, int patch, int slot,
-                                 std::span<const Moved> moved) {
+                                 std::span<const Moved> moved, uint64_t& tests) {
   const ObjectPatches& patches = patches_[object];
   const Patch& p = patches.patches[static_cast<size_t>(patch)];
   const OcclusionPyramid pyramid(lights_[static_cast<size_t>(slot)],
@@ -110,8 +145,14 @@ void VisibilityDatabase::compute(const RenderScene& scene, uint32_t object, int 
       })) {
     return;
   }
-  if (!pyramid.isDark()) ++tests_[object];
-  const Occlusion state = occluders_.occlusionOf(scene, pyramid);
+  uint8_t& others =
+      withoutMovers_[object][static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot)];
+  if (others == kUnknown) {
+    if (!pyramid.isDark()) ++tests;
+    others = static_cast<uint8_t>(occluders_.occlusionWithout(scene, pyramid, movers_));
+  }
+  const Occlusion state =
+      std::max(static_cast<Occlusion>(others), occluders_.occlusionBy(scene, pyramid, movers_));
   if (state != Occlusion::partial || p.isLeaf()) {
     fill(object, patch, slot, state);
     return;
@@ -119,8 +160,8 @@ void VisibilityDatabase::compute(const RenderScene& scene, uint32_t object, int 
   rows_[object][static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot)] =
       static_cast<uint8_t>(state);
   // A node that was none or full has told its children so.
-  compute(scene, object, p.firstChild, slot, moved);
-  compute(scene, object, p.firstChild + 1, slot, moved);
+  compute(scene, object, p.firstChild, slot, moved, tests);
+  compute(scene, object, p.firstChild + 1, slot, moved, tests);
 }
 
 void VisibilityDatabase::fill(uint32_t object, int patch, int slot, Occlusion state) {
@@ -130,10 +171,6 @@ void VisibilityDatabase::fill(uint32_t object, int patch, int slot, Occlusion st
   if (p.isLeaf()) return;
   fill(object, p.firstChild, slot, state);
   fill(object, p.firstChild + 1, slot, state);
-}
-
-uint64_t VisibilityDatabase::tests() const {
-  return std::accumulate(tests_.begin(), tests_.end(), uint64_t{0});
 }
 
 VisibilityCounts VisibilityDatabase::counts() const {

@@ -18,8 +18,9 @@ struct VisibilityCounts {
 class VisibilityDatabase {
  public:
   // Takes in what changed in the scene. Rows of moved objects are new; of the others only those
-  // entries are tested again whose pyramid the object met before or meets now: where it meets
-  // neither, it was no blocker and is none.
+  // entries are looked at again whose pyramid the object met before or meets now: where it meets
+  // neither, it was no blocker and is none. They are tested against the moved objects alone when
+  // the same ones moved before.
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes);
 
   // The light samples by slot; a normal of zero: none is there. Those that differ from what was
@@ -36,17 +37,18 @@ class VisibilityDatabase {
   std::span<const uint8_t> row(uint32_t object, int patch) const {
     return {&rows_[object][static_cast<size_t>(patch) * stride_], lights_.size()};
   }
-  uint64_t tests() const;           // pyramids against the scene, since the database was made
+  uint64_t tests() const {
+    return tests_;
+  }                                 // pyramids against the scene, since the database was made
   VisibilityCounts counts() const;  // goes through all entries
 
  private:
   struct Moved {
     Bounds before, after;
   };
-  void computeColumn(const RenderScene& scene, uint32_t object, int slot,
-                     std::span<const Moved> moved);
   void compute(const RenderScene& scene, uint32_t object, int patch, int slot,
-               std::span<const Moved> moved);
+               std::span<const Moved> moved, uint64_t& tests);
+  void forgetOthers();
   void fill(uint32_t object, int patch, int slot, Occlusion state);
   void resize(size_t slots);
   void computeAll(const RenderScene& scene, std::span<const uint32_t> objects,
@@ -57,7 +59,11 @@ class VisibilityDatabase {
   std::vector<shared::Vpl> lights_;         // by slot
   size_t stride_ = 0;                       // of rows, in slots
   std::vector<std::vector<uint8_t>> rows_;  // by object: patches × slots, Occlusion
-  std::vector<uint64_t> tests_;             // by object, so that threads do not share one
+  // The objects that moved last, and the state of each entry by all others (kUnknown: not asked
+  // yet): while the same ones move on, as in a drag, nothing else is tested again (table 4-1).
+  std::vector<uint32_t> movers_;
+  std::vector<std::vector<uint8_t>> withoutMovers_;  // as rows_
+  uint64_t tests_ = 0;
 };
 
 }  // namespace lamplighter

@@ -29,7 +29,7 @@ struct Setting {
   }
   Occlusion of(const shared::Vpl& vpl) const {
     const PatchRegion whole(world, 0, patches[0], patches[0].patches[0]);
-    return occluders.occlusionOf(world, OcclusionPyramid(vpl, whole));
+    return occluders.occlusionWithout(world, OcclusionPyramid(vpl, whole), {});
   }
 };
 

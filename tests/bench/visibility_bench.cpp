@@ -1,0 +1,174 @@
+// The visibility database: building it, and bringing it up to date after an object or a light
+// moved; and what it spares the sums (figure 5-3's "VD" against its "Naïve").
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/light_shapes.h"
+#include "renderer/visibility/visibility_database.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Case {
+  const char* name;
+  const char* path;   // assets/ or shared/
+  const char* mover;  // "": a ball of a metre is put into the middle of the level
+  int vpls;
+};
+constexpr Case kCases[] = {{"pillar_room", "assets/scenes/pillar_room.gltf", "mover", 300},
+                           {"area_light_room", "assets/scenes/area_light_room.gltf", "mover", 300},
+                           {"zdm2", "../shared/scenes/zdm2-map/zdm2.glb", "", 30}};
+
+struct World {
+  Scene scene;
+  RenderScene render;
+  std::unique_ptr<RayCaster> rays;
+  std::vector<shared::Vpl> lights;
+  NodeId mover = kNoNode;
+
+  explicit World(const Case& c) {
+    scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / c.path).scene;
+    if (std::string(c.mover).empty()) addBall();
+    update(render, scene, SceneChanges::all());
+    rays = std::make_unique<RayCaster>(render);
+    for (const SceneVpl& v :
+         generateVpls(render, *rays, LightSet(render), {c.vpls, 0.5f, 1, 1}).vpls)
+      lights.push_back(v.vpl);
+    for (const Node& n : scene.nodes)
+      if (mover == kNoNode && n.name == c.mover) mover = n.id;
+  }
+
+  void addBall() {
+    RenderScene level;
+    update(level, scene, SceneChanges::all());
+    AreaLight ball;
+    ball.shape = AreaShape::sphere;
+    ball.size = vec2(1.0f);
+    auto mesh = std::make_shared<Mesh>();
+    mesh->primitives.push_back(tessellate(ball));
+    Node node;
+    node.id = mover = scene.nextId++;
+    node.mesh = static_cast<int>(scene.meshes.size());
+    node.local.translation = level.bounds.centre();
+    scene.meshes.push_back(mesh);
+    scene.nodes.push_back(node);
+  }
+};
+
+void fill(VisibilityDatabase& database, const World& w) {
+  RenderSceneChanges all;
+  all.rebuilt = true;
+  database.setScene(w.render, all);
+  database.setLights(w.render, w.lights);
+}
+
+bool skip(benchmark::State& state, const Case& c) {
+  if (fs::exists(fs::path(LAMPLIGHTER_SOURCE_DIR) / c.path)) return false;
+  state.SkipWithError("the scene is not there");
+  return true;
+}
+
+void build(benchmark::State& state, const Case& c) {
+  if (skip(state, c)) return;
+  const World w(c);
+  VisibilityCounts counts;
+  for (auto _ : state) {
+    VisibilityDatabase database;
+    fill(database, w);
+    state.PauseTiming();
+    counts = database.counts();
+    state.counters["tests"] = static_cast<double>(database.tests());
+    state.ResumeTiming();
+  }
+  const auto entries = static_cast<double>(counts.none + counts.partial + counts.full);
+  state.counters["patches"] = static_cast<double>(counts.patches);
+  state.counters["partial"] = static_cast<double>(counts.partial) / entries;
+}
+
+void moveObject(benchmark::State& state, const Case& c) {
+  if (skip(state, c)) return;
+  World w(c);
+  VisibilityDatabase database;
+  fill(database, w);
+  const uint64_t before = database.tests();
+  float step = 0.05f;
+  for (auto _ : state) {
+    state.PauseTiming();
+    Scene moved = w.scene;
+    moved.find(w.mover)->local.translation.x += step;
+    step = -step;
+    const RenderSceneChanges changes = update(w.render, moved, compare(w.scene, moved));
+    w.scene = moved;
+    state.ResumeTiming();
+    database.setScene(w.render, changes);
+  }
+  state.counters["tests"] =
+      static_cast<double>(database.tests() - before) / static_cast<double>(state.iterations());
+}
+
+void moveOneLight(benchmark::State& state, const Case& c) {
+  if (skip(state, c)) return;
+  World w(c);
+  VisibilityDatabase database;
+  fill(database, w);
+  float step = 0.01f;
+  for (auto _ : state) {
+    w.lights[0].position.x += step;
+    step = -step;
+    database.setLights(w.render, w.lights);
+  }
+}
+
+// A frame in which the camera moved, with and without the database.
+void frames(benchmark::State& state, const Case& c, const std::string& technique) {
+  if (skip(state, c)) return;
+  const World w(c);
+  View view;
+  for (const Node& node : w.scene.nodes)
+    if (node.camera != kNone) view = viewOfCamera(w.scene, node, 640, 360);
+  Settings settings;
+  settings.set(parameters::vpls().name, c.vpls);
+  settings.set(parameters::updates().name, c.vpls);
+  settings.set(parameters::bounces().name, 1);
+  settings.set(parameters::antialias().name, 1);
+  settings.set(parameters::technique().name, technique);
+  FrameRenderer renderer(makeCpuBackend());
+  const auto frame = [&](const SceneChanges& changes) {
+    renderer.render({w.scene, changes, view, "many_lights", settings});
+  };
+  frame(SceneChanges::all());
+  for (auto _ : state) {
+    view.eye.x += 0.001f;
+    frame({});
+  }
+}
+
+[[maybe_unused]] const bool kRegistered = [] {
+  const auto add = [](const std::string& name, auto function, auto... more) {
+    benchmark::RegisterBenchmark(name.c_str(), function, more...)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  };
+  for (const Case& c : kCases) {
+    const std::string name = c.name;
+    add("visibility/build/" + name, build, c);
+    add("visibility/object_moves/" + name, moveObject, c);
+    add("visibility/one_light_moves/" + name, moveOneLight, c);
+    if (std::string(c.mover).empty()) continue;
+    add("visibility/frame/" + name + "/naive", frames, c, std::string("naive"));
+    add("visibility/frame/" + name + "/visibility", frames, c, std::string("visibility"));
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace lamplighter
