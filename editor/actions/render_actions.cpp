@@ -21,12 +21,18 @@ void addRenderActions(ActionRegistry& r) {
            s.setRender(settings);
          },
          {}});
-  r.add({"render.reference", "Reference", "",
-         "Shows the path-traced reference, or the method before it again.", "Space",
+  r.add({"render.reference",
+         "Reference",
+         "",
+         "Shows the path-traced reference, or the method before it again.",
+         "Space",
          [](Session& s, const Arguments&) { s.toggleReference(); },
          {}});
-  r.add({"render.reload_shaders", "Reload shaders", "",
-         "Reads and compiles the shaders of the gl backend anew.", "F5",
+  r.add({"render.reload_shaders",
+         "Reload shaders",
+         "",
+         "Reads and compiles the shaders of the gl backend anew.",
+         "F5",
          [](Session& s, const Arguments&) { s.requestShaders(); },
          {}});
   r.add({"render.set",

@@ -72,8 +72,7 @@ std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePo
   } else {
     off = standOff(scene, id, at.normal);
   }
-  local.translation =
-      vec3(glm::inverse(parent) * vec4(at.position + off * at.normal, 1.0f));
+  local.translation = vec3(glm::inverse(parent) * vec4(at.position + off * at.normal, 1.0f));
   return local;
 }
 

@@ -16,7 +16,7 @@
 
 namespace lamplighter {
 
-class VisibilityDatabase;
+class PatchLights;
 
 // A frame's picture, wherever it lies. A GL backend keeps it in a texture and reads it back once,
 // on the first call of pixels().
@@ -78,10 +78,10 @@ class Backend {
   virtual void renderGBuffer(const View& view, vec2 jitter) = 0;
 
   // E at each G-buffer pixel: the sum over the VPLs, with shadows, into the irradiance image.
-  // `visibility`, if any, knows the VPLs by their slots and spares look-ups (paper 1, 4.3.1): where
-  // nothing can stand between, and all of a light where it is hidden. A backend may do without.
+  // `patches`, if any, says by the VPLs' slots how the pixels of each patch come by each light;
+  // null: every VPL with its shadow map at every pixel.
   virtual void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
-                       const VisibilityDatabase* visibility) = 0;
+                       const PatchLights* patches) = 0;
 
   // Le + ρ/π · E, and the sky where nothing was hit.
   virtual std::shared_ptr<RadianceImage> compose() = 0;

@@ -39,6 +39,7 @@ struct GiStats {
   int mapsRendered = 0;          // this frame
   uint64_t raysTraced = 0;       // this frame, by the method itself
   uint64_t visibilityTests = 0;  // this frame: occlusion pyramids against the scene
+  uint64_t lightMapTexels = 0;   // this frame: texels × lights added or taken away
   int samplesPerPixel = 0;
   std::map<std::string, double> stageSeconds;  // by stage name
 };

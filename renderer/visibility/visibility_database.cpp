@@ -46,6 +46,7 @@ void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneCha
     patches_.assign(scene.objects.size(), {});
     rows_.assign(scene.objects.size(), {});
     withoutMovers_.assign(scene.objects.size(), {});
+    changed_.assign(scene.objects.size(), {});
     changed.resize(scene.objects.size());
     std::iota(changed.begin(), changed.end(), 0u);
   }
@@ -67,6 +68,7 @@ void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneCha
   for (const uint32_t i : changed) {
     rows_[i].assign(patches_[i].patches.size() * stride_, static_cast<uint8_t>(Occlusion::partial));
     withoutMovers_[i].assign(rows_[i].size(), kUnknown);
+    changed_[i].assign(patches_[i].patches.size(), 1);
   }
 
   std::vector<int> slots;
@@ -157,16 +159,26 @@ void VisibilityDatabase::compute(const RenderScene& scene, uint32_t object, int 
     fill(object, patch, slot, state);
     return;
   }
-  rows_[object][static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot)] =
-      static_cast<uint8_t>(state);
+  set(object, patch, slot, state);
   // A node that was none or full has told its children so.
   compute(scene, object, p.firstChild, slot, moved, tests);
   compute(scene, object, p.firstChild + 1, slot, moved, tests);
 }
 
+void VisibilityDatabase::set(uint32_t object, int patch, int slot, Occlusion state) {
+  uint8_t& entry = rows_[object][static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot)];
+  if (entry == static_cast<uint8_t>(state)) return;
+  entry = static_cast<uint8_t>(state);
+  // Several lights of a patch may be looked at at once.
+  std::atomic_ref(changed_[object][static_cast<size_t>(patch)]).store(1, std::memory_order_relaxed);
+}
+
+void VisibilityDatabase::clearChanged() {
+  for (auto& patches : changed_) std::fill(patches.begin(), patches.end(), 0);
+}
+
 void VisibilityDatabase::fill(uint32_t object, int patch, int slot, Occlusion state) {
-  rows_[object][static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot)] =
-      static_cast<uint8_t>(state);
+  set(object, patch, slot, state);
   const Patch& p = patches_[object].patches[static_cast<size_t>(patch)];
   if (p.isLeaf()) return;
   fill(object, p.firstChild, slot, state);

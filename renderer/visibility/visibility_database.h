@@ -37,9 +37,14 @@ class VisibilityDatabase {
   std::span<const uint8_t> row(uint32_t object, int patch) const {
     return {&rows_[object][static_cast<size_t>(patch) * stride_], lights_.size()};
   }
-  uint64_t tests() const {
-    return tests_;
-  }                                 // pyramids against the scene, since the database was made
+  size_t slots() const { return lights_.size(); }
+  // Whether an entry of the patch changed since clearChanged().
+  bool rowChanged(uint32_t object, int patch) const {
+    return changed_[object][static_cast<size_t>(patch)] != 0;
+  }
+  void clearChanged();
+  // Pyramids against the scene, since the database was made.
+  uint64_t tests() const { return tests_; }
   VisibilityCounts counts() const;  // goes through all entries
 
  private:
@@ -49,6 +54,7 @@ class VisibilityDatabase {
   void compute(const RenderScene& scene, uint32_t object, int patch, int slot,
                std::span<const Moved> moved, uint64_t& tests);
   void forgetOthers();
+  void set(uint32_t object, int patch, int slot, Occlusion state);
   void fill(uint32_t object, int patch, int slot, Occlusion state);
   void resize(size_t slots);
   void computeAll(const RenderScene& scene, std::span<const uint32_t> objects,
@@ -63,6 +69,7 @@ class VisibilityDatabase {
   // yet): while the same ones move on, as in a drag, nothing else is tested again (table 4-1).
   std::vector<uint32_t> movers_;
   std::vector<std::vector<uint8_t>> withoutMovers_;  // as rows_
+  std::vector<std::vector<uint8_t>> changed_;        // by object and patch
   uint64_t tests_ = 0;
 };
 

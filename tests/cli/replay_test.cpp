@@ -76,7 +76,8 @@ TEST_F(Replay, GivesTheSameHashesAndBitsTwiceAndAtAnyNumberOfThreads) {
     ASSERT_EQ(r.code, 0) << r.err;
     std::map<std::string, std::string> seen = pictures();
     // Pictures of the whole window show times, which differ.
-    std::erase_if(seen, [](const auto& p) { return p.first.find(".window.") != std::string::npos; });
+    std::erase_if(seen,
+                  [](const auto& p) { return p.first.find(".window.") != std::string::npos; });
     EXPECT_EQ(seen.size(), 6u);
     if (first.empty()) {
       first = seen;

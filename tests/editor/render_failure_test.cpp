@@ -25,8 +25,8 @@ class SmallBackend final : public Backend {
     inner_->renderGBuffer(view, jitter);
   }
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
-               const VisibilityDatabase* visibility) override {
-    inner_->sumVpls(vpls, params, visibility);
+               const PatchLights* patches) override {
+    inner_->sumVpls(vpls, params, patches);
   }
   std::shared_ptr<RadianceImage> compose() override { return inner_->compose(); }
   std::vector<float> readShadowMap(int slot) override { return inner_->readShadowMap(slot); }

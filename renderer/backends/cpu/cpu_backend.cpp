@@ -74,7 +74,7 @@ class CpuBackend final : public Backend {
   }
 
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
-               const VisibilityDatabase* visibility) override {
+               const PatchLights* patches) override {
     std::vector<cpu::LightRecord> lights;
     lights.reserve(vpls.size());
     for (const shared::Vpl& vpl : vpls) {
@@ -84,7 +84,7 @@ class CpuBackend final : public Backend {
     const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_};
     std::atomic<uint64_t> lookUps = 0;
     tbb::parallel_for(0, gbuffer_.tiles(), [&](int tile) {
-      lookUps += cpu::sumTile(gbuffer_, tile, lights, constants, visibility, irradiance_);
+      lookUps += cpu::sumTile(gbuffer_, tile, lights, constants, patches, irradiance_);
     });
     counts_.lookUps += lookUps;
     counts_.lightPixels += vpls.size() * static_cast<uint64_t>(gbuffer_.width) * gbuffer_.height;

@@ -4,11 +4,11 @@
 #include "renderer/backends/cpu/sum_vpls.h"
 
 #include <algorithm>
-#include <utility>
+#include <array>
 
 #include <hwy/highway.h>
 
-#include "renderer/visibility/visibility_database.h"
+#include "renderer/light_maps/patch_lights.h"
 
 // shaders/shared/vpl_shading.h is the definition, with the reasons; this is the same, eight points
 // at a time, with multiply-adds fused where written so.
@@ -131,13 +131,35 @@ HWY_INLINE Mask directionalOccluded(const WideLight& light, const WideConstants&
   return hn::And(beforePoint, beforePlane);
 }
 
-template <LightRecord::Kind kKind>
-void addLight(const GBuffer& g, std::span<const size_t> packets, const LightRecord& record,
+// Packets of a tile, and which of their lanes are meant.
+class PacketList {
+ public:
+  void clear() { count_ = 0; }
+  void add(size_t first, uint8_t lanes) {
+    first_[count_] = first;
+    lanes_[count_++] = lanes;
+  }
+  size_t count() const { return count_; }
+  size_t first(size_t k) const { return first_[k]; }
+  HWY_INLINE Mask lanes(size_t k) const { return hn::LoadMaskBits(kTag, &lanes_[k]); }
+
+ private:
+  size_t first_[kPacketsPerTile];
+  uint8_t lanes_[kPacketsPerTile];
+  size_t count_ = 0;
+};
+
+// kUse: add, addShadowed or takeShadow.
+template <LightRecord::Kind kKind, LightUse kUse>
+void addLight(const GBuffer& g, const PacketList& packets, const LightRecord& record,
               const SumConstants& constants, Irradiance& out) {
+  constexpr bool kLooksUp = kUse != LightUse::add;
   const WideLight light(record, constants);
   const WideConstants c(constants);
   const Floats zero = hn::Zero(kTag);
-  for (const size_t i : packets) {
+  for (size_t k = 0; k < packets.count(); ++k) {
+    const size_t i = packets.first(k);
+    const Mask meant = packets.lanes(k);
     const Vector3 p = load(g.px, g.py, g.pz, i);
     const Vector3 v{hn::Sub(p.x, light.position.x), hn::Sub(p.y, light.position.y),
                     hn::Sub(p.z, light.position.z)};
@@ -151,14 +173,16 @@ void addLight(const GBuffer& g, std::span<const size_t> packets, const LightReco
       const Floats side = light.side;
       const Mask within = hn::And(hn::And(hn::Ge(q.x, hn::Neg(side)), hn::Lt(q.x, side)),
                                   hn::And(hn::Ge(q.y, hn::Neg(side)), hn::Lt(q.y, side)));
-      const Mask lit = hn::And(within, hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
+      const Mask lit =
+          hn::And(hn::And(meant, within), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
       if (hn::AllFalse(kTag, lit)) continue;
       weight = hn::IfThenElseZero(lit, s);
-      if (light.map) occluded = directionalOccluded(light, c, q, geometric, facing);
+      if constexpr (kLooksUp) occluded = directionalOccluded(light, c, q, geometric, facing);
     } else {
       const Floats z = dot(v, light.normal);
       const Floats s = hn::Neg(dot(shading, v)), facing = hn::Neg(dot(geometric, v));
-      const Mask lit = hn::And(hn::Gt(z, zero), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
+      const Mask lit =
+          hn::And(hn::And(meant, hn::Gt(z, zero)), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
       if (hn::AllFalse(kTag, lit)) continue;
       const Floats d2 = dot(v, v);
       if constexpr (kKind == LightRecord::Kind::cosine) {
@@ -173,9 +197,13 @@ void addLight(const GBuffer& g, std::span<const size_t> packets, const LightReco
       weight = hn::IfThenElseZero(lit, weight);
       // A height above zero keeps 1/w finite in the lanes that the light does not reach.
       const Floats height = hn::IfThenElse(lit, z, all(1.0f));
-      if (light.map) occluded = hemisphereOccluded(light, c, v, height, geometric, facing);
+      if constexpr (kLooksUp) occluded = hemisphereOccluded(light, c, v, height, geometric, facing);
     }
-    weight = hn::IfThenZeroElse(occluded, weight);
+    if constexpr (kUse == LightUse::addShadowed) weight = hn::IfThenZeroElse(occluded, weight);
+    if constexpr (kUse == LightUse::takeShadow) {
+      if (hn::AllFalse(kTag, occluded)) continue;
+      weight = hn::Neg(hn::IfThenElseZero(occluded, weight));
+    }
     float* r = &out.r[i];
     float* gr = &out.g[i];
     float* b = &out.b[i];
@@ -185,60 +213,120 @@ void addLight(const GBuffer& g, std::span<const size_t> packets, const LightReco
   }
 }
 
-void addLight(const GBuffer& gbuffer, std::span<const size_t> packets, const LightRecord& light,
+template <LightUse kUse>
+void addLight(const GBuffer& gbuffer, const PacketList& packets, const LightRecord& light,
               const SumConstants& constants, Irradiance& out) {
+  if (packets.count() == 0) return;
   switch (light.kind) {
     case LightRecord::Kind::cosine:
-      return addLight<LightRecord::Kind::cosine>(gbuffer, packets, light, constants, out);
+      return addLight<LightRecord::Kind::cosine, kUse>(gbuffer, packets, light, constants, out);
     case LightRecord::Kind::uniform:
-      return addLight<LightRecord::Kind::uniform>(gbuffer, packets, light, constants, out);
+      return addLight<LightRecord::Kind::uniform, kUse>(gbuffer, packets, light, constants, out);
     case LightRecord::Kind::directional:
-      return addLight<LightRecord::Kind::directional>(gbuffer, packets, light, constants, out);
+      return addLight<LightRecord::Kind::directional, kUse>(gbuffer, packets, light, constants,
+                                                            out);
   }
 }
 
-// What the visibility database says of each packet of a tile and each light: of the patches under
-// its pixels, partial where they differ. Few kinds of packets are in a tile; each has a row.
-class TileStates {
+// Where the lanes of a tile's packets lie, and what that makes of each light. Packets whose lanes
+// lie in the same leaves are of one kind, and few kinds are in a tile.
+class TileLights {
  public:
-  TileStates(const GBuffer& g, std::span<const size_t> packets, std::span<const LightRecord> lights,
-             const VisibilityDatabase& visibility) {
-    kinds_.reserve(packets.size());
-    std::vector<std::vector<Patch>> known;
+  TileLights(const GBuffer& g, std::span<const size_t> packets, const PatchLights& lights)
+      : g_(g), lights_(lights) {
     for (const size_t first : packets) {
-      std::vector<Patch> patches;
-      for (size_t i = first; i < first + kLanes; ++i) {
-        if (g.hit[i] == 0) continue;
-        const vec3 p(g.px[i], g.py[i], g.pz[i]);
-        const Patch patch{g.object[i], visibility.patches(g.object[i]).leafAt(g.triangle[i], p)};
-        if (std::find(patches.begin(), patches.end(), patch) == patches.end())
-          patches.push_back(patch);
-      }
-      std::sort(patches.begin(), patches.end());
-      const auto it = std::find(known.begin(), known.end(), patches);
-      kinds_.push_back(static_cast<size_t>(it - known.begin()));
-      if (it == known.end()) known.push_back(std::move(patches));
+      std::array<int, kLanes> places;
+      for (size_t lane = 0; lane < kLanes; ++lane) places[lane] = placeOf(first + lane);
+      const auto it = std::find_if(kinds_.begin(), kinds_.end(),
+                                   [&](const Kind& k) { return k.places == places; });
+      Kind& kind = it == kinds_.end() ? kinds_.emplace_back() : *it;
+      kind.places = places;
+      kind.packets.push_back(first);
     }
-    rows_.resize(known.size());
-    for (size_t kind = 0; kind < known.size(); ++kind) {
-      for (const LightRecord& light : lights) {
-        Occlusion state = stateOf(visibility, known[kind][0], light.slot);
-        for (const Patch& patch : known[kind])
-          if (stateOf(visibility, patch, light.slot) != state) state = Occlusion::partial;
-        rows_[kind].push_back(state);
+    for (Kind& kind : kinds_) {
+      for (auto& lanes : kind.lanes) lanes.assign(lights.slots(), 0);
+      for (size_t place = 0; place < places_.size(); ++place) {
+        uint8_t here = 0;
+        for (size_t lane = 0; lane < kLanes; ++lane)
+          if (kind.places[lane] == static_cast<int>(place))
+            here |= static_cast<uint8_t>(1u << lane);
+        if (here == 0) continue;
+        const std::vector<LightUse>& uses = places_[place].uses;
+        for (int use = 1; use < 4; ++use) {
+          uint8_t* lanes = kind.lanes[use].data();
+          for (size_t slot = 0; slot < uses.size(); ++slot)
+            lanes[slot] |= uses[slot] == static_cast<LightUse>(use) ? here : 0;
+        }
       }
     }
   }
-  Occlusion of(size_t packet, size_t light) const { return rows_[kinds_[packet]][light]; }
+
+  // The tile's packets that use the light so.
+  void list(int slot, LightUse use, PacketList& out) const {
+    out.clear();
+    for (const Kind& kind : kinds_) {
+      const uint8_t lanes = kind.lanes[static_cast<size_t>(use)][static_cast<size_t>(slot)];
+      if (lanes == 0) continue;
+      for (const size_t first : kind.packets) out.add(first, lanes);
+    }
+  }
+
+  // Lanes on a light map begin with what it says.
+  void beginWithMaps(Irradiance& out) const {
+    for (const Kind& kind : kinds_) {
+      for (size_t lane = 0; lane < kLanes; ++lane) {
+        if (kind.places[lane] == kNone) continue;
+        const Place& place = places_[static_cast<size_t>(kind.places[lane])];
+        if (!place.mapped) continue;
+        for (const size_t first : kind.packets) {
+          const size_t i = first + lane;
+          const vec3 e = lights_.maps()->irradiance(lights_.patches(place.object), place.object,
+                                                    place.leaf, vec3(g_.px[i], g_.py[i], g_.pz[i]));
+          out.r[i] = e.r;
+          out.g[i] = e.g;
+          out.b[i] = e.b;
+        }
+      }
+    }
+  }
 
  private:
-  using Patch = std::pair<uint32_t, int>;  // object, leaf
-  static Occlusion stateOf(const VisibilityDatabase& v, const Patch& p, int slot) {
-    return slot < 0 ? Occlusion::none : v.state(p.first, p.second, slot);
+  struct Place {
+    uint32_t object;
+    int leaf;
+    bool mapped;                 // its pixels begin with the light map
+    std::vector<LightUse> uses;  // by slot
+  };
+  struct Kind {
+    std::array<int, kLanes> places;             // into places_; kNone: nothing is hit
+    std::vector<size_t> packets;                // their first pixels
+    std::array<std::vector<uint8_t>, 4> lanes;  // by LightUse, then slot: a bit a lane
+  };
+
+  int placeOf(size_t i) {
+    if (g_.hit[i] == 0) return kNone;
+    const uint32_t object = g_.object[i];
+    const ObjectPatches& patches = lights_.patches(object);
+    const int leaf = patches.leafAt(g_.triangle[i], vec3(g_.px[i], g_.py[i], g_.pz[i]));
+    const int chart = patches.patches[static_cast<size_t>(leaf)].chart;
+    const bool mapped = lights_.isMapped(object, leaf) &&
+                        glm::dot(vec3(g_.gx[i], g_.gy[i], g_.gz[i]),
+                                 patches.charts[static_cast<size_t>(chart)].normal) > 0.0f;
+    // Neighbours are mostly in the place found last.
+    for (size_t k = places_.size(); k-- > 0;) {
+      const Place& p = places_[k];
+      if (p.object == object && p.leaf == leaf && p.mapped == mapped) return static_cast<int>(k);
+    }
+    Place& place = places_.emplace_back(Place{object, leaf, mapped, {}});
+    place.uses.resize(lights_.slots());
+    lights_.uses(object, leaf, mapped, place.uses);
+    return static_cast<int>(places_.size()) - 1;
   }
 
-  std::vector<size_t> kinds_;                 // by packet
-  std::vector<std::vector<Occlusion>> rows_;  // by kind, then light
+  const GBuffer& g_;
+  const PatchLights& lights_;
+  std::vector<Place> places_;
+  std::vector<Kind> kinds_;
 };
 
 }  // namespace
@@ -261,8 +349,7 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
 }
 
 uint64_t sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
-                 const SumConstants& constants, const VisibilityDatabase* visibility,
-                 Irradiance& out) {
+                 const SumConstants& constants, const PatchLights* patches, Irradiance& out) {
   static_assert(hn::MaxLanes(kTag) == kLanes);
   const size_t first = static_cast<size_t>(tile) * kTilePixels;
   std::fill_n(&out.r[first], kTilePixels, 0.0f);
@@ -278,26 +365,41 @@ uint64_t sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> 
     if (any) packets[count++] = i;
   }
   if (count == 0) return 0;
-  const std::span<const size_t> active(packets, count);
-  if (visibility == nullptr) {
-    for (const LightRecord& light : lights) addLight(gbuffer, active, light, constants, out);
-    return lights.size() * count * kLanes;
-  }
-  const TileStates states(gbuffer, active, lights, *visibility);
+  constexpr uint8_t kEveryLane = 0xff;
+  PacketList every, list;
+  for (size_t k = 0; k < count; ++k) every.add(packets[k], kEveryLane);
   uint64_t lookUps = 0;
-  size_t open[kPacketsPerTile], shadowed[kPacketsPerTile];
-  for (size_t k = 0; k < lights.size(); ++k) {
-    size_t opens = 0, shadoweds = 0;
-    for (size_t i = 0; i < count; ++i) {
-      const Occlusion state = states.of(i, k);
-      if (state == Occlusion::none) open[opens++] = packets[i];
-      if (state == Occlusion::partial) shadowed[shadoweds++] = packets[i];
+  if (patches == nullptr) {
+    for (const LightRecord& light : lights) {
+      if (light.map == nullptr) {
+        addLight<LightUse::add>(gbuffer, every, light, constants, out);
+      } else {
+        addLight<LightUse::addShadowed>(gbuffer, every, light, constants, out);
+        lookUps += count * kLanes;
+      }
     }
-    LightRecord light = lights[k];
-    if (shadoweds > 0) addLight(gbuffer, {shadowed, shadoweds}, light, constants, out);
-    light.map = nullptr;
-    if (opens > 0) addLight(gbuffer, {open, opens}, light, constants, out);
-    lookUps += shadoweds * kLanes;
+    return lookUps;
+  }
+  const TileLights uses(gbuffer, {packets, count}, *patches);
+  if (patches->maps() != nullptr) uses.beginWithMaps(out);
+  for (const LightRecord& light : lights) {
+    if (light.slot < 0) {
+      addLight<LightUse::add>(gbuffer, every, light, constants, out);
+      continue;
+    }
+    uses.list(light.slot, LightUse::add, list);
+    addLight<LightUse::add>(gbuffer, list, light, constants, out);
+    uses.list(light.slot, LightUse::addShadowed, list);
+    addLight<LightUse::addShadowed>(gbuffer, list, light, constants, out);
+    lookUps += list.count() * kLanes;
+    uses.list(light.slot, LightUse::takeShadow, list);
+    addLight<LightUse::takeShadow>(gbuffer, list, light, constants, out);
+    lookUps += list.count() * kLanes;
+  }
+  // The map is interpolated and what is taken away is not: no light may be left less than none.
+  if (patches->maps() != nullptr) {
+    for (auto* v : {&out.r, &out.g, &out.b})
+      for (size_t i = first; i < first + kTilePixels; ++i) (*v)[i] = std::max((*v)[i], 0.0f);
   }
   return lookUps;
 }

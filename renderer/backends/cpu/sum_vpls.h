@@ -8,7 +8,7 @@
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {
-class VisibilityDatabase;
+class PatchLights;
 }
 
 namespace lamplighter::cpu {
@@ -38,9 +38,9 @@ struct Irradiance {
 LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map);
 
 // Adds every light, in order, to E at the tile's pixels, starting from zero.
-// `visibility`: says which look-ups are needed; null: all. Returns how many light·pixels had one.
+// `patches`: how each patch comes by each light; null: with a look-up. Returns how many
+// light·pixels had one, in whole packets.
 uint64_t sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
-                 const SumConstants& constants, const VisibilityDatabase* visibility,
-                 Irradiance& out);
+                 const SumConstants& constants, const PatchLights* patches, Irradiance& out);
 
 }  // namespace lamplighter::cpu

@@ -42,7 +42,7 @@ class GlBackend final : public Backend {
   }
 
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
-               const VisibilityDatabase*) override {
+               const PatchLights*) override {
     lighting_.sum(gbuffer_, maps_, vpls_, vpls, params);
     counts_.lightPixels +=
         vpls.size() * static_cast<uint64_t>(gbuffer_.width()) * gbuffer_.height();

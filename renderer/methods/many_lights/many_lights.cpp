@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/lights.h"
@@ -58,7 +59,10 @@ ManyLights::Options::Options(const Settings& settings) {
   clampDistance = settings.real(parameters::clampDistance());
   shadowBias = settings.real(parameters::shadowBias());
   antialias = settings.integer(parameters::antialias());
-  useVisibility = settings.choice(parameters::technique()) == "visibility";
+  const std::string technique = settings.choice(parameters::technique());
+  useLightMaps = technique == "light_maps";
+  useVisibility = useLightMaps || technique == "visibility";
+  lightMapTexel = settings.real(parameters::lightMapTexel());
 }
 
 GiOutput ManyLights::render(const FrameInputs& in) {
@@ -74,15 +78,19 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.mapsRendered = lights_.refresh(in.backend, options.updates);
   stages.end("shadow maps");
 
-  // 3. Where their maps must be looked up.
+  // 3. Where their maps must be looked up, and the sum of their light without shadows.
   updateVisibility(in, options, out.stats);
   stages.end("visibility");
+  updateLightMaps(in, options, out.stats);
+  stages.end("light maps");
 
   // 4. The picture, where anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
   const bool shadingChanged = options.clampDistance != options_.clampDistance ||
                               options.shadowBias != options_.shadowBias ||
-                              options.useVisibility != options_.useVisibility;
+                              options.useVisibility != options_.useVisibility ||
+                              options.useLightMaps != options_.useLightMaps ||
+                              options.lightMapTexel != options_.lightMapTexel;
   if (viewChanged) gbufferIsCurrent_ = false;
   const bool shadedNow = !image_ || viewChanged || lights_.changed() || shadingChanged;
   if (shadedNow) {
@@ -138,10 +146,27 @@ void ManyLights::updateVisibility(const FrameInputs& in, const Options& options,
   } else {
     visibility_->setScene(in.scene, in.changes);
   }
+  visibility_->setLights(in.scene, shownBySlot());
+  stats.visibilityTests = visibility_->tests() - before;
+}
+
+void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
+  if (!options.useLightMaps) {
+    lightMaps_.reset();
+  } else {
+    if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
+    const uint64_t before = lightMaps_->texelsWritten();
+    lightMaps_->update(in.scene, in.changes, *visibility_, shownBySlot(),
+                       {options.lightMapTexel, options.clampDistance});
+    stats.lightMapTexels = lightMaps_->texelsWritten() - before;
+  }
+  if (visibility_) visibility_->clearChanged();
+}
+
+std::vector<shared::Vpl> ManyLights::shownBySlot() const {
   std::vector<shared::Vpl> bySlot(static_cast<size_t>(lights_.slots()));
   for (const shared::Vpl& vpl : lights_.shown()) bySlot[static_cast<size_t>(vpl.intensity.w)] = vpl;
-  visibility_->setLights(in.scene, bySlot);
-  stats.visibilityTests = visibility_->tests() - before;
+  return bySlot;
 }
 
 std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Options& options,
@@ -154,7 +179,12 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias,
                                           static_cast<float>(options.mapResolution),
                                           static_cast<float>(vpls.size()))};
-  in.backend.sumVpls(vpls, params, visibility_.get());
+  if (visibility_) {
+    const PatchLights patches(*visibility_, lightMaps_.get());
+    in.backend.sumVpls(vpls, params, &patches);
+  } else {
+    in.backend.sumVpls(vpls, params, nullptr);
+  }
   stages.end("light sums");
   auto image = in.backend.compose();
   stages.end("composition");
@@ -180,7 +210,8 @@ MethodInfo manyLightsInfo() {
           "Barczak, Interactive Illumination Using Large Sets of Point Lights, 2006, chapter 4",
           {parameters::vpls(), parameters::directShare(), parameters::bounces(), parameters::seed(),
            parameters::mapResolution(), parameters::updates(), parameters::clampDistance(),
-           parameters::shadowBias(), parameters::technique(), parameters::antialias()},
+           parameters::shadowBias(), parameters::technique(), parameters::lightMapTexel(),
+           parameters::antialias()},
           [] { return std::make_unique<ManyLights>(); }};
 }
 

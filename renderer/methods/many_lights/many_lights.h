@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "renderer/light_maps/light_maps.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/live_lights.h"
 #include "renderer/visibility/visibility_database.h"
@@ -31,12 +32,16 @@ class ManyLights final : public GiMethod {
     float shadowBias = 0.0f;
     int antialias = 1;
     bool useVisibility = false;
+    bool useLightMaps = false;  // besides
+    float lightMapTexel = 0.1f;
   };
 
   void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
   void updateVisibility(const FrameInputs& in, const Options& options, GiStats& stats);
+  void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
+  std::vector<shared::Vpl> shownBySlot() const;
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
   bool started_ = false;
@@ -45,6 +50,7 @@ class ManyLights final : public GiMethod {
   MoverFinder movers_;
   LiveLights lights_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
+  std::unique_ptr<LightMaps> lightMaps_;            // likewise
   bool gbufferIsCurrent_ = false;
   std::shared_ptr<RadianceImage> image_;  // of the pixels' middles
   // Antialiasing: the sum of the samples so far; their mean when they are complete.

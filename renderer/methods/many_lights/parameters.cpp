@@ -8,12 +8,28 @@ const ParameterSpec& technique() {
       "Technique",
       "",
       "naive: every light sample with its shadow map at every pixel. visibility: maps are looked "
-      "up only where the geometry cannot tell whether something stands between.",
+      "up only where the geometry cannot tell whether something stands between. light_maps: "
+      "besides, light without shadows is summed once for flat surfaces, and pixels only take "
+      "shadows away.",
       std::string("naive"),
       0,
       0,
       false,
-      {"naive", "visibility"}};
+      {"naive", "visibility", "light_maps"}};
+  return spec;
+}
+
+const ParameterSpec& lightMapTexel() {
+  static const ParameterSpec spec{
+      "light_map_texel",
+      "Light map texel",
+      "m",
+      "Spacing of the light maps' texels; patches that would need more than 33 a side get 33.",
+      0.1f,
+      0.01,
+      2.0,
+      true,
+      {}};
   return spec;
 }
 

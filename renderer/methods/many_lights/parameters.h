@@ -5,7 +5,8 @@
 
 namespace lamplighter::parameters {
 
-const ParameterSpec& technique();  // which of the paper's short cuts are taken
-const ParameterSpec& antialias();  // int, G-buffers averaged once the lights are settled
+const ParameterSpec& technique();      // which of the paper's short cuts are taken
+const ParameterSpec& lightMapTexel();  // float, m
+const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled
 
 }  // namespace lamplighter::parameters

@@ -27,7 +27,7 @@ class RecordingBackend : public Backend {
   }
   void renderGBuffer(const View&, vec2) override {}
   void sumVpls(std::span<const shared::Vpl>, const shared::ShadingParams&,
-               const VisibilityDatabase*) override {}
+               const PatchLights*) override {}
   std::shared_ptr<RadianceImage> compose() override { return nullptr; }
   std::vector<float> readShadowMap(int) override { return {}; }
   Image readNormals() override { return {}; }

@@ -94,7 +94,7 @@ TEST(ReferenceLights, ASphereAboveAndAside) {
   scene.find(id)->area->shape = AreaShape::sphere;
   scene.find(id)->area->size = vec2(1.0f);
   constexpr uint32_t kTurns = 64;
-  for (const float x : {0.0f, 0.5f,1.0f,2.0f,4.0f}) {
+  for (const float x : {0.0f, 0.5f, 1.0f, 2.0f, 4.0f}) {
     const float d2 = 4.0f + x * x;
     const float expected = kRho * 5.0f * 0.25f * (2.0f / std::sqrt(d2)) / d2;
     float sum = 0.0f;

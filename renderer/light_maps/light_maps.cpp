@@ -1,0 +1,274 @@
+#include "renderer/light_maps/light_maps.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/light_maps/accumulate.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr int kMostTexels = 33;         // a side
+constexpr float kFlat = 0.9999f;        // cos 0.8°
+constexpr float kNearTexels = 4.0f;     // nearer lights vary too much from texel to texel
+constexpr float kBrightest = 2048.0f;   // W/m²: 65536 such lights still fit the sums
+
+bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
+
+// All that a contribution depends on.
+bool sameContribution(const shared::Vpl& a, const shared::Vpl& b) {
+  return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
+         vec3(a.intensity) == vec3(b.intensity);
+}
+
+// Its surface shades as its plane does: neither smooth normals nor a normal texture.
+bool isShadedFlat(const RenderScene& s, const Chart& chart) {
+  const RenderObject& o = s.objects[chart.object];
+  if (s.materials[static_cast<size_t>(o.material)].normalTexture.texture != kNone) return false;
+  return std::all_of(chart.triangles.begin(), chart.triangles.end(), [&](uint32_t t) {
+    for (uint32_t c = 0; c < 3; ++c) {
+      const vec3& n = s.normals[s.indices[o.firstIndex + 3 * t + c]];
+      const float length = glm::length(n);
+      if (length > 0.0f && std::abs(glm::dot(n, chart.normal)) < kFlat * length) return false;
+    }
+    return true;
+  });
+}
+
+// Whether its light is smooth enough over the patch to be interpolated, and not too bright to be
+// summed.
+bool isMappable(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, float spacing,
+                float clampDistance) {
+  const float brightest =
+      std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
+  const vec3 position(vpl.position), normal(vpl.normal), tangent(vpl.tangent);
+  if (vpl.position.w == shared::kVplDirectional) {
+    const vec3 bitangent = glm::cross(normal, tangent);
+    vec2 least(std::numeric_limits<float>::infinity()), most(-least);
+    for (const vec2& p : {patch.min, vec2(patch.max.x, patch.min.y), patch.max,
+                          vec2(patch.min.x, patch.max.y)}) {
+      const vec3 v = chart.at(p) - position;
+      const vec2 q(glm::dot(v, tangent), glm::dot(v, bitangent));
+      least = glm::min(least, q);
+      most = glm::max(most, q);
+    }
+    const float inner = 0.999f * vpl.tangent.w, outer = 1.001f * vpl.tangent.w;
+    const bool isWithin = least.x > -inner && least.y > -inner && most.x < inner && most.y < inner;
+    const bool isOutside =
+        least.x > outer || least.y > outer || most.x < -outer || most.y < -outer;
+    return brightest <= kBrightest && (isWithin || isOutside);
+  }
+  const bool isSpot = vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
+  if (isSpot) return false;  // its edge may fall between two texels
+  const vec2 p = chart.project(position);
+  const vec2 off = p - glm::clamp(p, patch.min, patch.max);
+  const float height = glm::dot(position - chart.origin, chart.normal);
+  const float distance2 = glm::dot(off, off) + height * height;
+  const float bounded = vpl.position.w == shared::kVplCosine
+                            ? std::max(distance2, clampDistance * clampDistance)
+                            : distance2;
+  return distance2 >= kNearTexels * kNearTexels * spacing * spacing &&
+         brightest <= kBrightest * bounded;
+}
+
+float spacingOf(const LightMapTile& tile, const Patch& patch) {
+  const vec2 size = patch.max - patch.min;
+  return std::max(size.x / static_cast<float>(tile.columns - 1),
+                  size.y / static_cast<float>(tile.rows - 1));
+}
+
+// Where a tile's texels are. One for each thread's work on one tile.
+class Places {
+ public:
+  Places(const Chart& chart, const Patch& patch, const LightMapTile& tile) : normal_(chart.normal) {
+    const int count = tile.columns * tile.rows;
+    size_ = (static_cast<size_t>(count) + 7) / 8 * 8;
+    for (size_t i = 0; i < size_; ++i) {
+      const int texel = std::min(static_cast<int>(i), count - 1);
+      const vec2 share(
+          static_cast<float>(texel % tile.columns) / static_cast<float>(tile.columns - 1),
+          static_cast<float>(texel / tile.columns) / static_cast<float>(tile.rows - 1));
+      const vec3 p = chart.at(glm::mix(patch.min, patch.max, share));
+      x_[i] = p.x;
+      y_[i] = p.y;
+      z_[i] = p.z;
+    }
+  }
+  TexelPlaces get() const { return {{x_, size_}, {y_, size_}, {z_, size_}, normal_}; }
+
+ private:
+  static constexpr size_t kMost = (kMostTexels * kMostTexels + 7) / 8 * 8;
+  float x_[kMost], y_[kMost], z_[kMost];
+  size_t size_;
+  vec3 normal_;
+};
+
+}  // namespace
+
+LightMaps::Object LightMaps::makeObject(const RenderScene& scene, const ObjectPatches& patches,
+                                        float texel) {
+  Object out;
+  out.tileOfPatch.assign(patches.patches.size(), kNone);
+  std::vector<bool> flat(patches.charts.size());
+  for (size_t i = 0; i < flat.size(); ++i) flat[i] = isShadedFlat(scene, patches.charts[i]);
+  const auto texelsAlong = [&](float length) {
+    const float steps = std::ceil(std::min(length / texel, static_cast<float>(kMostTexels)));
+    return std::clamp(static_cast<int>(steps) + 1, 2, kMostTexels);
+  };
+  uint32_t texels = 0;
+  for (size_t p = 0; p < patches.patches.size(); ++p) {
+    const Patch& patch = patches.patches[p];
+    if (!patch.isLeaf() || patch.chart == kNone || !flat[static_cast<size_t>(patch.chart)])
+      continue;
+    const vec2 size = patch.max - patch.min;
+    const LightMapTile tile{static_cast<int>(p), texels, texelsAlong(size.x), texelsAlong(size.y)};
+    out.tileOfPatch[p] = static_cast<int>(out.tiles.size());
+    out.tiles.push_back(tile);
+    texels += static_cast<uint32_t>(tile.columns * tile.rows);
+  }
+  out.sums.assign(size_t{3} * texels, 0.0);
+  out.irradiance.assign(texels, vec4(0.0f));
+  return out;
+}
+
+void LightMaps::resize(size_t slots) {
+  if (slots <= stride_) return;
+  const size_t stride = std::max(slots, stride_ + stride_ / 2);
+  for (Object& o : objects_) {
+    std::vector<uint8_t> wider(o.tiles.size() * stride, 0);
+    for (size_t t = 0; stride_ > 0 && t < o.tiles.size(); ++t)
+      std::copy_n(&o.held[t * stride_], stride_, &wider[t * stride]);
+    o.held = std::move(wider);
+  }
+  stride_ = stride;
+}
+
+void LightMaps::update(const RenderScene& scene, const RenderSceneChanges& changes,
+                       const VisibilityDatabase& visibility, std::span<const shared::Vpl> bySlot,
+                       const Options& options) {
+  const bool all = changes.rebuilt || changes.materials ||
+                   objects_.size() != scene.objects.size() || !(options == options_);
+  options_ = options;
+  std::vector<uint32_t> fresh = changes.movedObjects;
+  if (all) {
+    objects_.assign(scene.objects.size(), {});
+    fresh.resize(scene.objects.size());
+    std::iota(fresh.begin(), fresh.end(), 0u);
+  }
+  resize(bySlot.size());
+  tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) {
+    Object& o = objects_[fresh[i]];
+    o = makeObject(scene, visibility.patches(fresh[i]), options.texel);
+    o.held.assign(o.tiles.size() * stride_, 0);
+  });
+  std::vector<bool> isFresh(objects_.size(), false);
+  for (const uint32_t i : fresh) isFresh[i] = true;
+
+  lights_.resize(bySlot.size());
+  std::vector<uint32_t> changedSlots, allSlots(bySlot.size());
+  std::iota(allSlots.begin(), allSlots.end(), 0u);
+  std::vector<bool> isNew(bySlot.size(), false);
+  for (uint32_t i = 0; i < bySlot.size(); ++i) {
+    if (sameContribution(lights_[i], bySlot[i])) continue;
+    isNew[i] = true;
+    changedSlots.push_back(i);
+  }
+
+  struct Job {
+    uint32_t object, tile;
+    bool everySlot;
+  };
+  std::vector<Job> jobs;
+  for (uint32_t object = 0; object < objects_.size(); ++object) {
+    const Object& o = objects_[object];
+    for (uint32_t t = 0; t < o.tiles.size(); ++t) {
+      const bool every = isFresh[object] || visibility.rowChanged(object, o.tiles[t].patch);
+      if (every || !changedSlots.empty()) jobs.push_back({object, t, every});
+    }
+  }
+  std::atomic<uint64_t> written = 0;
+  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t j) {
+    const Job& job = jobs[j];
+    Object& o = objects_[job.object];
+    const LightMapTile& tile = o.tiles[job.tile];
+    const ObjectPatches& patches = visibility.patches(job.object);
+    const Patch& patch = patches.patches[static_cast<size_t>(tile.patch)];
+    const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
+    const auto states = visibility.row(job.object, tile.patch);
+    const float spacing = spacingOf(tile, patch);
+    const auto count = static_cast<size_t>(tile.columns * tile.rows);
+    const Places places(chart, patch, tile);
+    double* sums = &o.sums[size_t{3} * tile.first];
+    uint64_t touched = 0;
+    const auto change = [&](const shared::Vpl& vpl, double sign) {
+      accumulate(vpl, places.get(), options.clampDistance, sign, count, sums, sums + count,
+                 sums + 2 * count);
+      touched += count;
+    };
+    for (const uint32_t slot : job.everySlot ? allSlots : changedSlots) {
+      uint8_t& has = o.held[job.tile * stride_ + slot];
+      const bool wants =
+          isLight(bySlot[slot]) && static_cast<Occlusion>(states[slot]) != Occlusion::full &&
+          isMappable(bySlot[slot], chart, patch, spacing, options.clampDistance);
+      if (has != 0 && (!wants || isNew[slot])) change(lights_[slot], -1.0);
+      if (wants && (has == 0 || isNew[slot])) change(bySlot[slot], 1.0);
+      has = wants ? 1 : 0;
+    }
+    if (touched == 0) return;
+    written += touched;
+    for (size_t i = 0; i < count; ++i)
+      o.irradiance[tile.first + i] = vec4(sums[i], sums[count + i], sums[2 * count + i], 0.0);
+  });
+  written_ += written;
+  lights_.assign(bySlot.begin(), bySlot.end());
+}
+
+vec3 LightMaps::irradiance(const ObjectPatches& patches, uint32_t object, int leaf,
+                           const vec3& position) const {
+  const LightMapTile& t = *tile(object, leaf);
+  const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
+  const vec2 last(static_cast<float>(t.columns - 1), static_cast<float>(t.rows - 1));
+  const vec2 p = patches.charts[static_cast<size_t>(patch.chart)].project(position);
+  const vec2 at = glm::clamp((p - patch.min) / (patch.max - patch.min), 0.0f, 1.0f) * last;
+  const vec2 low = glm::min(glm::floor(at), last - 1.0f);
+  const vec2 w = at - low;
+  const vec4* texel = &objects_[object].irradiance[t.first + static_cast<uint32_t>(low.y) *
+                                                                 static_cast<uint32_t>(t.columns) +
+                                                   static_cast<uint32_t>(low.x)];
+  const vec4 top = glm::mix(texel[0], texel[1], w.x);
+  const vec4 bottom = glm::mix(texel[t.columns], texel[t.columns + 1], w.x);
+  return vec3(glm::mix(top, bottom, w.y));
+}
+
+size_t LightMaps::texels() const {
+  size_t n = 0;
+  for (const Object& o : objects_) n += o.irradiance.size();
+  return n;
+}
+
+uint64_t LightMaps::bytes() const {
+  uint64_t n = 0;
+  for (const Object& o : objects_)
+    n += o.irradiance.size() * (sizeof(vec4) + 3 * sizeof(double)) + o.held.size();
+  return n;
+}
+
+// FNV-1a over the words.
+uint64_t LightMaps::hash() const {
+  uint64_t hash = 14695981039346656037u;
+  for (const Object& o : objects_) {
+    for (const double sum : o.sums) {
+      uint64_t bits;
+      std::memcpy(&bits, &sum, sizeof bits);
+      hash = (hash ^ bits) * 1099511628211u;
+    }
+  }
+  return hash;
+}
+
+}  // namespace lamplighter

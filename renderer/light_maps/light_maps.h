@@ -1,0 +1,82 @@
+// Light maps (paper 1, 4.3.2 and 4.5.2): for each patch the irradiance of all lights that reach some
+// of it, without their shadows, on a grid. Pixels take the shadows away again (patch_lights.h).
+//
+// A tile is the grid of one leaf patch. It begins and ends at the patch's corners, so bilinear
+// filtering never leaves it: no gutter is needed, nothing bleeds, and neighbours that hold the same
+// lights agree along their border. Texels past the surface's edge are light on its plane.
+//
+// The sums are fixed-point numbers: each contribution is rounded to a multiple of 2⁻²⁶ W/m² and
+// added as a double, which is exact up to 2²⁷ W/m². Adding a light and taking it away restores the
+// very same bits in any order.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/visibility/visibility_database.h"
+#include "shaders/shared/vpl.h"
+
+namespace lamplighter {
+
+struct LightMapTile {
+  int patch = kNone;         // the leaf, of the object's patches
+  uint32_t first = 0;        // its first texel in the object's arrays; row after row
+  int columns = 0, rows = 0; // along the chart's tangent and bitangent, 2 at least
+};
+
+class LightMaps {
+ public:
+  struct Options {
+    float texel = 0.1f;          // spacing of texels, where a patch needs no more than 33 [m]
+    float clampDistance = 0.0f;  // of ShadingParams [m]
+    bool operator==(const Options&) const = default;
+  };
+
+  // Takes in what changed. `bySlot`: the lights as the database has them, with their intensities.
+  // Afterwards the maps are those that would be made from nothing.
+  void update(const RenderScene& scene, const RenderSceneChanges& changes,
+              const VisibilityDatabase& visibility, std::span<const shared::Vpl> bySlot,
+              const Options& options);
+
+  // A leaf's tile; null where pixels have to sum all lights themselves: its chart is not shaded
+  // flat, or it is in no chart.
+  const LightMapTile* tile(uint32_t object, int leaf) const {
+    const int index = objects_[object].tileOfPatch[static_cast<size_t>(leaf)];
+    return index == kNone ? nullptr : &objects_[object].tiles[static_cast<size_t>(index)];
+  }
+  // Whether the leaf's tile holds the light in each slot. Only for leaves with a tile.
+  std::span<const uint8_t> held(uint32_t object, int leaf) const {
+    const size_t index = static_cast<size_t>(objects_[object].tileOfPatch[static_cast<size_t>(leaf)]);
+    return {&objects_[object].held[index * stride_], lights_.size()};
+  }
+  // E of the leaf's tile on the front of its plane at the point nearest to `position` [W/m²].
+  vec3 irradiance(const ObjectPatches& patches, uint32_t object, int leaf,
+                  const vec3& position) const;
+  // An object's texels; rgb: E [W/m²].
+  std::span<const vec4> texels(uint32_t object) const { return objects_[object].irradiance; }
+
+  size_t objects() const { return objects_.size(); }
+  size_t texels() const;
+  uint64_t texelsWritten() const { return written_; }  // texels × lights, since they were made
+  uint64_t bytes() const;
+  uint64_t hash() const;  // of all sums
+
+ private:
+  struct Object {
+    std::vector<int> tileOfPatch;  // kNone: no tile
+    std::vector<LightMapTile> tiles;
+    std::vector<double> sums;      // three a texel: all r of a tile, then g, then b
+    std::vector<vec4> irradiance;  // the same, as it is read
+    std::vector<uint8_t> held;     // tiles × slots
+  };
+  static Object makeObject(const RenderScene& scene, const ObjectPatches& patches, float texel);
+  void resize(size_t slots);
+
+  std::vector<Object> objects_;
+  std::vector<shared::Vpl> lights_;  // by slot, as they were added
+  size_t stride_ = 0;
+  Options options_;
+  uint64_t written_ = 0;
+};
+
+}  // namespace lamplighter

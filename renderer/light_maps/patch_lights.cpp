@@ -1,0 +1,20 @@
+#include "renderer/light_maps/patch_lights.h"
+
+namespace lamplighter {
+
+void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const {
+  static_assert(static_cast<int>(Occlusion::none) == 0 &&
+                static_cast<int>(Occlusion::partial) == 1 &&
+                static_cast<int>(Occlusion::full) == 2);
+  constexpr LightUse kUses[2][3] = {{LightUse::add, LightUse::addShadowed, LightUse::skip},
+                                    {LightUse::skip, LightUse::takeShadow, LightUse::skip}};
+  const auto states = visibility_.row(object, leaf);
+  if (!mapped) {
+    for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[0][states[i]];
+    return;
+  }
+  const auto held = maps_->held(object, leaf);
+  for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[held[i]][states[i]];
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,44 @@
+// How the pixels of each patch come by each light: what a backend is told to sum where (paper 1,
+// 4.3.4, "shadow subtraction"). Made of the visibility database and, if there are any, light maps.
+#pragma once
+
+#include <span>
+
+#include "renderer/light_maps/light_maps.h"
+#include "renderer/visibility/visibility_database.h"
+
+namespace lamplighter {
+
+enum class LightUse : uint8_t {
+  skip,         // nothing to sum: it is hidden, or the light map has all of it
+  add,          // nothing stands between
+  addShadowed,  // with a look-up in its shadow map
+  takeShadow    // the light map has it without shadow: what its shadow map hides is taken away
+};
+
+// Views into both, which must outlive it and stay as they are.
+class PatchLights {
+ public:
+  // maps: null when there are none.
+  PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps)
+      : visibility_(visibility), maps_(maps) {}
+
+  const VisibilityDatabase& visibility() const { return visibility_; }
+  const LightMaps* maps() const { return maps_; }
+  size_t slots() const { return visibility_.slots(); }
+  const ObjectPatches& patches(uint32_t object) const { return visibility_.patches(object); }
+
+  // Whether pixels on the front of this leaf begin with what the light map says. Its back, and what
+  // has no tile, sums all lights itself.
+  bool isMapped(uint32_t object, int leaf) const {
+    return maps_ != nullptr && maps_->tile(object, leaf) != nullptr;
+  }
+  // By slot, slots() of them. `mapped`: for pixels that begin with the light map.
+  void uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
+
+ private:
+  const VisibilityDatabase& visibility_;
+  const LightMaps* maps_;
+};
+
+}  // namespace lamplighter
