@@ -75,8 +75,7 @@ void accumulate(const shared::Vpl& vpl, const TexelPlaces& places, float clampDi
         weight = hn::Div(hn::Mul(s, height), hn::Mul(d2, hn::Max(d2, clamp2)));
       } else {
         const Floats d = hn::Sqrt(d2);
-        const Floats ramp =
-            hn::MulAdd(hn::Div(height, d), all(vpl.normal.w), all(vpl.tangent.w));
+        const Floats ramp = hn::MulAdd(hn::Div(height, d), all(vpl.normal.w), all(vpl.tangent.w));
         const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
         weight = hn::Mul(hn::Mul(cone, cone), hn::Div(s, hn::Mul(d2, d)));
       }

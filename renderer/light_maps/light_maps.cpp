@@ -13,10 +13,10 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kMostTexels = 33;         // a side
-constexpr float kFlat = 0.9999f;        // cos 0.8°
-constexpr float kNearTexels = 4.0f;     // nearer lights vary too much from texel to texel
-constexpr float kBrightest = 2048.0f;   // W/m²: 65536 such lights still fit the sums
+constexpr int kMostTexels = 33;        // a side
+constexpr float kFlat = 0.9999f;       // cos 0.8°
+constexpr float kNearTexels = 4.0f;    // nearer lights vary too much from texel to texel
+constexpr float kBrightest = 2048.0f;  // W/m²: 65536 such lights still fit the sums
 
 bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
@@ -44,14 +44,13 @@ bool isShadedFlat(const RenderScene& s, const Chart& chart) {
 // summed.
 bool isMappable(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, float spacing,
                 float clampDistance) {
-  const float brightest =
-      std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
+  const float brightest = std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
   const vec3 position(vpl.position), normal(vpl.normal), tangent(vpl.tangent);
   if (vpl.position.w == shared::kVplDirectional) {
     const vec3 bitangent = glm::cross(normal, tangent);
     vec2 least(std::numeric_limits<float>::infinity()), most(-least);
-    for (const vec2& p : {patch.min, vec2(patch.max.x, patch.min.y), patch.max,
-                          vec2(patch.min.x, patch.max.y)}) {
+    for (const vec2& p :
+         {patch.min, vec2(patch.max.x, patch.min.y), patch.max, vec2(patch.min.x, patch.max.y)}) {
       const vec3 v = chart.at(p) - position;
       const vec2 q(glm::dot(v, tangent), glm::dot(v, bitangent));
       least = glm::min(least, q);
@@ -59,8 +58,7 @@ bool isMappable(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, 
     }
     const float inner = 0.999f * vpl.tangent.w, outer = 1.001f * vpl.tangent.w;
     const bool isWithin = least.x > -inner && least.y > -inner && most.x < inner && most.y < inner;
-    const bool isOutside =
-        least.x > outer || least.y > outer || most.x < -outer || most.y < -outer;
+    const bool isOutside = least.x > outer || least.y > outer || most.x < -outer || most.y < -outer;
     return brightest <= kBrightest && (isWithin || isOutside);
   }
   const bool isSpot = vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
@@ -148,18 +146,21 @@ void LightMaps::resize(size_t slots) {
   stride_ = stride;
 }
 
-void LightMaps::update(const RenderScene& scene, const RenderSceneChanges& changes,
-                       const VisibilityDatabase& visibility, std::span<const shared::Vpl> bySlot,
-                       const Options& options) {
-  const bool all = changes.rebuilt || changes.materials ||
-                   objects_.size() != scene.objects.size() || !(options == options_);
+void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visibility,
+                       std::span<const shared::Vpl> bySlot, const Options& options) {
+  if (!(options == options_)) objects_.clear();
   options_ = options;
-  std::vector<uint32_t> fresh = changes.movedObjects;
-  if (all) {
-    objects_.assign(scene.objects.size(), {});
-    fresh.resize(scene.objects.size());
-    std::iota(fresh.begin(), fresh.end(), 0u);
+  std::vector<Object> objects(scene.objects.size());
+  std::vector<uint32_t> fresh;
+  for (uint32_t i = 0; i < objects.size(); ++i) {
+    const int from = visibility.cameFrom()[i];
+    if (from != kNone && static_cast<size_t>(from) < objects_.size()) {
+      objects[i] = std::move(objects_[static_cast<size_t>(from)]);
+    } else {
+      fresh.push_back(i);
+    }
   }
+  objects_ = std::move(objects);
   resize(bySlot.size());
   tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) {
     Object& o = objects_[fresh[i]];
@@ -212,9 +213,9 @@ void LightMaps::update(const RenderScene& scene, const RenderSceneChanges& chang
     };
     for (const uint32_t slot : job.everySlot ? allSlots : changedSlots) {
       uint8_t& has = o.held[job.tile * stride_ + slot];
-      const bool wants =
-          isLight(bySlot[slot]) && static_cast<Occlusion>(states[slot]) != Occlusion::full &&
-          isMappable(bySlot[slot], chart, patch, spacing, options.clampDistance);
+      const bool wants = isLight(bySlot[slot]) &&
+                         static_cast<Occlusion>(states[slot]) != Occlusion::full &&
+                         isMappable(bySlot[slot], chart, patch, spacing, options.clampDistance);
       if (has != 0 && (!wants || isNew[slot])) change(lights_[slot], -1.0);
       if (wants && (has == 0 || isNew[slot])) change(bySlot[slot], 1.0);
       has = wants ? 1 : 0;
@@ -237,9 +238,10 @@ vec3 LightMaps::irradiance(const ObjectPatches& patches, uint32_t object, int le
   const vec2 at = glm::clamp((p - patch.min) / (patch.max - patch.min), 0.0f, 1.0f) * last;
   const vec2 low = glm::min(glm::floor(at), last - 1.0f);
   const vec2 w = at - low;
-  const vec4* texel = &objects_[object].irradiance[t.first + static_cast<uint32_t>(low.y) *
-                                                                 static_cast<uint32_t>(t.columns) +
-                                                   static_cast<uint32_t>(low.x)];
+  const vec4* texel =
+      &objects_[object]
+           .irradiance[t.first + static_cast<uint32_t>(low.y) * static_cast<uint32_t>(t.columns) +
+                       static_cast<uint32_t>(low.x)];
   const vec4 top = glm::mix(texel[0], texel[1], w.x);
   const vec4 bottom = glm::mix(texel[t.columns], texel[t.columns + 1], w.x);
   return vec3(glm::mix(top, bottom, w.y));

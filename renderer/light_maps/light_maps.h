@@ -1,5 +1,6 @@
-// Light maps (paper 1, 4.3.2 and 4.5.2): for each patch the irradiance of all lights that reach some
-// of it, without their shadows, on a grid. Pixels take the shadows away again (patch_lights.h).
+// Light maps (paper 1, 4.3.2 and 4.5.2): for each patch the irradiance of all lights that reach
+// some of it, without their shadows, on a grid. Pixels take the shadows away again
+// (patch_lights.h).
 //
 // A tile is the grid of one leaf patch. It begins and ends at the patch's corners, so bilinear
 // filtering never leaves it: no gutter is needed, nothing bleeds, and neighbours that hold the same
@@ -19,9 +20,9 @@
 namespace lamplighter {
 
 struct LightMapTile {
-  int patch = kNone;         // the leaf, of the object's patches
-  uint32_t first = 0;        // its first texel in the object's arrays; row after row
-  int columns = 0, rows = 0; // along the chart's tangent and bitangent, 2 at least
+  int patch = kNone;          // the leaf, of the object's patches
+  uint32_t first = 0;         // its first texel in the object's arrays; row after row
+  int columns = 0, rows = 0;  // along the chart's tangent and bitangent, 2 at least
 };
 
 class LightMaps {
@@ -32,11 +33,11 @@ class LightMaps {
     bool operator==(const Options&) const = default;
   };
 
-  // Takes in what changed. `bySlot`: the lights as the database has them, with their intensities.
-  // Afterwards the maps are those that would be made from nothing.
-  void update(const RenderScene& scene, const RenderSceneChanges& changes,
-              const VisibilityDatabase& visibility, std::span<const shared::Vpl> bySlot,
-              const Options& options);
+  // Takes in what changed; once after each setScene() of the database. `bySlot`: the lights as the
+  // database has them, with their intensities. Afterwards the maps are those that would be made
+  // from nothing.
+  void update(const RenderScene& scene, const VisibilityDatabase& visibility,
+              std::span<const shared::Vpl> bySlot, const Options& options);
 
   // A leaf's tile; null where pixels have to sum all lights themselves: its chart is not shaded
   // flat, or it is in no chart.
@@ -46,7 +47,8 @@ class LightMaps {
   }
   // Whether the leaf's tile holds the light in each slot. Only for leaves with a tile.
   std::span<const uint8_t> held(uint32_t object, int leaf) const {
-    const size_t index = static_cast<size_t>(objects_[object].tileOfPatch[static_cast<size_t>(leaf)]);
+    const size_t index =
+        static_cast<size_t>(objects_[object].tileOfPatch[static_cast<size_t>(leaf)]);
     return {&objects_[object].held[index * stride_], lights_.size()};
   }
   // E of the leaf's tile on the front of its plane at the point nearest to `position` [W/m²].

@@ -37,6 +37,7 @@ struct GiStats {
   int mapsPending = 0;           // of them, those whose map must be rendered
   int oldestFrames = 0;          // frames the oldest pending one has waited
   int mapsRendered = 0;          // this frame
+  int mapsSpared = 0;            // this frame: what moved is hidden from their lights
   uint64_t raysTraced = 0;       // this frame, by the method itself
   uint64_t visibilityTests = 0;  // this frame: occlusion pyramids against the scene
   uint64_t lightMapTexels = 0;   // this frame: texels × lights added or taken away

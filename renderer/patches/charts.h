@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/scene/render_scene.h"
+#include "renderer/patches/topology.h"
 
 namespace lamplighter {
 
@@ -28,8 +28,8 @@ struct Chart {
   }
 };
 
-// The charts of one object that are large: a quarter of a square metre, or a fiftieth of the
-// object's size squared. The other triangles are in none. Deterministic.
-std::vector<Chart> findCharts(const RenderScene& scene, uint32_t object);
+// The charts of an object where it is now.
+std::vector<Chart> placeCharts(const RenderScene& scene, uint32_t object,
+                               const MeshTopology& topology);
 
 }  // namespace lamplighter

@@ -1,7 +1,6 @@
 #include "renderer/patches/patch_set.h"
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 
 namespace lamplighter {
@@ -9,7 +8,6 @@ namespace {
 
 constexpr int kMostSplits = 6;
 constexpr float kSmallest = 0.4f;  // m
-constexpr size_t kClusterTriangles = 1024;
 
 void splitRectangle(ObjectPatches& out, int index, int splits) {
   const Patch whole = out.patches[static_cast<size_t>(index)];
@@ -30,33 +28,24 @@ void splitRectangle(ObjectPatches& out, int index, int splits) {
   splitRectangle(out, first + 1, splits - 1);
 }
 
-Bounds boundsOf(const RenderScene& s, const RenderObject& o, uint32_t triangle) {
+Bounds boundsOf(const RenderScene& s, const RenderObject& o, std::span<const uint32_t> triangles) {
   Bounds b;
-  for (uint32_t c = 0; c < 3; ++c) b.add(s.positions[s.indices[o.firstIndex + 3 * triangle + c]]);
+  for (const uint32_t t : triangles)
+    for (uint32_t c = 0; c < 3; ++c) b.add(s.positions[s.indices[o.firstIndex + 3 * t + c]]);
   return b;
 }
 
-// Halves triangles[first, last) by the median of their middles along the longest side.
-void splitCluster(ObjectPatches& out, const RenderScene& s, const RenderObject& o, int index,
-                  std::span<uint32_t> triangles) {
-  Bounds box;
-  for (const uint32_t t : triangles) box.add(boundsOf(s, o, t));
-  out.patches[static_cast<size_t>(index)].box = box;
-  if (triangles.size() <= kClusterTriangles) {
-    for (const uint32_t t : triangles) out.patchOfTriangle[t] = index;
-    return;
+void surround(ObjectPatches& out) {
+  for (Patch& p : out.patches) {
+    if (p.chart == kNone) {
+      p.centre = p.box.centre();
+      p.radius = p.box.radius();
+    } else {
+      const Chart& chart = out.charts[static_cast<size_t>(p.chart)];
+      p.centre = chart.at(0.5f * (p.min + p.max));
+      p.radius = 0.5f * glm::length(p.max - p.min) + chart.thickness;
+    }
   }
-  const vec3 size = box.extent();
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  std::stable_sort(triangles.begin(), triangles.end(), [&](uint32_t a, uint32_t b) {
-    return boundsOf(s, o, a).centre()[axis] < boundsOf(s, o, b).centre()[axis];
-  });
-  const int first = static_cast<int>(out.patches.size());
-  out.patches[static_cast<size_t>(index)].firstChild = first;
-  out.patches.resize(out.patches.size() + 2);
-  const size_t half = triangles.size() / 2;
-  splitCluster(out, s, o, first, triangles.first(half));
-  splitCluster(out, s, o, first + 1, triangles.subspan(half));
 }
 
 }  // namespace
@@ -74,10 +63,12 @@ int ObjectPatches::leafAt(uint32_t triangle, const vec3& position) const {
   return index;
 }
 
-ObjectPatches makePatches(const RenderScene& scene, uint32_t object) {
+ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
+                           const MeshTopology& topology) {
   const RenderObject& o = scene.objects[object];
   ObjectPatches out;
-  out.charts = findCharts(scene, object);
+  out.bounds = o.bounds;
+  out.charts = placeCharts(scene, object, topology);
   out.patchOfTriangle.assign(o.triangleCount(), kNone);
   for (size_t i = 0; i < out.charts.size(); ++i) {
     const int root = static_cast<int>(out.patches.size());
@@ -90,14 +81,20 @@ ObjectPatches makePatches(const RenderScene& scene, uint32_t object) {
     for (const uint32_t t : out.charts[i].triangles) out.patchOfTriangle[t] = root;
     splitRectangle(out, root, kMostSplits);
   }
-  std::vector<uint32_t> loose;
-  for (uint32_t t = 0; t < o.triangleCount(); ++t)
-    if (out.patchOfTriangle[t] == kNone) loose.push_back(t);
-  if (loose.empty()) return out;
-  const int root = static_cast<int>(out.patches.size());
-  out.patches.emplace_back();
-  out.roots.push_back(root);
-  splitCluster(out, scene, o, root, loose);
+  const int first = static_cast<int>(out.patches.size());
+  if (!topology.clusters.empty()) out.roots.push_back(first);
+  for (const ClusterTopology& cluster : topology.clusters) {
+    const int index = static_cast<int>(out.patches.size());
+    const std::span<const uint32_t> triangles(&topology.loose[cluster.first], cluster.count);
+    Patch& patch = out.patches.emplace_back();
+    patch.box = boundsOf(scene, o, triangles);
+    if (cluster.firstChild != kNone) {
+      patch.firstChild = first + cluster.firstChild;
+    } else {
+      for (const uint32_t t : triangles) out.patchOfTriangle[t] = index;
+    }
+  }
+  surround(out);
   return out;
 }
 

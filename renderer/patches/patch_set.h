@@ -13,6 +13,8 @@ struct Patch {
   int chart = kNone;          // of the object's charts; kNone: a cluster of triangles, with a box
   vec2 min{0.0f}, max{0.0f};  // chart: its rectangle, in the chart's frame
   Bounds box;                 // cluster: world space
+  vec3 centre{0.0f};          // of a sphere around it
+  float radius = 0.0f;        // of that sphere [m]
   int firstChild = kNone;     // its two children stand one after the other
   int axis = 0;               // chart: 0: split across tangent, 1: across bitangent, in the middle
   bool isLeaf() const { return firstChild == kNone; }
@@ -21,6 +23,7 @@ struct Patch {
 // The charts and patches of one object. Made from its triangles alone, so that they do not tell
 // where it was before.
 struct ObjectPatches {
+  Bounds bounds;  // of the object
   std::vector<Chart> charts;
   std::vector<Patch> patches;        // children after their parents
   std::vector<int> roots;            // into patches
@@ -31,6 +34,6 @@ struct ObjectPatches {
 };
 
 // Rectangles are halved six times at most, and only where both halves are at least 0.4 m long.
-ObjectPatches makePatches(const RenderScene& scene, uint32_t object);
+ObjectPatches placePatches(const RenderScene& scene, uint32_t object, const MeshTopology& topology);
 
 }  // namespace lamplighter

@@ -25,12 +25,14 @@ void place(RenderScene& render, RenderObject& object, const Primitive& p, const 
   const mat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                       glm::cross(linear[0], linear[1]));
   object.bounds = Bounds();
+  object.world = world;
   const auto unit = [](const vec3& v, const vec3& fallback) {
     const float length = glm::length(v);
     return length > 0.0f ? v / length : fallback;
   };
   for (uint32_t i = 0; i < object.vertexCount; ++i) {
     const uint32_t to = object.firstVertex + i;
+    render.localPositions[to] = p.positions[i];
     render.positions[to] = vec3(world * vec4(p.positions[i], 1.0f));
     object.bounds.add(render.positions[to]);
     const vec3 n = cofactor * p.normals[i];
@@ -62,6 +64,7 @@ void append(RenderScene& render, NodeId node, const Primitive& p, const mat4& wo
   o.indexCount = static_cast<uint32_t>(p.indices.size());
   const size_t vertices = o.firstVertex + p.positions.size();
   render.positions.resize(vertices);
+  render.localPositions.resize(vertices);
   render.normals.resize(vertices);
   render.tangents.resize(vertices, vec4(0.0f));
   render.indices.resize(o.firstIndex + p.indices.size());

@@ -18,6 +18,7 @@ struct RenderObject {
   uint32_t firstVertex = 0, vertexCount = 0;
   uint32_t firstIndex = 0, indexCount = 0;  // indices are absolute: into RenderScene::positions
   Bounds bounds;                            // world space
+  mat4 world{1.0f};                         // its node's, as of its vertices now
   bool isAreaLight = false;                 // tessellated from Node::area
   uint32_t triangleCount() const { return indexCount / 3; }
 };
@@ -34,6 +35,7 @@ struct RenderScene {
   // Per vertex, world space. tangents, uv and colors always have positions.size() entries (zero
   // tangent, zero uv, white colour where the file has none).
   std::vector<vec3> positions, normals;
+  std::vector<vec3> localPositions;  // the same vertices in their node's space
   std::vector<vec4> tangents;
   std::vector<vec2> uv0, uv1;
   std::vector<vec4> colors;

@@ -10,16 +10,30 @@ constexpr float kLargePolygon = 1.0f;
 
 }  // namespace
 
-void Occluders::rebuild(const RenderScene& s, uint32_t index, const ObjectPatches& patches) {
+void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& topology,
+                      const ObjectPatches& patches) {
   const RenderObject& o = s.objects[index];
   Object& object = objects_[index];
   object = Object();
   const Material& material = s.materials[static_cast<size_t>(o.material)];
   if (material.isClear()) return;
-  std::vector<Bounds> boxes(o.triangleCount());
-  for (uint32_t t = 0; t < o.triangleCount(); ++t)
-    for (uint32_t c = 0; c < 3; ++c) boxes[t].add(s.positions[s.indices[o.firstIndex + 3 * t + c]]);
-  object.triangles = BoundsTree(boxes);
+  const auto boundsOf = [&](std::span<const uint32_t> triangles) {
+    Bounds box;
+    for (const uint32_t t : triangles)
+      for (uint32_t c = 0; c < 3; ++c) box.add(s.positions[s.indices[o.firstIndex + 3 * t + c]]);
+    return box;
+  };
+  object.flat = topology.flat;
+  std::vector<Bounds> boxes;
+  for (const uint32_t t : object.flat) boxes.push_back(boundsOf({&t, 1}));
+  const std::span<const uint32_t> loose(topology.loose);
+  for (size_t first = 0; first < loose.size(); first += kGroupTriangles) {
+    const size_t count = std::min(kGroupTriangles, loose.size() - first);
+    object.groups.push_back(boundsOf(loose.subspan(first, count)));
+  }
+  boxes.insert(boxes.end(), object.groups.begin(), object.groups.end());
+  object.tree = topology.occluders;
+  object.tree.refit(boxes);
   if (material.alphaMode == AlphaMode::mask) return;  // has holes
   boxes.clear();
   for (const Chart& chart : patches.charts) {
@@ -34,24 +48,24 @@ void Occluders::rebuild(const RenderScene& s, uint32_t index, const ObjectPatche
 void Occluders::finish(const RenderScene& s) {
   std::vector<Bounds> boxes(s.objects.size());
   for (size_t i = 0; i < boxes.size(); ++i) boxes[i] = s.objects[i].bounds;
-  tree_ = BoundsTree(boxes);
+  if (tree_.size() == boxes.size()) {
+    tree_.refit(boxes);
+  } else {
+    tree_ = BoundsTree(boxes);
+  }
 }
 
-void Occluders::build(const RenderScene& s, const std::vector<ObjectPatches>& patches) {
-  objects_.assign(s.objects.size(), {});
-  for (uint32_t i = 0; i < objects_.size(); ++i) rebuild(s, i, patches[i]);
-  finish(s);
-}
-
-bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid,
-                      uint32_t object) const {
-  const RenderObject& o = s.objects[object];
-  return !objects_[object].triangles.visit(
-      [&](const Bounds& b) { return pyramid.mayMeet(b); },
-      [&](uint32_t t) {
-        const uint32_t* i = &s.indices[o.firstIndex + 3 * t];
-        return !pyramid.meets(s.positions[i[0]], s.positions[i[1]], s.positions[i[2]]);
-      });
+bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uint32_t index) const {
+  const RenderObject& o = s.objects[index];
+  const Object& object = objects_[index];
+  return !object.tree.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
+                            [&](uint32_t item) {
+                              if (item >= object.flat.size())
+                                return !pyramid.mayMeet(object.groups[item - object.flat.size()]);
+                              const uint32_t* i = &s.indices[o.firstIndex + 3 * object.flat[item]];
+                              return !pyramid.meets(s.positions[i[0]], s.positions[i[1]],
+                                                    s.positions[i[2]]);
+                            });
 }
 
 bool Occluders::hides(const OcclusionPyramid& pyramid, uint32_t object) const {
@@ -71,12 +85,22 @@ Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyram
     return std::find(objects.begin(), objects.end(), i) == objects.end();
   };
   const auto enter = [&](const Bounds& b) { return pyramid.mayMeet(b); };
-  const bool isMet =
-      !tree_.visit(enter, [&](uint32_t i) { return !(counts(i) && meets(s, pyramid, i)); });
+  // A cluster of a complex mesh stands in its own light.
+  const bool isMet = pyramid.isOfBox() || !tree_.visit(enter, [&](uint32_t i) {
+    return !(counts(i) && meets(s, pyramid, i));
+  });
   if (!isMet) return Occlusion::none;
-  const bool isHidden =
-      !tree_.visit(enter, [&](uint32_t i) { return !(counts(i) && hides(pyramid, i)); });
-  return isHidden ? Occlusion::full : Occlusion::partial;
+  return hiddenWithout(pyramid, objects) ? Occlusion::full : Occlusion::partial;
+}
+
+bool Occluders::hiddenWithout(const OcclusionPyramid& pyramid,
+                              std::span<const uint32_t> objects) const {
+  return !tree_.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
+                      [&](uint32_t i) {
+                        const bool counts =
+                            std::find(objects.begin(), objects.end(), i) == objects.end();
+                        return !(counts && hides(pyramid, i));
+                      });
 }
 
 Occlusion Occluders::occlusionBy(const RenderScene& s, const OcclusionPyramid& pyramid,

@@ -1,19 +1,20 @@
-// What can stand between lights and patches: all surfaces but clear ones.
+// What can stand between lights and patches: all surfaces but clear ones. Planar parts are tested
+// triangle by triangle, complex ones by boxes around a few triangles each (paper 1 takes a sphere
+// around a whole complex object).
 #pragma once
 
 #include <vector>
 
-#include "renderer/visibility/bounds_tree.h"
 #include "renderer/visibility/occlusion_pyramid.h"
 
 namespace lamplighter {
 
 class Occluders {
  public:
-  // Everything anew.
-  void build(const RenderScene& scene, const std::vector<ObjectPatches>& patches);
-  // Of one object that moved; call finish() after the last.
-  void rebuild(const RenderScene& scene, uint32_t object, const ObjectPatches& patches);
+  void resize(size_t objects) { objects_.resize(objects); }
+  // One object where it is now; call finish() after the last.
+  void place(const RenderScene& scene, uint32_t object, const MeshTopology& topology,
+             const ObjectPatches& patches);
   void finish(const RenderScene& scene);
 
   // The state of the pyramid's light on its patch by all occluders but these objects, and by these
@@ -22,6 +23,10 @@ class Occluders {
                              std::span<const uint32_t> objects) const;
   Occlusion occlusionBy(const RenderScene& scene, const OcclusionPyramid& pyramid,
                         std::span<const uint32_t> objects) const;
+  // Whether one polygon of other objects hides all of the pyramid's patch.
+  bool hiddenWithout(const OcclusionPyramid& pyramid, std::span<const uint32_t> objects) const;
+  // Whether one of the object's polygons is large enough to hide patches.
+  bool mayHide(uint32_t object) const { return !objects_[object].polygons.empty(); }
 
  private:
   struct Polygon {
@@ -29,7 +34,9 @@ class Occluders {
     vec3 normal{0.0f};
   };
   struct Object {
-    BoundsTree triangles;
+    std::vector<uint32_t> flat;     // triangles that are tested themselves
+    BoundsTree tree;                // over those, then groups
+    std::vector<Bounds> groups;     // of loose triangles
     std::vector<Polygon> polygons;  // large ones, which may hide whole patches
     BoundsTree polygonTree;
   };

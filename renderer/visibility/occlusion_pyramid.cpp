@@ -1,31 +1,39 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
 #include "renderer/visibility/occlusion_pyramid.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include <hwy/highway.h>
 
 #include "renderer/raycast/ray_caster.h"
 
 namespace lamplighter {
 namespace {
 
-// A triangle clipped by each plane gains a corner at most.
-constexpr size_t kMostCorners = 3 + 20;
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr int kLanes = 8;
+using Tag = hn::FixedTag<float, kLanes>;
+constexpr Tag kTag;
 
-// The pairs of a box's corners that its edges join.
-constexpr int kBoxEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
-                                  {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+// A triangle clipped by each plane gains a corner at most.
+constexpr size_t kMostCorners = 3 + 8;
 
 }  // namespace
+
+PatchRegion::PatchRegion(const Bounds& box) : count(8) {
+  for (int i = 0; i < 8; ++i) {
+    for (int c = 0; c < 3; ++c)
+      corners[static_cast<size_t>(i)][c] = ((i >> c) & 1) != 0 ? box.max[c] : box.min[c];
+  }
+}
 
 PatchRegion::PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
                          const Patch& patch) {
   if (patch.chart == kNone) {
-    count = 8;
-    for (int i = 0; i < 8; ++i) {
-      for (int c = 0; c < 3; ++c)
-        corners[static_cast<size_t>(i)][c] =
-            ((i >> c) & 1) != 0 ? patch.box.max[c] : patch.box.min[c];
-    }
+    *this = PatchRegion(patch.box);
     return;
   }
   const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
@@ -42,6 +50,10 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
       apex_(vpl.position),
       towards_(vpl.normal),
       region_(region) {
+  planes_.x.fill(0.0f);
+  planes_.y.fill(0.0f);
+  planes_.z.fill(0.0f);
+  planes_.offset.fill(1.0f);
   margin_ = parallel_ ? 0.0f : rayEpsilon(apex_);
   for (const vec3& c : region_.points()) margin_ = std::max(margin_, rayEpsilon(c));
   const float slab = region_.thickness + margin_;
@@ -80,15 +92,18 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
     if (parallel_ ? towards_[c] <= 0.0f : apex_[c] <= high[c]) add(-n, high, 3.0f * margin_);
     inside = inside && apex_[c] >= low[c] - margin_ && apex_[c] <= high[c] + margin_;
   }
+  // What stands within a box is met in any case, so its pyramid needs no sides: it only finds what
+  // may hide all of it.
   degenerate_ = inside;
-  if (degenerate_) return;
-  for (const auto& e : kBoxEdges)
-    addSide(region_.corners[static_cast<size_t>(e[0])], region_.corners[static_cast<size_t>(e[1])]);
 }
 
 void OcclusionPyramid::add(const vec3& normal, const vec3& on, float margin) {
-  if (count_ == static_cast<int>(planes_.size())) return;  // fewer planes: larger, conservative
-  planes_[static_cast<size_t>(count_++)] = {normal, margin - glm::dot(normal, on)};
+  if (count_ == kMostPlanes) return;  // fewer planes: larger, conservative
+  const auto i = static_cast<size_t>(count_++);
+  planes_.x[i] = normal.x;
+  planes_.y[i] = normal.y;
+  planes_.z[i] = normal.z;
+  planes_.offset[i] = margin - glm::dot(normal, on);
 }
 
 // The plane through the light and an edge, if all of the patch is on one side of it.
@@ -110,23 +125,56 @@ void OcclusionPyramid::addSide(const vec3& a, const vec3& b) {
 
 bool OcclusionPyramid::mayMeet(const Bounds& box) const {
   const vec3 centre = box.centre(), half = 0.5f * box.extent();
-  for (int i = 0; i < count_; ++i) {
-    const Plane& p = planes_[static_cast<size_t>(i)];
-    if (glm::dot(p.normal, centre) + p.offset + glm::dot(glm::abs(p.normal), half) < 0.0f)
-      return false;
+  const auto zero = hn::Zero(kTag);
+  for (int first = 0; first < count_; first += kLanes) {
+    const auto x = hn::LoadU(kTag, &planes_.x[static_cast<size_t>(first)]);
+    const auto y = hn::LoadU(kTag, &planes_.y[static_cast<size_t>(first)]);
+    const auto z = hn::LoadU(kTag, &planes_.z[static_cast<size_t>(first)]);
+    auto farthest = hn::LoadU(kTag, &planes_.offset[static_cast<size_t>(first)]);
+    farthest = hn::MulAdd(x, hn::Set(kTag, centre.x), farthest);
+    farthest = hn::MulAdd(y, hn::Set(kTag, centre.y), farthest);
+    farthest = hn::MulAdd(z, hn::Set(kTag, centre.z), farthest);
+    farthest = hn::MulAdd(hn::Abs(x), hn::Set(kTag, half.x), farthest);
+    farthest = hn::MulAdd(hn::Abs(y), hn::Set(kTag, half.y), farthest);
+    farthest = hn::MulAdd(hn::Abs(z), hn::Set(kTag, half.z), farthest);
+    if (!hn::AllFalse(kTag, hn::Lt(farthest, zero))) return false;
   }
   return true;
 }
 
 bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const {
+  // Most triangles are wholly outside of one plane, or have a corner inside all.
+  const auto zero = hn::Zero(kTag);
+  const std::array<vec3, 3> points{a, b, c};
+  std::array<bool, 3> isInside{true, true, true};
+  for (int first = 0; first < count_; first += kLanes) {
+    const auto x = hn::LoadU(kTag, &planes_.x[static_cast<size_t>(first)]);
+    const auto y = hn::LoadU(kTag, &planes_.y[static_cast<size_t>(first)]);
+    const auto z = hn::LoadU(kTag, &planes_.z[static_cast<size_t>(first)]);
+    const auto offset = hn::LoadU(kTag, &planes_.offset[static_cast<size_t>(first)]);
+    auto allOutside = hn::Lt(zero, hn::Set(kTag, 1.0f));
+    for (size_t i = 0; i < 3; ++i) {
+      auto distance = hn::MulAdd(x, hn::Set(kTag, points[i].x), offset);
+      distance = hn::MulAdd(y, hn::Set(kTag, points[i].y), distance);
+      distance = hn::MulAdd(z, hn::Set(kTag, points[i].z), distance);
+      const auto outside = hn::Lt(distance, zero);
+      isInside[i] = isInside[i] && hn::AllFalse(kTag, outside);
+      allOutside = hn::And(allOutside, outside);
+    }
+    if (!hn::AllFalse(kTag, allOutside)) return false;
+  }
+  if (isInside[0] || isInside[1] || isInside[2]) return true;
+
   std::array<vec3, kMostCorners> corners{a, b, c}, clipped;
   size_t count = 3;
   for (int i = 0; i < count_; ++i) {
-    const Plane& p = planes_[static_cast<size_t>(i)];
+    const auto n = static_cast<size_t>(i);
+    const vec3 normal(planes_.x[n], planes_.y[n], planes_.z[n]);
+    const auto distance = [&](const vec3& p) { return glm::dot(normal, p) + planes_.offset[n]; };
     size_t kept = 0;
     for (size_t k = 0; k < count; ++k) {
       const vec3 &from = corners[k], &to = corners[(k + 1) % count];
-      const float df = glm::dot(p.normal, from) + p.offset, dt = glm::dot(p.normal, to) + p.offset;
+      const float df = distance(from), dt = distance(to);
       if (df >= 0.0f) clipped[kept++] = from;
       if ((df >= 0.0f) != (dt >= 0.0f)) clipped[kept++] = from + (df / (df - dt)) * (to - from);
       if (kept + 2 > kMostCorners) return true;

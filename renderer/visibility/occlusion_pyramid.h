@@ -26,6 +26,7 @@ struct PatchRegion {
   float thickness = 0.0f;  // rectangle: the surface is within this of it [m]
   bool frontOnly = false;  // rectangle: its back is never seen
 
+  explicit PatchRegion(const Bounds& box);
   PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
               const Patch& patch);
   std::span<const vec3> points() const { return {corners.data(), static_cast<size_t>(count)}; }
@@ -40,6 +41,9 @@ class OcclusionPyramid {
   // The light is so near the patch or its plane that nothing can be said.
   bool isDegenerate() const { return degenerate_; }
 
+  // Its patch is a box around triangles, not a rectangle.
+  bool isOfBox() const { return region_.count == 8; }
+
   // Whether it may be met; exact for triangles but for a margin of rounding.
   bool mayMeet(const Bounds& box) const;
   bool meets(const vec3& a, const vec3& b, const vec3& c) const;
@@ -47,9 +51,11 @@ class OcclusionPyramid {
   bool isCutBy(std::span<const vec3> polygon, const vec3& n) const;
 
  private:
-  struct Plane {
-    vec3 normal;   // unit, inwards
-    float offset;  // inside: dot(normal, x) + offset >= 0
+  static constexpr int kMostPlanes = 8;
+  // Unit normals inwards; inside: dot(normal, x) + offset >= 0. Eight at a time are tested, so that
+  // what follows the last are planes that everything is inside of.
+  struct Planes {
+    std::array<float, kMostPlanes> x, y, z, offset;
   };
   void addSide(const vec3& a, const vec3& b);
   void add(const vec3& normal, const vec3& on, float margin);
@@ -59,7 +65,7 @@ class OcclusionPyramid {
   vec3 towards_{0.0f};   // the light's axis; a parallel light: unit, towards the light
   float margin_ = 0.0f;  // what rounding may make of a place here [m]
   PatchRegion region_;
-  std::array<Plane, 20> planes_{};
+  Planes planes_;
   int count_ = 0;
 };
 

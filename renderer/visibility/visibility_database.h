@@ -1,34 +1,51 @@
 // For each patch and light sample whether anything can stand between (paper 1, 4.3.1 and 4.5.1):
 // kept from edit to edit, and brought up to date where something changed.
+//
+// Columns, one a light, are the unit of update (design.md 4): what moves is taken in at once, but a
+// column that it may touch waits until it is refreshed, with its light's shadow map.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "renderer/visibility/object_identity.h"
 #include "renderer/visibility/occluders.h"
+#include "renderer/visibility/shadow_reach.h"
 
 namespace lamplighter {
 
 struct VisibilityCounts {
   size_t patches = 0;                      // nodes of all trees
+  size_t divided = 0;                      // of them, those whose children are looked at apart
   size_t none = 0, partial = 0, full = 0;  // entries of leaves, as they are
   size_t bytes = 0;
 };
 
 class VisibilityDatabase {
  public:
-  // Takes in what changed in the scene. Rows of moved objects are new; of the others only those
-  // entries are looked at again whose pyramid the object met before or meets now: where it meets
-  // neither, it was no blocker and is none. They are tested against the moved objects alone when
-  // the same ones moved before.
+  // Takes in what changed in the scene: moved, added, removed, hidden and rescaled objects, and
+  // materials. Rows of objects that are new or moved are partial in columns that wait.
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes);
 
   // The light samples by slot; a normal of zero: none is there. Those that differ from what was
   // there get new columns.
   void setLights(const RenderScene& scene, std::span<const shared::Vpl> bySlot);
 
+  // Brings these columns up to date with all that moved. Of other objects only those entries are
+  // looked at whose pyramid a mover met before or meets now: where it meets neither, it was no
+  // blocker and is none. They are tested against the movers alone when the same ones moved before.
+  void refresh(const RenderScene& scene, std::span<const int> slots);
+  void refreshAll(const RenderScene& scene);
+  bool isWaiting(int slot) const { return !waiting_[static_cast<size_t>(slot)].empty(); }
+
+  // Whether everything that moved in the last setScene() was and is hidden from the light by one
+  // polygon, so that its shadow map does not change.
+  bool moversAreHidden(const shared::Vpl& vpl) const;
+  size_t moversFound() const { return moves_.size(); }  // in the last setScene()
+
   const ObjectPatches& patches(uint32_t object) const { return patches_[object]; }
   size_t objects() const { return patches_.size(); }
+  size_t slots() const { return lights_.size(); }
   Occlusion state(uint32_t object, int patch, int slot) const {
     return static_cast<Occlusion>(
         rows_[object][static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot)]);
@@ -37,39 +54,81 @@ class VisibilityDatabase {
   std::span<const uint8_t> row(uint32_t object, int patch) const {
     return {&rows_[object][static_cast<size_t>(patch) * stride_], lights_.size()};
   }
-  size_t slots() const { return lights_.size(); }
+  // Whether the children of a patch are looked at apart: enough lights are partial on it. Where not
+  // they are as it is.
+  bool isDivided(uint32_t object, int patch) const {
+    return divided_[object][static_cast<size_t>(patch)] != 0;
+  }
+
+  // For each object its index before the last setScene(); kNone: its patches are new.
+  const std::vector<int>& cameFrom() const { return cameFrom_; }
   // Whether an entry of the patch changed since clearChanged().
   bool rowChanged(uint32_t object, int patch) const {
     return changed_[object][static_cast<size_t>(patch)] != 0;
   }
   void clearChanged();
+
   // Pyramids against the scene, since the database was made.
   uint64_t tests() const { return tests_; }
   VisibilityCounts counts() const;  // goes through all entries
 
  private:
-  struct Moved {
+  // An object that a column does not know the place of yet.
+  struct Waiting {
+    int object;     // kNone: it is gone
+    Bounds before;  // where the column has it; empty: nowhere
+  };
+  struct Move {
     Bounds before, after;
   };
-  void compute(const RenderScene& scene, uint32_t object, int patch, int slot,
-               std::span<const Moved> moved, uint64_t& tests);
+  struct Column;  // what computing the entries of one light needs
+  using Rows = std::vector<std::vector<uint8_t>>;
+
+  void matchObjects(const RenderScene& scene, std::vector<Move>& moves);
+  void takeMoved(const RenderScene& scene, const RenderSceneChanges& changes,
+                 std::vector<Move>& moves);
+  void setMovers(std::span<const uint32_t> objects);
+  void placeObject(const RenderScene& scene, uint32_t object);
+  void addWaiting(int object, const Bounds& before);
   void forgetOthers();
+
+  void compute(const RenderScene& scene, const Column& column, uint32_t object, int patch,
+               bool parentWasNone, uint64_t& tests);
+  bool isDecided(Occlusion others) const;
+  Occlusion stateOf(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
+                    int patch, int slot, uint64_t& tests);
+  void computeColumns(const RenderScene& scene, std::span<const int> slots, bool anew);
+  // Divides and joins patches by how many lights are partial on them now.
+  void divide(const RenderScene& scene);
+  void divide(const RenderScene& scene, uint32_t object, int patch, int most, uint64_t& tests);
+  int mostPartial() const;
+
   void set(uint32_t object, int patch, int slot, Occlusion state);
   void fill(uint32_t object, int patch, int slot, Occlusion state);
   void resize(size_t slots);
-  void computeAll(const RenderScene& scene, std::span<const uint32_t> objects,
-                  std::span<const int> slots, std::span<const Moved> moved);
+  size_t entry(int patch, int slot) const {
+    return static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot);
+  }
 
+  // By object.
+  std::vector<MeshTopology> topologies_;
+  std::vector<ObjectIdentity> identities_;
   std::vector<ObjectPatches> patches_;
-  Occluders occluders_;
-  std::vector<shared::Vpl> lights_;         // by slot
-  size_t stride_ = 0;                       // of rows, in slots
-  std::vector<std::vector<uint8_t>> rows_;  // by object: patches × slots, Occlusion
+  std::vector<int> cameFrom_;
+  Rows rows_;     // patches × slots, Occlusion
+  Rows divided_;  // patches
+  Rows changed_;  // patches
   // The objects that moved last, and the state of each entry by all others (kUnknown: not asked
   // yet): while the same ones move on, as in a drag, nothing else is tested again (table 4-1).
   std::vector<uint32_t> movers_;
-  std::vector<std::vector<uint8_t>> withoutMovers_;  // as rows_
-  std::vector<std::vector<uint8_t>> changed_;        // by object and patch
+  Rows withoutMovers_;       // as rows_
+  std::vector<Move> moves_;  // of the last setScene()
+
+  Occluders occluders_;
+  std::vector<shared::Vpl> lights_;            // by slot
+  std::vector<uint8_t> isLive_;                // by slot
+  std::vector<std::vector<Waiting>> waiting_;  // by slot
+  size_t stride_ = 0;                          // of rows, in slots
   uint64_t tests_ = 0;
 };
 

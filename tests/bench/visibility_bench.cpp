@@ -110,6 +110,7 @@ void moveObject(benchmark::State& state, const Case& c) {
     w.scene = moved;
     state.ResumeTiming();
     database.setScene(w.render, changes);
+    database.refreshAll(w.render);
   }
   state.counters["tests"] =
       static_cast<double>(database.tests() - before) / static_cast<double>(state.iterations());

@@ -65,13 +65,26 @@ void LiveLights::want(std::vector<SceneVpl> wanted) {
   entries_ = std::move(next);
 }
 
-void LiveLights::markStale(std::span<const MoverFinder::Mover> movers) {
+int LiveLights::markStale(std::span<const MoverFinder::Mover> movers,
+                          const std::function<bool(const shared::Vpl&)>& spared) {
+  int count = 0;
   for (Entry& e : entries_) {
     if (e.isStale) continue;
-    e.isStale = std::any_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
+    const bool sees = std::any_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
       return seesMover(e.current, m.before, m.after);
     });
+    if (!sees) continue;
+    e.isStale = !(spared && spared(e.current));
+    count += !e.isStale;
   }
+  return count;
+}
+
+std::vector<bool> LiveLights::upToDate() const {
+  std::vector<bool> bySlot(static_cast<size_t>(slots_), false);
+  for (const Entry& e : entries_)
+    if (e.isLive && !e.isStale) bySlot[static_cast<size_t>(e.slot)] = true;
+  return bySlot;
 }
 
 void LiveLights::loseMaps() {

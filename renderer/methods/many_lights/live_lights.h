@@ -2,6 +2,7 @@
 // (design.md 4: the unit of update is one VPL).
 #pragma once
 
+#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -18,14 +19,19 @@ class LiveLights {
   // changed in brightness take it on, for neither needs a map. Those that must move stay, old as
   // they are, until refresh() has their turn.
   void want(std::vector<SceneVpl> wanted);
-  // Something that casts shadows moved: maps that it may show in are stale.
-  void markStale(std::span<const MoverFinder::Mover> movers);
+  // Something that casts shadows moved: maps that it may show in are stale. `spared`, if any, says
+  // of a VPL that its map does not change nevertheless. Returns how many were spared.
+  int markStale(std::span<const MoverFinder::Mover> movers,
+                const std::function<bool(const shared::Vpl&)>& spared = {});
   // The maps are lost: nothing is shown until it is refreshed.
   void loseMaps();
 
   // Takes the pending VPLs of highest priority, `budget` at most, moves each to where it is wanted,
   // renders its map, and swaps both in together. Returns how many.
   int refresh(Backend& backend, int budget);
+
+  // Whether the light in each slot is shown as it is wanted, with its map.
+  std::vector<bool> upToDate() const;
 
   // What to sum, in the order of the wanted ones, so that the sum does not depend on history. While
   // VPLs of a set are missing those that are there carry the flux of all, so that brightness

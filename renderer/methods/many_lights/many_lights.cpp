@@ -71,15 +71,16 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const Options options(in.settings);
 
   // 1. Which VPLs the scene asks for, and which of those shown are out of date.
+  takeScene(in, options);
   updateLights(in, options, out.stats);
   stages.end("light samples");
 
-  // 2. Some of them, each wholly: place, intensity, shadow map.
+  // 2. Some of them, each wholly: place, intensity, shadow map,
   out.stats.mapsRendered = lights_.refresh(in.backend, options.updates);
   stages.end("shadow maps");
 
-  // 3. Where their maps must be looked up, and the sum of their light without shadows.
-  updateVisibility(in, options, out.stats);
+  // 3. where its map must be looked up, and the light that it sheds without shadows.
+  updateVisibility(in, out.stats);
   stages.end("visibility");
   updateLightMaps(in, options, out.stats);
   stages.end("light maps");
@@ -127,26 +128,40 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
     stats.raysTraced = set.rays;
     lights_.want(std::move(set.vpls));
   }
-  if (sceneChanged) lights_.markStale(movers_.update(in.scene, in.changes));
+  if (sceneChanged) {
+    const auto movers = movers_.update(in.scene, in.changes);
+    std::function<bool(const shared::Vpl&)> isSpared;
+    if (visibility_ && visibility_->moversFound() == movers.size())
+      isSpared = [&](const shared::Vpl& vpl) { return visibility_->moversAreHidden(vpl); };
+    stats.mapsSpared = lights_.markStale(movers, isSpared);
+  }
   if (options.mapResolution != options_.mapResolution) lights_.loseMaps();
   in.backend.reserveShadowMaps(lights_.slots(), options.mapResolution);
 }
 
-void ManyLights::updateVisibility(const FrameInputs& in, const Options& options, GiStats& stats) {
+void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
   if (!options.useVisibility) {
     visibility_.reset();
     return;
   }
-  const uint64_t before = visibility_ ? visibility_->tests() : 0;
+  RenderSceneChanges changes = in.changes;
   if (!visibility_) {
     visibility_ = std::make_unique<VisibilityDatabase>();
-    RenderSceneChanges all;
-    all.rebuilt = true;
-    visibility_->setScene(in.scene, all);
-  } else {
-    visibility_->setScene(in.scene, in.changes);
+    changes.rebuilt = true;
   }
+  visibility_->setScene(in.scene, changes);
+}
+
+void ManyLights::updateVisibility(const FrameInputs& in, GiStats& stats) {
+  if (!visibility_) return;
+  const uint64_t before = visibility_->tests();
   visibility_->setLights(in.scene, shownBySlot());
+  // Those whose maps still show what moved where it was wait with them.
+  const std::vector<bool> upToDate = lights_.upToDate();
+  std::vector<int> slots;
+  for (size_t slot = 0; slot < upToDate.size(); ++slot)
+    if (upToDate[slot]) slots.push_back(static_cast<int>(slot));
+  visibility_->refresh(in.scene, slots);
   stats.visibilityTests = visibility_->tests() - before;
 }
 
@@ -156,7 +171,7 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
   } else {
     if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
     const uint64_t before = lightMaps_->texelsWritten();
-    lightMaps_->update(in.scene, in.changes, *visibility_, shownBySlot(),
+    lightMaps_->update(in.scene, *visibility_, shownBySlot(),
                        {options.lightMapTexel, options.clampDistance});
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
   }

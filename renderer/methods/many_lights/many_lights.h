@@ -36,10 +36,11 @@ class ManyLights final : public GiMethod {
     float lightMapTexel = 0.1f;
   };
 
+  void takeScene(const FrameInputs& in, const Options& options);
   void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
-  void updateVisibility(const FrameInputs& in, const Options& options, GiStats& stats);
+  void updateVisibility(const FrameInputs& in, GiStats& stats);
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);

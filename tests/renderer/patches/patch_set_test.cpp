@@ -19,6 +19,14 @@ RenderScene worldOf(const Scene& scene) {
   return render;
 }
 
+std::vector<Chart> findCharts(const RenderScene& world, uint32_t object) {
+  return placeCharts(world, object, findTopology(world, object));
+}
+
+ObjectPatches makePatches(const RenderScene& world, uint32_t object) {
+  return placePatches(world, object, findTopology(world, object));
+}
+
 RenderScene worldOf(std::shared_ptr<const Mesh> mesh) {
   Scene scene;
   const NodeId id = test::addMesh(scene, std::move(mesh), vec3(1, 2, 3));

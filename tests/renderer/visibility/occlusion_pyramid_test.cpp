@@ -24,8 +24,13 @@ struct Setting {
     test::addMesh(scene, test::squareMesh(2.0f, grey));
     if (screenSize > 0.0f) test::addMesh(scene, test::squareMesh(screenSize, screen), at);
     update(world, scene, SceneChanges::all());
-    for (uint32_t i = 0; i < world.objects.size(); ++i) patches.push_back(makePatches(world, i));
-    occluders.build(world, patches);
+    occluders.resize(world.objects.size());
+    for (uint32_t i = 0; i < world.objects.size(); ++i) {
+      const MeshTopology topology = findTopology(world, i);
+      patches.push_back(placePatches(world, i, topology));
+      occluders.place(world, i, topology, patches[i]);
+    }
+    occluders.finish(world);
   }
   Occlusion of(const shared::Vpl& vpl) const {
     const PatchRegion whole(world, 0, patches[0], patches[0].patches[0]);

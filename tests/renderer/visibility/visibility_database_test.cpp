@@ -191,6 +191,7 @@ TEST(VisibilityDatabase, AfterAnyEditsIsTheOneBuiltFromNothing) {
     kept.setScene(render, update(render, edited, compare(scene, edited)));
     const World now(edited);
     kept.setLights(render, now.lights);
+    kept.refreshAll(render);
     scene = edited;
 
     VisibilityDatabase fresh;
@@ -213,6 +214,7 @@ TEST(VisibilityDatabase, AMovedObjectCostsFewTests) {
   Scene moved = scene;
   moved.nodes[10].local.translation.x += 0.1f;
   database.setScene(render, update(render, moved, compare(scene, moved)));
+  database.refreshAll(render);
   EXPECT_LT(database.tests() - built, built / 4);
 }
 

@@ -16,6 +16,10 @@ class BoundsTree {
   BoundsTree() = default;
   explicit BoundsTree(std::span<const Bounds> boxes);
 
+  // The same tree over boxes that moved.
+  void refit(std::span<const Bounds> boxes);
+  size_t size() const { return order_.size(); }
+
   // Calls take(i) for each box i in a subtree that enter(bounds) does not refuse; stops when take
   // returns false. Returns whether it went through.
   template <typename Enter, typename Take>

@@ -1,4 +1,4 @@
-#include "renderer/visibility/bounds_tree.h"
+#include "renderer/patches/bounds_tree.h"
 
 namespace lamplighter {
 namespace {
@@ -40,6 +40,20 @@ void BoundsTree::split(uint32_t index, std::span<const Bounds> boxes) {
   nodes_.push_back({{}, first + count / 2, count - count / 2});
   split(children, boxes);
   split(children + 1, boxes);
+}
+
+// Children stand after their parents.
+void BoundsTree::refit(std::span<const Bounds> boxes) {
+  for (size_t n = nodes_.size(); n-- > 0;) {
+    Node& node = nodes_[n];
+    node.bounds = Bounds();
+    if (node.count == 0) {
+      node.bounds.add(nodes_[node.first].bounds);
+      node.bounds.add(nodes_[node.first + 1].bounds);
+    }
+    for (uint32_t i = node.first; i < node.first + node.count; ++i)
+      node.bounds.add(boxes[order_[i]]);
+  }
 }
 
 }  // namespace lamplighter

@@ -1,0 +1,78 @@
+#include "renderer/visibility/object_identity.h"
+
+#include <cstring>
+#include <map>
+#include <tuple>
+
+#include <tbb/parallel_for.h>
+
+namespace lamplighter {
+namespace {
+
+// FNV-1a over words.
+class Hash {
+ public:
+  template <typename T>
+  void add(const T* values, size_t count) {
+    static_assert(sizeof(T) % sizeof(uint32_t) == 0);
+    for (size_t i = 0; i < count * (sizeof(T) / sizeof(uint32_t)); ++i) {
+      uint32_t word;
+      std::memcpy(&word, reinterpret_cast<const char*>(values) + i * sizeof word, sizeof word);
+      value_ = (value_ ^ word) * 1099511628211u;
+    }
+  }
+  uint64_t value() const { return value_; }
+
+ private:
+  uint64_t value_ = 14695981039346656037u;
+};
+
+}  // namespace
+
+ObjectIdentity identify(const RenderScene& s, uint32_t index) {
+  const RenderObject& o = s.objects[index];
+  const Material& m = s.materials[static_cast<size_t>(o.material)];
+  ObjectIdentity id;
+  id.node = o.node;
+  id.isClear = m.isClear();
+  id.isMasked = m.alphaMode == AlphaMode::mask;
+  id.backIsUnseen = s.backIsUnseen(index);
+  id.hasNormalTexture = m.normalTexture.texture != kNone;
+  Hash hash;
+  hash.add(&s.positions[o.firstVertex], o.vertexCount);
+  hash.add(&s.normals[o.firstVertex], o.vertexCount);
+  std::vector<uint32_t> indices(o.indexCount);
+  for (uint32_t i = 0; i < o.indexCount; ++i)
+    indices[i] = s.indices[o.firstIndex + i] - o.firstVertex;
+  hash.add(indices.data(), indices.size());
+  id.geometry = hash.value();
+  return id;
+}
+
+std::vector<ObjectIdentity> identify(const RenderScene& scene) {
+  std::vector<ObjectIdentity> all(scene.objects.size());
+  tbb::parallel_for(size_t{0}, all.size(),
+                    [&](size_t i) { all[i] = identify(scene, static_cast<uint32_t>(i)); });
+  return all;
+}
+
+std::vector<int> findSame(const std::vector<ObjectIdentity>& before,
+                          const std::vector<ObjectIdentity>& now) {
+  using Key = std::tuple<NodeId, uint64_t>;
+  std::multimap<Key, int> known;
+  for (size_t i = 0; i < before.size(); ++i)
+    known.emplace(Key{before[i].node, before[i].geometry}, static_cast<int>(i));
+  std::vector<int> same(now.size(), kNone);
+  for (size_t i = 0; i < now.size(); ++i) {
+    const auto [first, last] = known.equal_range({now[i].node, now[i].geometry});
+    for (auto it = first; it != last; ++it) {
+      if (!(before[static_cast<size_t>(it->second)] == now[i])) continue;
+      same[i] = it->second;
+      known.erase(it);
+      break;
+    }
+  }
+  return same;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,40 @@
+#include "renderer/visibility/shadow_reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/raycast/ray_caster.h"
+
+namespace lamplighter {
+
+ShadowReach::ShadowReach(const shared::Vpl& vpl, const Bounds& caster) {
+  if (caster.empty()) return;
+  // Rays begin and end a little off what they join, and the sums here are rounded.
+  const vec3 centre = caster.centre();
+  const float margin = 16.0f * (rayEpsilon(caster.min) + rayEpsilon(caster.max));
+  radius_ = 1.001f * caster.radius() + margin;
+  if (vpl.position.w == shared::kVplDirectional) {
+    kind_ = Kind::cylinder;
+    apex_ = centre;
+    axis_ = -vec3(vpl.normal);
+    nearest_ = -radius_;
+    return;
+  }
+  apex_ = vec3(vpl.position);
+  const vec3 v = centre - apex_;
+  if (glm::dot(v, vec3(vpl.normal)) + radius_ < 0.0f) return;  // behind the light
+  const float distance = glm::length(v);
+  if (distance <= 1.01f * radius_) {
+    kind_ = Kind::everywhere;
+    return;
+  }
+  kind_ = Kind::cone;
+  axis_ = v / distance;
+  nearest_ = distance - radius_;
+  sine_ = radius_ / distance;
+  cosine_ = std::sqrt(1.0f - sine_ * sine_);
+  // Rounding grows with the distance from the light.
+  sine_ = std::min(1.0f, 1.0001f * sine_ + 1e-6f);
+}
+
+}  // namespace lamplighter

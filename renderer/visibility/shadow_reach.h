@@ -1,0 +1,50 @@
+// Where the shadow of a moved object may fall: the part of space that its bounding sphere hides from
+// a light. A cheap sieve before occlusion pyramids, the other way round than these look.
+#pragma once
+
+#include "renderer/math.h"
+#include "shaders/shared/vpl.h"
+
+namespace lamplighter {
+
+class ShadowReach {
+ public:
+  // An empty box casts none.
+  ShadowReach(const shared::Vpl& vpl, const Bounds& caster);
+
+  bool isEmpty() const { return kind_ == Kind::none; }
+  // Whether the shadow may fall on some of a sphere. Conservative.
+  bool mayFallOn(const vec3& centre, float radius) const {
+    switch (kind_) {
+      case Kind::none:
+        return false;
+      case Kind::everywhere:
+        return true;
+      case Kind::cone: {
+        const vec3 v = centre - apex_;
+        const float along = glm::dot(v, axis_);
+        if (along + radius < nearest_) return false;
+        const float across = std::sqrt(std::max(glm::dot(v, v) - along * along, 0.0f));
+        return across * cosine_ - along * sine_ <= radius;
+      }
+      case Kind::cylinder: {
+        const vec3 v = centre - apex_;
+        const float along = glm::dot(v, axis_);
+        if (along + radius < nearest_) return false;
+        const float reach = radius_ + radius;
+        return glm::dot(v, v) - along * along <= reach * reach;
+      }
+    }
+    return true;
+  }
+
+ private:
+  enum class Kind : uint8_t { none, everywhere, cone, cylinder };
+  Kind kind_ = Kind::none;
+  vec3 apex_{0.0f}, axis_{0.0f};  // a cylinder's apex is the middle of the caster
+  float nearest_ = 0.0f;          // along the axis, of the caster's near side [m]
+  float sine_ = 0.0f, cosine_ = 1.0f;
+  float radius_ = 0.0f;
+};
+
+}  // namespace lamplighter
