@@ -147,7 +147,10 @@ void LightMaps::resize(size_t slots) {
 }
 
 void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visibility,
-                       std::span<const shared::Vpl> bySlot, const Options& options) {
+                       std::span<const shared::Vpl> given, const Options& options) {
+  // Slots that are no longer given are empty.
+  std::vector<shared::Vpl> bySlot(given.begin(), given.end());
+  bySlot.resize(std::max(bySlot.size(), lights_.size()));
   if (!(options == options_)) objects_.clear();
   options_ = options;
   std::vector<Object> objects(scene.objects.size());
@@ -200,7 +203,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     const ObjectPatches& patches = visibility.patches(job.object);
     const Patch& patch = patches.patches[static_cast<size_t>(tile.patch)];
     const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
-    const auto states = visibility.row(job.object, tile.patch);
+    const auto states = visibility.row(job.object, tile.patch);  // of those given
     const float spacing = spacingOf(tile, patch);
     const auto count = static_cast<size_t>(tile.columns * tile.rows);
     const Places places(chart, patch, tile);
@@ -226,7 +229,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       o.irradiance[tile.first + i] = vec4(sums[i], sums[count + i], sums[2 * count + i], 0.0);
   });
   written_ += written;
-  lights_.assign(bySlot.begin(), bySlot.end());
+  lights_.assign(given.begin(), given.end());
 }
 
 vec3 LightMaps::irradiance(const ObjectPatches& patches, uint32_t object, int leaf,

@@ -15,11 +15,11 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kSameDirection = 0.99995f;     // cos 0.57°
-constexpr float kLargeShare = 0.02f;           // of the object's size squared
-constexpr float kLarge = 0.25f;                // m²
-constexpr size_t kClusterTriangles = 1024;     // more are halved,
-constexpr float kSmallestCluster = 1.0f;       // if they fill more than this [m]
+constexpr float kSameDirection = 0.99995f;  // cos 0.57°
+constexpr float kLargeShare = 0.02f;        // of the object's size squared
+constexpr float kLarge = 0.25f;             // m²
+constexpr size_t kClusterTriangles = 1024;  // more are halved,
+constexpr float kSmallestCluster = 1.0f;    // if they fill more than this [m]
 
 constexpr size_t kNoCluster = static_cast<size_t>(-1);
 
@@ -104,7 +104,8 @@ class Shape {
     }
     for (uint32_t t = 0; t < count_; ++t) {
       std::array<OpenMesh::VertexHandle, 3> v;
-      for (size_t c = 0; c < 3; ++c) v[c] = mesh_.vertex_handle(static_cast<uint32_t>(welded_[vertex(t, c)]));
+      for (size_t c = 0; c < 3; ++c)
+        v[c] = mesh_.vertex_handle(static_cast<uint32_t>(welded_[vertex(t, c)]));
       const bool degenerate = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
       if (!degenerate && canJoin(v) && mesh_.add_face(v[0], v[1], v[2]).is_valid()) continue;
       for (size_t c = 0; c < 3; ++c) {

@@ -1,5 +1,5 @@
-// Which objects are the same as before, across a rebuild of the scene: adding, removing or hiding one
-// renumbers all, but changes nothing about the others.
+// Which objects are the same as before, across a rebuild of the scene: adding, removing or hiding
+// one renumbers all, but changes nothing about the others.
 #pragma once
 
 #include <vector>

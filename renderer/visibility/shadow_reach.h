@@ -1,5 +1,5 @@
-// Where the shadow of a moved object may fall: the part of space that its bounding sphere hides from
-// a light. A cheap sieve before occlusion pyramids, the other way round than these look.
+// Where the shadow of a moved object may fall: the part of space that its bounding sphere hides
+// from a light. A cheap sieve before occlusion pyramids, the other way round than these look.
 #pragma once
 
 #include "renderer/math.h"

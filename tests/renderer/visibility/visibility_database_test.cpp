@@ -1,9 +1,8 @@
-// The visibility database against rays: none and full are never wrong. And against one built from
-// nothing: edits leave no trace.
+// The visibility database against rays: none and full are never wrong. That edits leave no trace in
+// it stands in tests/renderer/light_maps.
 #include "renderer/visibility/visibility_database.h"
 
 #include <filesystem>
-#include <random>
 
 #include <gtest/gtest.h>
 
@@ -147,61 +146,6 @@ TEST_P(SharedLevel, NoRaySaysOtherwise) {
 INSTANTIATE_TEST_SUITE_P(Levels, SharedLevel,
                          testing::Values("modern-hall/modern-hall.glb", "zdm2-map/zdm2.glb",
                                          "kenney-fps-level/kenney-fps-level.gltf"));
-
-// The same states as a database that never saw anything else.
-void expectSame(const VisibilityDatabase& a, const VisibilityDatabase& b) {
-  ASSERT_EQ(a.objects(), b.objects());
-  for (uint32_t object = 0; object < a.objects(); ++object) {
-    ASSERT_EQ(a.patches(object).patches.size(), b.patches(object).patches.size());
-    for (size_t p = 0; p < a.patches(object).patches.size(); ++p) {
-      const auto ra = a.row(object, static_cast<int>(p)), rb = b.row(object, static_cast<int>(p));
-      for (size_t i = 0; i < ra.size(); ++i)
-        ASSERT_EQ(ra[i], rb[i]) << "object " << object << " patch " << p << " slot " << i
-                                << " leaf " << a.patches(object).patches[p].isLeaf();
-    }
-  }
-}
-
-TEST(VisibilityDatabase, AfterAnyEditsIsTheOneBuiltFromNothing) {
-  Scene scene = test::randomBoxes(16, 5);
-  test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12.0f));
-  std::mt19937 random(7);
-  std::uniform_real_distribution<float> u(-1.0f, 1.0f);
-
-  RenderScene render;
-  VisibilityDatabase kept;
-  kept.setScene(render, update(render, scene, SceneChanges::all()));
-  kept.setLights(render, World(scene).lights);
-  for (int step = 0; step < 12; ++step) {
-    Scene edited = scene;
-    for (int k = 0; k <= step % 3; ++k) {
-      Node& node = edited.nodes[random() % edited.nodes.size()];
-      switch (random() % 4) {
-        case 0:
-        case 1:
-          node.local.translation += vec3(u(random), 0.5f * u(random), u(random));
-          break;
-        case 2:
-          node.visible = !node.visible;
-          break;
-        default:
-          node.local.scale *= 1.0f + 0.4f * u(random);
-      }
-    }
-    kept.setScene(render, update(render, edited, compare(scene, edited)));
-    const World now(edited);
-    kept.setLights(render, now.lights);
-    kept.refreshAll(render);
-    scene = edited;
-
-    VisibilityDatabase fresh;
-    RenderSceneChanges all;
-    all.rebuilt = true;
-    fresh.setScene(now.scene, all);
-    fresh.setLights(now.scene, now.lights);
-    expectSame(kept, fresh);
-  }
-}
 
 TEST(VisibilityDatabase, AMovedObjectCostsFewTests) {
   Scene scene = test::randomBoxes(40, 3);

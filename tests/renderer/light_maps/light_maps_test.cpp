@@ -1,0 +1,207 @@
+// Light maps against the definition of a light's share, and against their own past.
+#include "renderer/light_maps/light_maps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "renderer/light_maps/accumulate.h"
+#include "renderer/sampling/vpl_set.h"
+#include "shaders/shared/vpl_shading.h"
+#include "tests/support/edit_sequence.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/random_boxes.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr float kClamp = 0.5f;
+constexpr LightMaps::Options kOptions{0.1f, kClamp};
+
+std::vector<shared::Vpl> vplsOf(const RenderScene& scene, const RayCaster& rays, int count) {
+  std::vector<shared::Vpl> vpls;
+  for (const SceneVpl& v : generateVpls(scene, rays, LightSet(scene), {count, 0.5f, 1, 1}).vpls)
+    vpls.push_back(v.vpl);
+  return vpls;
+}
+
+// A scene with its database and maps, kept from edit to edit.
+struct Kept {
+  RenderScene scene;
+  VisibilityDatabase visibility;
+  LightMaps maps;
+  std::vector<shared::Vpl> lights;
+
+  void update(const Scene& from, const SceneChanges& changes, int vpls = 40) {
+    const RenderSceneChanges found = lamplighter::update(scene, from, changes);
+    visibility.setScene(scene, found);
+    lights = vplsOf(scene, RayCaster(scene), vpls);
+    visibility.setLights(scene, lights);
+    visibility.refreshAll(scene);
+    maps.update(scene, visibility, lights, kOptions);
+    visibility.clearChanged();
+  }
+};
+
+Scene litBoxes() {
+  Scene scene = test::randomBoxes(14, 5);
+  test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
+  return scene;
+}
+
+TEST(Accumulate, IsTheSharedDefinitionRounded) {
+  std::vector<shared::Vpl> vpls = test::randomVpls(20, 3);
+  shared::Vpl sun = test::makeVpl(vec3(0), vec3(0.5f, 1, 0.4f), shared::kVplDirectional, 2.0f);
+  sun.normal.w = 5.0f;
+  sun.tangent.w = 1.7f;
+  vpls.push_back(sun);
+  vpls.push_back(test::makeVpl(vec3(1, 3, 1), vec3(0, -1, 0), shared::kVplUniform));
+  vpls.back().normal.w = 0.0f;
+  vpls.back().tangent.w = 1.0f;
+  constexpr size_t kCount = 37;  // not a multiple of eight
+  std::vector<float> x(40), y(40), z(40);
+  for (size_t i = 0; i < 40; ++i) {
+    x[i] = -3.0f + 0.15f * static_cast<float>(i);
+    y[i] = 0.3f;
+    z[i] = 1.0f - 0.05f * static_cast<float>(i);
+  }
+  const vec3 normal(0, 1, 0);
+  int lit = 0;
+  for (const shared::Vpl& vpl : vpls) {
+    std::vector<double> r(kCount), g(kCount), b(kCount);
+    accumulate(vpl, {x, y, z, normal}, kClamp, 1.0, kCount, r.data(), g.data(), b.data());
+    for (size_t i = 0; i < kCount; ++i) {
+      const float e = shared::vplGeometry(vpl, vec3(x[i], y[i], z[i]), normal, normal, kClamp);
+      EXPECT_NEAR(g[i], e * vpl.intensity.g, 1e-5 * e * vpl.intensity.g + kIrradianceUnit);
+      EXPECT_EQ(std::remainder(r[i], kIrradianceUnit), 0.0);
+      lit += e > 0.0f;
+    }
+  }
+  EXPECT_GT(lit, 100);
+}
+
+// Whatever is added and in whichever order it is taken away, nothing is left.
+TEST(Accumulate, WhatIsTakenAwayLeavesNoBit) {
+  const std::vector<shared::Vpl> vpls = test::randomVpls(50, 9);
+  std::vector<float> x(64), y(64, 0.1f), z(64, -0.4f);
+  for (size_t i = 0; i < 64; ++i) x[i] = -3.0f + 0.1f * static_cast<float>(i);
+  std::vector<double> r(64), g(64), b(64);
+  const auto all = [&](double sign) {
+    for (const shared::Vpl& vpl : vpls)
+      accumulate(vpl, {x, y, z, vec3(0, 1, 0)}, kClamp, sign, 64, r.data(), g.data(), b.data());
+  };
+  all(1.0);
+  EXPECT_GT(*std::max_element(r.begin(), r.end()), 0.0);
+  all(-1.0);
+  for (const auto* sums : {&r, &g, &b})
+    EXPECT_TRUE(std::all_of(sums->begin(), sums->end(), [](double s) { return s == 0.0; }));
+}
+
+// At every texel: the sum of the lights that it holds. Between them, and from one tile to the next
+// that holds the same lights, it goes on without a step.
+TEST(LightMaps, HoldTheSumOfTheirLights) {
+  Kept kept;
+  kept.update(litBoxes(), SceneChanges::all());
+  int tiles = 0, heldLights = 0;
+  for (uint32_t object = 0; object < kept.scene.objects.size(); ++object) {
+    const ObjectPatches& patches = kept.visibility.patches(object);
+    for (size_t p = 0; p < patches.patches.size(); ++p) {
+      const Patch& patch = patches.patches[p];
+      if (!patch.isLeaf()) continue;
+      const int leaf = static_cast<int>(p);
+      const LightMapTile* tile = kept.maps.tile(object, leaf);
+      if (tile == nullptr) continue;
+      ++tiles;
+      const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
+      const auto held = kept.maps.held(object, leaf);
+      for (const vec2& share : {vec2(0, 0), vec2(1, 0), vec2(1, 1)}) {
+        const vec3 at = chart.at(glm::mix(patch.min, patch.max, share));
+        vec3 e(0.0f);
+        for (size_t slot = 0; slot < held.size(); ++slot) {
+          if (held[slot] == 0) continue;
+          EXPECT_NE(kept.visibility.state(object, leaf, static_cast<int>(slot)), Occlusion::full);
+          ++heldLights;
+          e += shared::vplGeometry(kept.lights[slot], at, chart.normal, chart.normal, kClamp) *
+               vec3(kept.lights[slot].intensity);
+        }
+        const vec3 found = kept.maps.irradiance(patches, object, leaf, at);
+        EXPECT_LT(glm::length(found - e), 1e-4f * glm::length(e) + 1e-5f);
+      }
+    }
+  }
+  EXPECT_GT(tiles, 60);
+  EXPECT_GT(heldLights, 20 * tiles);
+}
+
+TEST(LightMaps, TheSameBitsAtAnyNumberOfThreads) {
+  std::vector<uint64_t> hashes;
+  for (const size_t threads : {1u, 2u, 5u}) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Kept kept;
+    kept.update(litBoxes(), SceneChanges::all());
+    hashes.push_back(kept.maps.hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+bool sameStates(const VisibilityDatabase& a, const VisibilityDatabase& b) {
+  if (a.objects() != b.objects()) return false;
+  for (uint32_t object = 0; object < a.objects(); ++object) {
+    if (a.patches(object).patches.size() != b.patches(object).patches.size()) return false;
+    for (size_t p = 0; p < a.patches(object).patches.size(); ++p) {
+      const auto ra = a.row(object, static_cast<int>(p)), rb = b.row(object, static_cast<int>(p));
+      if (!std::equal(ra.begin(), ra.end(), rb.begin(), rb.end())) return false;
+    }
+  }
+  return true;
+}
+
+// After any edits both are what would be made from nothing, bit for bit; and after undoing them all,
+// what they were.
+bool leavesNoTrace(const test::EditSequence& edits) {
+  Scene scene = litBoxes();
+  Kept kept;
+  kept.update(scene, SceneChanges::all());
+  const uint64_t begin = kept.maps.hash();
+  std::vector<Scene> past{scene};
+  for (size_t i = 0; i < edits.size(); ++i) {
+    apply(scene, edits[i]);
+    if (i + 1 < edits.size() && edits[i + 1].together) continue;
+    kept.update(scene, compare(past.back(), scene));
+    past.push_back(scene);
+    Kept fresh;
+    fresh.update(scene, SceneChanges::all());
+    if (!sameStates(kept.visibility, fresh.visibility)) return false;
+    if (kept.maps.hash() != fresh.maps.hash()) return false;
+  }
+  for (; past.size() > 1; past.pop_back())
+    kept.update(past[past.size() - 2], compare(past.back(), past[past.size() - 2]));
+  return kept.maps.hash() == begin;
+}
+
+class AnyEdits : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(AnyEdits, LeaveNoTraceInVisibilityAndLightMaps) {
+  EXPECT_EQ(test::shortestFailing(test::randomEdits(14, GetParam()), leavesNoTrace),
+            test::EditSequence());
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, AnyEdits, testing::Range(1u, 13u));
+
+// The search for a short sequence finds the edit that is to blame.
+TEST(EditSequence, IsShortenedToWhatFails) {
+  test::EditSequence edits = test::randomEdits(20, 4);
+  edits[13].kind = test::Edit::Kind::mirror;
+  edits[13].node = 77;
+  const auto failing = test::shortestFailing(edits, [](const test::EditSequence& s) {
+    return std::none_of(s.begin(), s.end(), [](const test::Edit& e) { return e.node == 77; });
+  });
+  ASSERT_EQ(failing.size(), 1u);
+  EXPECT_EQ(failing[0].node, 77u);
+}
+
+}  // namespace
+}  // namespace lamplighter
