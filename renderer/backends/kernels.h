@@ -41,8 +41,9 @@ class HostImage final : public RadianceImage {
 };
 
 struct BackendInfo {
-  std::string name;    // "cpu" or "gl"
-  std::string device;  // GL renderer string, or the instruction set
+  std::string name;               // "cpu" or "gl"
+  std::string device;             // GL renderer string, or the instruction set
+  bool tracesShadowMaps = false;  // by a ray a texel
 };
 
 // Counts of work since the backend was made.

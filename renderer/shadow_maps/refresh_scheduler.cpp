@@ -22,19 +22,41 @@ bool seesMover(const shared::Vpl& vpl, const Bounds& before, const Bounds& after
   return reachesAbove(before, p, n) || reachesAbove(after, p, n);
 }
 
-std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates, int budget) {
+RefreshWork& RefreshWork::operator+=(const RefreshWork& o) {
+  shadowMaps += o.shadowMaps;
+  visibilityTests += o.visibilityTests;
+  lightMapTexels += o.lightMapTexels;
+  rays += o.rays;
+  return *this;
+}
+
+bool RefreshWork::allows(const RefreshWork& work) const {
+  return work.shadowMaps <= shadowMaps && work.visibilityTests <= visibilityTests &&
+         work.lightMapTexels <= lightMapTexels && work.rays <= rays;
+}
+
+std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates,
+                                    const RefreshBudget& budget) {
   std::vector<size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), size_t{0});
   const auto priority = [&](size_t i) {
     return candidates[i].brightness * static_cast<float>(candidates[i].framesWaiting);
   };
-  const size_t count = std::min(order.size(), static_cast<size_t>(std::max(budget, 0)));
+  const size_t count = std::min(order.size(), static_cast<size_t>(std::max(budget.vpls, 0)));
   std::partial_sort(order.begin(), order.begin() + static_cast<ptrdiff_t>(count), order.end(),
                     [&](size_t a, size_t b) {
                       const float pa = priority(a), pb = priority(b);
                       return pa != pb ? pa > pb : a < b;
                     });
   order.resize(count);
+  RefreshWork spent;
+  for (size_t k = 0; k < count; ++k) {
+    spent += candidates[order[k]].work;
+    if (k > 0 && !budget.work.allows(spent)) {
+      order.resize(k);
+      break;
+    }
+  }
   return order;
 }
 

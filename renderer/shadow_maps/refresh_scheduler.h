@@ -2,6 +2,8 @@
 // 4.5.3).
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,15 +17,36 @@ namespace lamplighter {
 // is not wholly behind the VPL. A directional VPL sees everything.
 bool seesMover(const shared::Vpl& vpl, const Bounds& before, const Bounds& after);
 
-// One VPL that waits for its map.
+// Work that refreshing VPLs takes, or may take in one frame.
+struct RefreshWork {
+  uint64_t shadowMaps = 0;
+  uint64_t visibilityTests = 0;  // occlusion pyramids against the scene
+  uint64_t lightMapTexels = 0;   // times lights added or taken away
+  uint64_t rays = 0;             // for shadow maps that are traced
+
+  RefreshWork& operator+=(const RefreshWork& o);
+  // No kind of work is more than what this allows of it.
+  bool allows(const RefreshWork& work) const;
+};
+inline constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
+
+struct RefreshBudget {
+  int vpls = 0;
+  RefreshWork work{kNoLimit, kNoLimit, kNoLimit, kNoLimit};
+};
+
+// One VPL that waits for its turn.
 struct RefreshCandidate {
   float brightness = 0.0f;  // intensity of its brightest channel
   int framesWaiting = 1;    // 1 in the frame that made it stale
+  RefreshWork work{};       // that its refresh is thought to take
 };
 
-// The indices of at most `budget` candidates, highest priority = brightness × frames waiting first,
-// ties by index. Waiting raises the priority without bound, so none starves.
-std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates, int budget);
+// The indices of the candidates that the budget is enough for, highest priority = brightness ×
+// frames waiting first, ties by index. Waiting raises the priority without bound, so none starves;
+// the first of them always has its turn, however little is allowed (unless no VPL is).
+std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates,
+                                    const RefreshBudget& budget);
 
 // Tells which objects changed place or shape between two frames, across a rebuild too.
 class MoverFinder {

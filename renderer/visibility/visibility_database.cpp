@@ -223,7 +223,9 @@ void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const sha
     for (size_t first = 0; first < rows.size(); first += stride_)
       for (const int slot : slots) rows[first + static_cast<size_t>(slot)] = kUnknown;
   }
+  const uint64_t before = tests_;
   computeColumns(scene, slots, true);
+  testsPerColumn_ = (tests_ - before) / slots.size();
 }
 
 void VisibilityDatabase::refreshAll(const RenderScene& scene) {

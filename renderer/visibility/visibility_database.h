@@ -70,6 +70,8 @@ class VisibilityDatabase {
 
   // Pyramids against the scene, since the database was made.
   uint64_t tests() const { return tests_; }
+  // For a light that moved, by the last ones that did.
+  uint64_t testsPerColumn() const { return testsPerColumn_; }
   VisibilityCounts counts() const;  // goes through all entries
 
  private:
@@ -129,7 +131,7 @@ class VisibilityDatabase {
   std::vector<uint8_t> isLive_;                // by slot
   std::vector<std::vector<Waiting>> waiting_;  // by slot
   size_t stride_ = 0;                          // of rows, in slots
-  uint64_t tests_ = 0;
+  uint64_t tests_ = 0, testsPerColumn_ = 0;
 };
 
 }  // namespace lamplighter

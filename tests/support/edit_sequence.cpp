@@ -8,8 +8,8 @@
 namespace lamplighter::test {
 
 void PrintTo(const EditSequence& edits, std::ostream* out) {
-  static const char* const kNames[] = {"move", "turn", "scale", "mirror",
-                                       "hide or show", "add", "remove", "brighten"};
+  static const char* const kNames[] = {"move",         "turn", "scale",  "mirror",
+                                       "hide or show", "add",  "remove", "brighten"};
   for (const Edit& e : edits)
     *out << (e.together ? " + " : "\n  ") << kNames[static_cast<int>(e.kind)] << " node " << e.node
          << " by (" << e.amount.x << ", " << e.amount.y << ", " << e.amount.z << ")";

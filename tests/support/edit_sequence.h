@@ -1,5 +1,5 @@
-// Random edits of a scene, for tests that ask whether what is kept from edit to edit is what would be
-// made from nothing. A sequence that fails is made as short as it still fails.
+// Random edits of a scene, for tests that ask whether what is kept from edit to edit is what would
+// be made from nothing. A sequence that fails is made as short as it still fails.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ struct Edit {
   bool operator==(const Edit&) const = default;
   enum class Kind { move, turn, scale, mirror, hideOrShow, add, remove, brighten };
   Kind kind = Kind::move;
-  uint32_t node = 0;  // of those there are, modulo their number
-  vec3 amount{0.0f};  // in [−1, 1]³
+  uint32_t node = 0;      // of those there are, modulo their number
+  vec3 amount{0.0f};      // in [−1, 1]³
   bool together = false;  // with the edit before, as one change
 };
 using EditSequence = std::vector<Edit>;

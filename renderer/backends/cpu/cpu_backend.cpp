@@ -135,7 +135,7 @@ class CpuBackend final : public Backend {
     });
   }
 
-  BackendInfo info_{"cpu", "x86-64-v3, 8 lanes"};
+  BackendInfo info_{"cpu", "x86-64-v3, 8 lanes", true};
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;

@@ -95,14 +95,16 @@ void LiveLights::loseMaps() {
   changed_ = true;
 }
 
-int LiveLights::refresh(Backend& backend, int budget) {
+int LiveLights::refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved,
+                        const RefreshWork& stale) {
   std::vector<size_t> waiting;
   std::vector<RefreshCandidate> candidates;
   for (size_t i = 0; i < entries_.size(); ++i) {
     Entry& e = entries_[i];
     if (!e.isStale) continue;
     waiting.push_back(i);
-    candidates.push_back({brightness(e.wanted.vpl), ++e.framesWaiting});
+    const bool stays = e.isLive && samePlace(e.current, e.wanted.vpl);
+    candidates.push_back({brightness(e.wanted.vpl), ++e.framesWaiting, stays ? stale : moved});
   }
   std::vector<shared::Vpl> maps;
   for (const size_t chosen : chooseRefreshes(candidates, budget)) {

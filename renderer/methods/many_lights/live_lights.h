@@ -26,9 +26,11 @@ class LiveLights {
   // The maps are lost: nothing is shown until it is refreshed.
   void loseMaps();
 
-  // Takes the pending VPLs of highest priority, `budget` at most, moves each to where it is wanted,
-  // renders its map, and swaps both in together. Returns how many.
-  int refresh(Backend& backend, int budget);
+  // Takes the pending VPLs of highest priority that the budget is enough for, moves each to where
+  // it is wanted, renders its map, and swaps both in together. `moved`, `stale`: the work for one
+  // that is at another place, and for one whose map alone is out of date. Returns how many.
+  int refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved = {},
+              const RefreshWork& stale = {});
 
   // Whether the light in each slot is shown as it is wanted, with its map.
   std::vector<bool> upToDate() const;

@@ -55,7 +55,13 @@ ManyLights::Options::Options(const Settings& settings) {
   counts.bounces = settings.integer(parameters::bounces());
   counts.seed = static_cast<uint32_t>(settings.integer(parameters::seed()));
   mapResolution = settings.integer(parameters::mapResolution());
-  updates = settings.integer(parameters::updates());
+  budget.vpls = settings.integer(parameters::updates());
+  const auto limit = [&](const ParameterSpec& spec) {
+    const int value = settings.integer(spec);
+    return value == 0 ? kNoLimit : static_cast<uint64_t>(value);
+  };
+  budget.work = {limit(parameters::maxShadowMaps()), limit(parameters::maxVisibilityTests()),
+                 limit(parameters::maxLightMapTexels()), limit(parameters::maxRays())};
   clampDistance = settings.real(parameters::clampDistance());
   shadowBias = settings.real(parameters::shadowBias());
   antialias = settings.integer(parameters::antialias());
@@ -76,7 +82,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   stages.end("light samples");
 
   // 2. Some of them, each wholly: place, intensity, shadow map,
-  out.stats.mapsRendered = lights_.refresh(in.backend, options.updates);
+  out.stats.mapsRendered = refreshLights(in, options);
   stages.end("shadow maps");
 
   // 3. where its map must be looked up, and the light that it sheds without shadows.
@@ -137,6 +143,18 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   }
   if (options.mapResolution != options_.mapResolution) lights_.loseMaps();
   in.backend.reserveShadowMaps(lights_.slots(), options.mapResolution);
+}
+
+int ManyLights::refreshLights(const FrameInputs& in, const Options& options) {
+  RefreshWork moved, stale;
+  moved.shadowMaps = stale.shadowMaps = 1;
+  if (in.backend.info().tracesShadowMaps) {
+    const auto side = static_cast<uint64_t>(options.mapResolution);
+    moved.rays = stale.rays = side * side;
+  }
+  if (visibility_) moved.visibilityTests = visibility_->testsPerColumn();
+  if (lightMaps_) moved.lightMapTexels = 2 * lightMaps_->texels();  // out and in again
+  return lights_.refresh(in.backend, options.budget, moved, stale);
 }
 
 void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
@@ -224,9 +242,10 @@ MethodInfo manyLightsInfo() {
           "Many lights",
           "Barczak, Interactive Illumination Using Large Sets of Point Lights, 2006, chapter 4",
           {parameters::vpls(), parameters::directShare(), parameters::bounces(), parameters::seed(),
-           parameters::mapResolution(), parameters::updates(), parameters::clampDistance(),
-           parameters::shadowBias(), parameters::technique(), parameters::lightMapTexel(),
-           parameters::antialias()},
+           parameters::mapResolution(), parameters::updates(), parameters::maxShadowMaps(),
+           parameters::maxVisibilityTests(), parameters::maxLightMapTexels(), parameters::maxRays(),
+           parameters::frameTime(), parameters::clampDistance(), parameters::shadowBias(),
+           parameters::technique(), parameters::lightMapTexel(), parameters::antialias()},
           [] { return std::make_unique<ManyLights>(); }};
 }
 

@@ -27,7 +27,7 @@ class ManyLights final : public GiMethod {
 
     VplCounts counts;
     int mapResolution = 0;
-    int updates = 0;
+    RefreshBudget budget;  // a frame
     float clampDistance = 0.0f;
     float shadowBias = 0.0f;
     int antialias = 1;
@@ -40,6 +40,7 @@ class ManyLights final : public GiMethod {
   void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
+  int refreshLights(const FrameInputs& in, const Options& options);
   void updateVisibility(const FrameInputs& in, GiStats& stats);
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;

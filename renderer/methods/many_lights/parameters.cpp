@@ -19,6 +19,66 @@ const ParameterSpec& technique() {
   return spec;
 }
 
+namespace {
+
+ParameterSpec limitOf(const char* name, const char* label, const char* what) {
+  return {name,
+          label,
+          "",
+          std::string(what) +
+              " in one frame, at most; one light sample is refreshed in any case. "
+              "0: no limit.",
+          0,
+          0,
+          1000000000,
+          true,
+          {}};
+}
+
+}  // namespace
+
+const ParameterSpec& maxShadowMaps() {
+  static const ParameterSpec spec =
+      limitOf("max_shadow_maps", "Most shadow maps", "Shadow maps rendered");
+  return spec;
+}
+
+const ParameterSpec& maxVisibilityTests() {
+  static const ParameterSpec spec =
+      limitOf("max_visibility_tests", "Most visibility tests",
+              "Occlusion pyramids of light samples tested against the scene");
+  return spec;
+}
+
+const ParameterSpec& maxLightMapTexels() {
+  static const ParameterSpec spec =
+      limitOf("max_light_map_texels", "Most light map texels",
+              "Texels of light maps, times lights added or taken away,");
+  return spec;
+}
+
+const ParameterSpec& maxRays() {
+  static const ParameterSpec spec =
+      limitOf("max_rays", "Most rays", "Rays for shadow maps (cpu backend)");
+  return spec;
+}
+
+const ParameterSpec& frameTime() {
+  static const ParameterSpec spec{
+      "frame_time",
+      "Frame time",
+      "ms",
+      "How long a frame may take in the editor's window: light samples are refreshed as far as "
+      "what they cost before allows. 0: counts alone. Recordings, replays and rendering without a "
+      "window go by counts.",
+      50.0f,
+      0.0,
+      1000.0,
+      false,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& lightMapTexel() {
   static const ParameterSpec spec{
       "light_map_texel",

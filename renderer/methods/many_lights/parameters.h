@@ -5,7 +5,13 @@
 
 namespace lamplighter::parameters {
 
-const ParameterSpec& technique();      // which of the paper's short cuts are taken
+const ParameterSpec& technique();  // which of the paper's short cuts are taken
+// int, the most work of each kind in a frame; 0: no limit
+const ParameterSpec& maxShadowMaps();
+const ParameterSpec& maxVisibilityTests();
+const ParameterSpec& maxLightMapTexels();
+const ParameterSpec& maxRays();
+const ParameterSpec& frameTime();      // float, ms; heeded in the editor's window alone
 const ParameterSpec& lightMapTexel();  // float, m
 const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled
 

@@ -160,8 +160,8 @@ bool sameStates(const VisibilityDatabase& a, const VisibilityDatabase& b) {
   return true;
 }
 
-// After any edits both are what would be made from nothing, bit for bit; and after undoing them all,
-// what they were.
+// After any edits both are what would be made from nothing, bit for bit; and after undoing them
+// all, what they were.
 bool leavesNoTrace(const test::EditSequence& edits) {
   Scene scene = litBoxes();
   Kept kept;

@@ -76,7 +76,7 @@ class LiveLightsTest : public testing::Test {
   int settle(int budget, float flux) {
     int frames = 0;
     for (; lights.pending() > 0 && frames < 1000; ++frames) {
-      const int before = lights.pending(), done = lights.refresh(backend, budget);
+      const int before = lights.pending(), done = lights.refresh(backend, {budget});
       EXPECT_LE(done, budget);
       EXPECT_EQ(lights.pending(), before - done);
       EXPECT_NEAR(checkedSum(), flux, 1e-4f * flux);
@@ -101,7 +101,7 @@ TEST_F(LiveLightsTest, AMoveShowsOldAndNewVplsEachWhole) {
   settle(100, 5.0f);
   lights.want(samples(1, 100, 5.0f, 7.0f));
   EXPECT_EQ(lights.pending(), 100);
-  lights.refresh(backend, 40);
+  lights.refresh(backend, {40});
   const auto shown = lights.shown();
   ASSERT_EQ(shown.size(), 100u);
   EXPECT_EQ(std::count_if(shown.begin(), shown.end(),
@@ -187,7 +187,7 @@ TEST_F(LiveLightsTest, NoneStarvesWhileAnObjectMoves) {
   int oldest = 0;
   for (int frame = 0; frame < 1500; ++frame) {
     lights.markStale(std::vector<MoverFinder::Mover>{{everywhere, everywhere}});
-    EXPECT_EQ(lights.refresh(backend, 10), 10);
+    EXPECT_EQ(lights.refresh(backend, {10}), 10);
     oldest = std::max(oldest, lights.oldestFrames());
   }
   // The dim ones have a hundredth of the others' brightness, which come round every three frames.

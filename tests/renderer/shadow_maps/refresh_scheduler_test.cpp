@@ -11,27 +11,43 @@ namespace lamplighter {
 namespace {
 
 TEST(ChooseRefreshes, TakesTheHighestPriorityWithinTheBudget) {
-  const std::vector<RefreshCandidate> waiting{{1, 1}, {5, 1}, {2, 3}, {6, 1}, {3, 2}};
-  EXPECT_EQ(chooseRefreshes(waiting, 3), (std::vector<size_t>{2, 3, 4}));  // 6, 6, 6, before 5
-  EXPECT_EQ(chooseRefreshes(waiting, 99), (std::vector<size_t>{2, 3, 4, 1, 0}));
-  EXPECT_TRUE(chooseRefreshes(waiting, 0).empty());
-  EXPECT_TRUE(chooseRefreshes({}, 10).empty());
+  const std::vector<RefreshCandidate> waiting{
+      {1, 1, {}}, {5, 1, {}}, {2, 3, {}}, {6, 1, {}}, {3, 2, {}}};
+  EXPECT_EQ(chooseRefreshes(waiting, {3}), (std::vector<size_t>{2, 3, 4}));  // 6, 6, 6, before 5
+  EXPECT_EQ(chooseRefreshes(waiting, {99}), (std::vector<size_t>{2, 3, 4, 1, 0}));
+  EXPECT_TRUE(chooseRefreshes(waiting, {0}).empty());
+  EXPECT_TRUE(chooseRefreshes({}, {10}).empty());
 }
 
 // Bright maps go stale again in every frame; the dimmest must come to its turn all the same.
 TEST(ChooseRefreshes, StarvesNone) {
-  std::vector<RefreshCandidate> maps(20, {100.0f, 1});
+  std::vector<RefreshCandidate> maps(20, {100.0f, 1, {}});
   maps[13].brightness = 2.0f;
   int frame = 1;
   for (;; ++frame) {
     ASSERT_LT(frame, 500);
-    const std::vector<size_t> chosen = chooseRefreshes(maps, 5);
+    const std::vector<size_t> chosen = chooseRefreshes(maps, {5});
     ASSERT_EQ(chosen.size(), 5u);
     for (RefreshCandidate& m : maps) ++m.framesWaiting;
     if (std::find(chosen.begin(), chosen.end(), size_t{13}) != chosen.end()) break;
     for (const size_t i : chosen) maps[i].framesWaiting = 1;
   }
   EXPECT_GT(frame, 100);  // and not before the bright ones earned theirs
+}
+
+// Whichever kind of work is scarce, it is not exceeded; but the first always has its turn.
+TEST(ChooseRefreshes, KeepsWithinEachKindOfWork) {
+  const RefreshWork each{1, 700, 20000, 4096};
+  const std::vector<RefreshCandidate> waiting(10, {1.0f, 1, each});
+  const auto chosen = [&](const RefreshWork& limit) {
+    return chooseRefreshes(waiting, {8, limit}).size();
+  };
+  EXPECT_EQ(chosen({kNoLimit, kNoLimit, kNoLimit, kNoLimit}), 8u);
+  EXPECT_EQ(chosen({3, kNoLimit, kNoLimit, kNoLimit}), 3u);
+  EXPECT_EQ(chosen({kNoLimit, 2100, kNoLimit, kNoLimit}), 3u);
+  EXPECT_EQ(chosen({kNoLimit, kNoLimit, 59999, kNoLimit}), 2u);
+  EXPECT_EQ(chosen({kNoLimit, kNoLimit, kNoLimit, 5 * 4096}), 5u);
+  EXPECT_EQ(chosen({kNoLimit, 10, kNoLimit, 10}), 1u);
 }
 
 TEST(SeesMover, UnlessItStaysBehindTheLight) {
