@@ -9,6 +9,7 @@
 #include "editor/tools/placement.h"
 #include "editor/tools/scene_overlay.h"
 #include "renderer/error.h"
+#include "renderer/methods/common_parameters.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/scene/surface.h"
 
@@ -263,12 +264,14 @@ std::optional<Session::Place> Session::surfaceAhead(const std::vector<NodeId>& i
   return surfaceAlong(view_.forward(), ignored);
 }
 
-const GiOutput& Session::renderFrame() {
+const GiOutput& Session::renderFrame(std::optional<int> updates) {
   const SceneChanges changes = history_.takeChanges();
   renderError_.clear();
+  Settings settings = document_.render.values;
+  if (updates) settings.set(parameters::updates().name, *updates);
   try {
-    output_ = renderer_->render(
-        {document_.scene, changes, view_, document_.render.method, document_.render.values});
+    output_ =
+        renderer_->render({document_.scene, changes, view_, document_.render.method, settings});
   } catch (const InputError& e) {
     history_.showAll();  // part of it may have arrived: the next frame begins anew
     renderError_ = status_ = e.what();

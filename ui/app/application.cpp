@@ -9,6 +9,7 @@
 #include "renderer/error.h"
 #include "renderer/image/exposure.h"
 #include "renderer/image/image_io.h"
+#include "renderer/methods/many_lights/parameters.h"
 
 namespace lamplighter {
 namespace {
@@ -59,7 +60,8 @@ void Application::frame() {
   const PanelContext ui{*session_, widgets_, platform_.contentScale(), ""};
   drawPanels(ui);
   viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
-  session_->renderFrame();
+  session_->renderFrame(updatesWithinTime());
+  frameTime_.measured(session_->output().stats);
   if (framesToExposure_ > 0 && (--framesToExposure_ == 0 || session_->output().settled)) {
     framesToExposure_ = 0;
     exposeAutomatically();
@@ -120,6 +122,13 @@ void Application::runAction(const std::string& text) {
   } else if (!session_->runAction(text) && replaying_) {
     throw InputError(text + ": " + session_->status());
   }
+}
+
+// Where time goes by steps of fixed length, as in recordings, work goes by counts.
+std::optional<int> Application::updatesWithinTime() const {
+  const float milliseconds = session_->document().render.values.real(parameters::frameTime());
+  if (timeStep_ > 0.0f || milliseconds == 0.0f) return std::nullopt;
+  return frameTime_.vplsWithin(1e-3 * milliseconds);
 }
 
 // After the frame was rendered: it tells of the picture beside it, not of the one before.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "editor/session.h"
+#include "renderer/shadow_maps/frame_time_control.h"
 #include "ui/app/imgui_layer.h"
 #include "ui/app/input_queue.h"
 #include "ui/app/input_router.h"
@@ -62,6 +63,7 @@ class Application {
   void drawPanels(PanelContext ui);
   void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
+  std::optional<int> updatesWithinTime() const;
   void present();
   void takeLoaded();
   void answerRequests();
@@ -98,6 +100,7 @@ class Application {
   float timeStep_ = 0.0f;
   double lastSeconds_ = 0.0;
   double frameSeconds_ = 0.0;
+  FrameTimeControl frameTime_;
   float dt_ = 1.0f / 60.0f;
   bool replaying_ = false;
   bool finished_ = false;

@@ -1,0 +1,36 @@
+#include "renderer/shadow_maps/frame_time_control.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace lamplighter {
+namespace {
+
+constexpr int kFirstGuess = 16;
+constexpr double kWeight = 0.3;  // of the last frame against those before
+
+void average(double& mean, double value) {
+  mean = mean == 0.0 ? value : mean + kWeight * (value - mean);
+}
+
+}  // namespace
+
+void FrameTimeControl::measured(const GiStats& stats) {
+  double all = 0.0, refreshing = 0.0;
+  for (const auto& [stage, seconds] : stats.stageSeconds) {
+    all += seconds;
+    if (stage == "shadow maps" || stage == "visibility" || stage == "light maps")
+      refreshing += seconds;
+  }
+  // A frame in which nothing changed says nothing of one in which something does.
+  if (stats.mapsRendered == 0) return;
+  average(perVpl_, refreshing / stats.mapsRendered);
+  average(rest_, all - refreshing);
+}
+
+int FrameTimeControl::vplsWithin(double seconds) const {
+  if (perVpl_ <= 0.0) return kFirstGuess;
+  return std::max(1, static_cast<int>(std::min((seconds - rest_) / perVpl_, 65536.0)));
+}
+
+}  // namespace lamplighter
