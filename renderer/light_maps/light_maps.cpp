@@ -172,6 +172,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   });
   std::vector<bool> isFresh(objects_.size(), false);
   for (const uint32_t i : fresh) isFresh[i] = true;
+  std::vector<uint32_t> changedObjects = fresh;
 
   lights_.resize(bySlot.size());
   std::vector<uint32_t> changedSlots, allSlots(bySlot.size());
@@ -196,6 +197,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     }
   }
   std::atomic<uint64_t> written = 0;
+  std::vector<uint8_t> wrote(jobs.size(), 0);
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t j) {
     const Job& job = jobs[j];
     Object& o = objects_[job.object];
@@ -225,10 +227,15 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     }
     if (touched == 0) return;
     written += touched;
+    wrote[j] = 1;
     for (size_t i = 0; i < count; ++i)
       o.irradiance[tile.first + i] = vec4(sums[i], sums[count + i], sums[2 * count + i], 0.0);
   });
   written_ += written;
+  for (size_t j = 0; j < jobs.size(); ++j)
+    if (wrote[j] != 0 && (changedObjects.empty() || changedObjects.back() != jobs[j].object))
+      changedObjects.push_back(jobs[j].object);
+  for (const uint32_t i : changedObjects) objects_[i].revision.advance();
   lights_.assign(given.begin(), given.end());
 }
 

@@ -56,6 +56,7 @@ class LightMaps {
                   const vec3& position) const;
   // An object's texels; rgb: E [W/m²].
   std::span<const vec4> texels(uint32_t object) const { return objects_[object].irradiance; }
+  const Revision& revision(uint32_t object) const { return objects_[object].revision; }
 
   size_t objects() const { return objects_.size(); }
   size_t texels() const;
@@ -70,6 +71,7 @@ class LightMaps {
     std::vector<double> sums;      // three a texel: all r of a tile, then g, then b
     std::vector<vec4> irradiance;  // the same, as it is read
     std::vector<uint8_t> held;     // tiles × slots
+    Revision revision;             // of tiles and texels
   };
   static Object makeObject(const RenderScene& scene, const ObjectPatches& patches, float texel);
   void resize(size_t slots);

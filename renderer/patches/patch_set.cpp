@@ -67,6 +67,7 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
                            const MeshTopology& topology) {
   const RenderObject& o = scene.objects[object];
   ObjectPatches out;
+  out.revision.advance();
   out.bounds = o.bounds;
   out.charts = placeCharts(scene, object, topology);
   out.patchOfTriangle.assign(o.triangleCount(), kNone);

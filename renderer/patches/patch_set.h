@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/patches/charts.h"
+#include "renderer/revision.h"
 
 namespace lamplighter {
 
@@ -23,7 +24,8 @@ struct Patch {
 // The charts and patches of one object. Made from its triangles alone, so that they do not tell
 // where it was before.
 struct ObjectPatches {
-  Bounds bounds;  // of the object
+  Revision revision;  // another each time they are placed
+  Bounds bounds;      // of the object
   std::vector<Chart> charts;
   std::vector<Patch> patches;        // children after their parents
   std::vector<int> roots;            // into patches

@@ -13,7 +13,10 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   const float kInversePi = 0.318309886;
   vec3 albedo = texelFetch(uAlbedo, pixel, 0).rgb;
+  // Light maps are interpolated and the shadows taken away from them are not: no light may be left
+  // less than none.
   vec3 irradiance = texelFetch(uIrradiance, pixel, 0).rgb;
+  irradiance = mix(irradiance, vec3(0.0), lessThan(irradiance, vec3(0.0)));
   vec3 radiance = texelFetch(uEmission, pixel, 0).rgb + albedo * kInversePi * irradiance;
   bool hit = texelFetch(uPosition, pixel, 0).w != 0.0;
   outRadiance = vec4(hit ? radiance : uSky, 1.0);

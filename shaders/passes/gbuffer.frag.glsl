@@ -99,7 +99,8 @@ void main() {
     emission *= lookUp(uEmissive, uMaterial.emissiveLookup, vUv0, vUv1).rgb;
   }
 #endif
-  outPosition = vec4(position, 1.0);
+  uint triangle = vFirstIndex / 3u + uint(gl_PrimitiveID);
+  outPosition = vec4(position, uintBitsToFloat(uint(kTriangleBits) + triangle));
   outNormals = vec4(packNormal(side * n), packNormal(side * geometric));
   outAlbedo = vec4(clamp(color.rgb, 0.0, 1.0), 1.0);
   outEmission = vec4(emission, 1.0);

@@ -14,6 +14,15 @@ SHARED_CONST int kIndexBuffer = 1;
 SHARED_CONST int kUv0Buffer = 2;
 SHARED_CONST int kUv1Buffer = 3;
 
+// Other passes use other buffers; eight numbers are all that OpenGL promises.
+SHARED_CONST int kRootBuffer = 0;  // by triangle of the scene: the root of its patch tree
+SHARED_CONST int kPatchBuffer = 1;
+SHARED_CONST int kChartBuffer = 2;
+SHARED_CONST int kTileBuffer = 3;
+SHARED_CONST int kTexelBuffer = 4;
+SHARED_CONST int kListRangeBuffer = 5;
+SHARED_CONST int kListBuffer = 6;
+
 SHARED_CONST int kPositionAttribute = 0;
 SHARED_CONST int kNormalAttribute = 1;
 SHARED_CONST int kTangentAttribute = 2;
@@ -27,12 +36,17 @@ SHARED_CONST int kNormalTexture = 1;
 SHARED_CONST int kEmissiveTexture = 2;
 
 // What the G-buffer's pass writes and the others read, in this order.
-SHARED_CONST int kGPosition = 0;  // xyz: world [m]; w: 1 where something was hit
+SHARED_CONST int kGPosition = 0;  // xyz: world [m]; w: 0 where nothing was hit, else the bits of a
+                                  // float: kTriangleBits + the number of the scene's triangle
 SHARED_CONST int kGNormals = 1;   // octahedral: xy shading, zw geometric, on the side of the eye
 SHARED_CONST int kGAlbedo = 2;
 SHARED_CONST int kGEmission = 3;  // towards the eye [W/(m² sr)]
 SHARED_CONST int kShadowMaps = 4;
-SHARED_CONST int kIrradiance = 4;
+SHARED_CONST int kIrradiance = 5;
+SHARED_CONST int kPlaces = 6;  // of pixels: patches.h
+
+// The least normal float: no triangle's number becomes a denormal, an infinity or no number.
+SHARED_CONST int kTriangleBits = 8388608;
 
 SHARED_END
 #endif

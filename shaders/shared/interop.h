@@ -17,6 +17,7 @@
   using glm::max;                 \
   using glm::min;                 \
   using glm::sqrt;                \
+  using glm::uvec4;               \
   using glm::vec2;                \
   using glm::vec3;                \
   using glm::vec4;

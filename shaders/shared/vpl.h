@@ -26,7 +26,8 @@ struct Vpl {
 // How shading bounds and biases; the same on both backends.
 struct ShadingParams {
   // x: least distance d0 [m], 1/d² is clamped to 1/d0²; y: shadow bias as a share of the distance;
-  // z: map resolution [texels a side]; w: number of VPLs
+  // z: map resolution [texels a side]; w: VPLs that one draw of the gl backend adds to a pixel at
+  // most
   vec4 clampAndBias;
 };
 

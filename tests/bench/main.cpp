@@ -13,11 +13,13 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   addNaiveBenchmarks("cpu", makeCpuBackend);
+  addTechniqueBenchmarks("cpu", makeCpuBackend);
   std::unique_ptr<gl::HeadlessContext> context;
   try {
     context = std::make_unique<gl::HeadlessContext>();
     benchmark::AddCustomContext("OpenGL", context->renderer());
     addNaiveBenchmarks("gl", [] { return makeGlBackend(); });
+    addTechniqueBenchmarks("gl", [] { return makeGlBackend(); });
   } catch (const InputError& error) {
     std::cerr << "without the gl backend: " << error.what() << "\n";
   }

@@ -12,5 +12,7 @@ using MakeBackend = std::function<std::unique_ptr<Backend>()>;
 
 // Adds the benchmarks of the technique `naive` on one backend.
 void addNaiveBenchmarks(const std::string& backend, const MakeBackend& make);
+// Adds frames of each technique on one backend.
+void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make);
 
 }  // namespace lamplighter

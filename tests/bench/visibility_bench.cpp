@@ -4,7 +4,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
@@ -12,6 +11,7 @@
 #include "renderer/scene/gltf_io.h"
 #include "renderer/scene/light_shapes.h"
 #include "renderer/visibility/visibility_database.h"
+#include "tests/bench/naive_bench.h"
 
 namespace lamplighter {
 namespace {
@@ -129,47 +129,66 @@ void moveOneLight(benchmark::State& state, const Case& c) {
   }
 }
 
-// A frame in which the camera moved, with and without the database.
-void frames(benchmark::State& state, const Case& c, const std::string& technique) {
+// A frame in which the camera moved.
+void frames(benchmark::State& state, const Case& c, const std::string& technique,
+            const MakeBackend& make, int width, int height) {
   if (skip(state, c)) return;
   const World w(c);
   View view;
   for (const Node& node : w.scene.nodes)
-    if (node.camera != kNone) view = viewOfCamera(w.scene, node, 640, 360);
+    if (node.camera != kNone) view = viewOfCamera(w.scene, node, width, height);
   Settings settings;
   settings.set(parameters::vpls().name, c.vpls);
   settings.set(parameters::updates().name, c.vpls);
   settings.set(parameters::bounces().name, 1);
   settings.set(parameters::antialias().name, 1);
   settings.set(parameters::technique().name, technique);
-  FrameRenderer renderer(makeCpuBackend());
+  FrameRenderer renderer(make());
   const auto frame = [&](const SceneChanges& changes) {
     renderer.render({w.scene, changes, view, "many_lights", settings});
+    renderer.backend().finish();
   };
   frame(SceneChanges::all());
+  frame({});  // shaders are built when first wanted
   for (auto _ : state) {
     view.eye.x += 0.001f;
     frame({});
   }
 }
 
+template <typename F, typename... More>
+void add(const std::string& name, F function, More... more) {
+  benchmark::RegisterBenchmark(name.c_str(), function, more...)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+}
+
 [[maybe_unused]] const bool kRegistered = [] {
-  const auto add = [](const std::string& name, auto function, auto... more) {
-    benchmark::RegisterBenchmark(name.c_str(), function, more...)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime();
-  };
   for (const Case& c : kCases) {
     const std::string name = c.name;
     add("visibility/build/" + name, build, c);
     add("visibility/object_moves/" + name, moveObject, c);
     add("visibility/one_light_moves/" + name, moveOneLight, c);
-    if (std::string(c.mover).empty()) continue;
-    add("visibility/frame/" + name + "/naive", frames, c, std::string("naive"));
-    add("visibility/frame/" + name + "/visibility", frames, c, std::string("visibility"));
   }
   return true;
 }();
 
 }  // namespace
+
+void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make) {
+  constexpr glm::ivec2 kSizes[] = {{640, 360}, {1024, 768}};
+  for (const Case& c : kCases) {
+    if (std::string(c.mover).empty()) continue;
+    for (const glm::ivec2& size : kSizes) {
+      // The room of figure 5-1, at the paper's size.
+      if (size.x == 1024 && std::string(c.name) != "area_light_room") continue;
+      for (const std::string technique : {"naive", "visibility", "light_maps"}) {
+        add("visibility/frame/" + backend + "/" + c.name + "/" + std::to_string(size.x) + "x" +
+                std::to_string(size.y) + "/" + technique,
+            frames, c, technique, make, size.x, size.y);
+      }
+    }
+  }
+}
+
 }  // namespace lamplighter

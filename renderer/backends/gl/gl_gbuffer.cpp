@@ -1,7 +1,6 @@
 #include "renderer/backends/gl/gl_gbuffer.h"
 
 #include <algorithm>
-#include <array>
 
 #include "renderer/error.h"
 #include "renderer/gl/pass_state.h"
@@ -20,21 +19,6 @@ mat4 rasterMatrix(const View& view, vec2 jitter) {
   shift[3][0] = -2.0f * jitter.x / static_cast<float>(view.width);
   shift[3][1] = -2.0f * jitter.y / static_cast<float>(view.height);
   return shift * adjust * view.worldToClip();
-}
-
-// The planes of the view's pyramid but the far one, which is at infinity: inside is positive.
-std::array<vec4, 5> clipPlanes(const mat4& m) {
-  const mat4 rows = glm::transpose(m);
-  return {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1],
-          rows[3] - rows[2]};
-}
-
-bool mayBeSeen(const Bounds& box, const std::array<vec4, 5>& planes) {
-  const vec3 centre = box.centre(), half = 0.5f * box.extent();
-  for (const vec4& p : planes) {
-    if (glm::dot(vec3(p), centre) + glm::dot(glm::abs(vec3(p)), half) + p.w < 0.0f) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -110,14 +94,14 @@ void GlGBuffer::render(const GlScene& scene, const View& view, vec2 jitter) {
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, zero);
 
   const mat4 worldToClip = rasterMatrix(view, jitter);
-  const std::array<vec4, 5> planes = clipPlanes(worldToClip);
+  frustum_ = Frustum(worldToClip);
   glBindVertexArray(scene.vertexArray());
   scene.bindStorage();
   const Program* inUse = nullptr;
   int material = kNone;
   for (const GlScene::Drawn& d : scene.drawn()) {
     const RenderObject& o = scene.scene().objects[d.object];
-    if (!mayBeSeen(o.bounds, planes)) continue;
+    if (!frustum_.mayMeet(o.bounds)) continue;
     const Program& program = programFor(d);
     if (&program != inUse) {
       program.use();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "renderer/backends/gl/frustum.h"
 #include "renderer/backends/gl/gl_scene.h"
 #include "renderer/gl/program.h"
 #include "renderer/view.h"
@@ -21,6 +22,8 @@ class GlGBuffer {
   Image readNormals() const;
   Image readAlbedo() const;
 
+  // Of the view that it holds.
+  const Frustum& frustum() const { return frustum_; }
   int width() const { return width_; }
   int height() const { return height_; }
   uint64_t bytes() const;
@@ -36,6 +39,7 @@ class GlGBuffer {
   VertexArray emptyVertexArray_;
   Framebuffer framebuffer_;
   Texture position_, normalsTexture_, albedo_, emission_, depth_;
+  Frustum frustum_;
   int width_ = 0, height_ = 0;
 };
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "renderer/backends/gl/gl_gbuffer.h"
+#include "renderer/backends/gl/gl_patches.h"
 #include "renderer/backends/gl/gl_shadow_maps.h"
+#include "renderer/backends/gl/light_lists.h"
 #include "renderer/gl/radiance_texture.h"
 
 namespace lamplighter::gl {
@@ -16,9 +18,10 @@ class GlLighting {
   GlLighting(const std::filesystem::path& shaders, const VplBuffer& vpls);
   void reload(const std::filesystem::path& shaders, const VplBuffer& vpls);
 
-  // Irradiance of the G-buffer's pixels, starting from zero.
-  void sum(const GlGBuffer& gbuffer, const GlShadowMaps& maps, const VplBuffer& buffer,
-           std::span<const shared::Vpl> vpls, const shared::ShadingParams& params);
+  // Irradiance of the G-buffer's pixels, starting from zero, or from the light maps.
+  void sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
+           const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
+           const shared::ShadingParams& params, const PatchLights* patches);
   // No light at all, for a G-buffer that nothing was summed over yet.
   void clear(int width, int height);
   std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const vec3& sky);
@@ -26,14 +29,34 @@ class GlLighting {
   uint64_t bytes() const;
 
  private:
-  std::shared_ptr<RadianceTexture> freePicture(int width, int height);
+  // VPLs that one draw can sum: of one kind, with their maps in one array, in one block of VPLs.
+  struct Batch {
+    int kind = 0;
+    int array = 0;
+    size_t block = 0;
+    size_t first = 0, count = 0;  // in the order of the sum
+  };
+  // The places of what is known by patch: all but the VPLs themselves.
+  struct Patches {
+    GlPatches trees;
+    LightLists lists;
+    Buffer ranges, entries;
+    Texture places;
+    Framebuffer framebuffer;  // irradiance and places
+  };
 
-  Program kinds_[3];  // by Vpl.position.w
-  Program compose_;
+  std::shared_ptr<RadianceTexture> freePicture(int width, int height);
+  void beginWithPatches(const GlScene& scene, const GlGBuffer& gbuffer,
+                        std::span<const shared::Vpl> vpls, std::span<const Batch> batches,
+                        const PatchLights& lights);
+
+  Program naive_[3], listed_[3];  // by Vpl.position.w
+  Program findPatches_, compose_;
   VertexArray emptyVertexArray_;
   Framebuffer irradianceFramebuffer_, pictureFramebuffer_;
   Texture irradiance_;  // RGBA32F: hundreds of additions must not lose the small ones
   int width_ = 0, height_ = 0;
+  std::unique_ptr<Patches> patches_;  // while the sums ask for them
   // Those that nobody else holds are drawn over.
   std::vector<std::shared_ptr<RadianceTexture>> pictures_;
 };

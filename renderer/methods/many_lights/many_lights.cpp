@@ -69,6 +69,7 @@ ManyLights::Options::Options(const Settings& settings) {
   useLightMaps = technique == "light_maps";
   useVisibility = useLightMaps || technique == "visibility";
   lightMapTexel = settings.real(parameters::lightMapTexel());
+  lightsPerPass = settings.integer(parameters::lightsPerPass());
 }
 
 GiOutput ManyLights::render(const FrameInputs& in) {
@@ -211,7 +212,7 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   const std::vector<shared::Vpl> vpls = lights_.shown();
   const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias,
                                           static_cast<float>(options.mapResolution),
-                                          static_cast<float>(vpls.size()))};
+                                          static_cast<float>(options.lightsPerPass))};
   if (visibility_) {
     const PatchLights patches(*visibility_, lightMaps_.get());
     in.backend.sumVpls(vpls, params, &patches);
@@ -245,7 +246,8 @@ MethodInfo manyLightsInfo() {
            parameters::mapResolution(), parameters::updates(), parameters::maxShadowMaps(),
            parameters::maxVisibilityTests(), parameters::maxLightMapTexels(), parameters::maxRays(),
            parameters::frameTime(), parameters::clampDistance(), parameters::shadowBias(),
-           parameters::technique(), parameters::lightMapTexel(), parameters::antialias()},
+           parameters::technique(), parameters::lightMapTexel(), parameters::lightsPerPass(),
+           parameters::antialias()},
           [] { return std::make_unique<ManyLights>(); }};
 }
 

@@ -34,6 +34,7 @@ class ManyLights final : public GiMethod {
     bool useVisibility = false;
     bool useLightMaps = false;  // besides
     float lightMapTexel = 0.1f;
+    int lightsPerPass = 0;  // changes no picture
   };
 
   void takeScene(const FrameInputs& in, const Options& options);

@@ -93,6 +93,21 @@ const ParameterSpec& lightMapTexel() {
   return spec;
 }
 
+const ParameterSpec& lightsPerPass() {
+  static const ParameterSpec spec{
+      "lights_per_pass",
+      "Lights a pass",
+      "",
+      "The gl backend adds at most this many light samples to a pixel in one draw. Fewer make for "
+      "more draws and the same picture; a driver may want draws to be short.",
+      1024,
+      1,
+      1024,
+      true,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& antialias() {
   static const ParameterSpec spec{
       "antialias",

@@ -13,6 +13,7 @@ const ParameterSpec& maxLightMapTexels();
 const ParameterSpec& maxRays();
 const ParameterSpec& frameTime();      // float, ms; heeded in the editor's window alone
 const ParameterSpec& lightMapTexel();  // float, m
+const ParameterSpec& lightsPerPass();  // int, VPLs that one draw of the gl backend takes
 const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled
 
 }  // namespace lamplighter::parameters

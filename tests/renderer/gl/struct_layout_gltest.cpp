@@ -5,6 +5,7 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/shader_source.h"
 #include "shaders/shared/material.h"
+#include "shaders/shared/patches.h"
 #include "shaders/shared/vpl.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/gltf_files.h"
@@ -28,8 +29,8 @@ class StructLayout : public test::GlTest {
     folder.write("layout.vert.glsl",
                  "#include \"" + header + "\"\n" + "layout(std140, binding = 0) uniform U { " +
                      type + " u[2]; };\n" + "layout(std430, binding = 0) readonly buffer S { " +
-                     type + " s[2]; };\n" + "void main() { gl_Position = u[gl_VertexID]." +
-                     members[0].name + " + s[gl_VertexID]." + members[0].name + "; }\n");
+                     type + " s[2]; };\n" + "void main() { gl_Position = vec4(u[gl_VertexID]." +
+                     members[0].name + " + s[gl_VertexID]." + members[0].name + "); }\n");
     const gl::Program program(folder.path(), {"layout.vert.glsl", ""});
     for (int i = 0; i < 2; ++i) {
       for (const Member& m : members) {
@@ -93,6 +94,24 @@ TEST_F(StructLayout, OfSurfaceMaterial) {
                 MEMBER(SurfaceMaterial, emissiveLookup.v)});
 }
 
+TEST_F(StructLayout, OfPatchChart) {
+  using shared::PatchChart;
+  expectLayout(
+      "shared/patches.h", "PatchChart", sizeof(PatchChart),
+      {MEMBER(PatchChart, origin), MEMBER(PatchChart, tangent), MEMBER(PatchChart, bitangent)});
+}
+
+TEST_F(StructLayout, OfPatchNode) {
+  using shared::PatchNode;
+  expectLayout("shared/patches.h", "PatchNode", sizeof(PatchNode), {MEMBER(PatchNode, branch)});
+}
+
+TEST_F(StructLayout, OfPatchTile) {
+  using shared::PatchTile;
+  expectLayout("shared/patches.h", "PatchTile", sizeof(PatchTile),
+               {MEMBER(PatchTile, frame), MEMBER(PatchTile, texels)});
+}
+
 // Whoever adds a struct to shaders/shared must add it here.
 TEST(SharedStructs, AreAllTestedHere) {
   int structs = 0;
@@ -104,8 +123,9 @@ TEST(SharedStructs, AreAllTestedHere) {
       ++structs;
     }
   }
-  // Vpl, ShadingParams, TextureLookup (within SurfaceMaterial), SurfaceMaterial.
-  EXPECT_EQ(structs, 4);
+  // Vpl, ShadingParams, TextureLookup (within SurfaceMaterial), SurfaceMaterial, PatchNode,
+  // PatchChart, PatchTile.
+  EXPECT_EQ(structs, 7);
 }
 
 }  // namespace

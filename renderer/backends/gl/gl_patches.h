@@ -1,0 +1,45 @@
+// The scene's patch trees and light maps in OpenGL's memory.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/gl/objects.h"
+#include "renderer/light_maps/patch_lights.h"
+#include "renderer/scene/render_scene.h"
+
+namespace lamplighter::gl {
+
+class GlPatches {
+ public:
+  // Takes in what is new since the last call. Throws InputError when the device can't hold it.
+  void update(const RenderScene& scene, const PatchLights& lights);
+  // For shaders/passes/find_patches.frag.glsl.
+  void bind() const;
+
+  // Where an object's patches begin among those of the scene, and how many they all are.
+  uint32_t firstNode(uint32_t object) const { return objects_[object].first.nodes; }
+  size_t nodes() const { return total_.nodes; }
+  uint64_t bytes() const { return bytes_; }
+
+ private:
+  struct Sizes {
+    uint32_t triangles = 0, nodes = 0, charts = 0, tiles = 0, texels = 0;
+    bool operator==(const Sizes&) const = default;
+  };
+  struct Object {
+    Sizes first, size;
+    Revision patches, maps;
+  };
+  static Sizes sizesOf(const RenderScene& scene, const PatchLights& lights, uint32_t object);
+  void allocate();
+  void upload(const PatchLights& lights, uint32_t object);
+
+  std::vector<Object> objects_;
+  Sizes total_;
+  bool hasMaps_ = false;
+  Buffer roots_, patches_, charts_, tiles_, texels_;
+  uint64_t bytes_ = 0;
+};
+
+}  // namespace lamplighter::gl

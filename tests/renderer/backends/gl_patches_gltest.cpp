@@ -1,0 +1,158 @@
+// What the gl backend makes of patches and light maps: the techniques `visibility` and `light_maps`
+// give the picture of `naive` and of the cpu backend, whatever the number of lights a pass, and
+// edits leave no trace.
+#include <filesystem>
+#include <ostream>
+
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/renderer/gl/gl_test.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/shared_files.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 192, kHeight = 128;
+
+Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass = 1024) {
+  Settings s;
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::updates().name, 150);
+  s.set(parameters::antialias().name, 1);
+  s.set(parameters::lightsPerPass().name, lightsPerPass);
+  return s;
+}
+
+View viewOf(const Scene& scene) {
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) return viewOfCamera(scene, node, kWidth, kHeight);
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  return viewOfBounds(render.bounds, kWidth, kHeight);
+}
+
+Image rendered(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
+               const Settings& settings) {
+  return test::renderSettled(renderer, scene, changes, viewOf(scene), settings).radiance->pixels();
+}
+
+Image rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Settings& settings) {
+  FrameRenderer renderer(std::move(backend));
+  return rendered(renderer, scene, SceneChanges::all(), settings);
+}
+
+Scene loadAsset(const std::string& name) {
+  return loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name).scene;
+}
+
+struct Case {
+  const char* scene;
+  int vpls;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
+
+class GlPatchesScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
+
+TEST_P(GlPatchesScenes, EachTechniqueIsThePictureOfNaiveAndOfTheCpuBackend) {
+  const std::string name = GetParam().scene;
+  const fs::path path = name.find('/') == std::string::npos
+                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+                            : test::sharedScenes() / name;
+  if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
+  const Scene scene = loadGltf(path).scene;
+  const int vpls = GetParam().vpls;
+  const Image naive = rendered(makeGlBackend(), scene, settingsOf("naive", vpls));
+  const Image cpuNaive = rendered(makeCpuBackend(), scene, settingsOf("naive", vpls));
+  const double backends = compareImages(naive, cpuNaive).relRmse;
+  RecordProperty("naiveFromCpu", std::to_string(backends));
+  for (const std::string technique : {"visibility", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    const Image fast = rendered(makeGlBackend(), scene, settingsOf(technique, vpls));
+    const Image cpu = rendered(makeCpuBackend(), scene, settingsOf(technique, vpls));
+    const Metrics fromNaive = compareImages(fast, naive), fromCpu = compareImages(fast, cpu);
+    RecordProperty(technique + "FromNaive", std::to_string(fromNaive.relRmse));
+    RecordProperty(technique + "FromCpu", std::to_string(fromCpu.relRmse));
+    EXPECT_LT(fromNaive.relRmse, 0.01);
+    // Silhouettes of lamps differ by more in some levels, for naive just as much.
+    EXPECT_LT(fromCpu.relRmse, std::max(0.01, 1.02 * backends));
+    EXPECT_NEAR(fromNaive.bias, 1.0, 0.005);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, GlPatchesScenes,
+    testing::Values(Case{"default.gltf", 300}, Case{"area_light_room.gltf", 300},
+                    Case{"table_room.gltf", 300}, Case{"pillar_room.gltf", 300},
+                    Case{"cornell_style.gltf", 300}, Case{"modern-hall/modern-hall.glb", 100},
+                    Case{"kenney-fps-level/kenney-fps-level.gltf", 100},
+                    Case{"flight-helmet/FlightHelmet.gltf", 100}));
+
+using GlPatches = test::GlTest;
+
+// What is hidden is left out and what is not is not looked up: without its maps, a scene that has
+// nothing but its walls looks as it did.
+TEST_F(GlPatches, AreFollowed) {
+  const Scene scene = loadAsset("pillar_room.gltf");
+  const Image naive = rendered(makeGlBackend(), scene, settingsOf("naive", 100));
+  const Image visibility = rendered(makeGlBackend(), scene, settingsOf("visibility", 100));
+  const Image lightMaps = rendered(makeGlBackend(), scene, settingsOf("light_maps", 100));
+  EXPECT_FALSE(test::sameBits(visibility, naive));
+  EXPECT_FALSE(test::sameBits(lightMaps, naive));
+  EXPECT_FALSE(test::sameBits(lightMaps, visibility));
+}
+
+TEST_F(GlPatches, AnyNumberOfLightsAPassGivesTheSameBits) {
+  const Scene scene = loadAsset("table_room.gltf");
+  for (const char* technique : {"naive", "visibility", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    FrameRenderer renderer(makeGlBackend());
+    const Image all = rendered(renderer, scene, SceneChanges::all(), settingsOf(technique, 60));
+    for (const int most : {1, 4, 59}) {
+      EXPECT_TRUE(
+          test::sameBits(all, rendered(makeGlBackend(), scene, settingsOf(technique, 60, most))))
+          << most;
+    }
+  }
+}
+
+TEST_F(GlPatches, APictureAfterEditsIsTheOneMadeFromNothing) {
+  for (const char* technique : {"visibility", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    Scene scene = loadAsset("pillar_room.gltf");
+    const Settings settings = settingsOf(technique, 120);
+    FrameRenderer renderer(makeGlBackend());
+    rendered(renderer, scene, SceneChanges::all(), settings);
+    int moved = 0;
+    for (Node& node : scene.nodes) {
+      if (node.name != "mover" && node.name != "ceiling light") continue;
+      const Scene before = scene;
+      node.local.translation += vec3(0.7f, 0.0f, 0.3f);
+      const Image edited = rendered(renderer, scene, compare(before, scene), settings);
+      EXPECT_TRUE(test::sameBits(edited, rendered(makeGlBackend(), scene, settings)));
+      ++moved;
+    }
+    EXPECT_EQ(moved, 2);
+  }
+}
+
+// Switching between techniques leaves nothing of the one before.
+TEST_F(GlPatches, TechniquesMayBeSwitched) {
+  const Scene scene = loadAsset("table_room.gltf");
+  FrameRenderer renderer(makeGlBackend());
+  rendered(renderer, scene, SceneChanges::all(), settingsOf("naive", 60));
+  for (const char* technique : {"light_maps", "visibility", "light_maps", "naive", "visibility"}) {
+    const Settings settings = settingsOf(technique, 60);
+    EXPECT_TRUE(test::sameBits(rendered(renderer, scene, {}, settings),
+                               rendered(makeGlBackend(), scene, settings)))
+        << technique;
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter
