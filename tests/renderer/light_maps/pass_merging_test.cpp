@@ -1,0 +1,129 @@
+#include "renderer/light_maps/pass_merging.h"
+
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace lamplighter {
+namespace {
+
+std::vector<uint32_t> range(uint32_t first, uint32_t end) {
+  std::vector<uint32_t> out(end - first);
+  std::iota(out.begin(), out.end(), first);
+  return out;
+}
+
+// The lights of each object, which must be there once each.
+std::map<uint32_t, std::set<uint32_t>> lightsOfObjects(std::span<const PassElement> elements) {
+  std::map<uint32_t, std::set<uint32_t>> out;
+  for (const PassElement& e : elements)
+    for (const uint32_t object : e.objects)
+      for (const uint32_t light : e.lights)
+        EXPECT_TRUE(out[object].insert(light).second) << object << " has twice " << light;
+  return out;
+}
+
+TEST(PassMerging, ObjectsWithTheSameLightsAreDrawnTogether) {
+  // The paper's example: 20 objects under 300 lights, 6 a pass: 1000 passes.
+  std::vector<PassElement> elements;
+  for (uint32_t i = 0; i < 20; ++i) elements.push_back({{i}, range(0, 300)});
+  const MergedPasses merged = mergePasses(elements, 6);
+  EXPECT_EQ(merged.elements, (std::vector<PassElement>{{range(0, 20), range(0, 300)}}));
+  EXPECT_EQ(merged.passes, 50);
+  EXPECT_EQ(merged.saved, 950);
+}
+
+TEST(PassMerging, ObjectsWithoutLightsInCommonStayApart) {
+  const std::vector<PassElement> elements{{{0}, range(0, 8)}, {{1}, range(8, 20)}, {{2}, {}}};
+  const MergedPasses merged = mergePasses(elements, 4);
+  EXPECT_EQ(merged.elements, std::vector(elements.begin(), elements.begin() + 2));
+  EXPECT_EQ(merged.passes, 5);
+  EXPECT_EQ(merged.saved, 0);
+}
+
+TEST(PassMerging, OnlyWhatSavesPassesIsMerged) {
+  // Three lights in common: 1 + 1 + 1 passes instead of 1 + 1.
+  const std::vector<PassElement> elements{{{0}, range(0, 4)}, {{1}, range(1, 5)}};
+  EXPECT_EQ(mergePasses(elements, 4).elements, elements);
+  // With passes of one light each of the three saves one.
+  const MergedPasses merged = mergePasses(elements, 1);
+  EXPECT_EQ(merged.saved, 3);
+  EXPECT_EQ(merged.elements,
+            (std::vector<PassElement>{{{0}, {0}}, {{1}, {4}}, {{0, 1}, {1, 2, 3}}}));
+}
+
+TEST(PassMerging, NothingGivesNothing) {
+  const MergedPasses merged = mergePasses({}, 4);
+  EXPECT_TRUE(merged.elements.empty());
+  EXPECT_EQ(merged.passes, 0);
+  EXPECT_EQ(merged.saved, 0);
+}
+
+// The paper's loop as it stands there, all pairs scored each time.
+int passesByAllPairs(std::vector<PassElement> elements, int most) {
+  const auto total = [&](std::span<const PassElement> some) {
+    int n = 0;
+    for (const PassElement& e : some) n += passesOf(e, most);
+    return n;
+  };
+  while (true) {
+    int saved = 0;
+    std::vector<PassElement> best;
+    for (size_t a = 0; a < elements.size(); ++a) {
+      for (size_t b = a + 1; b < elements.size(); ++b) {
+        PassElement x = elements[a], y = elements[b], both;
+        std::set_union(x.objects.begin(), x.objects.end(), y.objects.begin(), y.objects.end(),
+                       std::back_inserter(both.objects));
+        std::set_intersection(x.lights.begin(), x.lights.end(), y.lights.begin(), y.lights.end(),
+                              std::back_inserter(both.lights));
+        for (PassElement* e : {&x, &y}) {
+          std::vector<uint32_t> rest;
+          std::set_difference(e->lights.begin(), e->lights.end(), both.lights.begin(),
+                              both.lights.end(), std::back_inserter(rest));
+          e->lights = rest;
+        }
+        const int here = passesOf(elements[a], most) + passesOf(elements[b], most) -
+                         total(std::vector{x, y, both});
+        if (here <= saved) continue;
+        saved = here;
+        best = elements;
+        best[a] = x;
+        best[b] = y;
+        best.push_back(both);
+      }
+    }
+    if (saved == 0) return total(elements);
+    elements = best;
+  }
+}
+
+TEST(PassMerging, IsTheGreedyOneAndKeepsEachObjectsLights) {
+  std::mt19937 random(5);
+  int everSaved = 0;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<PassElement> elements(1 + random() % 12);
+    const uint32_t dense = 2 + random() % 8;
+    for (uint32_t i = 0; i < elements.size(); ++i) {
+      elements[i].objects = {i};
+      for (uint32_t light = 0; light < 100; ++light)
+        if (random() % 10 < dense) elements[i].lights.push_back(light);
+    }
+    const int most = 1 + static_cast<int>(random() % 16);
+    const MergedPasses merged = mergePasses(elements, most);
+    EXPECT_EQ(lightsOfObjects(merged.elements), lightsOfObjects(elements));
+    int before = 0, after = 0;
+    for (const PassElement& e : elements) before += passesOf(e, most);
+    for (const PassElement& e : merged.elements) after += passesOf(e, most);
+    EXPECT_EQ(merged.passes, after);
+    EXPECT_EQ(merged.saved, before - after);
+    EXPECT_EQ(merged.passes, passesByAllPairs(elements, most)) << "round " << round;
+    everSaved += merged.saved;
+  }
+  EXPECT_GT(everSaved, 100);
+}
+
+}  // namespace
+}  // namespace lamplighter
