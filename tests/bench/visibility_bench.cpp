@@ -134,7 +134,7 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
             const MakeBackend& make, int width, int height) {
   if (skip(state, c)) return;
   const World w(c);
-  View view;
+  View view = viewOfBounds(w.render.bounds, width, height);
   for (const Node& node : w.scene.nodes)
     if (node.camera != kNone) view = viewOfCamera(w.scene, node, width, height);
   Settings settings;
@@ -160,7 +160,8 @@ template <typename F, typename... More>
 void add(const std::string& name, F function, More... more) {
   benchmark::RegisterBenchmark(name.c_str(), function, more...)
       ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
+      ->UseRealTime()
+      ->MeasureProcessCPUTime();
 }
 
 [[maybe_unused]] const bool kRegistered = [] {
@@ -178,7 +179,6 @@ void add(const std::string& name, F function, More... more) {
 void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make) {
   constexpr glm::ivec2 kSizes[] = {{640, 360}, {1024, 768}};
   for (const Case& c : kCases) {
-    if (std::string(c.mover).empty()) continue;
     for (const glm::ivec2& size : kSizes) {
       // The room of figure 5-1, at the paper's size.
       if (size.x == 1024 && std::string(c.name) != "area_light_room") continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/error.h"
 #include "renderer/gl/pass_state.h"
 #include "shaders/shared/bindings.h"
 
@@ -16,6 +17,13 @@ int arrayOf(const shared::Vpl& vpl, int slotsAnArray) {
 // A storage buffer with these values.
 template <typename T>
 void fill(Buffer& buffer, std::span<const T> values) {
+  GLint64 limit = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  if (values.size_bytes() > static_cast<size_t>(limit)) {
+    throw InputError("many_lights",
+                     "the light lists of what is seen are more than OpenGL takes here",
+                     "lower vpls, take the technique naive, or use --backend cpu");
+  }
   if (!buffer) buffer = Buffer::make();
   static const T kNothing{};
   const bool none = values.empty();

@@ -9,12 +9,14 @@
 namespace lamplighter::gl {
 namespace {
 
-// A leaf and one of its sides.
-struct SeenLeaf {
-  uint32_t object;
-  int leaf;
-  bool mapped;
-  size_t place;
+// Patches that are looked at in one go, and the lists of their leaves.
+struct Block {
+  SeenObject object;
+  size_t first, last;  // of the object's patches
+  std::vector<size_t> places;
+  std::vector<uint32_t> entries;
+  std::vector<int> longest;
+  size_t start = 0;  // of its entries among all
 };
 
 // Around a leaf's surface, with room for rounding.
@@ -31,24 +33,6 @@ Bounds boxOf(const ObjectPatches& patches, const Patch& patch) {
   return box;
 }
 
-std::vector<SeenLeaf> leavesIn(const PatchLights& lights, std::span<const SeenObject> objects,
-                               const Frustum& frustum) {
-  std::vector<SeenLeaf> out;
-  for (const SeenObject& o : objects) {
-    const ObjectPatches& patches = lights.patches(o.object);
-    for (size_t i = 0; i < patches.patches.size(); ++i) {
-      const Patch& patch = patches.patches[i];
-      if (!patch.isLeaf() || !frustum.mayMeet(boxOf(patches, patch))) continue;
-      const int leaf = static_cast<int>(i);
-      const bool mapped = lights.isMapped(o.object, leaf);
-      const size_t place = 1 + 2 * (o.firstNode + i);
-      if (mapped) out.push_back({o.object, leaf, true, place + 1});
-      if (!mapped || !o.backIsCulled) out.push_back({o.object, leaf, false, place});
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 void LightLists::make(const PatchLights& patches, std::span<const SeenObject> objects, size_t nodes,
@@ -59,31 +43,29 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
   entries_.clear();
   longest_.assign(groups.size(), 0);
   if (vpls.empty()) return;
-  const std::vector<SeenLeaf> leaves = leavesIn(patches, objects, frustum);
+  constexpr size_t kPatches = 256;
+  std::vector<Block> blocks;
+  for (const SeenObject& o : objects) {
+    const size_t count = patches.patches(o.object).patches.size();
+    for (size_t first = 0; first < count; first += kPatches)
+      blocks.push_back({o, first, std::min(first + kPatches, count), {}, {}, {}});
+  }
 
-  // Blocks of leaves write lists of their own, which then follow each other.
-  constexpr size_t kBlock = 64;
-  struct Block {
-    std::vector<uint32_t> entries;
-    std::vector<int> longest;
-    size_t first = 0;
-  };
-  std::vector<Block> blocks((leaves.size() + kBlock - 1) / kBlock);
-  const auto forEachLeaf = [&](auto&& visit) {
-    tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t b) {
-      const size_t last = std::min((b + 1) * kBlock, leaves.size());
-      visit(blocks[b], std::span(leaves).subspan(b * kBlock, last - b * kBlock));
-    });
-  };
-  forEachLeaf([&](Block& block, std::span<const SeenLeaf> mine) {
+  tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t b) {
+    Block& block = blocks[b];
+    const SeenObject& object = block.object;
+    const ObjectPatches& tree = patches.patches(object.object);
     std::vector<LightUse> uses(patches.slots());
     block.longest.assign(groups.size(), 0);
-    for (const SeenLeaf& leaf : mine) {
-      patches.uses(leaf.object, leaf.leaf, leaf.mapped, uses);
-      const auto useOf = [&](const shared::Vpl& vpl) {
-        const int slot = static_cast<int>(vpl.intensity.w);
-        return slot < 0 ? LightUse::add : uses[static_cast<size_t>(slot)];
-      };
+    const auto useOf = [&](const shared::Vpl& vpl) {
+      const int slot = static_cast<int>(vpl.intensity.w);
+      return slot < 0 ? LightUse::add : uses[static_cast<size_t>(slot)];
+    };
+    const auto addPlace = [&](int leaf, bool mapped) {
+      const size_t place =
+          1 + 2 * (object.firstNode + static_cast<size_t>(leaf)) + (mapped ? 1 : 0);
+      block.places.push_back(place);
+      patches.uses(object.object, leaf, mapped, uses);
       for (size_t g = 0; g < groups.size(); ++g) {
         const auto lights = vpls.subspan(groups[g].first, groups[g].count);
         const size_t first = block.entries.size();
@@ -96,25 +78,35 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
           if (use == LightUse::takeShadow) block.entries.push_back(i + shared::kTakeShadow);
         }
         const size_t end = block.entries.size();
-        ranges_[g * stride + leaf.place] = {first, (shadowed - first) | (end - shadowed) << 16};
+        ranges_[g * stride + place] = {first, (shadowed - first) | (end - shadowed) << 16};
         block.longest[g] = std::max(block.longest[g], static_cast<int>(end - first));
       }
+    };
+    for (size_t i = block.first; i < block.last; ++i) {
+      const Patch& patch = tree.patches[i];
+      if (!patch.isLeaf() || !frustum.mayMeet(boxOf(tree, patch))) continue;
+      const int leaf = static_cast<int>(i);
+      const bool mapped = patches.isMapped(object.object, leaf);
+      if (mapped) addPlace(leaf, true);
+      if (!mapped || !object.backIsCulled) addPlace(leaf, false);
     }
   });
+
   size_t size = 0;
   for (Block& block : blocks) {
-    block.first = size;
+    block.start = size;
     size += block.entries.size();
     for (size_t g = 0; g < groups.size(); ++g)
       longest_[g] = std::max(longest_[g], block.longest[g]);
   }
   entries_.resize(size);
-  forEachLeaf([&](const Block& block, std::span<const SeenLeaf> mine) {
+  tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t b) {
+    const Block& block = blocks[b];
     std::copy(block.entries.begin(), block.entries.end(),
-              entries_.begin() + static_cast<ptrdiff_t>(block.first));
-    for (const SeenLeaf& leaf : mine)
+              entries_.begin() + static_cast<ptrdiff_t>(block.start));
+    for (const size_t place : block.places)
       for (size_t g = 0; g < groups.size(); ++g)
-        ranges_[g * stride + leaf.place].x += static_cast<uint32_t>(block.first);
+        ranges_[g * stride + place].x += static_cast<uint32_t>(block.start);
   });
 }
 
