@@ -132,4 +132,24 @@ MergedPasses mergePasses(std::span<const PassElement> elements, int lightsPerPas
   return out;
 }
 
+std::vector<PassElement> shadowedLights(const VisibilityDatabase& visibility,
+                                        std::span<const uint32_t> seen) {
+  std::vector<PassElement> out;
+  for (const uint32_t object : seen) {
+    const ObjectPatches& patches = visibility.patches(object);
+    std::vector<bool> needed(visibility.slots(), false);
+    for (size_t i = 0; i < patches.patches.size(); ++i) {
+      if (!patches.patches[i].isLeaf()) continue;
+      const auto states = visibility.row(object, static_cast<int>(i));
+      for (size_t slot = 0; slot < states.size(); ++slot)
+        if (static_cast<Occlusion>(states[slot]) == Occlusion::partial) needed[slot] = true;
+    }
+    PassElement& element = out.emplace_back();
+    element.objects = {object};
+    for (uint32_t slot = 0; slot < needed.size(); ++slot)
+      if (needed[slot]) element.lights.push_back(slot);
+  }
+  return out;
+}
+
 }  // namespace lamplighter

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "renderer/visibility/visibility_database.h"
+
 namespace lamplighter {
 
 // Objects that are drawn together, and the lights that each of them needs. Both ascending.
@@ -27,5 +29,10 @@ struct MergedPasses {
 // lights in common go to a new element with the objects of both. Each object keeps each of its
 // lights, once. Quadratic in the number of elements and worse, as the paper's is.
 MergedPasses mergePasses(std::span<const PassElement> elements, int lightsPerPass);
+
+// An element for each object: the lights, by slot, that need their shadow maps somewhere on it.
+// Objects in `seen` only.
+std::vector<PassElement> shadowedLights(const VisibilityDatabase& visibility,
+                                        std::span<const uint32_t> seen);
 
 }  // namespace lamplighter

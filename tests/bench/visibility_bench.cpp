@@ -5,6 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "renderer/frame.h"
+#include "renderer/light_maps/pass_merging.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/vpl_set.h"
@@ -24,9 +25,11 @@ struct Case {
   const char* mover;  // "": a ball of a metre is put into the middle of the level
   int vpls;
 };
-constexpr Case kCases[] = {{"pillar_room", "assets/scenes/pillar_room.gltf", "mover", 300},
-                           {"area_light_room", "assets/scenes/area_light_room.gltf", "mover", 300},
-                           {"zdm2", "../shared/scenes/zdm2-map/zdm2.glb", "", 30}};
+constexpr Case kCases[] = {
+    {"pillar_room", "assets/scenes/pillar_room.gltf", "mover", 300},
+    {"area_light_room", "assets/scenes/area_light_room.gltf", "mover", 300},
+    {"kenney", "../shared/scenes/kenney-fps-level/kenney-fps-level.gltf", "", 300},
+    {"zdm2", "../shared/scenes/zdm2-map/zdm2.glb", "", 30}};
 
 struct World {
   Scene scene;
@@ -129,9 +132,29 @@ void moveOneLight(benchmark::State& state, const Case& c) {
   }
 }
 
+// What the paper's merging of passes (4.3.5) would save, in draws: one draw an object and K lights
+// against merged ones, against the gl backend's, in which each pixel has a list of its own and
+// which are as many as the longest list needs.
+void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
+  if (skip(state, c)) return;
+  const World w(c);
+  VisibilityDatabase database;
+  fill(database, w);
+  std::vector<uint32_t> objects;
+  for (uint32_t i = 0; i < w.render.objects.size(); ++i) objects.push_back(i);
+  const std::vector<PassElement> elements = shadowedLights(database, objects);
+  MergedPasses merged;
+  for (auto _ : state) merged = mergePasses(elements, lightsPerPass);
+  int listed = 0;
+  for (const PassElement& e : elements) listed = std::max(listed, passesOf(e, lightsPerPass));
+  state.counters["by_object"] = merged.passes + merged.saved;
+  state.counters["merged"] = merged.passes;
+  state.counters["by_lists"] = listed;
+}
+
 // A frame in which the camera moved.
 void frames(benchmark::State& state, const Case& c, const std::string& technique,
-            const MakeBackend& make, int width, int height) {
+            const MakeBackend& make, int width, int height, int lightsPerPass) {
   if (skip(state, c)) return;
   const World w(c);
   View view = viewOfBounds(w.render.bounds, width, height);
@@ -143,6 +166,7 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
   settings.set(parameters::bounces().name, 1);
   settings.set(parameters::antialias().name, 1);
   settings.set(parameters::technique().name, technique);
+  settings.set(parameters::lightsPerPass().name, lightsPerPass);
   FrameRenderer renderer(make());
   const auto frame = [&](const SceneChanges& changes) {
     renderer.render({w.scene, changes, view, "many_lights", settings});
@@ -170,6 +194,8 @@ void add(const std::string& name, F function, More... more) {
     add("visibility/build/" + name, build, c);
     add("visibility/object_moves/" + name, moveObject, c);
     add("visibility/one_light_moves/" + name, moveOneLight, c);
+    for (const int most : {6, 64, 1024})
+      add("visibility/merge_passes/" + name + "/" + std::to_string(most), mergePassesOf, c, most);
   }
   return true;
 }();
@@ -185,8 +211,14 @@ void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make)
       for (const std::string technique : {"naive", "visibility", "light_maps"}) {
         add("visibility/frame/" + backend + "/" + c.name + "/" + std::to_string(size.x) + "x" +
                 std::to_string(size.y) + "/" + technique,
-            frames, c, technique, make, size.x, size.y);
+            frames, c, technique, make, size.x, size.y, 1024);
       }
+    }
+    // The paper's K lights a pass.
+    if (backend != "gl" || std::string(c.name) != "area_light_room") continue;
+    for (const int most : {1, 6, 64}) {
+      add("visibility/lights_a_pass/" + backend + "/" + c.name + "/" + std::to_string(most), frames,
+          c, std::string("visibility"), make, 640, 360, most);
     }
   }
 }

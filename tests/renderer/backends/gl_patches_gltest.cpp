@@ -11,6 +11,8 @@
 #include "renderer/scene/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {
@@ -91,12 +93,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"table_room.gltf", 300}, Case{"pillar_room.gltf", 300},
                     Case{"cornell_style.gltf", 300}, Case{"modern-hall/modern-hall.glb", 100},
                     Case{"kenney-fps-level/kenney-fps-level.gltf", 100},
-                    Case{"flight-helmet/FlightHelmet.gltf", 100}));
+                    Case{"lights-punctual/gltf_KHR_lights_punctual_test.glb", 100},
+                    Case{"flight-helmet/FlightHelmet.gltf", 30}));
 
 using GlPatches = test::GlTest;
 
-// What is hidden is left out and what is not is not looked up: without its maps, a scene that has
-// nothing but its walls looks as it did.
+// Else each of the pictures compared here would be that of naive.
 TEST_F(GlPatches, AreFollowed) {
   const Scene scene = loadAsset("pillar_room.gltf");
   const Image naive = rendered(makeGlBackend(), scene, settingsOf("naive", 100));
@@ -151,6 +153,51 @@ TEST_F(GlPatches, TechniquesMayBeSwitched) {
     EXPECT_TRUE(test::sameBits(rendered(renderer, scene, {}, settings),
                                rendered(makeGlBackend(), scene, settings)))
         << technique;
+  }
+}
+
+// Lights of more than one block and one texture array of maps, of two kinds.
+TEST_F(GlPatches, ThousandsOfLightsAreThoseOfTheCpuBackend) {
+  Scene scene = loadAsset("pillar_room.gltf");
+  scene.sky = vec3(0.3f, 0.4f, 0.5f);
+  for (const char* technique : {"visibility", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    Settings settings = settingsOf(technique, 2500);
+    settings.set(parameters::mapResolution().name, 16);
+    settings.set(parameters::updates().name, 5000);
+    const Image gl = rendered(makeGlBackend(), scene, settings);
+    const Metrics m = compareImages(gl, rendered(makeCpuBackend(), scene, settings));
+    RecordProperty(technique, std::to_string(m.relRmse));
+    EXPECT_LT(m.relRmse, 0.01);
+    EXPECT_NEAR(m.bias, 1.0, 0.001);
+  }
+}
+
+// A light map holds the front of a surface; its back, seen and lit from behind, sums all lights.
+TEST_F(GlPatches, BothSidesOfASurfaceAreLitAsTheyShould) {
+  Scene scene;
+  const int material = test::addMaterial(scene, vec3(0.7f));
+  scene.materials[static_cast<size_t>(material)].doubleSided = true;
+  test::addMesh(scene, test::squareMesh(6.0f, material));
+  test::addMesh(scene, test::boxMesh(vec3(0.5f), material), vec3(1.0f, 1.0f, 0.0f));
+  test::addMesh(scene, test::boxMesh(vec3(0.5f), material), vec3(-1.0f, -1.0f, 0.0f));
+  test::addRectangleLight(scene, vec3(0, 3, 0), vec2(1.0f), vec3(9.0f, 6.0f, 3.0f));
+  const NodeId below = test::addRectangleLight(scene, vec3(0, -3, 0), vec2(1.0f), vec3(2, 5, 8));
+  scene.find(below)->local.rotation =
+      glm::angleAxis(kPi, vec3(1, 0, 0)) * scene.find(below)->local.rotation;
+  for (const float height : {2.5f, -2.5f}) {
+    const View view = test::lookAt(vec3(3, height, 6), vec3(0), kWidth, kHeight);
+    Image pictures[3];
+    for (const int i : {0, 1, 2}) {
+      FrameRenderer renderer(i < 2 ? makeGlBackend() : makeCpuBackend());
+      pictures[i] = test::renderSettled(renderer, scene, SceneChanges::all(), view,
+                                        settingsOf(i == 0 ? "naive" : "light_maps", 80))
+                        .radiance->pixels();
+    }
+    ASSERT_GT(test::meanOf(pictures[1]).g, 0.01f);
+    EXPECT_FALSE(test::sameBits(pictures[1], pictures[0]));
+    EXPECT_LT(compareImages(pictures[1], pictures[0]).relRmse, 0.01) << height;
+    EXPECT_LT(compareImages(pictures[1], pictures[2]).relRmse, 0.01) << height;
   }
 }
 

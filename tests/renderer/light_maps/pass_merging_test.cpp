@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/lit_scene.h"
+#include "tests/support/scenes.h"
+
 namespace lamplighter {
 namespace {
 
@@ -123,6 +126,29 @@ TEST(PassMerging, IsTheGreedyOneAndKeepsEachObjectsLights) {
     everSaved += merged.saved;
   }
   EXPECT_GT(everSaved, 100);
+}
+
+TEST(PassMerging, ObjectsNeedTheMapsOfLightsThatMayBeHiddenFromThem) {
+  Scene scene;
+  const int grey = test::addMaterial(scene, vec3(0.5f));
+  test::addMesh(scene, test::squareMesh(4.0f, grey));                       // under the box
+  test::addMesh(scene, test::squareMesh(4.0f, grey), vec3(40, 0, 0));       // far from it
+  test::addMesh(scene, test::boxMesh(vec3(1.0f), grey), vec3(0, 1.5f, 0));  // between
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  RenderSceneChanges all;
+  all.rebuilt = true;
+  VisibilityDatabase database;
+  database.setScene(render, all);
+  const std::vector<shared::Vpl> lights{test::makeVpl(vec3(0, 4, 0), vec3(0, -1, 0)),
+                                        test::makeVpl(vec3(40, 4, 0), vec3(0, -1, 0))};
+  database.setLights(render, lights);
+  const std::vector<uint32_t> seen{0, 1};
+  const std::vector<PassElement> elements = shadowedLights(database, seen);
+  ASSERT_EQ(elements.size(), 2u);
+  EXPECT_EQ(elements[0].objects, std::vector<uint32_t>{0});
+  EXPECT_EQ(elements[0].lights.front(), 0u);
+  EXPECT_EQ(elements[1], (PassElement{{1}, {}}));
 }
 
 }  // namespace
