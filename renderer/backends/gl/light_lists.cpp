@@ -19,18 +19,10 @@ struct Block {
   size_t start = 0;  // of its entries among all
 };
 
-// Around a leaf's surface, with room for rounding.
-Bounds boxOf(const ObjectPatches& patches, const Patch& patch) {
-  if (patch.chart == kNone) return patch.box;
-  const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
-  Bounds box;
-  for (const vec2& p :
-       {patch.min, vec2(patch.max.x, patch.min.y), patch.max, vec2(patch.min.x, patch.max.y)})
-    box.add(chart.at(p));
-  const float room = chart.thickness + 0.001f + 0.01f * glm::length(patch.max - patch.min);
-  box.min -= room;
-  box.max += room;
-  return box;
+// Around a patch, with room for rounding.
+Bounds boxOf(const Patch& patch) {
+  const vec3 half(1.01f * patch.radius + 0.001f);
+  return {patch.centre - half, patch.centre + half};
 }
 
 }  // namespace
@@ -84,7 +76,7 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
     };
     for (size_t i = block.first; i < block.last; ++i) {
       const Patch& patch = tree.patches[i];
-      if (!patch.isLeaf() || !frustum.mayMeet(boxOf(tree, patch))) continue;
+      if (!patch.isLeaf() || !frustum.mayMeet(boxOf(patch))) continue;
       const int leaf = static_cast<int>(i);
       const bool mapped = patches.isMapped(object.object, leaf);
       if (mapped) addPlace(leaf, true);

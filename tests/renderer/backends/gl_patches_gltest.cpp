@@ -129,14 +129,18 @@ TEST_F(GlPatches, APictureAfterEditsIsTheOneMadeFromNothing) {
     Scene scene = loadAsset("pillar_room.gltf");
     const Settings settings = settingsOf(technique, 120);
     FrameRenderer renderer(makeGlBackend());
-    rendered(renderer, scene, SceneChanges::all(), settings);
+    const Image first = rendered(renderer, scene, SceneChanges::all(), settings);
     int moved = 0;
     for (Node& node : scene.nodes) {
       if (node.name != "mover" && node.name != "ceiling light") continue;
       const Scene before = scene;
       node.local.translation += vec3(0.7f, 0.0f, 0.3f);
       const Image edited = rendered(renderer, scene, compare(before, scene), settings);
-      EXPECT_TRUE(test::sameBits(edited, rendered(makeGlBackend(), scene, settings)));
+      const Image fresh = rendered(makeGlBackend(), scene, settings);
+      // But for the last bit of a few pixels: a light that needs no map in one and finds nothing in
+      // its map in the other is added earlier.
+      EXPECT_LT(compareImages(edited, fresh).relRmse, 1e-7) << node.name;
+      EXPECT_GT(compareImages(edited, first).relRmse, 0.01) << node.name;
       ++moved;
     }
     EXPECT_EQ(moved, 2);
