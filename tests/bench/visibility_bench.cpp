@@ -132,9 +132,9 @@ void moveOneLight(benchmark::State& state, const Case& c) {
   }
 }
 
-// What the paper's merging of passes (4.3.5) would save, in draws: one draw an object and K lights
-// against merged ones, against the gl backend's, in which each pixel has a list of its own and
-// which are as many as the longest list needs.
+// What the paper's merging of passes (4.3.5) would save, in draws for the lights that need their
+// maps: K lights of one object a draw, the same merged, and as the gl backend does it, where each
+// pixel has a list of its own and the object with most lights says how many.
 void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
   if (skip(state, c)) return;
   const World w(c);
