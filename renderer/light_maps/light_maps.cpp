@@ -13,6 +13,7 @@
 namespace lamplighter {
 namespace {
 
+constexpr size_t kLanes = 8;           // of accumulate()
 constexpr int kMostTexels = 33;        // a side
 constexpr float kFlat = 0.9999f;       // cos 0.8°
 constexpr float kNearTexels = 4.0f;    // nearer lights vary too much from texel to texel
@@ -74,37 +75,16 @@ bool isMappable(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, 
          brightest <= kBrightest * bounded;
 }
 
+// Texels of a tile, with those behind the last that are there for whole vectors.
+size_t paddedCount(const LightMapTile& tile) {
+  return (static_cast<size_t>(tile.columns * tile.rows) + kLanes - 1) / kLanes * kLanes;
+}
+
 float spacingOf(const LightMapTile& tile, const Patch& patch) {
   const vec2 size = patch.max - patch.min;
   return std::max(size.x / static_cast<float>(tile.columns - 1),
                   size.y / static_cast<float>(tile.rows - 1));
 }
-
-// Where a tile's texels are. One for each thread's work on one tile.
-class Places {
- public:
-  Places(const Chart& chart, const Patch& patch, const LightMapTile& tile) : normal_(chart.normal) {
-    const int count = tile.columns * tile.rows;
-    size_ = (static_cast<size_t>(count) + 7) / 8 * 8;
-    for (size_t i = 0; i < size_; ++i) {
-      const int texel = std::min(static_cast<int>(i), count - 1);
-      const vec2 share(
-          static_cast<float>(texel % tile.columns) / static_cast<float>(tile.columns - 1),
-          static_cast<float>(texel / tile.columns) / static_cast<float>(tile.rows - 1));
-      const vec3 p = chart.at(glm::mix(patch.min, patch.max, share));
-      x_[i] = p.x;
-      y_[i] = p.y;
-      z_[i] = p.z;
-    }
-  }
-  TexelPlaces get() const { return {{x_, size_}, {y_, size_}, {z_, size_}, normal_}; }
-
- private:
-  static constexpr size_t kMost = (kMostTexels * kMostTexels + 7) / 8 * 8;
-  float x_[kMost], y_[kMost], z_[kMost];
-  size_t size_;
-  vec3 normal_;
-};
 
 }  // namespace
 
@@ -127,7 +107,23 @@ LightMaps::Object LightMaps::makeObject(const RenderScene& scene, const ObjectPa
     const LightMapTile tile{static_cast<int>(p), texels, texelsAlong(size.x), texelsAlong(size.y)};
     out.tileOfPatch[p] = static_cast<int>(out.tiles.size());
     out.tiles.push_back(tile);
-    texels += static_cast<uint32_t>(tile.columns * tile.rows);
+    texels += static_cast<uint32_t>(paddedCount(tile));
+  }
+  for (auto* v : {&out.x, &out.y, &out.z}) v->assign(texels, 0.0f);
+  for (const LightMapTile& tile : out.tiles) {
+    const Patch& patch = patches.patches[static_cast<size_t>(tile.patch)];
+    const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
+    const vec2 steps(static_cast<float>(tile.columns - 1), static_cast<float>(tile.rows - 1));
+    size_t i = tile.first;
+    for (int row = 0; row < tile.rows; ++row) {
+      for (int column = 0; column < tile.columns; ++column, ++i) {
+        const vec2 share = vec2(static_cast<float>(column), static_cast<float>(row)) / steps;
+        const vec3 p = chart.at(glm::mix(patch.min, patch.max, share));
+        out.x[i] = p.x;
+        out.y[i] = p.y;
+        out.z[i] = p.z;
+      }
+    }
   }
   out.sums.assign(size_t{3} * texels, 0.0);
   out.irradiance.assign(texels, vec4(0.0f));
@@ -207,12 +203,15 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
     const auto states = visibility.row(job.object, tile.patch);  // of those given
     const float spacing = spacingOf(tile, patch);
-    const auto count = static_cast<size_t>(tile.columns * tile.rows);
-    const Places places(chart, patch, tile);
+    const size_t count = paddedCount(tile);
+    const TexelPlaces places{{&o.x[tile.first], count},
+                             {&o.y[tile.first], count},
+                             {&o.z[tile.first], count},
+                             chart.normal};
     double* sums = &o.sums[size_t{3} * tile.first];
     uint64_t touched = 0;
     const auto change = [&](const shared::Vpl& vpl, double sign) {
-      accumulate(vpl, places.get(), options.clampDistance, sign, count, sums, sums + count,
+      accumulate(vpl, places, options.clampDistance, sign, count, sums, sums + count,
                  sums + 2 * count);
       touched += count;
     };
@@ -266,7 +265,8 @@ size_t LightMaps::texels() const {
 uint64_t LightMaps::bytes() const {
   uint64_t n = 0;
   for (const Object& o : objects_)
-    n += o.irradiance.size() * (sizeof(vec4) + 3 * sizeof(double)) + o.held.size();
+    n += o.irradiance.size() * (sizeof(vec4) + 3 * sizeof(double) + 3 * sizeof(float)) +
+         o.held.size();
   return n;
 }
 

@@ -9,6 +9,10 @@ namespace {
 constexpr int kFirstGuess = 16;
 constexpr double kWeight = 0.3;  // of the last frame against those before
 
+// Of the time goes into refreshing, even where the rest alone takes longer than all: a slow picture
+// that never becomes right is worse than one that is slower still.
+constexpr double kLeastShare = 0.3;
+
 void average(double& mean, double value) {
   mean = mean == 0.0 ? value : mean + kWeight * (value - mean);
 }
@@ -30,7 +34,8 @@ void FrameTimeControl::measured(const GiStats& stats) {
 
 int FrameTimeControl::vplsWithin(double seconds) const {
   if (perVpl_ <= 0.0) return kFirstGuess;
-  return std::max(1, static_cast<int>(std::min((seconds - rest_) / perVpl_, 65536.0)));
+  const double share = std::max(seconds - rest_, kLeastShare * seconds);
+  return std::max(1, static_cast<int>(std::min(share / perVpl_, 65536.0)));
 }
 
 }  // namespace lamplighter

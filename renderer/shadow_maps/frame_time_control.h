@@ -1,5 +1,5 @@
-// Turns the time that a frame may take into a number of VPLs to refresh, by what frames cost before.
-// It is given measured times and reads no clock; replays do without it.
+// Turns the time that a frame may take into a number of VPLs to refresh, by what frames cost
+// before. It is given measured times and reads no clock; replays do without it.
 #pragma once
 
 #include "renderer/methods/gi_method.h"
@@ -11,8 +11,8 @@ class FrameTimeControl {
   // A frame was rendered and its stages were timed.
   void measured(const GiStats& stats);
 
-  // How many VPLs can be refreshed in a frame of so long; at least one. All other work is theirs, so
-  // that this sets every budget. A cautious guess until something was measured.
+  // How many VPLs can be refreshed in a frame of so long; at least one. All other work is theirs,
+  // so that this sets every budget. A cautious guess until something was measured.
   int vplsWithin(double seconds) const;
 
  private:

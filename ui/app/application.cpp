@@ -9,6 +9,7 @@
 #include "renderer/error.h"
 #include "renderer/image/exposure.h"
 #include "renderer/image/image_io.h"
+#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 
 namespace lamplighter {
@@ -126,9 +127,11 @@ void Application::runAction(const std::string& text) {
 
 // Where time goes by steps of fixed length, as in recordings, work goes by counts.
 std::optional<int> Application::updatesWithinTime() const {
-  const float milliseconds = session_->document().render.values.real(parameters::frameTime());
+  const Settings& settings = session_->document().render.values;
+  const float milliseconds = settings.real(parameters::frameTime());
   if (timeStep_ > 0.0f || milliseconds == 0.0f) return std::nullopt;
-  return frameTime_.vplsWithin(1e-3 * milliseconds);
+  return std::min(settings.integer(parameters::updates()),
+                  frameTime_.vplsWithin(1e-3 * milliseconds));
 }
 
 // After the frame was rendered: it tells of the picture beside it, not of the one before.

@@ -1,0 +1,117 @@
+// Dragging: a light or an object moves by a few centimetres in every frame, as under a hand, with
+// the budgets that the editor's window has by default; then it is let go.
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/shadow_maps/frame_time_control.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Case {
+  const char* scene;
+  const char* node;
+  const char* technique;
+  const char* backend;
+};
+
+std::unique_ptr<Backend> backendOf(const std::string& name) {
+  if (name == "cpu") return makeCpuBackend();
+  return makeGlBackend(fs::path(LAMPLIGHTER_SOURCE_DIR) / "shaders");
+}
+
+void drag(benchmark::State& state, const Case& c) {
+  Scene scene =
+      loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / (std::string(c.scene) + ".gltf"))
+          .scene;
+  View view;
+  Node* dragged = nullptr;
+  for (Node& node : scene.nodes) {
+    if (node.camera != kNone) view = viewOfCamera(scene, node, 640, 360);
+    if (node.name == c.node) dragged = &node;
+  }
+  Settings settings;
+  settings.set(parameters::vpls().name, 300);
+  settings.set(parameters::technique().name, std::string(c.technique));
+  settings.set(parameters::antialias().name, 1);
+  FrameRenderer renderer(backendOf(c.backend), seconds);
+  FrameTimeControl control;
+  const double milliseconds = settings.real(parameters::frameTime());
+  const auto frame = [&](const SceneChanges& changes) {
+    Settings now = settings;
+    now.set(parameters::updates().name, std::min(settings.integer(parameters::updates()),
+                                                 control.vplsWithin(1e-3 * milliseconds)));
+    GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
+    control.measured(out.stats);
+    return out;
+  };
+  frame(SceneChanges::all());
+  while (!frame({}).settled) {
+  }
+  int steps = 0;
+  const auto step = [&] {
+    const Scene before = scene;
+    dragged->local.translation.x += (steps++ / 20) % 2 == 0 ? 0.05f : -0.05f;
+    return frame(compare(before, scene));
+  };
+  int refreshed = 0;
+  std::map<std::string, double> stages;
+  for (auto _ : state) {
+    const GiOutput out = step();
+    refreshed += out.stats.mapsRendered;
+    for (const auto& [name, time] : out.stats.stageSeconds) stages[name] += time;
+  }
+  std::vector<Image> after;
+  for (int i = 0; i < 5; ++i) after.push_back(frame({}).radiance->pixels());
+  GiOutput settled = frame({});
+  while (!settled.settled) settled = frame({});
+  const Image& truth = settled.radiance->pixels();
+  state.counters["fps"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  const auto frames = static_cast<double>(state.iterations());
+  state.counters["vpls_a_frame"] = refreshed / frames;
+  state.counters["error_1"] = compareImages(after[0], truth).relRmse;
+  state.counters["error_5"] = compareImages(after[4], truth).relRmse;
+  for (const auto& [name, time] : stages) {
+    std::string key = "ms_" + name;
+    std::replace(key.begin(), key.end(), ' ', '_');
+    state.counters[key] = 1e3 * time / frames;
+  }
+}
+
+[[maybe_unused]] const bool kRegistered = [] {
+  for (const char* backend : {"cpu", "gl"}) {
+    for (const char* technique : {"naive", "visibility", "light_maps"}) {
+      for (const auto& [scene, node] : {std::pair("pillar_room", "ceiling light"),
+                                        std::pair("pillar_room", "mover")}) {
+        const Case c{scene, node, technique, backend};
+        const std::string name = std::string("drag/") + scene + "/" + node + "/" + technique + "/" +
+                                 backend;
+        benchmark::RegisterBenchmark(name.c_str(), drag, c)
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(40)
+            ->UseRealTime();
+      }
+    }
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace lamplighter
