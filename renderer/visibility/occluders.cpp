@@ -58,6 +58,7 @@ void Occluders::finish(const RenderScene& s) {
 bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uint32_t index) const {
   const RenderObject& o = s.objects[index];
   const Object& object = objects_[index];
+  if (!pyramid.mayBeShadowedBy(o.bounds)) return false;
   return !object.tree.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
                             [&](uint32_t item) {
                               if (item >= object.flat.size())

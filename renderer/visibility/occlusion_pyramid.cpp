@@ -23,7 +23,7 @@ constexpr size_t kMostCorners = 3 + 8;
 
 }  // namespace
 
-PatchRegion::PatchRegion(const Bounds& box) : count(8) {
+PatchRegion::PatchRegion(const Bounds& box) : count(8), centre(box.centre()), radius(box.radius()) {
   for (int i = 0; i < 8; ++i) {
     for (int c = 0; c < 3; ++c)
       corners[static_cast<size_t>(i)][c] = ((i >> c) & 1) != 0 ? box.max[c] : box.min[c];
@@ -40,13 +40,16 @@ PatchRegion::PatchRegion(const RenderScene& scene, uint32_t object, const Object
   count = 4;
   corners = {chart.at(patch.min), chart.at({patch.max.x, patch.min.y}), chart.at(patch.max),
              chart.at({patch.min.x, patch.max.y})};
+  centre = patch.centre;
+  radius = patch.radius;
   normal = chart.normal;
   thickness = chart.thickness;
   frontOnly = scene.backIsUnseen(object);
 }
 
 OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& region)
-    : parallel_(vpl.position.w == shared::kVplDirectional),
+    : vpl_(vpl),
+      parallel_(vpl.position.w == shared::kVplDirectional),
       apex_(vpl.position),
       towards_(vpl.normal),
       region_(region) {

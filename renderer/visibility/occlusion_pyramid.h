@@ -7,6 +7,7 @@
 #include <span>
 
 #include "renderer/patches/patch_set.h"
+#include "renderer/visibility/shadow_reach.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {
@@ -25,6 +26,8 @@ struct PatchRegion {
   vec3 normal{0.0f};       // rectangle: unit
   float thickness = 0.0f;  // rectangle: the surface is within this of it [m]
   bool frontOnly = false;  // rectangle: its back is never seen
+  vec3 centre{0.0f};       // of a sphere around it
+  float radius = 0.0f;     // of that sphere [m]
 
   explicit PatchRegion(const Bounds& box);
   PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
@@ -40,6 +43,12 @@ class OcclusionPyramid {
   bool isDark() const { return dark_; }
   // The light is so near the patch or its plane that nothing can be said.
   bool isDegenerate() const { return degenerate_; }
+
+  // Whether the shadow of what is in the box may fall on the patch: a sieve before the tests below,
+  // and part of them, for these take a little more than the pyramid.
+  bool mayBeShadowedBy(const Bounds& box) const {
+    return ShadowReach(vpl_, box).mayFallOn(region_.centre, region_.radius);
+  }
 
   // Its patch is a box around triangles, not a rectangle.
   bool isOfBox() const { return region_.count == 8; }
@@ -60,6 +69,7 @@ class OcclusionPyramid {
   void addSide(const vec3& a, const vec3& b);
   void add(const vec3& normal, const vec3& on, float margin);
 
+  shared::Vpl vpl_;
   bool parallel_ = false, dark_ = false, degenerate_ = false;
   vec3 apex_{0.0f};      // a parallel light: unused
   vec3 towards_{0.0f};   // the light's axis; a parallel light: unit, towards the light

@@ -37,9 +37,9 @@ std::unique_ptr<Backend> backendOf(const std::string& name) {
 }
 
 void drag(benchmark::State& state, const Case& c) {
-  Scene scene =
-      loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / (std::string(c.scene) + ".gltf"))
-          .scene;
+  Scene scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
+                         (std::string(c.scene) + ".gltf"))
+                    .scene;
   View view;
   Node* dragged = nullptr;
   for (Node& node : scene.nodes) {
@@ -98,11 +98,11 @@ void drag(benchmark::State& state, const Case& c) {
 [[maybe_unused]] const bool kRegistered = [] {
   for (const char* backend : {"cpu", "gl"}) {
     for (const char* technique : {"naive", "visibility", "light_maps"}) {
-      for (const auto& [scene, node] : {std::pair("pillar_room", "ceiling light"),
-                                        std::pair("pillar_room", "mover")}) {
+      for (const auto& [scene, node] :
+           {std::pair("pillar_room", "ceiling light"), std::pair("pillar_room", "mover")}) {
         const Case c{scene, node, technique, backend};
-        const std::string name = std::string("drag/") + scene + "/" + node + "/" + technique + "/" +
-                                 backend;
+        const std::string name =
+            std::string("drag/") + scene + "/" + node + "/" + technique + "/" + backend;
         benchmark::RegisterBenchmark(name.c_str(), drag, c)
             ->Unit(benchmark::kMillisecond)
             ->Iterations(40)

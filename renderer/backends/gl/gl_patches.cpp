@@ -43,8 +43,7 @@ GlPatches::Sizes GlPatches::sizesOf(const RenderScene& scene, const PatchLights&
 void GlPatches::update(const RenderScene& scene, const PatchLights& lights) {
   const bool hasMaps = lights.maps() != nullptr;
   const auto revisionsOf = [&](uint32_t i) {
-    return std::pair(lights.patches(i).revision,
-                     hasMaps ? lights.maps()->revision(i) : Revision());
+    return std::pair(lights.patches(i).revision, hasMaps ? lights.maps()->revision(i) : Revision());
   };
   bool resized = objects_.size() != scene.objects.size() || hasMaps_ != hasMaps;
   std::vector<uint32_t> changed;

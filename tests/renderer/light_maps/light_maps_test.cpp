@@ -49,6 +49,9 @@ struct Kept {
 Scene litBoxes() {
   Scene scene = test::randomBoxes(14, 5);
   test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
+  // What is curved is in no chart.
+  const NodeId ball = test::addRectangleLight(scene, vec3(-1, 2, 1), vec2(0.6f), vec3(3));
+  scene.find(ball)->area->shape = AreaShape::sphere;
   return scene;
 }
 
