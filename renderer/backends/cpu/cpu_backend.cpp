@@ -18,6 +18,9 @@ namespace {
 // computed does not depend on the number of threads.
 constexpr int kRowsPerTask = 32;
 
+// Tiles that are summed together, so that each shadow map is fetched from memory once for all.
+constexpr int kTilesPerTask = 16;
+
 class CpuBackend final : public Backend {
  public:
   const BackendInfo& info() const override { return info_; }
@@ -83,8 +86,11 @@ class CpuBackend final : public Backend {
     const float d0 = params.clampAndBias.x;
     const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_};
     std::atomic<uint64_t> lookUps = 0;
-    tbb::parallel_for(0, gbuffer_.tiles(), [&](int tile) {
-      lookUps += cpu::sumTile(gbuffer_, tile, lights, constants, patches, irradiance_);
+    const int tasks = (gbuffer_.tiles() + kTilesPerTask - 1) / kTilesPerTask;
+    tbb::parallel_for(0, tasks, [&](int task) {
+      const int first = task * kTilesPerTask;
+      const int last = std::min(first + kTilesPerTask, gbuffer_.tiles());
+      lookUps += cpu::sumTiles(gbuffer_, first, last, lights, constants, patches, irradiance_);
     });
     counts_.lookUps += lookUps;
     counts_.lightPixels += vpls.size() * static_cast<uint64_t>(gbuffer_.width) * gbuffer_.height;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include <hwy/highway.h>
 
@@ -22,6 +23,9 @@ using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 constexpr Tag kTag;
 
+// Of shadow maps, in the second-level cache beside the tiles.
+constexpr size_t kMapBytesAtOnce = size_t{512} << 10;
+
 struct Vector3 {
   Floats x, y, z;
 };
@@ -30,10 +34,17 @@ HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
 HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
-HWY_INLINE Vector3 load(const std::vector<float>& x, const std::vector<float>& y,
-                        const std::vector<float>& z, size_t i) {
-  return {hn::LoadU(kTag, &x[i]), hn::LoadU(kTag, &y[i]), hn::LoadU(kTag, &z[i])};
-}
+// Three arrays; as pointers of its own, which stores elsewhere don't change.
+struct Vectors {
+  Vectors(const std::vector<float>& vx, const std::vector<float>& vy, const std::vector<float>& vz)
+      : x(vx.data()), y(vy.data()), z(vz.data()) {}
+  Vector3 at(size_t i) const {
+    return {hn::LoadU(kTag, x + i), hn::LoadU(kTag, y + i), hn::LoadU(kTag, z + i)};
+  }
+  const float* HWY_RESTRICT x;
+  const float* HWY_RESTRICT y;
+  const float* HWY_RESTRICT z;
+};
 
 HWY_INLINE Vector3 all(const vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
 
@@ -62,7 +73,7 @@ struct WideLight {
 // Numbers of the map's grid and of the test in every lane.
 struct WideConstants {
   explicit WideConstants(const SumConstants& c)
-      : resolution(hn::Set(IntTag(), c.resolution)),
+      : resolution(all(static_cast<float>(c.resolution))),
         half(all(0.5f * static_cast<float>(c.resolution))),
         last(all(static_cast<float>(c.resolution - 1))),
         step(all(2.0f / static_cast<float>(c.resolution))),
@@ -71,8 +82,7 @@ struct WideConstants {
         beforePoint(all(1.0f + c.bias + 1.0f / static_cast<float>(c.resolution))),
         clampDistance2(all(c.clampDistance2)) {}
 
-  hn::Vec<IntTag> resolution;
-  Floats half, last, step, first;
+  Floats resolution, half, last, step, first;
   Floats beforePlane, beforePoint;
   Floats clampDistance2;
 };
@@ -87,10 +97,10 @@ HWY_INLINE Texel texelOf(Floats s, const WideConstants& c) {
   return {index, hn::MulAdd(index, c.step, c.first)};
 }
 
+// The index of a texel is a whole number that a float holds: maps have at most 1024² texels.
 HWY_INLINE Floats fetch(const float* map, const Texel& s, const Texel& t, const WideConstants& c) {
-  const IntTag ints;
-  const auto column = hn::ConvertTo(ints, s.index), row = hn::ConvertTo(ints, t.index);
-  return hn::GatherIndex(kTag, map, hn::Add(hn::Mul(row, c.resolution), column));
+  const Floats texel = hn::MulAdd(t.index, c.resolution, s.index);
+  return hn::GatherIndex(kTag, map, hn::ConvertTo(IntTag(), texel));
 }
 
 // v: from the light to the point; z: its height over the light's plane, > 0.
@@ -102,13 +112,15 @@ HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& 
   const Texel s = texelOf(hn::Mul(hn::Add(x, y), inverse), c);
   const Texel t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c);
   const Floats stored = fetch(light.map, s, t, c);
+  const Mask beforePoint = hn::Gt(hn::Mul(stored, w), c.beforePoint);
+  // Mostly nothing is; then the plane need not be asked.
+  if (hn::AllFalse(kTag, beforePoint)) return beforePoint;
   const Floats ex = hn::Mul(hn::Add(s.centre, t.centre), all(0.5f));
   const Floats ey = hn::Mul(hn::Sub(s.centre, t.centre), all(0.5f));
   const Floats ez = hn::Sub(all(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
   const Floats plane = hn::MulAdd(
       dot(geometric, light.tangent), ex,
       hn::MulAdd(dot(geometric, light.bitangent), ey, hn::Mul(dot(geometric, light.normal), ez)));
-  const Mask beforePoint = hn::Gt(hn::Mul(stored, w), c.beforePoint);
   // facing = −n·v > 0
   const Mask beforePlane =
       hn::Gt(hn::MulAdd(stored, facing, hn::Mul(c.beforePlane, plane)), hn::Zero(kTag));
@@ -157,14 +169,18 @@ void addLight(const GBuffer& g, const PacketList& packets, const LightRecord& re
   const WideLight light(record, constants);
   const WideConstants c(constants);
   const Floats zero = hn::Zero(kTag);
+  const Vectors positions(g.px, g.py, g.pz), shadings(g.sx, g.sy, g.sz),
+      geometrics(g.gx, g.gy, g.gz);
+  float* HWY_RESTRICT red = out.r.data();
+  float* HWY_RESTRICT green = out.g.data();
+  float* HWY_RESTRICT blue = out.b.data();
   for (size_t k = 0; k < packets.count(); ++k) {
     const size_t i = packets.first(k);
     const Mask meant = packets.lanes(k);
-    const Vector3 p = load(g.px, g.py, g.pz, i);
+    const Vector3 p = positions.at(i);
     const Vector3 v{hn::Sub(p.x, light.position.x), hn::Sub(p.y, light.position.y),
                     hn::Sub(p.z, light.position.z)};
-    const Vector3 shading = load(g.sx, g.sy, g.sz, i);
-    const Vector3 geometric = load(g.gx, g.gy, g.gz, i);
+    const Vector3 shading = shadings.at(i), geometric = geometrics.at(i);
     Floats weight;
     Mask occluded = hn::MaskFromVec(hn::Zero(kTag));
     if constexpr (kKind == LightRecord::Kind::directional) {
@@ -184,6 +200,12 @@ void addLight(const GBuffer& g, const PacketList& packets, const LightRecord& re
       const Mask lit =
           hn::And(hn::And(meant, hn::Gt(z, zero)), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
       if (hn::AllFalse(kTag, lit)) continue;
+      // A height above zero keeps 1/w finite in the lanes that the light does not reach.
+      if constexpr (kLooksUp)
+        occluded =
+            hemisphereOccluded(light, c, v, hn::IfThenElse(lit, z, all(1.0f)), geometric, facing);
+      if constexpr (kUse == LightUse::takeShadow)
+        if (hn::AllFalse(kTag, hn::And(lit, occluded))) continue;
       const Floats d2 = dot(v, v);
       if constexpr (kKind == LightRecord::Kind::cosine) {
         const Floats bounded = hn::Max(d2, c.clampDistance2);
@@ -195,21 +217,17 @@ void addLight(const GBuffer& g, const PacketList& packets, const LightRecord& re
         weight = hn::Mul(hn::Mul(cone, cone), hn::Div(s, hn::Mul(d2, d)));
       }
       weight = hn::IfThenElseZero(lit, weight);
-      // A height above zero keeps 1/w finite in the lanes that the light does not reach.
-      const Floats height = hn::IfThenElse(lit, z, all(1.0f));
-      if constexpr (kLooksUp) occluded = hemisphereOccluded(light, c, v, height, geometric, facing);
     }
     if constexpr (kUse == LightUse::addShadowed) weight = hn::IfThenZeroElse(occluded, weight);
     if constexpr (kUse == LightUse::takeShadow) {
-      if (hn::AllFalse(kTag, occluded)) continue;
       weight = hn::Neg(hn::IfThenElseZero(occluded, weight));
     }
-    float* r = &out.r[i];
-    float* gr = &out.g[i];
-    float* b = &out.b[i];
-    hn::StoreU(hn::MulAdd(weight, light.intensity.x, hn::LoadU(kTag, r)), kTag, r);
-    hn::StoreU(hn::MulAdd(weight, light.intensity.y, hn::LoadU(kTag, gr)), kTag, gr);
-    hn::StoreU(hn::MulAdd(weight, light.intensity.z, hn::LoadU(kTag, b)), kTag, b);
+    const auto add = [&](float* to, Floats intensity) {
+      hn::StoreU(hn::MulAdd(weight, intensity, hn::LoadU(kTag, to)), kTag, to);
+    };
+    add(red + i, light.intensity.x);
+    add(green + i, light.intensity.y);
+    add(blue + i, light.intensity.z);
   }
 }
 
@@ -348,59 +366,89 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
   return light;
 }
 
-uint64_t sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
-                 const SumConstants& constants, const PatchLights* patches, Irradiance& out) {
-  static_assert(hn::MaxLanes(kTag) == kLanes);
-  const size_t first = static_cast<size_t>(tile) * kTilePixels;
-  std::fill_n(&out.r[first], kTilePixels, 0.0f);
-  std::fill_n(&out.g[first], kTilePixels, 0.0f);
-  std::fill_n(&out.b[first], kTilePixels, 0.0f);
-  // Packets that hit something.
-  size_t packets[kPacketsPerTile];
-  size_t count = 0;
-  for (int packet = 0; packet < kPacketsPerTile; ++packet) {
-    const size_t i = first + packet * kLanes;
-    bool any = false;
-    for (int lane = 0; lane < kLanes; ++lane) any = any || gbuffer.hit[i + lane] != 0;
-    if (any) packets[count++] = i;
+namespace {
+
+// One tile's sums on their way: what of it is hit, and how its patches come by each light.
+class TileSum {
+ public:
+  TileSum(const GBuffer& gbuffer, int tile, const PatchLights* patches, Irradiance& out)
+      : gbuffer_(gbuffer), out_(out), first_(static_cast<size_t>(tile) * kTilePixels) {
+    std::fill_n(&out.r[first_], kTilePixels, 0.0f);
+    std::fill_n(&out.g[first_], kTilePixels, 0.0f);
+    std::fill_n(&out.b[first_], kTilePixels, 0.0f);
+    std::vector<size_t> packets;
+    for (size_t i = first_; i < first_ + kTilePixels; i += kLanes) {
+      if (std::none_of(&gbuffer.hit[i], &gbuffer.hit[i] + kLanes, [](uint8_t h) { return h != 0; }))
+        continue;
+      packets.push_back(i);
+      every_.add(i, kEveryLane);
+    }
+    if (patches == nullptr || packets.empty()) return;
+    lights_.emplace(gbuffer, packets, *patches);
+    isMapped_ = patches->maps() != nullptr;
+    if (isMapped_) lights_->beginWithMaps(out);
   }
-  if (count == 0) return 0;
-  constexpr uint8_t kEveryLane = 0xff;
-  PacketList every, list;
-  for (size_t k = 0; k < count; ++k) every.add(packets[k], kEveryLane);
-  uint64_t lookUps = 0;
-  if (patches == nullptr) {
-    for (const LightRecord& light : lights) {
+
+  // Returns how many light·pixels had a look-up.
+  uint64_t add(const LightRecord& light, const SumConstants& constants) {
+    if (every_.count() == 0) return 0;
+    if (!lights_ || light.slot < 0) {
       if (light.map == nullptr) {
-        addLight<LightUse::add>(gbuffer, every, light, constants, out);
-      } else {
-        addLight<LightUse::addShadowed>(gbuffer, every, light, constants, out);
-        lookUps += count * kLanes;
+        addLight<LightUse::add>(gbuffer_, every_, light, constants, out_);
+        return 0;
       }
+      addLight<LightUse::addShadowed>(gbuffer_, every_, light, constants, out_);
+      return every_.count() * kLanes;
     }
-    return lookUps;
+    PacketList list;
+    lights_->list(light.slot, LightUse::add, list);
+    addLight<LightUse::add>(gbuffer_, list, light, constants, out_);
+    lights_->list(light.slot, LightUse::addShadowed, list);
+    addLight<LightUse::addShadowed>(gbuffer_, list, light, constants, out_);
+    uint64_t lookUps = list.count() * kLanes;
+    lights_->list(light.slot, LightUse::takeShadow, list);
+    addLight<LightUse::takeShadow>(gbuffer_, list, light, constants, out_);
+    return lookUps + list.count() * kLanes;
   }
-  const TileLights uses(gbuffer, {packets, count}, *patches);
-  if (patches->maps() != nullptr) uses.beginWithMaps(out);
-  for (const LightRecord& light : lights) {
-    if (light.slot < 0) {
-      addLight<LightUse::add>(gbuffer, every, light, constants, out);
-      continue;
-    }
-    uses.list(light.slot, LightUse::add, list);
-    addLight<LightUse::add>(gbuffer, list, light, constants, out);
-    uses.list(light.slot, LightUse::addShadowed, list);
-    addLight<LightUse::addShadowed>(gbuffer, list, light, constants, out);
-    lookUps += list.count() * kLanes;
-    uses.list(light.slot, LightUse::takeShadow, list);
-    addLight<LightUse::takeShadow>(gbuffer, list, light, constants, out);
-    lookUps += list.count() * kLanes;
+
+  void finish() {
+    // The map is interpolated and what is taken away is not: no light may be left less than none.
+    if (!isMapped_) return;
+    for (auto* v : {&out_.r, &out_.g, &out_.b})
+      for (size_t i = first_; i < first_ + kTilePixels; ++i) (*v)[i] = std::max((*v)[i], 0.0f);
   }
-  // The map is interpolated and what is taken away is not: no light may be left less than none.
-  if (patches->maps() != nullptr) {
-    for (auto* v : {&out.r, &out.g, &out.b})
-      for (size_t i = first; i < first + kTilePixels; ++i) (*v)[i] = std::max((*v)[i], 0.0f);
+
+ private:
+  static constexpr uint8_t kEveryLane = 0xff;
+  const GBuffer& gbuffer_;
+  Irradiance& out_;
+  size_t first_;
+  PacketList every_;
+  std::optional<TileLights> lights_;
+  bool isMapped_ = false;
+};
+
+}  // namespace
+
+uint64_t sumTiles(const GBuffer& gbuffer, int firstTile, int lastTile,
+                  std::span<const LightRecord> lights, const SumConstants& constants,
+                  const PatchLights* patches, Irradiance& out) {
+  static_assert(hn::MaxLanes(kTag) == kLanes);
+  std::vector<TileSum> tiles;
+  tiles.reserve(static_cast<size_t>(lastTile - firstTile));
+  for (int tile = firstTile; tile < lastTile; ++tile)
+    tiles.emplace_back(gbuffer, tile, patches, out);
+  // The maps of some lights fit the second-level cache, those of all do not: each is fetched for
+  // all of the tiles at once. At every pixel the lights still follow in their order.
+  const size_t texels = static_cast<size_t>(constants.resolution) * constants.resolution;
+  const size_t atOnce = std::max<size_t>(1, kMapBytesAtOnce / (texels * sizeof(float)));
+  uint64_t lookUps = 0;
+  for (size_t first = 0; first < lights.size(); first += atOnce) {
+    const auto some = lights.subspan(first, std::min(atOnce, lights.size() - first));
+    for (TileSum& tile : tiles)
+      for (const LightRecord& light : some) lookUps += tile.add(light, constants);
   }
+  for (TileSum& tile : tiles) tile.finish();
   return lookUps;
 }
 

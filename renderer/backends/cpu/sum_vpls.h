@@ -37,10 +37,11 @@ struct Irradiance {
 
 LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map);
 
-// Adds every light, in order, to E at the tile's pixels, starting from zero.
-// `patches`: how each patch comes by each light; null: with a look-up. Returns how many
+// Adds every light, in order, to E at the pixels of the tiles [firstTile, lastTile), starting from
+// zero. `patches`: how each patch comes by each light; null: with a look-up. Returns how many
 // light·pixels had one, in whole packets.
-uint64_t sumTile(const GBuffer& gbuffer, int tile, std::span<const LightRecord> lights,
-                 const SumConstants& constants, const PatchLights* patches, Irradiance& out);
+uint64_t sumTiles(const GBuffer& gbuffer, int firstTile, int lastTile,
+                  std::span<const LightRecord> lights, const SumConstants& constants,
+                  const PatchLights* patches, Irradiance& out);
 
 }  // namespace lamplighter::cpu
