@@ -6,7 +6,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kMostSplits = 6;
+constexpr int kMostSplits = 7;
 constexpr float kSmallest = 0.4f;  // m
 
 void splitRectangle(ObjectPatches& out, int index, int splits) {

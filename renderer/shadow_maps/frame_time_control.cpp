@@ -6,12 +6,13 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kFirstGuess = 16;
 constexpr double kWeight = 0.3;  // of the last frame against those before
 
-// Of the time goes into refreshing, even where the rest alone takes longer than all: a slow picture
-// that never becomes right is worse than one that is slower still.
+// A slow picture that never becomes right is worse than one that is slower still: so much of the
+// time goes into refreshing even where the rest alone takes longer than all, and so many VPLs are
+// refreshed whatever they cost.
 constexpr double kLeastShare = 0.3;
+constexpr int kLeastVpls = 16;
 
 void average(double& mean, double value) {
   mean = mean == 0.0 ? value : mean + kWeight * (value - mean);
@@ -33,9 +34,9 @@ void FrameTimeControl::measured(const GiStats& stats) {
 }
 
 int FrameTimeControl::vplsWithin(double seconds) const {
-  if (perVpl_ <= 0.0) return kFirstGuess;
+  if (perVpl_ <= 0.0) return kLeastVpls;
   const double share = std::max(seconds - rest_, kLeastShare * seconds);
-  return std::max(1, static_cast<int>(std::min(share / perVpl_, 65536.0)));
+  return std::max(kLeastVpls, static_cast<int>(std::min(share / perVpl_, 65536.0)));
 }
 
 }  // namespace lamplighter

@@ -11,8 +11,8 @@ class FrameTimeControl {
   // A frame was rendered and its stages were timed.
   void measured(const GiStats& stats);
 
-  // How many VPLs can be refreshed in a frame of so long; at least one. All other work is theirs,
-  // so that this sets every budget. A cautious guess until something was measured.
+  // How many VPLs can be refreshed in a frame of so long, and a few in any case. All other work is
+  // theirs, so that this sets every budget.
   int vplsWithin(double seconds) const;
 
  private:

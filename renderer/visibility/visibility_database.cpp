@@ -48,6 +48,7 @@ std::vector<Share> sharesOf(std::span<const ObjectPatches> patches) {
 struct VisibilityDatabase::Column {
   int slot = 0;
   bool anew = true;                  // all entries
+  bool moversAreAll = false;         // what it waits for are the movers of now, and no more
   std::vector<ShadowReach> reaches;  // of the movers, before and now
   std::vector<bool> isMover;         // by object: all its entries
   bool mayBeShadowed(const Patch& p) const {
@@ -252,6 +253,7 @@ void VisibilityDatabase::computeColumns(const RenderScene& scene, std::span<cons
     column.anew = anew;
     if (anew) continue;
     column.isMover.assign(patches_.size(), false);
+    column.moversAreAll = true;
     for (const Waiting& w : waiting_[static_cast<size_t>(slot)]) {
       const auto add = [&](const Bounds& box) {
         const ShadowReach reach(vpl, box);
@@ -261,6 +263,9 @@ void VisibilityDatabase::computeColumns(const RenderScene& scene, std::span<cons
       if (w.object == kNone) continue;
       add(patches_[static_cast<size_t>(w.object)].bounds);
       column.isMover[static_cast<size_t>(w.object)] = true;
+      column.moversAreAll =
+          column.moversAreAll && std::find(movers_.begin(), movers_.end(),
+                                           static_cast<uint32_t>(w.object)) != movers_.end();
     }
     waiting_[static_cast<size_t>(slot)].clear();
   }
@@ -317,7 +322,7 @@ void VisibilityDatabase::compute(const RenderScene& scene, const Column& column,
   if (others == kUnknown || !isDecided(state)) {
     const OcclusionPyramid pyramid(vpl, PatchRegion(scene, object, patches, p));
     // Where nothing stood between, only the movers can.
-    if (wasNone && !column.anew && !column.isMover[object] && !pyramid.isDark())
+    if (wasNone && column.moversAreAll && !column.isMover[object] && !pyramid.isDark())
       others = static_cast<uint8_t>(Occlusion::none);
     state = stateOf(scene, pyramid, object, patch, column.slot, tests);
   }

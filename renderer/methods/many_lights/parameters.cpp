@@ -11,7 +11,7 @@ const ParameterSpec& technique() {
       "up only where the geometry cannot tell whether something stands between. light_maps: "
       "besides, light without shadows is summed once for flat surfaces, and pixels only take "
       "shadows away.",
-      std::string("naive"),
+      std::string("light_maps"),
       0,
       0,
       false,
