@@ -6,7 +6,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/error.h"
-#include "tests/bench/naive_bench.h"
+#include "tests/bench/backend_benches.h"
 
 int main(int argc, char** argv) {
   using namespace lamplighter;
@@ -14,12 +14,14 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   addNaiveBenchmarks("cpu", makeCpuBackend);
   addTechniqueBenchmarks("cpu", makeCpuBackend);
+  addFigureBenchmarks("cpu", makeCpuBackend);
   std::unique_ptr<gl::HeadlessContext> context;
   try {
     context = std::make_unique<gl::HeadlessContext>();
     benchmark::AddCustomContext("OpenGL", context->renderer());
     addNaiveBenchmarks("gl", [] { return makeGlBackend(); });
     addTechniqueBenchmarks("gl", [] { return makeGlBackend(); });
+    addFigureBenchmarks("gl", [] { return makeGlBackend(); });
   } catch (const InputError& error) {
     std::cerr << "without the gl backend: " << error.what() << "\n";
   }

@@ -1,7 +1,5 @@
 // What `many_lights` costs with the technique `naive`: the scenes of paper 1, figure 5-1, against
 // the number of VPLs (figure 5-3's baseline), and the kernels on their own.
-#include "tests/bench/naive_bench.h"
-
 #include <chrono>
 #include <filesystem>
 
@@ -11,6 +9,7 @@
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf_io.h"
+#include "tests/bench/backend_benches.h"
 
 namespace lamplighter {
 namespace {
@@ -40,6 +39,7 @@ Settings settingsOf(int vpls, int updates) {
   settings.set(parameters::updates().name, updates);
   settings.set(parameters::bounces().name, 1);
   settings.set(parameters::antialias().name, 1);
+  settings.set(parameters::technique().name, std::string("naive"));
   return settings;
 }
 

@@ -12,7 +12,7 @@
 #include "renderer/scene/gltf_io.h"
 #include "renderer/scene/light_shapes.h"
 #include "renderer/visibility/visibility_database.h"
-#include "tests/bench/naive_bench.h"
+#include "tests/bench/backend_benches.h"
 
 namespace lamplighter {
 namespace {

@@ -1,3 +1,4 @@
+// Benchmarks that are added once for each backend.
 #pragma once
 
 #include <functional>
@@ -14,5 +15,7 @@ using MakeBackend = std::function<std::unique_ptr<Backend>()>;
 void addNaiveBenchmarks(const std::string& backend, const MakeBackend& make);
 // Adds frames of each technique on one backend.
 void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make);
+// Adds what paper 1 shows in its figures 5-3 to 5-6, on one backend.
+void addFigureBenchmarks(const std::string& backend, const MakeBackend& make);
 
 }  // namespace lamplighter
