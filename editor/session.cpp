@@ -8,7 +8,9 @@
 #include "editor/tools/picker.h"
 #include "editor/tools/placement.h"
 #include "editor/tools/scene_overlay.h"
+#include "editor/views/vpl_overlay.h"
 #include "renderer/error.h"
+#include "renderer/image/tone_map.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/scene/surface.h"
@@ -214,6 +216,11 @@ void Session::viewport(const ViewportInput& input) {
   if (tools_->camera.update(view_, input)) return;
   if (tools_->gizmo.update(view_, input, document_, history_)) return;
   if (!input.pressed[0] || !input.hovered || renderer_->rays() == nullptr) return;
+  if (display_.showsVpls()) {
+    const Inspection inspection = inspect();
+    const int vpl = pickVpl(view_, inspection, *renderer_->rays(), input.pointer);
+    if (vpl != kNone) return display_.choose(inspection, vpl);
+  }
 
   const NodeId id = pick(view_, renderer_->scene(), *renderer_->rays(), input.pointer);
   std::vector<NodeId> selection;
@@ -267,11 +274,14 @@ std::optional<Session::Place> Session::surfaceAhead(const std::vector<NodeId>& i
 const GiOutput& Session::renderFrame(std::optional<int> updates) {
   const SceneChanges changes = history_.takeChanges();
   renderError_.clear();
+  const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
   Settings settings = document_.render.values;
   if (updates) settings.set(parameters::updates().name, *updates);
   try {
-    output_ =
-        renderer_->render({document_.scene, changes, view_, document_.render.method, settings});
+    output_ = renderer_->render(
+        {document_.scene, changes, view_, document_.render.method, settings, display_.lightOnly()});
+    const bool same = output_.settled && output_.radiance == before && changes.none();
+    display_.update(*renderer_, view_, document_.render, !same);
   } catch (const InputError& e) {
     history_.showAll();  // part of it may have arrived: the next frame begins anew
     renderError_ = status_ = e.what();
@@ -283,9 +293,18 @@ const GiOutput& Session::renderFrame(std::optional<int> updates) {
   return output_;
 }
 
+Image8 Session::picture() const {
+  const auto& view = display_.picture();
+  return view ? view->image : toneMap(output_.radiance->pixels(), document_.render.exposureEv);
+}
+
 Overlay Session::overlay() const {
   Overlay overlay;
   drawScene(overlay, view_, document_, renderer_->scene());
+  if (display_.showsVpls() && renderer_->rays() != nullptr) {
+    const Inspection inspection = inspect();
+    drawVpls(overlay, view_, inspection, *renderer_->rays(), display_.chosen(inspection));
+  }
   tools_->gizmo.draw(overlay, view_, document_);
   return overlay;
 }

@@ -17,6 +17,7 @@
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/viewport_input.h"
+#include "editor/views/view_display.h"
 #include "renderer/frame.h"
 #include "renderer/view.h"
 
@@ -81,6 +82,12 @@ class Session {
   const GiOutput& renderFrame(std::optional<int> updates = {});
   const std::string& renderError() const { return renderError_; }  // "": it was rendered
   const GiOutput& output() const { return output_; }
+  // Which view of the frame is shown.
+  ViewDisplay& display() { return display_; }
+  const ViewDisplay& display() const { return display_; }
+  Inspection inspect() const { return renderer_->inspect(); }
+  // What the viewport shows, without what is drawn over it.
+  Image8 picture() const;
   uint32_t frame() const { return frame_; }
 
   // What tools draw over the picture: gizmo, selection outline, lights' shapes.
@@ -129,6 +136,7 @@ class Session {
   std::unique_ptr<Tools> tools_;
   View view_;
   GiOutput output_;
+  ViewDisplay display_;
   std::string status_, renderError_;
   uint32_t frame_ = 0;
   uint64_t savedHash_ = 0;

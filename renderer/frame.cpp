@@ -27,8 +27,8 @@ GiOutput FrameRenderer::render(const Request& request) {
   } else if (request.changes.everything) {
     method_->reset();  // another scene: nothing of the last one may show in it
   }
-  return method_->render(
-      {scene_, changes, *rays_, request.view, *backend_, request.settings, frame_++, stopwatch_});
+  return method_->render({scene_, changes, *rays_, request.view, *backend_, request.settings,
+                          frame_++, stopwatch_, request.lightOnly});
 }
 
 void FrameRenderer::restart() {

@@ -20,9 +20,13 @@ class FrameRenderer {
     const View& view;
     const std::string& method;
     const Settings& settings;
+    bool lightOnly = false;  // what is seen is shown as if it were white
   };
   // One frame. Throws InputError for an unknown method.
   GiOutput render(const Request& request);
+
+  // What the method keeps, for views of it; good until the next call of the others.
+  Inspection inspect() const { return method_ ? method_->inspect() : Inspection(); }
 
   // Forgets what the method keeps: the next picture is made from nothing.
   void restart();

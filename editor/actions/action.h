@@ -22,6 +22,7 @@ struct Action {
   std::function<void(Session&, const std::vector<std::string>& arguments)> run;
   std::function<bool(const Session&)> enabled;  // null: always
   bool duringDrag = false;  // leaves a drag under way alone; others end it as a step of its own
+  std::function<bool(const Session&)> checked;  // null: it switches nothing
 };
 
 class ActionRegistry {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
 #include "editor/session.h"
@@ -41,6 +43,41 @@ void addViewActions(ActionRegistry& r) {
          "Looks at the whole level.",
          "Home",
          [](Session& s, const Arguments&) { s.frameAll(); },
+         {}});
+  for (const DebugViewInfo& info : debugViews()) {
+    r.add({std::string("view.") + info.name,
+           info.label,
+           "",
+           info.help,
+           info.key,
+           [view = info.view](Session& s, const Arguments&) { s.display().setView(view); },
+           {},
+           true,
+           [view = info.view](const Session& s) { return s.display().view() == view; }});
+  }
+  r.add({"view.vpls",
+         "Light samples",
+         "",
+         "Marks each light sample; a click on one chooses it for the view Occlusion.",
+         "V",
+         [](Session& s, const Arguments&) { s.display().showVpls(!s.display().showsVpls()); },
+         {},
+         true,
+         [](const Session& s) { return s.display().showsVpls(); }});
+  r.add({"view.choose_vpl",
+         "Choose light sample",
+         "INDEX",
+         "Chooses the light sample that the view Occlusion is about, from 0.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "view.choose_vpl INDEX");
+           const float index = numberOf(a[0]);
+           if (index != std::floor(index) || std::abs(index) > 1e6f)
+             throw InputError(a[0], "is no whole number", "give one such as 12");
+           s.display().choose(s.inspect(), static_cast<int>(index));
+         },
+         {},
+         true,
          {}});
   r.add({"view.camera",
          "Look through camera",

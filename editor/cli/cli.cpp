@@ -9,6 +9,7 @@
 
 #include "editor/cli/subcommands.h"
 #include "renderer/error.h"
+#include "renderer/views/debug_view.h"
 
 namespace lamplighter {
 
@@ -72,6 +73,13 @@ void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
   sub->add_option("--exposure", o->exposure, "EV for PNG, or auto")
       ->type_name("EV")
       ->capture_default_str();
+  std::string views;
+  for (const DebugViewInfo& v : debugViews())
+    views += (views.empty() ? "" : ", ") + std::string(v.name);
+  sub->add_option("--view", o->view, views)->type_name("NAME")->capture_default_str();
+  sub->add_option("--view-vpl", o->viewVpl, "Light sample that --view occlusion is about, from 0")
+      ->type_name("INDEX")
+      ->check(CLI::NonNegativeNumber);
   sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));

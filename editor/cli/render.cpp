@@ -15,6 +15,7 @@
 #include "renderer/image/tone_map.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/threads.h"
+#include "renderer/views/view_picture.h"
 
 namespace lamplighter::cli {
 
@@ -119,6 +120,18 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   return j.dump(2) + "\n";
 }
 
+// Throws InputError when the method does not have what the view shows, before the long work.
+void requireView(const FrameRenderer& renderer, DebugView debugView, const RenderOptions& o) {
+  const Inspection inspection = renderer.inspect();
+  const std::string problem = problemOf(debugView, inspection);
+  if (!problem.empty())
+    throw InputError("--view " + o.view, problem, "add --set technique=light_maps");
+  const size_t count = inspection.lights.size();
+  if (debugView == DebugView::occlusion && static_cast<size_t>(o.viewVpl) >= count)
+    throw InputError("--view-vpl", "there is no light sample " + std::to_string(o.viewVpl),
+                     "give one from 0 to " + std::to_string(count - 1));
+}
+
 }  // namespace
 
 float exposureOf(const std::string& text, const Image& radiance) {
@@ -141,6 +154,10 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   requireWritable(o.output, {".exr", ".png"});
   if (!o.stats.empty()) requireWritable(o.stats, {});
   exposureOf(o.exposure, Image());
+  const DebugView debugView = findDebugView(o.view).view;
+  if (!isRadiance(debugView) && !o.output.ends_with(".png"))
+    throw InputError(o.output, "view " + o.view + " is no radiance and cannot be an EXR",
+                     "name a file that ends in .png");
 
   const ThreadLimit limit(o.threads);
   Totals totals;
@@ -155,7 +172,9 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   GiOutput out;
   ProgressLine progress;
   do {
-    out = renderer.render({loaded.scene, changes, view, o.method, settings});
+    out = renderer.render(
+        {loaded.scene, changes, view, o.method, settings, debugView == DebugView::lightOnly});
+    if (totals.frames == 0 && !isRadiance(debugView)) requireView(renderer, debugView, o);
     changes = SceneChanges();
     ++totals.frames;
     totals.raysOfMethod += out.stats.raysTraced;
@@ -169,7 +188,14 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   const Image& image = out.radiance->pixels();
   totals.renderSeconds = frontend.stopwatch() - start - totals.loadSeconds;
 
-  if (o.output.ends_with(".exr")) {
+  if (!isRadiance(debugView)) {
+    const Inspection inspection = renderer.inspect();
+    const float ev = exposureOf(o.exposure, image);
+    writePng(
+        drawView(debugView, {renderer.scene(), *renderer.rays(), view, inspection, o.viewVpl, ev})
+            .image,
+        o.output);
+  } else if (o.output.ends_with(".exr")) {
     writeExr(image, o.output);
   } else {
     writePng(toneMap(image, exposureOf(o.exposure, image)), o.output);

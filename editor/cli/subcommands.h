@@ -20,6 +20,8 @@ struct RenderOptions {
   std::string method = "many_lights";
   std::string camera, size = "1280x720", backend = "auto", stats;
   std::string exposure = "0";  // EV or "auto"
+  std::string view = "lit";
+  int viewVpl = 0;  // that the view is about
   int threads = 0;
   // Shortcuts, empty where not given.
   std::string vpls, directShare, bounces, seed, spp;

@@ -84,8 +84,10 @@ class Backend {
   virtual void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                        const PatchLights* patches) = 0;
 
-  // Le + ρ/π · E, and the sky where nothing was hit.
-  virtual std::shared_ptr<RadianceImage> compose() = 0;
+  // Le + ρ/π · E, and the sky where nothing was hit. `white`: with ρ = 1, so that it is the light
+  // alone.
+  virtual std::shared_ptr<RadianceImage> compose(bool white) = 0;
+  std::shared_ptr<RadianceImage> compose() { return compose(false); }
 
   // What a shadow map holds (resolution², 1/w), for tests and views.
   virtual std::vector<float> readShadowMap(int slot) = 0;

@@ -13,11 +13,6 @@ float filmic(float x) {
   return std::clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
 }
 
-float encodeSrgb(float v) {
-  if (v >= 1.0f) return 1.0f;  // the curve ends one bit below
-  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
-}
-
 // Infinite radiance is white; what is no number is black, so that it stands out in a lit picture.
 float channel(float radiance, float scale) {
   const float x = radiance * scale;
@@ -26,6 +21,11 @@ float channel(float radiance, float scale) {
 }
 
 }  // namespace
+
+float encodeSrgb(float v) {
+  if (v >= 1.0f) return 1.0f;  // the curve ends one bit below
+  return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
+}
 
 vec3 toneMapPixel(const vec3& radiance, float exposureEv) {
   const float scale = std::exp2(exposureEv);

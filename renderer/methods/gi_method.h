@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/backends/kernels.h"
+#include "renderer/methods/inspection.h"
 #include "renderer/parameters.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/render_scene.h"
@@ -29,6 +30,7 @@ struct FrameInputs {
   const Settings& settings;
   uint32_t frame = 0;  // counts from 0
   Stopwatch stopwatch;
+  bool lightOnly = false;  // what is seen is shown as if it were white; bounces are as ever
 };
 
 struct GiStats {
@@ -36,6 +38,7 @@ struct GiStats {
   int vplsPending = 0;           // not yet what the scene asks for
   int mapsPending = 0;           // of them, those whose map must be rendered
   int oldestFrames = 0;          // frames the oldest pending one has waited
+  int framesUntilSettled = 0;    // at this frame's pace, if nothing else changes
   int mapsRendered = 0;          // this frame
   int mapsSpared = 0;            // this frame: what moved is hidden from their lights
   uint64_t raysTraced = 0;       // this frame, by the method itself
@@ -58,6 +61,8 @@ class GiMethod {
   virtual GiOutput render(const FrameInputs& in) = 0;
   // Forgets everything kept between frames.
   virtual void reset() = 0;
+  // For views of what it keeps; good until the next call of the others.
+  virtual Inspection inspect() const { return {}; }
 };
 
 struct MethodInfo {

@@ -40,7 +40,7 @@ class Tracer {
   Tracer(const RenderScene& scene, const RayCaster& rays, const LightSet& lights)
       : scene_(scene), rays_(rays), lights_(lights) {}
 
-  vec3 trace(Ray ray, PathSampler& sampler, int bounces) {
+  vec3 trace(Ray ray, PathSampler& sampler, const PathTracerOptions& options) {
     vec3 radiance(0.0f), throughput(1.0f);
     // The density by solid angle with which the last surface chose this direction; 0: the camera's,
     // which no light sampling competes with.
@@ -51,11 +51,12 @@ class Tracer {
       ++raysTraced_;
       const Hit hit = rays_.intersect(ray, depth == 0 ? Surfaces::seen : Surfaces::all);
       if (!hit) return radiance + throughput * scene_.sky;
-      const Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
+      Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
+      if (depth == 0 && options.lightOnly) surface.albedo = vec3(1.0f);
       const LocalSurface at(surface, -ray.direction);
       radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
       // Direct light is reflected once on its way to the camera (depth 0), each bounce adds one.
-      if (depth > bounces) return radiance;
+      if (depth > options.bounces) return radiance;
 
       radiance += throughput * directLight(at, sampler);
 
@@ -208,7 +209,7 @@ vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet
   const vec3 direction =
       view.rayDirection(static_cast<float>(x) + inPixel.x, static_cast<float>(y) + inPixel.y);
   Tracer tracer(scene, caster, lights);
-  const vec3 radiance = tracer.trace({view.eye, 0.0f, direction}, sampler, options.bounces);
+  const vec3 radiance = tracer.trace({view.eye, 0.0f, direction}, sampler, options);
   if (raysTraced != nullptr) *raysTraced += tracer.raysTraced();
   return radiance;
 }

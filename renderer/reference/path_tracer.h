@@ -12,6 +12,7 @@ namespace lamplighter {
 struct PathTracerOptions {
   int bounces = 5;  // indirect bounces; 0: direct light only
   uint32_t seed = 1;
+  bool lightOnly = false;  // what the camera sees is white; what it is lit by is not
 };
 
 // An unbiased estimate of the radiance [W/(m² sr)] that the pixel's box filter gathers: sample

@@ -22,9 +22,11 @@ class ReferenceMethod final : public GiMethod {
     const bool sameScene = in.changes.none() && sum_.width != 0;
     if (!sameScene) lights_ = LightSet(in.scene);
     const PathTracerOptions options{s.integer(parameters::bounces()),
-                                    static_cast<uint32_t>(s.integer(parameters::seed()))};
+                                    static_cast<uint32_t>(s.integer(parameters::seed())),
+                                    in.lightOnly};
     const int wanted = s.integer(parameters::samplesPerPixel());
-    const bool samePaths = options.bounces == options_.bounces && options.seed == options_.seed;
+    const bool samePaths = options.bounces == options_.bounces && options.seed == options_.seed &&
+                           options.lightOnly == options_.lightOnly;
     // Fewer paths than there are already: begin again too, so that the picture is that of the
     // count.
     if (!sameScene || !(in.view == view_) || !samePaths || wanted < samples_) {
@@ -44,6 +46,8 @@ class ReferenceMethod final : public GiMethod {
     out.radiance = picture_;
     out.settled = samples_ >= wanted;
     out.stats.samplesPerPixel = samples_;
+    const int aFrame = std::max(1, s.integer(parameters::samplesPerFrame()));
+    out.stats.framesUntilSettled = (std::max(0, wanted - samples_) + aFrame - 1) / aFrame;
     if (in.stopwatch) out.stats.stageSeconds["paths"] = in.stopwatch() - begin;
     return out;
   }

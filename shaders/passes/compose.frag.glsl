@@ -6,13 +6,14 @@ layout(binding = kGAlbedo) uniform sampler2D uAlbedo;
 layout(binding = kGEmission) uniform sampler2D uEmission;
 layout(binding = kIrradiance) uniform sampler2D uIrradiance;
 layout(location = 0) uniform vec3 uSky;
+layout(location = 1) uniform int uWhite;  // 1: as if every surface were white
 
 layout(location = 0) out vec4 outRadiance;
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   const float kInversePi = 0.318309886;
-  vec3 albedo = texelFetch(uAlbedo, pixel, 0).rgb;
+  vec3 albedo = uWhite != 0 ? vec3(1.0) : texelFetch(uAlbedo, pixel, 0).rgb;
   // Light maps are interpolated and the shadows taken away from them are not: no light may be left
   // less than none.
   vec3 irradiance = texelFetch(uIrradiance, pixel, 0).rgb;

@@ -28,7 +28,7 @@ class SmallBackend final : public Backend {
                const PatchLights* patches) override {
     inner_->sumVpls(vpls, params, patches);
   }
-  std::shared_ptr<RadianceImage> compose() override { return inner_->compose(); }
+  std::shared_ptr<RadianceImage> compose(bool white) override { return inner_->compose(white); }
   std::vector<float> readShadowMap(int slot) override { return inner_->readShadowMap(slot); }
   Image readNormals() override { return inner_->readNormals(); }
   Image readAlbedo() override { return inner_->readAlbedo(); }

@@ -220,7 +220,10 @@ void Application::closeIfSaved() {
 
 void Application::present() {
   if (!platform_.hasGl()) return;
-  picture_.show(session_->output().radiance, session_->document().render.exposureEv);
+  if (const auto& view = session_->display().picture())
+    picture_.show(view);
+  else
+    picture_.show(session_->output().radiance, session_->document().render.exposureEv);
 }
 
 void Application::takeLoaded() {

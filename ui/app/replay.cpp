@@ -6,7 +6,6 @@
 #include "renderer/error.h"
 #include "renderer/gl/headless_context.h"
 #include "renderer/image/image_io.h"
-#include "renderer/image/tone_map.h"
 #include "renderer/threads.h"
 #include "ui/app/application.h"
 #include "ui/app/backends.h"
@@ -142,8 +141,7 @@ void Replay::writePictures(Platform& platform, const Image8& picture,
 
 void Replay::check(Application& app, Platform& platform, const Checkpoint& checkpoint) {
   Session& session = app.session();
-  const Image8 picture =
-      toneMap(session.output().radiance->pixels(), session.document().render.exposureEv);
+  const Image8 picture = session.picture();
   writePictures(platform, picture, checkpoint);
   if (!options_.check && !options_.updateBaselines) {
     std::cout << checkpoint.name << ": document " << hashText(documentHash(session.document()))

@@ -16,6 +16,13 @@ struct Menu {
   std::vector<std::string> first;
 };
 
+std::vector<std::string> viewActions() {
+  std::vector<std::string> names;
+  for (const DebugViewInfo& info : debugViews()) names.push_back(std::string("view.") + info.name);
+  names.insert(names.end(), {"-", "view.vpls"});
+  return names;
+}
+
 const std::vector<Menu>& menus() {
   static const std::vector<Menu> kMenus = {
       {"File", {"file", "app"}, {"file.new", "file.open", "-", "file.save", "file.save_as"}},
@@ -25,7 +32,7 @@ const std::vector<Menu>& menus() {
       {"Light", {"light"}, {"light.add"}},
       {"Object", {"object", "node"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
-      {"View", {"view", "camera"}, {}},
+      {"View", {"view", "camera"}, viewActions()},
       {"Render", {"render"}, {}},
   };
   return kMenus;
@@ -71,7 +78,8 @@ void menuItem(const PanelContext& ui, const Action& action, Requests& requests) 
   const bool asks =
       action.name == "file.open" || action.name == "file.save_as" || action.name == "edit.rename";
   if (!standsAlone(action) && !asks) return;
-  if (ImGui::MenuItem(action.label.c_str(), shortcut, false, enabled))
+  const bool checked = action.checked && action.checked(ui.session);
+  if (ImGui::MenuItem(action.label.c_str(), shortcut, checked, enabled))
     requests.actions.push_back(action.name);
   ui.name(action.name);
   tooltip(ui, action.help);

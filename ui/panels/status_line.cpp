@@ -25,6 +25,8 @@ std::string frameTime(double seconds) {
   return text;
 }
 
+std::string frames(int count) { return grouped(count) + (count == 1 ? " frame" : " frames"); }
+
 }  // namespace
 
 void statusLine(PanelContext ui, const StatusInfo& info) {
@@ -32,23 +34,26 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
   const GiOutput& output = ui.session.output();
   const GiStats& stats = output.stats;
   ImGui::AlignTextToFramePadding();
-  if (output.settled)
+  if (output.settled) {
     part(ui, "settled", withIcon(icon::kSettled, "settled"), theme::kGood,
          "The picture is what the scene asks for; another frame would change nothing.");
-  else
-    part(ui, "settled", withIcon(icon::kUpdating, "updating"), theme::kAccent,
-         "Some of the light samples are still from before the last change.");
+  } else {
+    const std::string text = stats.framesUntilSettled > 0
+                                 ? "settled in " + frames(stats.framesUntilSettled)
+                                 : "updating";
+    part(ui, "settled", withIcon(icon::kUpdating, text), theme::kAccent,
+         "Frames until the picture is what the scene asks for, at the pace of this one: first all "
+         "light samples, then smooth edges.");
+  }
   part(ui, "time", frameTime(info.frameSeconds), theme::kText,
        "Time a frame, averaged over the last ones.");
   if (stats.vpls > 0) {
     part(ui, "vpls", grouped(stats.vpls) + " VPLs", theme::kText,
          "Light samples (virtual point lights) that light the picture.");
-    std::string pending = grouped(stats.mapsPending) + " maps pending";
-    if (stats.vplsPending > 0)
-      pending += ", oldest " + std::to_string(stats.oldestFrames) +
-                 (stats.oldestFrames == 1 ? " frame" : " frames");
+    std::string pending = grouped(stats.vplsPending) + " pending";
+    if (stats.vplsPending > 0) pending += ", oldest " + frames(stats.oldestFrames);
     part(ui, "pending", pending, stats.vplsPending > 0 ? theme::kAccent : theme::kTextDim,
-         "Shadow maps that wait to be rendered anew, and for how long the oldest has waited.");
+         "Light samples that wait to be brought up to date, and for how long the oldest has.");
   }
   if (stats.samplesPerPixel > 1)
     part(ui, "samples", grouped(stats.samplesPerPixel) + " samples a pixel", theme::kText,
@@ -58,6 +63,14 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
   if (info.recording) part(ui, "recording", "recording", 0xe06a5a, "Input is being recorded.");
   if (info.replaying)
     part(ui, "replaying", "replaying", theme::kAccent, "Input is from a recording.");
+
+  const ViewDisplay& display = ui.session.display();
+  if (const std::string view = display.viewText(); !view.empty()) {
+    const bool isProblem = display.picture() && !display.picture()->problem.empty();
+    part(ui, "view", view, isProblem ? theme::kWarning : theme::kText, infoOf(display.view()).help);
+  }
+  const std::string vpl = display.vplText(ui.session.document().scene, ui.session.inspect());
+  if (!vpl.empty()) part(ui, "vpl", vpl, theme::kText, "The chosen light sample.");
 
   // What there is to tell stands at the end, so that what stands before does not move.
   const std::string& status = ui.session.status();

@@ -5,12 +5,14 @@
 #include <memory>
 
 #include "renderer/backends/kernels.h"
+#include "renderer/gl/objects.h"
+#include "renderer/views/view_picture.h"
 
 namespace lamplighter {
 
 namespace gl {
 class DisplayPass;
-}
+}  // namespace gl
 
 class Picture {
  public:
@@ -21,10 +23,14 @@ class Picture {
 
   // Shows this radiance at this exposure. Needs a current OpenGL context, then and when this ends.
   void show(const std::shared_ptr<RadianceImage>& radiance, float exposureEv);
+  // Shows a picture that is of the display already.
+  void show(const std::shared_ptr<const ViewPicture>& picture);
   uint32_t texture() const { return texture_; }  // 0: nothing yet
 
  private:
   std::unique_ptr<gl::DisplayPass> pass_;  // made when first needed: there may be no OpenGL
+  gl::Texture view_;
+  std::shared_ptr<const ViewPicture> viewFrom_;  // what is in it
   uint32_t texture_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ui/theme.h"
+#include "ui/viewport/legend.h"
 
 namespace lamplighter {
 namespace {
@@ -86,6 +87,7 @@ void Viewport::draw(PanelContext ui, uint32_t texture) const {
     list.AddText({at.x + 1, at.y + 1}, theme::colour(0, 160), text.text.c_str());
     list.AddText(at, packed(text.colour), text.text.c_str());
   }
+  if (const auto& view = ui.session.display().picture()) drawLegend(ui, list, area_, *view);
   list.PopClipRect();
 }
 

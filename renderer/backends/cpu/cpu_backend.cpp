@@ -96,13 +96,14 @@ class CpuBackend final : public Backend {
     counts_.lightPixels += vpls.size() * static_cast<uint64_t>(gbuffer_.width) * gbuffer_.height;
   }
 
-  std::shared_ptr<RadianceImage> compose() override {
+  std::shared_ptr<RadianceImage> compose(bool white) override {
     Image image(gbuffer_.width, gbuffer_.height);
     const vec3 sky = scene_->sky;
     forEachPixel(image, [&](size_t i) {
       if (!gbuffer_.hit[i]) return sky;
       const vec3 e(irradiance_.r[i], irradiance_.g[i], irradiance_.b[i]);
-      return gbuffer_.emission[i] + gbuffer_.albedo[i] * (1.0f / kPi) * e;
+      const vec3 albedo = white ? vec3(1.0f) : gbuffer_.albedo[i];
+      return gbuffer_.emission[i] + albedo * (1.0f / kPi) * e;
     });
     return std::make_shared<HostImage>(std::move(image));
   }

@@ -48,8 +48,8 @@ class GlBackend final : public Backend {
         vpls.size() * static_cast<uint64_t>(gbuffer_.width()) * gbuffer_.height();
   }
 
-  std::shared_ptr<RadianceImage> compose() override {
-    return lighting_.compose(gbuffer_, scene_.scene().sky);
+  std::shared_ptr<RadianceImage> compose(bool white) override {
+    return lighting_.compose(gbuffer_, scene_.scene().sky, white);
   }
 
   std::vector<float> readShadowMap(int slot) override { return maps_.read(slot); }

@@ -195,7 +195,8 @@ std::shared_ptr<RadianceTexture> GlLighting::freePicture(int width, int height) 
   return pictures_.emplace_back(std::make_shared<RadianceTexture>(width, height));
 }
 
-std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, const vec3& sky) {
+std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, const vec3& sky,
+                                                     bool white) {
   auto picture = freePicture(width_, height_);
   glNamedFramebufferTexture(pictureFramebuffer_.name(), GL_COLOR_ATTACHMENT0, picture->texture(),
                             0);
@@ -203,6 +204,7 @@ std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, c
   gbuffer.bind();
   glBindTextureUnit(shared::kIrradiance, irradiance_.name());
   compose_.set(0, sky);
+  compose_.set(1, white ? 1 : 0);
   compose_.use();
   drawFullScreen(emptyVertexArray_.name());
   return picture;

@@ -24,7 +24,7 @@ class GlLighting {
            const shared::ShadingParams& params, const PatchLights* patches);
   // No light at all, for a G-buffer that nothing was summed over yet.
   void clear(int width, int height);
-  std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const vec3& sky);
+  std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const vec3& sky, bool white);
 
   uint64_t bytes() const;
 

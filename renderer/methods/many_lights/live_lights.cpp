@@ -147,6 +147,15 @@ std::vector<shared::Vpl> LiveLights::shown() const {
   return vpls;
 }
 
+std::vector<InspectedLight> LiveLights::inspect() const {
+  std::vector<InspectedLight> lights;
+  lights.reserve(entries_.size());
+  for (const Entry& e : entries_)
+    lights.push_back({e.isLive ? e.current : e.wanted.vpl, e.wanted.id, e.slot, e.isLive, e.isStale,
+                      e.framesWaiting});
+  return lights;
+}
+
 int LiveLights::pending() const {
   return static_cast<int>(
       std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.isStale; }));

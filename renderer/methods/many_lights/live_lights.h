@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/backends/kernels.h"
+#include "renderer/methods/inspection.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/shadow_maps/refresh_scheduler.h"
 
@@ -31,6 +32,9 @@ class LiveLights {
   // that is at another place, and for one whose map alone is out of date. Returns how many.
   int refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved = {},
               const RefreshWork& stale = {});
+
+  // All of them, in the order of the wanted ones.
+  std::vector<InspectedLight> inspect() const;
 
   // Whether the light in each slot is shown as it is wanted, with its map.
   std::vector<bool> upToDate() const;

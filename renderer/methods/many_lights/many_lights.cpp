@@ -98,7 +98,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
                               options.shadowBias != options_.shadowBias ||
                               options.useVisibility != options_.useVisibility ||
                               options.useLightMaps != options_.useLightMaps ||
-                              options.lightMapTexel != options_.lightMapTexel;
+                              options.lightMapTexel != options_.lightMapTexel ||
+                              in.lightOnly != lightOnly_;
   if (viewChanged) gbufferIsCurrent_ = false;
   const bool shadedNow = !image_ || viewChanged || lights_.changed() || shadingChanged;
   if (shadedNow) {
@@ -108,6 +109,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     samples_ = 0;
   }
   options_ = options;
+  lightOnly_ = in.lightOnly;
   started_ = true;
 
   // 5. Its edges made smooth when nothing else is to be done, one sample a frame.
@@ -123,6 +125,9 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.vplsPending = pending;
   out.stats.mapsPending = pending;
   out.stats.oldestFrames = lights_.oldestFrames();
+  // Frames that refresh as many as this one did, then one for each sample of the edges.
+  const int aFrame = std::max(1, out.stats.mapsRendered);
+  out.stats.framesUntilSettled = (pending + aFrame - 1) / aFrame + samples - samples_;
   out.stats.samplesPerPixel = std::max(samples_, 1);
   return out;
 }
@@ -220,7 +225,7 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
     in.backend.sumVpls(vpls, params, nullptr);
   }
   stages.end("light sums");
-  auto image = in.backend.compose();
+  auto image = in.backend.compose(in.lightOnly);
   stages.end("composition");
   return image;
 }

@@ -16,6 +16,9 @@ class ManyLights final : public GiMethod {
  public:
   GiOutput render(const FrameInputs& in) override;
   void reset() override { *this = ManyLights(); }
+  Inspection inspect() const override {
+    return {visibility_.get(), lightMaps_.get(), lights_.inspect()};
+  }
 
  private:
   class Stages;
@@ -47,7 +50,7 @@ class ManyLights final : public GiMethod {
   std::vector<shared::Vpl> shownBySlot() const;
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
-  bool started_ = false;
+  bool started_ = false, lightOnly_ = false;
   Options options_;  // of the frame before
   View view_;
   MoverFinder movers_;

@@ -28,7 +28,7 @@ class RecordingBackend : public Backend {
   void renderGBuffer(const View&, vec2) override {}
   void sumVpls(std::span<const shared::Vpl>, const shared::ShadingParams&,
                const PatchLights*) override {}
-  std::shared_ptr<RadianceImage> compose() override { return nullptr; }
+  std::shared_ptr<RadianceImage> compose(bool) override { return nullptr; }
   std::vector<float> readShadowMap(int) override { return {}; }
   Image readNormals() override { return {}; }
   Image readAlbedo() override { return {}; }

@@ -1,0 +1,69 @@
+#include "editor/views/view_display.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+void ViewDisplay::choose(const Inspection& inspection, int index) {
+  const auto count = static_cast<int>(inspection.lights.size());
+  if (index < 0 || index >= count)
+    throw InputError("light sample " + std::to_string(index), "there is none of that number",
+                     count == 0 ? "render with many_lights first"
+                                : "give one from 0 to " + std::to_string(count - 1));
+  chosen_ = inspection.lights[static_cast<size_t>(index)].id;
+}
+
+int ViewDisplay::chosen(const Inspection& inspection) const {
+  const auto& lights = inspection.lights;
+  if (lights.empty()) return kNone;
+  const auto found = std::find_if(lights.begin(), lights.end(), [&](const InspectedLight& light) {
+    return chosen_ && light.id == *chosen_;
+  });
+  return found == lights.end() ? 0 : static_cast<int>(found - lights.begin());
+}
+
+void ViewDisplay::update(const FrameRenderer& renderer, const View& camera,
+                         const RenderSettings& settings, bool changed) {
+  if (isRadiance(view_) || renderer.rays() == nullptr) {
+    picture_.reset();
+    return;
+  }
+  const Inspection inspection = renderer.inspect();
+  Key key{view_, camera, settings, chosen(inspection)};
+  if (picture_ && !changed && key == key_) return;
+  key_ = std::move(key);
+  picture_ = std::make_shared<ViewPicture>(
+      drawView(view_, {renderer.scene(), *renderer.rays(), camera, inspection,
+                       std::max(key_.chosen, 0), settings.exposureEv}));
+}
+
+std::string ViewDisplay::viewText() const {
+  if (view_ == DebugView::lit) return "";
+  const std::string label = infoOf(view_).label;
+  return picture_ && !picture_->problem.empty() ? label + ": " + picture_->problem : label;
+}
+
+std::string ViewDisplay::vplText(const Scene& scene, const Inspection& inspection) const {
+  const int index = chosen(inspection);
+  if (index == kNone || (!showsVpls_ && view_ != DebugView::occlusion)) return "";
+  const InspectedLight& light = inspection.lights[static_cast<size_t>(index)];
+  const Node* node = scene.find(light.id.light);
+  const vec3 intensity(light.vpl.intensity);
+  std::string text = fmt::format("VPL {} of {}", index, inspection.lights.size());
+  if (node != nullptr) text += fmt::format(", {}", node->name.empty() ? "unnamed" : node->name);
+  text +=
+      light.id.bounce == 0 ? std::string(", direct") : fmt::format(", bounce {}", light.id.bounce);
+  text += fmt::format(", {:.3g} {}", std::max({intensity.r, intensity.g, intensity.b}),
+                      light.vpl.position.w == shared::kVplDirectional ? "W/m\u00b2" : "W/sr");
+  if (light.isStale)
+    text +=
+        fmt::format(", waits {} frame{}", light.framesWaiting, light.framesWaiting == 1 ? "" : "s");
+  return text;
+}
+
+}  // namespace lamplighter

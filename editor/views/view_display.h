@@ -1,0 +1,57 @@
+// Which view of the level is shown, and which light sample it is about. Neither is part of the
+// work: no undo, nothing saved.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "editor/document/document.h"
+#include "renderer/frame.h"
+#include "renderer/views/view_picture.h"
+
+namespace lamplighter {
+
+class ViewDisplay {
+ public:
+  DebugView view() const { return view_; }
+  void setView(DebugView view) { view_ = view; }
+  bool lightOnly() const { return view_ == DebugView::lightOnly; }
+  bool showsVpls() const { return showsVpls_; }
+  void showVpls(bool on) { showsVpls_ = on; }
+
+  // By its place among the light samples; throws InputError when there are not so many.
+  void choose(const Inspection& inspection, int index);
+  // The place of the chosen one: the first while none was chosen or when it is gone. kNone: there
+  // are no light samples.
+  int chosen(const Inspection& inspection) const;
+
+  // Makes the picture of the view, if it is no radiance and anything changed since the last call.
+  // `changed`: something that the key below does not tell.
+  void update(const FrameRenderer& renderer, const View& camera, const RenderSettings& settings,
+              bool changed);
+  // Null: the frame's radiance is what is shown.
+  const std::shared_ptr<const ViewPicture>& picture() const { return picture_; }
+
+  // For the status line: what the view is and why it shows nothing; the chosen light sample, where
+  // one is looked at. "": nothing to say.
+  std::string viewText() const;
+  std::string vplText(const Scene& scene, const Inspection& inspection) const;
+
+ private:
+  struct Key {
+    DebugView view = DebugView::lit;
+    View camera;
+    RenderSettings settings;
+    int chosen = kNone;
+    bool operator==(const Key&) const = default;
+  };
+
+  DebugView view_ = DebugView::lit;
+  bool showsVpls_ = false;
+  std::optional<VplId> chosen_;
+  Key key_;
+  std::shared_ptr<const ViewPicture> picture_;
+};
+
+}  // namespace lamplighter

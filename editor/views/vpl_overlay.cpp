@@ -1,0 +1,101 @@
+#include "editor/views/vpl_overlay.h"
+
+#include <algorithm>
+
+#include "editor/tools/projection.h"
+#include "renderer/image/tone_map.h"
+#include "renderer/scene/scene.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr float kRadius = 4.0f;   // of a mark [px]
+constexpr float kReach = 8.0f;    // of the pointer [px]
+constexpr float kNormal = 16.0f;  // length of the line along the normal [px]
+constexpr vec3 kWaiting{1.0f, 0.45f, 0.25f};
+constexpr vec3 kChosen{1.0f, 1.0f, 1.0f};
+
+// Light samples lie on surfaces: what is nearer than that by more than a little hides them.
+bool isSeen(const View& view, const RayCaster& rays, const vec3& p) {
+  const vec3 way = p - view.eye;
+  constexpr float kNearlyThere = 0.998f;
+  return !rays.intersect({view.eye, 0.0f, way, kNearlyThere}, Surfaces::seen);
+}
+
+float brightest(const vec3& c) { return std::max({c.r, c.g, c.b}); }
+
+OverlayShape polygon(const vec2& centre, float radius, int corners, const vec3& colour,
+                     float alpha) {
+  OverlayShape shape{{}, true, false, vec4(colour, alpha), 1.5f};
+  for (int i = 0; i < corners; ++i) {
+    const float a = 2.0f * kPi * static_cast<float>(i) / static_cast<float>(corners);
+    shape.points.push_back(centre + radius * vec2(std::sin(a), -std::cos(a)));
+  }
+  return shape;
+}
+
+}  // namespace
+
+void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
+              const RayCaster& rays, int chosen) {
+  // Direct and indirect ones each against their brightest, or the bounces would all be black.
+  float most[2] = {0.0f, 0.0f};
+  for (const InspectedLight& light : inspection.lights) {
+    float& m = most[light.id.bounce == 0 ? 0 : 1];
+    m = std::max(m, brightest(vec3(light.vpl.intensity)));
+  }
+  for (size_t i = 0; i < inspection.lights.size(); ++i) {
+    const InspectedLight& light = inspection.lights[i];
+    const vec3 position(light.vpl.position), normal(light.vpl.normal);
+    const auto at = projectPoint(view, position);
+    if (!at) continue;
+    const bool isDirect = light.id.bounce == 0;
+    const bool isChosen = static_cast<int>(i) == chosen;
+    const float alpha = isChosen || isSeen(view, rays, position) ? 1.0f : 0.22f;
+    const vec3 relative = vec3(light.vpl.intensity) / std::max(most[isDirect ? 0 : 1], 1e-20f);
+    vec3 colour;
+    for (int c = 0; c < 3; ++c) colour[c] = 0.25f + 0.75f * encodeSrgb(relative[c]);
+
+    // Dark under bright, so that it shows on any picture.
+    const vec3 tip = position + kNormal * metresPerPixel(view, position) * normal;
+    addLine(overlay, view, position, tip, vec4(vec3(0.0f), 0.6f * alpha), 4.0f);
+    addLine(overlay, view, position, tip, vec4(colour, alpha), 2.0f);
+    const int corners = isDirect ? 12 : 4;
+    const float radius = isDirect ? kRadius : 1.15f * kRadius;
+    if (light.isLive) {
+      OverlayShape disc = polygon(*at, radius, corners, colour, alpha);
+      disc.filled = true;
+      overlay.shapes.push_back(disc);
+    }
+    overlay.shapes.push_back(
+        polygon(*at, radius, corners, light.isLive ? vec3(0.0f) : colour, 0.7f * alpha));
+    if (light.isStale) overlay.shapes.push_back(polygon(*at, 1.7f * kRadius, 16, kWaiting, alpha));
+    if (isChosen) {
+      OverlayShape ring = polygon(*at, 2.5f * kRadius, 20, kChosen, 1.0f);
+      ring.thickness = 2.0f;
+      overlay.shapes.push_back(ring);
+    }
+  }
+}
+
+int pickVpl(const View& view, const Inspection& inspection, const RayCaster& rays,
+            const vec2& pointer) {
+  int best = kNone;
+  bool bestIsSeen = false;
+  float nearest = kReach;
+  for (size_t i = 0; i < inspection.lights.size(); ++i) {
+    const vec3 position(inspection.lights[i].vpl.position);
+    const auto at = projectPoint(view, position);
+    if (!at) continue;
+    const float distance = glm::length(*at - pointer);
+    if (distance > kReach) continue;
+    const bool seen = isSeen(view, rays, position);
+    if (seen < bestIsSeen || (seen == bestIsSeen && distance >= nearest)) continue;
+    best = static_cast<int>(i);
+    bestIsSeen = seen;
+    nearest = distance;
+  }
+  return best;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,147 @@
+// One ray a pixel and what it meets: what all views are painted with.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/scene/surface.h"
+#include "renderer/views/patch_lookup.h"
+#include "renderer/views/view_colours.h"
+#include "renderer/views/view_picture.h"
+
+namespace lamplighter {
+
+// What a pixel's ray meets. The normals are on the side that is seen.
+struct Seen {
+  const Hit* hit = nullptr;
+  Surface surface;
+  vec3 normal{0.0f}, geometricNormal{0.0f};
+  bool front = true;
+  float facing = 1.0f;  // cosine between the shading normal and the way to the eye
+  float footprint = 0;  // of the pixel, across the ray [m]
+};
+
+class Painter {
+ public:
+  explicit Painter(const ViewSubject& subject)
+      : in_(subject),
+        hits_(static_cast<size_t>(subject.view.width) * subject.view.height),
+        direction_(hits_.size()) {
+    const View& view = in_.view;
+    const vec3 forward = view.forward();
+    pixelAngle_ = 2.0f * std::tan(0.5f * view.yfov) / static_cast<float>(view.height);
+    constexpr int kLanes = 8;
+    tbb::parallel_for(0, view.height, [&](int y) {
+      for (int first = 0; first < view.width; first += kLanes) {
+        std::array<Ray, kLanes> rays;
+        std::array<Hit, kLanes> hits;
+        const int count = std::min(kLanes, view.width - first);
+        const size_t at = index(first, y);
+        for (int lane = 0; lane < kLanes; ++lane) {
+          Ray& ray = rays[static_cast<size_t>(lane)];
+          ray.origin = view.eye;
+          ray.direction = view.rayDirection(static_cast<float>(first + lane) + 0.5f,
+                                            static_cast<float>(y) + 0.5f);
+          ray.tNear = view.znear / glm::dot(ray.direction, forward);
+          if (lane < count)
+            direction_[at + static_cast<size_t>(lane)] = ray.direction;
+          else
+            ray.tFar = -1.0f;
+        }
+        in_.rays.intersect8(rays, hits, Surfaces::seen);
+        std::copy_n(hits.begin(), count, hits_.begin() + static_cast<ptrdiff_t>(at));
+      }
+    });
+  }
+
+  // The display colour of each pixel that meets something.
+  template <typename Colour>
+  Image8 paint(const Colour& colour) const {
+    Image8 image(in_.view.width, in_.view.height);
+    forEachPixel([&](int x, int y, size_t i) {
+      const vec3 c = hits_[i] ? colour(seen(i), i) : view_colours::kBackground;
+      for (int k = 0; k < 3; ++k)
+        image.at(x, y)[k] = static_cast<uint8_t>(std::clamp(c[k], 0.0f, 1.0f) * 255.0f + 0.5f);
+    });
+    return image;
+  }
+
+  // For views of patches.
+  void findPatches(const VisibilityDatabase& visibility) {
+    lookup_ = std::make_unique<PatchLookup>(visibility);
+    leaves_.assign(hits_.size(), kNone);
+    forEachPixel([&](int, int, size_t i) {
+      const Hit& hit = hits_[i];
+      if (hit)
+        leaves_[i] =
+            lookup_->leafAt(hit.object, hit.triangle, in_.view.eye + hit.t * direction_[i]);
+    });
+  }
+  int leaf(size_t i) const { return leaves_[i]; }
+  const PatchLookup& lookup() const { return *lookup_; }
+  // Whether the patch of the pixel ends at it: that to its right or below is another.
+  bool isBorder(size_t i) const {
+    const auto width = static_cast<size_t>(in_.view.width);
+    return ((i + 1) % width != 0 && !samePatch(i, i + 1)) ||
+           (i + width < hits_.size() && !samePatch(i, i + width));
+  }
+
+  // The largest value over all pixels that meet something.
+  template <typename Value>
+  int largest(const Value& value) const {
+    std::vector<int> ofRow(static_cast<size_t>(in_.view.height), 0);
+    forEachPixel([&](int, int y, size_t i) {
+      int& most = ofRow[static_cast<size_t>(y)];
+      if (hits_[i]) most = std::max(most, value(i));
+    });
+    return *std::max_element(ofRow.begin(), ofRow.end());
+  }
+
+  const Hit& hit(size_t i) const { return hits_[i]; }
+  size_t pixels() const { return hits_.size(); }
+
+  Seen seen(size_t i) const {
+    Seen s;
+    s.hit = &hits_[i];
+    s.surface = surfaceAt(in_.scene, s.hit->object, s.hit->triangle, s.hit->u, s.hit->v);
+    s.front = glm::dot(direction_[i], s.surface.geometricNormal) < 0.0f;
+    const float side = s.front ? 1.0f : -1.0f;
+    s.normal = side * s.surface.normal;
+    s.geometricNormal = side * s.surface.geometricNormal;
+    s.facing = std::max(0.0f, -glm::dot(s.normal, direction_[i]));
+    s.footprint = s.hit->t * pixelAngle_;
+    return s;
+  }
+
+  template <typename F>
+  void forEachPixel(const F& f) const {
+    tbb::parallel_for(0, in_.view.height, [&](int y) {
+      for (int x = 0; x < in_.view.width; ++x) f(x, y, index(x, y));
+    });
+  }
+
+ private:
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(in_.view.width) + static_cast<size_t>(x);
+  }
+  bool samePatch(size_t a, size_t b) const {
+    if (!hits_[a] || !hits_[b] || hits_[a].object != hits_[b].object) return !hits_[a] && !hits_[b];
+    return lookup_->wholeOf(hits_[a].object, leaves_[a]) ==
+           lookup_->wholeOf(hits_[b].object, leaves_[b]);
+  }
+
+  const ViewSubject& in_;
+  std::vector<Hit> hits_;  // by pixel
+  std::vector<vec3> direction_;
+  float pixelAngle_ = 0.0f;
+  std::unique_ptr<PatchLookup> lookup_;
+  std::vector<int> leaves_;
+};
+
+// A little of a lamp at the camera, so that shapes are told apart; hues stay those of the legend.
+inline vec3 shaded(const vec3& colour, const Seen& s) { return colour * (0.6f + 0.4f * s.facing); }
+
+}  // namespace lamplighter

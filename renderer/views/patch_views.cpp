@@ -1,0 +1,126 @@
+// What is kept for each patch: the patches themselves, and the states of lights on them.
+#include <array>
+#include <cmath>
+
+#include "renderer/views/painter.h"
+#include "renderer/views/views.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter::views {
+
+namespace colours = view_colours;
+
+namespace {
+
+// Darker along the patch's border, as far as the patch is large enough in the picture for that: a
+// level seen from afar would be nothing but borders.
+vec3 outlined(const Painter& p, const ViewSubject& in, const Seen& s, size_t i,
+              const vec3& colour) {
+  if (!p.isBorder(i)) return colour;
+  const uint32_t object = s.hit->object;
+  const Patch& patch = in.inspection.visibility->patches(object)
+                           .patches[static_cast<size_t>(p.lookup().wholeOf(object, p.leaf(i)))];
+  const vec2 size = patch.chart == kNone ? vec2(2.0f * patch.radius) : patch.max - patch.min;
+  const float pixels = std::min(size.x, size.y) * std::sqrt(s.facing) / s.footprint;
+  return colour * (1.0f - 0.55f * std::clamp((pixels - 4.0f) / 12.0f, 0.0f, 1.0f));
+}
+
+}  // namespace
+
+ViewPicture patches(const ViewSubject& in) {
+  Painter p(in);
+  p.findPatches(*in.inspection.visibility);
+  ViewPicture out;
+  out.image = p.paint([&](const Seen& s, size_t i) {
+    const uint32_t object = s.hit->object;
+    vec3 colour = colours::ofPatch(object, p.lookup().wholeOf(object, p.leaf(i)));
+    if (!p.lookup().isPlanar(object, p.leaf(i)))
+      colour = glm::mix(vec3(luminance(colour)), colour, 0.25f);
+    return outlined(p, in, s, i, shaded(colour, s));
+  });
+  return out;
+}
+
+ViewPicture patchLevels(const ViewSubject& in) {
+  Painter p(in);
+  p.findPatches(*in.inspection.visibility);
+  const auto levelOf = [&](size_t i) {
+    const uint32_t object = p.hit(i).object;
+    return p.lookup().isPlanar(object, p.leaf(i)) ? p.lookup().levelOf(object, p.leaf(i)) : 0;
+  };
+  const int most = std::max(1, p.largest(levelOf));
+  ViewPicture out;
+  out.image = p.paint([&](const Seen& s, size_t i) {
+    const vec3 colour =
+        p.lookup().isPlanar(s.hit->object, p.leaf(i))
+            ? colours::ramp(static_cast<float>(levelOf(i)) / static_cast<float>(most))
+            : colours::kNoData;
+    return outlined(p, in, s, i, shaded(colour, s));
+  });
+  out.legend = {"Patch halved",
+                {{colours::kNoData, "not planar"}},
+                colours::rampSteps(),
+                "0 times",
+                std::to_string(most) + " times"};
+  return out;
+}
+
+ViewPicture occlusion(const ViewSubject& in) {
+  const auto& lights = in.inspection.lights;
+  const VisibilityDatabase& visibility = *in.inspection.visibility;
+  const InspectedLight& light =
+      lights[std::clamp<size_t>(static_cast<size_t>(in.chosenLight), 0, lights.size() - 1)];
+  Painter p(in);
+  p.findPatches(visibility);
+  ViewPicture out;
+  out.image = p.paint([&](const Seen& s, size_t i) {
+    if (!light.isLive) return outlined(p, in, s, i, shaded(colours::kNoData, s));
+    const bool away = shared::vplGeometry(light.vpl, s.surface.position, s.normal,
+                                          s.geometricNormal, 0.0f) == 0.0f;
+    static constexpr std::array kStates = {colours::kNone, colours::kPartial, colours::kFull};
+    const auto state = static_cast<size_t>(visibility.state(s.hit->object, p.leaf(i), light.slot));
+    return outlined(p, in, s, i, shaded(away ? colours::kAway : kStates[state], s));
+  });
+  out.legend.title = "Between the light sample and the patch";
+  out.legend.swatches = {{colours::kNone, "nothing"},
+                         {colours::kPartial, "something"},
+                         {colours::kFull, "everything"},
+                         {colours::kAway, "faces away"}};
+  return out;
+}
+
+ViewPicture partialLights(const ViewSubject& in) {
+  const VisibilityDatabase& visibility = *in.inspection.visibility;
+  std::vector<size_t> slots;
+  for (const InspectedLight& light : in.inspection.lights)
+    if (light.isLive) slots.push_back(static_cast<size_t>(light.slot));
+  Painter p(in);
+  p.findPatches(visibility);
+  std::vector<int> counts(p.pixels(), 0);
+  p.forEachPixel([&](int x, int, size_t i) {
+    if (!p.hit(i)) return;
+    const uint32_t object = p.hit(i).object;
+    if (x > 0 && p.hit(i - 1) && p.hit(i - 1).object == object && p.leaf(i - 1) == p.leaf(i)) {
+      counts[i] = counts[i - 1];
+      return;
+    }
+    const auto row = visibility.row(object, p.leaf(i));
+    counts[i] = static_cast<int>(std::count_if(slots.begin(), slots.end(), [&](size_t slot) {
+      return row[slot] == static_cast<uint8_t>(Occlusion::partial);
+    }));
+  });
+  const int most = colours::niceMaximum(p.largest([&](size_t i) { return counts[i]; }));
+  ViewPicture out;
+  out.image = p.paint([&](const Seen& s, size_t i) {
+    const float t = static_cast<float>(counts[i]) / static_cast<float>(most);
+    return outlined(p, in, s, i, shaded(colours::ramp(t), s));
+  });
+  out.legend = {"Light samples that may be shadowed",
+                {},
+                colours::rampSteps(),
+                "0",
+                std::to_string(most) + " of " + std::to_string(slots.size())};
+  return out;
+}
+
+}  // namespace lamplighter::views

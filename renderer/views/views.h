@@ -1,0 +1,16 @@
+// The views of patches and of light, each a function of the subject; view_picture.cpp has the
+// others. What they need must be there (problemOf).
+#pragma once
+
+#include "renderer/views/view_picture.h"
+
+namespace lamplighter::views {
+
+ViewPicture patches(const ViewSubject& subject);
+ViewPicture patchLevels(const ViewSubject& subject);
+ViewPicture occlusion(const ViewSubject& subject);
+ViewPicture partialLights(const ViewSubject& subject);
+ViewPicture lightMaps(const ViewSubject& subject);
+ViewPicture mapAge(const ViewSubject& subject);
+
+}  // namespace lamplighter::views
