@@ -1,0 +1,175 @@
+// Views of a session: switched by name and key, the chosen light sample, marks of the samples.
+#include "editor/views/view_display.h"
+
+#include "editor/input/recording.h"
+#include "renderer/image/tone_map.h"
+#include "tests/editor/session_fixture.h"
+
+namespace lamplighter {
+namespace {
+
+class ViewDisplayTest : public test::SessionFixture {
+ protected:
+  void SetUp() override {
+    SessionFixture::SetUp();
+    settle();
+  }
+  void settle() {
+    for (int i = 0; i < 100 && !session_.renderFrame().settled; ++i) {
+    }
+  }
+  void setTechnique(const std::string& technique) {
+    ASSERT_TRUE(session_.runAction("render.set technique=" + technique));
+    settle();
+  }
+  const ViewPicture* shown() const { return session_.display().picture().get(); }
+};
+
+TEST_F(ViewDisplayTest, EveryViewIsAnActionThatIsRecordedByName) {
+  const uint64_t before = hash();
+  setTechnique("light_maps");
+  for (const DebugViewInfo& info : debugViews()) {
+    SCOPED_TRACE(info.name);
+    InputEvent event{EventKind::action};
+    event.text = std::string("view.") + info.name;
+    EXPECT_NE(lineText({3, event}).find(event.text), std::string::npos);
+    ASSERT_TRUE(session_.runAction(event.text)) << session_.status();
+    settle();
+    EXPECT_EQ(session_.display().view(), info.view);
+    EXPECT_EQ(shown() == nullptr, isRadiance(info.view));
+    for (const DebugViewInfo& other : debugViews()) {
+      const Action* action = session_.actions().find(std::string("view.") + other.name);
+      EXPECT_EQ(action->checked(session_), other.view == info.view);
+    }
+    const Image8 picture = session_.picture();
+    EXPECT_EQ(picture.width, 320);
+    if (shown() != nullptr) {
+      EXPECT_EQ(shown()->problem, "");
+      EXPECT_EQ(picture.pixels, shown()->image.pixels);
+    }
+  }
+  session_.undo();  // the technique; views are no steps
+  EXPECT_EQ(hash(), before);
+}
+
+TEST_F(ViewDisplayTest, KeysAreThoseOfTheTable) {
+  for (const auto& [key, name] : {std::pair{Key::n1, "view.lit"},
+                                  {Key::n2, "view.light_only"},
+                                  {Key::n3, "view.albedo"},
+                                  {Key::n4, "view.normals"},
+                                  {Key::n5, "view.flat"}}) {
+    const Action* action = session_.actions().forKey(key, {.alt = true});
+    ASSERT_NE(action, nullptr) << name;
+    EXPECT_EQ(action->name, name);
+  }
+}
+
+TEST_F(ViewDisplayTest, APictureIsMadeAnewOnlyWhenSomethingChanged) {
+  session_.runAction("view.flat");
+  settle();
+  const auto first = session_.display().picture();
+  session_.renderFrame();
+  EXPECT_EQ(session_.display().picture(), first);
+  lookFrom(vec3(0, 2, 5), -0.25f);
+  settle();
+  const auto nearer = session_.display().picture();
+  EXPECT_NE(nearer->image.pixels, first->image.pixels);
+  Transform up = local(box_);
+  up.translation.y += 0.5f;
+  session_.setNodeTransform(box_, up);
+  settle();
+  EXPECT_NE(session_.display().picture()->image.pixels, nearer->image.pixels);
+}
+
+TEST_F(ViewDisplayTest, TheStatusSaysWhatAViewNeeds) {
+  EXPECT_EQ(session_.display().viewText(), "");
+  session_.runAction("view.light_maps");
+  settle();
+  EXPECT_NE(session_.display().viewText().find("needs the technique light_maps"),
+            std::string::npos);
+  setTechnique("light_maps");
+  EXPECT_EQ(session_.display().viewText(), "Light maps");
+}
+
+TEST_F(ViewDisplayTest, ALightSampleIsChosenByNumber) {
+  setTechnique("visibility");
+  session_.runAction("view.occlusion");
+  settle();
+  const Scene& scene = session_.document().scene;
+  const auto text = [&] { return session_.display().vplText(scene, session_.inspect()); };
+  EXPECT_TRUE(text().starts_with("VPL 0 of 16, light, direct")) << text();
+  const auto first = session_.picture().pixels;
+  int below = 0;  // a bounce, which shows another picture
+  const auto lights = session_.inspect().lights;
+  while (lights[static_cast<size_t>(below)].id.bounce == 0) ++below;
+  ASSERT_TRUE(session_.runAction("view.choose_vpl " + std::to_string(below)));
+  settle();
+  EXPECT_NE(text().find("bounce"), std::string::npos) << text();
+  EXPECT_NE(session_.picture().pixels, first);
+  for (const std::string bad : {"16", "-1", "1.5", "one", ""}) {
+    EXPECT_FALSE(session_.runAction("view.choose_vpl " + bad)) << bad;
+    EXPECT_EQ(session_.display().chosen(session_.inspect()), below);
+  }
+}
+
+TEST_F(ViewDisplayTest, AClickOnAMarkChoosesItsLightSampleAndNothingElse) {
+  const auto lights = session_.inspect().lights;
+  size_t target = lights.size();  // one whose mark is seen from here
+  for (size_t i = 1; i < lights.size(); ++i) {
+    const vec3 position(lights[i].vpl.position);
+    if (lights[i].id.bounce > 0 && position.y < 0.1f && position.z > 1.0f) target = i;
+  }
+  ASSERT_LT(target, lights.size());
+  const vec2 at = pixelOf(vec3(lights[target].vpl.position));
+  press(at);
+  release();
+  EXPECT_TRUE(session_.document().isSelected(floor_));  // marks that are not shown are not clicked
+  EXPECT_EQ(session_.display().chosen(session_.inspect()), 0);
+  session_.select({});
+
+  ASSERT_TRUE(session_.runAction("view.vpls"));
+  const size_t marks = session_.overlay().shapes.size();
+  press(at);
+  release();
+  EXPECT_EQ(session_.display().chosen(session_.inspect()), static_cast<int>(target));
+  EXPECT_TRUE(session_.document().selection.empty());
+  ASSERT_TRUE(session_.runAction("view.vpls"));
+  EXPECT_GE(marks, session_.overlay().shapes.size() + 3 * lights.size() / 2);
+}
+
+TEST_F(ViewDisplayTest, WaitingSamplesAreMarked) {
+  session_.runAction("view.vpls");
+  const size_t settled = session_.overlay().shapes.size();
+  session_.runAction("render.set updates=1");
+  Transform up = local(box_);
+  up.translation.y += 0.1f;
+  session_.setNodeTransform(box_, up);
+  session_.renderFrame();
+  ASSERT_GT(session_.output().stats.vplsPending, 3);
+  EXPECT_GT(session_.overlay().shapes.size(), settled + 2);
+}
+
+// Each frame says how many are left, and is right when all do the same work.
+TEST_F(ViewDisplayTest, TheFramesUntilSettledComeTrue) {
+  for (const int antialias : {1, 4}) {
+    session_.runAction("render.set antialias=" + std::to_string(antialias));
+    session_.runAction("render.set updates=3");
+    settle();
+    EXPECT_EQ(session_.output().stats.framesUntilSettled, 0);
+    Transform up = local(light_);
+    up.translation.y += 0.1f;
+    session_.setNodeTransform(light_, up);
+    int left = session_.renderFrame().stats.framesUntilSettled;
+    EXPECT_GT(left, 2);
+    while (left > 0) {
+      ASSERT_FALSE(session_.output().settled);
+      const int now = session_.renderFrame().stats.framesUntilSettled;
+      EXPECT_EQ(now, left - 1);
+      left = now;
+    }
+    EXPECT_TRUE(session_.output().settled);
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter

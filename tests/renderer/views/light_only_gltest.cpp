@@ -1,0 +1,43 @@
+// Light only on the gl backend: what the cpu backend shows.
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/image/metrics.h"
+#include "tests/renderer/gl/gl_test.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+class LightOnly : public test::GlTest {};
+
+TEST_F(LightOnly, IsTheSameOnBothBackends) {
+  Scene scene;
+  const int red = test::addMaterial(scene, vec3(0.8f, 0.1f, 0.05f));
+  test::addMesh(scene, test::squareMesh(6.0f, red));
+  test::addRectangleLight(scene, vec3(0, 2, 0), vec2(1.0f), vec3(5.0f));
+  const View view = test::lookAt(vec3(0, 3, 4), vec3(0), 64, 48);
+  Settings settings;
+  settings.set("vpls", 16);
+  settings.set("bounces", 0);
+  settings.set("antialias", 1);
+  Image pictures[2][2];
+  for (const int backend : {0, 1}) {
+    FrameRenderer renderer(backend == 0 ? makeGlBackend() : makeCpuBackend());
+    test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+    // There and back again: the switch alone makes a new picture.
+    for (const int lightOnly : {1, 0})
+      pictures[backend][lightOnly] =
+          renderer.render({scene, {}, view, "many_lights", settings, lightOnly == 1})
+              .radiance->pixels();
+  }
+  for (const int lightOnly : {0, 1})
+    EXPECT_LT(compareImages(pictures[0][lightOnly], pictures[1][lightOnly]).relRmse, 0.01);
+  const vec3 lit = pictures[0][0].at(32, 40), white = pictures[0][1].at(32, 40);
+  EXPECT_NEAR(lit.r / white.r, 0.8f, 0.002f);
+  EXPECT_NEAR(lit.g / white.g, 0.1f, 0.002f);
+}
+
+}  // namespace
+}  // namespace lamplighter
