@@ -120,6 +120,10 @@ void Session::setVisible(NodeId id, bool visible) {
       nodeEdit(document_, id, visible ? "Show" : "Hide", [&](Node& n) { n.visible = visible; }));
 }
 
+void Session::setMeshKind(NodeId id, MeshKind kind) {
+  history_.run(nodeEdit(document_, id, "Light", [&](Node& n) { n.meshKind = kind; }));
+}
+
 void Session::setRender(const RenderSettings& settings) {
   history_.run(std::make_unique<EditRender>(document_, settings));
 }

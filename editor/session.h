@@ -52,6 +52,7 @@ class Session {
   void setMaterial(int index, const Material& material);
   void setName(NodeId id, const std::string& name);
   void setVisible(NodeId id, bool visible);
+  void setMeshKind(NodeId id, MeshKind kind);
   void setRender(const RenderSettings& settings);
   void select(std::vector<NodeId> ids);  // those that are there; the last one is active
   void undo();

@@ -46,6 +46,7 @@ void addNode(Hasher& h, const Node& n) {
   const quat& q = n.local.rotation;
   h.add(vec4(q.x, q.y, q.z, q.w));
   h.add(n.mesh), h.add(n.camera), h.add(n.visible);
+  if (n.meshKind != MeshKind::automatic) h.add(static_cast<int>(n.meshKind));
   h.add(n.punctual.has_value());
   if (n.punctual) {
     const PunctualLight& l = *n.punctual;

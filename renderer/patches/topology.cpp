@@ -202,7 +202,9 @@ std::array<uint32_t, 2> longestEdge(const Shape& shape, const ChartTopology& cha
   return best;
 }
 
-void findCharts(const Shape& shape, std::vector<ChartTopology>& charts, std::vector<bool>& taken) {
+// Those of an area of `least` [m²] or more, or a share of the object.
+void findCharts(const Shape& shape, float least, std::vector<ChartTopology>& charts,
+                std::vector<bool>& taken) {
   // Charts grow from the largest triangles, whose planes are known best.
   std::vector<uint32_t> order(shape.triangles());
   std::iota(order.begin(), order.end(), 0u);
@@ -234,7 +236,7 @@ void findCharts(const Shape& shape, std::vector<ChartTopology>& charts, std::vec
     for (const uint32_t t : members) area += shape.area(t);
     // What is too small to be one is not asked again: a chart that it could be part of would have
     // had it now.
-    if (area < std::min(kLarge, kLargeShare * size * size)) continue;
+    if (area < std::min(least, kLargeShare * size * size)) continue;
     ChartTopology& chart = charts.emplace_back();
     chart.seed = seed;
     chart.triangles = std::move(members);
@@ -304,6 +306,7 @@ ShapeKey shapeOf(const RenderObject& object) {
     const float part = std::frexp(glm::length(vec3(object.world[c])), &exponent);
     key.scale[c] = std::ldexp(std::round(part * 1024.0f) / 1024.0f, exponent);
   }
+  key.kind = object.kind;
   key.mirrored = glm::determinant(mat3(object.world)) < 0.0f;
   return key;
 }
@@ -314,7 +317,8 @@ MeshTopology findTopology(const RenderScene& scene, uint32_t object) {
   MeshTopology out;
   out.shape = shapeOf(o);
   std::vector<bool> taken(o.triangleCount(), false);
-  findCharts(shape, out.charts, taken);
+  if (o.kind != MeshKind::complex)
+    findCharts(shape, o.kind == MeshKind::simple ? 0.0f : kLarge, out.charts, taken);
   for (uint32_t t = 0; t < o.triangleCount(); ++t)
     if (!taken[t]) out.loose.push_back(t);
   if (!out.loose.empty()) {

@@ -17,6 +17,7 @@ namespace lamplighter {
 struct ShapeKey {
   vec3 scale{1.0f};
   bool mirrored = false;
+  MeshKind kind = MeshKind::automatic;
   bool operator==(const ShapeKey&) const = default;
 };
 ShapeKey shapeOf(const RenderObject& object);
@@ -50,7 +51,8 @@ struct MeshTopology {
 };
 
 // Charts are parts of a quarter of a square metre, or a fiftieth of the object's size squared; what
-// is smaller or curved is loose. Deterministic.
+// is smaller or curved is loose. Of a simple mesh all planar parts are charts, of a complex one
+// none. Deterministic.
 MeshTopology findTopology(const RenderScene& scene, uint32_t object);
 
 }  // namespace lamplighter

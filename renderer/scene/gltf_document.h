@@ -68,6 +68,8 @@ const Json* extensionOf(const Json& object, const char* name);
 inline constexpr const char* kExtrasName = "lamplighter";
 // Marks what shows sphere lights to other programs, see gltf_sphere_meshes.cpp.
 inline constexpr const char* kSphereMark = "sphereLight";
+// A note on a node: how its mesh is lit, "simple" or "complex" (MeshKind).
+inline constexpr const char* kMeshKindNote = "mesh";
 // object.extras.lamplighter.KEY, or null.
 const Json* noteOf(const Json& object, const char* key);
 // Whether that is true.

@@ -105,6 +105,10 @@ Node readNode(const GltfDocument& document, size_t node) {
     n.camera = static_cast<int>(*camera);
   }
   n.punctual = readPunctual(document, node);
+  if (const Json* kind = noteOf(json, kMeshKindNote)) {
+    if (*kind == "simple") n.meshKind = MeshKind::simple;
+    if (*kind == "complex") n.meshKind = MeshKind::complex;
+  }
   if (const Json* visibility = extensionOf(json, "KHR_node_visibility")) {
     n.visible = boolMember(document, *visibility, "visible", true, at);
   }

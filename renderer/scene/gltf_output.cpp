@@ -89,6 +89,21 @@ void eraseExtension(Json& object, const char* name) {
   if (extensions->empty()) object.erase("extensions");
 }
 
+Json& noteFor(Json& object) {
+  Json& extras = object["extras"];
+  if (!extras.is_object() && !extras.is_null()) extras = {{"was", extras}};
+  if (extras.contains(kExtrasName) && !extras[kExtrasName].is_object()) extras.erase(kExtrasName);
+  return extras[kExtrasName];
+}
+
+void eraseNote(Json& object, const char* key) {
+  if (noteOf(object, key) == nullptr) return;
+  Json& ours = object["extras"][kExtrasName];
+  ours.erase(key);
+  if (ours.empty()) object["extras"].erase(kExtrasName);
+  if (object["extras"].empty()) object.erase("extras");
+}
+
 namespace {
 
 void save(const Scene& scene, const std::filesystem::path& path) {

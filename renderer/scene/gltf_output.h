@@ -65,6 +65,10 @@ ScaledColor scaledColor(const vec3& color);
 // object.extensions.NAME, made where there is none; and taken away again.
 Json& extensionObject(Json& object, const char* name);
 void eraseExtension(Json& object, const char* name);
+// The object's extras.lamplighter, made where there is none. Extras may be anything; what is no
+// object has no place for ours and moves down.
+Json& noteFor(Json& object);
+void eraseNote(Json& object, const char* key);
 
 // gltf_save_materials.cpp
 void saveTextures(GltfOutput& out);

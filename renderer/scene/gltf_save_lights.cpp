@@ -73,22 +73,10 @@ void savePunctual(GltfOutput& out, Json& json, const Node& now, const Node& was)
   if (now.punctual) refer(out, json, kPunctual, punctualJson(std::move(old), *now.punctual));
 }
 
-void eraseNote(Json& json, const char* key) {
-  if (noteOf(json, key) == nullptr) return;
-  Json& ours = json["extras"][kExtrasName];
-  ours.erase(key);
-  if (ours.empty()) json["extras"].erase(kExtrasName);
-  if (json["extras"].empty()) json.erase("extras");
-}
-
 void saveSphereNote(Json& json, const AreaLight& light) {
-  // Extras may be anything; what is no object has no place for ours and moves down.
-  Json& extras = json["extras"];
-  if (!extras.is_object() && !extras.is_null()) extras = {{"was", extras}};
-  if (extras.contains(kExtrasName) && !extras[kExtrasName].is_object()) extras.erase(kExtrasName);
-  extras[kExtrasName]["areaLight"] = {{"shape", "sphere"},
-                                      {"radiance", toJson(light.radiance)},
-                                      {"diameter", toJson(light.size.x)}};
+  noteFor(json)["areaLight"] = {{"shape", "sphere"},
+                                {"radiance", toJson(light.radiance)},
+                                {"diameter", toJson(light.size.x)}};
 }
 
 void saveArea(GltfOutput& out, Json& json, const Node& now, const Node& was, const vec3& scaleNow,

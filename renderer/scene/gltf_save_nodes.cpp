@@ -51,6 +51,11 @@ void saveNode(GltfOutput& out, Json& json, const Node& now, const Node& was) {
     json.erase("weights");
   }
   saveIndex(json, "camera", now.camera);
+  if (now.meshKind != was.meshKind) {
+    eraseNote(json, kMeshKindNote);
+    if (now.meshKind != MeshKind::automatic)
+      noteFor(json)[kMeshKindNote] = now.meshKind == MeshKind::simple ? "simple" : "complex";
+  }
   if (now.visible != was.visible) {
     eraseExtension(json, "KHR_node_visibility");
     if (!now.visible) {

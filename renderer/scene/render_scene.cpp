@@ -107,6 +107,7 @@ void rebuild(RenderScene& render, const Scene& scene) {
         if (p.indices.empty()) continue;
         append(render, node.id, p, world[i], p.material == kNone ? defaultMaterial : p.material,
                false);
+        render.objects.back().kind = node.meshKind;
       }
     }
     if (node.area) {

@@ -19,6 +19,7 @@ struct RenderObject {
   uint32_t firstIndex = 0, indexCount = 0;  // indices are absolute: into RenderScene::positions
   Bounds bounds;                            // world space
   mat4 world{1.0f};                         // its node's, as of its vertices now
+  MeshKind kind = MeshKind::automatic;      // its node's
   bool isAreaLight = false;                 // tessellated from Node::area
   uint32_t triangleCount() const { return indexCount / 3; }
 };

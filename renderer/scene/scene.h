@@ -115,6 +115,14 @@ struct AreaLight {
   bool operator==(const AreaLight&) const = default;
 };
 
+// How a node's mesh is lit. Planar parts are cut into patches with light maps; complex ones, curved
+// or of many small triangles, are shaded pixel by pixel.
+enum class MeshKind : uint8_t {
+  automatic,  // each part as it is
+  simple,     // every planar part is a patch, however small
+  complex     // all of it
+};
+
 struct Node {
   NodeId id = kNoNode;
   std::string name;
@@ -125,6 +133,7 @@ struct Node {
   std::optional<PunctualLight> punctual;
   std::optional<AreaLight> area;
   bool visible = true;
+  MeshKind meshKind = MeshKind::automatic;
   int sourceNode = kNone;  // index in the file it came from; kNone for one made here
 
   bool operator==(const Node&) const = default;

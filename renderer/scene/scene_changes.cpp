@@ -27,7 +27,7 @@ bool sameStructure(const Scene& a, const Scene& b) {
   for (size_t i = 0; i < a.nodes.size(); ++i) {
     const Node &m = a.nodes[i], &n = b.nodes[i];
     if (m.id != n.id || m.parent != n.parent || m.mesh != n.mesh || m.visible != n.visible ||
-        m.area.has_value() != n.area.has_value() ||
+        m.meshKind != n.meshKind || m.area.has_value() != n.area.has_value() ||
         m.punctual.has_value() != n.punctual.has_value()) {
       return false;
     }

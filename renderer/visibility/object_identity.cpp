@@ -34,6 +34,7 @@ ObjectIdentity identify(const RenderScene& s, uint32_t index) {
   const Material& m = s.materials[static_cast<size_t>(o.material)];
   ObjectIdentity id;
   id.node = o.node;
+  id.kind = o.kind;
   id.isClear = m.isClear();
   id.isMasked = m.alphaMode == AlphaMode::mask;
   id.backIsUnseen = s.backIsUnseen(index);

@@ -12,6 +12,7 @@ namespace lamplighter {
 struct ObjectIdentity {
   NodeId node = kNoNode;
   uint64_t geometry = 0;  // hash of its vertices in the world and of its indices
+  MeshKind kind = MeshKind::automatic;
   bool isClear = false, isMasked = false, backIsUnseen = false, hasNormalTexture = false;
   bool operator==(const ObjectIdentity&) const = default;
 };

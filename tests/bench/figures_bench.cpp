@@ -113,7 +113,8 @@ std::shared_ptr<Mesh> ball(int vertices) {
     for (int c = 0; c < columns; ++c) {
       const float theta = kPi * static_cast<float>(r) / static_cast<float>(rings);
       const float phi = 2.0f * kPi * static_cast<float>(c) / static_cast<float>(columns);
-      const vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+      const vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta),
+                   std::sin(theta) * std::sin(phi));
       p.positions.push_back(0.5f * n);
       p.normals.push_back(n);
     }

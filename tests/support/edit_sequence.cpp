@@ -8,8 +8,8 @@
 namespace lamplighter::test {
 
 void PrintTo(const EditSequence& edits, std::ostream* out) {
-  static const char* const kNames[] = {"move",         "turn", "scale",  "mirror",
-                                       "hide or show", "add",  "remove", "brighten"};
+  static const char* const kNames[] = {"move", "turn",   "scale",    "mirror", "hide or show",
+                                       "add",  "remove", "brighten", "kind of"};
   for (const Edit& e : edits)
     *out << (e.together ? " + " : "\n  ") << kNames[static_cast<int>(e.kind)] << " node " << e.node
          << " by (" << e.amount.x << ", " << e.amount.y << ", " << e.amount.z << ")";
@@ -22,8 +22,8 @@ EditSequence randomEdits(int count, uint32_t seed) {
   EditSequence edits;
   for (int i = 0; i < count; ++i) {
     Edit& e = edits.emplace_back();
-    const uint32_t kind = random() % 12;
-    e.kind = kind < 4 ? Edit::Kind::move : static_cast<Edit::Kind>(1 + (kind - 4) % 7);
+    const uint32_t kind = random() % 13;
+    e.kind = kind < 4 ? Edit::Kind::move : static_cast<Edit::Kind>(1 + (kind - 4) % 8);
     e.node = random();
     e.amount.x = unit();
     e.amount.y = unit();
@@ -64,6 +64,9 @@ void apply(Scene& scene, const Edit& edit) {
     case Edit::Kind::brighten:
       for (Node& n : scene.nodes)
         if (n.area) n.area->radiance *= 1.0f + 0.5f * edit.amount;
+      break;
+    case Edit::Kind::kind:
+      node.meshKind = static_cast<MeshKind>((static_cast<int>(node.meshKind) + 1) % 3);
       break;
     case Edit::Kind::add:
       break;

@@ -12,7 +12,7 @@ namespace lamplighter::test {
 
 struct Edit {
   bool operator==(const Edit&) const = default;
-  enum class Kind { move, turn, scale, mirror, hideOrShow, add, remove, brighten };
+  enum class Kind { move, turn, scale, mirror, hideOrShow, add, remove, brighten, kind };
   Kind kind = Kind::move;
   uint32_t node = 0;      // of those there are, modulo their number
   vec3 amount{0.0f};      // in [−1, 1]³

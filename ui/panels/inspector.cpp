@@ -38,6 +38,32 @@ void nameField(const PanelContext& ui, const Node& node, InspectorState& state) 
     state.name = node.name;
 }
 
+void meshKindField(const PanelContext& ui, const Node& node) {
+  struct Choice {
+    MeshKind kind;
+    const char* name;
+    const char* label;
+  };
+  static constexpr Choice kChoices[] = {{MeshKind::automatic, "automatic", "Automatic"},
+                                        {MeshKind::simple, "simple", "Simple: light maps"},
+                                        {MeshKind::complex, "complex", "Complex: each pixel"}};
+  labelledRow(ui, "Lit as",
+              "Planar parts get light maps, and what may shadow them is found exactly. Complex "
+              "meshes, curved or of many small triangles, are lit pixel by pixel. Automatic "
+              "decides for each part of the mesh.");
+  const auto current = static_cast<size_t>(node.meshKind);
+  const bool open = ImGui::BeginCombo("##mesh_kind", kChoices[current].label);
+  ui.name("mesh_kind");
+  if (!open) return;
+  for (const Choice& choice : kChoices) {
+    if (ImGui::Selectable(choice.label, choice.kind == node.meshKind) &&
+        choice.kind != node.meshKind)
+      ui.session.setMeshKind(node.id, choice.kind);
+    ui.name(std::string("mesh_kind/") + choice.name);
+  }
+  ImGui::EndCombo();
+}
+
 }  // namespace
 
 void inspector(PanelContext ui, InspectorState& state) {
@@ -63,6 +89,7 @@ void inspector(PanelContext ui, InspectorState& state) {
   if (section(ui, "Transform")) transformFields(ui, node, state);
   if (node.area && section(ui, "Area light")) areaLightFields(ui, node, state);
   if (node.punctual && section(ui, "Light")) punctualLightFields(ui, node);
+  if (node.mesh != kNone && section(ui, "Mesh")) meshKindField(ui, node);
   if (node.mesh != kNone && section(ui, "Material")) materialFields(ui, node, state);
   ImGui::PopID();
 }

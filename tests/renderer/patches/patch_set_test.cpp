@@ -102,6 +102,24 @@ TEST(Charts, ACurvedSurfaceHasNone) {
   EXPECT_FALSE(patches.patches[0].isLeaf());
 }
 
+// What the rule says of a mesh can be changed: a box has six planar parts or none, and the facets
+// of a curved surface are parts too.
+TEST(Charts, AreWhatTheMeshIsSaidToBe) {
+  Scene scene;
+  const NodeId id = test::addMesh(scene, test::boxMesh(vec3(2, 1, 3)));
+  EXPECT_EQ(findCharts(worldOf(scene), 0).size(), 6u);
+  scene.find(id)->meshKind = MeshKind::complex;
+  EXPECT_TRUE(findCharts(worldOf(scene), 0).empty());
+  EXPECT_TRUE(compare(Scene(), scene).structure);
+
+  Scene curved;
+  const NodeId hill =
+      test::addMesh(curved, grid(16, [](float u, float v) { return 2.0f * (u * u + v * v); }));
+  EXPECT_TRUE(findCharts(worldOf(curved), 0).empty());
+  curved.find(hill)->meshKind = MeshKind::simple;
+  EXPECT_GT(findCharts(worldOf(curved), 0).size(), 250u);
+}
+
 // Every point of every triangle has a leaf, and lies in it.
 TEST(PatchSet, LeavesHoldWhatTheyAreAskedFor) {
   const RenderScene world = worldOf(test::randomBoxes(12, 4));

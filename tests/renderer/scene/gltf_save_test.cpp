@@ -161,6 +161,24 @@ TEST_F(EditedScene, TransformsNamesAndVisibility) {
   EXPECT_EQ(saved["nodes"][5]["extensions"]["KHR_node_visibility"]["visible"], false);
 }
 
+TEST_F(EditedScene, HowAMeshIsLit) {
+  node("floor").meshKind = MeshKind::complex;
+  Json saved = expectRoundTrip();
+  EXPECT_EQ(saved["nodes"][1]["extras"]["lamplighter"]["mesh"], "complex");
+  saveGltf(scene_, path_);
+  scene_ = loadGltf(path_).scene;
+  EXPECT_EQ(scene_.nodes[1].meshKind, MeshKind::complex);
+  scene_.nodes[1].meshKind = MeshKind::simple;
+  saved = expectRoundTrip();
+  EXPECT_EQ(saved["nodes"][1]["extras"]["lamplighter"]["mesh"], "simple");
+  saveGltf(scene_, path_);
+  scene_ = loadGltf(path_).scene;
+  scene_.nodes[1].meshKind = MeshKind::automatic;
+  saved = expectRoundTrip();
+  EXPECT_EQ(saved["nodes"][1].dump().find("complex"), std::string::npos);
+  EXPECT_EQ(saved["nodes"][1].dump().find("simple"), std::string::npos);
+}
+
 TEST_F(EditedScene, ShearIsKeptAsMatrix) {
   node("floor").local.shear = vec3(0.25f, 0.0f, 0.5f);
   saveGltf(scene_, path_);
