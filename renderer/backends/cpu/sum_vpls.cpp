@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 
 #include <hwy/highway.h>
@@ -261,7 +262,10 @@ class TileLights {
       kind.places = places;
       kind.packets.push_back(first);
     }
-    for (Kind& kind : kinds_) {
+    static_assert(kPacketsPerTile <= 32);  // kinds fit the bits
+    for (auto& kinds : kindsWith_) kinds.assign(lights.slots(), 0);
+    for (size_t k = 0; k < kinds_.size(); ++k) {
+      Kind& kind = kinds_[k];
       for (auto& lanes : kind.lanes) lanes.assign(lights.slots(), 0);
       for (size_t place = 0; place < places_.size(); ++place) {
         uint8_t here = 0;
@@ -276,16 +280,23 @@ class TileLights {
             lanes[slot] |= uses[slot] == static_cast<LightUse>(use) ? here : 0;
         }
       }
+      const uint32_t bit = uint32_t{1} << k;
+      for (int use = 1; use < 4; ++use) {
+        const uint8_t* lanes = kind.lanes[use].data();
+        uint32_t* kinds = kindsWith_[use].data();
+        for (size_t slot = 0; slot < lights.slots(); ++slot)
+          kinds[slot] |= lanes[slot] != 0 ? bit : 0;
+      }
     }
   }
 
   // The tile's packets that use the light so.
   void list(int slot, LightUse use, PacketList& out) const {
     out.clear();
-    for (const Kind& kind : kinds_) {
-      const uint8_t lanes = kind.lanes[static_cast<size_t>(use)][static_cast<size_t>(slot)];
-      if (lanes == 0) continue;
-      for (const size_t first : kind.packets) out.add(first, lanes);
+    const auto u = static_cast<size_t>(use), s = static_cast<size_t>(slot);
+    for (uint32_t kinds = kindsWith_[u][s]; kinds != 0; kinds &= kinds - 1) {
+      const Kind& kind = kinds_[static_cast<size_t>(std::countr_zero(kinds))];
+      for (const size_t first : kind.packets) out.add(first, kind.lanes[u][s]);
     }
   }
 
@@ -345,6 +356,7 @@ class TileLights {
   const PatchLights& lights_;
   std::vector<Place> places_;
   std::vector<Kind> kinds_;
+  std::array<std::vector<uint32_t>, 4> kindsWith_;  // by LightUse, then slot: a bit a kind
 };
 
 }  // namespace
