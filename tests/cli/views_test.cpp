@@ -17,7 +17,10 @@ using test::runLamplighter;
 class RenderView : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "lamplighter_views";
+    // Tests run beside each other.
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("lamplighter_views_") +
+               testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
@@ -61,7 +64,8 @@ TEST_F(RenderView, WritesEachAndTheyDiffer) {
 TEST_F(RenderView, RefusesWhatItCannotShow) {
   fails("a.png", {"--view", "colour"}, "'colour' is none; give one of lit, light_only");
   fails("a.exr", {"--view", "albedo"}, "is no radiance");
-  fails("a.png", {"--view", "occlusion"}, "needs the technique visibility or light_maps");
+  fails("a.png", {"--view", "occlusion", "--set", "technique=naive"},
+        "needs the technique visibility or light_maps");
   fails("a.png", {"--view", "light_maps", "--set", "technique=visibility"}, "needs the technique");
   fails("a.png", {"--view", "map_age", "--method", "reference"}, "needs the light samples");
   fails("a.png", {"--view", "occlusion", "--set", "technique=visibility", "--view-vpl", "1000"},

@@ -83,6 +83,7 @@ TEST_F(ViewDisplayTest, APictureIsMadeAnewOnlyWhenSomethingChanged) {
 
 TEST_F(ViewDisplayTest, TheStatusSaysWhatAViewNeeds) {
   EXPECT_EQ(session_.display().viewText(), "");
+  setTechnique("naive");
   session_.runAction("view.light_maps");
   settle();
   EXPECT_NE(session_.display().viewText().find("needs the technique light_maps"),

@@ -39,27 +39,27 @@ ParameterSpec limitOf(const char* name, const char* label, const char* what) {
 
 const ParameterSpec& maxShadowMaps() {
   static const ParameterSpec spec =
-      limitOf("max_shadow_maps", "Most shadow maps", "Shadow maps rendered");
+      limitOf("max_shadow_maps", "Maps a frame", "Shadow maps rendered");
   return spec;
 }
 
 const ParameterSpec& maxVisibilityTests() {
   static const ParameterSpec spec =
-      limitOf("max_visibility_tests", "Most visibility tests",
+      limitOf("max_visibility_tests", "Tests a frame",
               "Occlusion pyramids of light samples tested against the scene");
   return spec;
 }
 
 const ParameterSpec& maxLightMapTexels() {
   static const ParameterSpec spec =
-      limitOf("max_light_map_texels", "Most light map texels",
+      limitOf("max_light_map_texels", "Texels a frame",
               "Texels of light maps, times lights added or taken away,");
   return spec;
 }
 
 const ParameterSpec& maxRays() {
   static const ParameterSpec spec =
-      limitOf("max_rays", "Most rays", "Rays for shadow maps (cpu backend)");
+      limitOf("max_rays", "Rays a frame", "Rays for shadow maps (cpu backend)");
   return spec;
 }
 
