@@ -19,7 +19,7 @@ constexpr float kSameDirection = 0.99995f;  // cos 0.57°
 constexpr float kLargeShare = 0.02f;        // of the object's size squared
 constexpr float kLarge = 0.25f;             // m²
 constexpr size_t kClusterTriangles = 1024;  // more are halved,
-constexpr float kSmallestCluster = 1.0f;    // if they fill more than this [m]
+constexpr float kSmallestCluster = 2.0f;    // if they fill more than this [m]
 
 constexpr size_t kNoCluster = static_cast<size_t>(-1);
 
