@@ -1,17 +1,15 @@
 #include "renderer/shadow_maps/frame_time_control.h"
 
 #include <algorithm>
-#include <string_view>
 
 namespace lamplighter {
 namespace {
 
-constexpr double kWeight = 0.3;  // of the last frame against those before
+constexpr double kWeight = 0.5;  // of the last frame against those before
+constexpr double kMostGrowth = 2.0, kLeastGrowth = 0.5;
 
-// A slow picture that never becomes right is worse than one that is slower still: so much of the
-// time goes into refreshing even where the rest alone takes longer than all, and so many VPLs are
+// A slow picture that never becomes right is worse than one that is slower still: so many VPLs are
 // refreshed whatever they cost.
-constexpr double kLeastShare = 0.3;
 constexpr int kLeastVpls = 16;
 
 void average(double& mean, double value) {
@@ -21,22 +19,25 @@ void average(double& mean, double value) {
 }  // namespace
 
 void FrameTimeControl::measured(const GiStats& stats) {
-  double all = 0.0, refreshing = 0.0;
-  for (const auto& [stage, seconds] : stats.stageSeconds) {
-    all += seconds;
-    if (stage == "shadow maps" || stage == "visibility" || stage == "light maps")
-      refreshing += seconds;
-  }
-  // A frame in which nothing changed says nothing of one in which something does.
-  if (stats.mapsRendered == 0) return;
-  average(perVpl_, refreshing / stats.mapsRendered);
-  average(rest_, all - refreshing);
+  double seconds = 0.0;
+  for (const auto& [stage, time] : stats.stageSeconds) seconds += time;
+  // A frame in which nothing changed says nothing of one in which something does, and one with
+  // less to do than it might have done does not say how much more would have been too much.
+  if (stats.mapsRendered == 0 || (stats.mapsRendered < allowed_ && seconds < wanted_)) return;
+  average(vpls_, stats.mapsRendered);
+  average(seconds_, seconds);
 }
 
-int FrameTimeControl::vplsWithin(double seconds) const {
-  if (perVpl_ <= 0.0) return kLeastVpls;
-  const double share = std::max(seconds - rest_, kLeastShare * seconds);
-  return std::max(kLeastVpls, static_cast<int>(std::min(share / perVpl_, 65536.0)));
+// Some of a frame's time does not depend on how many there are, so that this comes nearer to the
+// right number step by step, and never past it.
+int FrameTimeControl::vplsWithin(double seconds) {
+  wanted_ = seconds;
+  allowed_ = kLeastVpls;
+  if (seconds_ > 0.0) {
+    const double growth = std::clamp(seconds / seconds_, kLeastGrowth, kMostGrowth);
+    allowed_ = std::max(kLeastVpls, static_cast<int>(std::min(growth * vpls_, 65536.0)));
+  }
+  return allowed_;
 }
 
 }  // namespace lamplighter

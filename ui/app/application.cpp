@@ -126,7 +126,7 @@ void Application::runAction(const std::string& text) {
 }
 
 // Where time goes by steps of fixed length, as in recordings, work goes by counts.
-std::optional<int> Application::updatesWithinTime() const {
+std::optional<int> Application::updatesWithinTime() {
   const Settings& settings = session_->document().render.values;
   const float milliseconds = settings.real(parameters::frameTime());
   if (timeStep_ > 0.0f || milliseconds == 0.0f) return std::nullopt;

@@ -63,7 +63,7 @@ class Application {
   void drawPanels(PanelContext ui);
   void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
-  std::optional<int> updatesWithinTime() const;
+  std::optional<int> updatesWithinTime();
   void present();
   void takeLoaded();
   void answerRequests();

@@ -1,14 +1,13 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 
 #include <algorithm>
-#include <atomic>
 #include <new>
 
 #include <tbb/parallel_for.h>
 
 #include "renderer/backends/cpu/gbuffer.h"
+#include "renderer/backends/cpu/light_sums.h"
 #include "renderer/backends/cpu/shadow_maps.h"
-#include "renderer/backends/cpu/sum_vpls.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -18,8 +17,11 @@ namespace {
 // computed does not depend on the number of threads.
 constexpr int kRowsPerTask = 32;
 
-// Tiles that are summed together, so that each shadow map is fetched from memory once for all.
-constexpr int kTilesPerTask = 16;
+// What a view shows, and the light there.
+struct Picture {
+  cpu::GBuffer gbuffer;
+  cpu::LightSums sums;
+};
 
 class CpuBackend final : public Backend {
  public:
@@ -27,19 +29,28 @@ class CpuBackend final : public Backend {
 
   KernelCounts counts() const override {
     KernelCounts counts = counts_;
-    counts.memoryBytes =
-        maps_.size() * sizeof(float) + gbuffer_.bytes() + 3 * irradiance_.r.size() * sizeof(float);
+    counts.memoryBytes = maps_.size() * sizeof(float);
+    for (const Picture* p : {&still_, &shifted_})
+      counts.memoryBytes += p->gbuffer.bytes() + p->sums.bytes();
     return counts;
   }
 
-  void setScene(const RenderScene& scene, const RenderSceneChanges&,
+  void setScene(const RenderScene& scene, const RenderSceneChanges& changes,
                 const RayCaster& rays) override {
     scene_ = &scene;
     rays_ = &rays;
+    if (changes.rebuilt || changes.materials) {
+      stillIsKnown_ = false;
+      for (Picture* p : {&still_, &shifted_}) p->sums.forgetPlaces();
+      return;
+    }
+    moves_.insert(moves_.end(), changes.movedBounds.begin(), changes.movedBounds.end());
+    for (const uint32_t i : changes.movedObjects) moves_.push_back(scene.objects[i].bounds);
   }
 
   void reserveShadowMaps(int slots, int resolution) override {
     if (slots == slots_ && resolution == resolution_) return;
+    for (Picture* p : {&still_, &shifted_}) p->sums.forgetMaps();
     const size_t texels = static_cast<size_t>(slots) * resolution * resolution;
     try {
       // Free first: both would not fit where one does.
@@ -57,55 +68,58 @@ class CpuBackend final : public Backend {
   }
 
   void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
+    const size_t texels = static_cast<size_t>(resolution_) * resolution_;
+    shifted_.sums.forgetMaps();
+    for (const shared::Vpl& vpl : vpls)
+      still_.sums.mapChanges(static_cast<int>(vpl.intensity.w), {mapOf(vpl), texels});
     const int tasks = (resolution_ + kRowsPerTask - 1) / kRowsPerTask;
     tbb::parallel_for(0, static_cast<int>(vpls.size()) * tasks, [&](int task) {
       const shared::Vpl& vpl = vpls[task / tasks];
       const int firstRow = (task % tasks) * kRowsPerTask;
       const int lastRow = std::min(firstRow + kRowsPerTask, resolution_);
-      cpu::traceShadowMap(*rays_, vpl, resolution_, firstRow, lastRow,
-                          {mapOf(vpl), static_cast<size_t>(resolution_) * resolution_});
+      cpu::traceShadowMap(*rays_, vpl, resolution_, firstRow, lastRow, {mapOf(vpl), texels});
     });
     counts_.shadowMaps += vpls.size();
     counts_.rays += vpls.size() * static_cast<uint64_t>(resolution_) * resolution_;
   }
 
+  // The picture with pixels unshifted is kept, and traced again only where something moved.
   void renderGBuffer(const View& view, vec2 jitter) override {
-    counts_.rays += cpu::renderGBuffer(*scene_, *rays_, view, jitter, gbuffer_);
-    for (auto* v : {&irradiance_.r, &irradiance_.g, &irradiance_.b}) {
-      v->assign(gbuffer_.px.size(), 0.0f);
+    const bool isStill = jitter == vec2(0.0f);
+    shown_ = isStill ? &still_ : &shifted_;
+    if (isStill && stillIsKnown_ && view == stillView_) {
+      counts_.rays += cpu::updateGBuffer(*scene_, *rays_, view, moves_, still_.gbuffer);
+    } else {
+      counts_.rays += cpu::renderGBuffer(*scene_, *rays_, view, jitter, shown_->gbuffer);
     }
+    if (!isStill) return;
+    stillIsKnown_ = true;
+    stillView_ = view;
+    moves_.clear();
   }
 
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                const PatchLights* patches) override {
     std::vector<cpu::LightRecord> lights;
     lights.reserve(vpls.size());
-    for (const shared::Vpl& vpl : vpls) {
+    for (const shared::Vpl& vpl : vpls)
       lights.push_back(cpu::makeLightRecord(vpl, vpl.intensity.w < 0.0f ? nullptr : mapOf(vpl)));
-    }
     const float d0 = params.clampAndBias.x;
-    const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_};
-    std::atomic<uint64_t> lookUps = 0;
-    const int tasks = (gbuffer_.tiles() + kTilesPerTask - 1) / kTilesPerTask;
-    tbb::parallel_for(0, tasks, [&](int task) {
-      const int first = task * kTilesPerTask;
-      const int last = std::min(first + kTilesPerTask, gbuffer_.tiles());
-      lookUps += cpu::sumTiles(gbuffer_, first, last, lights, constants, patches, irradiance_);
-    });
-    counts_.lookUps += lookUps;
-    counts_.lightPixels += vpls.size() * static_cast<uint64_t>(gbuffer_.width) * gbuffer_.height;
+    const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_, 1.0f};
+    const cpu::SumCounts counts = shown_->sums.update(shown_->gbuffer, lights, constants, patches);
+    counts_.lookUps += counts.lookUps;
+    counts_.lightPixels += counts.lightPixels;
   }
 
   std::shared_ptr<RadianceImage> compose(bool white) override {
-    Image image(gbuffer_.width, gbuffer_.height);
+    const cpu::GBuffer& g = shown_->gbuffer;
+    const cpu::LightSums& sums = shown_->sums;
     const vec3 sky = scene_->sky;
-    forEachPixel(image, [&](size_t i) {
-      if (!gbuffer_.hit[i]) return sky;
-      const vec3 e(irradiance_.r[i], irradiance_.g[i], irradiance_.b[i]);
-      const vec3 albedo = white ? vec3(1.0f) : gbuffer_.albedo[i];
-      return gbuffer_.emission[i] + albedo * (1.0f / kPi) * e;
-    });
-    return std::make_shared<HostImage>(std::move(image));
+    return std::make_shared<HostImage>(makeImage([&](size_t i) {
+      if (!g.hit[i]) return sky;
+      const vec3 albedo = white ? vec3(1.0f) : g.albedo[i];
+      return g.emission[i] + albedo * (1.0f / kPi) * sums.irradiance(i);
+    }));
   }
 
   std::vector<float> readShadowMap(int slot) override {
@@ -115,17 +129,13 @@ class CpuBackend final : public Backend {
   }
 
   Image readNormals() override {
-    Image image(gbuffer_.width, gbuffer_.height);
-    forEachPixel(image,
-                 [&](size_t i) { return vec3(gbuffer_.sx[i], gbuffer_.sy[i], gbuffer_.sz[i]); });
-    return image;
+    const cpu::GBuffer& g = shown_->gbuffer;
+    return makeImage([&](size_t i) { return vec3(g.sx[i], g.sy[i], g.sz[i]); });
   }
 
   Image readAlbedo() override {
-    Image image(gbuffer_.width, gbuffer_.height);
-    forEachPixel(image,
-                 [&](size_t i) { return gbuffer_.hit[i] ? gbuffer_.albedo[i] : vec3(0.0f); });
-    return image;
+    const cpu::GBuffer& g = shown_->gbuffer;
+    return makeImage([&](size_t i) { return g.hit[i] ? g.albedo[i] : vec3(0.0f); });
   }
 
   void finish() override {}
@@ -135,11 +145,15 @@ class CpuBackend final : public Backend {
     return &maps_[static_cast<size_t>(vpl.intensity.w) * resolution_ * resolution_];
   }
 
+  // Of f(index into the G-buffer) at each pixel.
   template <typename F>
-  void forEachPixel(Image& image, F&& value) const {
+  Image makeImage(F&& f) const {
+    const cpu::GBuffer& g = shown_->gbuffer;
+    Image image(g.width, g.height);
     tbb::parallel_for(0, image.height, [&](int y) {
-      for (int x = 0; x < image.width; ++x) image.at(x, y) = value(gbuffer_.index(x, y));
+      for (int x = 0; x < image.width; ++x) image.at(x, y) = f(g.index(x, y));
     });
+    return image;
   }
 
   BackendInfo info_{"cpu", "x86-64-v3, 8 lanes", true};
@@ -147,9 +161,12 @@ class CpuBackend final : public Backend {
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;
   int slots_ = 0, resolution_ = 0;
-  std::vector<float> maps_;  // slot after slot, row after row
-  cpu::GBuffer gbuffer_;
-  cpu::Irradiance irradiance_;
+  std::vector<float> maps_;    // slot after slot, row after row
+  Picture still_, shifted_;    // pixels in their places, and moved for antialiasing
+  Picture* shown_ = &still_;   // the one that was rendered last
+  bool stillIsKnown_ = false;  // still_ shows stillView_, but for what moved
+  View stillView_;
+  std::vector<Bounds> moves_;  // where something was or is that moved since
 };
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "renderer/backends/cpu/gbuffer.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -20,6 +23,8 @@ void GBuffer::resize(int w, int h) {
   hit.assign(n, 0);
   object.assign(n, 0);
   triangle.assign(n, 0);
+  isFlat.assign(n / kLanes, 0);
+  revision.assign(static_cast<size_t>(tiles()), 0);
 }
 
 size_t GBuffer::bytes() const { return px.size() * (9 * sizeof(float) + 2 * sizeof(vec3) + 9); }
@@ -51,35 +56,91 @@ void store(GBuffer& out, size_t i, const RenderScene& scene, const Hit& hit,
   out.emission[i] = front || s.emitsBothSides ? s.emission : vec3(0.0f);
 }
 
+void trace(const RenderScene& scene, const RayCaster& rays, const View& view, vec2 jitter, int tile,
+           GBuffer& out) {
+  const vec3 forward = view.forward();
+  const int x0 = (tile % out.tilesX) * kTileSize, y0 = (tile / out.tilesX) * kTileSize;
+  for (int packet = 0; packet < kPacketsPerTile; ++packet) {
+    std::array<Ray, kLanes> ray;
+    std::array<Hit, kLanes> hit;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int x = x0 + (packet % kPacketsPerRow) * kPacketWidth + lane % kPacketWidth;
+      const int y = y0 + (packet / kPacketsPerRow) * kPacketHeight + lane / kPacketWidth;
+      Ray& r = ray[lane];
+      r.origin = view.eye;
+      r.direction = view.rayDirection(static_cast<float>(x) + 0.5f + jitter.x,
+                                      static_cast<float>(y) + 0.5f + jitter.y);
+      r.tNear = view.znear / glm::dot(r.direction, forward);  // the near plane, as a rasteriser's
+      if (x >= view.width || y >= view.height) r.tFar = -1.0f;
+    }
+    rays.intersect8(ray, hit, Surfaces::seen);
+    const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
+    for (int lane = 0; lane < kLanes; ++lane)
+      store(out, first + lane, scene, hit[lane], ray[lane].direction);
+    const auto same = [&](const std::vector<float>& a, const std::vector<float>& b) {
+      return std::equal(&a[first], &a[first] + kLanes, &b[first]);
+    };
+    out.isFlat[first / kLanes] =
+        same(out.sx, out.gx) && same(out.sy, out.gy) && same(out.sz, out.gz) ? 1 : 0;
+  }
+}
+
+// Tiles, from the first to before the last in both directions, whose pixels may see the box.
+struct TileRange {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+TileRange tilesThatMaySee(const View& view, const GBuffer& g, const Bounds& box) {
+  if (box.empty()) return {};
+  vec2 low(std::numeric_limits<float>::max()), high = -low;
+  for (int corner = 0; corner < 8; ++corner) {
+    const vec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
+                 corner & 4 ? box.max.z : box.min.z);
+    const vec3 at = view.project(p);
+    if (at.z <= view.znear) return {0, 0, g.tilesX, g.tilesY};  // partly beside the eye
+    low = glm::min(low, vec2(at));
+    high = glm::max(high, vec2(at));
+  }
+  // Two pixels more, for rounding.
+  const auto tileOf = [](float pixel, int tiles) {
+    return std::clamp(static_cast<int>(std::floor(std::clamp(pixel, -1e6f, 1e6f) / kTileSize)), 0,
+                      tiles);
+  };
+  return {tileOf(low.x - 2.0f, g.tilesX), tileOf(low.y - 2.0f, g.tilesY),
+          tileOf(high.x + 2.0f + kTileSize, g.tilesX), tileOf(high.y + 2.0f + kTileSize, g.tilesY)};
+}
+
 }  // namespace
 
 uint64_t renderGBuffer(const RenderScene& scene, const RayCaster& rays, const View& view,
                        vec2 jitter, GBuffer& out) {
   if (out.width != view.width || out.height != view.height) out.resize(view.width, view.height);
-  const vec3 forward = view.forward();
   tbb::parallel_for(0, out.tiles(), [&](int tile) {
-    const int x0 = (tile % out.tilesX) * kTileSize, y0 = (tile / out.tilesX) * kTileSize;
-    for (int packet = 0; packet < kPacketsPerTile; ++packet) {
-      std::array<Ray, kLanes> ray;
-      std::array<Hit, kLanes> hit;
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const int x = x0 + (packet % kPacketsPerRow) * kPacketWidth + lane % kPacketWidth;
-        const int y = y0 + (packet / kPacketsPerRow) * kPacketHeight + lane / kPacketWidth;
-        Ray& r = ray[lane];
-        r.origin = view.eye;
-        r.direction = view.rayDirection(static_cast<float>(x) + 0.5f + jitter.x,
-                                        static_cast<float>(y) + 0.5f + jitter.y);
-        r.tNear = view.znear / glm::dot(r.direction, forward);  // the near plane, as a rasteriser's
-        if (x >= view.width || y >= view.height) r.tFar = -1.0f;
-      }
-      rays.intersect8(ray, hit, Surfaces::seen);
-      const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
-      for (int lane = 0; lane < kLanes; ++lane) {
-        store(out, first + lane, scene, hit[lane], ray[lane].direction);
-      }
-    }
+    trace(scene, rays, view, jitter, tile, out);
+    ++out.revision[static_cast<size_t>(tile)];
   });
   return static_cast<uint64_t>(view.width) * view.height;
+}
+
+uint64_t updateGBuffer(const RenderScene& scene, const RayCaster& rays, const View& view,
+                       std::span<const Bounds> boxes, GBuffer& out) {
+  std::vector<uint8_t> isStale(static_cast<size_t>(out.tiles()), 0);
+  for (const Bounds& box : boxes) {
+    const TileRange range = tilesThatMaySee(view, out, box);
+    for (int y = range.y0; y < range.y1; ++y)
+      for (int x = range.x0; x < range.x1; ++x)
+        isStale[static_cast<size_t>(y * out.tilesX + x)] = 1;
+  }
+  std::vector<int> tiles;
+  for (int tile = 0; tile < out.tiles(); ++tile)
+    if (isStale[static_cast<size_t>(tile)] != 0) tiles.push_back(tile);
+  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
+    trace(scene, rays, view, vec2(0.0f), tiles[i], out);
+    ++out.revision[static_cast<size_t>(tiles[i])];
+  });
+  uint64_t traced = 0;
+  for (const int tile : tiles) traced += static_cast<uint64_t>(out.pixelsOf(tile));
+  return traced;
 }
 
 }  // namespace lamplighter::cpu

@@ -1,6 +1,8 @@
 // The cpu backend's G-buffer: structure of arrays in tiles, so that eight pixels load as vectors.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 #include "renderer/math.h"
@@ -31,9 +33,16 @@ struct GBuffer {
   std::vector<vec3> emission;  // towards the eye [W/(m² sr)]
   std::vector<uint8_t> hit;
   std::vector<uint32_t> object, triangle;  // where something was hit
+  std::vector<uint8_t> isFlat;             // of each packet: both normals are the same
+  std::vector<uint64_t> revision;          // of each tile, another each time it is traced
 
   void resize(int w, int h);
   int tiles() const { return tilesX * tilesY; }
+  // Of the image, that a tile holds.
+  int pixelsOf(int tile) const {
+    return std::min(kTileSize, width - tile % tilesX * kTileSize) *
+           std::min(kTileSize, height - tile / tilesX * kTileSize);
+  }
   size_t index(int x, int y) const {
     const size_t tile = static_cast<size_t>(y / kTileSize) * tilesX + x / kTileSize;
     const int tx = x % kTileSize, ty = y % kTileSize;
@@ -47,5 +56,9 @@ struct GBuffer {
 // Traces one ray a pixel; `jitter` in pixels from the pixel's middle. Returns the number of rays.
 uint64_t renderGBuffer(const RenderScene& scene, const RayCaster& rays, const View& view,
                        vec2 jitter, GBuffer& out);
+// The same for those tiles alone that may show something in one of the boxes; the others stay as
+// they are. The view must be that of the whole, and jitter none.
+uint64_t updateGBuffer(const RenderScene& scene, const RayCaster& rays, const View& view,
+                       std::span<const Bounds> boxes, GBuffer& out);
 
 }  // namespace lamplighter::cpu

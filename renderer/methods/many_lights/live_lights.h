@@ -18,7 +18,9 @@ class LiveLights {
  public:
   // What is wanted from now on. At once: VPLs that are no longer wanted go, and those that only
   // changed in brightness take it on, for neither needs a map. Those that must move stay, old as
-  // they are, until refresh() has their turn.
+  // they are and as bright, until refresh() has their turn; so do those whose brightness is off by
+  // less than a twentieth, as that of all is when one path more is walked. So a drag changes no
+  // more than it refreshes.
   void want(std::vector<SceneVpl> wanted);
   // Something that casts shadows moved: maps that it may show in are stale. `spared`, if any, says
   // of a VPL that its map does not change nevertheless. Returns how many were spared.
@@ -40,8 +42,8 @@ class LiveLights {
   std::vector<bool> upToDate() const;
 
   // What to sum, in the order of the wanted ones, so that the sum does not depend on history. While
-  // VPLs of a set are missing those that are there carry the flux of all, so that brightness
-  // neither jumps nor piles up when a light comes or the number of samples changes.
+  // more than a twentieth of a set is missing those that are there carry the flux of all, so that
+  // brightness neither jumps nor piles up when a light comes or the number of samples changes.
   std::vector<shared::Vpl> shown() const;
 
   int pending() const;
@@ -57,11 +59,14 @@ class LiveLights {
     SceneVpl wanted;
     float share = 1.0f;  // of its set's brightness, in [0, 1]
     int slot = -1;
-    bool isLive = false;  // current is shown
-    bool isStale = true;  // must be refreshed
+    bool isLive = false;     // current is shown
+    bool mapIsStale = true;  // must be refreshed: it moves, or its map shows what has moved
+    bool isOff = false;      // its brightness is not quite what is wanted, its map is right
     int framesWaiting = 0;
     shared::Vpl current{};
+    bool isPending() const { return mapIsStale || isOff; }
   };
+  static void takeBrightness(Entry& entry);
   void fitSlots(size_t wanted);
 
   std::vector<Entry> entries_;  // in the order wanted

@@ -1,0 +1,288 @@
+#include "renderer/backends/cpu/light_sums.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+namespace lamplighter::cpu {
+namespace {
+
+// Of shadow maps, in the second-level cache beside the tiles.
+constexpr size_t kMapBytesAtOnce = size_t{512} << 10;
+// Tiles that are summed together, so that each shadow map is fetched from memory once for all.
+constexpr int kTilesPerTask = 16;
+
+std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
+  std::vector<const LightRecord*> slots;
+  for (const LightRecord& light : lights) {
+    if (light.slot < 0) continue;
+    slots.resize(std::max(slots.size(), static_cast<size_t>(light.slot) + 1));
+    slots[static_cast<size_t>(light.slot)] = &light;
+  }
+  return slots;
+}
+
+// Adds lights to one tile, or takes them away.
+class TileAdder {
+ public:
+  TileAdder(const GBuffer& gbuffer, int tile, const TilePlaces& places, const PlaceTable* table,
+            const SumConstants& constants, FixedSums& sums, SumCounts& counts)
+      : gbuffer_(gbuffer),
+        pixels_(static_cast<uint64_t>(gbuffer.pixelsOf(tile))),
+        places_(places),
+        table_(table),
+        constants_(constants),
+        sums_(sums),
+        counts_(counts) {}
+
+  void add(const LightRecord& light, Sign sign, TilePlaces::When when) {
+    counts_.lightPixels += pixels_;
+    if (table_ == nullptr || light.slot < 0) {
+      const LightUse use = light.map == nullptr ? LightUse::add : LightUse::addShadowed;
+      places_.listAll(lists_[0]);
+      sum(lists_[0], use, sign, light);
+      return;
+    }
+    places_.list(*table_, when, light.slot, lists_);
+    for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
+      sum(lists_[static_cast<size_t>(use)], use, sign, light);
+  }
+
+ private:
+  void sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light) {
+    addLight(gbuffer_, packets, use, sign, light, constants_, sums_);
+    if (use != LightUse::add) counts_.lookUps += packets.count() * kLanes;
+  }
+
+  const GBuffer& gbuffer_;
+  uint64_t pixels_;
+  const TilePlaces& places_;
+  const PlaceTable* table_;
+  const SumConstants& constants_;
+  FixedSums& sums_;
+  SumCounts& counts_;
+  TilePlaces::Lists lists_;
+};
+
+}  // namespace
+
+struct LightSums::Frame {
+  const GBuffer& gbuffer;
+  std::span<const LightRecord> lights;
+  std::vector<const LightRecord*> slots;
+  const PatchLights* patches;
+  std::vector<Change> changes;  // of lights and their maps
+  std::vector<bool> isChanged;  // by slot
+};
+
+void LightSums::mapChanges(int slot, std::span<const float> map) {
+  if (!knowsSums_ || oldMaps_.contains(slot)) return;
+  const bool isSummed = std::any_of(lights_.begin(), lights_.end(),
+                                    [&](const LightRecord& l) { return l.slot == slot; });
+  if (!isSummed) return;
+  // To take more away than stays is more work than to begin anew.
+  if (2 * (oldMaps_.size() + 1) > lights_.size()) return forgetMaps();
+  oldMaps_.emplace(slot, std::vector<float>(map.begin(), map.end()));
+}
+
+void LightSums::forgetMaps() {
+  knowsSums_ = false;
+  oldMaps_.clear();
+}
+
+// What of the sums and places holds for this frame.
+void LightSums::compareWithLast(const Frame& frame) {
+  const GBuffer& g = frame.gbuffer;
+  const bool hasPatches = frame.patches != nullptr;
+  const bool hasMaps = hasPatches && frame.patches->maps() != nullptr;
+  if (hasPatches != hasPatches_ || hasMaps != hasMaps_) knowsPlaces_ = false;
+  hasPatches_ = hasPatches;
+  hasMaps_ = hasMaps;
+  const auto tiles = static_cast<size_t>(g.tiles());
+  if (sums_.r.size() != g.px.size()) {
+    tiles_.assign(tiles, {});
+    for (auto* v : {&sums_.r, &sums_.g, &sums_.b}) v->assign(g.px.size(), 0);
+    for (auto* v : {&red_, &green_, &blue_}) v->assign(g.px.size(), 0.0f);
+  }
+  if (!knowsPlaces_ || (hasPatches && frame.patches->slots() != table_.slots())) knowsSums_ = false;
+  for (size_t i = 0; i < tiles; ++i)
+    tiles_[i].isStale = !knowsSums_ || tiles_[i].revision != g.revision[i];
+}
+
+std::vector<LightSums::Change> LightSums::findChanges(std::span<const LightRecord> lights) {
+  for (LightRecord& light : lights_) {
+    const auto old = oldMaps_.find(light.slot);
+    if (old != oldMaps_.end()) light.map = old->second.data();
+  }
+  const auto before = bySlot(lights_), now = bySlot(lights);
+  std::vector<Change> changes;
+  for (size_t slot = 0; slot < std::max(before.size(), now.size()); ++slot) {
+    const LightRecord* was = slot < before.size() ? before[slot] : nullptr;
+    const LightRecord* is = slot < now.size() ? now[slot] : nullptr;
+    if (was == is || (was != nullptr && is != nullptr && *was == *is)) continue;
+    changes.push_back({static_cast<int>(slot), was, is});
+  }
+  return changes;
+}
+
+void LightSums::findPlaces(const Frame& frame) {
+  const bool anew = !knowsPlaces_;
+  std::vector<size_t> found;
+  for (size_t i = 0; i < tiles_.size(); ++i)
+    if (anew || tiles_[i].revision != frame.gbuffer.revision[i]) found.push_back(i);
+  tbb::parallel_for(size_t{0}, found.size(), [&](size_t i) {
+    tiles_[found[i]].places.find(frame.gbuffer, static_cast<int>(found[i]), frame.patches);
+  });
+  knowsPlaces_ = true;
+  if (frame.patches == nullptr) return;
+  if (anew || frame.patches->slots() != table_.slots()) {
+    table_.reset(frame.patches->slots());
+    for (Tile& tile : tiles_) tile.places.takeRows(table_);
+  } else {
+    for (const size_t i : found) tiles_[i].places.takeRows(table_);
+  }
+  std::vector<bool> inUse(table_.rows(), false);
+  for (const Tile& tile : tiles_)
+    for (const uint32_t row : tile.places.rows()) inUse[row] = true;
+  table_.update(*frame.patches, inUse);
+}
+
+bool LightSums::mapsChanged(const Frame& frame) {
+  std::vector<Revision> now;
+  if (hasMaps_) {
+    const LightMaps& maps = *frame.patches->maps();
+    for (uint32_t i = 0; i < maps.objects(); ++i) now.push_back(maps.revision(i));
+  }
+  const bool changed = now != mapRevisions_;
+  mapRevisions_ = std::move(now);
+  return changed;
+}
+
+SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
+                            SumConstants constants, const PatchLights* patches) {
+  constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
+  Frame frame{gbuffer, lights, bySlot(lights), patches, {}, {}};
+  const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
+  // Lights that cast no shadow have no slot to tell them by.
+  if (constants != constants_ || !std::all_of(lights.begin(), lights.end(), hasSlot) ||
+      !std::all_of(lights_.begin(), lights_.end(), hasSlot))
+    knowsSums_ = false;
+  if (knowsSums_) {
+    frame.changes = findChanges(lights);
+    if (2 * frame.changes.size() > lights.size()) knowsSums_ = false;
+  }
+  constants_ = constants;
+  compareWithLast(frame);
+  findPlaces(frame);
+  frame.isChanged.assign(std::max(frame.slots.size(), table_.slots()), false);
+  for (const Change& change : frame.changes)
+    if (static_cast<size_t>(change.slot) < frame.isChanged.size())
+      frame.isChanged[static_cast<size_t>(change.slot)] = true;
+
+  knowsSums_ = false;  // until all is done
+  std::atomic<uint64_t> lightPixels = 0, lookUps = 0;
+  const bool finishAll = mapsChanged(frame);
+  const int tiles = gbuffer.tiles();
+  tbb::parallel_for(0, (tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {
+    const int first = task * kTilesPerTask, last = std::min(first + kTilesPerTask, tiles);
+    const SumCounts counts = sumTiles(frame, first, last);
+    lightPixels += counts.lightPixels;
+    lookUps += counts.lookUps;
+    for (int tile = first; tile < last; ++tile)
+      if (finishAll || counts.lightPixels > 0 || tiles_[static_cast<size_t>(tile)].isStale)
+        finishTile(frame, tile);
+  });
+  for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].revision = gbuffer.revision[i];
+  table_.accept();
+  lights_.assign(lights.begin(), lights.end());
+  oldMaps_.clear();
+  knowsSums_ = true;
+  return {lightPixels, lookUps};
+}
+
+SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
+  using When = TilePlaces::When;
+  SumCounts counts;
+  std::vector<TileAdder> fresh, stale;
+  fresh.reserve(static_cast<size_t>(last - first));
+  stale.reserve(static_cast<size_t>(last - first));
+  for (int i = first; i < last; ++i) {
+    Tile& tile = tiles_[static_cast<size_t>(i)];
+    if (tile.isStale) {
+      const size_t at = static_cast<size_t>(i) * kTilePixels;
+      for (auto* v : {&sums_.r, &sums_.g, &sums_.b}) std::fill_n(&(*v)[at], kTilePixels, 0);
+    }
+    if (tile.places.isEmpty()) continue;
+    (tile.isStale ? stale : fresh)
+        .emplace_back(frame.gbuffer, i, tile.places, hasPatches_ ? &table_ : nullptr, constants_,
+                      sums_, counts);
+    if (tile.isStale || !hasPatches_) continue;
+    // Lights that are the same but are used in another way here.
+    std::vector<int> slots;
+    for (const uint32_t row : tile.places.rows())
+      for (const int slot : table_.changed(row))
+        if (!frame.isChanged[static_cast<size_t>(slot)]) slots.push_back(slot);
+    std::sort(slots.begin(), slots.end());
+    slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+    for (const int slot : slots) {
+      if (static_cast<size_t>(slot) >= frame.slots.size()) continue;
+      const LightRecord* light = frame.slots[static_cast<size_t>(slot)];
+      if (light == nullptr) continue;
+      fresh.back().add(*light, Sign::takeAway, When::before);
+      fresh.back().add(*light, Sign::add, When::now);
+    }
+  }
+  for (const Change& change : frame.changes) {
+    for (TileAdder& tile : fresh)
+      if (change.before != nullptr) tile.add(*change.before, Sign::takeAway, When::before);
+    for (TileAdder& tile : fresh)
+      if (change.now != nullptr) tile.add(*change.now, Sign::add, When::now);
+  }
+  // The maps of some lights fit the second-level cache, those of all do not: each is fetched for
+  // all of the tiles at once.
+  const size_t texels = static_cast<size_t>(constants_.resolution) * constants_.resolution;
+  const size_t atOnce = std::max<size_t>(1, kMapBytesAtOnce / (texels * sizeof(float)));
+  for (size_t i = 0; i < frame.lights.size(); i += atOnce) {
+    const auto some = frame.lights.subspan(i, std::min(atOnce, frame.lights.size() - i));
+    for (TileAdder& tile : stale)
+      for (const LightRecord& light : some) tile.add(light, Sign::add, When::now);
+  }
+  return counts;
+}
+
+// The light map, if any, and what its pixels sum themselves.
+void LightSums::finishTile(const Frame& frame, int tile) {
+  const GBuffer& g = frame.gbuffer;
+  const size_t first = static_cast<size_t>(tile) * kTilePixels;
+  const float unit = 1.0f / constants_.unitsPerIrradiance;
+  for (size_t i = first; i < first + kTilePixels; ++i) {
+    red_[i] = unit * static_cast<float>(sums_.r[i]);
+    green_[i] = unit * static_cast<float>(sums_.g[i]);
+    blue_[i] = unit * static_cast<float>(sums_.b[i]);
+  }
+  if (!hasMaps_) return;
+  tiles_[static_cast<size_t>(tile)].places.forEachMapped(
+      [&](size_t packet, uint8_t lanes, const Place& place) {
+        const ObjectPatches& patches = frame.patches->patches(place.object);
+        for (size_t lane = 0; lane < kLanes; ++lane) {
+          if ((lanes >> lane & 1) == 0) continue;
+          const size_t i = packet + lane;
+          const vec3 e = frame.patches->maps()->irradiance(patches, place.object, place.leaf,
+                                                           vec3(g.px[i], g.py[i], g.pz[i]));
+          // The map is interpolated and what is taken away is not: no less than no light is left.
+          red_[i] = std::max(red_[i] + e.r, 0.0f);
+          green_[i] = std::max(green_[i] + e.g, 0.0f);
+          blue_[i] = std::max(blue_[i] + e.b, 0.0f);
+        }
+      });
+}
+
+size_t LightSums::bytes() const {
+  size_t bytes = sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) + table_.bytes();
+  for (const auto& [slot, map] : oldMaps_) bytes += map.size() * sizeof(float);
+  return bytes;
+}
+
+}  // namespace lamplighter::cpu

@@ -1,0 +1,74 @@
+// The sum of all lights over a G-buffer, kept from frame to frame: a light that changed is taken
+// away as it was and added as it is, and only tiles that show something else are summed anew. Sums
+// are whole numbers (light_kernel.h), so nothing of what was can be told from the result.
+#pragma once
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "renderer/backends/cpu/light_kernel.h"
+#include "renderer/backends/cpu/tile_places.h"
+#include "renderer/revision.h"
+
+namespace lamplighter::cpu {
+
+struct SumCounts {
+  uint64_t lightPixels = 0;  // lights × pixels, added or taken away
+  uint64_t lookUps = 0;      // of those, with one in a shadow map; in whole packets
+};
+
+class LightSums {
+ public:
+  // Brings E up to date at all pixels. `patches`: how each patch comes by each light; null: with a
+  // look-up, or without where the light has no map. The unit in `constants` is chosen here.
+  SumCounts update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
+                   SumConstants constants, const PatchLights* patches);
+
+  // To be called before a shadow map changes, with what it holds: its light may have to be taken
+  // away with it.
+  void mapChanges(int slot, std::span<const float> map);
+  // All maps are lost.
+  void forgetMaps();
+  // Objects are numbered anew, or have other patches though they stayed where they were.
+  void forgetPlaces() { knowsPlaces_ = false; }
+
+  // E at a pixel of the G-buffer [W/m²].
+  vec3 irradiance(size_t i) const { return {red_[i], green_[i], blue_[i]}; }
+  size_t bytes() const;
+
+ private:
+  struct Tile {
+    uint64_t revision = 0;  // of the G-buffer's tile, as summed; 0: never
+    bool isStale = true;
+    TilePlaces places;
+  };
+  // A light to take away, one to add, or both; null: none.
+  struct Change {
+    int slot;
+    const LightRecord* before;
+    const LightRecord* now;
+  };
+  struct Frame;
+
+  void compareWithLast(const Frame& frame);
+  std::vector<Change> findChanges(std::span<const LightRecord> lights);
+  void findPlaces(const Frame& frame);
+  bool mapsChanged(const Frame& frame);
+  SumCounts sumTiles(const Frame& frame, int first, int last);
+  void finishTile(const Frame& frame, int tile);
+
+  bool knowsSums_ = false;    // those of fresh tiles are of lights_ with constants_
+  bool knowsPlaces_ = false;  // of fresh tiles
+  bool hasPatches_ = false, hasMaps_ = false;
+  SumConstants constants_;
+  std::vector<LightRecord> lights_;            // as summed
+  std::map<int, std::vector<float>> oldMaps_;  // by slot, as summed, of those that changed since
+  PlaceTable table_;
+  std::vector<Tile> tiles_;
+  std::vector<Revision> mapRevisions_;  // of light maps, by object
+  FixedSums sums_;
+  std::vector<float> red_, green_, blue_;
+};
+
+}  // namespace lamplighter::cpu

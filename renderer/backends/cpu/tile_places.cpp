@@ -1,0 +1,138 @@
+#include "renderer/backends/cpu/tile_places.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <tbb/parallel_for.h>
+
+namespace lamplighter::cpu {
+
+void PlaceTable::reset(size_t slots) {
+  slots_ = slots;
+  rowOf_.clear();
+  places_.clear();
+  now_.clear();
+  before_.clear();
+  changed_.clear();
+  isKnown_.clear();
+}
+
+uint32_t PlaceTable::rowOf(const Place& place) {
+  const auto [it, isNew] = rowOf_.emplace(place, static_cast<uint32_t>(places_.size()));
+  if (isNew) places_.push_back(place);
+  return it->second;
+}
+
+void PlaceTable::update(const PatchLights& lights, const std::vector<bool>& inUse) {
+  now_.resize(places_.size() * slots_);
+  before_.resize(now_.size());
+  changed_.resize(places_.size());
+  isKnown_.resize(places_.size(), 0);
+  tbb::parallel_for(size_t{0}, places_.size(), [&](size_t row) {
+    changed_[row].clear();
+    const bool wasKnown = isKnown_[row] != 0;
+    isKnown_[row] = inUse[row] ? 1 : 0;
+    if (!inUse[row]) return;
+    const Place& place = places_[row];
+    LightUse* uses = &now_[row * slots_];
+    LightUse* last = &before_[row * slots_];
+    lights.uses(place.object, place.leaf, place.isMapped, {uses, slots_});
+    if (!wasKnown) {
+      std::copy_n(uses, slots_, last);
+    } else if (std::memcmp(uses, last, slots_) != 0) {
+      for (size_t slot = 0; slot < slots_; ++slot)
+        if (uses[slot] != last[slot]) changed_[row].push_back(static_cast<int>(slot));
+    }
+  });
+}
+
+void PlaceTable::accept() {
+  for (size_t row = 0; row < changed_.size(); ++row) {
+    for (const int slot : changed_[row]) {
+      const size_t at = row * slots_ + static_cast<size_t>(slot);
+      before_[at] = now_[at];
+    }
+    changed_[row].clear();
+  }
+}
+
+uint16_t TilePlaces::placeOf(const GBuffer& g, const PatchLights& lights, size_t i) {
+  const uint32_t object = g.object[i];
+  const ObjectPatches& patches = lights.patches(object);
+  const int leaf = patches.leafAt(g.triangle[i], vec3(g.px[i], g.py[i], g.pz[i]));
+  const int chart = patches.patches[static_cast<size_t>(leaf)].chart;
+  const bool isMapped = lights.isMapped(object, leaf) &&
+                        glm::dot(vec3(g.gx[i], g.gy[i], g.gz[i]),
+                                 patches.charts[static_cast<size_t>(chart)].normal) > 0.0f;
+  const Place place{object, leaf, isMapped};
+  // Neighbours are mostly in the place found last.
+  for (size_t k = places_.size(); k-- > 0;)
+    if (places_[k] == place) return static_cast<uint16_t>(k);
+  places_.push_back(place);
+  return static_cast<uint16_t>(places_.size() - 1);
+}
+
+void TilePlaces::find(const GBuffer& g, int tile, const PatchLights* patches) {
+  first_ = static_cast<size_t>(tile) * kTilePixels;
+  places_.clear();
+  rows_.clear();
+  parts_.clear();
+  kinds_.clear();
+  std::vector<Part> parts;
+  for (int packet = 0; packet < kPacketsPerTile; ++packet) {
+    parts.clear();
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const size_t i = first_ + static_cast<size_t>(packet * kLanes + lane);
+      if (g.hit[i] == 0) continue;
+      const uint16_t place = patches == nullptr ? uint16_t{0} : placeOf(g, *patches, i);
+      const auto it =
+          std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.place == place; });
+      Part& part = it == parts.end() ? parts.emplace_back(Part{place, 0}) : *it;
+      part.lanes |= static_cast<uint8_t>(1u << lane);
+    }
+    if (parts.empty()) continue;
+    const uint32_t bit = uint32_t{1} << packet;
+    const auto it = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& k) {
+      return std::equal(parts.begin(), parts.end(), parts_.begin() + k.first,
+                        parts_.begin() + k.first + k.count);
+    });
+    if (it != kinds_.end()) {
+      it->packets |= bit;
+      continue;
+    }
+    kinds_.push_back(
+        {static_cast<uint32_t>(parts_.size()), static_cast<uint32_t>(parts.size()), bit});
+    parts_.insert(parts_.end(), parts.begin(), parts.end());
+  }
+}
+
+void TilePlaces::takeRows(PlaceTable& table) {
+  rows_.clear();
+  for (const Place& place : places_) rows_.push_back(table.rowOf(place));
+}
+
+void TilePlaces::list(const PlaceTable& table, When when, int slot, Lists& out) const {
+  for (PacketList& list : out) list.clear();
+  for (const Kind& kind : kinds_) {
+    std::array<uint8_t, 4> lanes{};
+    for (size_t i = kind.first; i < kind.first + kind.count; ++i) {
+      const uint32_t row = rows_[parts_[i].place];
+      const LightUse* uses = when == When::now ? table.now(row) : table.before(row);
+      lanes[static_cast<size_t>(uses[slot])] |= parts_[i].lanes;
+    }
+    for (size_t use = 1; use < 4; ++use) {
+      if (lanes[use] == 0) continue;
+      for (uint32_t packets = kind.packets; packets != 0; packets &= packets - 1)
+        out[use].add(first_ + static_cast<size_t>(std::countr_zero(packets)) * kLanes, lanes[use]);
+    }
+  }
+}
+
+void TilePlaces::listAll(PacketList& out) const {
+  out.clear();
+  for (const Kind& kind : kinds_)
+    for (uint32_t packets = kind.packets; packets != 0; packets &= packets - 1)
+      out.add(first_ + static_cast<size_t>(std::countr_zero(packets)) * kLanes, 0xff);
+}
+
+}  // namespace lamplighter::cpu

@@ -1,0 +1,105 @@
+// Where the pixels of a tile lie: in which leaf patches, and what each of these makes of each
+// light. Found once for a tile and kept while it shows the same.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <compare>
+#include <map>
+#include <vector>
+
+#include "renderer/backends/cpu/light_kernel.h"
+
+namespace lamplighter::cpu {
+
+// Pixels for which all lights are used alike.
+struct Place {
+  uint32_t object = 0;
+  int leaf = 0;
+  bool isMapped = false;  // they begin with the light map
+  auto operator<=>(const Place&) const = default;
+};
+
+// How each light is used in each place that is seen, now and as it was summed last.
+class PlaceTable {
+ public:
+  // Forgets all places.
+  void reset(size_t slots);
+  uint32_t rowOf(const Place& place);
+  size_t rows() const { return places_.size(); }
+  size_t slots() const { return slots_; }
+
+  // Brings the rows in use up to date. The others are forgotten: their patches may be gone.
+  void update(const PatchLights& lights, const std::vector<bool>& inUse);
+  const LightUse* now(uint32_t row) const { return &now_[row * slots_]; }
+  const LightUse* before(uint32_t row) const { return &before_[row * slots_]; }
+  // Slots that are used in another way than before.
+  std::span<const int> changed(uint32_t row) const { return changed_[row]; }
+  // What is now is what was summed.
+  void accept();
+  size_t bytes() const { return now_.size() + before_.size(); }
+
+ private:
+  size_t slots_ = 0;
+  std::map<Place, uint32_t> rowOf_;
+  std::vector<Place> places_;
+  std::vector<LightUse> now_, before_;     // rows × slots
+  std::vector<std::vector<int>> changed_;  // by row
+  std::vector<uint8_t> isKnown_;           // by row: before_ is what was summed
+};
+
+// The places of one tile. Packets whose lanes lie in the same ones are of one kind, and few kinds
+// are in a tile.
+class TilePlaces {
+ public:
+  using Lists = std::array<PacketList, 4>;  // by LightUse
+
+  // patches: null where all lights are looked up everywhere.
+  void find(const GBuffer& gbuffer, int tile, const PatchLights* patches);
+  // Their rows in the table, once found. Not while other tiles do.
+  void takeRows(PlaceTable& table);
+
+  bool isEmpty() const { return kinds_.empty(); }
+  std::span<const uint32_t> rows() const { return rows_; }
+  // By slot, the packets of the tile that use the light in each way.
+  enum class When : uint8_t { before, now };
+  void list(const PlaceTable& table, When when, int slot, Lists& out) const;
+  // All that is hit.
+  void listAll(PacketList& out) const;
+
+  // Calls f(first pixel of the packet, lane, place) for all lanes on a light map.
+  template <typename F>
+  void forEachMapped(F&& f) const {
+    for (const Kind& kind : kinds_) {
+      for (size_t part = kind.first; part < kind.first + kind.count; ++part) {
+        const Place& place = places_[parts_[part].place];
+        if (!place.isMapped) continue;
+        for (uint32_t packets = kind.packets; packets != 0; packets &= packets - 1)
+          f(first_ + static_cast<size_t>(std::countr_zero(packets)) * kLanes, parts_[part].lanes,
+            place);
+      }
+    }
+  }
+
+ private:
+  struct Part {
+    uint16_t place;
+    uint8_t lanes;
+    bool operator==(const Part&) const = default;
+  };
+  struct Kind {
+    uint32_t first, count;  // parts
+    uint32_t packets;       // a bit each
+  };
+  static_assert(kPacketsPerTile <= 32);
+
+  uint16_t placeOf(const GBuffer& gbuffer, const PatchLights& lights, size_t pixel);
+
+  size_t first_ = 0;  // pixel of the tile
+  std::vector<Place> places_;
+  std::vector<uint32_t> rows_;  // by place
+  std::vector<Part> parts_;
+  std::vector<Kind> kinds_;
+};
+
+}  // namespace lamplighter::cpu

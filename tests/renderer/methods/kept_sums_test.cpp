@@ -1,0 +1,139 @@
+// The picture that is kept from edit to edit, light by light and tile by tile, is the one made from
+// nothing.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/edit_sequence.h"
+#include "tests/support/lit_scene.h"
+
+namespace lamplighter {
+namespace {
+
+Settings settingsOf(const std::string& technique, int vpls) {
+  Settings s;
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::bounces().name, 2);
+  s.set(parameters::updates().name, 9);
+  s.set(parameters::mapResolution().name, 16);
+  s.set(parameters::antialias().name, 1);
+  return s;
+}
+
+struct Room {
+  Scene scene =
+      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
+          .scene;
+  View view;
+  Room() {
+    for (const Node& node : scene.nodes)
+      if (node.camera != kNone) view = viewOfCamera(scene, node, 93, 61);
+  }
+};
+
+Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
+              const View& view, const Settings& settings) {
+  return test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
+}
+
+// A few frames after each edit, so that the next comes upon lights half refreshed; then to rest.
+bool isLikeNew(const std::string& technique, const test::EditSequence& edits) {
+  Room room;
+  const Settings settings = settingsOf(technique, 60);
+  FrameRenderer renderer(makeCpuBackend());
+  settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  for (size_t i = 0; i < edits.size(); ++i) {
+    const Scene before = room.scene;
+    apply(room.scene, edits[i]);
+    SceneChanges changes = compare(before, room.scene);
+    for (size_t frame = 0; frame <= i % 4; ++frame, changes = {})
+      renderer.render({room.scene, changes, room.view, "many_lights", settings});
+  }
+  const Image kept = settled(renderer, room.scene, {}, room.view, settings);
+  FrameRenderer anew(makeCpuBackend());
+  return test::sameBits(kept, settled(anew, room.scene, SceneChanges::all(), room.view, settings));
+}
+
+class KeptSums : public testing::TestWithParam<std::tuple<const char*, uint32_t>> {};
+
+TEST_P(KeptSums, AreThoseMadeFromNothing) {
+  const auto [technique, seed] = GetParam();
+  EXPECT_EQ(test::shortestFailing(test::randomEdits(12, seed),
+                                  [&, t = std::string(technique)](const test::EditSequence& s) {
+                                    return isLikeNew(t, s);
+                                  }),
+            test::EditSequence());
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, KeptSums,
+                         testing::Combine(testing::Values("naive", "visibility", "light_maps"),
+                                          testing::Range(1u, 5u)));
+
+// What moves costs its own tiles, and the lights that were refreshed: far less than all.
+TEST(KeptSums, ADragCostsWhatItTouches) {
+  Room room;
+  Settings settings = settingsOf("light_maps", 100);
+  settings.set(parameters::updates().name, 10);
+  FrameRenderer renderer(makeCpuBackend());
+  settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  const auto pixels = static_cast<uint64_t>(room.view.width) * room.view.height;
+  const uint64_t all = pixels * 100;
+  for (const char* name : {"mover", "ceiling light"}) {
+    const Scene before = room.scene;
+    for (Node& node : room.scene.nodes)
+      if (node.name == name) node.local.translation.x += 0.1f;
+    const KernelCounts start = renderer.backend().counts();
+    const GiOutput out = renderer.render(
+        {room.scene, compare(before, room.scene), room.view, "many_lights", settings});
+    const KernelCounts end = renderer.backend().counts();
+    EXPECT_FALSE(out.settled);
+    EXPECT_LT(end.lightPixels - start.lightPixels, all / 2) << name;
+    EXPECT_GT(end.lightPixels - start.lightPixels, 0u) << name;
+    const uint64_t maps = end.shadowMaps - start.shadowMaps;
+    EXPECT_LT(end.rays - start.rays - maps * 16 * 16, pixels / 2) << name;
+    settled(renderer, room.scene, {}, room.view, settings);
+  }
+}
+
+// Coarser light maps leave out other lights: the same lights are used in another way.
+TEST(KeptSums, FollowHowPatchesUseTheSameLights) {
+  Room room;
+  Settings settings = settingsOf("light_maps", 60);
+  FrameRenderer renderer(makeCpuBackend());
+  const Image fine = settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  settings.set(parameters::lightMapTexel().name, 0.5f);
+  const Image kept = settled(renderer, room.scene, {}, room.view, settings);
+  FrameRenderer anew(makeCpuBackend());
+  EXPECT_TRUE(test::sameBits(
+      kept, settled(anew, room.scene, SceneChanges::all(), room.view, settings)));
+  EXPECT_FALSE(test::sameBits(kept, fine));
+}
+
+// While edges are smoothed the picture with pixels in their places waits for the next edit.
+TEST(KeptSums, OutlastAntialiasing) {
+  Room room;
+  Settings settings = settingsOf("light_maps", 40);
+  settings.set(parameters::antialias().name, 4);
+  FrameRenderer renderer(makeCpuBackend());
+  const Image first = settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  for (const float step : {0.3f, -0.3f}) {
+    const Scene before = room.scene;
+    for (Node& node : room.scene.nodes)
+      if (node.name == "mover") node.local.translation.z += step;
+    settled(renderer, room.scene, compare(before, room.scene), room.view, settings);
+  }
+  const Image second = settled(renderer, room.scene, {}, room.view, settings);
+  double most = 0.0;
+  for (size_t i = 0; i < first.pixels.size(); ++i)
+    most = std::max<double>(most, glm::distance(first.pixels[i], second.pixels[i]));
+  // The mover's place is a sum of two steps, and off by their rounding.
+  EXPECT_LT(most, 0.05);
+}
+
+}  // namespace
+}  // namespace lamplighter
