@@ -34,25 +34,6 @@ void alphaFilter(const RTCFilterFunctionNArguments* a) {
   }
 }
 
-// Leaves out back faces that no camera sees. N is 1 or 8; valid lanes are −1.
-void backFaceFilter(const RTCFilterFunctionNArguments* a) {
-  const auto& scene = *static_cast<const RenderScene*>(a->geometryUserPtr);
-  for (unsigned int i = 0; i < a->N; ++i) {
-    if (a->valid[i] != -1 || !scene.backIsUnseen(RTCHitN_geomID(a->hit, a->N, i))) continue;
-    const float along = RTCHitN_Ng_x(a->hit, a->N, i) * RTCRayN_dir_x(a->ray, a->N, i) +
-                        RTCHitN_Ng_y(a->hit, a->N, i) * RTCRayN_dir_y(a->ray, a->N, i) +
-                        RTCHitN_Ng_z(a->hit, a->N, i) * RTCRayN_dir_z(a->ray, a->N, i);
-    if (along > 0.0f) a->valid[i] = 0;
-  }
-}
-
-RTCIntersectContext contextFor(Surfaces which) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  if (which == Surfaces::seen) context.filter = backFaceFilter;
-  return context;
-}
-
 RTCRay toEmbree(const Ray& r) {
   RTCRay e{};
   e.org_x = r.origin.x;
@@ -69,16 +50,25 @@ RTCRay toEmbree(const Ray& r) {
 
 }  // namespace
 
-// One geometry an object, with the object's number as its id, in one scene without instances. At
-// low build quality Embree keeps a tree a geometry and one above them all, so that a moved object
-// costs its own tree and the upper one; rays cost the same within what could be measured
-// (tests/bench/raycast_bench.cpp). The trees of the geometries are built at medium quality, by the
-// surface area heuristic, and always anew: what a ray hits does not depend on where things were.
+// One geometry an object, with the object's number as its id, in two scenes: one tree over all
+// triangles, which is built at medium quality (by the surface area heuristic) and whose packets may
+// be told coherent; and a small one for what has moved since, a tree an object and one above them,
+// which is brought up to date quickly. A mover's old place in the first is passed over by a filter.
+// What a ray hits does not depend on which of them an object is in.
+//
+// In Embree 3.13 packets that are told coherent never come back from a tree of trees.
 struct RayCaster::Impl {
   const RenderScene& scene;
   std::string error;  // the first that Embree reported
   RTCDevice device = nullptr;
-  RTCScene embree = nullptr;
+  RTCScene still = nullptr, moving = nullptr;
+  std::vector<uint8_t> isMoving;  // by object: it is in `moving`
+  std::vector<uint32_t> movers;
+  struct Passing {
+    bool isClear, isMasked;
+    bool operator==(const Passing&) const = default;
+  };
+  std::vector<Passing> passing;  // by object, as built
 
   explicit Impl(const RenderScene& s) : scene(s) {
     // One instruction set on every machine, so that rays give the same bits on all of them.
@@ -88,19 +78,25 @@ struct RayCaster::Impl {
     rtcSetDeviceErrorFunction(device, onError, &error);
   }
   ~Impl() {
-    if (embree != nullptr) rtcReleaseScene(embree);
+    release();
     rtcReleaseDevice(device);
   }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void commit() {
+  void release() {
+    for (RTCScene* s : {&still, &moving})
+      if (*s != nullptr) rtcReleaseScene(std::exchange(*s, nullptr));
+  }
+
+  void commit(RTCScene embree) {
     rtcCommitScene(embree);
     if (!error.empty()) throw std::runtime_error(std::exchange(error, {}));
   }
 
-  const Material& materialOf(uint32_t object) const {
-    return scene.materials[scene.objects[object].material];
+  Passing passingOf(uint32_t object) const {
+    const Material& m = scene.materials[static_cast<size_t>(scene.objects[object].material)];
+    return {m.isClear(), m.alphaMode == AlphaMode::mask};
   }
 
   void copyVertices(RTCGeometry geometry, const RenderObject& o) const {
@@ -115,71 +111,117 @@ struct RayCaster::Impl {
                    [&](uint32_t i) { return i - o.firstVertex; });
   }
 
-  void build() {
-    if (embree != nullptr) rtcReleaseScene(embree);
-    embree = rtcNewScene(device);
-    rtcSetSceneFlags(embree,
-                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_DYNAMIC | RTC_SCENE_FLAG_ROBUST |
-                                                RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-    rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_LOW);
-    for (uint32_t i = 0; i < scene.objects.size(); ++i) {
-      const RenderObject& o = scene.objects[i];
-      RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
-                              o.vertexCount);
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(uint32_t), o.triangleCount());
-      if (!error.empty()) {  // no room for the buffers
-        rtcReleaseGeometry(geometry);
-        commit();
-      }
-      rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
-      copyVertices(geometry, o);
-      copyIndices(geometry, o);
-      // The scene belongs to the FrameRenderer, which outlives this; the filter only reads it.
-      rtcSetGeometryUserData(geometry, const_cast<RenderScene*>(&scene));
-      applyMaterial(geometry, i);
-      rtcCommitGeometry(geometry);
-      rtcAttachGeometryByID(embree, geometry, i);
+  void add(RTCScene embree, uint32_t object) {
+    if (passing[object].isClear) return;
+    const RenderObject& o = scene.objects[object];
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
+                            o.vertexCount);
+    rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                            3 * sizeof(uint32_t), o.triangleCount());
+    if (!error.empty()) {  // no room for the buffers
       rtcReleaseGeometry(geometry);
+      throw std::runtime_error(std::exchange(error, {}));
     }
-    commit();
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
+    copyVertices(geometry, o);
+    copyIndices(geometry, o);
+    // The scene belongs to the FrameRenderer, which outlives this; the filter only reads it.
+    rtcSetGeometryUserData(geometry, const_cast<RenderScene*>(&scene));
+    if (passing[object].isMasked) {
+      rtcSetGeometryIntersectFilterFunction(geometry, alphaFilter);
+      rtcSetGeometryOccludedFilterFunction(geometry, alphaFilter);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(embree, geometry, object);
+    rtcReleaseGeometry(geometry);
   }
 
-  void applyMaterial(RTCGeometry geometry, uint32_t object) const {
-    const Material& m = materialOf(object);
-    const auto filter = m.alphaMode == AlphaMode::mask ? alphaFilter : nullptr;
-    rtcSetGeometryIntersectFilterFunction(geometry, filter);
-    rtcSetGeometryOccludedFilterFunction(geometry, filter);
-    if (m.isClear()) {
-      rtcDisableGeometry(geometry);
-    } else {
-      rtcEnableGeometry(geometry);
-    }
+  void build() {
+    release();
+    still = rtcNewScene(device);
+    moving = rtcNewScene(device);
+    const RTCSceneFlags flags = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+    rtcSetSceneFlags(still, flags);
+    rtcSetSceneFlags(moving, flags | RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetSceneBuildQuality(moving, RTC_BUILD_QUALITY_LOW);
+    isMoving.assign(scene.objects.size(), 0);
+    movers.clear();
+    passing.clear();
+    for (uint32_t i = 0; i < scene.objects.size(); ++i) passing.push_back(passingOf(i));
+    for (uint32_t i = 0; i < scene.objects.size(); ++i) add(still, i);
+    commit(still);
+    commit(moving);
+  }
+
+  // What came to rest goes back when other things begin to move, if it is enough to slow rays down.
+  bool shouldJoin(const std::vector<uint32_t>& moved) const {
+    constexpr size_t kFew = 10000, kShare = 20;  // triangles; one in so many
+    if (std::any_of(moved.begin(), moved.end(), [&](uint32_t i) { return isMoving[i] != 0; }))
+      return false;
+    size_t triangles = 0;
+    for (const uint32_t i : movers) triangles += scene.objects[i].triangleCount();
+    return triangles > std::max(kFew, scene.triangleCount() / kShare);
   }
 
   void update(const RenderSceneChanges& changes) {
-    if (changes.rebuilt) {
+    bool anew = changes.rebuilt;
+    for (uint32_t i = 0; !anew && changes.materials && i < passing.size(); ++i)
+      anew = passing[i] != passingOf(i);
+    if (anew || shouldJoin(changes.movedObjects)) {
       build();
       return;
     }
-    if (changes.movedObjects.empty() && !changes.materials) return;
+    if (changes.movedObjects.empty()) return;
     for (const uint32_t i : changes.movedObjects) {
-      RTCGeometry geometry = rtcGetGeometry(embree, i);
+      if (passing[i].isClear) continue;
+      if (isMoving[i] == 0) {
+        isMoving[i] = 1;
+        movers.push_back(i);
+        add(moving, i);
+        continue;
+      }
+      RTCGeometry geometry = rtcGetGeometry(moving, i);
       copyVertices(geometry, scene.objects[i]);
       copyIndices(geometry, scene.objects[i]);
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0);
       rtcCommitGeometry(geometry);
     }
-    if (changes.materials) {
-      for (uint32_t i = 0; i < scene.objects.size(); ++i) {
-        RTCGeometry geometry = rtcGetGeometry(embree, i);
-        applyMaterial(geometry, i);
-        rtcCommitGeometry(geometry);
+    commit(moving);
+  }
+
+  // A query of one of the scenes.
+  struct Query {
+    RTCIntersectContext embree;
+    const Impl* impl;
+    bool isOfStill, seenOnly;
+  };
+  Query query(Surfaces which, bool ofStill, bool isCoherent = false) const {
+    Query q{{}, this, ofStill, which == Surfaces::seen};
+    rtcInitIntersectContext(&q.embree);
+    if (isCoherent) q.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    if (q.seenOnly || (ofStill && !movers.empty())) q.embree.filter = passOver;
+    return q;
+  }
+
+  // Leaves out what has moved away, and back faces that no camera sees. N is 1 or 8; valid lanes
+  // are −1.
+  static void passOver(const RTCFilterFunctionNArguments* a) {
+    const auto& q = *reinterpret_cast<const Query*>(a->context);
+    for (unsigned int i = 0; i < a->N; ++i) {
+      if (a->valid[i] != -1) continue;
+      const uint32_t object = RTCHitN_geomID(a->hit, a->N, i);
+      if (q.isOfStill && q.impl->isMoving[object] != 0) {
+        a->valid[i] = 0;
+        continue;
       }
+      if (!q.seenOnly || !q.impl->scene.backIsUnseen(object)) continue;
+      const float along = RTCHitN_Ng_x(a->hit, a->N, i) * RTCRayN_dir_x(a->ray, a->N, i) +
+                          RTCHitN_Ng_y(a->hit, a->N, i) * RTCRayN_dir_y(a->ray, a->N, i) +
+                          RTCHitN_Ng_z(a->hit, a->N, i) * RTCRayN_dir_z(a->ray, a->N, i);
+      if (along > 0.0f) a->valid[i] = 0;
     }
-    commit();
   }
 };
 
@@ -192,24 +234,31 @@ RayCaster::~RayCaster() = default;
 void RayCaster::update(const RenderSceneChanges& changes) { impl_->update(changes); }
 
 Hit RayCaster::intersect(const Ray& ray, Surfaces which) const {
-  RTCIntersectContext context = contextFor(which);
   RTCRayHit r{toEmbree(ray), {}};
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(impl_->embree, &context, &r);
+  Impl::Query still = impl_->query(which, true);
+  rtcIntersect1(impl_->still, &still.embree, &r);
+  if (!impl_->movers.empty()) {
+    Impl::Query moving = impl_->query(which, false);
+    rtcIntersect1(impl_->moving, &moving.embree, &r);
+  }
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return {r.ray.tfar, r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v};
 }
 
 bool RayCaster::occluded(const Ray& ray) const {
-  RTCIntersectContext context = contextFor(Surfaces::all);
   RTCRay r = toEmbree(ray);
-  rtcOccluded1(impl_->embree, &context, &r);
+  Impl::Query still = impl_->query(Surfaces::all, true);
+  rtcOccluded1(impl_->still, &still.embree, &r);
+  if (!impl_->movers.empty() && !(r.tfar < 0.0f)) {
+    Impl::Query moving = impl_->query(Surfaces::all, false);
+    rtcOccluded1(impl_->moving, &moving.embree, &r);
+  }
   return r.tfar < 0.0f;
 }
 
 void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                            Surfaces which) const {
-  RTCIntersectContext context = contextFor(which);
   alignas(32) int valid[8];
   alignas(32) RTCRayHit8 r{};
   for (size_t i = 0; i < 8; ++i) {
@@ -226,7 +275,12 @@ void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
     r.ray.mask[i] = 0xffffffffu;
     r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
-  rtcIntersect8(valid, impl_->embree, &context, &r);
+  Impl::Query still = impl_->query(which, true, true);
+  rtcIntersect8(valid, impl_->still, &still.embree, &r);
+  if (!impl_->movers.empty()) {
+    Impl::Query moving = impl_->query(which, false);
+    rtcIntersect8(valid, impl_->moving, &moving.embree, &r);
+  }
   for (size_t i = 0; i < 8; ++i) {
     hits[i] = valid[i] == 0 || r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                   ? Hit()

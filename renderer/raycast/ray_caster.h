@@ -41,7 +41,7 @@ class RayCaster {
 
   Hit intersect(const Ray& ray, Surfaces which = Surfaces::all) const;
   bool occluded(const Ray& ray) const;
-  // Eight rays at a time; tFar < 0 switches a lane off. Rays need not be coherent.
+  // Eight rays at a time; tFar < 0 switches a lane off. Fastest where they start or go alike.
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                   Surfaces which = Surfaces::all) const;
 

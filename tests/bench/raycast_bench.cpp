@@ -6,7 +6,9 @@
 #include <vector>
 
 #include <benchmark/benchmark.h>
+#include <embree3/rtcore.h>
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include "renderer/raycast/ray_caster.h"
@@ -138,6 +140,64 @@ void incoherentRays(benchmark::State& state) {
 // 0: one by one, 1: eight at a time, 2: occlusion only.
 BENCHMARK(coherentRays)->DenseRange(0, 2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(incoherentRays)->DenseRange(0, 2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+// What Embree alone makes of the same rays: one static tree over all triangles, rays and hits in
+// its own layout, filled beforehand. 0: as fast as it goes; 1: and robust; 2: told that they are
+// coherent.
+void bareRays(benchmark::State& state) {
+  const World& w = world();
+  RTCDevice device = rtcNewDevice("isa=avx2");
+  RTCScene scene = rtcNewScene(device);
+  if (state.range(0) == 1) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  std::copy(w.render.positions.begin(), w.render.positions.end(),
+            static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                       RTC_FORMAT_FLOAT3, sizeof(vec3),
+                                                       w.render.positions.size())));
+  std::copy(w.render.indices.begin(), w.render.indices.end(),
+            static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
+                                                           RTC_FORMAT_UINT3, 3 * sizeof(uint32_t),
+                                                           w.render.triangleCount())));
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  std::vector<RTCRayHit8> fresh(w.primary.size() / 8), rays(fresh.size());
+  for (size_t i = 0; i < 8 * fresh.size(); ++i) {
+    const Ray& from = w.primary[i];
+    RTCRayHit8& to = fresh[i / 8];
+    const size_t lane = i % 8;
+    to.ray.org_x[lane] = from.origin.x;
+    to.ray.org_y[lane] = from.origin.y;
+    to.ray.org_z[lane] = from.origin.z;
+    to.ray.dir_x[lane] = from.direction.x;
+    to.ray.dir_y[lane] = from.direction.y;
+    to.ray.dir_z[lane] = from.direction.z;
+    to.ray.tfar[lane] = from.tFar;
+    to.ray.mask[lane] = 0xffffffffu;
+    to.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+  }
+  alignas(32) const int valid[8] = {-1, -1, -1, -1, -1, -1, -1, -1};
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  if (state.range(0) == 2) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  for (auto _ : state) {
+    state.PauseTiming();
+    rays = fresh;
+    state.ResumeTiming();
+    for (RTCRayHit8& packet : rays) rtcIntersect8(valid, scene, &context, &packet);
+  }
+  state.SetItemsProcessed(static_cast<int64_t>(8 * state.iterations() * rays.size()));
+  rtcReleaseScene(scene);
+  rtcReleaseDevice(device);
+}
+BENCHMARK(bareRays)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+
+void ownRays(benchmark::State& state) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  castRays(state, world().primary, Query::eight);
+}
+BENCHMARK(ownRays)->Unit(benchmark::kMillisecond);
 
 void buildTree(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(RayCaster(world().render).occluded({}));
