@@ -113,6 +113,8 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
                   {"total", t.loadSeconds + t.renderSeconds}};
   j["stages"] = t.stageSeconds;  // seconds
   j["vpls"] = out.stats.vpls;
+  if (out.stats.mergedPasses > 0)
+    j["merged_passes"] = {{"drawn", out.stats.mergedPasses}, {"saved", out.stats.passesSaved}};
   j["samples_per_pixel"] = out.stats.samplesPerPixel;
   j["shadow_maps"] = counts.shadowMaps;
   j["light_pixels"] = counts.lightPixels;
