@@ -8,7 +8,6 @@
 namespace lamplighter::theme {
 namespace {
 
-constexpr const char* kTextFont = "/usr/share/fonts/opentype/inter/Inter-Regular.otf";
 constexpr const char* kIconFont = "/usr/share/fonts/truetype/fork-awesome/forkawesome-webfont.ttf";
 
 ImVec4 rgb(unsigned value, float alpha = 1.0f) {

@@ -80,6 +80,8 @@ void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
   sub->add_option("--view-vpl", o->viewVpl, "Light sample that --view occlusion is about, from 0")
       ->type_name("INDEX")
       ->check(CLI::NonNegativeNumber);
+  sub->add_flag("--marks", o->marks, "Mark the light samples, as the viewport does");
+  sub->add_flag("--legend", o->legend, "Say in a strip below what the colours of the view mean");
   sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));

@@ -1,5 +1,6 @@
 #include <charconv>
 #include <iostream>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -8,6 +9,9 @@
 
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
+#include "editor/views/annotate.h"
+#include "editor/views/look.h"
+#include "editor/views/vpl_overlay.h"
 #include "renderer/error.h"
 #include "renderer/frame.h"
 #include "renderer/image/exposure.h"
@@ -109,6 +113,8 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
                   {"total", t.loadSeconds + t.renderSeconds}};
   j["stages"] = t.stageSeconds;  // seconds
   j["vpls"] = out.stats.vpls;
+  if (out.stats.mergedPasses > 0)
+    j["merged_passes"] = {{"drawn", out.stats.mergedPasses}, {"saved", out.stats.passesSaved}};
   j["samples_per_pixel"] = out.stats.samplesPerPixel;
   j["shadow_maps"] = counts.shadowMaps;
   j["light_pixels"] = counts.lightPixels;
@@ -120,9 +126,23 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   return j.dump(2) + "\n";
 }
 
-// Throws InputError when the method does not have what the view shows, before the long work.
+// Throws InputError when what is shown cannot be in an EXR.
+void requireRadiance(const RenderOptions& o, DebugView debugView) {
+  const std::string what = !isRadiance(debugView) ? "view " + o.view + " is no"
+                           : o.marks              ? "marks are no"
+                           : o.legend             ? "a legend is no"
+                                                  : "";
+  if (!what.empty())
+    throw InputError(o.output, what + " radiance and cannot be in an EXR",
+                     "name a file that ends in .png");
+}
+
+// Throws InputError when the method does not have what is shown, before the long work.
 void requireView(const FrameRenderer& renderer, DebugView debugView, const RenderOptions& o) {
   const Inspection inspection = renderer.inspect();
+  if (o.marks && inspection.lights.empty())
+    throw InputError("--marks", "there is no light sample", "leave it out, or use many_lights");
+  if (isRadiance(debugView)) return;
   const std::string problem = problemOf(debugView, inspection);
   if (!problem.empty())
     throw InputError("--view " + o.view, problem, "add --set technique=light_maps");
@@ -155,9 +175,9 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   if (!o.stats.empty()) requireWritable(o.stats, {});
   exposureOf(o.exposure, Image());
   const DebugView debugView = findDebugView(o.view).view;
-  if (!isRadiance(debugView) && !o.output.ends_with(".png"))
-    throw InputError(o.output, "view " + o.view + " is no radiance and cannot be an EXR",
-                     "name a file that ends in .png");
+  if (!o.output.ends_with(".png")) requireRadiance(o, debugView);
+  std::optional<Font> font;
+  if (o.legend) font.emplace(look::kTextFont, static_cast<int>(look::kFontSize), "--legend");
 
   const ThreadLimit limit(o.threads);
   Totals totals;
@@ -174,7 +194,7 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   do {
     out = renderer.render(
         {loaded.scene, changes, view, o.method, settings, debugView == DebugView::lightOnly});
-    if (totals.frames == 0 && !isRadiance(debugView)) requireView(renderer, debugView, o);
+    if (totals.frames == 0) requireView(renderer, debugView, o);
     changes = SceneChanges();
     ++totals.frames;
     totals.raysOfMethod += out.stats.raysTraced;
@@ -188,17 +208,24 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   const Image& image = out.radiance->pixels();
   totals.renderSeconds = frontend.stopwatch() - start - totals.loadSeconds;
 
-  if (!isRadiance(debugView)) {
-    const Inspection inspection = renderer.inspect();
-    const float ev = exposureOf(o.exposure, image);
-    writePng(
-        drawView(debugView, {renderer.scene(), *renderer.rays(), view, inspection, o.viewVpl, ev})
-            .image,
-        o.output);
-  } else if (o.output.ends_with(".exr")) {
+  if (o.output.ends_with(".exr")) {
     writeExr(image, o.output);
   } else {
-    writePng(toneMap(image, exposureOf(o.exposure, image)), o.output);
+    const Inspection inspection = renderer.inspect();
+    const float ev = exposureOf(o.exposure, image);
+    ViewPicture picture;
+    if (isRadiance(debugView))
+      picture.image = toneMap(image, ev);
+    else
+      picture = drawView(debugView,
+                         {renderer.scene(), *renderer.rays(), view, inspection, o.viewVpl, ev});
+    if (o.marks) {
+      Overlay marks;
+      drawVpls(marks, view, inspection, *renderer.rays(),
+               debugView == DebugView::occlusion ? o.viewVpl : kNone);
+      drawOverlay(picture.image, marks, nullptr);
+    }
+    writePng(font ? withLegend(picture, *font) : picture.image, o.output);
   }
   if (!o.stats.empty()) writeText(o.stats, statsText(o, view, out, totals, renderer.backend()));
   return 0;

@@ -22,6 +22,7 @@ struct RenderOptions {
   std::string exposure = "0";  // EV or "auto"
   std::string view = "lit";
   int viewVpl = 0;  // that the view is about
+  bool legend = false, marks = false;
   int threads = 0;
   // Shortcuts, empty where not given.
   std::string vpls, directShare, bounces, seed, spp;

@@ -24,11 +24,21 @@ bool isSeen(const View& view, const RayCaster& rays, const vec3& p) {
 
 float brightest(const vec3& c) { return std::max({c.r, c.g, c.b}); }
 
-OverlayShape polygon(const vec2& centre, float radius, int corners, const vec3& colour,
-                     float alpha) {
+// Parallel light has no place: its mark lies where the middle of its square first meets the level.
+vec3 placeOf(const shared::Vpl& vpl, const RayCaster& rays) {
+  const vec3 position(vpl.position), towards(vpl.normal);
+  if (vpl.position.w != shared::kVplDirectional) return position;
+  const vec3 start = position + vpl.normal.w * towards;  // outside of the level
+  const Hit hit = rays.intersect({start, 0.0f, -towards});
+  return hit ? start - hit.t * towards : position;
+}
+
+// The first corner lies above the centre, turned by `turn` of the way to the next.
+OverlayShape polygon(const vec2& centre, float radius, int corners, const vec3& colour, float alpha,
+                     float turn = 0.0f) {
   OverlayShape shape{{}, true, false, vec4(colour, alpha), 1.5f};
   for (int i = 0; i < corners; ++i) {
-    const float a = 2.0f * kPi * static_cast<float>(i) / static_cast<float>(corners);
+    const float a = 2.0f * kPi * (static_cast<float>(i) + turn) / static_cast<float>(corners);
     shape.points.push_back(centre + radius * vec2(std::sin(a), -std::cos(a)));
   }
   return shape;
@@ -46,7 +56,7 @@ void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
   }
   for (size_t i = 0; i < inspection.lights.size(); ++i) {
     const InspectedLight& light = inspection.lights[i];
-    const vec3 position(light.vpl.position), normal(light.vpl.normal);
+    const vec3 position = placeOf(light.vpl, rays), normal(light.vpl.normal);
     const auto at = projectPoint(view, position);
     if (!at) continue;
     const bool isDirect = light.id.bounce == 0;
@@ -60,15 +70,17 @@ void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
     const vec3 tip = position + kNormal * metresPerPixel(view, position) * normal;
     addLine(overlay, view, position, tip, vec4(vec3(0.0f), 0.6f * alpha), 4.0f);
     addLine(overlay, view, position, tip, vec4(colour, alpha), 2.0f);
-    const int corners = isDirect ? 12 : 4;
-    const float radius = isDirect ? kRadius : 1.15f * kRadius;
+    const bool isParallel = light.vpl.position.w == shared::kVplDirectional;
+    const int corners = isDirect && !isParallel ? 12 : 4;
+    const float radius = corners == 12 ? kRadius : 1.15f * kRadius;
+    const float turn = isParallel ? 0.5f : 0.0f;
     if (light.isLive) {
-      OverlayShape disc = polygon(*at, radius, corners, colour, alpha);
+      OverlayShape disc = polygon(*at, radius, corners, colour, alpha, turn);
       disc.filled = true;
       overlay.shapes.push_back(disc);
     }
     overlay.shapes.push_back(
-        polygon(*at, radius, corners, light.isLive ? vec3(0.0f) : colour, 0.7f * alpha));
+        polygon(*at, radius, corners, light.isLive ? vec3(0.0f) : colour, 0.7f * alpha, turn));
     if (light.isStale) overlay.shapes.push_back(polygon(*at, 1.7f * kRadius, 16, kWaiting, alpha));
     if (isChosen) {
       OverlayShape ring = polygon(*at, 2.5f * kRadius, 20, kChosen, 1.0f);
@@ -84,7 +96,7 @@ int pickVpl(const View& view, const Inspection& inspection, const RayCaster& ray
   bool bestIsSeen = false;
   float nearest = kReach;
   for (size_t i = 0; i < inspection.lights.size(); ++i) {
-    const vec3 position(inspection.lights[i].vpl.position);
+    const vec3 position = placeOf(inspection.lights[i].vpl, rays);
     const auto at = projectPoint(view, position);
     if (!at) continue;
     const float distance = glm::length(*at - pointer);

@@ -8,9 +8,9 @@
 
 namespace lamplighter {
 
-// Discs on lights, diamonds for bounces, in the colour of their light, each with its normal; a ring
-// around those that wait, a larger one around the chosen (kNone: none). What surfaces hide is
-// faint.
+// Discs on lights, diamonds for bounces, squares for parallel light where it lands, in the colour
+// of their light, each with its normal; a ring around those that wait, a larger one around the
+// chosen (kNone: none). What surfaces hide is faint.
 void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
               const RayCaster& rays, int chosen);
 

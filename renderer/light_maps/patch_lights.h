@@ -19,12 +19,15 @@ enum class LightUse : uint8_t {
 // Views into both, which must outlive it and stay as they are.
 class PatchLights {
  public:
-  // maps: null when there are none.
-  PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps)
-      : visibility_(visibility), maps_(maps) {}
+  // maps: null when there are none. mergesPasses: lights that need their shadow maps are to be
+  // summed by merged passes (pass_merging.h), where the backend sums by passes at all.
+  PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps,
+              bool mergesPasses = false)
+      : visibility_(visibility), maps_(maps), mergesPasses_(mergesPasses) {}
 
   const VisibilityDatabase& visibility() const { return visibility_; }
   const LightMaps* maps() const { return maps_; }
+  bool mergesPasses() const { return mergesPasses_; }
   size_t slots() const { return visibility_.slots(); }
   const ObjectPatches& patches(uint32_t object) const { return visibility_.patches(object); }
 
@@ -39,6 +42,7 @@ class PatchLights {
  private:
   const VisibilityDatabase& visibility_;
   const LightMaps* maps_;
+  bool mergesPasses_;
 };
 
 }  // namespace lamplighter

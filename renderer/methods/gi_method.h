@@ -44,6 +44,8 @@ struct GiStats {
   uint64_t raysTraced = 0;       // this frame, by the method itself
   uint64_t visibilityTests = 0;  // this frame: occlusion pyramids against the scene
   uint64_t lightMapTexels = 0;   // this frame: texels × lights added or taken away
+  // Of the last sum, where passes are merged: drawn, and fewer than object by object.
+  int mergedPasses = 0, passesSaved = 0;
   int samplesPerPixel = 0;
   std::map<std::string, double> stageSeconds;  // by stage name
 };

@@ -109,7 +109,8 @@ ViewPicture partialLights(const ViewSubject& in) {
       return row[slot] == static_cast<uint8_t>(Occlusion::partial);
     }));
   });
-  const int most = colours::niceMaximum(p.largest([&](size_t i) { return counts[i]; }));
+  const int most = std::min(colours::niceMaximum(p.largest([&](size_t i) { return counts[i]; })),
+                            std::max(static_cast<int>(slots.size()), 1));
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {
     const float t = static_cast<float>(counts[i]) / static_cast<float>(most);

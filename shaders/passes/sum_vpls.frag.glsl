@@ -2,7 +2,8 @@
 // pixel of the G-buffer. It is read and written instead of blended, so that the order of additions,
 // and with it each bit, does not depend on how many VPLs one draw takes.
 //   without PATCHES: the same VPLs at every pixel, with their maps;
-//   with PATCHES: those that its place's list names, as it says (paper 1, 4.3.4).
+//   with PATCHES: those that its place's list names, as it says (paper 1, 4.3.4);
+//   with MERGED besides: of these, the part that uPass says (paper 1, 4.3.5).
 #include "common/normal_packing.glsl"
 #include "common/vpls.glsl"
 #include "shared/patches.h"
@@ -26,6 +27,10 @@ layout(std430, binding = kListRangeBuffer) readonly buffer Ranges { uvec2 ranges
 layout(std430, binding = kListBuffer) readonly buffer Entries { uint entries[]; };
 layout(location = 3) uniform int uFirstRange;  // of these VPLs
 layout(location = 4) uniform int uFirstVpl;    // in uVpls, that the lists call 0
+#ifdef MERGED
+// 0: from uFirst to uEnd of those that need no map; else those of merged pass uPass − 1.
+layout(location = 5) uniform int uPass;
+#endif
 #endif
 
 layout(location = 0) out vec4 outIrradiance;
@@ -64,16 +69,51 @@ float geometryOf(Vpl vpl, Point x) {
 }
 
 #ifdef PATCHES
-vec3 withListOf(uint place, Point x, vec3 sum) {
+// What of a list is summed now: [plain.x, plain.y) needs no map, [shadowed.x, shadowed.y) does.
+struct Part {
+  uint list;
+  ivec2 plain, shadowed;
+};
+
+#ifdef MERGED
+// The first of [low, high) whose pass is not before this one.
+int firstOfPass(uint list, int low, int high, uint pass) {
+  while (low < high) {
+    int middle = (low + high) / 2;
+    if (entries[list + uint(middle)] / uint(kPassUnit) < pass)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low;
+}
+#endif
+
+Part partOf(uint place) {
   uvec2 range = ranges[uFirstRange + int(place)];
   int plain = int(range.y & 65535u);
   int all = plain + int(range.y >> 16);
-  for (int i = uFirst; i < min(uEnd, plain); ++i) {
-    Vpl vpl = vplAt(uFirstVpl + int(entries[range.x + uint(i)]));
+#ifdef MERGED
+  if (uPass == 0) return Part(range.x, ivec2(uFirst, min(uEnd, plain)), ivec2(0));
+  uint pass = uint(uPass - 1);
+  int first = firstOfPass(range.x, plain, all, pass);
+  return Part(range.x, ivec2(0), ivec2(first, firstOfPass(range.x, first, all, pass + 1u)));
+#else
+  return Part(range.x, ivec2(uFirst, min(uEnd, plain)), ivec2(max(uFirst, plain), min(uEnd, all)));
+#endif
+}
+
+vec3 withPart(Part part, Point x, vec3 sum) {
+  for (int i = part.plain.x; i < part.plain.y; ++i) {
+    Vpl vpl = vplAt(uFirstVpl + int(entries[part.list + uint(i)]));
     sum += geometryOf(vpl, x) * vpl.intensity.rgb;
   }
-  for (int i = max(uFirst, plain); i < min(uEnd, all); ++i) {
-    int entry = int(entries[range.x + uint(i)]);
+  for (int i = part.shadowed.x; i < part.shadowed.y; ++i) {
+    uint stored = entries[part.list + uint(i)];
+#ifdef MERGED
+    stored %= uint(kPassUnit);
+#endif
+    int entry = int(stored);
     bool takes = entry >= kTakeShadow;
     Vpl vpl = vplAt(uFirstVpl + (takes ? entry - kTakeShadow : entry));
     float g = geometryOf(vpl, x);
@@ -98,13 +138,18 @@ vec3 withAll(Point x, vec3 sum) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+#ifdef PATCHES
+  // What is not in a pass costs no more than to find that out. Place 0 has an empty list.
+  Part part = partOf(texelFetch(uPlaces, pixel, 0).r);
+  if (part.plain.x >= part.plain.y && part.shadowed.x >= part.shadowed.y) discard;
+#endif
   vec4 position = texelFetch(uPosition, pixel, 0);
   if (position.w == 0.0) discard;
   vec4 normals = texelFetch(uNormals, pixel, 0);
   Point x = Point(position.xyz, unpackNormal(normals.xy), unpackNormal(normals.zw));
   vec3 sum = texelFetch(uIrradiance, pixel, 0).rgb;
 #ifdef PATCHES
-  outIrradiance = vec4(withListOf(texelFetch(uPlaces, pixel, 0).r, x, sum), 0.0);
+  outIrradiance = vec4(withPart(part, x, sum), 0.0);
 #else
   outIrradiance = vec4(withAll(x, sum), 0.0);
 #endif

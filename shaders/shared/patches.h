@@ -31,5 +31,10 @@ struct PatchTile {
 // only its shadow is to be taken away.
 SHARED_CONST int kTakeShadow = 65536;
 
+// Where passes are merged, the number of the entry's pass times this is added, and those that need
+// their maps stand in the order of their passes.
+SHARED_CONST int kPassUnit = 131072;
+SHARED_CONST int kMostPasses = 32768;
+
 SHARED_END
 #endif

@@ -154,7 +154,7 @@ void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
 
 // A frame in which the camera moved.
 void frames(benchmark::State& state, const Case& c, const std::string& technique,
-            const MakeBackend& make, int width, int height, int lightsPerPass) {
+            const MakeBackend& make, int width, int height, int lightsPerPass, bool merge) {
   if (skip(state, c)) return;
   const World w(c);
   View view = viewOfBounds(w.render.bounds, width, height);
@@ -167,9 +167,11 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
   settings.set(parameters::antialias().name, 1);
   settings.set(parameters::technique().name, technique);
   settings.set(parameters::lightsPerPass().name, lightsPerPass);
+  settings.set(parameters::mergePasses().name, merge);
   FrameRenderer renderer(make());
+  GiStats stats;
   const auto frame = [&](const SceneChanges& changes) {
-    renderer.render({w.scene, changes, view, "many_lights", settings});
+    stats = renderer.render({w.scene, changes, view, "many_lights", settings}).stats;
     renderer.backend().finish();
   };
   frame(SceneChanges::all());
@@ -178,6 +180,9 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
     view.eye.x += 0.001f;
     frame({});
   }
+  if (!merge) return;
+  state.counters["passes"] = stats.mergedPasses;
+  state.counters["saved"] = stats.passesSaved;
 }
 
 template <typename F, typename... More>
@@ -211,14 +216,21 @@ void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make)
       for (const std::string technique : {"naive", "visibility", "light_maps"}) {
         add("visibility/frame/" + backend + "/" + c.name + "/" + std::to_string(size.x) + "x" +
                 std::to_string(size.y) + "/" + technique,
-            frames, c, technique, make, size.x, size.y, 1024);
+            frames, c, technique, make, size.x, size.y, 1024, false);
+      }
+    }
+    // Its own lists for each patch against merged passes of the paper's 6 lights.
+    if (backend == "gl" && std::string(c.name) != "zdm2") {
+      for (const bool merge : {false, true}) {
+        add("visibility/merge_passes/" + backend + "/" + c.name + "/6/" + (merge ? "on" : "off"),
+            frames, c, std::string("light_maps"), make, 640, 360, 6, merge);
       }
     }
     // The paper's K lights a pass.
     if (backend != "gl" || std::string(c.name) != "area_light_room") continue;
     for (const int most : {1, 6, 64}) {
       add("visibility/lights_a_pass/" + backend + "/" + c.name + "/" + std::to_string(most), frames,
-          c, std::string("visibility"), make, 640, 360, most);
+          c, std::string("visibility"), make, 640, 360, most, false);
     }
   }
 }

@@ -1,4 +1,5 @@
 // `render --view`: pictures of the engine's insides, and what is said where there is none.
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -61,6 +62,44 @@ TEST_F(RenderView, WritesEachAndTheyDiffer) {
   EXPECT_EQ(render("light.exr", {"--view", "light_only"}).code, 0);
 }
 
+TEST_F(RenderView, ALegendStandsBelowThePicture) {
+  for (const std::string view : {"occlusion", "partial_lights", "light_maps"}) {
+    SCOPED_TRACE(view);
+    ASSERT_EQ(render("bare.png", {"--view", view}).code, 0);
+    const ProcessResult r = render("legend.png", {"--view", view, "--legend"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Image bare = readImage(folder_ / "bare.png"), with = readImage(folder_ / "legend.png");
+    ASSERT_EQ(with.width, bare.width);
+    ASSERT_GT(with.height, bare.height + 40);  // a row for each of its parts, so narrow is it
+    EXPECT_TRUE(std::equal(bare.pixels.begin(), bare.pixels.end(), with.pixels.begin()));
+    // Something is written: there is bright ink on a dark strip.
+    float dark = 1.0f, bright = 0.0f;
+    for (size_t i = bare.pixels.size(); i < with.pixels.size(); ++i) {
+      dark = std::min(dark, with.pixels[i].g);
+      bright = std::max(bright, with.pixels[i].g);
+    }
+    EXPECT_LT(dark, 0.02f);
+    EXPECT_GT(bright, 0.4f);
+  }
+  ASSERT_EQ(render("albedo.png", {"--view", "albedo", "--legend"}).code, 0);
+  EXPECT_EQ(readImage(folder_ / "albedo.png").height, 40);  // its colours need no words
+}
+
+TEST_F(RenderView, MarksLieOverAnyView) {
+  for (const std::string view : {"lit", "flat"}) {
+    SCOPED_TRACE(view);
+    ASSERT_EQ(render("bare.png", {"--view", view}).code, 0);
+    const ProcessResult r = render("marks.png", {"--view", view, "--marks"});
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Image bare = readImage(folder_ / "bare.png"), with = readImage(folder_ / "marks.png");
+    ASSERT_EQ(with.pixels.size(), bare.pixels.size());
+    size_t changed = 0;
+    for (size_t i = 0; i < bare.pixels.size(); ++i) changed += bare.pixels[i] != with.pixels[i];
+    EXPECT_GT(changed, bare.pixels.size() / 20);
+    EXPECT_LT(changed, bare.pixels.size() / 2);
+  }
+}
+
 TEST_F(RenderView, RefusesWhatItCannotShow) {
   fails("a.png", {"--view", "colour"}, "'colour' is none; give one of lit, light_only");
   fails("a.exr", {"--view", "albedo"}, "is no radiance");
@@ -70,6 +109,9 @@ TEST_F(RenderView, RefusesWhatItCannotShow) {
   fails("a.png", {"--view", "map_age", "--method", "reference"}, "needs the light samples");
   fails("a.png", {"--view", "occlusion", "--set", "technique=visibility", "--view-vpl", "1000"},
         "there is no light sample 1000; give one from 0 to ");
+  fails("a.exr", {"--marks"}, "marks are no radiance");
+  fails("a.exr", {"--legend"}, "a legend is no radiance");
+  fails("a.png", {"--marks", "--method", "reference"}, "there is no light sample");
 }
 
 }  // namespace

@@ -55,6 +55,13 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
     part(ui, "pending", pending, stats.vplsPending > 0 ? theme::kAccent : theme::kTextDim,
          "Light samples that wait to be brought up to date, and for how long the oldest has.");
   }
+  if (stats.mergedPasses > 0)
+    part(ui, "passes",
+         grouped(stats.mergedPasses) + (stats.mergedPasses == 1 ? " pass, " : " passes, ") +
+             grouped(stats.passesSaved) + " saved",
+         theme::kText,
+         "Draws for light samples that need their shadow maps, and how many more they would be "
+         "object by object.");
   if (stats.samplesPerPixel > 1)
     part(ui, "samples", grouped(stats.samplesPerPixel) + " samples a pixel", theme::kText,
          "Paths traced for each pixel so far.");

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "editor/views/legend.h"
 #include "ui/theme.h"
-#include "ui/viewport/legend.h"
 
 namespace lamplighter {
 namespace {
@@ -26,6 +26,32 @@ void drawShape(ImDrawList& list, const OverlayShape& shape, vec2 origin, float s
   else
     list.AddPolyline(points.data(), count, colour, shape.closed ? ImDrawFlags_Closed : 0,
                      shape.thickness * scale);
+}
+
+void drawOverlay(ImDrawList& list, const Overlay& overlay, vec2 origin, float scale) {
+  for (const OverlayShape& shape : overlay.shapes) drawShape(list, shape, origin, scale);
+  for (const OverlayText& text : overlay.texts) {
+    const ImVec2 at{text.position.x + origin.x, text.position.y + origin.y};
+    list.AddText({at.x + 1, at.y + 1}, theme::colour(0, 160), text.text.c_str());
+    list.AddText(at, packed(text.colour), text.text.c_str());
+  }
+}
+
+// In the lower left corner.
+void drawLegend(const PanelContext& ui, ImDrawList& list, const Rect& area,
+                const ViewPicture& picture) {
+  const LegendStyle style{ui.scale, ImGui::GetTextLineHeight(), [](const std::string& text) {
+                            return ImGui::CalcTextSize(text.c_str()).x;
+                          }};
+  const LegendLayout legend = layOutLegend(picture, style, 0.0f);
+  if (legend.size == vec2(0.0f)) return;
+  const float pad = ui.px(10);
+  const vec2 low(area.min.x + pad, area.max.y - 3 * pad - legend.size.y);
+  const vec2 high = low + legend.size + 2 * pad;
+  list.AddRectFilled({low.x, low.y}, {high.x, high.y}, theme::colour(theme::kBackground, 240),
+                     ui.px(5));
+  list.AddRect({low.x, low.y}, {high.x, high.y}, theme::colour(theme::kLine), ui.px(5));
+  drawOverlay(list, legend.overlay, low + pad, ui.scale);
 }
 
 }  // namespace
@@ -80,13 +106,7 @@ void Viewport::draw(PanelContext ui, uint32_t texture) const {
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture)), low, high);
   else
     list.AddRectFilled(low, high, theme::colour(0x000000));
-  const Overlay overlay = ui.session.overlay();
-  for (const OverlayShape& shape : overlay.shapes) drawShape(list, shape, area_.min, ui.scale);
-  for (const OverlayText& text : overlay.texts) {
-    const ImVec2 at{text.position.x + area_.min.x, text.position.y + area_.min.y};
-    list.AddText({at.x + 1, at.y + 1}, theme::colour(0, 160), text.text.c_str());
-    list.AddText(at, packed(text.colour), text.text.c_str());
-  }
+  drawOverlay(list, ui.session.overlay(), area_.min, ui.scale);
   if (const auto& view = ui.session.display().picture()) drawLegend(ui, list, area_, *view);
   list.PopClipRect();
 }

@@ -44,6 +44,8 @@ class GlBackend final : public Backend {
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                const PatchLights* patches) override {
     lighting_.sum(scene_, gbuffer_, maps_, vpls_, vpls, params, patches);
+    counts_.mergedPasses += static_cast<uint64_t>(lighting_.mergedPasses());
+    counts_.passesSaved += static_cast<uint64_t>(lighting_.passesSaved());
     counts_.lightPixels +=
         vpls.size() * static_cast<uint64_t>(gbuffer_.width()) * gbuffer_.height();
   }

@@ -46,18 +46,21 @@ void GlLighting::reload(const std::filesystem::path& shaders, const VplBuffer& v
   const std::string n = vpls.define();
   const std::string kinds[3] = {"VPL_KIND kVplCosine", "VPL_KIND kVplUniform",
                                 "VPL_KIND kVplDirectional"};
-  Program naive[3], listed[3];
+  Program naive[3], listed[3], merged[3];
   for (int i = 0; i < 3; ++i) {
     std::vector<std::string> defines = {n, kinds[i]};
     if (i == 2) defines.push_back("DIRECTIONAL");
     naive[i] = Program(shaders, {vertex, sum, defines});
     defines.push_back("PATCHES");
     listed[i] = Program(shaders, {vertex, sum, defines});
+    defines.push_back("MERGED");
+    merged[i] = Program(shaders, {vertex, sum, defines});
   }
   Program findPatches(shaders, {vertex, "passes/find_patches.frag.glsl"});
   Program compose(shaders, {vertex, "passes/compose.frag.glsl"});
   std::move(std::begin(naive), std::end(naive), naive_);
   std::move(std::begin(listed), std::end(listed), listed_);
+  std::move(std::begin(merged), std::end(merged), merged_);
   findPatches_ = std::move(findPatches);
   compose_ = std::move(compose);
 }
@@ -100,10 +103,13 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
     ++batches.back().count;
   }
 
+  const int most = std::max(static_cast<int>(params.clampAndBias.w), 1);
+  const bool merges = patches != nullptr && patches->mergesPasses();
+  mergedPasses_ = passesSaved_ = 0;
   clear(gbuffer.width(), gbuffer.height());
   gbuffer.bind();
   if (patches != nullptr) {
-    beginWithPatches(scene, gbuffer, sorted, batches, *patches);
+    beginWithPatches(scene, gbuffer, sorted, batches, *patches, most);
   } else {
     patches_.reset();
   }
@@ -117,7 +123,10 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
   }
   const PassState state(irradianceFramebuffer_.name(), width_, height_);
   glBindTextureUnit(shared::kIrradiance, irradiance_.name());
-  const int most = std::max(static_cast<int>(params.clampAndBias.w), 1);
+  const auto drawSum = [&] {
+    glTextureBarrier();  // the irradiance is read where it is written
+    drawFullScreen(emptyVertexArray_.name());
+  };
   for (size_t b = 0; b < batches.size(); ++b) {
     const Batch& batch = batches[b];
     const size_t blockStart = batch.block * blockSize;
@@ -125,14 +134,16 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
       buffer.upload(
           std::span(sorted).subspan(blockStart, std::min(blockSize, sorted.size() - blockStart)));
     }
-    const Program& program = (patches_ ? listed_ : naive_)[batch.kind];
+    const Program& program = (merges ? merged_ : patches_ ? listed_ : naive_)[batch.kind];
     program.use();
     program.set(2, params.clampAndBias);
     glBindTextureUnit(shared::kShadowMaps,
                       maps.hasArray(batch.array) ? maps.array(batch.array) : 0);
-    int first = 0, end = patches_ ? patches_->lists.longest()[b] : static_cast<int>(batch.count);
+    int first = 0, end = static_cast<int>(batch.count);
     const int start = static_cast<int>(batch.first - blockStart);
     if (patches_) {
+      const LightLists& lists = patches_->lists;
+      end = (merges ? lists.longestPlain() : lists.longest())[b];
       program.set(3, static_cast<int>(b * LightLists::places(patches_->trees.nodes())));
       program.set(4, start);
     } else {
@@ -142,15 +153,20 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
     for (; first < end; first += most) {
       program.set(0, first);
       program.set(1, std::min(first + most, end));
-      glTextureBarrier();  // the irradiance is read where it is written
-      drawFullScreen(emptyVertexArray_.name());
+      if (merges) program.set(5, 0);
+      drawSum();
+    }
+    for (int pass = 0; merges && pass < patches_->lists.passes()[b]; ++pass) {
+      program.set(5, 1 + pass);
+      drawSum();
+      ++mergedPasses_;
     }
   }
 }
 
 void GlLighting::beginWithPatches(const GlScene& scene, const GlGBuffer& gbuffer,
                                   std::span<const shared::Vpl> vpls, std::span<const Batch> batches,
-                                  const PatchLights& lights) {
+                                  const PatchLights& lights, int mostLights) {
   if (!patches_) {
     patches_ = std::make_unique<Patches>();
     patches_->places = makeTexture2D(GL_R32UI, width_, height_);
@@ -173,6 +189,8 @@ void GlLighting::beginWithPatches(const GlScene& scene, const GlGBuffer& gbuffer
   for (const Batch& batch : batches) groups.push_back({batch.first, batch.count});
   LightLists& lists = patches_->lists;
   lists.make(lights, objects, trees.nodes(), gbuffer.frustum(), vpls, groups);
+  if (lights.mergesPasses()) lists.mergePasses(mostLights);
+  passesSaved_ = lists.passesSaved();
   fill(patches_->ranges, lists.ranges());
   fill(patches_->entries, lists.entries());
 

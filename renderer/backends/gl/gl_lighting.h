@@ -22,6 +22,9 @@ class GlLighting {
   void sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
            const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
            const shared::ShadingParams& params, const PatchLights* patches);
+  // Of the last sum, where passes were merged.
+  int mergedPasses() const { return mergedPasses_; }
+  int passesSaved() const { return passesSaved_; }
   // No light at all, for a G-buffer that nothing was summed over yet.
   void clear(int width, int height);
   std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const vec3& sky, bool white);
@@ -48,14 +51,15 @@ class GlLighting {
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
   void beginWithPatches(const GlScene& scene, const GlGBuffer& gbuffer,
                         std::span<const shared::Vpl> vpls, std::span<const Batch> batches,
-                        const PatchLights& lights);
+                        const PatchLights& lights, int mostLights);
 
-  Program naive_[3], listed_[3];  // by Vpl.position.w
+  Program naive_[3], listed_[3], merged_[3];  // by Vpl.position.w
   Program findPatches_, compose_;
   VertexArray emptyVertexArray_;
   Framebuffer irradianceFramebuffer_, pictureFramebuffer_;
   Texture irradiance_;  // RGBA32F: hundreds of additions must not lose the small ones
   int width_ = 0, height_ = 0;
+  int mergedPasses_ = 0, passesSaved_ = 0;
   std::unique_ptr<Patches> patches_;  // while the sums ask for them
   // Those that nobody else holds are drawn over.
   std::vector<std::shared_ptr<RadianceTexture>> pictures_;

@@ -15,7 +15,7 @@ struct Block {
   size_t first, last;  // of the object's patches
   std::vector<size_t> places;
   std::vector<uint32_t> entries;
-  std::vector<int> longest;
+  std::vector<int> longest, longestPlain;
   size_t start = 0;  // of its entries among all
 };
 
@@ -30,17 +30,22 @@ Bounds boxOf(const Patch& patch) {
 void LightLists::make(const PatchLights& patches, std::span<const SeenObject> objects, size_t nodes,
                       const Frustum& frustum, std::span<const shared::Vpl> vpls,
                       std::span<const LightGroup> groups) {
-  const size_t stride = places(nodes);
+  const size_t stride = stride_ = places(nodes);
   ranges_.assign(stride * groups.size(), glm::uvec2(0));
   entries_.clear();
   longest_.assign(groups.size(), 0);
+  longestPlain_.assign(groups.size(), 0);
+  groups_.assign(groups.begin(), groups.end());
+  objects_.clear();
+  passes_.assign(groups.size(), 0);
+  passesSaved_ = 0;
   if (vpls.empty()) return;
   constexpr size_t kPatches = 256;
   std::vector<Block> blocks;
   for (const SeenObject& o : objects) {
     const size_t count = patches.patches(o.object).patches.size();
     for (size_t first = 0; first < count; first += kPatches)
-      blocks.push_back({o, first, std::min(first + kPatches, count), {}, {}, {}});
+      blocks.push_back({o, first, std::min(first + kPatches, count), {}, {}, {}, {}});
   }
 
   tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t b) {
@@ -49,6 +54,7 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
     const ObjectPatches& tree = patches.patches(object.object);
     std::vector<LightUse> uses(patches.slots());
     block.longest.assign(groups.size(), 0);
+    block.longestPlain.assign(groups.size(), 0);
     const auto useOf = [&](const shared::Vpl& vpl) {
       const int slot = static_cast<int>(vpl.intensity.w);
       return slot < 0 ? LightUse::add : uses[static_cast<size_t>(slot)];
@@ -72,6 +78,7 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
         const size_t end = block.entries.size();
         ranges_[g * stride + place] = {first, (shadowed - first) | (end - shadowed) << 16};
         block.longest[g] = std::max(block.longest[g], static_cast<int>(end - first));
+        block.longestPlain[g] = std::max(block.longestPlain[g], static_cast<int>(shadowed - first));
       }
     };
     for (size_t i = block.first; i < block.last; ++i) {
@@ -88,8 +95,14 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
   for (Block& block : blocks) {
     block.start = size;
     size += block.entries.size();
-    for (size_t g = 0; g < groups.size(); ++g)
+    for (size_t g = 0; g < groups.size(); ++g) {
       longest_[g] = std::max(longest_[g], block.longest[g]);
+      longestPlain_[g] = std::max(longestPlain_[g], block.longestPlain[g]);
+    }
+    if (objects_.empty() || objects_.back().object != block.object.object)
+      objects_.push_back({block.object.object, {}});
+    auto& all = objects_.back().places;
+    all.insert(all.end(), block.places.begin(), block.places.end());
   }
   entries_.resize(size);
   tbb::parallel_for(size_t{0}, blocks.size(), [&](size_t b) {

@@ -70,6 +70,7 @@ ManyLights::Options::Options(const Settings& settings) {
   useVisibility = useLightMaps || technique == "visibility";
   lightMapTexel = settings.real(parameters::lightMapTexel());
   lightsPerPass = settings.integer(parameters::lightsPerPass());
+  mergePasses = settings.boolean(parameters::mergePasses());
 }
 
 GiOutput ManyLights::render(const FrameInputs& in) {
@@ -99,6 +100,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
                               options.useVisibility != options_.useVisibility ||
                               options.useLightMaps != options_.useLightMaps ||
                               options.lightMapTexel != options_.lightMapTexel ||
+                              options.mergePasses != options_.mergePasses ||
                               in.lightOnly != lightOnly_;
   if (viewChanged) gbufferIsCurrent_ = false;
   const bool shadedNow = !image_ || viewChanged || lights_.changed() || shadingChanged;
@@ -128,6 +130,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   // Frames that refresh as many as this one did, then one for each sample of the edges.
   const int aFrame = std::max(1, out.stats.mapsRendered);
   out.stats.framesUntilSettled = (pending + aFrame - 1) / aFrame + samples - samples_;
+  out.stats.mergedPasses = mergedPasses_;
+  out.stats.passesSaved = passesSaved_;
   out.stats.samplesPerPixel = std::max(samples_, 1);
   return out;
 }
@@ -218,12 +222,16 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias,
                                           static_cast<float>(options.mapResolution),
                                           static_cast<float>(options.lightsPerPass))};
+  const KernelCounts before = in.backend.counts();
   if (visibility_) {
-    const PatchLights patches(*visibility_, lightMaps_.get());
+    const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses);
     in.backend.sumVpls(vpls, params, &patches);
   } else {
     in.backend.sumVpls(vpls, params, nullptr);
   }
+  const KernelCounts after = in.backend.counts();
+  mergedPasses_ = static_cast<int>(after.mergedPasses - before.mergedPasses);
+  passesSaved_ = static_cast<int>(after.passesSaved - before.passesSaved);
   stages.end("light sums");
   auto image = in.backend.compose(in.lightOnly);
   stages.end("composition");
@@ -252,7 +260,7 @@ MethodInfo manyLightsInfo() {
            parameters::maxVisibilityTests(), parameters::maxLightMapTexels(), parameters::maxRays(),
            parameters::frameTime(), parameters::clampDistance(), parameters::shadowBias(),
            parameters::technique(), parameters::lightMapTexel(), parameters::lightsPerPass(),
-           parameters::antialias()},
+           parameters::mergePasses(), parameters::antialias()},
           [] { return std::make_unique<ManyLights>(); }};
 }
 

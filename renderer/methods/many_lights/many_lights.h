@@ -38,6 +38,7 @@ class ManyLights final : public GiMethod {
     bool useLightMaps = false;  // besides
     float lightMapTexel = 0.1f;
     int lightsPerPass = 0;  // changes no picture
+    bool mergePasses = false;
   };
 
   void takeScene(const FrameInputs& in, const Options& options);
@@ -58,7 +59,8 @@ class ManyLights final : public GiMethod {
   std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
   std::unique_ptr<LightMaps> lightMaps_;            // likewise
   bool gbufferIsCurrent_ = false;
-  std::shared_ptr<RadianceImage> image_;  // of the pixels' middles
+  std::shared_ptr<RadianceImage> image_;    // of the pixels' middles
+  int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum
   // Antialiasing: the sum of the samples so far; their mean when they are complete.
   Image sum_;
   int samples_ = 0, samplesWanted_ = 1;

@@ -108,6 +108,24 @@ const ParameterSpec& lightsPerPass() {
   return spec;
 }
 
+const ParameterSpec& mergePasses() {
+  static const ParameterSpec spec{
+      "merge_passes",
+      "Merge passes",
+      "",
+      "The gl backend sums lights that need their shadow maps by passes, each at most \"Lights a "
+      "pass\" of them on all objects that want them, merged as in the paper, and counts them. It "
+      "is "
+      "slower than the lists of each patch, and the same picture. Nothing on the cpu backend, nor "
+      "for naive.",
+      false,
+      0,
+      0,
+      false,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& antialias() {
   static const ParameterSpec spec{
       "antialias",

@@ -14,6 +14,7 @@ const ParameterSpec& maxRays();
 const ParameterSpec& frameTime();      // float, ms; heeded in the editor's window alone
 const ParameterSpec& lightMapTexel();  // float, m
 const ParameterSpec& lightsPerPass();  // int, VPLs that one draw of the gl backend takes
+const ParameterSpec& mergePasses();    // bool, gl backend: by merged passes
 const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled
 
 }  // namespace lamplighter::parameters

@@ -1,0 +1,192 @@
+// Merged passes (paper 1, 4.3.5) of the gl backend: each pixel gets each of its lights once, by no
+// more draws than object by object.
+#include <filesystem>
+#include <set>
+
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/backends/gl/light_lists.h"
+#include "renderer/image/metrics.h"
+#include "renderer/light_maps/pass_merging.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/sampling/lights.h"
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/gltf_io.h"
+#include "shaders/shared/patches.h"
+#include "tests/renderer/gl/gl_test.h"
+#include "tests/support/lit_scene.h"
+
+namespace lamplighter {
+namespace {
+
+// The same lights are added in another order, so the last bits of float sums differ: each addition
+// of a few hundred rounds by 2⁻²⁴ at most, and up and down alike.
+constexpr double kRounding = 1e-6;
+
+Scene loadAsset(const std::string& name) {
+  return loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name).scene;
+}
+
+Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, bool merge) {
+  Settings s;
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::updates().name, vpls);
+  s.set(parameters::antialias().name, 1);
+  s.set(parameters::lightsPerPass().name, lightsPerPass);
+  s.set(parameters::mergePasses().name, merge);
+  return s;
+}
+
+GiOutput rendered(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
+                  const Settings& settings) {
+  View view;
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) view = viewOfCamera(scene, node, 160, 100);
+  return test::renderSettled(renderer, scene, changes, view, settings);
+}
+
+GiOutput rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Settings& settings) {
+  FrameRenderer renderer(std::move(backend));
+  GiOutput out = rendered(renderer, scene, SceneChanges::all(), settings);
+  out.radiance = std::make_shared<HostImage>(out.radiance->pixels());  // outlives the backend
+  return out;
+}
+
+using MergedGlPasses = test::GlTest;
+
+TEST_F(MergedGlPasses, GiveTheSamePictureByFewerDraws) {
+  for (const char* name : {"pillar_room.gltf", "table_room.gltf"}) {
+    const Scene scene = loadAsset(name);
+    for (const char* technique : {"visibility", "light_maps"}) {
+      const GiOutput listed =
+          rendered(makeGlBackend(), scene, settingsOf(technique, 150, 6, false));
+      EXPECT_EQ(listed.stats.mergedPasses, 0);
+      for (const int most : {1, 6, 1024}) {
+        SCOPED_TRACE(std::string(name) + " " + technique + " " + std::to_string(most));
+        const GiOutput merged =
+            rendered(makeGlBackend(), scene, settingsOf(technique, 150, most, true));
+        EXPECT_LT(compareImages(merged.radiance->pixels(), listed.radiance->pixels()).relRmse,
+                  kRounding);
+        EXPECT_GT(merged.stats.mergedPasses, 0);
+        // One draw takes all lights of an object at once: then there is little to merge.
+        if (most <= 6) {
+          EXPECT_GT(merged.stats.passesSaved, merged.stats.mergedPasses);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(MergedGlPasses, TakeLightsOfSeveralKindsArraysAndBlocks) {
+  Scene scene = loadAsset("pillar_room.gltf");
+  scene.sky = vec3(0.3f, 0.4f, 0.5f);
+  Image pictures[2];
+  for (const bool merge : {false, true}) {
+    Settings settings = settingsOf("light_maps", 2500, 64, merge);
+    settings.set(parameters::mapResolution().name, 16);
+    pictures[merge] = rendered(makeGlBackend(), scene, settings).radiance->pixels();
+  }
+  EXPECT_LT(compareImages(pictures[1], pictures[0]).relRmse, kRounding);
+}
+
+TEST_F(MergedGlPasses, MayBeSwitchedAndLeaveNoTrace) {
+  Scene scene = loadAsset("pillar_room.gltf");
+  FrameRenderer renderer(makeGlBackend());
+  rendered(renderer, scene, SceneChanges::all(), settingsOf("light_maps", 100, 6, false));
+  const Scene before = scene;
+  for (Node& node : scene.nodes)
+    if (node.name == "mover") node.local.translation.x += 0.5f;
+  SceneChanges changes = compare(before, scene);
+  for (const bool merge : {true, false, true}) {
+    const Settings settings = settingsOf("light_maps", 100, 6, merge);
+    const GiOutput switched = rendered(renderer, scene, changes, settings);
+    changes = {};
+    const GiOutput fresh = rendered(makeGlBackend(), scene, settings);
+    EXPECT_TRUE(test::sameBits(switched.radiance->pixels(), fresh.radiance->pixels())) << merge;
+    EXPECT_EQ(switched.stats.mergedPasses, fresh.stats.mergedPasses);
+    EXPECT_EQ(switched.stats.mergedPasses > 0, merge);
+  }
+  // What has no lists has nothing to merge.
+  EXPECT_EQ(rendered(renderer, scene, {}, settingsOf("naive", 100, 6, true)).stats.mergedPasses, 0);
+  EXPECT_EQ(
+      rendered(makeCpuBackend(), scene, settingsOf("light_maps", 100, 6, true)).stats.mergedPasses,
+      0);
+}
+
+// The lists themselves: the same entries as before, in the order of their passes, none of which
+// takes more lights than it may.
+TEST(MergedLists, HoldEachLightOnceInPassesThatAreFull) {
+  const Scene scene = loadAsset("table_room.gltf");
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  const RayCaster rays(render);
+  std::vector<shared::Vpl> vpls;
+  for (const SceneVpl& v : generateVpls(render, rays, LightSet(render), {90, 0.5f, 1, 1}).vpls) {
+    vpls.push_back(v.vpl);
+    vpls.back().intensity.w = static_cast<float>(vpls.size() - 1);
+  }
+  VisibilityDatabase database;
+  RenderSceneChanges all;
+  all.rebuilt = true;
+  database.setScene(render, all);
+  database.setLights(render, vpls);
+  const PatchLights patches(database, nullptr, true);
+  std::vector<gl::SeenObject> objects;
+  std::vector<uint32_t> numbers;
+  uint32_t nodes = 0;
+  for (uint32_t o = 0; o < render.objects.size(); ++o) {
+    objects.push_back({o, nodes, false});
+    numbers.push_back(o);
+    nodes += static_cast<uint32_t>(patches.patches(o).patches.size());
+  }
+  const gl::LightGroup groups[] = {{0, 40}, {40, vpls.size() - 40}};
+  gl::LightLists plain, merged;
+  constexpr int kMost = 6;
+  for (gl::LightLists* lists : {&plain, &merged})
+    lists->make(patches, objects, nodes, gl::Frustum(), vpls, groups);
+  merged.mergePasses(kMost);
+
+  int drawn = 0, byObject = 0;
+  const size_t stride = gl::LightLists::places(nodes);
+  for (size_t g = 0; g < 2; ++g) {
+    std::vector<std::set<uint32_t>> lights(static_cast<size_t>(merged.passes()[g]));
+    drawn += merged.passes()[g];
+    for (size_t o = 0; o < objects.size(); ++o) {
+      std::set<uint32_t> needed;
+      const size_t end = o + 1 < objects.size() ? objects[o + 1].firstNode : nodes;
+      for (size_t place = 1 + 2 * objects[o].firstNode; place < 1 + 2 * end; ++place) {
+        const glm::uvec2 range = plain.ranges()[g * stride + place];
+        ASSERT_EQ(merged.ranges()[g * stride + place], range);
+        const size_t first = range.x + (range.y & 65535u), count = range.y >> 16;
+        std::vector<uint32_t> was, is;
+        uint32_t before = 0;
+        for (size_t i = first; i < first + count; ++i) {
+          was.push_back(plain.entries()[i]);
+          const uint32_t entry = merged.entries()[i];
+          const uint32_t pass = entry / shared::kPassUnit;
+          is.push_back(entry % shared::kPassUnit);
+          ASSERT_LT(pass, lights.size());
+          ASSERT_GE(pass, before);
+          before = pass;
+          lights[pass].insert(is.back());
+          needed.insert(is.back());
+        }
+        std::sort(is.begin(), is.end());
+        ASSERT_EQ(is, was);
+        // What needs no map is as it was.
+        for (size_t i = range.x; i < first; ++i) ASSERT_EQ(merged.entries()[i], plain.entries()[i]);
+      }
+      byObject += (static_cast<int>(needed.size()) + kMost - 1) / kMost;
+    }
+    for (const auto& pass : lights) {
+      EXPECT_GE(pass.size(), 1u);
+      EXPECT_LE(pass.size(), static_cast<size_t>(kMost));
+    }
+  }
+  EXPECT_EQ(drawn + merged.passesSaved(), byObject);
+  EXPECT_GT(merged.passesSaved(), 0);
+}
+
+}  // namespace
+}  // namespace lamplighter
