@@ -13,10 +13,13 @@
 namespace lamplighter {
 namespace {
 
-constexpr size_t kLanes = 8;           // of accumulate()
-constexpr int kMostTexels = 33;        // a side
-constexpr float kFlat = 0.9999f;       // cos 0.8°
-constexpr float kNearTexels = 4.0f;    // nearer lights vary too much from texel to texel
+constexpr size_t kLanes = 8;      // of accumulate()
+constexpr int kMostTexels = 33;   // a side
+constexpr float kFlat = 0.9999f;  // cos 0.8°
+// Between texels n texels from a light, interpolation is wrong by up to 1/n².
+constexpr float kNearTexels = 10.0f;
+// A patch that begins so many texels behind a light, at a wall that meets its own, is before it.
+constexpr float kBehindTexels = 0.05f;
 constexpr float kBrightest = 2048.0f;  // W/m²: 65536 such lights still fit the sums
 
 bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
@@ -39,6 +42,20 @@ bool isShadedFlat(const RenderScene& s, const Chart& chart) {
     }
     return true;
   });
+}
+
+// Whether the light's plane crosses the patch: there is none of its light behind it, and before it
+// it grows from nothing, which texels on both sides would round off.
+bool isCrossed(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, float spacing) {
+  const vec3 position(vpl.position), normal(vpl.normal);
+  float least = std::numeric_limits<float>::infinity(), most = -least;
+  for (const vec2& p :
+       {patch.min, vec2(patch.max.x, patch.min.y), patch.max, vec2(patch.min.x, patch.max.y)}) {
+    const float height = glm::dot(chart.at(p) - position, normal);
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  return least < -kBehindTexels * spacing && most > kBehindTexels * spacing;
 }
 
 // Whether its light is smooth enough over the patch to be interpolated, and not too bright to be
@@ -64,6 +81,7 @@ bool isMappable(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, 
   }
   const bool isSpot = vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
   if (isSpot) return false;  // its edge may fall between two texels
+  if (isCrossed(vpl, chart, patch, spacing)) return false;
   const vec2 p = chart.project(position);
   const vec2 off = p - glm::clamp(p, patch.min, patch.max);
   const float height = glm::dot(position - chart.origin, chart.normal);
