@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <hwy/highway.h>
 
@@ -21,6 +22,12 @@ constexpr Tag kTag;
 // A triangle clipped by each plane gains a corner at most.
 constexpr size_t kMostCorners = 3 + 8;
 
+float roundingAt(std::span<const vec3> points) {
+  vec3 farthest(0.0f);
+  for (const vec3& p : points) farthest = glm::max(farthest, glm::abs(p));
+  return rayEpsilon(farthest);
+}
+
 }  // namespace
 
 PatchRegion::PatchRegion(const Bounds& box) : count(8), centre(box.centre()), radius(box.radius()) {
@@ -28,6 +35,7 @@ PatchRegion::PatchRegion(const Bounds& box) : count(8), centre(box.centre()), ra
     for (int c = 0; c < 3; ++c)
       corners[static_cast<size_t>(i)][c] = ((i >> c) & 1) != 0 ? box.max[c] : box.min[c];
   }
+  rounding = roundingAt(points());
 }
 
 PatchRegion::PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
@@ -45,20 +53,27 @@ PatchRegion::PatchRegion(const RenderScene& scene, uint32_t object, const Object
   normal = chart.normal;
   thickness = chart.thickness;
   frontOnly = scene.backIsUnseen(object);
+  rounding = roundingAt(points());
+  for (size_t i = 0; i < 4; ++i) {
+    const vec3 side = corners[(i + 1) % 4] - corners[i];
+    for (int c = 0; c < 3; ++c) {
+      from[static_cast<size_t>(c)][i] = corners[i][c];
+      sides[static_cast<size_t>(c)][i] = side[c];
+    }
+  }
 }
 
 OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& region)
     : vpl_(vpl),
+      region_(region),
       parallel_(vpl.position.w == shared::kVplDirectional),
       apex_(vpl.position),
       towards_(vpl.normal),
-      region_(region) {
+      margin_(parallel_ ? region.rounding : std::max(rayEpsilon(apex_), region.rounding)) {
   planes_.x.fill(0.0f);
   planes_.y.fill(0.0f);
   planes_.z.fill(0.0f);
   planes_.offset.fill(1.0f);
-  margin_ = parallel_ ? 0.0f : rayEpsilon(apex_);
-  for (const vec3& c : region_.points()) margin_ = std::max(margin_, rayEpsilon(c));
   const float slab = region_.thickness + margin_;
 
   // Only the half-space over the light's own plane gets light; what lies in that plane, the surface
@@ -81,9 +96,7 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
     if (degenerate_) return;
     // What lies in the plane of the patch, itself before all, is not between.
     add(height > 0.0f ? region_.normal : -region_.normal, middle, -slab);
-    for (int i = 0; i < 4; ++i)
-      addSide(region_.corners[static_cast<size_t>(i)],
-              region_.corners[static_cast<size_t>((i + 1) % 4)]);
+    addSides(middle);
     return;
   }
   const vec3 &low = region_.corners[0], &high = region_.corners[7];
@@ -109,21 +122,40 @@ void OcclusionPyramid::add(const vec3& normal, const vec3& on, float margin) {
   planes_.offset[i] = margin - glm::dot(normal, on);
 }
 
-// The plane through the light and an edge, if all of the patch is on one side of it.
-void OcclusionPyramid::addSide(const vec3& a, const vec3& b) {
-  vec3 n = glm::cross(parallel_ ? towards_ : a - apex_, b - a);
-  const float length = glm::length(n);
-  if (length <= 0.0f) return;
-  n /= length;
-  float least = 0.0f, most = 0.0f;
-  for (const vec3& c : region_.points()) {
-    const float d = glm::dot(n, c - a);
-    least = std::min(least, d);
-    most = std::max(most, d);
-  }
-  if (least < -margin_ && most > margin_) return;
+// The planes through the light and each side of a rectangle, all four at a time. A plane that the
+// rectangle hardly leaves is left out, since it is not known on which side it is.
+void OcclusionPyramid::addSides(const vec3& middle) {
+  const hn::FixedTag<float, 4> tag;
+  const auto all = [&](float v) { return hn::Set(tag, v); };
+  const auto load = [&](const std::array<float, 4>& v) { return hn::LoadU(tag, v.data()); };
+  const auto x = load(region_.from[0]), y = load(region_.from[1]), z = load(region_.from[2]);
+  const auto sx = load(region_.sides[0]), sy = load(region_.sides[1]), sz = load(region_.sides[2]);
+  const auto dx = parallel_ ? all(towards_.x) : hn::Sub(x, all(apex_.x));
+  const auto dy = parallel_ ? all(towards_.y) : hn::Sub(y, all(apex_.y));
+  const auto dz = parallel_ ? all(towards_.z) : hn::Sub(z, all(apex_.z));
+  auto nx = hn::Sub(hn::Mul(dy, sz), hn::Mul(dz, sy));
+  auto ny = hn::Sub(hn::Mul(dz, sx), hn::Mul(dx, sz));
+  auto nz = hn::Sub(hn::Mul(dx, sy), hn::Mul(dy, sx));
+  const auto length2 = hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)));
+  const auto length = hn::Sqrt(hn::Max(length2, all(1e-30f)));
+  const auto inside = hn::Div(
+      hn::MulAdd(nx, hn::Sub(all(middle.x), x),
+                 hn::MulAdd(ny, hn::Sub(all(middle.y), y), hn::Mul(nz, hn::Sub(all(middle.z), z)))),
+      length);
+  const auto known = hn::Gt(hn::Abs(inside), all(margin_));
+  const auto scale = hn::IfThenElseZero(known, hn::CopySign(hn::Div(all(1.0f), length), inside));
+  nx = hn::Mul(nx, scale);
+  ny = hn::Mul(ny, scale);
+  nz = hn::Mul(nz, scale);
   // Rays begin and end a little off both surfaces, and so a little out of the exact pyramid.
-  add(most > margin_ ? n : -n, a, 3.0f * (region_.thickness + margin_));
+  const auto margin = all(3.0f * (region_.thickness + margin_));
+  const auto offset = hn::Sub(margin, hn::MulAdd(nx, x, hn::MulAdd(ny, y, hn::Mul(nz, z))));
+  const auto i = static_cast<size_t>(count_);
+  hn::StoreU(nx, tag, &planes_.x[i]);
+  hn::StoreU(ny, tag, &planes_.y[i]);
+  hn::StoreU(nz, tag, &planes_.z[i]);
+  hn::StoreU(offset, tag, &planes_.offset[i]);
+  count_ += 4;
 }
 
 bool OcclusionPyramid::mayMeet(const Bounds& box) const {
@@ -187,6 +219,18 @@ bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const 
     count = kept;
   }
   return true;
+}
+
+OcclusionPyramid::Axis::Axis(const OcclusionPyramid& p)
+    : last_(p.parallel_ ? std::numeric_limits<float>::max() : 1.0f) {
+  const PatchRegion& region = p.region_;
+  const vec3 middle = 0.5f * (region.corners[0] + region.corners[region.count == 4 ? 2 : 7]);
+  const float margin = 8.0f * (p.margin_ + region.thickness);
+  low_ = middle - margin;
+  high_ = middle + margin;
+  const vec3 way = p.parallel_ ? p.towards_ : p.apex_ - middle;
+  for (int c = 0; c < 3; ++c)
+    inverse_[c] = 1.0f / (std::abs(way[c]) > 1e-20f ? way[c] : std::copysign(1e-20f, way[c]));
 }
 
 bool OcclusionPyramid::isCutBy(std::span<const vec3> polygon, const vec3& n) const {

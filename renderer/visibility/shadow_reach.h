@@ -7,10 +7,21 @@
 
 namespace lamplighter {
 
+// What casts: all of it is in the box, and in a sphere around the middle of that, which may be
+// smaller than the one around the box.
+struct Caster {
+  Bounds box;
+  float radius = 0.0f;
+
+  Caster() = default;
+  explicit Caster(const Bounds& b) : box(b), radius(b.radius()) {}
+  Caster(const Bounds& b, float r) : box(b), radius(r) {}
+};
+
 class ShadowReach {
  public:
   // An empty box casts none.
-  ShadowReach(const shared::Vpl& vpl, const Bounds& caster);
+  ShadowReach(const shared::Vpl& vpl, const Caster& caster);
 
   bool isEmpty() const { return kind_ == Kind::none; }
   // Whether the shadow may fall on some of a sphere. Conservative.

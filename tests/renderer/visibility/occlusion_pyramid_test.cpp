@@ -34,7 +34,8 @@ struct Setting {
   }
   Occlusion of(const shared::Vpl& vpl) const {
     const PatchRegion whole(world, 0, patches[0], patches[0].patches[0]);
-    return occluders.occlusionWithout(world, OcclusionPyramid(vpl, whole), {});
+    Blocker met;
+    return occluders.occlusionWithout(world, OcclusionPyramid(vpl, whole), {}, met);
   }
 };
 
