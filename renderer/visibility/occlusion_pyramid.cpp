@@ -177,6 +177,15 @@ bool OcclusionPyramid::mayMeet(const Bounds& box) const {
   return true;
 }
 
+bool OcclusionPyramid::mayMeetSphere(const vec3& centre, float radius) const {
+  auto farthest = hn::LoadU(kTag, planes_.offset.data());
+  farthest = hn::MulAdd(hn::LoadU(kTag, planes_.x.data()), hn::Set(kTag, centre.x), farthest);
+  farthest = hn::MulAdd(hn::LoadU(kTag, planes_.y.data()), hn::Set(kTag, centre.y), farthest);
+  farthest = hn::MulAdd(hn::LoadU(kTag, planes_.z.data()), hn::Set(kTag, centre.z), farthest);
+  static_assert(kMostPlanes == kLanes);
+  return hn::AllFalse(kTag, hn::Lt(farthest, hn::Set(kTag, -radius)));
+}
+
 bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const {
   // Most triangles are wholly outside of one plane, or have a corner inside all.
   const auto zero = hn::Zero(kTag);

@@ -60,6 +60,7 @@ class OcclusionPyramid {
 
   // Whether it may be met; exact for triangles but for a margin of rounding.
   bool mayMeet(const Bounds& box) const;
+  bool mayMeetSphere(const vec3& centre, float radius) const;
   bool meets(const vec3& a, const vec3& b, const vec3& c) const;
   // Whether a convex polygon with unit normal n stands wholly across it, between light and patch.
   bool isCutBy(std::span<const vec3> polygon, const vec3& n) const;

@@ -7,6 +7,14 @@
 
 namespace lamplighter {
 
+Caster::Caster(const Caster& a, const Caster& b) {
+  for (const Caster* c : {&a, &b})
+    if (!c->box.empty()) box.add(c->box);
+  for (const Caster* c : {&a, &b})
+    if (!c->box.empty())
+      radius = std::max(radius, glm::distance(box.centre(), c->box.centre()) + c->radius);
+}
+
 ShadowReach::ShadowReach(const shared::Vpl& vpl, const Caster& caster) {
   const Bounds& box = caster.box;
   if (box.empty()) return;

@@ -1,9 +1,13 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
 // Columns of the visibility database brought up to date: patch by patch from the roots, at each for
 // all lights at once, so that it is known there whether the patch is divided before its children
 // are looked at.
 #include <algorithm>
 #include <atomic>
 
+#include <hwy/highway.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -11,6 +15,8 @@
 
 namespace lamplighter {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
 
 // A patch is divided where more lights than this share of all, and than this many, are partial.
 constexpr float kMostPartialShare = 0.05f;
@@ -21,22 +27,23 @@ constexpr size_t kRootsAPiece = 64;
 constexpr size_t kLightsAPiece = 32;
 constexpr size_t kLightsToShare = 96;  // fewer are not shared out
 
+// Where an object is and was before are looked at as one if the sphere around both is no larger
+// than this times its own.
+constexpr float kOneReach = 1.3f;
+
 bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
-// Of entries that are live: 1, else 0. In bytes as long as these hold the count, which is many at
-// a time.
-int countPartial(const uint8_t* states, const uint8_t* isLive, size_t slots) {
-  int count = 0;
-  for (size_t first = 0; first < slots; first += 255) {
-    const size_t last = std::min(first + 255, slots);
-    uint8_t some = 0;
-    for (size_t i = first; i < last; ++i)
-      some = static_cast<uint8_t>(
-          some + (static_cast<uint8_t>(states[i] == static_cast<uint8_t>(Occlusion::partial)) &
-                  isLive[i]));
-    count += some;
-  }
-  return count;
+// Entries that are partial, of lights that are live (1, else 0).
+int countPartial(std::span<const uint8_t> states, std::span<const uint8_t> isLive) {
+  const hn::FixedTag<uint8_t, 32> tag;
+  const auto partial = hn::Set(tag, static_cast<uint8_t>(Occlusion::partial));
+  size_t count = 0, i = 0;
+  for (; i + 32 <= states.size(); i += 32)
+    count += hn::CountTrue(tag, hn::And(hn::Eq(hn::LoadU(tag, &states[i]), partial),
+                                        hn::Ne(hn::LoadU(tag, &isLive[i]), hn::Zero(tag))));
+  for (; i < states.size(); ++i)
+    count += isLive[i] != 0 && states[i] == static_cast<uint8_t>(Occlusion::partial);
+  return static_cast<int>(count);
 }
 
 // What is to be done for a light at a patch.
@@ -50,14 +57,15 @@ enum class Work : uint8_t {
 
 struct VisibilityDatabase::Column {
   int slot = 0;
-  bool isNew = false;                    // another light: nothing is known of it
-  bool moversAreAll = true;              // what it waits for are the movers of now, and no more
-  bool moversHidNothing = true;          // nor could what it waits for hide a patch alone
-  std::vector<ShadowReach> reaches;      // of what it waits for, before and now
-  std::vector<ShadowReach> ofMoversNow;  // of the movers of now
-  std::vector<int> objects;              // that it waits for: all their entries
-  static bool mayFallOn(std::span<const ShadowReach> reaches, const vec3& centre, float radius) {
-    return std::any_of(reaches.begin(), reaches.end(),
+  bool moversAreAll = true;      // what it waits for are the movers of now, and no more
+  bool moversHidNothing = true;  // nor could what it waits for hide a patch alone
+  // Of what it waits for, before and now; most wait for one thing.
+  ShadowReach reach;
+  std::vector<ShadowReach> more;
+  std::vector<int> objects;  // that it waits for: all their entries
+  bool mayFallOn(const vec3& centre, float radius) const {
+    return reach.mayFallOn(centre, radius) ||
+           std::any_of(more.begin(), more.end(),
                        [&](const ShadowReach& r) { return r.mayFallOn(centre, radius); });
   }
 };
@@ -80,7 +88,10 @@ class VisibilityDatabase::Update {
   // allMayDivide: patches may be divided otherwise than they are though nothing changed on them.
   Update(VisibilityDatabase& database, const RenderScene& scene, bool allMayDivide,
          std::atomic<uint64_t>& tests)
-      : db_(database), scene_(scene), allMayDivide_(allMayDivide), tests_(tests) {}
+      : db_(database), scene_(scene), allMayDivide_(allMayDivide), tests_(tests) {
+    for (const uint32_t mover : database.movers_)
+      moversMayHide_ = moversMayHide_ || database.occluders_.mayHide(mover);
+  }
 
   // The root and all below it; tasks in the order of their slots.
   void run(uint32_t object, int root, std::span<const Task> tasks) {
@@ -93,13 +104,18 @@ class VisibilityDatabase::Update {
   bool compute(uint32_t object, int patch, std::span<Task> tasks) const;
   Occlusion check(const Patch& patch, const PatchRegion& region, const Task& task, bool& isSieved,
                   uint8_t& others, Blocker& met, Blocker& metMover, uint64_t& tests) const;
-  bool isDecided(Occlusion others) const;
-  void passDown(uint32_t object, int patch, bool wasDivided, bool isDivided, size_t first,
-                size_t last);
+  // Whether no mover makes a difference where this is the state by all others.
+  bool isDecided(uint8_t others) const {
+    return others == static_cast<uint8_t>(Occlusion::full) ||
+           (others == static_cast<uint8_t>(Occlusion::partial) && !moversMayHide_);
+  }
+  void passDown(uint32_t object, int patch, int child, bool wasDivided, bool isDivided,
+                size_t first, size_t last);
 
   VisibilityDatabase& db_;
   const RenderScene& scene_;
   const bool allMayDivide_;
+  bool moversMayHide_ = false;
   std::atomic<uint64_t>& tests_;
   std::vector<Task> tasks_;  // those of the patch that is visited are the last
 };
@@ -113,12 +129,10 @@ void VisibilityDatabase::Update::visit(uint32_t object, int patch, bool parentIs
   if (p.isLeaf()) return;
   uint8_t& divided = db_.divided_[object][static_cast<size_t>(patch)];
   const bool was = divided != 0;
-  const bool is =
-      parentIsDivided && countPartial(&db_.rows_[object][db_.entry(patch, 0)], db_.isLive_.data(),
-                                      db_.isLive_.size()) > db_.most_;
+  const bool is = parentIsDivided && countPartial(db_.row(object, patch), db_.isLive_) > db_.most_;
   divided = is ? 1 : 0;
   for (int child = p.firstChild; child < p.firstChild + 2; ++child) {
-    passDown(object, patch, was, is, first, last);
+    passDown(object, patch, child, was, is, first, last);
     if (tasks_.size() > last || was != is || (is && allMayDivide_)) visit(object, child, is, last);
     tasks_.resize(last);
   }
@@ -172,10 +186,10 @@ Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegio
                                             Blocker& met, Blocker& metMover,
                                             uint64_t& tests) const {
   const shared::Vpl& vpl = db_.lights_[static_cast<size_t>(task.slot)];
+  isSieved = false;
   if (others == static_cast<uint8_t>(Occlusion::full)) return Occlusion::full;
   const bool onlyMoversMatter = task.work == Work::check && !task.isOfMover;
-  isSieved =
-      onlyMoversMatter && !Column::mayFallOn(task.column->reaches, patch.centre, patch.radius);
+  isSieved = onlyMoversMatter && !task.column->mayFallOn(patch.centre, patch.radius);
   if (isSieved) {
     // Dark patches are none too where all of their parent was; it no longer is.
     if (task.parentWasNone && OcclusionPyramid(vpl, region).isDark()) return Occlusion::full;
@@ -187,11 +201,7 @@ Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegio
     others = static_cast<uint8_t>(Occlusion::full);
     return Occlusion::full;
   }
-  const auto known = static_cast<Occlusion>(others);
-  if (others != kUnknown && isDecided(known)) return known;
-  if (others != kUnknown && known == Occlusion::none && task.column != nullptr &&
-      !Column::mayFallOn(task.column->ofMoversNow, patch.centre, patch.radius))
-    return Occlusion::none;
+  if (isDecided(others)) return static_cast<Occlusion>(others);
   const OcclusionPyramid pyramid(vpl, region);
   // Where nothing stood between, only the movers can.
   if (onlyMoversMatter && task.column->moversAreAll && task.was == Occlusion::none &&
@@ -207,19 +217,20 @@ Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegio
   return std::max(state, db_.occluders_.occlusionBy(scene_, pyramid, db_.movers_, metMover));
 }
 
-// Whether no mover makes a difference where this is the state by all others.
-bool VisibilityDatabase::Update::isDecided(Occlusion others) const {
-  if (others == Occlusion::partial)
-    return std::none_of(db_.movers_.begin(), db_.movers_.end(),
-                        [&](uint32_t i) { return db_.occluders_.mayHide(i); });
-  return others == Occlusion::full;
-}
-
 // Adds the tasks of a child after those of its parent, which is done. A patch that was or becomes
 // none or full tells its children so (table 4-1), and one that is no longer divided, too.
-void VisibilityDatabase::Update::passDown(uint32_t object, int patch, bool wasDivided,
+void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child, bool wasDivided,
                                           bool isDivided, size_t first, size_t last) {
-  const auto pass = [&](Task task) {
+  const uint8_t* childStates = &db_.rows_[object][db_.entry(child, 0)];
+  const uint8_t* childOthers = &db_.withoutMovers_[object][db_.entry(child, 0)];
+  const bool childIsDivided = db_.divided_[object][static_cast<size_t>(child)] != 0;
+  const auto pass = [&](const Task& parent) {
+    // Most entries that a mover may touch are decided by the others.
+    const auto s = static_cast<size_t>(parent.slot);
+    if (parent.work == Work::check && parent.state == Occlusion::partial && isDivided &&
+        !childIsDivided && isDecided(childOthers[s]) && childStates[s] == childOthers[s])
+      return;
+    Task task = parent;
     const bool childrenAreSame = task.was != Occlusion::partial || !wasDivided;
     if (task.state != Occlusion::partial || !isDivided) {
       if (!task.isNew && childrenAreSame && task.was == task.state) return;
@@ -290,21 +301,30 @@ VisibilityDatabase::Column VisibilityDatabase::takeWaiting(int slot) {
   const shared::Vpl& vpl = lights_[i];
   Column column;
   column.slot = slot;
-  const auto add = [&](std::vector<ShadowReach>& reaches, const Caster& caster) {
+  const auto add = [&](const Caster& caster) {
     const ShadowReach reach(vpl, caster);
-    if (!reach.isEmpty()) reaches.push_back(reach);
+    if (!reach.isEmpty())
+      (column.reach.isEmpty() ? column.reach : column.more.emplace_back()) = reach;
   };
   for (const Waiting& w : waiting_[i]) {
-    add(column.reaches, w.before);
     column.moversHidNothing = column.moversHidNothing && !w.couldHide;
-    if (w.object == kNone) continue;
+    if (w.object == kNone) {
+      add(w.before);
+      continue;
+    }
     const auto object = static_cast<uint32_t>(w.object);
-    add(column.reaches, Caster(patches_[object].bounds, patches_[object].radius));
+    const Caster now(patches_[object].bounds, patches_[object].radius);
+    const Caster both(w.before, now);
+    if (w.before.box.empty() || both.radius < kOneReach * now.radius) {
+      add(both);
+    } else {
+      add(w.before);
+      add(now);
+    }
     column.objects.push_back(w.object);
     column.moversAreAll =
         column.moversAreAll && std::find(movers_.begin(), movers_.end(), object) != movers_.end();
   }
-  for (const uint32_t mover : movers_) add(column.ofMoversNow, occluders_.caster(mover));
   waiting_[i].clear();
   knowsNow_[i] = 0;
   return column;
@@ -330,8 +350,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
     const size_t first = begins.back(), last = reaching.size();
     begins.push_back(last);
     for (size_t i = first; i < last; ++i)
-      if (Column::mayFallOn(columns[reaching[i]].reaches, centre, radius))
-        reaching.push_back(reaching[i]);
+      if (columns[reaching[i]].mayFallOn(centre, radius)) reaching.push_back(reaching[i]);
     return reaching.size() > last;
   };
   const auto narrowToBox = [&](const Bounds& b) { return narrow(b.centre(), b.radius()); };
@@ -381,7 +400,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
       for (const Column& c : columns) {
         const bool isOfMover = std::find(c.objects.begin(), c.objects.end(),
                                          static_cast<int>(object)) != c.objects.end();
-        if (isOfMover || Column::mayFallOn(c.reaches, p.centre, p.radius)) job.add(c, isOfMover);
+        if (isOfMover || c.mayFallOn(p.centre, p.radius)) job.add(c, isOfMover);
       }
     }
   }
