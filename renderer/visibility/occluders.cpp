@@ -73,6 +73,8 @@ bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uin
 
 bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uint32_t index,
                       Blocker& met) const {
+  const Caster& caster = objects_[index].caster;
+  if (!pyramid.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius)) return false;
   const bool isMet =
       !objects_[index].tree.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
                                   [&](uint32_t item) {
@@ -80,15 +82,16 @@ bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uin
                                     met = {static_cast<int>(index), item};
                                     return false;
                                   });
-  return isMet && pyramid.mayBeShadowedBy(objects_[index].caster);
+  return isMet && pyramid.mayBeShadowedBy(caster);
 }
 
 bool Occluders::stillMeets(const RenderScene& s, const OcclusionPyramid& pyramid,
                            const Blocker& blocker) const {
   if (blocker.object == kNone) return false;
   const auto object = static_cast<uint32_t>(blocker.object);
-  return meets(s, pyramid, object, blocker.item) &&
-         pyramid.mayBeShadowedBy(objects_[object].caster);
+  const Caster& caster = objects_[object].caster;
+  if (!pyramid.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius)) return false;
+  return meets(s, pyramid, object, blocker.item) && pyramid.mayBeShadowedBy(caster);
 }
 
 bool Occluders::hides(const OcclusionPyramid& pyramid, const OcclusionPyramid::Axis& axis,
