@@ -22,6 +22,10 @@ constexpr Tag kTag;
 // A triangle clipped by each plane gains a corner at most.
 constexpr size_t kMostCorners = 3 + 8;
 
+// Of rayEpsilon(): what rounding makes of a sum such as the height over a plane. A place may be
+// wrong by more, but then with all that lies there.
+constexpr float kSumsRounding = 0.125f;
+
 float roundingAt(std::span<const vec3> points) {
   vec3 farthest(0.0f);
   for (const vec3& p : points) farthest = glm::max(farthest, glm::abs(p));
@@ -75,13 +79,15 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
   planes_.z.fill(0.0f);
   planes_.offset.fill(1.0f);
   const float slab = region_.thickness + margin_;
+  // Behind both planes by more than sums are rounded, the light is none (vplGeometry), not little.
+  const float behind = region_.thickness + kSumsRounding * margin_;
 
   // Only the half-space over the light's own plane gets light; what lies in that plane, the surface
   // that the light is on before all, is not between.
   if (!parallel_) {
     const auto height = [&](const vec3& p) { return glm::dot(p - apex_, towards_); };
     dark_ = std::all_of(region_.points().begin(), region_.points().end(),
-                        [&](const vec3& c) { return height(c) <= -slab; });
+                        [&](const vec3& c) { return height(c) <= -behind; });
     if (dark_) return;
     add(towards_, apex_, -margin_);
   }
@@ -90,13 +96,14 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
     const vec3 middle = 0.5f * (region_.corners[0] + region_.corners[2]);
     const float height =
         parallel_ ? glm::dot(towards_, region_.normal) : glm::dot(apex_ - middle, region_.normal);
-    dark_ = region_.frontOnly && height <= (parallel_ ? -1e-4f : -4.0f * slab);
+    dark_ = region_.frontOnly && height <= (parallel_ ? -1e-4f : -behind);
     if (dark_) return;
     degenerate_ = std::abs(height) <= (parallel_ ? 1e-4f : 4.0f * slab);
     if (degenerate_) return;
     // What lies in the plane of the patch, itself before all, is not between.
-    add(height > 0.0f ? region_.normal : -region_.normal, middle, -slab);
-    addSides(middle);
+    const vec3 up = height > 0.0f ? region_.normal : -region_.normal;
+    add(up, middle, -3.0f * slab);
+    addSides(middle, up);
     return;
   }
   const vec3 &low = region_.corners[0], &high = region_.corners[7];
@@ -124,7 +131,12 @@ void OcclusionPyramid::add(const vec3& normal, const vec3& on, float margin) {
 
 // The planes through the light and each side of a rectangle, all four at a time. A plane that the
 // rectangle hardly leaves is left out, since it is not known on which side it is.
-void OcclusionPyramid::addSides(const vec3& middle) {
+//
+// Rays begin and end a little off both surfaces, and so may leave the exact pyramid: near the light
+// by what they stand off it, near the patch by what they begin over it, where the side leans
+// inwards. There is no more slack than that at the patch, and what is hardly higher is not between:
+// a wall that the patch ends at would be, for all lights.
+void OcclusionPyramid::addSides(const vec3& middle, const vec3& up) {
   const hn::FixedTag<float, 4> tag;
   const auto all = [&](float v) { return hn::Set(tag, v); };
   const auto load = [&](const std::array<float, 4>& v) { return hn::LoadU(tag, v.data()); };
@@ -137,18 +149,33 @@ void OcclusionPyramid::addSides(const vec3& middle) {
   auto ny = hn::Sub(hn::Mul(dz, sx), hn::Mul(dx, sz));
   auto nz = hn::Sub(hn::Mul(dx, sy), hn::Mul(dy, sx));
   const auto length2 = hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)));
-  const auto length = hn::Sqrt(hn::Max(length2, all(1e-30f)));
+  auto length = hn::Sqrt(hn::Max(length2, all(1e-30f)));
   const auto inside = hn::Div(
       hn::MulAdd(nx, hn::Sub(all(middle.x), x),
                  hn::MulAdd(ny, hn::Sub(all(middle.y), y), hn::Mul(nz, hn::Sub(all(middle.z), z)))),
       length);
   const auto known = hn::Gt(hn::Abs(inside), all(margin_));
+  if (!parallel_) {
+    // Through a place three margins farther out than the light: n·|n| + 3 m (n × side) / |n|, and
+    // the way out is the other one where n points outwards.
+    const auto slack =
+        hn::CopySign(hn::Div(all(3.0f * (region_.thickness + margin_)), length), inside);
+    const auto tx = hn::Sub(hn::Mul(ny, sz), hn::Mul(nz, sy));
+    const auto ty = hn::Sub(hn::Mul(nz, sx), hn::Mul(nx, sz));
+    const auto tz = hn::Sub(hn::Mul(nx, sy), hn::Mul(ny, sx));
+    nx = hn::MulAdd(tx, slack, nx);
+    ny = hn::MulAdd(ty, slack, ny);
+    nz = hn::MulAdd(tz, slack, nz);
+    length = hn::Sqrt(hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz))));
+  }
   const auto scale = hn::IfThenElseZero(known, hn::CopySign(hn::Div(all(1.0f), length), inside));
   nx = hn::Mul(nx, scale);
   ny = hn::Mul(ny, scale);
   nz = hn::Mul(nz, scale);
-  // Rays begin and end a little off both surfaces, and so a little out of the exact pyramid.
-  const auto margin = all(3.0f * (region_.thickness + margin_));
+  const auto leaning = hn::MulAdd(nx, all(up.x), hn::MulAdd(ny, all(up.y), hn::Mul(nz, all(up.z))));
+  const auto margin = hn::Add(
+      hn::MulAdd(hn::Abs(leaning), all(region_.thickness), all(kSumsRounding * margin_)),
+      hn::Mul(hn::Max(hn::Neg(leaning), hn::Zero(tag)), all(2.0f * (region_.thickness + margin_))));
   const auto offset = hn::Sub(margin, hn::MulAdd(nx, x, hn::MulAdd(ny, y, hn::Mul(nz, z))));
   const auto i = static_cast<size_t>(count_);
   hn::StoreU(nx, tag, &planes_.x[i]);

@@ -90,7 +90,7 @@ class OcclusionPyramid {
   struct Planes {
     std::array<float, kMostPlanes> x, y, z, offset;
   };
-  void addSides(const vec3& middle);
+  void addSides(const vec3& middle, const vec3& up);
   void add(const vec3& normal, const vec3& on, float margin);
 
   const shared::Vpl& vpl_;

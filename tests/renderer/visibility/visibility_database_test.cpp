@@ -50,11 +50,16 @@ bool reaches(const World& w, const shared::Vpl& vpl, const PatchRegion& region, 
   return !w.rays->occluded({point, 0.0f, end - point, 1.0f});
 }
 
+// Points of a rectangle stand off its border too: that is often in another surface, and a ray that
+// begins in one may meet it or not.
 vec3 pointOf(const PatchRegion& region, uint32_t i, uint32_t seed) {
-  const vec2 u = sobol2(i, seed), v = sobol2(i, seed + 77);
-  if (region.count == 4)
-    return region.corners[0] + u.x * (region.corners[1] - region.corners[0]) +
-           u.y * (region.corners[3] - region.corners[0]);
+  vec2 u = sobol2(i, seed), v = sobol2(i, seed + 77);
+  if (region.count == 4) {
+    const vec3 x = region.corners[1] - region.corners[0], y = region.corners[3] - region.corners[0];
+    const vec2 border = glm::min(region.rounding / vec2(glm::length(x), glm::length(y)), 0.5f);
+    u = glm::clamp(u, border, 1.0f - border);
+    return region.corners[0] + u.x * x + u.y * y;
+  }
   return region.corners[0] + (region.corners[7] - region.corners[0]) * vec3(u, v.x);
 }
 
