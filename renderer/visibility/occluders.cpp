@@ -25,6 +25,12 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
     return box;
   };
   object.flat = topology.flat;
+  if (std::any_of(patches.charts.begin(), patches.charts.end(),
+                  [](const Chart& c) { return c.isRough; })) {
+    for (size_t c = 0; c < patches.charts.size(); ++c)
+      object.roughChart.insert(object.roughChart.end(), patches.charts[c].triangles.size(),
+                               patches.charts[c].isRough ? static_cast<int>(c) : kNone);
+  }
   std::vector<Bounds> boxes;
   for (const uint32_t t : object.flat) boxes.push_back(boundsOf({&t, 1}));
   const std::span<const uint32_t> loose(topology.loose);
@@ -67,6 +73,9 @@ bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uin
                       uint32_t item) const {
   const Object& object = objects_[index];
   if (item >= object.flat.size()) return pyramid.mayMeet(object.groups[item - object.flat.size()]);
+  if (!object.roughChart.empty() && object.roughChart[item] != kNone &&
+      pyramid.isOfRough(index, object.roughChart[item]))
+    return false;
   const uint32_t* i = &s.indices[s.objects[index].firstIndex + 3 * object.flat[item]];
   return pyramid.meets(s.positions[i[0]], s.positions[i[1]], s.positions[i[2]]);
 }

@@ -45,6 +45,7 @@ class Occluders {
   struct Object {
     Caster caster;
     std::vector<uint32_t> flat;     // triangles that are tested themselves
+    std::vector<int> roughChart;    // of each of them; empty: none is in one
     BoundsTree tree;                // over those, then groups
     std::vector<Bounds> groups;     // of loose triangles
     std::vector<Polygon> polygons;  // large ones, which may hide whole patches

@@ -42,21 +42,25 @@ PatchRegion::PatchRegion(const Bounds& box) : count(8), centre(box.centre()), ra
   rounding = roundingAt(points());
 }
 
-PatchRegion::PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
+PatchRegion::PatchRegion(const RenderScene& scene, uint32_t index, const ObjectPatches& patches,
                          const Patch& patch) {
   if (patch.chart == kNone) {
     *this = PatchRegion(patch.box);
     return;
   }
-  const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
+  const Chart& its = patches.charts[static_cast<size_t>(patch.chart)];
   count = 4;
-  corners = {chart.at(patch.min), chart.at({patch.max.x, patch.min.y}), chart.at(patch.max),
-             chart.at({patch.min.x, patch.max.y})};
+  corners = {its.at(patch.min), its.at({patch.max.x, patch.min.y}), its.at(patch.max),
+             its.at({patch.min.x, patch.max.y})};
   centre = patch.centre;
   radius = patch.radius;
-  normal = chart.normal;
-  thickness = chart.thickness;
-  frontOnly = scene.backIsUnseen(object);
+  normal = its.normal;
+  thickness = its.thickness;
+  frontOnly = scene.backIsUnseen(index);
+  if (its.isRough) {
+    object = static_cast<int>(index);
+    chart = patch.chart;
+  }
   rounding = roundingAt(points());
   for (size_t i = 0; i < 4; ++i) {
     const vec3 side = corners[(i + 1) % 4] - corners[i];
@@ -92,17 +96,23 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
     add(towards_, apex_, -margin_);
   }
 
+  const bool isRough = region_.chart != kNone;
   if (region_.count == 4) {
     const vec3 middle = 0.5f * (region_.corners[0] + region_.corners[2]);
     const float height =
         parallel_ ? glm::dot(towards_, region_.normal) : glm::dot(apex_ - middle, region_.normal);
-    dark_ = region_.frontOnly && height <= (parallel_ ? -1e-4f : -behind);
+    // The bumps of a rough patch are turned to the light before the patch is.
+    float turned = 0.0f;
+    if (isRough) turned = parallel_ ? 1.0f : glm::distance(apex_, middle) + region_.radius;
+    turned *= kRoughSine;
+    dark_ = region_.frontOnly && height <= (parallel_ ? -1e-4f : -behind) - turned;
     if (dark_) return;
     degenerate_ = std::abs(height) <= (parallel_ ? 1e-4f : 4.0f * slab);
     if (degenerate_) return;
     // What lies in the plane of the patch, itself before all, is not between.
     const vec3 up = height > 0.0f ? region_.normal : -region_.normal;
-    add(up, middle, -3.0f * slab);
+    // On a rough patch there may be something between its bumps.
+    add(up, middle, isRough ? slab : -3.0f * slab);
     addSides(middle, up);
     return;
   }
@@ -274,7 +284,7 @@ bool OcclusionPyramid::isCutBy(std::span<const vec3> polygon, const vec3& n) con
   const float inset = 8.0f * margin_ + region_.thickness;
   const float lightSide = parallel_ ? glm::dot(n, towards_) : glm::dot(n, apex_ - on);
   if (std::abs(lightSide) <= (parallel_ ? 1e-4f : inset)) return false;
-  for (const vec3& corner : region_.points()) {
+  const auto isCut = [&](const vec3& corner) {
     const float side = glm::dot(n, corner - on);
     if (side * lightSide >= 0.0f || std::abs(side) <= inset) return false;
     const vec3 across = parallel_ ? corner - (side / lightSide) * towards_
@@ -284,7 +294,12 @@ bool OcclusionPyramid::isCutBy(std::span<const vec3> polygon, const vec3& n) con
       if (glm::dot(glm::cross(n, edge), across - polygon[i]) < inset * glm::length(edge))
         return false;
     }
-  }
+    return true;
+  };
+  // A rough patch is as thick as its bumps, and seen from the side that is much.
+  const vec3 bump = region_.chart != kNone ? region_.thickness * region_.normal : vec3(0.0f);
+  for (const vec3& corner : region_.points())
+    if (!isCut(corner + bump) || (region_.chart != kNone && !isCut(corner - bump))) return false;
   return true;
 }
 

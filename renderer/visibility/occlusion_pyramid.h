@@ -26,9 +26,10 @@ struct PatchRegion {
   vec3 normal{0.0f};       // rectangle: unit
   float thickness = 0.0f;  // rectangle: the surface is within this of it [m]
   bool frontOnly = false;  // rectangle: its back is never seen
-  vec3 centre{0.0f};       // of a sphere around it
-  float radius = 0.0f;     // of that sphere [m]
-  float rounding = 0.0f;   // what it may make of a place here [m]
+  int object = kNone, chart = kNone;  // a rough one's, whose bumps are not between: else kNone
+  vec3 centre{0.0f};                  // of a sphere around it
+  float radius = 0.0f;                // of that sphere [m]
+  float rounding = 0.0f;              // what it may make of a place here [m]
   // Rectangle: corners and the sides from them to the next, all x, all y, all z.
   std::array<std::array<float, 4>, 3> from{}, sides{};
 
@@ -53,6 +54,11 @@ class OcclusionPyramid {
   // them, for these take a little more than the pyramid.
   bool mayBeShadowedBy(const Caster& caster) const {
     return ShadowReach(vpl_, caster).mayFallOn(region_.centre, region_.radius);
+  }
+
+  // It is that of a patch of this chart, which is rough.
+  bool isOfRough(uint32_t object, int chart) const {
+    return region_.object == static_cast<int>(object) && region_.chart == chart;
   }
 
   // Its patch is a box around triangles, not a rectangle.
