@@ -30,8 +30,9 @@ bool sameContribution(const shared::Vpl& a, const shared::Vpl& b) {
          vec3(a.intensity) == vec3(b.intensity);
 }
 
-// Its surface shades as its plane does: neither smooth normals nor a normal texture.
+// Its surface shades as its plane does: neither smooth normals nor a normal texture, nor bumps.
 bool isShadedFlat(const RenderScene& s, const Chart& chart) {
+  if (chart.isRough) return false;
   const RenderObject& o = s.objects[chart.object];
   if (s.materials[static_cast<size_t>(o.material)].normalTexture.texture != kNone) return false;
   return std::all_of(chart.triangles.begin(), chart.triangles.end(), [&](uint32_t t) {

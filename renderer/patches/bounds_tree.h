@@ -19,6 +19,7 @@ class BoundsTree {
   // The same tree over boxes that moved.
   void refit(std::span<const Bounds> boxes);
   size_t size() const { return order_.size(); }
+  Bounds bounds() const { return nodes_.empty() ? Bounds() : nodes_[0].bounds; }
 
   // Calls take(i) for each box i in a subtree that enter(bounds) does not refuse; stops when take
   // returns false. Returns whether it went through.
@@ -42,12 +43,31 @@ class BoundsTree {
     return true;
   }
 
+  // The same for many searches at once: narrow(bounds) says what is left of them in a subtree, and
+  // whether anything; widen() is called when it is left again.
+  template <typename Narrow, typename Take, typename Widen>
+  void descend(const Narrow& narrow, const Take& take, const Widen& widen) const {
+    if (!nodes_.empty()) descend(0, narrow, take, widen);
+  }
+
  private:
   struct Node {
     Bounds bounds;
     uint32_t first = 0, count = 0;  // leaf: into order_; else count 0 and the first of two children
   };
   void split(uint32_t node, std::span<const Bounds> boxes);
+  template <typename Narrow, typename Take, typename Widen>
+  void descend(uint32_t index, const Narrow& narrow, const Take& take, const Widen& widen) const {
+    const Node& node = nodes_[index];
+    if (narrow(node.bounds)) {
+      if (node.count == 0) {
+        descend(node.first, narrow, take, widen);
+        descend(node.first + 1, narrow, take, widen);
+      }
+      for (uint32_t i = node.first; i < node.first + node.count; ++i) take(order_[i]);
+    }
+    widen();
+  }
 
   std::vector<Node> nodes_;
   std::vector<uint32_t> order_;

@@ -19,9 +19,25 @@ Chart placed(const RenderScene& s, uint32_t object, const ChartTopology& topolog
   chart.object = object;
   chart.triangles = topology.triangles;
   chart.origin = corner(topology.triangles.front(), 0);
-  const vec3 plane = cross(topology.seed);
+  chart.isRough = topology.isRough;
+  vec3 plane = cross(topology.seed);
+  if (chart.isRough) {
+    plane = vec3(0.0f);
+    for (const uint32_t t : chart.triangles) plane += cross(t);
+  }
   const float length = glm::length(plane);
   chart.normal = length > 0.0f ? plane / length : vec3(0, 1, 0);
+  if (chart.isRough) {
+    float lowest = 0.0f, highest = 0.0f;
+    for (const uint32_t t : chart.triangles) {
+      for (uint32_t c = 0; c < 3; ++c) {
+        const float height = glm::dot(corner(t, c) - chart.origin, chart.normal);
+        lowest = std::min(lowest, height);
+        highest = std::max(highest, height);
+      }
+    }
+    chart.origin += 0.5f * (lowest + highest) * chart.normal;
+  }
   for (const uint32_t v : topology.outline) chart.outline.push_back(s.positions[o.firstVertex + v]);
   vec3 along = s.positions[o.firstVertex + topology.longestEdge[1]] -
                s.positions[o.firstVertex + topology.longestEdge[0]];

@@ -9,7 +9,7 @@
 
 namespace lamplighter {
 
-// Connected triangles of one object in one plane.
+// Connected triangles of one object in one plane, or nearly.
 struct Chart {
   uint32_t object = 0;              // index into RenderScene::objects
   vec3 origin{0.0f};                // on the plane, world space
@@ -18,6 +18,8 @@ struct Chart {
   float thickness = 0.0f;           // all of it is within this of the plane [m]
   float area = 0.0f;                // m²
   std::vector<uint32_t> triangles;  // within the object, ascending
+  // It has bumps that are more than rounding, and they cast no shadow on it.
+  bool isRough = false;
   // The border, counter-clockwise as seen from the front, where all of it is one convex polygon;
   // else empty. World space.
   std::vector<vec3> outline;

@@ -1,6 +1,7 @@
 #include "renderer/patches/patch_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace lamplighter {
@@ -35,6 +36,7 @@ Bounds boundsOf(const RenderScene& s, const RenderObject& o, std::span<const uin
   return b;
 }
 
+// Spheres around patches, and a tree over those of the roots.
 void surround(ObjectPatches& out) {
   for (Patch& p : out.patches) {
     if (p.chart == kNone) {
@@ -46,6 +48,14 @@ void surround(ObjectPatches& out) {
       p.radius = 0.5f * glm::length(p.max - p.min) + chart.thickness;
     }
   }
+  std::vector<Bounds> boxes;
+  for (const int root : out.roots) {
+    const Patch& p = out.patches[static_cast<size_t>(root)];
+    Bounds& box = boxes.emplace_back();
+    box.add(p.centre - p.radius);
+    box.add(p.centre + p.radius);
+  }
+  out.tree = BoundsTree(boxes);
 }
 
 }  // namespace
@@ -69,6 +79,12 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
   ObjectPatches out;
   out.revision.advance();
   out.bounds = o.bounds;
+  float radius2 = 0.0f;
+  for (uint32_t i = 0; i < o.vertexCount; ++i) {
+    const vec3 v = scene.positions[o.firstVertex + i] - o.bounds.centre();
+    radius2 = std::max(radius2, glm::dot(v, v));
+  }
+  out.radius = std::sqrt(radius2);
   out.charts = placeCharts(scene, object, topology);
   out.patchOfTriangle.assign(o.triangleCount(), kNone);
   for (size_t i = 0; i < out.charts.size(); ++i) {

@@ -24,11 +24,13 @@ struct Patch {
 // The charts and patches of one object. Made from its triangles alone, so that they do not tell
 // where it was before.
 struct ObjectPatches {
-  Revision revision;  // another each time they are placed
-  Bounds bounds;      // of the object
+  Revision revision;    // another each time they are placed
+  Bounds bounds;        // of the object
+  float radius = 0.0f;  // of a sphere around the middle of the bounds that holds all of it [m]
   std::vector<Chart> charts;
   std::vector<Patch> patches;        // children after their parents
   std::vector<int> roots;            // into patches
+  BoundsTree tree;                   // over boxes around the roots' spheres, in their order
   std::vector<int> patchOfTriangle;  // the root of its chart, or the leaf of its cluster
 
   // The leaf that a point of a triangle of the object lies in.

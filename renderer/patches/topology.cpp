@@ -16,6 +16,11 @@ namespace lamplighter {
 namespace {
 
 constexpr float kSameDirection = 0.99995f;  // cos 0.57°
+constexpr float kRoughDirection = 0.9976f;  // cos 4°
+constexpr float kRough = 0.0025f;           // m to both sides of the plane,
+constexpr float kRoughShare = 0.0005f;      // and of the object's size
+constexpr float kLargeRough = 1.0f;         // m²: a bend is not this large that near to a plane
+constexpr int kMostFits = 12;               // of a plane to what lies near it
 constexpr float kLargeShare = 0.02f;        // of the object's size squared
 constexpr float kLarge = 0.25f;             // m²
 constexpr size_t kClusterTriangles = 1024;  // more are halved,
@@ -247,6 +252,74 @@ void findCharts(const Shape& shape, float least, std::vector<ChartTopology>& cha
   }
 }
 
+// Of what is left: parts that are planes but for small bumps. A first triangle does not say well
+// where the plane is, so that it is fitted again to all that was near it until no more is.
+void findRoughCharts(const Shape& shape, std::vector<ChartTopology>& charts,
+                     std::vector<bool>& taken) {
+  std::vector<uint32_t> order;
+  for (uint32_t t = 0; t < shape.triangles(); ++t)
+    if (!taken[t] && shape.area(t) > 0.0f) order.push_back(t);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return shape.area(a) > shape.area(b); });
+  const float size = glm::length(shape.bounds().extent());
+  const float tolerance = std::min(kRough, kRoughShare * size);
+  std::vector<uint32_t> found(shape.triangles(), 0);  // by which search
+  std::vector<bool> tried = taken;
+  uint32_t search = 0;
+  for (const uint32_t seed : order) {
+    if (tried[seed]) continue;
+    vec3 normal = shape.normal(seed);
+    vec3 origin = (shape.at(seed, 0) + shape.at(seed, 1) + shape.at(seed, 2)) / 3.0f;
+    std::vector<uint32_t> members;
+    for (int fit = 0; fit < kMostFits; ++fit) {
+      const auto liesNear = [&](uint32_t t) {
+        if (taken[t]) return false;
+        if (shape.area(t) > 0.0f && glm::dot(shape.normal(t), normal) < kRoughDirection)
+          return false;
+        for (size_t c = 0; c < 3; ++c)
+          if (std::abs(glm::dot(shape.at(t, c) - origin, normal)) > tolerance) return false;
+        return true;
+      };
+      std::vector<uint32_t> near;
+      ++search;
+      if (liesNear(seed)) near.push_back(seed);
+      found[seed] = search;
+      for (size_t i = 0; i < near.size(); ++i) {
+        for (const int n : shape.neighbours(near[i])) {
+          if (n < 0 || found[static_cast<size_t>(n)] == search) continue;
+          found[static_cast<size_t>(n)] = search;
+          if (liesNear(static_cast<uint32_t>(n))) near.push_back(static_cast<uint32_t>(n));
+        }
+      }
+      if (near.size() <= members.size()) break;
+      members = std::move(near);
+      vec3 sum(0.0f), middle(0.0f);
+      float area = 0.0f;
+      for (const uint32_t t : members) {
+        sum += shape.area(t) * shape.normal(t);
+        middle += shape.area(t) * (shape.at(t, 0) + shape.at(t, 1) + shape.at(t, 2)) / 3.0f;
+        area += shape.area(t);
+      }
+      normal = glm::normalize(sum);
+      origin = middle / area;
+    }
+    float area = 0.0f;
+    for (const uint32_t t : members) {
+      tried[t] = true;
+      area += shape.area(t);
+    }
+    tried[seed] = true;
+    if (area < kLargeRough) continue;
+    ChartTopology& chart = charts.emplace_back();
+    chart.seed = seed;
+    chart.isRough = true;
+    chart.triangles = std::move(members);
+    std::sort(chart.triangles.begin(), chart.triangles.end());
+    for (const uint32_t t : chart.triangles) taken[t] = true;
+    chart.longestEdge = longestEdge(shape, chart);
+  }
+}
+
 // Puts the triangles into the order of a tree that halves them by the median of their middles along
 // the longest side; makes clusters of its first levels.
 void sortLoose(const Shape& shape, MeshTopology& out, uint32_t first, uint32_t count,
@@ -319,6 +392,7 @@ MeshTopology findTopology(const RenderScene& scene, uint32_t object) {
   std::vector<bool> taken(o.triangleCount(), false);
   if (o.kind != MeshKind::complex)
     findCharts(shape, o.kind == MeshKind::simple ? 0.0f : kLarge, out.charts, taken);
+  if (o.kind == MeshKind::automatic) findRoughCharts(shape, out.charts, taken);
   for (uint32_t t = 0; t < o.triangleCount(); ++t)
     if (!taken[t]) out.loose.push_back(t);
   if (!out.loose.empty()) {

@@ -22,9 +22,10 @@ struct ShapeKey {
 };
 ShapeKey shapeOf(const RenderObject& object);
 
-// Connected triangles in one plane.
+// Connected triangles in one plane, or nearly in one.
 struct ChartTopology {
   uint32_t seed = 0;                // the largest triangle: gives the plane
+  bool isRough = false;             // nearly: all triangles give the plane
   std::vector<uint32_t> triangles;  // within the object, ascending
   // Vertices within the object: corners of the border, counter-clockwise as seen from the front,
   // where all of it is one convex polygon; else empty.
@@ -50,9 +51,13 @@ struct MeshTopology {
   BoundsTree occluders;                   // over each of `flat`, then each group of `loose`
 };
 
+// The triangles of a rough chart are turned from its plane by no more than this: the sine of 4°.
+inline constexpr float kRoughSine = 0.07f;
+
 // Charts are parts of a quarter of a square metre, or a fiftieth of the object's size squared; what
-// is smaller or curved is loose. Of a simple mesh all planar parts are charts, of a complex one
-// none. Deterministic.
+// is smaller or curved is loose. What is flat but for
+// a few millimetres and degrees, a square metre of it at least, is rough. Of a
+// simple mesh all planar parts are charts, of a complex one none. Deterministic.
 MeshTopology findTopology(const RenderScene& scene, uint32_t object);
 
 }  // namespace lamplighter

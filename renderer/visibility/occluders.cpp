@@ -15,6 +15,7 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
   const RenderObject& o = s.objects[index];
   Object& object = objects_[index];
   object = Object();
+  object.caster = Caster(patches.bounds, patches.radius);
   const Material& material = s.materials[static_cast<size_t>(o.material)];
   if (material.isClear()) return;
   const auto boundsOf = [&](std::span<const uint32_t> triangles) {
@@ -24,6 +25,12 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
     return box;
   };
   object.flat = topology.flat;
+  if (std::any_of(patches.charts.begin(), patches.charts.end(),
+                  [](const Chart& c) { return c.isRough; })) {
+    for (size_t c = 0; c < patches.charts.size(); ++c)
+      object.roughChart.insert(object.roughChart.end(), patches.charts[c].triangles.size(),
+                               patches.charts[c].isRough ? static_cast<int>(c) : kNone);
+  }
   std::vector<Bounds> boxes;
   for (const uint32_t t : object.flat) boxes.push_back(boundsOf({&t, 1}));
   const std::span<const uint32_t> loose(topology.loose);
@@ -46,32 +53,60 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
 }
 
 void Occluders::finish(const RenderScene& s) {
-  std::vector<Bounds> boxes(s.objects.size());
-  for (size_t i = 0; i < boxes.size(); ++i) boxes[i] = s.objects[i].bounds;
-  if (tree_.size() == boxes.size()) {
-    tree_.refit(boxes);
-  } else {
-    tree_ = BoundsTree(boxes);
+  std::vector<Bounds> boxes(s.objects.size()), polygons(s.objects.size());
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    boxes[i] = s.objects[i].bounds;
+    polygons[i] = objects_[i].polygonTree.bounds();
   }
+  const auto fit = [](BoundsTree& tree, std::span<const Bounds> to) {
+    if (tree.size() == to.size()) {
+      tree.refit(to);
+    } else {
+      tree = BoundsTree(to);
+    }
+  };
+  fit(tree_, boxes);
+  fit(polygonTree_, polygons);
 }
 
-bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uint32_t index) const {
-  const RenderObject& o = s.objects[index];
+bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uint32_t index,
+                      uint32_t item) const {
   const Object& object = objects_[index];
-  if (!pyramid.mayBeShadowedBy(o.bounds)) return false;
-  return !object.tree.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
-                            [&](uint32_t item) {
-                              if (item >= object.flat.size())
-                                return !pyramid.mayMeet(object.groups[item - object.flat.size()]);
-                              const uint32_t* i = &s.indices[o.firstIndex + 3 * object.flat[item]];
-                              return !pyramid.meets(s.positions[i[0]], s.positions[i[1]],
-                                                    s.positions[i[2]]);
-                            });
+  if (item >= object.flat.size()) return pyramid.mayMeet(object.groups[item - object.flat.size()]);
+  if (!object.roughChart.empty() && object.roughChart[item] != kNone &&
+      pyramid.isOfRough(index, object.roughChart[item]))
+    return false;
+  const uint32_t* i = &s.indices[s.objects[index].firstIndex + 3 * object.flat[item]];
+  return pyramid.meets(s.positions[i[0]], s.positions[i[1]], s.positions[i[2]]);
 }
 
-bool Occluders::hides(const OcclusionPyramid& pyramid, uint32_t object) const {
+bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uint32_t index,
+                      Blocker& met) const {
+  const Caster& caster = objects_[index].caster;
+  if (!pyramid.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius)) return false;
+  const bool isMet =
+      !objects_[index].tree.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
+                                  [&](uint32_t item) {
+                                    if (!meets(s, pyramid, index, item)) return true;
+                                    met = {static_cast<int>(index), item};
+                                    return false;
+                                  });
+  return isMet && pyramid.mayBeShadowedBy(caster);
+}
+
+bool Occluders::stillMeets(const RenderScene& s, const OcclusionPyramid& pyramid,
+                           const Blocker& blocker) const {
+  if (blocker.object == kNone) return false;
+  const auto object = static_cast<uint32_t>(blocker.object);
+  const Caster& caster = objects_[object].caster;
+  if (!pyramid.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius)) return false;
+  return meets(s, pyramid, object, blocker.item) && pyramid.mayBeShadowedBy(caster);
+}
+
+bool Occluders::hides(const OcclusionPyramid& pyramid, const OcclusionPyramid::Axis& axis,
+                      uint32_t object) const {
   return !objects_[object].polygonTree.visit(
-      [&](const Bounds& b) { return pyramid.mayMeet(b); },
+      [&](const Bounds& b) { return axis.mayMeet(b); },
       [&](uint32_t p) {
         const Polygon& polygon = objects_[object].polygons[p];
         return !pyramid.isCutBy(polygon.corners, polygon.normal);
@@ -79,7 +114,7 @@ bool Occluders::hides(const OcclusionPyramid& pyramid, uint32_t object) const {
 }
 
 Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyramid& pyramid,
-                                      std::span<const uint32_t> objects) const {
+                                      std::span<const uint32_t> objects, Blocker& first) const {
   if (pyramid.isDark()) return Occlusion::full;
   if (pyramid.isDegenerate()) return Occlusion::partial;
   const auto counts = [&](uint32_t i) {
@@ -87,34 +122,34 @@ Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyram
   };
   const auto enter = [&](const Bounds& b) { return pyramid.mayMeet(b); };
   // A cluster of a complex mesh stands in its own light.
-  const bool isMet = pyramid.isOfBox() || !tree_.visit(enter, [&](uint32_t i) {
-    return !(counts(i) && meets(s, pyramid, i));
-  });
+  const bool isMet =
+      pyramid.isOfBox() || stillMeets(s, pyramid, first) ||
+      !tree_.visit(enter, [&](uint32_t i) { return !(counts(i) && meets(s, pyramid, i, first)); });
   if (!isMet) return Occlusion::none;
   return hiddenWithout(pyramid, objects) ? Occlusion::full : Occlusion::partial;
 }
 
 bool Occluders::hiddenWithout(const OcclusionPyramid& pyramid,
                               std::span<const uint32_t> objects) const {
-  return !tree_.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
-                      [&](uint32_t i) {
-                        const bool counts =
-                            std::find(objects.begin(), objects.end(), i) == objects.end();
-                        return !(counts && hides(pyramid, i));
-                      });
+  const OcclusionPyramid::Axis axis(pyramid);
+  return !polygonTree_.visit([&](const Bounds& b) { return axis.mayMeet(b); },
+                             [&](uint32_t i) {
+                               const bool counts =
+                                   std::find(objects.begin(), objects.end(), i) == objects.end();
+                               return !(counts && hides(pyramid, axis, i));
+                             });
 }
 
 Occlusion Occluders::occlusionBy(const RenderScene& s, const OcclusionPyramid& pyramid,
-                                 std::span<const uint32_t> objects) const {
+                                 std::span<const uint32_t> objects, Blocker& first) const {
   if (pyramid.isDark()) return Occlusion::full;
   if (pyramid.isDegenerate()) return Occlusion::partial;
-  Occlusion state = Occlusion::none;
+  bool isMet = stillMeets(s, pyramid, first);
   for (const uint32_t i : objects) {
-    if (!pyramid.mayMeet(s.objects[i].bounds) || !meets(s, pyramid, i)) continue;
-    if (hides(pyramid, i)) return Occlusion::full;
-    state = Occlusion::partial;
+    if (!isMet) isMet = meets(s, pyramid, i, first);
+    if (mayHide(i) && hides(pyramid, OcclusionPyramid::Axis(pyramid), i)) return Occlusion::full;
   }
-  return state;
+  return isMet ? Occlusion::partial : Occlusion::none;
 }
 
 }  // namespace lamplighter

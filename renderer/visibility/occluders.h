@@ -9,6 +9,13 @@
 
 namespace lamplighter {
 
+// What a pyramid met: an item of an object. Most of what meets a pyramid meets the next one too,
+// that of a child or of a light nearby, so that there it is asked first.
+struct Blocker {
+  int object = kNone;
+  uint32_t item = 0;
+};
+
 class Occluders {
  public:
   void resize(size_t objects) { objects_.resize(objects); }
@@ -19,14 +26,16 @@ class Occluders {
 
   // The state of the pyramid's light on its patch by all occluders but these objects, and by these
   // alone. The state by all is the greater of both: something is met, or one polygon hides it.
+  // `first` is asked first, and becomes what was met; it changes no answer.
   Occlusion occlusionWithout(const RenderScene& scene, const OcclusionPyramid& pyramid,
-                             std::span<const uint32_t> objects) const;
+                             std::span<const uint32_t> objects, Blocker& first) const;
   Occlusion occlusionBy(const RenderScene& scene, const OcclusionPyramid& pyramid,
-                        std::span<const uint32_t> objects) const;
+                        std::span<const uint32_t> objects, Blocker& first) const;
   // Whether one polygon of other objects hides all of the pyramid's patch.
   bool hiddenWithout(const OcclusionPyramid& pyramid, std::span<const uint32_t> objects) const;
   // Whether one of the object's polygons is large enough to hide patches.
   bool mayHide(uint32_t object) const { return !objects_[object].polygons.empty(); }
+  const Caster& caster(uint32_t object) const { return objects_[object].caster; }
 
  private:
   struct Polygon {
@@ -34,17 +43,26 @@ class Occluders {
     vec3 normal{0.0f};
   };
   struct Object {
+    Caster caster;
     std::vector<uint32_t> flat;     // triangles that are tested themselves
+    std::vector<int> roughChart;    // of each of them; empty: none is in one
     BoundsTree tree;                // over those, then groups
     std::vector<Bounds> groups;     // of loose triangles
     std::vector<Polygon> polygons;  // large ones, which may hide whole patches
     BoundsTree polygonTree;
   };
-  bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object) const;
-  bool hides(const OcclusionPyramid& pyramid, uint32_t object) const;
+  bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
+             uint32_t item) const;
+  bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
+             Blocker& met) const;
+  bool stillMeets(const RenderScene& scene, const OcclusionPyramid& pyramid,
+                  const Blocker& blocker) const;
+  bool hides(const OcclusionPyramid& pyramid, const OcclusionPyramid::Axis& axis,
+             uint32_t object) const;
 
   std::vector<Object> objects_;
-  BoundsTree tree_;  // over the objects' bounds
+  BoundsTree tree_;         // over the objects' bounds
+  BoundsTree polygonTree_;  // over those of their large polygons
 };
 
 }  // namespace lamplighter

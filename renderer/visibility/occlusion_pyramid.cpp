@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <hwy/highway.h>
 
@@ -21,6 +22,16 @@ constexpr Tag kTag;
 // A triangle clipped by each plane gains a corner at most.
 constexpr size_t kMostCorners = 3 + 8;
 
+// Of rayEpsilon(): what rounding makes of a sum such as the height over a plane. A place may be
+// wrong by more, but then with all that lies there.
+constexpr float kSumsRounding = 0.125f;
+
+float roundingAt(std::span<const vec3> points) {
+  vec3 farthest(0.0f);
+  for (const vec3& p : points) farthest = glm::max(farthest, glm::abs(p));
+  return rayEpsilon(farthest);
+}
+
 }  // namespace
 
 PatchRegion::PatchRegion(const Bounds& box) : count(8), centre(box.centre()), radius(box.radius()) {
@@ -28,62 +39,81 @@ PatchRegion::PatchRegion(const Bounds& box) : count(8), centre(box.centre()), ra
     for (int c = 0; c < 3; ++c)
       corners[static_cast<size_t>(i)][c] = ((i >> c) & 1) != 0 ? box.max[c] : box.min[c];
   }
+  rounding = roundingAt(points());
 }
 
-PatchRegion::PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
+PatchRegion::PatchRegion(const RenderScene& scene, uint32_t index, const ObjectPatches& patches,
                          const Patch& patch) {
   if (patch.chart == kNone) {
     *this = PatchRegion(patch.box);
     return;
   }
-  const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
+  const Chart& its = patches.charts[static_cast<size_t>(patch.chart)];
   count = 4;
-  corners = {chart.at(patch.min), chart.at({patch.max.x, patch.min.y}), chart.at(patch.max),
-             chart.at({patch.min.x, patch.max.y})};
+  corners = {its.at(patch.min), its.at({patch.max.x, patch.min.y}), its.at(patch.max),
+             its.at({patch.min.x, patch.max.y})};
   centre = patch.centre;
   radius = patch.radius;
-  normal = chart.normal;
-  thickness = chart.thickness;
-  frontOnly = scene.backIsUnseen(object);
+  normal = its.normal;
+  thickness = its.thickness;
+  frontOnly = scene.backIsUnseen(index);
+  if (its.isRough) {
+    object = static_cast<int>(index);
+    chart = patch.chart;
+  }
+  rounding = roundingAt(points());
+  for (size_t i = 0; i < 4; ++i) {
+    const vec3 side = corners[(i + 1) % 4] - corners[i];
+    for (int c = 0; c < 3; ++c) {
+      from[static_cast<size_t>(c)][i] = corners[i][c];
+      sides[static_cast<size_t>(c)][i] = side[c];
+    }
+  }
 }
 
 OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& region)
     : vpl_(vpl),
+      region_(region),
       parallel_(vpl.position.w == shared::kVplDirectional),
       apex_(vpl.position),
       towards_(vpl.normal),
-      region_(region) {
+      margin_(parallel_ ? region.rounding : std::max(rayEpsilon(apex_), region.rounding)) {
   planes_.x.fill(0.0f);
   planes_.y.fill(0.0f);
   planes_.z.fill(0.0f);
   planes_.offset.fill(1.0f);
-  margin_ = parallel_ ? 0.0f : rayEpsilon(apex_);
-  for (const vec3& c : region_.points()) margin_ = std::max(margin_, rayEpsilon(c));
   const float slab = region_.thickness + margin_;
+  // Behind both planes by more than sums are rounded, the light is none (vplGeometry), not little.
+  const float behind = region_.thickness + kSumsRounding * margin_;
 
   // Only the half-space over the light's own plane gets light; what lies in that plane, the surface
   // that the light is on before all, is not between.
   if (!parallel_) {
     const auto height = [&](const vec3& p) { return glm::dot(p - apex_, towards_); };
     dark_ = std::all_of(region_.points().begin(), region_.points().end(),
-                        [&](const vec3& c) { return height(c) <= -slab; });
+                        [&](const vec3& c) { return height(c) <= -behind; });
     if (dark_) return;
     add(towards_, apex_, -margin_);
   }
 
+  const bool isRough = region_.chart != kNone;
   if (region_.count == 4) {
     const vec3 middle = 0.5f * (region_.corners[0] + region_.corners[2]);
     const float height =
         parallel_ ? glm::dot(towards_, region_.normal) : glm::dot(apex_ - middle, region_.normal);
-    dark_ = region_.frontOnly && height <= (parallel_ ? -1e-4f : -4.0f * slab);
+    // The bumps of a rough patch are turned to the light before the patch is.
+    float turned = 0.0f;
+    if (isRough) turned = parallel_ ? 1.0f : glm::distance(apex_, middle) + region_.radius;
+    turned *= kRoughSine;
+    dark_ = region_.frontOnly && height <= (parallel_ ? -1e-4f : -behind) - turned;
     if (dark_) return;
     degenerate_ = std::abs(height) <= (parallel_ ? 1e-4f : 4.0f * slab);
     if (degenerate_) return;
     // What lies in the plane of the patch, itself before all, is not between.
-    add(height > 0.0f ? region_.normal : -region_.normal, middle, -slab);
-    for (int i = 0; i < 4; ++i)
-      addSide(region_.corners[static_cast<size_t>(i)],
-              region_.corners[static_cast<size_t>((i + 1) % 4)]);
+    const vec3 up = height > 0.0f ? region_.normal : -region_.normal;
+    // On a rough patch there may be something between its bumps.
+    add(up, middle, isRough ? slab : -3.0f * slab);
+    addSides(middle, up);
     return;
   }
   const vec3 &low = region_.corners[0], &high = region_.corners[7];
@@ -109,21 +139,60 @@ void OcclusionPyramid::add(const vec3& normal, const vec3& on, float margin) {
   planes_.offset[i] = margin - glm::dot(normal, on);
 }
 
-// The plane through the light and an edge, if all of the patch is on one side of it.
-void OcclusionPyramid::addSide(const vec3& a, const vec3& b) {
-  vec3 n = glm::cross(parallel_ ? towards_ : a - apex_, b - a);
-  const float length = glm::length(n);
-  if (length <= 0.0f) return;
-  n /= length;
-  float least = 0.0f, most = 0.0f;
-  for (const vec3& c : region_.points()) {
-    const float d = glm::dot(n, c - a);
-    least = std::min(least, d);
-    most = std::max(most, d);
+// The planes through the light and each side of a rectangle, all four at a time. A plane that the
+// rectangle hardly leaves is left out, since it is not known on which side it is.
+//
+// Rays begin and end a little off both surfaces, and so may leave the exact pyramid: near the light
+// by what they stand off it, near the patch by what they begin over it, where the side leans
+// inwards. There is no more slack than that at the patch, and what is hardly higher is not between:
+// a wall that the patch ends at would be, for all lights.
+void OcclusionPyramid::addSides(const vec3& middle, const vec3& up) {
+  const hn::FixedTag<float, 4> tag;
+  const auto all = [&](float v) { return hn::Set(tag, v); };
+  const auto load = [&](const std::array<float, 4>& v) { return hn::LoadU(tag, v.data()); };
+  const auto x = load(region_.from[0]), y = load(region_.from[1]), z = load(region_.from[2]);
+  const auto sx = load(region_.sides[0]), sy = load(region_.sides[1]), sz = load(region_.sides[2]);
+  const auto dx = parallel_ ? all(towards_.x) : hn::Sub(x, all(apex_.x));
+  const auto dy = parallel_ ? all(towards_.y) : hn::Sub(y, all(apex_.y));
+  const auto dz = parallel_ ? all(towards_.z) : hn::Sub(z, all(apex_.z));
+  auto nx = hn::Sub(hn::Mul(dy, sz), hn::Mul(dz, sy));
+  auto ny = hn::Sub(hn::Mul(dz, sx), hn::Mul(dx, sz));
+  auto nz = hn::Sub(hn::Mul(dx, sy), hn::Mul(dy, sx));
+  const auto length2 = hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)));
+  auto length = hn::Sqrt(hn::Max(length2, all(1e-30f)));
+  const auto inside = hn::Div(
+      hn::MulAdd(nx, hn::Sub(all(middle.x), x),
+                 hn::MulAdd(ny, hn::Sub(all(middle.y), y), hn::Mul(nz, hn::Sub(all(middle.z), z)))),
+      length);
+  const auto known = hn::Gt(hn::Abs(inside), all(margin_));
+  if (!parallel_) {
+    // Through a place three margins farther out than the light: n·|n| + 3 m (n × side) / |n|, and
+    // the way out is the other one where n points outwards.
+    const auto slack =
+        hn::CopySign(hn::Div(all(3.0f * (region_.thickness + margin_)), length), inside);
+    const auto tx = hn::Sub(hn::Mul(ny, sz), hn::Mul(nz, sy));
+    const auto ty = hn::Sub(hn::Mul(nz, sx), hn::Mul(nx, sz));
+    const auto tz = hn::Sub(hn::Mul(nx, sy), hn::Mul(ny, sx));
+    nx = hn::MulAdd(tx, slack, nx);
+    ny = hn::MulAdd(ty, slack, ny);
+    nz = hn::MulAdd(tz, slack, nz);
+    length = hn::Sqrt(hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz))));
   }
-  if (least < -margin_ && most > margin_) return;
-  // Rays begin and end a little off both surfaces, and so a little out of the exact pyramid.
-  add(most > margin_ ? n : -n, a, 3.0f * (region_.thickness + margin_));
+  const auto scale = hn::IfThenElseZero(known, hn::CopySign(hn::Div(all(1.0f), length), inside));
+  nx = hn::Mul(nx, scale);
+  ny = hn::Mul(ny, scale);
+  nz = hn::Mul(nz, scale);
+  const auto leaning = hn::MulAdd(nx, all(up.x), hn::MulAdd(ny, all(up.y), hn::Mul(nz, all(up.z))));
+  const auto margin = hn::Add(
+      hn::MulAdd(hn::Abs(leaning), all(region_.thickness), all(kSumsRounding * margin_)),
+      hn::Mul(hn::Max(hn::Neg(leaning), hn::Zero(tag)), all(2.0f * (region_.thickness + margin_))));
+  const auto offset = hn::Sub(margin, hn::MulAdd(nx, x, hn::MulAdd(ny, y, hn::Mul(nz, z))));
+  const auto i = static_cast<size_t>(count_);
+  hn::StoreU(nx, tag, &planes_.x[i]);
+  hn::StoreU(ny, tag, &planes_.y[i]);
+  hn::StoreU(nz, tag, &planes_.z[i]);
+  hn::StoreU(offset, tag, &planes_.offset[i]);
+  count_ += 4;
 }
 
 bool OcclusionPyramid::mayMeet(const Bounds& box) const {
@@ -143,6 +212,15 @@ bool OcclusionPyramid::mayMeet(const Bounds& box) const {
     if (!hn::AllFalse(kTag, hn::Lt(farthest, zero))) return false;
   }
   return true;
+}
+
+bool OcclusionPyramid::mayMeetSphere(const vec3& centre, float radius) const {
+  auto farthest = hn::LoadU(kTag, planes_.offset.data());
+  farthest = hn::MulAdd(hn::LoadU(kTag, planes_.x.data()), hn::Set(kTag, centre.x), farthest);
+  farthest = hn::MulAdd(hn::LoadU(kTag, planes_.y.data()), hn::Set(kTag, centre.y), farthest);
+  farthest = hn::MulAdd(hn::LoadU(kTag, planes_.z.data()), hn::Set(kTag, centre.z), farthest);
+  static_assert(kMostPlanes == kLanes);
+  return hn::AllFalse(kTag, hn::Lt(farthest, hn::Set(kTag, -radius)));
 }
 
 bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const {
@@ -189,12 +267,24 @@ bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const 
   return true;
 }
 
+OcclusionPyramid::Axis::Axis(const OcclusionPyramid& p)
+    : last_(p.parallel_ ? std::numeric_limits<float>::max() : 1.0f) {
+  const PatchRegion& region = p.region_;
+  const vec3 middle = 0.5f * (region.corners[0] + region.corners[region.count == 4 ? 2 : 7]);
+  const float margin = 8.0f * (p.margin_ + region.thickness);
+  low_ = middle - margin;
+  high_ = middle + margin;
+  const vec3 way = p.parallel_ ? p.towards_ : p.apex_ - middle;
+  for (int c = 0; c < 3; ++c)
+    inverse_[c] = 1.0f / (std::abs(way[c]) > 1e-20f ? way[c] : std::copysign(1e-20f, way[c]));
+}
+
 bool OcclusionPyramid::isCutBy(std::span<const vec3> polygon, const vec3& n) const {
   const vec3& on = polygon[0];
   const float inset = 8.0f * margin_ + region_.thickness;
   const float lightSide = parallel_ ? glm::dot(n, towards_) : glm::dot(n, apex_ - on);
   if (std::abs(lightSide) <= (parallel_ ? 1e-4f : inset)) return false;
-  for (const vec3& corner : region_.points()) {
+  const auto isCut = [&](const vec3& corner) {
     const float side = glm::dot(n, corner - on);
     if (side * lightSide >= 0.0f || std::abs(side) <= inset) return false;
     const vec3 across = parallel_ ? corner - (side / lightSide) * towards_
@@ -204,7 +294,12 @@ bool OcclusionPyramid::isCutBy(std::span<const vec3> polygon, const vec3& n) con
       if (glm::dot(glm::cross(n, edge), across - polygon[i]) < inset * glm::length(edge))
         return false;
     }
-  }
+    return true;
+  };
+  // A rough patch is as thick as its bumps, and seen from the side that is much.
+  const vec3 bump = region_.chart != kNone ? region_.thickness * region_.normal : vec3(0.0f);
+  for (const vec3& corner : region_.points())
+    if (!isCut(corner + bump) || (region_.chart != kNone && !isCut(corner - bump))) return false;
   return true;
 }
 

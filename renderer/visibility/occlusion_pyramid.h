@@ -26,8 +26,12 @@ struct PatchRegion {
   vec3 normal{0.0f};       // rectangle: unit
   float thickness = 0.0f;  // rectangle: the surface is within this of it [m]
   bool frontOnly = false;  // rectangle: its back is never seen
-  vec3 centre{0.0f};       // of a sphere around it
-  float radius = 0.0f;     // of that sphere [m]
+  int object = kNone, chart = kNone;  // a rough one's, whose bumps are not between: else kNone
+  vec3 centre{0.0f};                  // of a sphere around it
+  float radius = 0.0f;                // of that sphere [m]
+  float rounding = 0.0f;              // what it may make of a place here [m]
+  // Rectangle: corners and the sides from them to the next, all x, all y, all z.
+  std::array<std::array<float, 4>, 3> from{}, sides{};
 
   explicit PatchRegion(const Bounds& box);
   PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
@@ -37,17 +41,24 @@ struct PatchRegion {
 
 class OcclusionPyramid {
  public:
+  // Refers to both, which must outlive it.
   OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& region);
+  OcclusionPyramid(const shared::Vpl& vpl, PatchRegion&& region) = delete;
 
   // No point of the patch is on the lit side of the light, or the light is behind all that is seen.
   bool isDark() const { return dark_; }
   // The light is so near the patch or its plane that nothing can be said.
   bool isDegenerate() const { return degenerate_; }
 
-  // Whether the shadow of what is in the box may fall on the patch: a sieve before the tests below,
-  // and part of them, for these take a little more than the pyramid.
-  bool mayBeShadowedBy(const Bounds& box) const {
-    return ShadowReach(vpl_, box).mayFallOn(region_.centre, region_.radius);
+  // Whether the shadow of it may fall on the patch: a sieve before the tests below, and part of
+  // them, for these take a little more than the pyramid.
+  bool mayBeShadowedBy(const Caster& caster) const {
+    return ShadowReach(vpl_, caster).mayFallOn(region_.centre, region_.radius);
+  }
+
+  // It is that of a patch of this chart, which is rough.
+  bool isOfRough(uint32_t object, int chart) const {
+    return region_.object == static_cast<int>(object) && region_.chart == chart;
   }
 
   // Its patch is a box around triangles, not a rectangle.
@@ -55,9 +66,28 @@ class OcclusionPyramid {
 
   // Whether it may be met; exact for triangles but for a margin of rounding.
   bool mayMeet(const Bounds& box) const;
+  bool mayMeetSphere(const vec3& centre, float radius) const;
   bool meets(const vec3& a, const vec3& b, const vec3& c) const;
   // Whether a convex polygon with unit normal n stands wholly across it, between light and patch.
   bool isCutBy(std::span<const vec3> polygon, const vec3& n) const;
+
+  // The segment from the middle of the patch to the light. Only what that meets can stand across
+  // all of the pyramid, and it meets far less.
+  class Axis {
+   public:
+    explicit Axis(const OcclusionPyramid& pyramid);
+    bool mayMeet(const Bounds& box) const {
+      const vec3 a = (box.min - high_) * inverse_, b = (box.max - low_) * inverse_;
+      const vec3 enter = glm::min(a, b), leave = glm::max(a, b);
+      const float first = std::max({enter.x, enter.y, enter.z, 0.0f});
+      return first <= std::min({leave.x, leave.y, leave.z, last_});
+    }
+
+   private:
+    vec3 low_, high_;  // its beginning, give or take the margin
+    vec3 inverse_;     // one over its length on each axis
+    float last_;       // where it ends, in lengths
+  };
 
  private:
   static constexpr int kMostPlanes = 8;
@@ -66,15 +96,15 @@ class OcclusionPyramid {
   struct Planes {
     std::array<float, kMostPlanes> x, y, z, offset;
   };
-  void addSide(const vec3& a, const vec3& b);
+  void addSides(const vec3& middle, const vec3& up);
   void add(const vec3& normal, const vec3& on, float margin);
 
-  shared::Vpl vpl_;
+  const shared::Vpl& vpl_;
+  const PatchRegion& region_;
   bool parallel_ = false, dark_ = false, degenerate_ = false;
   vec3 apex_{0.0f};      // a parallel light: unused
   vec3 towards_{0.0f};   // the light's axis; a parallel light: unit, towards the light
   float margin_ = 0.0f;  // what rounding may make of a place here [m]
-  PatchRegion region_;
   Planes planes_;
   int count_ = 0;
 };

@@ -7,12 +7,21 @@
 
 namespace lamplighter {
 
-ShadowReach::ShadowReach(const shared::Vpl& vpl, const Bounds& caster) {
-  if (caster.empty()) return;
+Caster::Caster(const Caster& a, const Caster& b) {
+  for (const Caster* c : {&a, &b})
+    if (!c->box.empty()) box.add(c->box);
+  for (const Caster* c : {&a, &b})
+    if (!c->box.empty())
+      radius = std::max(radius, glm::distance(box.centre(), c->box.centre()) + c->radius);
+}
+
+ShadowReach::ShadowReach(const shared::Vpl& vpl, const Caster& caster) {
+  const Bounds& box = caster.box;
+  if (box.empty()) return;
   // Rays begin and end a little off what they join, and the sums here are rounded.
-  const vec3 centre = caster.centre();
-  const float margin = 16.0f * (rayEpsilon(caster.min) + rayEpsilon(caster.max));
-  radius_ = 1.001f * caster.radius() + margin;
+  const vec3 centre = box.centre();
+  const float margin = 16.0f * (rayEpsilon(box.min) + rayEpsilon(box.max));
+  radius_ = 1.001f * caster.radius + margin;
   if (vpl.position.w == shared::kVplDirectional) {
     kind_ = Kind::cylinder;
     apex_ = centre;

@@ -7,10 +7,23 @@
 
 namespace lamplighter {
 
+// What casts: all of it is in the box, and in a sphere around the middle of that, which may be
+// smaller than the one around the box.
+struct Caster {
+  Bounds box;
+  float radius = 0.0f;
+
+  Caster() = default;
+  explicit Caster(const Bounds& b) : box(b), radius(b.radius()) {}
+  Caster(const Bounds& b, float r) : box(b), radius(r) {}
+  Caster(const Caster& a, const Caster& b);  // both
+};
+
 class ShadowReach {
  public:
+  ShadowReach() = default;  // none
   // An empty box casts none.
-  ShadowReach(const shared::Vpl& vpl, const Bounds& caster);
+  ShadowReach(const shared::Vpl& vpl, const Caster& caster);
 
   bool isEmpty() const { return kind_ == Kind::none; }
   // Whether the shadow may fall on some of a sphere. Conservative.
@@ -24,8 +37,9 @@ class ShadowReach {
         const vec3 v = centre - apex_;
         const float along = glm::dot(v, axis_);
         if (along + radius < nearest_) return false;
-        const float across = std::sqrt(std::max(glm::dot(v, v) - along * along, 0.0f));
-        return across * cosine_ - along * sine_ <= radius;
+        const float across2 = std::max(glm::dot(v, v) - along * along, 0.0f);
+        const float reach = radius + along * sine_;
+        return reach >= 0.0f && across2 * cosine_ * cosine_ <= reach * reach;
       }
       case Kind::cylinder: {
         const vec3 v = centre - apex_;

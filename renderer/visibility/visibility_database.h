@@ -77,13 +77,17 @@ class VisibilityDatabase {
  private:
   // An object that a column does not know the place of yet.
   struct Waiting {
-    int object;     // kNone: it is gone
-    Bounds before;  // where the column has it; empty: nowhere
+    int object;              // kNone: it is gone
+    Caster before;           // where the column has it; empty: nowhere
+    bool couldHide = false;  // a whole patch, there
   };
   struct Move {
     Bounds before, after;
   };
-  struct Column;  // what computing the entries of one light needs
+  struct Column;  // a light, and what of the scene it has to take in
+  struct Task;    // one light at one patch
+  class Update;   // brings columns up to date (visibility_update.cpp)
+  static constexpr uint8_t kUnknown = 255;
   using Rows = std::vector<std::vector<uint8_t>>;
 
   void matchObjects(const RenderScene& scene, std::vector<Move>& moves);
@@ -91,22 +95,13 @@ class VisibilityDatabase {
                  std::vector<Move>& moves);
   void setMovers(std::span<const uint32_t> objects);
   void placeObject(const RenderScene& scene, uint32_t object);
-  void addWaiting(int object, const Bounds& before);
+  void addWaiting(int object, const Caster& before, bool couldHide);
   void forgetOthers();
-
-  void compute(const RenderScene& scene, const Column& column, uint32_t object, int patch,
-               bool parentWasNone, uint64_t& tests);
-  bool isDecided(Occlusion others) const;
-  Occlusion stateOf(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
-                    int patch, int slot, uint64_t& tests);
-  void computeColumns(const RenderScene& scene, std::span<const int> slots, bool anew);
-  // Divides and joins patches by how many lights are partial on them now.
-  void divide(const RenderScene& scene);
-  void divide(const RenderScene& scene, uint32_t object, int patch, int most, uint64_t& tests);
+  void growTree();
+  void computeNew(const RenderScene& scene, std::span<const int> slots);
+  void computeWaiting(const RenderScene& scene, std::span<const int> slots);
+  Column takeWaiting(int slot);
   int mostPartial() const;
-
-  void set(uint32_t object, int patch, int slot, Occlusion state);
-  void fill(uint32_t object, int patch, int slot, Occlusion state);
   void resize(size_t slots);
   size_t entry(int patch, int slot) const {
     return static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot);
@@ -127,10 +122,14 @@ class VisibilityDatabase {
   std::vector<Move> moves_;  // of the last setScene()
 
   Occluders occluders_;
+  BoundsTree tree_;                            // over objects' patches
   std::vector<shared::Vpl> lights_;            // by slot
   std::vector<uint8_t> isLive_;                // by slot
   std::vector<std::vector<Waiting>> waiting_;  // by slot
-  size_t stride_ = 0;                          // of rows, in slots
+  // By slot: some of the waiting column was computed where the movers are now.
+  std::vector<uint8_t> knowsNow_;
+  int most_ = -1;      // that a patch that is not divided may have
+  size_t stride_ = 0;  // of rows, in slots
   uint64_t tests_ = 0, testsPerColumn_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "renderer/patches/patch_set.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -77,6 +78,19 @@ TEST(Charts, AFinelyDividedFloorIsOne) {
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_EQ(charts[0].triangles.size(), 512u);
   EXPECT_EQ(charts[0].outline.size(), 4u);
+}
+
+// Millimetres here and there: one chart, in whose plane all of it nearly is.
+float bumps(float u, float v) { return 0.002f * std::sin(37.0f * u) * std::cos(31.0f * v); }
+
+TEST(Charts, AFloorWithSmallBumpsIsOneRoughChart) {
+  const auto charts = findCharts(worldOf(grid(16, bumps)), 0);
+  ASSERT_EQ(charts.size(), 1u);
+  EXPECT_TRUE(charts[0].isRough);
+  EXPECT_EQ(charts[0].triangles.size(), 512u);
+  EXPECT_GT(charts[0].thickness, 0.001f);
+  EXPECT_LT(charts[0].thickness, 0.004f);
+  EXPECT_TRUE(charts[0].outline.empty());
 }
 
 // A floor with a step is not one plane; and a corner cut out of it has no convex outline.

@@ -23,6 +23,11 @@ struct Setting {
     if (masked) scene.materials[screen].alphaMode = AlphaMode::mask;
     test::addMesh(scene, test::squareMesh(2.0f, grey));
     if (screenSize > 0.0f) test::addMesh(scene, test::squareMesh(screenSize, screen), at);
+    look();
+  }
+  explicit Setting(Scene s) : scene(std::move(s)) { look(); }
+
+  void look() {
     update(world, scene, SceneChanges::all());
     occluders.resize(world.objects.size());
     for (uint32_t i = 0; i < world.objects.size(); ++i) {
@@ -34,7 +39,8 @@ struct Setting {
   }
   Occlusion of(const shared::Vpl& vpl) const {
     const PatchRegion whole(world, 0, patches[0], patches[0].patches[0]);
-    return occluders.occlusionWithout(world, OcclusionPyramid(vpl, whole), {});
+    Blocker met;
+    return occluders.occlusionWithout(world, OcclusionPyramid(vpl, whole), {}, met);
   }
 };
 
@@ -71,6 +77,25 @@ TEST(OcclusionPyramid, APatchBehindTheLightOrSeenFromItsBackIsDark) {
   const Setting open(0.0f, vec3(0));
   EXPECT_EQ(open.of(test::makeVpl(vec3(0, 2, 0), vec3(0, 1, 0))), Occlusion::full);
   EXPECT_EQ(open.of(test::makeVpl(vec3(0, -2, 0), vec3(0, 1, 0))), Occlusion::full);
+}
+
+// A sample of the same surface, or of one beside it in the same plane, stands off it as far as rays
+// do and shines away from it.
+TEST(OcclusionPyramid, ASampleOfThePatchItselfGivesItNoLight) {
+  for (const float x : {0.3f, 3.0f})
+    EXPECT_EQ(Setting(0.0f, vec3(0)).of(test::makeVpl(vec3(x, 1e-5f, 0), vec3(0, 1, 0))),
+              Occlusion::full);
+}
+
+// A wall at the end of the patch stands in no light's way, whether that is steep or flat.
+TEST(OcclusionPyramid, AWallThatThePatchEndsAtIsNotBetween) {
+  Setting open(0.0f, vec3(0));
+  Scene scene = open.scene;
+  const NodeId wall = test::addMesh(scene, test::squareMesh(2.0f, 0), vec3(-1, 1, 0));
+  scene.find(wall)->local.rotation = glm::angleAxis(glm::half_pi<float>(), vec3(0, 0, -1));
+  Setting walled(scene);
+  for (const vec3& at : {vec3(0.9f, 1, 0.2f), vec3(-0.5f, 2, 0), vec3(5, 0.8f, -3)})
+    EXPECT_EQ(walled.of(test::makeVpl(at, glm::normalize(vec3(0, 0, 0) - at))), Occlusion::none);
 }
 
 TEST(OcclusionPyramid, ALightInThePatchsPlaneIsUndecided) {

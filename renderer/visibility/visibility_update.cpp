@@ -1,0 +1,414 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
+// Columns of the visibility database brought up to date: patch by patch from the roots, at each for
+// all lights at once, so that it is known there whether the patch is divided before its children
+// are looked at.
+#include <algorithm>
+#include <atomic>
+
+#include <hwy/highway.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/visibility/visibility_database.h"
+
+namespace lamplighter {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A patch is divided where more lights than this share of all, and than this many, are partial.
+constexpr float kMostPartialShare = 0.05f;
+constexpr int kMostPartial = 4;
+
+// Roots, and lights at a patch, that are one piece of work for a thread.
+constexpr size_t kRootsAPiece = 64;
+constexpr size_t kLightsAPiece = 32;
+constexpr size_t kLightsToShare = 96;  // fewer are not shared out
+
+// Where an object is and was before are looked at as one if the sphere around both is no larger
+// than this times its own.
+constexpr float kOneReach = 1.3f;
+
+bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
+
+// Entries that are partial, of lights that are live (1, else 0).
+int countPartial(std::span<const uint8_t> states, std::span<const uint8_t> isLive) {
+  const hn::FixedTag<uint8_t, 32> tag;
+  const auto partial = hn::Set(tag, static_cast<uint8_t>(Occlusion::partial));
+  size_t count = 0, i = 0;
+  for (; i + 32 <= states.size(); i += 32)
+    count += hn::CountTrue(tag, hn::And(hn::Eq(hn::LoadU(tag, &states[i]), partial),
+                                        hn::Ne(hn::LoadU(tag, &isLive[i]), hn::Zero(tag))));
+  for (; i < states.size(); ++i)
+    count += isLive[i] != 0 && states[i] == static_cast<uint8_t>(Occlusion::partial);
+  return static_cast<int>(count);
+}
+
+// What is to be done for a light at a patch.
+enum class Work : uint8_t {
+  inherit,  // it is as it is at the parent
+  check,    // it is as it was, but for what moved
+  anew
+};
+
+}  // namespace
+
+struct VisibilityDatabase::Column {
+  int slot = 0;
+  bool moversAreAll = true;      // what it waits for are the movers of now, and no more
+  bool moversHidNothing = true;  // nor could what it waits for hide a patch alone
+  // Of what it waits for, before and now; most wait for one thing.
+  ShadowReach reach;
+  std::vector<ShadowReach> more;
+  std::vector<int> objects;  // that it waits for: all their entries
+  bool mayFallOn(const vec3& centre, float radius) const {
+    return reach.mayFallOn(centre, radius) ||
+           std::any_of(more.begin(), more.end(),
+                       [&](const ShadowReach& r) { return r.mayFallOn(centre, radius); });
+  }
+};
+
+struct VisibilityDatabase::Task {
+  const Column* column = nullptr;  // null: that of a light of which nothing moved
+  int slot = 0;
+  Work work = Work::anew;
+  bool isNew = false;
+  bool isOfMover = false;  // the column waits for the object
+  bool parentWasNone = false;
+  bool isSieved = false;                 // nothing that moved can be between
+  Occlusion was = Occlusion::partial;    // the entry before
+  Occlusion state = Occlusion::partial;  // inherit: the parent's; afterwards the entry
+  Blocker met, metMover;                 // at the parent, then here
+};
+
+class VisibilityDatabase::Update {
+ public:
+  // allMayDivide: patches may be divided otherwise than they are though nothing changed on them.
+  Update(VisibilityDatabase& database, const RenderScene& scene, bool allMayDivide,
+         std::atomic<uint64_t>& tests)
+      : db_(database), scene_(scene), allMayDivide_(allMayDivide), tests_(tests) {
+    for (const uint32_t mover : database.movers_)
+      moversMayHide_ = moversMayHide_ || database.occluders_.mayHide(mover);
+  }
+
+  // The root and all below it; tasks in the order of their slots.
+  void run(uint32_t object, int root, std::span<const Task> tasks) {
+    tasks_.assign(tasks.begin(), tasks.end());
+    visit(object, root, true, 0);
+  }
+
+ private:
+  void visit(uint32_t object, int patch, bool parentIsDivided, size_t first);
+  bool compute(uint32_t object, int patch, std::span<Task> tasks) const;
+  Occlusion check(const Patch& patch, const PatchRegion& region, const Task& task, bool& isSieved,
+                  uint8_t& others, Blocker& met, Blocker& metMover, uint64_t& tests) const;
+  // Whether no mover makes a difference where this is the state by all others.
+  bool isDecided(uint8_t others) const {
+    return others == static_cast<uint8_t>(Occlusion::full) ||
+           (others == static_cast<uint8_t>(Occlusion::partial) && !moversMayHide_);
+  }
+  void passDown(uint32_t object, int patch, int child, bool wasDivided, bool isDivided,
+                size_t first, size_t last);
+
+  VisibilityDatabase& db_;
+  const RenderScene& scene_;
+  const bool allMayDivide_;
+  bool moversMayHide_ = false;
+  std::atomic<uint64_t>& tests_;
+  std::vector<Task> tasks_;  // those of the patch that is visited are the last
+};
+
+void VisibilityDatabase::Update::visit(uint32_t object, int patch, bool parentIsDivided,
+                                       size_t first) {
+  const size_t last = tasks_.size();
+  if (compute(object, patch, std::span(tasks_).subspan(first)))
+    db_.changed_[object][static_cast<size_t>(patch)] = 1;
+  const Patch& p = db_.patches_[object].patches[static_cast<size_t>(patch)];
+  if (p.isLeaf()) return;
+  uint8_t& divided = db_.divided_[object][static_cast<size_t>(patch)];
+  const bool was = divided != 0;
+  const bool is = parentIsDivided && countPartial(db_.row(object, patch), db_.isLive_) > db_.most_;
+  divided = is ? 1 : 0;
+  for (int child = p.firstChild; child < p.firstChild + 2; ++child) {
+    passDown(object, patch, child, was, is, first, last);
+    if (tasks_.size() > last || was != is || (is && allMayDivide_)) visit(object, child, is, last);
+    tasks_.resize(last);
+  }
+}
+
+// All tasks at one patch; whether an entry changed.
+bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<Task> tasks) const {
+  if (tasks.empty()) return false;
+  const ObjectPatches& patches = db_.patches_[object];
+  const Patch& p = patches.patches[static_cast<size_t>(patch)];
+  uint8_t* states = &db_.rows_[object][db_.entry(patch, 0)];
+  uint8_t* others = &db_.withoutMovers_[object][db_.entry(patch, 0)];
+  const bool isInherited = std::all_of(tasks.begin(), tasks.end(),
+                                       [](const Task& t) { return t.work == Work::inherit; });
+  const PatchRegion region =
+      isInherited ? PatchRegion(Bounds()) : PatchRegion(scene_, object, patches, p);
+  const auto computeSome = [&](size_t first, size_t last) {
+    Blocker met, metMover;  // by the light before
+    uint64_t tests = 0;
+    bool changed = false;
+    for (Task& t : tasks.subspan(first, last - first)) {
+      const auto slot = static_cast<size_t>(t.slot);
+      t.was = static_cast<Occlusion>(states[slot]);
+      if (t.isNew) others[slot] = kUnknown;
+      if (t.work != Work::inherit) {
+        if (t.met.object == kNone) t.met = met;
+        if (t.metMover.object == kNone) t.metMover = metMover;
+        t.state = check(p, region, t, t.isSieved, others[slot], t.met, t.metMover, tests);
+        met = t.met;
+        metMover = t.metMover;
+      }
+      if (t.state == t.was) continue;
+      states[slot] = static_cast<uint8_t>(t.state);
+      changed = true;
+    }
+    if (tests > 0) tests_ += tests;
+    return changed;
+  };
+  if (isInherited || tasks.size() < kLightsToShare) return computeSome(0, tasks.size());
+  std::atomic<bool> changed = false;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, tasks.size(), kLightsAPiece),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      if (computeSome(range.begin(), range.end())) changed = true;
+                    });
+  return changed;
+}
+
+// Table 4-1: where nothing that moved can be between, before or now, nothing is looked at.
+Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegion& region,
+                                            const Task& task, bool& isSieved, uint8_t& others,
+                                            Blocker& met, Blocker& metMover,
+                                            uint64_t& tests) const {
+  const shared::Vpl& vpl = db_.lights_[static_cast<size_t>(task.slot)];
+  isSieved = false;
+  if (others == static_cast<uint8_t>(Occlusion::full)) return Occlusion::full;
+  const bool onlyMoversMatter = task.work == Work::check && !task.isOfMover;
+  isSieved = onlyMoversMatter && !task.column->mayFallOn(patch.centre, patch.radius);
+  if (isSieved) {
+    // Dark patches are none too where all of their parent was; it no longer is.
+    if (task.parentWasNone && OcclusionPyramid(vpl, region).isDark()) return Occlusion::full;
+    return task.was;
+  }
+  // What all hid, and the movers did not, the others hide.
+  if (onlyMoversMatter && others == kUnknown && task.was == Occlusion::full &&
+      task.column->moversAreAll && task.column->moversHidNothing) {
+    others = static_cast<uint8_t>(Occlusion::full);
+    return Occlusion::full;
+  }
+  if (isDecided(others)) return static_cast<Occlusion>(others);
+  const OcclusionPyramid pyramid(vpl, region);
+  // Where nothing stood between, only the movers can.
+  if (onlyMoversMatter && task.column->moversAreAll && task.was == Occlusion::none &&
+      !pyramid.isDark())
+    others = static_cast<uint8_t>(Occlusion::none);
+  if (others == kUnknown) {
+    if (!pyramid.isDark()) ++tests;
+    others =
+        static_cast<uint8_t>(db_.occluders_.occlusionWithout(scene_, pyramid, db_.movers_, met));
+  }
+  const auto state = static_cast<Occlusion>(others);
+  if (state == Occlusion::full) return state;
+  return std::max(state, db_.occluders_.occlusionBy(scene_, pyramid, db_.movers_, metMover));
+}
+
+// Adds the tasks of a child after those of its parent, which is done. A patch that was or becomes
+// none or full tells its children so (table 4-1), and one that is no longer divided, too.
+void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child, bool wasDivided,
+                                          bool isDivided, size_t first, size_t last) {
+  const uint8_t* childStates = &db_.rows_[object][db_.entry(child, 0)];
+  const uint8_t* childOthers = &db_.withoutMovers_[object][db_.entry(child, 0)];
+  const bool childIsDivided = db_.divided_[object][static_cast<size_t>(child)] != 0;
+  const auto pass = [&](const Task& parent) {
+    // Most entries that a mover may touch are decided by the others.
+    const auto s = static_cast<size_t>(parent.slot);
+    if (parent.work == Work::check && parent.state == Occlusion::partial && isDivided &&
+        !childIsDivided && isDecided(childOthers[s]) && childStates[s] == childOthers[s])
+      return;
+    Task task = parent;
+    const bool childrenAreSame = task.was != Occlusion::partial || !wasDivided;
+    if (task.state != Occlusion::partial || !isDivided) {
+      if (!task.isNew && childrenAreSame && task.was == task.state) return;
+      task.work = Work::inherit;
+    } else if (task.work != Work::check || task.was == Occlusion::full ||
+               (task.was == Occlusion::partial && !wasDivided)) {
+      task.work = Work::anew;
+    } else if (task.isSieved) {
+      return;
+    }
+    task.parentWasNone = task.was == Occlusion::none;
+    tasks_.push_back(task);
+  };
+  if (wasDivided == isDivided) {
+    for (size_t t = first; t < last; ++t) pass(tasks_[t]);
+    return;
+  }
+  // Lights of which nothing changed here are to be told as well.
+  const uint8_t* states = &db_.rows_[object][db_.entry(patch, 0)];
+  size_t t = first;
+  for (size_t slot = 0; slot < db_.lights_.size(); ++slot) {
+    if (t < last && tasks_[t].slot == static_cast<int>(slot)) {
+      pass(tasks_[t++]);
+    } else if (db_.isLive_[slot] != 0 && states[slot] == static_cast<uint8_t>(Occlusion::partial)) {
+      Task& task = tasks_.emplace_back();
+      task.slot = static_cast<int>(slot);
+      task.work = isDivided ? Work::anew : Work::inherit;
+      // A column that waits has taken in what moved here, but not elsewhere.
+      if (!db_.waiting_[slot].empty())
+        std::atomic_ref(db_.knowsNow_[slot]).store(1, std::memory_order_relaxed);
+    }
+  }
+}
+
+int VisibilityDatabase::mostPartial() const {
+  const auto lights = static_cast<float>(std::count_if(lights_.begin(), lights_.end(), isLight));
+  return std::max(kMostPartial, static_cast<int>(kMostPartialShare * lights));
+}
+
+// All columns of lights that are new.
+void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const int> slots) {
+  const int most = mostPartial();
+  const bool allMayDivide = most != most_;
+  most_ = most;
+  std::vector<Task> tasks;
+  for (const int slot : slots) {
+    if (!isLight(lights_[static_cast<size_t>(slot)])) continue;
+    Task& task = tasks.emplace_back();
+    task.slot = slot;
+    task.isNew = true;
+  }
+  if (tasks.empty() && !allMayDivide) return;
+  std::vector<std::pair<uint32_t, int>> roots;
+  for (uint32_t object = 0; object < patches_.size(); ++object)
+    for (const int root : patches_[object].roots) roots.emplace_back(object, root);
+  std::atomic<uint64_t> tests = 0;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, roots.size(), kRootsAPiece),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      Update update(*this, scene, allMayDivide, tests);
+                      for (size_t i = range.begin(); i < range.end(); ++i)
+                        update.run(roots[i].first, roots[i].second, tasks);
+                    });
+  tests_ += tests;
+}
+
+VisibilityDatabase::Column VisibilityDatabase::takeWaiting(int slot) {
+  const auto i = static_cast<size_t>(slot);
+  const shared::Vpl& vpl = lights_[i];
+  Column column;
+  column.slot = slot;
+  const auto add = [&](const Caster& caster) {
+    const ShadowReach reach(vpl, caster);
+    if (!reach.isEmpty())
+      (column.reach.isEmpty() ? column.reach : column.more.emplace_back()) = reach;
+  };
+  for (const Waiting& w : waiting_[i]) {
+    column.moversHidNothing = column.moversHidNothing && !w.couldHide;
+    if (w.object == kNone) {
+      add(w.before);
+      continue;
+    }
+    const auto object = static_cast<uint32_t>(w.object);
+    const Caster now(patches_[object].bounds, patches_[object].radius);
+    const Caster both(w.before, now);
+    if (w.before.box.empty() || both.radius < kOneReach * now.radius) {
+      add(both);
+    } else {
+      add(w.before);
+      add(now);
+    }
+    column.objects.push_back(w.object);
+    column.moversAreAll =
+        column.moversAreAll && std::find(movers_.begin(), movers_.end(), object) != movers_.end();
+  }
+  waiting_[i].clear();
+  knowsNow_[i] = 0;
+  return column;
+}
+
+// Whole objects are left out where no shadow of what moved may fall on them, and then their roots.
+void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<const int> slots) {
+  std::vector<Column> columns;
+  for (const int slot : slots)
+    if (isLight(lights_[static_cast<size_t>(slot)])) columns.push_back(takeWaiting(slot));
+  std::sort(columns.begin(), columns.end(),
+            [](const Column& a, const Column& b) { return a.slot < b.slot; });
+
+  // Of objects that a column waits for all entries are looked at.
+  std::vector<bool> isWaitedFor(patches_.size(), false);
+  for (const Column& c : columns)
+    for (const int object : c.objects) isWaitedFor[static_cast<size_t>(object)] = true;
+
+  // Columns that reach what the trees come to: those of a node follow those of its parent.
+  std::vector<uint32_t> reaching;
+  std::vector<size_t> begins;
+  const auto narrow = [&](const vec3& centre, float radius) {
+    const size_t first = begins.back(), last = reaching.size();
+    begins.push_back(last);
+    for (size_t i = first; i < last; ++i)
+      if (columns[reaching[i]].mayFallOn(centre, radius)) reaching.push_back(reaching[i]);
+    return reaching.size() > last;
+  };
+  const auto narrowToBox = [&](const Bounds& b) { return narrow(b.centre(), b.radius()); };
+  const auto widen = [&] {
+    reaching.resize(begins.back());
+    begins.pop_back();
+  };
+  struct Job {
+    uint32_t object;
+    int root;
+    std::vector<Task> tasks;
+    void add(const Column& column, bool isOfMover) {
+      Task& task = tasks.emplace_back();
+      task.column = &column;
+      task.slot = column.slot;
+      task.work = Work::check;
+      task.isOfMover = isOfMover;
+    }
+  };
+  std::vector<Job> jobs;
+  begins.push_back(0);
+  for (uint32_t c = 0; c < columns.size(); ++c) reaching.push_back(c);
+  tree_.descend(
+      narrowToBox,
+      [&](uint32_t object) {
+        if (isWaitedFor[object]) return;
+        patches_[object].tree.descend(
+            narrowToBox,
+            [&](uint32_t r) {
+              const int root = patches_[object].roots[r];
+              const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
+              if (narrow(p.centre, p.radius)) {
+                Job& job = jobs.emplace_back(Job{object, root, {}});
+                for (size_t i = begins.back(); i < reaching.size(); ++i)
+                  job.add(columns[reaching[i]], false);
+              }
+              widen();
+            },
+            widen);
+      },
+      widen);
+  for (uint32_t object = 0; object < patches_.size(); ++object) {
+    if (!isWaitedFor[object]) continue;
+    for (const int root : patches_[object].roots) {
+      const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
+      Job& job = jobs.emplace_back(Job{object, root, {}});
+      for (const Column& c : columns) {
+        const bool isOfMover = std::find(c.objects.begin(), c.objects.end(),
+                                         static_cast<int>(object)) != c.objects.end();
+        if (isOfMover || c.mayFallOn(p.centre, p.radius)) job.add(c, isOfMover);
+      }
+    }
+  }
+  std::atomic<uint64_t> tests = 0;
+  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
+    Update(*this, scene, false, tests).run(jobs[i].object, jobs[i].root, jobs[i].tasks);
+  });
+  tests_ += tests;
+}
+
+}  // namespace lamplighter
