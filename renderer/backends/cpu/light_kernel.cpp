@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include "shaders/shared/vpl_shading.h"
+
 // shaders/shared/vpl_shading.h is the definition, with the reasons; this is the same, eight points
 // at a time, with multiply-adds fused where written so.
 namespace lamplighter::cpu {
@@ -116,7 +118,7 @@ struct WideConstants {
         step(all(2.0f / static_cast<float>(c.resolution))),
         first(all(1.0f / static_cast<float>(c.resolution) - 1.0f)),
         beforePlane(all(1.0f + c.bias)),
-        beforePoint(all(1.0f + c.bias + 1.0f / static_cast<float>(c.resolution))),
+        beforePoint(all(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(c.resolution))),
         clampDistance2(all(c.clampDistance2)) {}
 
   Floats resolution, middle, half;

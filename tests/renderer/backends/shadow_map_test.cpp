@@ -174,7 +174,8 @@ TEST(ShadowLookUp, LittleLightLeaksUnderAWall) {
       }
     }
   }
-  EXPECT_LT(leaked[0], 0.001);  // measured: 0.00055
+  // What kCornerTexels costs, for what it spares corners (above): 0.00055 with 1, 0.0015 with 2.
+  EXPECT_LT(leaked[0], 0.002);
   EXPECT_LT(leaked[1], 0.6 * leaked[0]);
 }
 
