@@ -7,7 +7,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kPointsPerSquareMetre = 16.0f;
+constexpr float kPointsPerSquareMetre = 64.0f;
 constexpr float kInwards = 0.1f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 

@@ -12,7 +12,7 @@
 
 namespace lamplighter {
 
-inline constexpr int kMostLightPoints = 64;
+inline constexpr int kMostLightPoints = 255;
 
 struct LightPoints {
   static constexpr size_t kBlended = 4;
@@ -26,7 +26,7 @@ struct LightPoints {
 };
 
 // How many points an object of this size (the longest side of its box [m]) gets: in
-// proportion to its surface, 16 for a metre, from 1 to `most`.
+// proportion to its surface, 64 for a metre, from 1 to `most`.
 int lightPointsFor(float size, int most);
 
 // One point is the middle of the bounds, as in the paper. More are vertices, each the one that is

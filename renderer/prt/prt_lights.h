@@ -23,7 +23,7 @@ class PrtLights {
  public:
   struct Options {
     TransferOptions transfer;
-    int mostPoints = 32;         // light points an object, kMostLightPoints at most
+    int mostPoints = 128;        // light points an object, kMostLightPoints at most
     float clampDistance = 0.0f;  // of ShadingParams [m]
     bool operator==(const Options&) const = default;
   };

@@ -321,7 +321,7 @@ TEST(LightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
 
 TEST(LightPoints, AreAsManyAsTheSizeAsksFor) {
   EXPECT_EQ(lightPointsFor(0.1f, 32), 1);
-  EXPECT_EQ(lightPointsFor(1.0f, 32), 16);
+  EXPECT_EQ(lightPointsFor(1.0f, 128), 64);
   EXPECT_EQ(lightPointsFor(1.0f, 8), 8);
   EXPECT_EQ(lightPointsFor(100.0f, 1000), kMostLightPoints);
   EXPECT_EQ(lightPointsFor(1e30f, 32), 32);
