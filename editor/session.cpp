@@ -282,8 +282,8 @@ const GiOutput& Session::renderFrame(std::optional<int> updates) {
   Settings settings = document_.render.values;
   if (updates) settings.set(parameters::updates().name, *updates);
   try {
-    output_ = renderer_->render(
-        {document_.scene, changes, view_, document_.render.method, settings, display_.lightOnly()});
+    output_ = renderer_->render({document_.scene, changes, view_, document_.render.method, settings,
+                                 display_.lightOnly(), updates.has_value()});
     const bool same = output_.settled && output_.radiance == before && changes.none();
     display_.update(*renderer_, view_, document_.render, !same);
   } catch (const InputError& e) {

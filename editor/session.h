@@ -79,7 +79,8 @@ class Session {
   // Renders one frame of what changed and keeps it. `output().settled` says when it is done. When
   // it cannot be rendered (no memory for that many maps, say) the last picture stays, renderError()
   // and the status say why, and nothing of the work is lost.
-  // `updates` stands in for the setting of that name: what fits into the time of a frame.
+  // `updates` stands in for the setting of that name: what fits into the time of a frame. Frames by
+  // time do not wait for what is prepared in the background; all others do.
   const GiOutput& renderFrame(std::optional<int> updates = {});
   const std::string& renderError() const { return renderError_; }  // "": it was rendered
   const GiOutput& output() const { return output_; }

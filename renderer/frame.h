@@ -1,6 +1,7 @@
 // A whole frame, from the scene to the picture.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 
 #include "renderer/methods/gi_method.h"
@@ -20,13 +21,18 @@ class FrameRenderer {
     const View& view;
     const std::string& method;
     const Settings& settings;
-    bool lightOnly = false;  // what is seen is shown as if it were white
+    bool lightOnly = false;     // what is seen is shown as if it were white
+    bool inBackground = false;  // FrameInputs
   };
   // One frame. Throws InputError for an unknown method.
   GiOutput render(const Request& request);
 
   // What the method keeps, for views of it; good until the next call of the others.
   Inspection inspect() const { return method_ ? method_->inspect() : Inspection(); }
+
+  // Where what takes seconds to prepare is kept from run to run; made when needed. Empty, as at
+  // first: nowhere.
+  void setCacheFolder(std::filesystem::path folder) { cacheFolder_ = std::move(folder); }
 
   // Forgets what the method keeps: the next picture is made from nothing.
   void restart();
@@ -43,6 +49,7 @@ class FrameRenderer {
   std::string methodName_;
   std::unique_ptr<GiMethod> method_;
   uint32_t frame_ = 0;
+  std::filesystem::path cacheFolder_;
 };
 
 }  // namespace lamplighter

@@ -9,6 +9,7 @@
 
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
+#include "editor/document/cache_folder.h"
 #include "editor/views/annotate.h"
 #include "editor/views/look.h"
 #include "editor/views/vpl_overlay.h"
@@ -188,6 +189,7 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   totals.loadSeconds = frontend.stopwatch() - start;
 
   FrameRenderer renderer(frontend.makeBackend(o.backend), frontend.stopwatch);
+  renderer.setCacheFolder(transferFolder());
   SceneChanges changes = SceneChanges::all();
   GiOutput out;
   ProgressLine progress;

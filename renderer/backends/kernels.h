@@ -44,6 +44,7 @@ struct BackendInfo {
   std::string name;               // "cpu" or "gl"
   std::string device;             // GL renderer string, or the instruction set
   bool tracesShadowMaps = false;  // by a ray a texel
+  bool takesTransfer = false;     // PatchLights with light by precomputed transfer
 };
 
 // Counts of work since the backend was made.

@@ -13,6 +13,12 @@ void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<LightUs
     for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[0][states[i]];
     return;
   }
+  if (hasTransfer(object, leaf)) {  // with shadows, so that none are to be taken away
+    const auto held = prt_->held(object);
+    for (size_t i = 0; i < bySlot.size(); ++i)
+      bySlot[i] = held[i] != 0 ? LightUse::skip : kUses[0][states[i]];
+    return;
+  }
   const auto held = maps_->held(object, leaf);
   for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[held[i]][states[i]];
 }

@@ -1,10 +1,12 @@
 // How the pixels of each patch come by each light: what a backend is told to sum where (paper 1,
-// 4.3.4, "shadow subtraction"). Made of the visibility database and, if there are any, light maps.
+// 4.3.4, "shadow subtraction"). Made of the visibility database and, if there are any, light maps
+// and light by precomputed transfer (4.4).
 #pragma once
 
 #include <span>
 
 #include "renderer/light_maps/light_maps.h"
+#include "renderer/prt/prt_lights.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -16,17 +18,19 @@ enum class LightUse : uint8_t {
   takeShadow    // the light map has it without shadow: what its shadow map hides is taken away
 };
 
-// Views into both, which must outlive it and stay as they are.
+// Views into these, which must outlive it and stay as they are.
 class PatchLights {
  public:
   // maps: null when there are none. mergesPasses: lights that need their shadow maps are to be
-  // summed by merged passes (pass_merging.h), where the backend sums by passes at all.
+  // summed by merged passes (pass_merging.h), where the backend sums by passes at all. prt: null
+  // where there is none, and for backends that do not take it (BackendInfo::takesTransfer).
   PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps,
-              bool mergesPasses = false)
-      : visibility_(visibility), maps_(maps), mergesPasses_(mergesPasses) {}
+              bool mergesPasses = false, const PrtLights* prt = nullptr)
+      : visibility_(visibility), maps_(maps), prt_(prt), mergesPasses_(mergesPasses) {}
 
   const VisibilityDatabase& visibility() const { return visibility_; }
   const LightMaps* maps() const { return maps_; }
+  const PrtLights* prt() const { return prt_; }
   bool mergesPasses() const { return mergesPasses_; }
   size_t slots() const { return visibility_.slots(); }
   const ObjectPatches& patches(uint32_t object) const { return visibility_.patches(object); }
@@ -36,12 +40,18 @@ class PatchLights {
   bool isMapped(uint32_t object, int leaf) const {
     return maps_ != nullptr && maps_->tile(object, leaf) != nullptr;
   }
-  // By slot, slots() of them. `mapped`: for pixels that begin with the light map.
+  // Whether pixels on the front of their triangle begin with light by precomputed transfer here.
+  bool hasTransfer(uint32_t object, int leaf) const {
+    return prt_ != nullptr && prt_->covers(patches(object), object, leaf);
+  }
+  // By slot, slots() of them. `mapped`: for pixels that begin with the light map, or with light by
+  // transfer.
   void uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
 
  private:
   const VisibilityDatabase& visibility_;
   const LightMaps* maps_;
+  const PrtLights* prt_;
   bool mergesPasses_;
 };
 

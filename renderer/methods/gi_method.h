@@ -1,6 +1,7 @@
 // The interface behind which every global-illumination method stands, the path tracer too.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -31,6 +32,10 @@ struct FrameInputs {
   uint32_t frame = 0;  // counts from 0
   Stopwatch stopwatch;
   bool lightOnly = false;  // what is seen is shown as if it were white; bounces are as ever
+  // What takes seconds to prepare may be ready some frames later; else it is waited for, so that
+  // every frame is the same each time.
+  bool inBackground = false;
+  std::filesystem::path cacheFolder;  // for what is prepared; empty: it is not kept
 };
 
 struct GiStats {
@@ -46,6 +51,8 @@ struct GiStats {
   uint64_t lightMapTexels = 0;   // this frame: texels × lights added or taken away
   // Of the last sum, where passes are merged: drawn, and fewer than object by object.
   int mergedPasses = 0, passesSaved = 0;
+  int transfersPending = 0;    // objects' transfers that are being prepared
+  float transferShare = 1.0f;  // that is done of the first of them
   int samplesPerPixel = 0;
   std::map<std::string, double> stageSeconds;  // by stage name
 };

@@ -33,6 +33,7 @@ void place(RenderScene& render, RenderObject& object, const Primitive& p, const 
   for (uint32_t i = 0; i < object.vertexCount; ++i) {
     const uint32_t to = object.firstVertex + i;
     render.localPositions[to] = p.positions[i];
+    render.localNormals[to] = p.normals[i];
     render.positions[to] = vec3(world * vec4(p.positions[i], 1.0f));
     object.bounds.add(render.positions[to]);
     const vec3 n = cofactor * p.normals[i];
@@ -65,6 +66,7 @@ void append(RenderScene& render, NodeId node, const Primitive& p, const mat4& wo
   const size_t vertices = o.firstVertex + p.positions.size();
   render.positions.resize(vertices);
   render.localPositions.resize(vertices);
+  render.localNormals.resize(vertices);
   render.normals.resize(vertices);
   render.tangents.resize(vertices, vec4(0.0f));
   render.indices.resize(o.firstIndex + p.indices.size());

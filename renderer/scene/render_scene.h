@@ -36,7 +36,7 @@ struct RenderScene {
   // Per vertex, world space. tangents, uv and colors always have positions.size() entries (zero
   // tangent, zero uv, white colour where the file has none).
   std::vector<vec3> positions, normals;
-  std::vector<vec3> localPositions;  // the same vertices in their node's space
+  std::vector<vec3> localPositions, localNormals;  // the same vertices in their node's space
   std::vector<vec4> tangents;
   std::vector<vec2> uv0, uv1;
   std::vector<vec4> colors;

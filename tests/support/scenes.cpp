@@ -1,5 +1,7 @@
 #include "tests/support/scenes.h"
 
+#include <cmath>
+
 namespace lamplighter::test {
 
 namespace {
@@ -49,6 +51,39 @@ std::shared_ptr<const Mesh> roomMesh(const vec3& size, int material) {
   for (size_t i = 0; i < p.indices.size(); i += 3) std::swap(p.indices[i + 1], p.indices[i + 2]);
   for (vec3& n : p.normals) n = -n;
   return std::make_shared<const Mesh>(std::move(mesh));
+}
+
+std::shared_ptr<const Mesh> sphereMesh(float radius, uint32_t rings, float bump, int material) {
+  const auto at = [&](float theta, float phi) {
+    const float wave = std::sin(6.0f * theta) * std::sin(5.0f * phi) * std::sin(theta);
+    return radius * (1.0f + bump * wave) *
+           vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+  };
+  Primitive p;
+  const uint32_t around = 2 * rings;
+  for (uint32_t i = 0; i <= rings; ++i) {
+    for (uint32_t j = 0; j <= around; ++j) {
+      const float theta = kPi * static_cast<float>(i) / static_cast<float>(rings);
+      // The first and the last of a ring are the same point.
+      const float phi = 2.0f * kPi * static_cast<float>(j % around) / static_cast<float>(around);
+      constexpr float kStep = 1e-3f;
+      const bool isPole = i == 0 || i == rings;
+      const vec3 n = isPole ? vec3(0.0f, i == 0 ? 1.0f : -1.0f, 0.0f)
+                            : glm::cross(at(theta, phi + kStep) - at(theta, phi - kStep),
+                                         at(theta + kStep, phi) - at(theta - kStep, phi));
+      p.positions.push_back(isPole ? radius * n : at(theta, phi));
+      p.normals.push_back(glm::normalize(n));
+      p.uv0.emplace_back(phi / (2.0f * kPi), theta / kPi);
+    }
+  }
+  for (uint32_t i = 0; i < rings; ++i) {
+    for (uint32_t j = 0; j < around; ++j) {
+      const uint32_t a = i * (around + 1) + j, b = a + 1, c = a + around + 1, d = c + 1;
+      if (i > 0) p.indices.insert(p.indices.end(), {a, b, d});
+      if (i + 1 < rings) p.indices.insert(p.indices.end(), {a, d, c});
+    }
+  }
+  return meshOf(std::move(p), material);
 }
 
 NodeId addNode(Scene& scene, const std::string& name, NodeId parent, const vec3& at) {

@@ -13,6 +13,10 @@ std::shared_ptr<const Mesh> squareMesh(float size, int material = kNone);
 std::shared_ptr<const Mesh> boxMesh(const vec3& size, int material = kNone);
 // A box seen from within.
 std::shared_ptr<const Mesh> roomMesh(const vec3& size, int material = kNone);
+// A sphere with smooth normals, `rings` from pole to pole and twice as many about, joined at its
+// seam by doubled vertices. With `bump`, its radius is more or less by that share, in waves.
+std::shared_ptr<const Mesh> sphereMesh(float radius, uint32_t rings, float bump = 0.0f,
+                                       int material = kNone);
 
 // Adds a node; returns its id.
 NodeId addNode(Scene& scene, const std::string& name, NodeId parent = kNoNode,

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "editor/document/cache_folder.h"
 #include "editor/input/recorder.h"
 #include "renderer/error.h"
 #include "ui/app/application.h"
@@ -66,6 +67,8 @@ int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
   showPreparing(window);
   auto renderer =
       std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
+  // Recordings must not depend on what is there from before.
+  if (!recording) renderer->setCacheFolder(transferFolder());
   Application app(window, std::make_unique<Session>(std::move(renderer)));
   std::optional<Recorder> recorder;
   if (!recording) {

@@ -55,6 +55,14 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
     part(ui, "pending", pending, stats.vplsPending > 0 ? theme::kAccent : theme::kTextDim,
          "Light samples that wait to be brought up to date, and for how long the oldest has.");
   }
+  if (stats.transfersPending > 0)
+    part(
+        ui, "transfers",
+        grouped(stats.transfersPending) +
+            (stats.transfersPending == 1 ? " transfer, " : " transfers, ") +
+            std::to_string(static_cast<int>(100.0f * stats.transferShare)) + "%",
+        theme::kAccent,
+        "Complex meshes whose light transfer is being computed, and how far that of the first is.");
   if (stats.mergedPasses > 0)
     part(ui, "passes",
          grouped(stats.mergedPasses) + (stats.mergedPasses == 1 ? " pass, " : " passes, ") +

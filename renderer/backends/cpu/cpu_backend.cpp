@@ -156,7 +156,7 @@ class CpuBackend final : public Backend {
     return image;
   }
 
-  BackendInfo info_{"cpu", "x86-64-v3, 8 lanes", true};
+  BackendInfo info_{"cpu", "x86-64-v3, 8 lanes", true, true};
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;

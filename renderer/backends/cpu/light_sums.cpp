@@ -97,9 +97,14 @@ void LightSums::compareWithLast(const Frame& frame) {
   const GBuffer& g = frame.gbuffer;
   const bool hasPatches = frame.patches != nullptr;
   const bool hasMaps = hasPatches && frame.patches->maps() != nullptr;
-  if (hasPatches != hasPatches_ || hasMaps != hasMaps_) knowsPlaces_ = false;
+  const bool hasTransfer = hasPatches && frame.patches->prt() != nullptr;
+  if (hasPatches != hasPatches_ || hasMaps != hasMaps_ || hasTransfer != hasTransfer_ ||
+      (hasTransfer && frame.patches->prt()->coverage() != coverage_))
+    knowsPlaces_ = false;
   hasPatches_ = hasPatches;
   hasMaps_ = hasMaps;
+  hasTransfer_ = hasTransfer;
+  coverage_ = hasTransfer ? frame.patches->prt()->coverage() : Revision();
   const auto tiles = static_cast<size_t>(g.tiles());
   if (sums_.r.size() != g.px.size()) {
     tiles_.assign(tiles, {});
@@ -160,6 +165,17 @@ bool LightSums::mapsChanged(const Frame& frame) {
   return changed;
 }
 
+bool LightSums::transferChanged(const Frame& frame) {
+  std::vector<Revision> now;
+  if (hasTransfer_) {
+    const PrtLights& prt = *frame.patches->prt();
+    for (uint32_t i = 0; i < prt.objects(); ++i) now.push_back(prt.revision(i));
+  }
+  const bool changed = now != transferRevisions_;
+  transferRevisions_ = std::move(now);
+  return changed;
+}
+
 SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
                             SumConstants constants, const PatchLights* patches) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
@@ -183,7 +199,8 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
 
   knowsSums_ = false;  // until all is done
   std::atomic<uint64_t> lightPixels = 0, lookUps = 0;
-  const bool finishAll = mapsChanged(frame);
+  const bool newMaps = mapsChanged(frame), newTransfer = transferChanged(frame);
+  const bool finishAll = newMaps || newTransfer;
   const int tiles = gbuffer.tiles();
   tbb::parallel_for(0, (tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {
     const int first = task * kTilesPerTask, last = std::min(first + kTilesPerTask, tiles);
@@ -252,7 +269,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   return counts;
 }
 
-// The light map, if any, and what its pixels sum themselves.
+// The light map or light by transfer, if any, and what its pixels sum themselves.
 void LightSums::finishTile(const Frame& frame, int tile) {
   const GBuffer& g = frame.gbuffer;
   const size_t first = static_cast<size_t>(tile) * kTilePixels;
@@ -262,15 +279,18 @@ void LightSums::finishTile(const Frame& frame, int tile) {
     green_[i] = unit * static_cast<float>(sums_.g[i]);
     blue_[i] = unit * static_cast<float>(sums_.b[i]);
   }
-  if (!hasMaps_) return;
+  if (!hasMaps_ && !hasTransfer_) return;
   tiles_[static_cast<size_t>(tile)].places.forEachMapped(
       [&](size_t packet, uint8_t lanes, const Place& place) {
         const ObjectPatches& patches = frame.patches->patches(place.object);
         for (size_t lane = 0; lane < kLanes; ++lane) {
           if ((lanes >> lane & 1) == 0) continue;
           const size_t i = packet + lane;
-          const vec3 e = frame.patches->maps()->irradiance(patches, place.object, place.leaf,
-                                                           vec3(g.px[i], g.py[i], g.pz[i]));
+          const vec3 position(g.px[i], g.py[i], g.pz[i]);
+          const vec3 e =
+              frame.patches->hasTransfer(place.object, place.leaf)
+                  ? frame.patches->prt()->irradiance(place.object, g.triangle[i], position)
+                  : frame.patches->maps()->irradiance(patches, place.object, place.leaf, position);
           // The map is interpolated and what is taken away is not: no less than no light is left.
           red_[i] = std::max(red_[i] + e.r, 0.0f);
           green_[i] = std::max(green_[i] + e.g, 0.0f);

@@ -55,18 +55,21 @@ class LightSums {
   std::vector<Change> findChanges(std::span<const LightRecord> lights);
   void findPlaces(const Frame& frame);
   bool mapsChanged(const Frame& frame);
+  bool transferChanged(const Frame& frame);
   SumCounts sumTiles(const Frame& frame, int first, int last);
   void finishTile(const Frame& frame, int tile);
 
   bool knowsSums_ = false;    // those of fresh tiles are of lights_ with constants_
   bool knowsPlaces_ = false;  // of fresh tiles
-  bool hasPatches_ = false, hasMaps_ = false;
+  bool hasPatches_ = false, hasMaps_ = false, hasTransfer_ = false;
   SumConstants constants_;
   std::vector<LightRecord> lights_;            // as summed
   std::map<int, std::vector<float>> oldMaps_;  // by slot, as summed, of those that changed since
   PlaceTable table_;
   std::vector<Tile> tiles_;
-  std::vector<Revision> mapRevisions_;  // of light maps, by object
+  std::vector<Revision> mapRevisions_;       // of light maps, by object
+  std::vector<Revision> transferRevisions_;  // of light by transfer, likewise
+  Revision coverage_;                        // of which objects have it
   FixedSums sums_;
   std::vector<float> red_, green_, blue_;
 };

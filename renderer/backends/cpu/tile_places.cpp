@@ -61,9 +61,12 @@ uint16_t TilePlaces::placeOf(const GBuffer& g, const PatchLights& lights, size_t
   const ObjectPatches& patches = lights.patches(object);
   const int leaf = patches.leafAt(g.triangle[i], vec3(g.px[i], g.py[i], g.pz[i]));
   const int chart = patches.patches[static_cast<size_t>(leaf)].chart;
-  const bool isMapped = lights.isMapped(object, leaf) &&
-                        glm::dot(vec3(g.gx[i], g.gy[i], g.gz[i]),
-                                 patches.charts[static_cast<size_t>(chart)].normal) > 0.0f;
+  const vec3 normal(g.gx[i], g.gy[i], g.gz[i]);
+  const bool isMapped =
+      lights.hasTransfer(object, leaf)
+          ? lights.prt()->isFront(object, g.triangle[i], normal)
+          : lights.isMapped(object, leaf) &&
+                glm::dot(normal, patches.charts[static_cast<size_t>(chart)].normal) > 0.0f;
   const Place place{object, leaf, isMapped};
   // Neighbours are mostly in the place found last.
   for (size_t k = places_.size(); k-- > 0;)

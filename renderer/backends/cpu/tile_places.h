@@ -16,7 +16,7 @@ namespace lamplighter::cpu {
 struct Place {
   uint32_t object = 0;
   int leaf = 0;
-  bool isMapped = false;  // they begin with the light map
+  bool isMapped = false;  // they begin with the light map, or with light by transfer
   auto operator<=>(const Place&) const = default;
 };
 
@@ -67,7 +67,7 @@ class TilePlaces {
   // All that is hit.
   void listAll(PacketList& out) const;
 
-  // Calls f(first pixel of the packet, lane, place) for all lanes on a light map.
+  // Calls f(first pixel of the packet, lane, place) for all lanes on a light map or with transfer.
   template <typename F>
   void forEachMapped(F&& f) const {
     for (const Kind& kind : kinds_) {

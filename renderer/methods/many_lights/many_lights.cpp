@@ -22,6 +22,9 @@ vec2 jitterOf(int i, int n) {
   return {along - 0.5f, inverse + 0.5f * size - 0.5f};
 }
 
+// What is left of light after as many bounces within one object is next to nothing.
+constexpr int kMostTransferBounces = 4;
+
 bool sameLights(const VplCounts& a, const VplCounts& b) {
   return a.total == b.total && a.directShare == b.directShare && a.bounces == b.bounces &&
          a.seed == b.seed;
@@ -71,6 +74,11 @@ ManyLights::Options::Options(const Settings& settings) {
   lightMapTexel = settings.real(parameters::lightMapTexel());
   lightsPerPass = settings.integer(parameters::lightsPerPass());
   mergePasses = settings.boolean(parameters::mergePasses());
+  usePrt = useVisibility && settings.boolean(parameters::prt());
+  // Light between parts of an object is one bounce more each time, as VPLs of later bounces are.
+  prt.transfer.bounces = std::min(counts.bounces, kMostTransferBounces);
+  prt.mostPoints = settings.integer(parameters::prtPoints());
+  prt.clampDistance = clampDistance;
 }
 
 GiOutput ManyLights::render(const FrameInputs& in) {
@@ -92,6 +100,9 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   stages.end("visibility");
   updateLightMaps(in, options, out.stats);
   stages.end("light maps");
+  const bool prtChanged = updatePrt(in, options, out.stats);
+  if (visibility_) visibility_->clearChanged();
+  stages.end("transfer");
 
   // 4. The picture, where anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
@@ -101,9 +112,11 @@ GiOutput ManyLights::render(const FrameInputs& in) {
                               options.useLightMaps != options_.useLightMaps ||
                               options.lightMapTexel != options_.lightMapTexel ||
                               options.mergePasses != options_.mergePasses ||
+                              options.usePrt != options_.usePrt || !(options.prt == options_.prt) ||
                               in.lightOnly != lightOnly_;
   if (viewChanged) gbufferIsCurrent_ = false;
-  const bool shadedNow = !image_ || viewChanged || lights_.changed() || shadingChanged;
+  const bool shadedNow =
+      !image_ || viewChanged || lights_.changed() || shadingChanged || prtChanged;
   if (shadedNow) {
     view_ = in.view;
     image_ = shade(in, options, vec2(0.0f), stages);
@@ -119,9 +132,10 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const int samples = options.antialias > 1 ? options.antialias : 0;
   if (options.antialias != samplesWanted_) samples_ = 0;
   samplesWanted_ = options.antialias;
-  if (pending == 0 && samples_ < samples && !shadedNow) addSample(in, options, stages);
+  const bool isReady = pending == 0 && out.stats.transfersPending == 0;
+  if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
-  out.settled = pending == 0 && samples_ == samples;
+  out.settled = isReady && samples_ == samples;
   out.radiance = out.settled && samples > 0 ? mean_ : image_;
   out.stats.vpls = lights_.live();
   out.stats.vplsPending = pending;
@@ -203,7 +217,28 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
                        {options.lightMapTexel, options.clampDistance});
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
   }
-  if (visibility_) visibility_->clearChanged();
+}
+
+// Whether it changes the picture.
+bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStats& stats) {
+  if (!options.usePrt || !in.backend.info().takesTransfer) {
+    prt_.reset();
+    return false;
+  }
+  // What was computed before it was asked for counts as new.
+  RenderSceneChanges changes = in.changes;
+  if (!prt_) {
+    prt_ = std::make_unique<PrtLights>(TransferCache(in.cacheFolder));
+    changes.rebuilt = true;
+  }
+  const uint64_t before = prt_->rays();
+  const bool changed = prt_->update(in.scene, changes, in.rays, *visibility_, shownBySlot(),
+                                    lights_.upToDate(), options.prt, !in.inBackground);
+  stats.raysTraced += prt_->rays() - before;
+  const Transfers::Progress progress = prt_->progress();
+  stats.transfersPending = static_cast<int>(progress.pending);
+  stats.transferShare = progress.share;
+  return changed;
 }
 
 std::vector<shared::Vpl> ManyLights::shownBySlot() const {
@@ -224,7 +259,7 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
                                           static_cast<float>(options.lightsPerPass))};
   const KernelCounts before = in.backend.counts();
   if (visibility_) {
-    const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses);
+    const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses, prt_.get());
     in.backend.sumVpls(vpls, params, &patches);
   } else {
     in.backend.sumVpls(vpls, params, nullptr);
@@ -255,12 +290,26 @@ MethodInfo manyLightsInfo() {
   return {"many_lights",
           "Many lights",
           "Barczak, Interactive Illumination Using Large Sets of Point Lights, 2006, chapter 4",
-          {parameters::vpls(), parameters::directShare(), parameters::bounces(), parameters::seed(),
-           parameters::mapResolution(), parameters::updates(), parameters::maxShadowMaps(),
-           parameters::maxVisibilityTests(), parameters::maxLightMapTexels(), parameters::maxRays(),
-           parameters::frameTime(), parameters::clampDistance(), parameters::shadowBias(),
-           parameters::technique(), parameters::lightMapTexel(), parameters::lightsPerPass(),
-           parameters::mergePasses(), parameters::antialias()},
+          {parameters::vpls(),
+           parameters::directShare(),
+           parameters::bounces(),
+           parameters::seed(),
+           parameters::mapResolution(),
+           parameters::updates(),
+           parameters::maxShadowMaps(),
+           parameters::maxVisibilityTests(),
+           parameters::maxLightMapTexels(),
+           parameters::maxRays(),
+           parameters::frameTime(),
+           parameters::clampDistance(),
+           parameters::shadowBias(),
+           parameters::technique(),
+           parameters::lightMapTexel(),
+           parameters::lightsPerPass(),
+           parameters::mergePasses(),
+           parameters::prt(),
+           parameters::prtPoints(),
+           parameters::antialias()},
           [] { return std::make_unique<ManyLights>(); }};
 }
 

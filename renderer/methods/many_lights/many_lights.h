@@ -8,6 +8,7 @@
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/live_lights.h"
+#include "renderer/prt/prt_lights.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -39,6 +40,8 @@ class ManyLights final : public GiMethod {
     float lightMapTexel = 0.1f;
     int lightsPerPass = 0;  // changes no picture
     bool mergePasses = false;
+    bool usePrt = false;  // besides
+    PrtLights::Options prt;
   };
 
   void takeScene(const FrameInputs& in, const Options& options);
@@ -48,6 +51,7 @@ class ManyLights final : public GiMethod {
   int refreshLights(const FrameInputs& in, const Options& options);
   void updateVisibility(const FrameInputs& in, GiStats& stats);
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
+  bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
@@ -58,6 +62,7 @@ class ManyLights final : public GiMethod {
   LiveLights lights_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
   std::unique_ptr<LightMaps> lightMaps_;            // likewise
+  std::unique_ptr<PrtLights> prt_;                  // likewise
   bool gbufferIsCurrent_ = false;
   std::shared_ptr<RadianceImage> image_;    // of the pixels' middles
   int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum

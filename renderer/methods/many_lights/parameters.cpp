@@ -126,6 +126,37 @@ const ParameterSpec& mergePasses() {
   return spec;
 }
 
+const ParameterSpec& prt() {
+  static const ParameterSpec spec{
+      "prt",
+      "Transfer",
+      "",
+      "Complex meshes are lit at their vertices by precomputed radiance transfer: smoothly, with "
+      "their own soft shadows and what their parts reflect onto each other, and without shadow "
+      "maps. Computed once for each shape. On the cpu backend; nothing for naive.",
+      false,
+      0,
+      0,
+      false,
+      {}};
+  return spec;
+}
+
+const ParameterSpec& prtPoints() {
+  static const ParameterSpec spec{
+      "prt_points",
+      "Light points",
+      "",
+      "With transfer, places on a complex mesh at which light is sampled, at most; how many by "
+      "its size. With 1, as in the paper, no shadow ends upon the mesh.",
+      128,
+      1,
+      255,
+      true,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& antialias() {
   static const ParameterSpec spec{
       "antialias",

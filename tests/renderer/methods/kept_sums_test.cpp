@@ -17,7 +17,9 @@ namespace {
 
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
-  s.set(parameters::technique().name, technique);
+  const bool isByTransfer = technique == "transfer";
+  s.set(parameters::technique().name, isByTransfer ? "light_maps" : technique);
+  s.set(parameters::prt().name, isByTransfer);
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::bounces().name, 2);
   s.set(parameters::updates().name, 9);
@@ -31,7 +33,9 @@ struct Room {
       loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
           .scene;
   View view;
-  Room() {
+  explicit Room(bool isComplex = false) {
+    for (Node& node : scene.nodes)
+      if (isComplex && node.mesh != kNone) node.meshKind = MeshKind::complex;
     for (const Node& node : scene.nodes)
       if (node.camera != kNone) view = viewOfCamera(scene, node, 93, 61);
   }
@@ -44,7 +48,7 @@ Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& c
 
 // A few frames after each edit, so that the next comes upon lights half refreshed; then to rest.
 bool isLikeNew(const std::string& technique, const test::EditSequence& edits) {
-  Room room;
+  Room room(technique == "transfer");
   const Settings settings = settingsOf(technique, 60);
   FrameRenderer renderer(makeCpuBackend());
   settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
@@ -71,7 +75,8 @@ TEST_P(KeptSums, AreThoseMadeFromNothing) {
             test::EditSequence());
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, KeptSums,
-                         testing::Combine(testing::Values("naive", "visibility", "light_maps"),
+                         testing::Combine(testing::Values("naive", "visibility", "light_maps",
+                                                          "transfer"),
                                           testing::Range(1u, 5u)));
 
 // What moves costs its own tiles, and the lights that were refreshed: far less than all.
@@ -109,8 +114,8 @@ TEST(KeptSums, FollowHowPatchesUseTheSameLights) {
   settings.set(parameters::lightMapTexel().name, 0.5f);
   const Image kept = settled(renderer, room.scene, {}, room.view, settings);
   FrameRenderer anew(makeCpuBackend());
-  EXPECT_TRUE(test::sameBits(
-      kept, settled(anew, room.scene, SceneChanges::all(), room.view, settings)));
+  EXPECT_TRUE(
+      test::sameBits(kept, settled(anew, room.scene, SceneChanges::all(), room.view, settings)));
   EXPECT_FALSE(test::sameBits(kept, fine));
 }
 

@@ -1,0 +1,293 @@
+#include "renderer/prt/prt_lights.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/prt/incident_light.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr double kUnit = 1.0 / 16777216.0;  // 2⁻²⁴ W/m²
+// Lights nearer to an object's box than this share of the spacing of its light points are left to
+// its pixels.
+constexpr float kNear = 1.0f;
+
+bool isLight(const shared::Vpl& vpl) {
+  return vpl.normal.x != 0.0f || vpl.normal.y != 0.0f || vpl.normal.z != 0.0f;
+}
+
+// But for the slot of its map.
+bool isSame(const shared::Vpl& a, const shared::Vpl& b) {
+  return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
+         vec3(a.intensity) == vec3(b.intensity);
+}
+
+// By area: what is beside the charts of a simple object is slivers, which have too few vertices to
+// show any light.
+bool isMostlyComplex(const RenderScene& scene, const RenderObject& o,
+                     const ObjectPatches& patches) {
+  double loose = 0.0, all = 0.0;
+  for (uint32_t t = 0; t < o.triangleCount(); ++t) {
+    const uint32_t* corner = &scene.indices[o.firstIndex + 3 * static_cast<size_t>(t)];
+    // In the node's space, so that turning it decides nothing.
+    const vec3& a = scene.localPositions[corner[0]];
+    const double area = glm::length(
+        glm::cross(scene.localPositions[corner[1]] - a, scene.localPositions[corner[2]] - a));
+    const auto patch = static_cast<size_t>(patches.patchOfTriangle[t]);
+    all += area;
+    if (patches.patches[patch].chart == kNone) loose += area;
+  }
+  return loose > 0.5 * all;
+}
+
+// Light on a vertex would be wrong where a pixel's normal is from a texture, and what glows lights
+// itself by VPLs that its transfer knows nothing of.
+bool mayHaveTransfer(const RenderScene& scene, const RenderObject& o) {
+  const Material& m = scene.materials[static_cast<size_t>(o.material)];
+  return !o.isAreaLight && !m.emits() && !m.isClear() && m.normalTexture.texture == kNone;
+}
+
+}  // namespace
+
+struct PrtLights::Frame {
+  const RenderScene& scene;
+  const RayCaster& rays;
+  const VisibilityDatabase& visibility;
+  const std::vector<shared::Vpl>& bySlot;
+};
+
+// Which objects want transfer, after all were numbered anew or their materials changed.
+void PrtLights::findObjects(const Frame& frame) {
+  const RenderScene& scene = frame.scene;
+  std::vector<Object> objects(scene.objects.size());
+  tbb::parallel_for(size_t{0}, objects.size(), [&](size_t i) {
+    const auto index = static_cast<uint32_t>(i);
+    const RenderObject& o = scene.objects[i];
+    const ObjectPatches& patches = frame.visibility.patches(index);
+    Object& out = objects[i];
+    for (const int root : patches.roots)
+      if (patches.patches[static_cast<size_t>(root)].chart == kNone) out.looseRoots.push_back(root);
+    if (out.looseRoots.empty() || !mayHaveTransfer(scene, o) || !isMostlyComplex(scene, o, patches))
+      return;
+    const auto space = ownSpaceOf(o);
+    if (!space) return;
+    out.own = std::make_shared<const RenderScene>(ownSceneOf(scene, index, *space));
+    out.key = transferKey(*out.own, options_.transfer);
+    out.isWanted = true;
+  });
+  objects_ = std::move(objects);
+  std::vector<Transfers::Wanted> wanted;
+  for (const Object& o : objects_)
+    if (o.isWanted) wanted.push_back({o.key, o.own});
+  transfers_.want(std::move(wanted), options_.transfer);
+  coverage_.advance();
+}
+
+// Where the object is now; it holds no light there yet.
+void PrtLights::placeObject(const Frame& frame, uint32_t object) {
+  Object& o = objects_[object];
+  const auto space = ownSpaceOf(frame.scene.objects[object]);
+  o.space = space.value_or(OwnSpace());
+  o.places.clear();
+  for (const vec3& p : o.points.places)
+    o.places.push_back(o.space.scale * (o.space.rotation * p) + o.space.translation);
+  o.sums.assign(o.places.size() * kSums, 0.0);
+  o.takes.assign(lights_.size(), Take::none);
+  o.held.assign(lights_.size(), 0);
+  o.hidden.assign(lights_.size() * o.places.size(), 0);
+  o.irradiance.assign(frame.scene.objects[object].vertexCount, vec3(0.0f));
+}
+
+PrtLights::Take PrtLights::takeOf(const Frame& frame, uint32_t object, size_t slot) const {
+  const Object& o = objects_[object];
+  const shared::Vpl& vpl = frame.bySlot[slot];
+  if (!isLight(vpl)) return Take::none;
+  if (vpl.position.w != shared::kVplDirectional) {
+    const Bounds& box = frame.scene.objects[object].bounds;
+    const vec3 position(vpl.position);
+    const bool isOn = options_.transfer.bounces > 0 && liesOn(frame.rays, object, vpl);
+    if (isOn) return Take::none;
+    const float distance = glm::distance(position, glm::clamp(position, box.min, box.max));
+    if (distance < kNear * o.space.scale * o.points.spacing) return Take::toPixels;
+  }
+  return Take::add;
+}
+
+void PrtLights::addLight(Object& o, const shared::Vpl& vpl, size_t slot, size_t point,
+                         double sign) {
+  if (o.hidden[slot * o.places.size() + point] != 0) return;
+  const auto light = incidentLight(vpl, o.places[point], options_.clampDistance);
+  if (!light) return;
+  const ShVector y = shBasis(glm::transpose(o.space.rotation) * light->direction);
+  double* sums = &o.sums[point * kSums];
+  for (int channel = 0; channel < 3; ++channel)
+    for (size_t i = 0; i < kShCoefficients; ++i, ++sums)
+      *sums += sign * kUnit * std::round(double{y[i]} * double{light->irradiance[channel]} / kUnit);
+}
+
+// Whether anything changed.
+bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const uint32_t> slots) {
+  Object& o = objects_[object];
+  const size_t points = o.places.size();
+  std::vector<Take> takes(slots.size());
+  std::vector<uint8_t> isFull(slots.size(), 1);
+  tbb::parallel_for(size_t{0}, slots.size(), [&](size_t i) {
+    takes[i] = takeOf(frame, object, slots[i]);
+    // The light of a hidden object is known without rays.
+    for (const int root : o.looseRoots)
+      if (frame.visibility.state(object, root, static_cast<int>(slots[i])) != Occlusion::full)
+        isFull[i] = 0;
+  });
+  std::atomic<uint64_t> traced = 0, spared = 0;
+  std::atomic<bool> changed = false;
+  tbb::parallel_for(size_t{0}, points, [&](size_t point) {
+    uint64_t rays = 0, without = 0;
+    for (size_t i = 0; i < slots.size(); ++i) {
+      const size_t slot = slots[i];
+      uint8_t& hidden = o.hidden[slot * points + point];
+      uint8_t now = 0;
+      const bool adds = takes[i] == Take::add;
+      if (adds && isFull[i] != 0) {
+        now = 1;
+        ++without;
+      } else if (adds) {
+        const auto light =
+            incidentLight(frame.bySlot[slot], o.places[point], options_.clampDistance);
+        now = light && isHiddenByOthers(frame.rays, object, o.places[point], *light) ? 1 : 0;
+        if (light) ++rays;
+      }
+      const bool added = o.takes[slot] == Take::add;
+      const bool isOther = !isSame(lights_[slot], frame.bySlot[slot]);
+      if (added == adds && hidden == now && (!adds || !isOther)) continue;
+      if (added) addLight(o, lights_[slot], slot, point, -1.0);
+      hidden = now;
+      if (adds) addLight(o, frame.bySlot[slot], slot, point, 1.0);
+      changed = true;
+    }
+    traced += rays;
+    spared += without;
+  });
+  for (size_t i = 0; i < slots.size(); ++i) {
+    o.takes[slots[i]] = takes[i];
+    o.held[slots[i]] = takes[i] == Take::toPixels ? 0 : 1;
+  }
+  raysTraced_ += traced;
+  raysSpared_ += spared;
+  return changed;
+}
+
+void PrtLights::lightVertices(Object& o) {
+  std::vector<std::array<float, kSums>> light(o.places.size());
+  for (size_t p = 0; p < light.size(); ++p)
+    for (size_t i = 0; i < kSums; ++i) light[p][i] = static_cast<float>(o.sums[p * kSums + i]);
+  tbb::parallel_for(size_t{0}, o.irradiance.size(), [&](size_t v) {
+    const LightPoints::Blend& blend = o.points.ofVertex[v];
+    std::array<float, kSums> here{};
+    for (size_t k = 0; k < LightPoints::kBlended; ++k) {
+      if (!(blend.weight[k] > 0.0f)) continue;
+      const std::array<float, kSums>& from = light[blend.point[k]];
+      for (size_t i = 0; i < kSums; ++i) here[i] += blend.weight[k] * from[i];
+    }
+    const Transfer::Vertex& t = o.transfer->vertices[v];
+    vec3 e(0.0f);
+    for (size_t i = 0; i < kShCoefficients; ++i) {
+      e.r += t.r[i] * here[i];
+      e.g += t.g[i] * here[kShCoefficients + i];
+      e.b += t.b[i] * here[2 * kShCoefficients + i];
+    }
+    o.irradiance[v] = glm::max(e, 0.0f);  // what is cut off rings below zero
+  });
+  o.revision.advance();
+}
+
+bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& changes,
+                       const RayCaster& rays, const VisibilityDatabase& visibility,
+                       std::span<const shared::Vpl> given, const std::vector<bool>& upToDate,
+                       const Options& options, bool waits) {
+  scene_ = &scene;
+  std::vector<shared::Vpl> bySlot(given.begin(), given.end());
+  const Frame frame{scene, rays, visibility, bySlot};
+  const bool anew = !isKnown_ || changes.rebuilt || changes.materials || !(options == options_) ||
+                    bySlot.size() != lights_.size();
+  options_ = options;
+  if (anew) {
+    lights_.assign(bySlot.size(), shared::Vpl{});
+    isStale_.assign(bySlot.size(), false);
+    findObjects(frame);
+    isKnown_ = true;
+  }
+  if (waits) transfers_.wait();
+
+  std::vector<bool> isFresh(objects_.size(), false);
+  for (uint32_t i = 0; i < objects_.size(); ++i) {
+    Object& o = objects_[i];
+    if (!o.isWanted || o.transfer) continue;
+    o.transfer = transfers_.find(o.key);
+    if (!o.transfer) continue;
+    const vec3 extent = o.own->bounds.extent();
+    const auto space = ownSpaceOf(scene.objects[i]);
+    const float size = std::max({extent.x, extent.y, extent.z}) * (space ? space->scale : 1.0f);
+    o.points = placeLightPoints(*o.own, lightPointsFor(size, options.mostPoints));
+    o.own.reset();
+    isFresh[i] = true;
+    coverage_.advance();
+  }
+  for (const uint32_t i : changes.rebuilt ? std::vector<uint32_t>() : changes.movedObjects)
+    if (objects_[i].transfer) isFresh[i] = true;
+
+  if (!changes.movedObjects.empty()) isStale_.assign(isStale_.size(), true);
+  std::vector<uint32_t> all(bySlot.size()), some;
+  std::iota(all.begin(), all.end(), 0u);
+  for (const uint32_t slot : all) {
+    const bool catchesUp = isStale_[slot] && slot < upToDate.size() && upToDate[slot];
+    if (catchesUp) isStale_[slot] = false;
+    if (catchesUp || !isSame(lights_[slot], bySlot[slot])) some.push_back(slot);
+  }
+  bool shows = anew;
+  for (uint32_t i = 0; i < objects_.size(); ++i) {
+    if (!objects_[i].transfer) continue;
+    if (isFresh[i]) placeObject(frame, i);
+    if (isFresh[i] || !some.empty()) {
+      const bool changed = sumLights(frame, i, isFresh[i] ? all : some);
+      if (!isFresh[i] && !changed) continue;
+      lightVertices(objects_[i]);
+      shows = true;
+    }
+  }
+  lights_ = bySlot;
+  return shows;
+}
+
+bool PrtLights::isFront(uint32_t object, uint32_t triangle, const vec3& normal) const {
+  const uint32_t* corner =
+      &scene_->indices[scene_->objects[object].firstIndex + 3 * static_cast<size_t>(triangle)];
+  const vec3& a = scene_->positions[corner[0]];
+  return glm::dot(normal, glm::cross(scene_->positions[corner[1]] - a,
+                                     scene_->positions[corner[2]] - a)) > 0.0f;
+}
+
+vec3 PrtLights::irradiance(uint32_t object, uint32_t triangle, const vec3& position) const {
+  const RenderObject& o = scene_->objects[object];
+  const uint32_t* corner = &scene_->indices[o.firstIndex + 3 * static_cast<size_t>(triangle)];
+  const vec3& a = scene_->positions[corner[0]];
+  const vec3 u = scene_->positions[corner[1]] - a, v = scene_->positions[corner[2]] - a,
+             p = position - a;
+  // Weights of the second and third corner by least squares.
+  const float uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
+  const float pu = glm::dot(p, u), pv = glm::dot(p, v), area2 = uu * vv - uv * uv;
+  float second = 0.0f, third = 0.0f;
+  if (area2 > 0.0f) {
+    second = std::clamp((vv * pu - uv * pv) / area2, 0.0f, 1.0f);
+    third = std::clamp((uu * pv - uv * pu) / area2, 0.0f, 1.0f - second);
+  }
+  const std::vector<vec3>& e = objects_[object].irradiance;
+  return (1.0f - second - third) * e[corner[0] - o.firstVertex] +
+         second * e[corner[1] - o.firstVertex] + third * e[corner[2] - o.firstVertex];
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,107 @@
+// Irradiance at the vertices of complex objects by precomputed radiance transfer (paper 1, 4.4.1):
+// light about each of an object's light points from the VPLs that see it, as spherical harmonics in
+// the object's own space, blended and multiplied at each vertex with its transfer.
+//
+// Kept from frame to frame as light maps are. Sums are fixed-point numbers: each coefficient of a
+// VPL is rounded to a multiple of 2⁻²⁴ W/m² and added as a double, which is exact up to 2²⁹ W/m².
+// Adding a VPL and taking it away restores the very same bits in any order.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "renderer/prt/light_points.h"
+#include "renderer/prt/transfers.h"
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/visibility/visibility_database.h"
+#include "shaders/shared/vpl.h"
+
+namespace lamplighter {
+
+class PrtLights {
+ public:
+  struct Options {
+    TransferOptions transfer;
+    int mostPoints = 128;        // light points an object, kMostLightPoints at most
+    float clampDistance = 0.0f;  // of ShadingParams [m]
+    bool operator==(const Options&) const = default;
+  };
+
+  explicit PrtLights(TransferCache cache = TransferCache()) : transfers_(std::move(cache)) {}
+
+  // Takes in what changed; after the database did, before its clearChanged(). `bySlot`: the lights
+  // as the database has them, with their intensities; `upToDate`: by slot, whether the light is
+  // shown with all that moved: others keep the shadows that they had. Afterwards, when all lights
+  // are up to date, irradiance is what would be made from nothing. `waits`: for transfer that is
+  // not ready; else its objects are not lit by it until it is. Returns whether what shows changed.
+  bool update(const RenderScene& scene, const RenderSceneChanges& changes, const RayCaster& rays,
+              const VisibilityDatabase& visibility, std::span<const shared::Vpl> bySlot,
+              const std::vector<bool>& upToDate, const Options& options, bool waits);
+
+  // Whether pixels of an object's leaf patch begin with what is here: those on the front of its
+  // triangles that are in no chart.
+  bool covers(const ObjectPatches& patches, uint32_t object, int leaf) const {
+    return objects_[object].transfer != nullptr &&
+           patches.patches[static_cast<size_t>(leaf)].chart == kNone;
+  }
+  // Whether the normal is on the front of the object's triangle.
+  bool isFront(uint32_t object, uint32_t triangle, const vec3& normal) const;
+  // Whether irradiance here holds the light in each slot; pixels sum the others, which are too near
+  // to be blended between light points. Only for objects with transfer.
+  std::span<const uint8_t> held(uint32_t object) const { return objects_[object].held; }
+  // E at a point of a triangle of the object [W/m²].
+  vec3 irradiance(uint32_t object, uint32_t triangle, const vec3& position) const;
+  // At each vertex of the object; empty: it has no transfer (yet).
+  std::span<const vec3> irradiance(uint32_t object) const { return objects_[object].irradiance; }
+
+  size_t objects() const { return objects_.size(); }
+  const Revision& revision(uint32_t object) const { return objects_[object].revision; }
+  const Revision& coverage() const { return coverage_; }  // of what covers() says
+
+  Transfers::Progress progress() const { return transfers_.progress(); }
+  // Since they were made: rays to VPLs, and those that the database spared.
+  uint64_t rays() const { return raysTraced_; }
+  uint64_t raysSpared() const { return raysSpared_; }
+
+ private:
+  static constexpr size_t kSums = 3 * kShCoefficients;  // a light point: all r, then g, then b
+  // How an object takes the light in a slot.
+  enum class Take : uint8_t { none, add, toPixels };
+  struct Object {
+    bool isWanted = false;  // it may have transfer
+    TransferKey key{};
+    std::shared_ptr<const RenderScene> own;  // until its transfer is there
+    std::shared_ptr<const Transfer> transfer;
+    OwnSpace space;
+    LightPoints points;
+    std::vector<vec3> places;      // of the points, in the world
+    std::vector<int> looseRoots;   // patches
+    std::vector<double> sums;      // points × kSums
+    std::vector<Take> takes;       // by slot, as summed
+    std::vector<uint8_t> hidden;   // slots × points, as summed
+    std::vector<uint8_t> held;     // by slot
+    std::vector<vec3> irradiance;  // by vertex
+    Revision revision;
+  };
+  struct Frame;
+
+  void findObjects(const Frame& frame);
+  void placeObject(const Frame& frame, uint32_t object);
+  bool sumLights(const Frame& frame, uint32_t object, std::span<const uint32_t> slots);
+  void addLight(Object& object, const shared::Vpl& vpl, size_t slot, size_t point, double sign);
+  Take takeOf(const Frame& frame, uint32_t object, size_t slot) const;
+  void lightVertices(Object& object);
+
+  Transfers transfers_;
+  const RenderScene* scene_ = nullptr;
+  Options options_;
+  bool isKnown_ = false;
+  std::vector<Object> objects_;
+  std::vector<shared::Vpl> lights_;  // by slot, as summed
+  std::vector<bool> isStale_;        // by slot: something moved since its shadows were found
+  Revision coverage_;
+  uint64_t raysTraced_ = 0, raysSpared_ = 0;
+};
+
+}  // namespace lamplighter

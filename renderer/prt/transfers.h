@@ -1,0 +1,61 @@
+// Transfer of the objects of a scene, computed on a thread of its own while frames go on.
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "renderer/prt/transfer_cache.h"
+
+namespace lamplighter {
+
+class Transfers {
+ public:
+  struct Wanted {
+    TransferKey key;
+    std::shared_ptr<const RenderScene> own;  // of ownSceneOf()
+  };
+
+  explicit Transfers(TransferCache cache = TransferCache()) : cache_(std::move(cache)) {}
+  ~Transfers();  // cancels
+  Transfers(const Transfers&) = delete;
+  Transfers& operator=(const Transfers&) = delete;
+
+  // All that is wanted from now on, in the order in which it is looked up or computed. What is no
+  // longer wanted is dropped, and cancelled if it is being computed.
+  void want(std::vector<Wanted> wanted, const TransferOptions& options);
+
+  // Null: not ready.
+  std::shared_ptr<const Transfer> find(const TransferKey& key) const;
+  // Until all are ready. Throws what computing threw.
+  void wait();
+
+  struct Progress {
+    size_t pending = 0;  // transfers
+    float share = 1.0f;  // of the vertices of the one that is being computed
+  };
+  Progress progress() const;
+
+ private:
+  void work();
+
+  const TransferCache cache_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  // Under the mutex:
+  std::map<TransferKey, std::shared_ptr<const Transfer>> ready_;
+  std::vector<Wanted> queue_;  // the last is next
+  TransferOptions options_;
+  std::shared_ptr<TransferProgress> current_;  // null: none is being computed
+  TransferKey currentKey_{};
+  std::exception_ptr error_;
+
+  std::thread thread_;  // runs while the queue is not empty
+  bool isRunning_ = false;
+};
+
+}  // namespace lamplighter

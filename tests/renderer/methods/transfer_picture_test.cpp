@@ -1,0 +1,169 @@
+// Complex objects by precomputed transfer in a picture: against each pixel on its own, and against
+// paths.
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+// A bumpy sphere on the floor of a room, some of it in the shadow of a plate below the light.
+struct BumpyRoom {
+  Scene scene;
+  NodeId sphere = kNoNode;
+  View view = test::lookAt(vec3(2.3f, 1.5f, 2.8f), vec3(-0.3f, 0.7f, 0.3f), 96, 72, 0.6f);
+
+  explicit BumpyRoom(bool hasPlate = true) {
+    const int white = test::addMaterial(scene, vec3(0.75f));
+    const int red = test::addMaterial(scene, vec3(0.8f, 0.3f, 0.2f));
+    test::addMesh(scene, test::roomMesh(vec3(6, 3, 6), white), vec3(0, 1.5f, 0));
+    if (hasPlate)
+      test::addMesh(scene, test::boxMesh(vec3(1.6f, 0.05f, 1.6f), white), vec3(0.75f, 2, 0.3f));
+    sphere = test::addMesh(scene, test::sphereMesh(0.6f, 48, 0.12f, red), vec3(-0.3f, 0.75f, 0.3f));
+    test::addRectangleLight(scene, vec3(0.6f, 2.95f, 0.6f), vec2(1.0f), vec3(12.0f));
+  }
+
+  // 1 where the sphere is seen.
+  Image mask() const {
+    RenderScene render;
+    update(render, scene, SceneChanges::all());
+    const RayCaster rays(render);
+    Image out(view.width, view.height);
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        const vec3 direction =
+            view.rayDirection(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        const Hit hit = rays.intersect({view.eye, 0.0f, direction}, Surfaces::seen);
+        if (hit && render.objects[hit.object].node == sphere) out.at(x, y) = vec3(1.0f);
+      }
+    }
+    return out;
+  }
+};
+
+Settings settingsOf(bool prt, int bounces) {
+  Settings s;
+  s.set(parameters::prt().name, prt);
+  s.set(parameters::vpls().name, 1000);
+  s.set(parameters::updates().name, 1000);
+  s.set(parameters::bounces().name, bounces);
+  s.set(parameters::antialias().name, 4);
+  return s;
+}
+
+struct Rendered {
+  Image image;
+  uint64_t lookUps;
+};
+
+Rendered rendered(const BumpyRoom& room, const Settings& settings) {
+  FrameRenderer renderer(makeCpuBackend());
+  const GiOutput out =
+      test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  return {out.radiance->pixels(), renderer.backend().counts().lookUps};
+}
+
+// Open to the light it is within what 25 coefficients cut off of one strong light; with the light
+// of the room it is nearer than pixels with maps of 64², in a shadow too.
+struct Case {
+  bool hasPlate;
+  int bounces;
+  double mostRelRmse, mostBias;
+  bool beatsPixels;
+};
+
+class TransferPictures : public testing::TestWithParam<Case> {};
+
+TEST_P(TransferPictures, AreNearTheReference) {
+  const Case& c = GetParam();
+  const BumpyRoom room(c.hasPlate);
+  const Image mask = room.mask();
+  const Image reference = test::renderReference(room.scene, room.view, 128, c.bounces);
+  const Rendered with = rendered(room, settingsOf(true, c.bounces));
+  const Rendered without = rendered(room, settingsOf(false, c.bounces));
+  Settings one = settingsOf(true, c.bounces);
+  one.set(parameters::prtPoints().name, 1);
+  const Metrics a = compareImages(with.image, reference, &mask);
+  const Metrics b = compareImages(without.image, reference, &mask);
+  const Metrics paper = compareImages(rendered(room, one).image, reference, &mask);
+  RecordProperty("transfer", std::to_string(a.relRmse));
+  RecordProperty("pixels", std::to_string(b.relRmse));
+  RecordProperty("paper", std::to_string(paper.relRmse));
+  EXPECT_LT(a.relRmse, c.mostRelRmse);
+  EXPECT_NEAR(a.bias, 1.0, c.mostBias);
+  if (c.beatsPixels) {
+    EXPECT_LT(a.relRmse, b.relRmse);
+  }
+  EXPECT_LT(2.0 * a.relRmse, paper.relRmse) << "with the paper's one point (figure 4-14)";
+  EXPECT_LT(with.lookUps, without.lookUps);
+  // Elsewhere it is the very picture.
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      bool isFar = true;  // from the sphere's edge, where pixels' samples are of both
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          if (x + dx >= 0 && y + dy >= 0 && x + dx < mask.width && y + dy < mask.height)
+            isFar = isFar && mask.at(x + dx, y + dy).r == 0.0f;
+      if (!isFar) continue;
+      ASSERT_EQ(with.image.at(x, y), without.image.at(x, y)) << x << ", " << y;
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Rooms, TransferPictures,
+                         testing::Values(Case{false, 0, 0.14, 0.02, false},
+                                         Case{false, 2, 0.09, 0.02, true},
+                                         Case{true, 2, 0.21, 0.08, true}));
+
+// What is prepared in the background comes in some frame, and then the picture is that of one that
+// has waited.
+TEST(TransferPicture, IsTheSameAfterTheBackgroundAndFromTheCache) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(testing::TempDir()) / "transfer_picture_cache";
+  fs::remove_all(folder);
+  const BumpyRoom room;
+  Settings settings = settingsOf(true, 1);
+  settings.set(parameters::vpls().name, 100);
+  const Image waited = rendered(room, settings).image;
+  for (const bool isCached : {false, true}) {
+    FrameRenderer renderer(makeCpuBackend());
+    renderer.setCacheFolder(folder);
+    GiOutput out;
+    SceneChanges changes = SceneChanges::all();
+    do {
+      out = renderer.render({room.scene, changes, room.view, "many_lights", settings, false, true});
+      changes = SceneChanges();
+    } while (!out.settled);
+    EXPECT_EQ(out.stats.transfersPending, 0);
+    EXPECT_TRUE(test::sameBits(out.radiance->pixels(), waited)) << isCached;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+  }
+  fs::remove_all(folder);
+}
+
+TEST(TransferPicture, FollowsItsSwitch) {
+  const BumpyRoom room;
+  FrameRenderer renderer(makeCpuBackend());
+  Settings on = settingsOf(true, 1), off = settingsOf(false, 1);
+  for (Settings* s : {&on, &off}) s->set(parameters::vpls().name, 100);
+  const auto show = [&](const Settings& s, const SceneChanges& changes) {
+    return test::renderSettled(renderer, room.scene, changes, room.view, s).radiance->pixels();
+  };
+  const Image without = show(off, SceneChanges::all());
+  const Image with = show(on, {});
+  EXPECT_FALSE(test::sameBits(with, without));
+  EXPECT_TRUE(test::sameBits(with, rendered(room, on).image));
+  EXPECT_TRUE(test::sameBits(show(off, {}), without));
+}
+
+}  // namespace
+}  // namespace lamplighter

@@ -1,0 +1,331 @@
+// Light on complex objects by transfer, without a picture.
+#include "renderer/prt/prt_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "renderer/prt/incident_light.h"
+#include "renderer/threads.h"
+#include "shaders/shared/vpl_shading.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+using shared::Vpl;
+
+// A scene with its rays, its visibility and its light by transfer, kept from change to change.
+class World {
+ public:
+  explicit World(int bounces = 0, int points = 32) {
+    options.transfer = {256, bounces};
+    options.mostPoints = points;
+  }
+  void show(const std::vector<Vpl>& vpls, const SceneChanges& edit = SceneChanges::all()) {
+    const RenderSceneChanges changes = update(render, scene, edit);
+    if (!rays) {
+      rays = std::make_unique<RayCaster>(render);
+    } else {
+      rays->update(changes);
+    }
+    visibility.setScene(render, changes);
+    visibility.setLights(render, vpls);
+    visibility.refreshAll(render);
+    prt.update(render, changes, *rays, visibility, vpls, std::vector<bool>(vpls.size(), true),
+               options, true);
+    visibility.clearChanged();
+  }
+  // The same made from nothing.
+  bool isAsFromNothing(const std::vector<Vpl>& vpls) const {
+    World other;
+    other.options = options;
+    other.scene = scene;
+    other.show(vpls);
+    for (uint32_t i = 0; i < prt.objects(); ++i) {
+      const auto a = prt.irradiance(i), b = other.prt.irradiance(i);
+      if (a.size() != b.size() || std::memcmp(a.data(), b.data(), a.size_bytes()) != 0)
+        return false;
+      const auto heldA = prt.held(i), heldB = other.prt.held(i);
+      if (!a.empty() && !std::equal(heldA.begin(), heldA.end(), heldB.begin(), heldB.end()))
+        return false;
+    }
+    return true;
+  }
+
+  Scene scene;
+  RenderScene render;
+  std::unique_ptr<RayCaster> rays;
+  VisibilityDatabase visibility;
+  PrtLights prt;
+  PrtLights::Options options;
+};
+
+Vpl brightVpl(const vec3& position, const vec3& normal, float intensity,
+              float kind = shared::kVplCosine) {
+  Vpl vpl = test::makeVpl(position, normal, kind);
+  vpl.intensity = vec4(intensity * vec3(1.0f, 0.8f, 0.5f), 0.0f);
+  return vpl;
+}
+
+NodeId addComplex(Scene& scene, std::shared_ptr<const Mesh> mesh, const vec3& at) {
+  const NodeId id = test::addMesh(scene, std::move(mesh), at);
+  scene.find(id)->meshKind = MeshKind::complex;
+  return id;
+}
+
+TEST(PrtLights, LightASphereFromAfarAsItIsLitDirectly) {
+  for (const int points : {1, 32}) {
+    World world(0, points);
+    const NodeId id = addComplex(world.scene, test::sphereMesh(0.5f, 24), vec3(1, 2, 3));
+    world.scene.find(id)->local.rotation = glm::normalize(quat(0.3f, 0.5f, -0.2f, 0.7f));
+    world.scene.find(id)->local.scale = vec3(1.3f);
+    const vec3 from(9, 13, -14);
+    const Vpl vpl = brightVpl(from, vec3(1, 2, 3) - from, 400.0f);
+    world.show({vpl});
+    const auto irradiance = world.prt.irradiance(0);
+    ASSERT_EQ(irradiance.size(), world.render.positions.size());
+    const float facing = incidentLight(vpl, vec3(1, 2, 3), 0.0f).value().irradiance.g;
+    for (size_t v = 0; v < irradiance.size(); ++v) {
+      const vec3 &p = world.render.positions[v], &n = world.render.normals[v];
+      const float expected = shared::vplGeometry(vpl, p, n, n, 0.0f) * vpl.intensity.g;
+      // What is cut off (spherical_harmonics_test.cpp), and the nearer side of the sphere, which
+      // one point does not know of: 2 · 0.65 m / 20 m.
+      const float tolerance = 15.0f / 256.0f + (points == 1 ? 0.07f : 0.01f);
+      EXPECT_NEAR(irradiance[v].g, expected, tolerance * facing);
+      EXPECT_NEAR(irradiance[v].r * 0.8f, irradiance[v].g, 1e-4f * facing);
+      EXPECT_GE(irradiance[v].g, 0.0f);
+    }
+  }
+}
+
+TEST(PrtLights, OfADirectionalLightEndWhereItsSquareEnds) {
+  World world;
+  addComplex(world.scene, test::sphereMesh(0.5f, 16), vec3(0.0f));
+  Vpl sun = brightVpl(vec3(0.0f), vec3(0, 1, 0), 2.0f, shared::kVplDirectional);
+  sun.normal.w = 10.0f;
+  sun.tangent = vec4(1, 0, 0, 5.0f);
+  world.show({sun});
+  const auto top = [&] {
+    float most = 0.0f;
+    for (const vec3& e : world.prt.irradiance(0)) most = std::max(most, e.r);
+    return most;
+  };
+  EXPECT_NEAR(top(), 2.0f, 0.1f);
+  sun.position.x = 6.0f;
+  world.show({sun}, SceneChanges());
+  EXPECT_EQ(top(), 0.0f);
+}
+
+// Figure 4-14: a bar of four metres, one half of it under a roof.
+class HalfShadowedBar : public testing::Test {
+ protected:
+  void light(World& world) {
+    const NodeId id = addComplex(world.scene, test::sphereMesh(0.5f, 32), vec3(0.0f));
+    world.scene.find(id)->local.scale = vec3(4.0f, 0.4f, 0.4f);
+    test::addMesh(world.scene, test::boxMesh(vec3(8, 0.1f, 8)), vec3(4, 2, 0));
+    vpl_ = brightVpl(vec3(0, 40, 0), vec3(0, -1, 0), 1600.0f);
+    world.show({vpl_});
+  }
+  // E over that without shadows, of vertices on top.
+  float shareAt(const World& world, float x) const {
+    const RenderObject& bar = world.render.objects[0];
+    float nearest = 1e9f, share = 0.0f;
+    for (uint32_t v = 0; v < bar.vertexCount; ++v) {
+      const vec3 &p = world.render.positions[v], &n = world.render.normals[v];
+      if (n.y < 0.9f || std::abs(p.x - x) > nearest) continue;
+      nearest = std::abs(p.x - x);
+      share = world.prt.irradiance(0)[v].g /
+              (shared::vplGeometry(vpl_, p, n, n, 0.0f) * vpl_.intensity.g);
+    }
+    return share;
+  }
+  Vpl vpl_{};
+};
+
+TEST_F(HalfShadowedBar, ShowsTheBoundaryAcrossIt) {
+  World world;
+  light(world);
+  for (const float x : {-1.5f, -1.2f, -0.9f}) EXPECT_NEAR(shareAt(world, x), 1.0f, 0.07f) << x;
+  for (const float x : {0.9f, 1.2f, 1.5f}) EXPECT_NEAR(shareAt(world, x), 0.0f, 0.01f) << x;
+  // It gets darker all the way, and the middle of that is near where the shadow is.
+  float last = 1.1f, middle = -10.0f;
+  for (float x = -1.5f; x < 1.5f; x += 0.1f) {
+    const float share = shareAt(world, x);
+    EXPECT_LE(share, last + 0.07f) << x;
+    if (share > 0.5f) middle = x;
+    last = share;
+  }
+  EXPECT_NEAR(middle, 0.0f, 0.4f);
+}
+
+TEST_F(HalfShadowedBar, ShowsNoneWithThePapersOnePoint) {
+  World world(0, 1);
+  light(world);
+  EXPECT_NEAR(shareAt(world, -1.5f), shareAt(world, 1.5f), 0.05f);
+}
+
+// Its own shadow is in the transfer; a ray that stopped at the object itself would make it dark.
+TEST(PrtLights, AreNotHiddenByTheObjectItself) {
+  World world(0, 1);
+  addComplex(world.scene, test::sphereMesh(0.5f, 16), vec3(0.0f));
+  world.show({brightVpl(vec3(0, 20, 0), vec3(0, -1, 0), 400.0f)});
+  const auto irradiance = world.prt.irradiance(0);
+  EXPECT_NEAR(irradiance[0].r, 1.0f, 0.06f);
+  EXPECT_GT(world.prt.rays(), 0u);
+}
+
+TEST(PrtLights, CountLightOfTheObjectOnItselfOnce) {
+  World world(2);
+  addComplex(world.scene, test::sphereMesh(0.5f, 16, 0.1f), vec3(0.0f));
+  world.show({});
+  const vec3 p = world.render.positions[40], n = world.render.normals[40];
+  // A VPL where a path has hit it, and one next to it.
+  const Vpl on = brightVpl(p + rayEpsilon(p) * n, n, 1.0f);
+  const Vpl over = brightVpl(p + 0.01f * n, n, 1.0f);
+  EXPECT_TRUE(liesOn(*world.rays, 0, on));
+  EXPECT_FALSE(liesOn(*world.rays, 0, over));
+  world.show({on, over}, SceneChanges());
+  EXPECT_EQ(world.prt.held(0)[0], 1) << "nothing is left to pixels";
+  EXPECT_EQ(world.prt.held(0)[1], 0) << "too near to be blended";
+  for (const vec3& e : world.prt.irradiance(0)) EXPECT_EQ(e, vec3(0.0f));
+}
+
+TEST(PrtLights, LeaveOutWhatTheyWouldGetWrong) {
+  World world;
+  Scene& scene = world.scene;
+  const int glowing = test::addMaterial(scene, vec3(0.5f), vec3(1.0f));
+  addComplex(scene, test::sphereMesh(0.5f, 8, 0.0f, glowing), vec3(0, 0, 0));
+  // Two charts, and slivers about them.
+  test::addMesh(scene, test::boxMesh(vec3(2.0f, 0.05f, 2.0f)), vec3(5, 0, 0));
+  const NodeId flat = addComplex(scene, test::sphereMesh(0.5f, 8), vec3(10, 0, 0));
+  scene.find(flat)->local.scale = vec3(1, 0, 1);
+  addComplex(scene, test::sphereMesh(0.5f, 8), vec3(15, 0, 0));
+  world.show({brightVpl(vec3(7, 20, 0), vec3(0, -1, 0), 400.0f)});
+  EXPECT_TRUE(world.prt.irradiance(0).empty());
+  EXPECT_TRUE(world.prt.irradiance(1).empty());
+  EXPECT_TRUE(world.prt.irradiance(2).empty());
+  EXPECT_FALSE(world.prt.irradiance(3).empty());
+}
+
+TEST(PrtLights, LeaveNoTraceOfWhatWas) {
+  World world(1);
+  Scene& scene = world.scene;
+  const NodeId bumpy = addComplex(scene, test::sphereMesh(0.5f, 12, 0.1f), vec3(0.0f));
+  addComplex(scene, test::sphereMesh(0.4f, 10), vec3(2, 0, 0));
+  const NodeId box = test::addMesh(scene, test::boxMesh(vec3(0.5f)), vec3(1, 1, 0));
+  std::vector<Vpl> vpls;
+  for (int i = 0; i < 24; ++i) {
+    const float phi = 2.4f * static_cast<float>(i);
+    const vec3 at(4.0f * std::cos(phi), 1.0f + 0.2f * static_cast<float>(i), 4.0f * std::sin(phi));
+    vpls.push_back(brightVpl(at, -at, 1.0f + static_cast<float>(i)));
+  }
+  world.show(vpls);
+  EXPECT_TRUE(world.isAsFromNothing(vpls));
+
+  const auto moved = [](NodeId id) {
+    SceneChanges changes;
+    changes.moved = {id};
+    return changes;
+  };
+  scene.find(box)->local.translation = vec3(1.5f, 1.2f, 0.1f);
+  world.show(vpls, moved(box));
+  EXPECT_TRUE(world.isAsFromNothing(vpls)) << "an occluder moved";
+  scene.find(bumpy)->local.translation = vec3(0.3f, 0.2f, 0.1f);
+  scene.find(bumpy)->local.rotation = glm::normalize(quat(0.9f, 0.3f, 0.2f, 0.1f));
+  world.show(vpls, moved(bumpy));
+  EXPECT_TRUE(world.isAsFromNothing(vpls)) << "an object moved and turned";
+  vpls[3] = brightVpl(vec3(3, 5, 1), vec3(-1, -1, 0), 7.0f);
+  vpls[9].intensity *= 0.3f;
+  vpls[12] = Vpl{};
+  world.show(vpls, SceneChanges());
+  EXPECT_TRUE(world.isAsFromNothing(vpls)) << "lights changed, one went";
+  vpls.push_back(brightVpl(vec3(-3, 5, 1), vec3(1, -1, 0), 7.0f));
+  world.show(vpls, SceneChanges());
+  EXPECT_TRUE(world.isAsFromNothing(vpls)) << "one came";
+}
+
+TEST(PrtLights, KeepTheShadowsOfLightsThatWait) {
+  World world;
+  addComplex(world.scene, test::sphereMesh(0.5f, 12), vec3(0.0f));
+  const NodeId box = test::addMesh(world.scene, test::boxMesh(vec3(3, 0.2f, 3)), vec3(9, 2, 0));
+  const std::vector<Vpl> vpls{brightVpl(vec3(0, 9, 0), vec3(0, -1, 0), 40.0f)};
+  world.show(vpls);
+  const std::vector<vec3> lit(world.prt.irradiance(0).begin(), world.prt.irradiance(0).end());
+  world.scene.find(box)->local.translation = vec3(0, 2, 0);
+  SceneChanges edit;
+  edit.moved = {box};
+  const RenderSceneChanges changes = update(world.render, world.scene, edit);
+  world.rays->update(changes);
+  world.visibility.setScene(world.render, changes);
+  world.visibility.setLights(world.render, vpls);
+  const auto prt = [&](const RenderSceneChanges& c, bool upToDate) {
+    world.prt.update(world.render, c, *world.rays, world.visibility, vpls, {upToDate},
+                     world.options, true);
+  };
+  prt(changes, false);
+  EXPECT_TRUE(std::equal(lit.begin(), lit.end(), world.prt.irradiance(0).begin()));
+  world.visibility.refreshAll(world.render);
+  prt(RenderSceneChanges(), true);
+  for (const vec3& e : world.prt.irradiance(0)) EXPECT_EQ(e, vec3(0.0f));
+}
+
+TEST(PrtLights, HaveTheSameBitsAtAnyNumberOfThreads) {
+  const auto lit = [](int threads) {
+    const ThreadLimit limit(threads);
+    World world(1);
+    addComplex(world.scene, test::sphereMesh(0.5f, 16, 0.1f), vec3(0.0f));
+    world.show({brightVpl(vec3(0, 3, 1), vec3(0, -1, 0), 40.0f),
+                brightVpl(vec3(3, 1, 0), vec3(-1, 0, 0), 20.0f)});
+    const auto e = world.prt.irradiance(0);
+    return std::vector<vec3>(e.begin(), e.end());
+  };
+  EXPECT_EQ(lit(1), lit(4));
+}
+
+// Points that all blend are those a vertex is nearest to, and blending is continuous.
+TEST(LightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
+  Scene scene;
+  test::addMesh(scene, test::sphereMesh(0.5f, 48));
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  const RenderScene own = ownSceneOf(render, 0, ownSpaceOf(render.objects[0]).value());
+  EXPECT_EQ(placeLightPoints(own, 1).places.size(), 1u);
+  EXPECT_LT(glm::length(placeLightPoints(own, 1).places[0]), 1e-3f);
+  const LightPoints points = placeLightPoints(own, 16);
+  ASSERT_EQ(points.places.size(), 16u);
+  EXPECT_LT(points.spacing, 0.45f);
+  const auto weightsOf = [&](size_t v) {
+    std::array<float, 16> out{};
+    for (size_t k = 0; k < LightPoints::kBlended; ++k)
+      out[points.ofVertex[v].point[k]] += points.ofVertex[v].weight[k];
+    return out;
+  };
+  for (size_t v = 0; v + 1 < own.positions.size(); ++v) {
+    const auto here = weightsOf(v), next = weightsOf(v + 1);
+    float sum = 0.0f;
+    const float step = glm::distance(own.positions[v], own.positions[v + 1]);
+    for (size_t i = 0; i < here.size(); ++i) {
+      sum += here[i];
+      // Steps along a ring are 0.033 m and less; those to the next ring start at the same place.
+      if (step < 0.1f) {
+        EXPECT_NEAR(here[i], next[i], 12.0f * step + 1e-4f);
+      }
+    }
+    EXPECT_NEAR(sum, 1.0f, 1e-5f);
+  }
+}
+
+TEST(LightPoints, AreAsManyAsTheSizeAsksFor) {
+  EXPECT_EQ(lightPointsFor(0.1f, 32), 1);
+  EXPECT_EQ(lightPointsFor(1.0f, 128), 64);
+  EXPECT_EQ(lightPointsFor(1.0f, 8), 8);
+  EXPECT_EQ(lightPointsFor(100.0f, 1000), kMostLightPoints);
+  EXPECT_EQ(lightPointsFor(1e30f, 32), 32);
+}
+
+}  // namespace
+}  // namespace lamplighter
