@@ -79,8 +79,9 @@ class Session {
   // Renders one frame of what changed and keeps it. `output().settled` says when it is done. When
   // it cannot be rendered (no memory for that many maps, say) the last picture stays, renderError()
   // and the status say why, and nothing of the work is lost.
-  // `updates` stands in for the setting of that name: what fits into the time of a frame.
-  const GiOutput& renderFrame(std::optional<int> updates = {});
+  // `updates` stands in for the setting of that name: what fits into the time of a frame. By
+  // `refineUpdates` light samples a picture at rest may be refined; 0: it stays as it is.
+  const GiOutput& renderFrame(std::optional<int> updates = {}, int refineUpdates = 0);
   const std::string& renderError() const { return renderError_; }  // "": it was rendered
   const GiOutput& output() const { return output_; }
   // Which view of the frame is shown.

@@ -28,7 +28,7 @@ GiOutput FrameRenderer::render(const Request& request) {
     method_->reset();  // another scene: nothing of the last one may show in it
   }
   return method_->render({scene_, changes, *rays_, request.view, *backend_, request.settings,
-                          frame_++, stopwatch_, request.lightOnly});
+                          frame_++, stopwatch_, request.lightOnly, request.refineUpdates});
 }
 
 void FrameRenderer::restart() {

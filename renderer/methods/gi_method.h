@@ -31,6 +31,8 @@ struct FrameInputs {
   uint32_t frame = 0;  // counts from 0
   Stopwatch stopwatch;
   bool lightOnly = false;  // what is seen is shown as if it were white; bounces are as ever
+  // Light samples by which a settled picture may be refined in this frame; 0: it stays as it is.
+  int refineUpdates = 0;
 };
 
 struct GiStats {
@@ -47,13 +49,17 @@ struct GiStats {
   // Of the last sum, where passes are merged: drawn, and fewer than object by object.
   int mergedPasses = 0, passesSaved = 0;
   int samplesPerPixel = 0;
+  // A settled picture that is refined: VPLs it is the mean of, those it is to be, and how many came
+  // nearer this frame.
+  int vplsRefined = 0, vplsToRefine = 0, mapsRefined = 0;
   std::map<std::string, double> stageSeconds;  // by stage name
 };
 
 struct GiOutput {
   std::shared_ptr<RadianceImage> radiance;
   bool includesDirect = true;
-  bool settled = false;  // rendering the same inputs again changes nothing
+  bool settled = false;  // rendering the same inputs again changes nothing but to refine it
+  bool refined = true;   // nor that: it is refined as far as was asked for, or not at all
   GiStats stats;
 };
 

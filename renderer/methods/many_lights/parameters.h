@@ -16,5 +16,6 @@ const ParameterSpec& lightMapTexel();  // float, m
 const ParameterSpec& lightsPerPass();  // int, VPLs that one draw of the gl backend takes
 const ParameterSpec& mergePasses();    // bool, gl backend: by merged passes
 const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled
+const ParameterSpec& refine();         // int, VPLs in all; heeded where the caller lets it
 
 }  // namespace lamplighter::parameters
