@@ -1,6 +1,7 @@
 #include "renderer/methods/many_lights/near_light.h"
 
 #include <algorithm>
+#include <array>
 
 #include <tbb/parallel_for.h>
 
@@ -11,9 +12,11 @@
 namespace lamplighter {
 namespace {
 
-// VPLs that light a point where a ray arrives: with fewer the noise of their choice shows, more
-// cost more than they bring, for other pixels and sets take others.
-constexpr int kVplsAPoint = 4;
+// Directions in which a pixel looks for a surface nearby, for each set.
+constexpr uint32_t kPathsAPixel = 2;
+// VPLs that are tried for a point where such a ray arrives, and rays to the best of them: what is
+// too few here shows as noise along edges.
+constexpr int kVplsTried = 32, kRaysAPoint = 2;
 // Share of the choice that does not look at how bright they are: a sun's irradiance and a lamp's
 // intensity cannot be compared.
 constexpr float kEvenShare = 0.5f;
@@ -62,9 +65,13 @@ vec3 NearLight::pixel(const View& view, vec2 at, uint32_t index) const {
   const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
   const vec3 normal = side * s.geometricNormal;
   const Place from{s.position + rayEpsilon(s.position) * normal, normal};
-  PathSampler sampler(index, options_.sample, options_.seed);
   const vec3 albedo = options_.white ? vec3(1.0f) : s.albedo;
-  return albedo * gather(from, side * s.normal, sampler);
+  vec3 sum(0.0f);
+  for (uint32_t path = 0; path < kPathsAPixel; ++path) {
+    PathSampler sampler(index, options_.sample * kPathsAPixel + path, options_.seed);
+    sum += gather(from, side * s.normal, sampler);
+  }
+  return albedo * sum * (1.0f / kPathsAPixel);
 }
 
 // By directions in proportion to the cosine, the true light less the clamped is
@@ -75,7 +82,7 @@ vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampl
   vec3 sum(0.0f), throughput(1.0f), about = shadingNormal;
   for (int bounces = options_.bounces; bounces >= 0; --bounces) {
     const vec3 direction = Frame(about).toWorld(sampleCosineHemisphere(sampler.next2()));
-    const float u = sampler.next1();
+    const vec2 u = sampler.next2();
     if (glm::dot(direction, from.normal) <= 0.0f) break;
     const Hit hit = rays_.intersect({from.position, 0.0f, direction, reach});
     if (!hit) break;
@@ -95,28 +102,50 @@ vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampl
   return sum;
 }
 
-// An estimate of the VPLs' clamped irradiance.
-vec3 NearLight::irradiance(const Place& at, const Choice& choice, float u) const {
+// An estimate of the VPLs' clamped irradiance: of those tried, rays go to some in proportion to
+// what they would give if nothing stood between (Talbot et al., "Importance Resampling for Global
+// Illumination", 2005).
+vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const {
   vec3 sum(0.0f);
   if (choice.vpls.empty()) return sum;
-  for (int k = 0; k < kVplsAPoint; ++k) {
-    const float below = (static_cast<float>(k) + u) / kVplsAPoint * choice.upTo.back();
+  struct Candidate {
+    const shared::Vpl* vpl;
+    vec3 irradiance;  // over the probability of having tried it
+    float upTo;       // sum of brightness, this one's included
+  };
+  std::array<Candidate, kVplsTried> tried;
+  float total = 0.0f;
+  for (int k = 0; k < kVplsTried; ++k) {
+    const float below = (static_cast<float>(k) + u.x) / kVplsTried * choice.upTo.back();
     const auto it = std::upper_bound(choice.upTo.begin(), choice.upTo.end() - 1, below);
     const float probability = *it - (it == choice.upTo.begin() ? 0.0f : *(it - 1));
     const shared::Vpl& vpl = vpls_[choice.vpls[static_cast<size_t>(it - choice.upTo.begin())]].vpl;
     const float geometry =
         shared::vplGeometry(vpl, at.position, at.normal, at.normal, options_.clampDistance);
-    if (geometry <= 0.0f || !(probability > 0.0f)) continue;
-    Ray ray{at.position, 0.0f, vec3(vpl.normal)};
-    if (vpl.position.w != shared::kVplDirectional) {
-      const vec3 way = vec3(vpl.position) - at.position;
-      ray.tFar = glm::length(way);
-      ray.direction = way / ray.tFar;
-    }
-    if (rays_.occluded(ray)) continue;
-    sum += vec3(vpl.intensity) * (geometry / probability);
+    const float weight = probability > 0.0f ? choice.upTo.back() / probability : 0.0f;
+    total += geometry * weight * brightness(vpl);
+    tried[static_cast<size_t>(k)] = {&vpl, geometry * weight * vec3(vpl.intensity), total};
   }
-  return sum * (choice.upTo.back() / kVplsAPoint);
+  if (!(total > 0.0f)) return sum;
+  for (int k = 0; k < kRaysAPoint; ++k) {
+    const float below = (static_cast<float>(k) + u.y) / kRaysAPoint * total;
+    const auto it =
+        std::upper_bound(tried.begin(), tried.end() - 1, below,
+                         [](float value, const Candidate& c) { return value < c.upTo; });
+    const float share = it->upTo - (it == tried.begin() ? 0.0f : (it - 1)->upTo);
+    if (share > 0.0f && sees(at, *it->vpl)) sum += it->irradiance * (total / share);
+  }
+  return sum * (1.0f / (kVplsTried * kRaysAPoint));
+}
+
+bool NearLight::sees(const Place& at, const shared::Vpl& vpl) const {
+  Ray ray{at.position, 0.0f, vec3(vpl.normal)};
+  if (vpl.position.w != shared::kVplDirectional) {
+    const vec3 way = vec3(vpl.position) - at.position;
+    ray.tFar = glm::length(way);
+    ray.direction = way / ray.tFar;
+  }
+  return !rays_.occluded(ray);
 }
 
 }  // namespace lamplighter

@@ -43,7 +43,8 @@ class NearLight {
   };
   vec3 pixel(const View& view, vec2 at, uint32_t index) const;
   vec3 gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const;
-  vec3 irradiance(const Place& at, const Choice& choice, float u) const;
+  vec3 irradiance(const Place& at, const Choice& choice, vec2 u) const;
+  bool sees(const Place& at, const shared::Vpl& vpl) const;
 
   const RenderScene& scene_;
   const RayCaster& rays_;

@@ -21,7 +21,7 @@ constexpr size_t kMostMapBytes = size_t{64} << 20;
 
 // Direct light needs fewer VPLs than bounced light, whose VPLs lie next to what they light. The
 // live picture, where a light is being moved, may want it otherwise.
-constexpr float kDirectShare = 0.25f;
+constexpr float kDirectShare = 0.125f;
 
 constexpr uint32_t kJitterSet = 0x3d, kNearSet = 0x4d;
 
