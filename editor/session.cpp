@@ -275,7 +275,7 @@ std::optional<Session::Place> Session::surfaceAhead(const std::vector<NodeId>& i
   return surfaceAlong(view_.forward(), ignored);
 }
 
-const GiOutput& Session::renderFrame(std::optional<int> updates) {
+const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
   const SceneChanges changes = history_.takeChanges();
   renderError_.clear();
   const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
@@ -283,7 +283,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates) {
   if (updates) settings.set(parameters::updates().name, *updates);
   try {
     output_ = renderer_->render({document_.scene, changes, view_, document_.render.method, settings,
-                                 display_.lightOnly(), updates.has_value()});
+                                 display_.lightOnly(), updates.has_value(), refineUpdates});
     const bool same = output_.settled && output_.radiance == before && changes.none();
     display_.update(*renderer_, view_, document_.render, !same);
   } catch (const InputError& e) {
@@ -291,7 +291,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates) {
     renderError_ = status_ = e.what();
     if (!output_.radiance)
       output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
-    output_.settled = true;  // trying the same again changes nothing
+    output_.settled = output_.refined = true;  // trying the same again changes nothing
   }
   ++frame_;
   return output_;

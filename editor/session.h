@@ -80,8 +80,9 @@ class Session {
   // it cannot be rendered (no memory for that many maps, say) the last picture stays, renderError()
   // and the status say why, and nothing of the work is lost.
   // `updates` stands in for the setting of that name: what fits into the time of a frame. Frames by
-  // time do not wait for what is prepared in the background; all others do.
-  const GiOutput& renderFrame(std::optional<int> updates = {});
+  // time do not wait for what is prepared in the background; all others do. By `refineUpdates`
+  // light samples a picture at rest may be refined; 0: it stays as it is.
+  const GiOutput& renderFrame(std::optional<int> updates = {}, int refineUpdates = 0);
   const std::string& renderError() const { return renderError_; }  // "": it was rendered
   const GiOutput& output() const { return output_; }
   // Which view of the frame is shown.

@@ -23,6 +23,8 @@ class FrameRenderer {
     const Settings& settings;
     bool lightOnly = false;     // what is seen is shown as if it were white
     bool inBackground = false;  // FrameInputs
+    // Light samples by which a settled picture may be refined in this frame; 0: it stays as it is.
+    int refineUpdates = 0;
   };
   // One frame. Throws InputError for an unknown method.
   GiOutput render(const Request& request);

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # How far both methods are from the independent pictures of the Cornell box, as rows of Markdown
-# tables: the reference at growing sample counts, many_lights at growing counts of light samples.
+# tables: the reference at growing sample counts, many_lights at growing counts of light samples,
+# and refined to growing counts.
 # usage: tests/accuracy.sh LAMPLIGHTER [SPP...]   (./dev accuracy; 4096 paths take half an hour)
 set -eu
 cd "$(dirname "$0")/.."
@@ -28,6 +29,11 @@ echo "| --- | --- | --- | --- | --- |"
 for vpls in 300 1024 4096; do
   for bounces in 0 1 5; do
     row "many_lights, $vpls light samples" cornell $bounces --method many_lights --vpls "$vpls"
+  done
+done
+for vpls in 1024 4096 16384 65536; do
+  for bounces in 0 1 5; do
+    row "many_lights, refined to $vpls light samples" cornell $bounces --method many_lights --set "refine=$vpls"
   done
 done
 for spp in "$@"; do

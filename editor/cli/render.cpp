@@ -26,6 +26,8 @@ namespace lamplighter::cli {
 
 namespace {
 
+constexpr int kAllAtOnce = 65536;
+
 bool has(const MethodInfo& method, const std::string& name) {
   for (const ParameterSpec& p : method.parameters) {
     if (p.name == name) return true;
@@ -37,7 +39,9 @@ Settings settingsOf(const RenderOptions& o, const MethodInfo& method) {
   Settings settings;
   // Nobody watches the frames in between: as much a frame as there is. The settled picture is the
   // same.
-  if (has(method, "updates")) settings.set("updates", 65536);
+  if (has(method, "updates")) settings.set("updates", kAllAtOnce);
+  // What a settled picture is refined to must be asked for: it takes its time.
+  if (has(method, "refine")) settings.set("refine", 0);
   if (has(method, "samples_per_frame")) settings.set("samples_per_frame", 16);
 
   struct Shortcut {
@@ -116,6 +120,7 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   j["vpls"] = out.stats.vpls;
   if (out.stats.mergedPasses > 0)
     j["merged_passes"] = {{"drawn", out.stats.mergedPasses}, {"saved", out.stats.passesSaved}};
+  if (out.stats.vplsToRefine > 0) j["vpls_refined"] = out.stats.vplsRefined;
   j["samples_per_pixel"] = out.stats.samplesPerPixel;
   j["shadow_maps"] = counts.shadowMaps;
   j["light_pixels"] = counts.lightPixels;
@@ -194,8 +199,8 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   GiOutput out;
   ProgressLine progress;
   do {
-    out = renderer.render(
-        {loaded.scene, changes, view, o.method, settings, debugView == DebugView::lightOnly});
+    out = renderer.render({loaded.scene, changes, view, o.method, settings,
+                           debugView == DebugView::lightOnly, false, kAllAtOnce});
     if (totals.frames == 0) requireView(renderer, debugView, o);
     changes = SceneChanges();
     ++totals.frames;
@@ -203,10 +208,14 @@ int render(const RenderOptions& o, const Frontend& frontend) {
     totals.visibilityTests += out.stats.visibilityTests;
     for (const auto& [stage, seconds] : out.stats.stageSeconds)
       totals.stageSeconds[stage] += seconds;
-    progress.show(fmt::format("{}: frame {}, {} light samples pending, {} samples a pixel",
-                              o.method, totals.frames, out.stats.vplsPending,
-                              out.stats.samplesPerPixel));
-  } while (!out.settled);
+    std::string line =
+        fmt::format("{}: frame {}, {} light samples pending, {} samples a pixel", o.method,
+                    totals.frames, out.stats.vplsPending, out.stats.samplesPerPixel);
+    if (out.stats.vplsToRefine > 0)
+      line += fmt::format(", refined to {} of {} light samples", out.stats.vplsRefined,
+                          out.stats.vplsToRefine);
+    progress.show(line);
+  } while (!out.settled || !out.refined);
   const Image& image = out.radiance->pixels();
   totals.renderSeconds = frontend.stopwatch() - start - totals.loadSeconds;
 

@@ -36,6 +36,8 @@ struct FrameInputs {
   // every frame is the same each time.
   bool inBackground = false;
   std::filesystem::path cacheFolder;  // for what is prepared; empty: it is not kept
+  // Light samples by which a settled picture may be refined in this frame; 0: it stays as it is.
+  int refineUpdates = 0;
 };
 
 struct GiStats {
@@ -54,13 +56,17 @@ struct GiStats {
   int transfersPending = 0;    // objects' transfers that are being prepared
   float transferShare = 1.0f;  // that is done of the first of them
   int samplesPerPixel = 0;
+  // A settled picture that is refined: VPLs it is the mean of, those it is to be, and how many came
+  // nearer this frame.
+  int vplsRefined = 0, vplsToRefine = 0, mapsRefined = 0;
   std::map<std::string, double> stageSeconds;  // by stage name
 };
 
 struct GiOutput {
   std::shared_ptr<RadianceImage> radiance;
   bool includesDirect = true;
-  bool settled = false;  // rendering the same inputs again changes nothing
+  bool settled = false;  // rendering the same inputs again changes nothing but to refine it
+  bool refined = true;   // nor that: it is refined as far as was asked for, or not at all
   GiStats stats;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "renderer/sampling/low_discrepancy.h"
@@ -24,7 +25,7 @@ constexpr uint32_t kChoiceDimension = 100;
 constexpr float kWholeScene = 1.0001f;
 // Squares that one sun may take: an eighth of the level's width each way if it is even.
 constexpr int kMostSquares = 64;
-constexpr uint32_t kDirectSet = 0x0d, kIndirectSet = 0x1d;
+constexpr uint32_t kDirectSet = 0x0d, kIndirectSet = 0x1d, kBatchSet = 0x2d;
 
 bool isBlack(const vec3& c) { return !(c.r > 0.0f || c.g > 0.0f || c.b > 0.0f); }
 
@@ -42,6 +43,8 @@ class Generator {
         rays_(rays),
         lights_(lights),
         counts_(counts),
+        seed_(counts.batch == 0 ? counts.seed : hash4(counts.seed, 0, 0, kBatchSet)),
+        turn_(counts.batch == 0 ? 0 : hash4(counts.seed, counts.batch, 0, kBatchSet)),
         parallelStart_(scene, lights.sceneCentre(), lights.sceneRadius()) {}
 
   VplSet run() {
@@ -57,7 +60,8 @@ class Generator {
       indirectShares.push_back({luminance(e.flux), 1, false});
     }
     const SampleCounts directCounts = shareSamples(directShares, direct);
-    const SampleCounts indirectCounts = shareSamples(indirectShares, total - direct);
+    const SampleCounts indirectCounts =
+        shareSamples(indirectShares, walksPaths() ? counts_.paths : total - direct);
     std::map<NodeId, uint32_t> emittersOfNode;
     for (size_t i = 0; i < emitters.size(); ++i) {
       emitter_ = static_cast<int>(i);
@@ -80,10 +84,15 @@ class Generator {
 
   // Two coordinates of the point `index` of the current emitter's sequence, stable in index.
   vec2 point(uint32_t index, uint32_t dimension, uint32_t set) const {
-    const uint32_t scramble = hash4(id_.light, id_.emitter, counts_.seed, set);
+    const uint32_t scramble = hash4(id_.light, id_.emitter, seed_, set);
     // Padded dimensions must not walk in step, so all but the first are shuffled.
     return dimension == kPlaceDimension ? sobol2Ordered(index, scramble)
                                         : sobol2(index, hash4(scramble, dimension, 0, 0));
+  }
+
+  // Where a batch goes on in a sequence of which each takes `count` points.
+  uint32_t firstIndex(int count) const {
+    return counts_.batch == 0 ? 0 : (counts_.batch - 1) * static_cast<uint32_t>(count);
   }
 
   // Turned about the normal by chance, so that the texel grids of many maps do not line up on the
@@ -91,7 +100,7 @@ class Generator {
   vec3 turnedTangent(const vec3& normal) const {
     const Frame frame(normal);
     const float angle =
-        2.0f * kPi * toUnitFloat(hash4(id_.light, id_.emitter, id_.bounce, id_.index));
+        2.0f * kPi * toUnitFloat(hash4(id_.light, id_.emitter, id_.bounce, id_.index ^ turn_));
     return glm::normalize(std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent);
   }
 
@@ -106,9 +115,10 @@ class Generator {
   void addDirect(const Emitter& e, int count, float scale) {
     if (count <= 0) return;
     id_.bounce = 0;
+    const uint32_t begin = firstIndex(count), end = begin + static_cast<uint32_t>(count);
     switch (e.kind) {
       case EmitterKind::surface:
-        for (id_.index = 0; id_.index < static_cast<uint32_t>(count); ++id_.index) {
+        for (id_.index = begin; id_.index < end; ++id_.index) {
           const SurfacePoint p = surfacePoint(e, id_.index, kDirectSet);
           const vec3 intensity = scale * p.flux / (kPi * static_cast<float>(count));
           add(shared::kVplCosine, p.position, p.normal, intensity);
@@ -118,7 +128,7 @@ class Generator {
         addPunctual(scene_.punctuals[e.punctual], count, scale);
         break;
       case EmitterKind::sky:
-        for (id_.index = 0; id_.index < static_cast<uint32_t>(count); ++id_.index) {
+        for (id_.index = begin; id_.index < end; ++id_.index) {
           const vec3 towards = sampleSphere(point(id_.index, kDirectionDimension, kDirectSet));
           const vec3 irradiance = scale * 4.0f * kPi / static_cast<float>(count) * scene_.sky;
           addDirectional(towards, irradiance);
@@ -243,26 +253,30 @@ class Generator {
     return {p.position + lights_.sceneRadius() * towards, -towards, irradiance / p.pdf};
   }
 
-  // Paths until there are `count` VPLs. One that would leave too many is not begun, so that its
-  // last bounces are not cut off: that would favour the first ones.
+  bool walksPaths() const { return counts_.paths > 0; }
+
+  // `count` paths, or paths until there are `count` VPLs. One that would leave too many is not
+  // begun, so that its last bounces are not cut off: that would favour the first ones.
   void addIndirect(const Emitter& e, int count, float scale) {
     if (count <= 0 || counts_.bounces <= 0) return;
     const size_t first = result_.vpls.size();
-    const uint32_t cap = kPathsPerVpl * static_cast<uint32_t>(count);
+    const uint32_t cap = (walksPaths() ? 1 : kPathsPerVpl) * static_cast<uint32_t>(count);
+    const size_t most = walksPaths() ? std::numeric_limits<size_t>::max() : count;
+    const uint32_t begin = firstIndex(count);
     uint32_t paths = 0;
-    while (paths < cap && result_.vpls.size() - first < static_cast<size_t>(count)) {
-      id_.index = paths;
+    while (paths < cap && result_.vpls.size() - first < most) {
+      id_.index = begin + paths;
       const size_t before = result_.vpls.size();
-      walk(depart(e, paths));
-      if (result_.vpls.size() - first > static_cast<size_t>(count) && before > first) {
+      walk(depart(e, id_.index));
+      if (result_.vpls.size() - first > most && before > first) {
         result_.vpls.resize(before);
         break;
       }
       ++paths;
     }
     // Only a path longer than all VPLs together is cut.
-    if (result_.vpls.size() - first > static_cast<size_t>(count))
-      result_.vpls.resize(first + count);
+    if (result_.vpls.size() - first > most) result_.vpls.resize(first + most);
+    result_.paths += static_cast<int>(paths);
     const float share = scale / static_cast<float>(std::max(paths, 1u));
     for (size_t i = first; i < result_.vpls.size(); ++i) {
       vec4& intensity = result_.vpls[i].vpl.intensity;
@@ -293,6 +307,7 @@ class Generator {
   const RayCaster& rays_;
   const LightSet& lights_;
   const VplCounts& counts_;
+  uint32_t seed_, turn_;
   ParallelStart parallelStart_;
   VplSet result_;
   int emitter_ = 0;

@@ -39,11 +39,22 @@ struct VplCounts {
   float directShare = 0.5f;  // without bounces all are direct
   int bounces = 2;
   uint32_t seed = 1;
+  // 0: the set that is shown live. Batches 1, 2, … of the same counts go on one after the other in
+  // sequences of their own, each with its maps turned otherwise, so that their mean is a picture
+  // with as many samples as all of them together. They want `paths`.
+  uint32_t batch = 0;
+  // Paths to walk, however many indirect VPLs they leave; 0: until there are enough of these. Then
+  // how many there are depends on how long they are, a small error that the mean of many sets
+  // keeps.
+  int paths = 0;
+
+  bool operator==(const VplCounts&) const = default;
 };
 
 struct VplSet {
   std::vector<SceneVpl> vpls;  // sorted by emitter, direct ones first
   uint64_t rays = 0;           // traced to find them
+  int paths = 0;               // walked
 };
 
 // Lights get samples in proportion to their flux, each at least one; when there are not enough for

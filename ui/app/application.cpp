@@ -32,6 +32,13 @@ void beginPanel(const char* id, const Rect& rect, bool scrolls = true) {
   ImGui::Begin(id, nullptr, flags);
 }
 
+// What a frame did to refine the picture, as if that were refreshes: it costs otherwise, so that
+// its pace is found on its own.
+GiStats refinementOf(GiStats stats) {
+  stats.mapsRendered = stats.mapsRefined;
+  return stats;
+}
+
 }  // namespace
 
 Application::Application(Platform& platform, std::unique_ptr<Session> session)
@@ -61,8 +68,9 @@ void Application::frame() {
   const PanelContext ui{*session_, widgets_, platform_.contentScale(), ""};
   drawPanels(ui);
   viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
-  session_->renderFrame(updatesWithinTime());
+  session_->renderFrame(updatesWithinTime(), refineUpdates());
   frameTime_.measured(session_->output().stats);
+  refineTime_.measured(refinementOf(session_->output().stats));
   if (framesToExposure_ > 0 && (--framesToExposure_ == 0 || session_->output().settled)) {
     framesToExposure_ = 0;
     exposeAutomatically();
@@ -132,6 +140,16 @@ std::optional<int> Application::updatesWithinTime() {
   if (timeStep_ > 0.0f || milliseconds == 0.0f) return std::nullopt;
   return std::min(settings.integer(parameters::updates()),
                   frameTime_.vplsWithin(1e-3 * milliseconds));
+}
+
+// At rest the same time goes into making the picture better; not where work goes by counts.
+int Application::refineUpdates() {
+  const Settings& settings = session_->document().render.values;
+  const float milliseconds = settings.real(parameters::frameTime());
+  if (timeStep_ > 0.0f) return 0;
+  const int updates = settings.integer(parameters::updates());
+  return milliseconds == 0.0f ? updates
+                              : std::min(updates, refineTime_.vplsWithin(1e-3 * milliseconds));
 }
 
 // After the frame was rendered: it tells of the picture beside it, not of the one before.
@@ -306,7 +324,7 @@ bool Application::idle() const {
   // A few frames more, for what reacts a frame late: hover colours, layouts, popups.
   constexpr int kAfterglow = 4;
   return quietFrames_ > kAfterglow && input_.empty() && session_->output().settled &&
-         !loader_.running();
+         session_->output().refined && !loader_.running();
 }
 
 }  // namespace lamplighter

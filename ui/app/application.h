@@ -64,6 +64,7 @@ class Application {
   void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
   std::optional<int> updatesWithinTime();
+  int refineUpdates();
   void present();
   void takeLoaded();
   void answerRequests();
@@ -100,7 +101,7 @@ class Application {
   float timeStep_ = 0.0f;
   double lastSeconds_ = 0.0;
   double frameSeconds_ = 0.0;
-  FrameTimeControl frameTime_;
+  FrameTimeControl frameTime_, refineTime_;
   float dt_ = 1.0f / 60.0f;
   bool replaying_ = false;
   bool finished_ = false;

@@ -34,7 +34,14 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
   const GiOutput& output = ui.session.output();
   const GiStats& stats = output.stats;
   ImGui::AlignTextToFramePadding();
-  if (output.settled) {
+  if (output.settled && !output.refined) {
+    part(ui, "settled",
+         withIcon(icon::kSettled, "refining, " + grouped(stats.vplsRefined) + " of " +
+                                      grouped(stats.vplsToRefine) + " VPLs"),
+         theme::kGood,
+         "The picture is what the scene asks for. While nothing changes it becomes better: the "
+         "mean of more and more light samples.");
+  } else if (output.settled) {
     part(ui, "settled", withIcon(icon::kSettled, "settled"), theme::kGood,
          "The picture is what the scene asks for; another frame would change nothing.");
   } else {

@@ -52,7 +52,7 @@ class ManyLights::Stages {
   double last_ = 0.0;
 };
 
-ManyLights::Options::Options(const Settings& settings) {
+ManyLights::Options::Options(const Settings& settings, bool refines) {
   counts.total = settings.integer(parameters::vpls());
   counts.directShare = settings.real(parameters::directShare());
   counts.bounces = settings.integer(parameters::bounces());
@@ -79,12 +79,18 @@ ManyLights::Options::Options(const Settings& settings) {
   prt.transfer.bounces = std::min(counts.bounces, kMostTransferBounces);
   prt.mostPoints = settings.integer(parameters::prtPoints());
   prt.clampDistance = clampDistance;
+  refinement = {refines ? settings.integer(parameters::refine()) : 0,
+                counts,
+                mapResolution,
+                clampDistance,
+                shadowBias,
+                lightsPerPass};
 }
 
 GiOutput ManyLights::render(const FrameInputs& in) {
   GiOutput out;
   Stages stages(in, out.stats);
-  const Options options(in.settings);
+  const Options options(in.settings, in.refineUpdates > 0);
 
   // 1. Which VPLs the scene asks for, and which of those shown are out of date.
   takeScene(in, options);
@@ -123,6 +129,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     lights_.clearChanged();
     samples_ = 0;
   }
+  const bool refinesOtherwise =
+      options.refinement != options_.refinement || options.antialias != options_.antialias;
   options_ = options;
   lightOnly_ = in.lightOnly;
   started_ = true;
@@ -137,6 +145,12 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
   out.settled = isReady && samples_ == samples;
   out.radiance = out.settled && samples > 0 ? mean_ : image_;
+
+  // 6. And then made better and better, until something changes.
+  if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
+  if (out.settled && !shadedNow) refine(in, options, stages, out);
+  out.refined = out.settled && (options.refinement.vpls == 0 || refinement_.done());
+
   out.stats.vpls = lights_.live();
   out.stats.vplsPending = pending;
   out.stats.mapsPending = pending;
@@ -166,7 +180,10 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
     stats.mapsSpared = lights_.markStale(movers, isSpared);
   }
   if (options.mapResolution != options_.mapResolution) lights_.loseMaps();
-  in.backend.reserveShadowMaps(lights_.slots(), options.mapResolution);
+  // The backend forgets all maps when their number changes.
+  const int refining = Refinement::slots(options.refinement);
+  if (refining != Refinement::slots(options_.refinement)) lights_.loseMaps();
+  in.backend.reserveShadowMaps(lights_.slots() + refining, options.mapResolution);
 }
 
 int ManyLights::refreshLights(const FrameInputs& in, const Options& options) {
@@ -273,6 +290,18 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   return image;
 }
 
+void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
+                        GiOutput& out) {
+  if (options.refinement.vpls == 0) return;
+  gbufferIsCurrent_ = false;
+  out.stats.mapsRefined = refinement_.goOn(in, options.refinement, *out.radiance, lights_.live(),
+                                           lights_.slots(), in.refineUpdates);
+  if (refinement_.image()) out.radiance = refinement_.image();
+  out.stats.vplsRefined = refinement_.vpls();
+  out.stats.vplsToRefine = options.refinement.vpls;
+  stages.end("refinement");
+}
+
 void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages& stages) {
   const auto picture = shade(in, options, jitterOf(samples_, options.antialias), stages);
   const Image& sample = picture->pixels();
@@ -309,7 +338,8 @@ MethodInfo manyLightsInfo() {
            parameters::mergePasses(),
            parameters::prt(),
            parameters::prtPoints(),
-           parameters::antialias()},
+           parameters::antialias(),
+           parameters::refine()},
           [] { return std::make_unique<ManyLights>(); }};
 }
 

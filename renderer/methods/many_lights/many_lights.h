@@ -8,6 +8,7 @@
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/live_lights.h"
+#include "renderer/methods/many_lights/refinement.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/visibility/visibility_database.h"
 
@@ -26,7 +27,7 @@ class ManyLights final : public GiMethod {
 
   // Everything that the settings say, read once a frame.
   struct Options {
-    explicit Options(const Settings& settings);
+    Options(const Settings& settings, bool refines);
     Options() = default;
 
     VplCounts counts;
@@ -42,6 +43,7 @@ class ManyLights final : public GiMethod {
     bool mergePasses = false;
     bool usePrt = false;  // besides
     PrtLights::Options prt;
+    Refinement::Options refinement;
   };
 
   void takeScene(const FrameInputs& in, const Options& options);
@@ -53,6 +55,7 @@ class ManyLights final : public GiMethod {
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
+  void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out);
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
   bool started_ = false, lightOnly_ = false;
@@ -70,6 +73,7 @@ class ManyLights final : public GiMethod {
   Image sum_;
   int samples_ = 0, samplesWanted_ = 1;
   std::shared_ptr<RadianceImage> mean_;
+  Refinement refinement_;
 };
 
 MethodInfo manyLightsInfo();

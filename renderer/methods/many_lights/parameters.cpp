@@ -171,4 +171,20 @@ const ParameterSpec& antialias() {
   return spec;
 }
 
+const ParameterSpec& refine() {
+  static const ParameterSpec spec{
+      "refine",
+      "Refine to",
+      "",
+      "Light samples in all to which a picture at rest is refined in the editor's window, batch by "
+      "batch, with the light that the clamp takes away given back. 0: not at all. Recordings and "
+      "replays do without; render does only where it is set.",
+      65536,
+      0,
+      1 << 24,
+      true,
+      {}};
+  return spec;
+}
+
 }  // namespace lamplighter::parameters

@@ -18,5 +18,6 @@ const ParameterSpec& mergePasses();    // bool, gl backend: by merged passes
 const ParameterSpec& prt();            // bool, cpu backend: complex meshes by transfer
 const ParameterSpec& prtPoints();      // int, light points an object
 const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled
+const ParameterSpec& refine();         // int, VPLs in all; heeded where the caller lets it
 
 }  // namespace lamplighter::parameters

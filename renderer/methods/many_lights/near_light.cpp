@@ -1,0 +1,151 @@
+#include "renderer/methods/many_lights/near_light.h"
+
+#include <algorithm>
+#include <array>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/sampling/random.h"
+#include "renderer/scene/surface.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter {
+namespace {
+
+// Directions in which a pixel looks for a surface nearby, for each set.
+constexpr uint32_t kPathsAPixel = 2;
+// VPLs that are tried for a point where such a ray arrives, and rays to the best of them: what is
+// too few here shows as noise along edges.
+constexpr int kVplsTried = 32, kRaysAPoint = 2;
+// Share of the choice that does not look at how bright they are: a sun's irradiance and a lamp's
+// intensity cannot be compared.
+constexpr float kEvenShare = 0.5f;
+
+float brightness(const shared::Vpl& vpl) {
+  return std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
+}
+
+}  // namespace
+
+NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
+                     std::span<const SceneVpl> vpls, const Options& options)
+    : scene_(scene), rays_(rays), vpls_(vpls), options_(options) {
+  choices_.resize(static_cast<size_t>(std::max(options.bounces, 0)));
+  for (size_t bounce = 0; bounce < choices_.size(); ++bounce) {
+    Choice& choice = choices_[bounce];
+    float total = 0.0f;
+    for (size_t i = 0; i < vpls.size(); ++i) {
+      if (vpls[i].id.bounce > bounce) continue;
+      choice.vpls.push_back(static_cast<uint32_t>(i));
+      total += brightness(vpls[i].vpl);
+    }
+    const float even = kEvenShare / static_cast<float>(choice.vpls.size());
+    const float scale = total > 0.0f ? (1.0f - kEvenShare) / total : 0.0f;
+    float sum = 0.0f;
+    for (const uint32_t i : choice.vpls)
+      choice.upTo.push_back(sum += even + scale * brightness(vpls[i].vpl));
+  }
+}
+
+void NearLight::addRows(const View& view, vec2 jitter, int first, int last, Image& image) const {
+  tbb::parallel_for(first, last, [&](int y) {
+    for (int x = 0; x < view.width; ++x) {
+      const vec2 at = vec2(x, y) + 0.5f + jitter;
+      image.at(x, y) += pixel(view, at, static_cast<uint32_t>(y * view.width + x));
+    }
+  });
+}
+
+vec3 NearLight::pixel(const View& view, vec2 at, uint32_t index) const {
+  const vec3 direction = view.rayDirection(at.x, at.y);
+  const float tNear = view.znear / glm::dot(direction, view.forward());
+  const Hit hit = rays_.intersect({view.eye, tNear, direction}, Surfaces::seen);
+  if (!hit) return vec3(0.0f);
+  const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
+  const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
+  const vec3 normal = side * s.geometricNormal;
+  const Place from{s.position + rayEpsilon(s.position) * normal, normal};
+  const vec3 albedo = options_.white ? vec3(1.0f) : s.albedo;
+  vec3 sum(0.0f);
+  for (uint32_t path = 0; path < kPathsAPixel; ++path) {
+    PathSampler sampler(index, options_.sample * kPathsAPixel + path, options_.seed);
+    sum += gather(from, side * s.normal, sampler);
+  }
+  return albedo * sum * (1.0f / kPathsAPixel);
+}
+
+// By directions in proportion to the cosine, the true light less the clamped is
+//   mean of L(y) (1 − d²/d0²) over those whose surface y is nearer than d0, times π,
+// and L(y) is what y emits, and reflects of the VPLs' clamped light and, walking on, of the rest.
+vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const {
+  const float reach = options_.clampDistance;
+  vec3 sum(0.0f), throughput(1.0f), about = shadingNormal;
+  for (int bounces = options_.bounces; bounces >= 0; --bounces) {
+    const vec3 direction = Frame(about).toWorld(sampleCosineHemisphere(sampler.next2()));
+    const vec2 u = sampler.next2();
+    if (glm::dot(direction, from.normal) <= 0.0f) break;
+    const Hit hit = rays_.intersect({from.position, 0.0f, direction, reach});
+    if (!hit) break;
+    const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
+    const bool front = glm::dot(direction, s.geometricNormal) < 0.0f;
+    throughput *= std::max(0.0f, 1.0f - hit.t * hit.t / (reach * reach));
+    if (options_.emission && (front || s.emitsBothSides)) sum += throughput * s.emission;
+    if (bounces == 0) break;
+    throughput *= s.albedo;
+    if (throughput == vec3(0.0f)) break;
+    // The geometric normal, as VPLs have it: they are what must be made whole.
+    about = front ? s.geometricNormal : -s.geometricNormal;
+    from = {s.position + rayEpsilon(s.position) * about, about};
+    const Choice& choice = choices_[static_cast<size_t>(bounces - 1)];
+    sum += throughput * (1.0f / kPi) * irradiance(from, choice, u);
+  }
+  return sum;
+}
+
+// An estimate of the VPLs' clamped irradiance: of those tried, rays go to some in proportion to
+// what they would give if nothing stood between (Talbot et al., "Importance Resampling for Global
+// Illumination", 2005).
+vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const {
+  vec3 sum(0.0f);
+  if (choice.vpls.empty()) return sum;
+  struct Candidate {
+    const shared::Vpl* vpl;
+    vec3 irradiance;  // over the probability of having tried it
+    float upTo;       // sum of brightness, this one's included
+  };
+  std::array<Candidate, kVplsTried> tried;
+  float total = 0.0f;
+  for (int k = 0; k < kVplsTried; ++k) {
+    const float below = (static_cast<float>(k) + u.x) / kVplsTried * choice.upTo.back();
+    const auto it = std::upper_bound(choice.upTo.begin(), choice.upTo.end() - 1, below);
+    const float probability = *it - (it == choice.upTo.begin() ? 0.0f : *(it - 1));
+    const shared::Vpl& vpl = vpls_[choice.vpls[static_cast<size_t>(it - choice.upTo.begin())]].vpl;
+    const float geometry =
+        shared::vplGeometry(vpl, at.position, at.normal, at.normal, options_.clampDistance);
+    const float weight = probability > 0.0f ? choice.upTo.back() / probability : 0.0f;
+    total += geometry * weight * brightness(vpl);
+    tried[static_cast<size_t>(k)] = {&vpl, geometry * weight * vec3(vpl.intensity), total};
+  }
+  if (!(total > 0.0f)) return sum;
+  for (int k = 0; k < kRaysAPoint; ++k) {
+    const float below = (static_cast<float>(k) + u.y) / kRaysAPoint * total;
+    const auto it =
+        std::upper_bound(tried.begin(), tried.end() - 1, below,
+                         [](float value, const Candidate& c) { return value < c.upTo; });
+    const float share = it->upTo - (it == tried.begin() ? 0.0f : (it - 1)->upTo);
+    if (share > 0.0f && sees(at, *it->vpl)) sum += it->irradiance * (total / share);
+  }
+  return sum * (1.0f / (kVplsTried * kRaysAPoint));
+}
+
+bool NearLight::sees(const Place& at, const shared::Vpl& vpl) const {
+  Ray ray{at.position, 0.0f, vec3(vpl.normal)};
+  if (vpl.position.w != shared::kVplDirectional) {
+    const vec3 way = vec3(vpl.position) - at.position;
+    ray.tFar = glm::length(way);
+    ray.direction = way / ray.tFar;
+  }
+  return !rays_.occluded(ray);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,56 @@
+// The light that the clamp of 1/d² takes away, found by rays: what is missing comes from surfaces
+// nearer than the clamp distance (Kollig and Keller, "Illumination in the Presence of Weak
+// Singularities", 2004).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/image/image.h"
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/render_scene.h"
+#include "renderer/view.h"
+
+namespace lamplighter {
+
+// Under one set of VPLs, of which each pixel takes other ones: an estimate whose mean over many
+// sets is exact.
+class NearLight {
+ public:
+  struct Options {
+    int bounces = 0;
+    bool emission = true;  // the VPLs stand for lights themselves too
+    float clampDistance = 0.0f;
+    uint32_t seed = 0, sample = 0;  // which random numbers
+    bool white = false;             // what is seen is shown as if it were white
+  };
+  NearLight(const RenderScene& scene, const RayCaster& rays, std::span<const SceneVpl> vpls,
+            const Options& options);
+
+  // Adds the radiance to these rows of the view's picture, pixels moved by `jitter`.
+  void addRows(const View& view, vec2 jitter, int first, int last, Image& image) const;
+
+ private:
+  // VPLs that may still light a surface from which light bounces a given number of times on.
+  struct Choice {
+    std::vector<uint32_t> vpls;
+    std::vector<float> upTo;  // sum of probabilities, this one's included
+  };
+  struct Place {
+    vec3 position, normal;  // off its surface, on the lit side
+  };
+  vec3 pixel(const View& view, vec2 at, uint32_t index) const;
+  vec3 gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const;
+  vec3 irradiance(const Place& at, const Choice& choice, vec2 u) const;
+  bool sees(const Place& at, const shared::Vpl& vpl) const;
+
+  const RenderScene& scene_;
+  const RayCaster& rays_;
+  std::span<const SceneVpl> vpls_;
+  Options options_;
+  std::vector<Choice> choices_;  // by the number of bounces that a VPL may have behind it
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,141 @@
+#include "renderer/methods/many_lights/refinement.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/sampling/lights.h"
+#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/random.h"
+
+namespace lamplighter {
+namespace {
+
+// VPLs of a batch, nearly: enough that each light gets its share, few enough that pixels are
+// shifted a hundred times on the way to 65536.
+constexpr int kBatchVpls = 512;
+
+// Maps that are kept at a time: as many as fill a draw of the gl backend well, in so many bytes.
+constexpr int kMostSlots = 64;
+constexpr size_t kMostMapBytes = size_t{64} << 20;
+
+// Direct light needs fewer VPLs than bounced light, whose VPLs lie next to what they light. The
+// live picture, where a light is being moved, may want it otherwise.
+constexpr float kDirectShare = 0.125f;
+
+constexpr uint32_t kJitterSet = 0x3d, kNearSet = 0x4d;
+
+void addScaled(Image& sum, const Image& image, float scale) {
+  tbb::parallel_for(0, sum.height, [&](int y) {
+    for (int x = 0; x < sum.width; ++x) sum.at(x, y) += scale * image.at(x, y);
+  });
+}
+
+// Where in its pixels a batch looks. Never in their middle: that is the live picture's place.
+vec2 jitterOf(uint32_t batch, uint32_t seed) {
+  const vec2 jitter = sobol2(batch, hash4(seed, 0, 0, kJitterSet)) - 0.5f;
+  return jitter == vec2(0.0f) ? vec2(0.25f) : jitter;
+}
+
+}  // namespace
+
+int Refinement::slots(const Options& options) {
+  if (options.vpls == 0) return 0;
+  const size_t mapBytes = sizeof(float) * options.mapResolution * options.mapResolution;
+  return static_cast<int>(std::clamp<size_t>(kMostMapBytes / mapBytes, 1, kMostSlots));
+}
+
+void Refinement::restart() {
+  if (started_) *this = Refinement();
+}
+
+int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImage& live,
+                     int liveVpls, int firstSlot, int most) {
+  if (done_) return 0;
+  if (!started_) {
+    started_ = true;
+    vpls_ = liveVpls;
+    counts_ = options.counts;
+    counts_.total = kBatchVpls;
+    if (counts_.directShare < 1.0f)
+      counts_.directShare = std::min(counts_.directShare, kDirectShare);
+    // How many paths leave about as many VPLs.
+    const VplSet set = generateVpls(in.scene, in.rays, LightSet(in.scene), counts_);
+    counts_.paths = set.paths;
+    sum_ = Image(live.width(), live.height());
+    addScaled(sum_, live.pixels(), static_cast<float>(liveVpls));
+    weight_ = liveVpls;
+    done_ = set.vpls.empty() || vpls_ >= options.vpls;
+    if (done_) return 0;
+  }
+  if (!batch_) begin(in, options);
+  const size_t left = batch_->vpls.size() - batch_->summed;
+  const size_t count =
+      std::min({left, static_cast<size_t>(std::max(most, 1)), static_cast<size_t>(slots(options))});
+  addPart(in, options, firstSlot, count);
+  if (batch_->summed == batch_->vpls.size()) finishBatch(options.vpls);
+  return static_cast<int>(count);
+}
+
+void Refinement::begin(const FrameInputs& in, const Options& options) {
+  ++counts_.batch;
+  batch_ = std::make_unique<Batch>();
+  Batch& batch = *batch_;
+  batch.vpls = generateVpls(in.scene, in.rays, LightSet(in.scene), counts_).vpls;
+  batch.jitter = jitterOf(counts_.batch, counts_.seed);
+  batch.image = Image(in.view.width, in.view.height);
+  if (options.clampDistance > 0.0f)
+    batch.nearLight.emplace(
+        in.scene, in.rays, batch.vpls,
+        NearLight::Options{counts_.directShare < 1.0f ? counts_.bounces : 0,
+                           counts_.directShare > 0.0f || counts_.bounces == 0,
+                           options.clampDistance, hash4(counts_.seed, 0, 0, kNearSet),
+                           counts_.batch, in.lightOnly});
+  in.backend.renderGBuffer(in.view, batch.jitter);
+}
+
+// Some of the batch's VPLs, spread over all of it, as bright as all: what they show counts by their
+// share. So every picture is whole, with what emits and the sky in it.
+void Refinement::addPart(const FrameInputs& in, const Options& options, int firstSlot,
+                         size_t count) {
+  Batch& batch = *batch_;
+  const size_t all = batch.vpls.size(), end = batch.summed + count;
+  const float share = all == 0 ? 1.0f : static_cast<float>(count) / static_cast<float>(all);
+  std::vector<shared::Vpl> part;
+  for (size_t i = batch.summed; i < end; ++i) {
+    shared::Vpl vpl = batch.vpls[i].vpl;
+    vpl.intensity = vec4(vec3(vpl.intensity) / share,
+                         static_cast<float>(static_cast<size_t>(firstSlot) + part.size()));
+    part.push_back(vpl);
+  }
+  in.backend.renderShadowMaps(part);
+  in.backend.sumVpls(
+      part,
+      {vec4(options.clampDistance, options.shadowBias, static_cast<float>(options.mapResolution),
+            static_cast<float>(options.lightsPerPass))},
+      nullptr);
+  addScaled(batch.image, in.backend.compose(in.lightOnly)->pixels(), share);
+  if (batch.nearLight) {
+    const auto row = [&](size_t vpls) {
+      return all == 0 ? in.view.height
+                      : static_cast<int>(static_cast<size_t>(in.view.height) * vpls / all);
+    };
+    batch.nearLight->addRows(in.view, batch.jitter, row(batch.summed), row(end), batch.image);
+  }
+  batch.summed = end;
+}
+
+void Refinement::finishBatch(int target) {
+  // All batches count the same, however many VPLs their paths left.
+  addScaled(sum_, batch_->image, static_cast<float>(kBatchVpls));
+  weight_ += kBatchVpls;
+  vpls_ += std::max(static_cast<int>(batch_->vpls.size()), 1);
+  batch_.reset();
+  Image mean(sum_.width, sum_.height);
+  addScaled(mean, sum_, static_cast<float>(1.0 / weight_));
+  mean_ = std::make_shared<HostImage>(std::move(mean));
+  done_ = vpls_ >= target;
+  if (done_) sum_ = Image();
+}
+
+}  // namespace lamplighter

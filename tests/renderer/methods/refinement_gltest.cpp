@@ -1,0 +1,76 @@
+// A picture at rest that is refined on the gl backend.
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "tests/renderer/gl/gl_test.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+struct RefinementGl : test::GlTest {
+  Scene scene;
+  NodeId box = kNoNode;
+  View view = test::lookAt(vec3(1.2f, 1.6f, 1.3f), vec3(-0.4f, 0.7f, -0.5f), 64, 48, 1.1f);
+  Settings settings;
+
+  void SetUp() override {
+    test::GlTest::SetUp();
+    const int white = test::addMaterial(scene, vec3(0.7f, 0.6f, 0.5f));
+    test::addMesh(scene, test::roomMesh(vec3(3, 2.4f, 3), white), vec3(0, 1.2f, 0));
+    box = test::addMesh(scene, test::boxMesh(vec3(0.7f), white), vec3(-0.5f, 0.35f, -0.5f));
+    test::addRectangleLight(scene, vec3(0.2f, 2.2f, 0.1f), vec2(0.8f, 0.6f), vec3(10, 8, 6));
+    settings.set(parameters::vpls().name, 100);
+    settings.set(parameters::refine().name, 2000);
+  }
+
+  Image refined(FrameRenderer& renderer, const SceneChanges& changes) {
+    GiOutput out;
+    for (int frame = 0; frame < 1000; ++frame) {
+      out = renderer.render({scene, frame == 0 ? changes : SceneChanges(), view, "many_lights",
+                             settings, false, false, 64});
+      if (out.settled && out.refined) break;
+    }
+    EXPECT_TRUE(out.refined);
+    return out.radiance->pixels();
+  }
+};
+
+// The same batches on both; maps that are drawn instead of traced differ at silhouettes.
+TEST_F(RefinementGl, IsThatOfTheCpuBackend) {
+  FrameRenderer onGl(makeGlBackend()), onCpu(makeCpuBackend());
+  const Metrics m =
+      compareImages(refined(onGl, SceneChanges::all()), refined(onCpu, SceneChanges::all()));
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  EXPECT_LT(m.relRmse, 0.01);
+  EXPECT_NEAR(m.bias, 1.0, 0.001);
+}
+
+// An edit on the way leaves no trace, in the live picture nor in the next refined one.
+TEST_F(RefinementGl, AnEditLeavesNoTrace) {
+  FrameRenderer renderer(makeGlBackend());
+  refined(renderer, SceneChanges::all());
+  for (int frames : {1, 12}) {
+    const Scene old = scene;
+    scene.find(box)->local.translation.x += 0.1f;
+    SceneChanges changes = compare(old, scene);
+    GiOutput out;
+    do {
+      out = renderer.render({scene, changes, view, "many_lights", settings, false, false, 64});
+      changes = SceneChanges();
+    } while (!out.settled);
+    FrameRenderer fresh(makeGlBackend());
+    const GiOutput live = test::renderSettled(fresh, scene, SceneChanges::all(), view, settings);
+    EXPECT_TRUE(test::sameBits(out.radiance->pixels(), live.radiance->pixels()));
+    for (int i = 0; i < frames; ++i)
+      renderer.render({scene, {}, view, "many_lights", settings, false, false, 64});
+  }
+  FrameRenderer fresh(makeGlBackend());
+  EXPECT_TRUE(test::sameBits(refined(renderer, {}), refined(fresh, SceneChanges::all())));
+}
+
+}  // namespace
+}  // namespace lamplighter
