@@ -15,6 +15,10 @@ namespace {
 // shifted a hundred times on the way to 65536.
 constexpr int kBatchVpls = 512;
 
+// Each, a quarter of its VPLs, has its pixels shifted otherwise: else the first batches would undo
+// what `antialias` did for edges.
+constexpr int kShifts = 4;
+
 // Maps that are kept at a time: as many as fill a draw of the gl backend well, in so many bytes.
 constexpr int kMostSlots = 64;
 constexpr size_t kMostMapBytes = size_t{64} << 20;
@@ -31,9 +35,10 @@ void addScaled(Image& sum, const Image& image, float scale) {
   });
 }
 
-// Where in its pixels a batch looks. Never in their middle: that is the live picture's place.
-vec2 jitterOf(uint32_t batch, uint32_t seed) {
-  const vec2 jitter = sobol2(batch, hash4(seed, 0, 0, kJitterSet)) - 0.5f;
+// Where in its pixels a part of a batch looks. Never in their middle: that is the live picture's
+// place.
+vec2 jitterOf(uint32_t shift, uint32_t seed) {
+  const vec2 jitter = sobol2(shift, hash4(seed, 0, 0, kJitterSet)) - 0.5f;
   return jitter == vec2(0.0f) ? vec2(0.25f) : jitter;
 }
 
@@ -69,11 +74,21 @@ int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImag
     if (done_) return 0;
   }
   if (!batch_) begin(in, options);
-  const size_t left = batch_->vpls.size() - batch_->summed;
+  Batch& batch = *batch_;
+  if (batch.shift < 0 || batch.summed >= endOfShift(batch.shift)) {
+    // A share of a batch of few VPLs may be empty.
+    do {
+      ++batch.shift;
+    } while (batch.shift + 1 < kShifts && batch.summed >= endOfShift(batch.shift));
+    batch.jitter =
+        jitterOf(kShifts * counts_.batch + static_cast<uint32_t>(batch.shift), counts_.seed);
+    in.backend.renderGBuffer(in.view, batch.jitter);
+  }
+  const size_t left = endOfShift(batch.shift) - batch.summed;
   const size_t count =
       std::min({left, static_cast<size_t>(std::max(most, 1)), static_cast<size_t>(slots(options))});
   addPart(in, options, firstSlot, count);
-  if (batch_->summed == batch_->vpls.size()) finishBatch(options.vpls);
+  if (batch.summed == batch.vpls.size()) finishBatch(options.vpls);
   return static_cast<int>(count);
 }
 
@@ -81,8 +96,11 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   ++counts_.batch;
   batch_ = std::make_unique<Batch>();
   Batch& batch = *batch_;
-  batch.vpls = generateVpls(in.scene, in.rays, LightSet(in.scene), counts_).vpls;
-  batch.jitter = jitterOf(counts_.batch, counts_.seed);
+  // Those of each light and bounce are dealt out evenly among the shifts.
+  const VplSet set = generateVpls(in.scene, in.rays, LightSet(in.scene), counts_);
+  batch.vpls.reserve(set.vpls.size());
+  for (size_t shift = 0; shift < kShifts; ++shift)
+    for (size_t i = shift; i < set.vpls.size(); i += kShifts) batch.vpls.push_back(set.vpls[i]);
   batch.image = Image(in.view.width, in.view.height);
   if (options.clampDistance > 0.0f)
     batch.nearLight.emplace(
@@ -91,10 +109,14 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
                            counts_.directShare > 0.0f || counts_.bounces == 0,
                            options.clampDistance, hash4(counts_.seed, 0, 0, kNearSet),
                            counts_.batch, in.lightOnly});
-  in.backend.renderGBuffer(in.view, batch.jitter);
 }
 
-// Some of the batch's VPLs, spread over all of it, as bright as all: what they show counts by their
+// How many of the batch's VPLs are summed when this shift has had its share.
+size_t Refinement::endOfShift(int shift) const {
+  return batch_->vpls.size() * static_cast<size_t>(shift + 1) / kShifts;
+}
+
+// Some of the batch's VPLs, as bright as all: what they show counts by their
 // share. So every picture is whole, with what emits and the sky in it.
 void Refinement::addPart(const FrameInputs& in, const Options& options, int firstSlot,
                          size_t count) {

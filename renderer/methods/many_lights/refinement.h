@@ -46,11 +46,13 @@ class Refinement {
   // One on its way: parts of it are summed, each as if it were all.
   struct Batch {
     std::vector<SceneVpl> vpls;
+    int shift = -1;  // of the pixels, the one that the G-buffer has
     vec2 jitter{0.0f};
     std::optional<NearLight> nearLight;
     size_t summed = 0;
     Image image;
   };
+  size_t endOfShift(int shift) const;
   void begin(const FrameInputs& in, const Options& options);
   void addPart(const FrameInputs& in, const Options& options, int firstSlot, size_t count);
   void finishBatch(int target);
