@@ -24,6 +24,17 @@ std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
   return slots;
 }
 
+// Whether any object's part of the source, if there is one, is another than last time.
+template <typename Source>
+bool revised(std::vector<Revision>& last, const Source* source) {
+  std::vector<Revision> now;
+  for (uint32_t i = 0; source != nullptr && i < source->objects(); ++i)
+    now.push_back(source->revision(i));
+  const bool isOther = now != last;
+  last = std::move(now);
+  return isOther;
+}
+
 // Adds lights to one tile, or takes them away.
 class TileAdder {
  public:
@@ -154,28 +165,6 @@ void LightSums::findPlaces(const Frame& frame) {
   table_.update(*frame.patches, inUse);
 }
 
-bool LightSums::mapsChanged(const Frame& frame) {
-  std::vector<Revision> now;
-  if (hasMaps_) {
-    const LightMaps& maps = *frame.patches->maps();
-    for (uint32_t i = 0; i < maps.objects(); ++i) now.push_back(maps.revision(i));
-  }
-  const bool changed = now != mapRevisions_;
-  mapRevisions_ = std::move(now);
-  return changed;
-}
-
-bool LightSums::transferChanged(const Frame& frame) {
-  std::vector<Revision> now;
-  if (hasTransfer_) {
-    const PrtLights& prt = *frame.patches->prt();
-    for (uint32_t i = 0; i < prt.objects(); ++i) now.push_back(prt.revision(i));
-  }
-  const bool changed = now != transferRevisions_;
-  transferRevisions_ = std::move(now);
-  return changed;
-}
-
 SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
                             SumConstants constants, const PatchLights* patches) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
@@ -199,7 +188,8 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
 
   knowsSums_ = false;  // until all is done
   std::atomic<uint64_t> lightPixels = 0, lookUps = 0;
-  const bool newMaps = mapsChanged(frame), newTransfer = transferChanged(frame);
+  const bool newMaps = revised(mapRevisions_, patches ? patches->maps() : nullptr);
+  const bool newTransfer = revised(transferRevisions_, patches ? patches->prt() : nullptr);
   const bool finishAll = newMaps || newTransfer;
   const int tiles = gbuffer.tiles();
   tbb::parallel_for(0, (tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {

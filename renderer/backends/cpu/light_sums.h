@@ -54,8 +54,6 @@ class LightSums {
   void compareWithLast(const Frame& frame);
   std::vector<Change> findChanges(std::span<const LightRecord> lights);
   void findPlaces(const Frame& frame);
-  bool mapsChanged(const Frame& frame);
-  bool transferChanged(const Frame& frame);
   SumCounts sumTiles(const Frame& frame, int first, int last);
   void finishTile(const Frame& frame, int tile);
 
