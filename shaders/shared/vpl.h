@@ -29,6 +29,8 @@ struct ShadingParams {
   // z: map resolution [texels a side]; w: VPLs that one draw of the gl backend adds to a pixel at
   // most
   vec4 clampAndBias;
+  // x: pixels a side of the blocks of the low-resolution pass (low_resolution.h), 1: none; yzw: 0
+  vec4 block;
 };
 
 SHARED_END

@@ -74,6 +74,7 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
   lightMapTexel = settings.real(parameters::lightMapTexel());
   lightsPerPass = settings.integer(parameters::lightsPerPass());
   mergePasses = settings.boolean(parameters::mergePasses());
+  block = useVisibility ? std::stoi(settings.choice(parameters::block())) : 1;
   usePrt = useVisibility && settings.boolean(parameters::prt());
   // Light between parts of an object is one bounce more each time, as VPLs of later bounces are.
   prt.transfer.bounces = std::min(counts.bounces, kMostTransferBounces);
@@ -118,6 +119,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
                               options.useLightMaps != options_.useLightMaps ||
                               options.lightMapTexel != options_.lightMapTexel ||
                               options.mergePasses != options_.mergePasses ||
+                              options.block != options_.block ||
                               options.usePrt != options_.usePrt || !(options.prt == options_.prt) ||
                               in.lightOnly != lightOnly_;
   if (viewChanged) gbufferIsCurrent_ = false;
@@ -273,7 +275,8 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   const std::vector<shared::Vpl> vpls = lights_.shown();
   const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias,
                                           static_cast<float>(options.mapResolution),
-                                          static_cast<float>(options.lightsPerPass))};
+                                          static_cast<float>(options.lightsPerPass)),
+                                     vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f)};
   const KernelCounts before = in.backend.counts();
   if (visibility_) {
     const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses, prt_.get());
@@ -336,6 +339,7 @@ MethodInfo manyLightsInfo() {
            parameters::lightMapTexel(),
            parameters::lightsPerPass(),
            parameters::mergePasses(),
+           parameters::block(),
            parameters::prt(),
            parameters::prtPoints(),
            parameters::antialias(),

@@ -41,6 +41,7 @@ class ManyLights final : public GiMethod {
     float lightMapTexel = 0.1f;
     int lightsPerPass = 0;  // changes no picture
     bool mergePasses = false;
+    int block = 1;  // pixels
     bool usePrt = false;  // besides
     PrtLights::Options prt;
     Refinement::Options refinement;

@@ -126,6 +126,22 @@ const ParameterSpec& mergePasses() {
   return spec;
 }
 
+const ParameterSpec& block() {
+  static const ParameterSpec spec{
+      "block",
+      "Block",
+      "pixels",
+      "Light is summed at one pixel of each block of as many pixels a side and interpolated between; "
+      "at edges of surfaces and shadows it is summed at each pixel. 1: at each everywhere. Nothing "
+      "for naive.",
+      std::string("1"),
+      0,
+      0,
+      false,
+      {"1", "2", "4", "8"}};
+  return spec;
+}
+
 const ParameterSpec& prt() {
   static const ParameterSpec spec{
       "prt",

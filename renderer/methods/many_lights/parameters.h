@@ -15,6 +15,7 @@ const ParameterSpec& frameTime();      // float, ms; heeded in the editor's wind
 const ParameterSpec& lightMapTexel();  // float, m
 const ParameterSpec& lightsPerPass();  // int, VPLs that one draw of the gl backend takes
 const ParameterSpec& mergePasses();    // bool, gl backend: by merged passes
+const ParameterSpec& block();          // choice, pixels a side of the low-resolution pass's blocks
 const ParameterSpec& prt();            // bool, cpu backend: complex meshes by transfer
 const ParameterSpec& prtPoints();      // int, light points an object
 const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled

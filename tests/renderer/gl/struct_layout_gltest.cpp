@@ -81,7 +81,7 @@ TEST_F(StructLayout, OfVpl) {
 TEST_F(StructLayout, OfShadingParams) {
   using shared::ShadingParams;
   expectLayout("shared/vpl.h", "ShadingParams", sizeof(ShadingParams),
-               {MEMBER(ShadingParams, clampAndBias)});
+               {MEMBER(ShadingParams, clampAndBias), MEMBER(ShadingParams, block)});
 }
 
 TEST_F(StructLayout, OfSurfaceMaterial) {
