@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -24,7 +25,29 @@ void GBuffer::resize(int w, int h) {
   object.assign(n, 0);
   triangle.assign(n, 0);
   isFlat.assign(n / kLanes, 0);
-  revision.assign(static_cast<size_t>(tiles()), 0);
+  const uint64_t last = revision.empty() ? 0 : *std::max_element(revision.begin(), revision.end());
+  revision.assign(static_cast<size_t>(tiles()), last);
+}
+
+int GBuffer::pixelsOf(int tile, uint32_t packets) const {
+  const int w = std::min(kTileSize, width - tile % tilesX * kTileSize);
+  const int h = std::min(kTileSize, height - tile / tilesX * kTileSize);
+  if (packets == ~uint32_t{0}) return w * h;
+  int pixels = 0;
+  for (; packets != 0; packets &= packets - 1) {
+    const int packet = std::countr_zero(packets);
+    pixels += std::clamp(w - packet % kPacketsPerRow * kPacketWidth, 0, kPacketWidth) *
+              std::clamp(h - packet / kPacketsPerRow * kPacketHeight, 0, kPacketHeight);
+  }
+  return pixels;
+}
+
+void GBuffer::findFlat(int tile, int packet) {
+  const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
+  const auto same = [&](const std::vector<float>& a, const std::vector<float>& b) {
+    return std::equal(&a[first], &a[first] + kLanes, &b[first]);
+  };
+  isFlat[first / kLanes] = same(sx, gx) && same(sy, gy) && same(sz, gz) ? 1 : 0;
 }
 
 size_t GBuffer::bytes() const { return px.size() * (9 * sizeof(float) + 2 * sizeof(vec3) + 9); }
@@ -77,11 +100,7 @@ void trace(const RenderScene& scene, const RayCaster& rays, const View& view, ve
     const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
     for (int lane = 0; lane < kLanes; ++lane)
       store(out, first + lane, scene, hit[lane], ray[lane].direction);
-    const auto same = [&](const std::vector<float>& a, const std::vector<float>& b) {
-      return std::equal(&a[first], &a[first] + kLanes, &b[first]);
-    };
-    out.isFlat[first / kLanes] =
-        same(out.sx, out.gx) && same(out.sy, out.gy) && same(out.sz, out.gz) ? 1 : 0;
+    out.findFlat(tile, packet);
   }
 }
 
