@@ -162,10 +162,10 @@ class CpuBackend final : public Backend {
             image.at(x, y) = sky;
             continue;
           }
-          const vec3 albedo = white ? vec3(1.0f) : g.albedo[i];
+          const vec3 albedo = white ? vec3(1.0f) : g.albedo(i);
           const vec3 e = isSummed ? p.sums.irradiance(i)
                                   : vec3(between.r[lane], between.g[lane], between.b[lane]);
-          image.at(x, y) = g.emission[i] + albedo * (1.0f / kPi) * e;
+          image.at(x, y) = g.emission(i) + albedo * (1.0f / kPi) * e;
         }
       }
     });
@@ -185,7 +185,7 @@ class CpuBackend final : public Backend {
 
   Image readAlbedo() override {
     const cpu::GBuffer& g = shown_->gbuffer;
-    return makeImage([&](size_t i) { return g.hit[i] ? g.albedo[i] : vec3(0.0f); });
+    return makeImage([&](size_t i) { return g.hit[i] ? g.albedo(i) : vec3(0.0f); });
   }
 
   void finish() override {}

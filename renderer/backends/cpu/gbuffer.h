@@ -8,6 +8,7 @@
 #include "renderer/math.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/render_scene.h"
+#include "renderer/scene/surface.h"
 #include "renderer/view.h"
 
 namespace lamplighter::cpu {
@@ -29,8 +30,8 @@ struct GBuffer {
   std::vector<float> px, py, pz;  // world position [m]
   std::vector<float> sx, sy, sz;  // shading normal, on the side that the eye sees
   std::vector<float> gx, gy, gz;  // geometric normal, on that side
-  std::vector<vec3> albedo;
-  std::vector<vec3> emission;  // towards the eye [W/(m² sr)]
+  std::vector<float> ar, ag, ab;  // albedo
+  std::vector<float> er, eg, eb;  // emission towards the eye [W/(m² sr)]
   std::vector<uint8_t> hit;
   std::vector<uint32_t> object, triangle;  // where something was hit
   std::vector<uint8_t> isFlat;             // of each packet: both normals are the same
@@ -48,6 +49,11 @@ struct GBuffer {
     const int lane = (ty % kPacketHeight) * kPacketWidth + tx % kPacketWidth;
     return tile * kTilePixels + packet * kLanes + lane;
   }
+  vec3 albedo(size_t i) const { return {ar[i], ag[i], ab[i]}; }
+  vec3 emission(size_t i) const { return {er[i], eg[i], eb[i]}; }
+
+  // What is seen from its front or back; all but where it is.
+  void setSurface(size_t i, const Surface& surface, bool isFront);
   // Sets isFlat of a packet that was written.
   void findFlat(int tile, int packet);
   size_t bytes() const;

@@ -244,8 +244,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
     const Tile& tile = tiles_[static_cast<size_t>(i)];
     clearPackets(i, tile.begun());
     const auto addTo = [&](std::vector<TileAdder>& adders, uint32_t packets) {
-      packets &= tile.places.hit();
-      if (packets == 0) return false;
+      if ((packets & tile.places.hit()) == 0) return false;
       adders.emplace_back(frame.gbuffer, i, packets, tile.places, table, constants_, sums_, counts);
       return true;
     };
