@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/backends/cpu/composition.h"
 #include "renderer/backends/cpu/gbuffer.h"
 #include "renderer/backends/cpu/light_sums.h"
 #include "renderer/backends/cpu/low_resolution.h"
@@ -141,35 +142,10 @@ class CpuBackend final : public Backend {
 
   std::shared_ptr<RadianceImage> compose(bool white) override {
     const Picture& p = *shown_;
-    const cpu::GBuffer& g = p.gbuffer;
-    const vec3 sky = scene_->sky;
-    Image image(g.width, g.height);
-    tbb::parallel_for(0, g.tiles(), [&](int tile) {
-      const int x0 = tile % g.tilesX * cpu::kTileSize, y0 = tile / g.tilesX * cpu::kTileSize;
-      const uint32_t edges = p.block == 1 ? ~uint32_t{0} : p.low.edges()[static_cast<size_t>(tile)];
-      for (int packet = 0; packet < cpu::kPacketsPerTile; ++packet) {
-        const bool isSummed = (edges >> packet & 1) != 0;
-        cpu::LowResolution::Irradiance between;
-        if (!isSummed) p.low.interpolate(p.sampleSums, tile, packet, between);
-        for (int lane = 0; lane < cpu::kLanes; ++lane) {
-          const int x =
-              x0 + packet % cpu::kPacketsPerRow * cpu::kPacketWidth + lane % cpu::kPacketWidth;
-          const int y =
-              y0 + packet / cpu::kPacketsPerRow * cpu::kPacketHeight + lane / cpu::kPacketWidth;
-          if (x >= g.width || y >= g.height) continue;
-          const size_t i = g.index(x, y);
-          if (!g.hit[i]) {
-            image.at(x, y) = sky;
-            continue;
-          }
-          const vec3 albedo = white ? vec3(1.0f) : g.albedo(i);
-          const vec3 e = isSummed ? p.sums.irradiance(i)
-                                  : vec3(between.r[lane], between.g[lane], between.b[lane]);
-          image.at(x, y) = g.emission(i) + albedo * (1.0f / kPi) * e;
-        }
-      }
-    });
-    return std::make_shared<HostImage>(std::move(image));
+    const auto image = images_.take(p.gbuffer.width, p.gbuffer.height);
+    cpu::compose(p.gbuffer, p.sums, p.block == 1 ? nullptr : &p.low, scene_->sky, white,
+                 image->image);
+    return image;
   }
 
   std::vector<float> readShadowMap(int slot) override {
@@ -206,6 +182,7 @@ class CpuBackend final : public Backend {
     return image;
   }
 
+  cpu::ImagePool images_;
   BackendInfo info_{"cpu", "x86-64-v3, 8 lanes", true, true};
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;

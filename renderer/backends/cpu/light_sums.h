@@ -37,6 +37,10 @@ class LightSums {
 
   // E at a pixel of the G-buffer, where it was wanted [W/m²].
   vec3 irradiance(size_t i) const { return {red_[i], green_[i], blue_[i]}; }
+  // A channel of it there and at the pixels that follow in the G-buffer.
+  const float* red(size_t i) const { return &red_[i]; }
+  const float* green(size_t i) const { return &green_[i]; }
+  const float* blue(size_t i) const { return &blue_[i]; }
   size_t bytes() const;
 
  private:

@@ -92,13 +92,7 @@ bool isOnOneSurface(const GBuffer& g, int x0, int y0, int x1, int y1) {
   return true;
 }
 
-vec3 mix(const vec3& a, const vec3& b, float t) { return a + t * (b - a); }
-
 }  // namespace
-
-size_t LowResolution::sampleAt(int i, int j) const {
-  return samples_.index(std::min(i, samples_.width - 1), std::min(j, samples_.height - 1));
-}
 
 void LowResolution::takeSamples(const GBuffer& g) {
   tbb::parallel_for(0, samples_.tiles(), [&](int tile) {
@@ -138,20 +132,16 @@ void LowResolution::takeSamples(const GBuffer& g) {
   });
 }
 
-// The cells of a tile that lie on one surface, a bit each.
-uint64_t LowResolution::planeCells(const GBuffer& g, int tile) const {
+void LowResolution::findPlanes(const GBuffer& g, int tile) {
   const int x0 = tile % tilesX_ * kTileSize, y0 = tile / tilesX_ * kTileSize;
-  uint64_t cells = 0;
-  for (int cy = 0; cy < kTileSize / block_; ++cy) {
-    for (int cx = 0; cx < kTileSize / block_; ++cx) {
-      const int x = x0 + cx * block_, y = y0 + cy * block_;
-      if (x >= width_ || y >= height_) continue;
+  for (int y = y0; y < std::min(y0 + kTileSize, height_); y += block_) {
+    for (int x = x0; x < std::min(x0 + kTileSize, width_); x += block_) {
       const int right = std::min(x + block_, width_ - 1),
                 bottom = std::min(y + block_, height_ - 1);
-      if (isOnOneSurface(g, x, y, right, bottom)) cells |= uint64_t{1} << (cy * kMostCells + cx);
+      planes_[cellAt(x / block_, y / block_)] =
+          isOnOneSurface(g, x, y, right, bottom) ? 0 : kNoPlane;
     }
   }
-  return cells;
 }
 
 void LowResolution::update(const GBuffer& g, int block) {
@@ -166,7 +156,12 @@ void LowResolution::update(const GBuffer& g, int block) {
                     shared::lowResolutionSamples(height_, block));
     sampleRevisions_.assign(static_cast<size_t>(samples_.tiles()), 0);
     planeRevisions_.assign(tiles, 0);
-    planes_.assign(tiles, 0);
+    cellsX_ = (width_ + block - 1) / block;
+    cellsY_ = (height_ + block - 1) / block;
+    const size_t cells = static_cast<size_t>(cellsX_ + 2) * static_cast<size_t>(cellsY_ + 2);
+    for (auto* v : {&planes_, &cells_}) v->assign(cells, 0);
+    for (auto* v : {&red_, &green_, &blue_})
+      v->assign(rowLength() * static_cast<size_t>(samples_.height + 1) + kLanes, 0.0f);
     edges_.assign(tiles, 0);
   }
   takeSamples(g);
@@ -182,30 +177,81 @@ void LowResolution::update(const GBuffer& g, int block) {
       const auto t = static_cast<size_t>(tile);
       if (planeRevisions_[t] == revision) continue;
       planeRevisions_[t] = revision;
-      planes_[t] = planeCells(g, tile);
+      findPlanes(g, tile);
     }
   });
 }
 
+void LowResolution::takeLight(const LightSums& light, int row) {
+  const int from = std::min(row, samples_.height - 1);
+  const size_t to = static_cast<size_t>(row) * rowLength();
+  for (int i = 0; i <= samples_.width; ++i) {
+    const vec3 e = light.irradiance(samples_.index(std::min(i, samples_.width - 1), from));
+    red_[to + static_cast<size_t>(i)] = e.r;
+    green_[to + static_cast<size_t>(i)] = e.g;
+    blue_[to + static_cast<size_t>(i)] = e.b;
+  }
+}
+
+// shared::isSmooth for eight cells at a time.
+void LowResolution::findContrast(int row) {
+  const Floats most = hn::Set(kTag, shared::kMostContrast);
+  const Floats mostAbout = hn::Set(kTag, shared::kMostContrastAbout);
+  for (int i = 0; i < cellsX_; i += kLanes) {
+    const size_t at = static_cast<size_t>(row) * rowLength() + static_cast<size_t>(i);
+    hn::Mask<Tag> differs = hn::MaskFromVec(hn::Zero(kTag)), differsMuch = differs;
+    for (const auto* v : {&red_, &green_, &blue_}) {
+      // Past the row's end they are read and not used.
+      const float* above = v->data() + at;
+      const float* below = above + rowLength();
+      const Floats a = hn::LoadU(kTag, above), b = hn::LoadU(kTag, above + 1);
+      const Floats c = hn::LoadU(kTag, below), d = hn::LoadU(kTag, below + 1);
+      const Floats high = hn::Max(hn::Max(a, b), hn::Max(c, d));
+      const Floats spread = hn::Sub(high, hn::Min(hn::Min(a, b), hn::Min(c, d)));
+      differs = hn::Or(differs, hn::Gt(spread, hn::Mul(most, high)));
+      differsMuch = hn::Or(differsMuch, hn::Gt(spread, hn::Mul(mostAbout, high)));
+    }
+    uint8_t bits[8], muchBits[8];
+    hn::StoreMaskBits(kTag, differs, bits);
+    hn::StoreMaskBits(kTag, differsMuch, muchBits);
+    for (int k = 0; k < std::min(kLanes, cellsX_ - i); ++k) {
+      const size_t cell = cellAt(i + k, row);
+      uint8_t is = planes_[cell];
+      if ((bits[0] >> k & 1) != 0) is |= kContrast;
+      if ((muchBits[0] >> k & 1) != 0) is |= kMuchContrast;
+      cells_[cell] = is;
+    }
+  }
+}
+
+uint32_t LowResolution::edgesOf(int tile) const {
+  const int side = kTileSize / block_;
+  const int i0 = tile % tilesX_ * side, j0 = tile / tilesX_ * side;
+  uint32_t edges = 0;
+  for (int j = j0; j < std::min(j0 + side, cellsY_); ++j) {
+    for (int i = i0; i < std::min(i0 + side, cellsX_); ++i) {
+      const uint8_t* cell = &cells_[cellAt(i, j)];
+      const auto about = [&](ptrdiff_t row) {
+        const uint8_t* c = cell + row * (cellsX_ + 2);
+        return c[-1] | c[0] | c[1];
+      };
+      if (*cell != 0 || ((about(-1) | about(0) | about(1)) & kMuchContrast) != 0)
+        edges |= packetsOfCell(block_, i - i0, j - j0);
+    }
+  }
+  return edges;
+}
+
 void LowResolution::findEdges(const GBuffer& picture, const LightSums& light) {
+  tbb::parallel_for(0, samples_.height + 1, [&](int row) { takeLight(light, row); });
+  tbb::parallel_for(0, cellsY_, [&](int row) { findContrast(row); });
   std::atomic<uint64_t> interpolated = 0;
   const int tiles = tilesX_ * tilesY_;
   tbb::parallel_for(0, (tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {
     uint64_t pixels = 0;
     for (int tile = task * kTilesPerTask; tile < std::min((task + 1) * kTilesPerTask, tiles);
          ++tile) {
-      const int x0 = tile % tilesX_ * kTileSize, y0 = tile / tilesX_ * kTileSize;
-      const uint64_t planes = planes_[static_cast<size_t>(tile)];
-      uint32_t edges = 0;
-      for (int cy = 0; cy < kTileSize / block_ && y0 + cy * block_ < height_; ++cy) {
-        for (int cx = 0; cx < kTileSize / block_ && x0 + cx * block_ < width_; ++cx) {
-          const int i = x0 / block_ + cx, j = y0 / block_ + cy;
-          const auto e = [&](int di, int dj) { return light.irradiance(sampleAt(i + di, j + dj)); };
-          const bool isPlane = (planes >> (cy * kMostCells + cx) & 1) != 0;
-          if (!isPlane || !shared::isSmooth(e(0, 0), e(1, 0), e(0, 1), e(1, 1)))
-            edges |= packetsOfCell(block_, cx, cy);
-        }
-      }
+      const uint32_t edges = edgesOf(tile);
       edges_[static_cast<size_t>(tile)] = edges;
       pixels += static_cast<uint64_t>(picture.pixelsOf(tile, ~edges));
     }
@@ -214,25 +260,61 @@ void LowResolution::findEdges(const GBuffer& picture, const LightSums& light) {
   interpolated_ = interpolated;
 }
 
-void LowResolution::interpolate(const LightSums& light, int tile, int packet,
-                                Irradiance& out) const {
+void LowResolution::interpolate(int tile, int packet, Irradiance& out) const {
   const int x0 = tile % tilesX_ * kTileSize + packet % kPacketsPerRow * kPacketWidth;
   const int y0 = tile / tilesX_ * kTileSize + packet / kPacketsPerRow * kPacketHeight;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const int x = x0 + lane % kPacketWidth, y = y0 + lane / kPacketWidth;
-    const int i = x / block_, j = y / block_;
-    // The last cells of a row or column may be narrower.
-    const auto along = [&](int at, int cell, int size) {
-      const int low = cell * block_, high = std::min(low + block_, size - 1);
-      return high > low ? static_cast<float>(at - low) / static_cast<float>(high - low) : 0.0f;
+  HWY_ALIGN static constexpr float kLaneX[kLanes] = {0, 1, 2, 3, 0, 1, 2, 3};
+  HWY_ALIGN static constexpr float kLaneY[kLanes] = {0, 0, 0, 0, 1, 1, 1, 1};
+  // 1 / the distance of a cell's samples; the last of a row or column may be narrower.
+  const auto inverse = [&](int cell, int size) {
+    const int width = std::min((cell + 1) * block_, size - 1) - cell * block_;
+    return width > 0 ? 1.0f / static_cast<float>(width) : 0.0f;
+  };
+  const int i = x0 / block_, j = y0 / block_;
+  const size_t at = static_cast<size_t>(j) * rowLength() + static_cast<size_t>(i);
+  const auto along = [&](const float* lanes, int first, float scale) {
+    return hn::Mul(hn::Add(hn::Load(kTag, lanes), hn::Set(kTag, static_cast<float>(first))),
+                   hn::Set(kTag, scale));
+  };
+  const auto mix = [](Floats a, Floats b, Floats t) { return hn::MulAdd(t, hn::Sub(b, a), a); };
+  const Floats ty = along(kLaneY, y0 - j * block_, inverse(j, height_));
+  if (block_ >= kPacketWidth) {  // the packet is in one cell
+    const Floats tx = along(kLaneX, x0 - i * block_, inverse(i, width_));
+    const auto between = [&](const std::vector<float>& v, float* to) {
+      const float* above = v.data() + at;
+      const float* below = above + rowLength();
+      const Floats top = mix(hn::Set(kTag, above[0]), hn::Set(kTag, above[1]), tx);
+      const Floats bottom = mix(hn::Set(kTag, below[0]), hn::Set(kTag, below[1]), tx);
+      hn::StoreU(mix(top, bottom, ty), kTag, to);
     };
-    const float tx = along(x, i, width_), ty = along(y, j, height_);
-    const auto e = [&](int di, int dj) { return light.irradiance(sampleAt(i + di, j + dj)); };
-    const vec3 sum = mix(mix(e(0, 0), e(1, 0), tx), mix(e(0, 1), e(1, 1), tx), ty);
-    out.r[lane] = sum.r;
-    out.g[lane] = sum.g;
-    out.b[lane] = sum.b;
+    between(red_, out.r);
+    between(green_, out.g);
+    between(blue_, out.b);
+    return;
   }
+  HWY_ALIGN float t[kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const int x = lane % kPacketWidth;
+    t[lane] = static_cast<float>(x % block_) * inverse(i + x / block_, width_);
+  }
+  const Floats tx = hn::Load(kTag, t);
+  const auto between = [&](const std::vector<float>& v, float* to) {
+    const float* above = v.data() + at;
+    HWY_ALIGN float corners[4][kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      // Past the last cell of a row there is none; those lanes are not shown.
+      const int cell = std::min(lane % kPacketWidth / block_, samples_.width - 1 - i);
+      for (int corner = 0; corner < 4; ++corner)
+        corners[corner][lane] = above[static_cast<size_t>(corner / 2) * rowLength() +
+                                      static_cast<size_t>(cell + corner % 2)];
+    }
+    const Floats top = mix(hn::Load(kTag, corners[0]), hn::Load(kTag, corners[1]), tx);
+    const Floats bottom = mix(hn::Load(kTag, corners[2]), hn::Load(kTag, corners[3]), tx);
+    hn::StoreU(mix(top, bottom, ty), kTag, to);
+  };
+  between(red_, out.r);
+  between(green_, out.g);
+  between(blue_, out.b);
 }
 
 }  // namespace lamplighter::cpu

@@ -34,24 +34,35 @@ class LowResolution {
   struct Irradiance {
     float r[kLanes], g[kLanes], b[kLanes];
   };
-  void interpolate(const LightSums& light, int tile, int packet, Irradiance& out) const;
+  void interpolate(int tile, int packet, Irradiance& out) const;
 
   size_t bytes() const { return samples_.bytes(); }
 
  private:
-  static constexpr int kMostCells = 8;  // of a tile, a side
+  // What a cell is; sums of these.
+  static constexpr uint8_t kNoPlane = 1, kContrast = 2, kMuchContrast = 4;
 
   void takeSamples(const GBuffer& picture);
-  uint64_t planeCells(const GBuffer& picture, int tile) const;
-  // Index of the sample that is the corner (i, j) of cells.
-  size_t sampleAt(int i, int j) const;
+  void findPlanes(const GBuffer& picture, int tile);
+  void takeLight(const LightSums& light, int row);
+  void findContrast(int row);
+  uint32_t edgesOf(int tile) const;
+  // Cells are in rows with one more all about them, samples in rows with a copy of the last ones.
+  size_t cellAt(int i, int j) const {
+    return static_cast<size_t>(j + 1) * static_cast<size_t>(cellsX_ + 2) +
+           static_cast<size_t>(i + 1);
+  }
+  size_t rowLength() const { return static_cast<size_t>(samples_.width + kLanes); }
 
   int width_ = 0, height_ = 0, tilesX_ = 0, tilesY_ = 0;  // of the picture
   int block_ = 0;
+  int cellsX_ = 0, cellsY_ = 0;
   GBuffer samples_;
   std::vector<uint64_t> sampleRevisions_;  // of the picture's tiles, as sampled, by samples' tile
   std::vector<uint64_t> planeRevisions_;   // likewise, as looked at, by the picture's tile
-  std::vector<uint64_t> planes_;           // by tile, a bit a cell: it lies on one surface
+  std::vector<uint8_t> planes_;            // by cell: kNoPlane or 0
+  std::vector<uint8_t> cells_;             // by cell, all of it
+  std::vector<float> red_, green_, blue_;  // E at samples, row after row
   std::vector<uint32_t> edges_;
   uint64_t interpolated_ = 0;
 };
