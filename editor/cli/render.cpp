@@ -120,6 +120,7 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   j["vpls"] = out.stats.vpls;
   if (out.stats.mergedPasses > 0)
     j["merged_passes"] = {{"drawn", out.stats.mergedPasses}, {"saved", out.stats.passesSaved}};
+  if (out.stats.interpolatedShare > 0.0f) j["interpolated_share"] = out.stats.interpolatedShare;
   if (out.stats.vplsToRefine > 0) j["vpls_refined"] = out.stats.vplsRefined;
   j["samples_per_pixel"] = out.stats.samplesPerPixel;
   j["shadow_maps"] = counts.shadowMaps;

@@ -55,7 +55,8 @@ struct KernelCounts {
   uint64_t lookUps = 0;      // of those, with a look-up in a shadow map (cpu; in packets of pixels)
   // Merged passes (gl, where they are asked for): drawn, and fewer than object by object.
   uint64_t mergedPasses = 0, passesSaved = 0;
-  uint64_t memoryBytes = 0;  // held now: maps, G-buffer, scene copies
+  uint64_t pixelsInterpolated = 0;  // whose light was interpolated by the low-resolution pass
+  uint64_t memoryBytes = 0;         // held now: maps, G-buffer, scene copies
 };
 
 class Backend {

@@ -53,8 +53,9 @@ struct GiStats {
   uint64_t lightMapTexels = 0;   // this frame: texels × lights added or taken away
   // Of the last sum, where passes are merged: drawn, and fewer than object by object.
   int mergedPasses = 0, passesSaved = 0;
-  int transfersPending = 0;    // objects' transfers that are being prepared
-  float transferShare = 1.0f;  // that is done of the first of them
+  float interpolatedShare = 0.0f;  // of the last sum's pixels: by the low-resolution pass
+  int transfersPending = 0;        // objects' transfers that are being prepared
+  float transferShare = 1.0f;      // that is done of the first of them
   int samplesPerPixel = 0;
   // A settled picture that is refined: VPLs it is the mean of, those it is to be, and how many came
   // nearer this frame.

@@ -6,7 +6,9 @@
 //   - all pixels from corner to corner, the far rows among them, hit a surface, and lie in the plane
 //     of the first corner with about its shading normal. The whole cell is asked, so that no light
 //     leaks past what is thinner than a block;
-//   - the irradiance at its corners differs little: the borders of shadows stay where they are.
+//   - the irradiance at its corners differs little: the borders of shadows stay where they are;
+//   - it does not differ much in any of the eight cells about it, whatever is there: the border of
+//     a hard shadow may come into this cell without reaching a corner.
 // The pixels of all other cells are summed one by one.
 #ifndef LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
 #define LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
@@ -19,7 +21,9 @@ SHARED_CONST float kMostOffPlane = 0.01f;
 // Cosine of the angle between the shading normals of two points of a cell.
 SHARED_CONST float kLeastNormalCosine = 0.999f;
 // Share of the brightest corner by which the irradiance of a cell's corners may differ.
-SHARED_CONST float kMostContrast = 0.1f;
+SHARED_CONST float kMostContrast = 0.2f;
+// The same in the cells about it.
+SHARED_CONST float kMostContrastAbout = 0.5f;
 
 // Samples along a side of `size` pixels.
 SHARED_FUNCTION int lowResolutionSamples(int size, int block) {
@@ -34,11 +38,11 @@ SHARED_FUNCTION bool isOnSurface(vec3 x0, vec3 n0, vec3 s0, vec3 x, vec3 s) {
   return off * off <= kMostOffPlane * kMostOffPlane * dot(d, d) && dot(s0, s) >= kLeastNormalCosine;
 }
 
-// Whether the irradiance at four corners may be interpolated.
-SHARED_FUNCTION bool isSmooth(vec3 a, vec3 b, vec3 c, vec3 d) {
+// Whether the irradiance at four corners differs by no more than that share.
+SHARED_FUNCTION bool isSmooth(vec3 a, vec3 b, vec3 c, vec3 d, float mostContrast) {
   vec3 most = max(max(a, b), max(c, d));
   vec3 spread = most - min(min(a, b), min(c, d));
-  vec3 allowed = kMostContrast * most;
+  vec3 allowed = mostContrast * most;
   return spread.x <= allowed.x && spread.y <= allowed.y && spread.z <= allowed.z;
 }
 

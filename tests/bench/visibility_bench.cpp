@@ -185,7 +185,7 @@ void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
   state.counters["by_lists"] = listed;
 }
 
-// A frame in which the camera moved.
+// A frame in which the camera moved. `technique`: with "+block4" and the like, by blocks.
 void frames(benchmark::State& state, const Case& c, const std::string& technique,
             const MakeBackend& make, int width, int height, int lightsPerPass, bool merge) {
   if (skip(state, c)) return;
@@ -198,7 +198,10 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
   settings.set(parameters::updates().name, c.vpls);
   settings.set(parameters::bounces().name, 1);
   settings.set(parameters::antialias().name, 1);
-  settings.set(parameters::technique().name, technique);
+  const size_t plus = technique.find("+block");
+  settings.set(parameters::technique().name, technique.substr(0, plus));
+  settings.set(parameters::block().name,
+               plus == std::string::npos ? std::string("1") : technique.substr(plus + 6));
   settings.set(parameters::lightsPerPass().name, lightsPerPass);
   settings.set(parameters::mergePasses().name, merge);
   FrameRenderer renderer(make());
@@ -213,6 +216,7 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
     view.eye.x += 0.001f;
     frame({});
   }
+  if (plus != std::string::npos) state.counters["interpolated"] = stats.interpolatedShare;
   if (!merge) return;
   state.counters["passes"] = stats.mergedPasses;
   state.counters["saved"] = stats.passesSaved;
@@ -247,7 +251,9 @@ void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make)
     for (const glm::ivec2& size : kSizes) {
       // The room of figure 5-1, at the paper's size.
       if (size.x == 1024 && std::string(c.name) != "area_light_room") continue;
-      for (const std::string technique : {"naive", "visibility", "light_maps"}) {
+      for (const std::string technique :
+           {"naive", "visibility", "light_maps", "visibility+block4", "light_maps+block2",
+            "light_maps+block4", "light_maps+block8"}) {
         add("visibility/frame/" + backend + "/" + c.name + "/" + std::to_string(size.x) + "x" +
                 std::to_string(size.y) + "/" + technique,
             frames, c, technique, make, size.x, size.y, 1024, false);

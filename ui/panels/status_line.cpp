@@ -77,6 +77,10 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
          theme::kText,
          "Draws for light samples that need their shadow maps, and how many more they would be "
          "object by object.");
+  if (stats.interpolatedShare > 0.0f)
+    part(ui, "interpolated",
+         std::to_string(static_cast<int>(100.0f * stats.interpolatedShare)) + "% interpolated",
+         theme::kText, "Pixels whose light is taken from the samples about them.");
   if (stats.samplesPerPixel > 1)
     part(ui, "samples", grouped(stats.samplesPerPixel) + " samples a pixel", theme::kText,
          "Paths traced for each pixel so far.");

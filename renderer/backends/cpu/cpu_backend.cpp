@@ -5,8 +5,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/backends/cpu/composition.h"
 #include "renderer/backends/cpu/gbuffer.h"
 #include "renderer/backends/cpu/light_sums.h"
+#include "renderer/backends/cpu/low_resolution.h"
 #include "renderer/backends/cpu/shadow_maps.h"
 #include "renderer/error.h"
 
@@ -20,7 +22,17 @@ constexpr int kRowsPerTask = 32;
 // What a view shows, and the light there.
 struct Picture {
   cpu::GBuffer gbuffer;
-  cpu::LightSums sums;
+  cpu::LightSums sums;  // at its pixels; with blocks, at those of cells that are not interpolated
+  int block = 1;        // pixels, as summed
+  cpu::LowResolution low;
+  cpu::LightSums sampleSums;  // at the samples of `low`
+
+  template <typename F>
+  void forEachSums(F&& f) {
+    f(sums);
+    f(sampleSums);
+  }
+  size_t bytes() const { return gbuffer.bytes() + sums.bytes() + low.bytes() + sampleSums.bytes(); }
 };
 
 class CpuBackend final : public Backend {
@@ -30,8 +42,7 @@ class CpuBackend final : public Backend {
   KernelCounts counts() const override {
     KernelCounts counts = counts_;
     counts.memoryBytes = maps_.size() * sizeof(float);
-    for (const Picture* p : {&still_, &shifted_})
-      counts.memoryBytes += p->gbuffer.bytes() + p->sums.bytes();
+    for (const Picture* p : {&still_, &shifted_}) counts.memoryBytes += p->bytes();
     return counts;
   }
 
@@ -41,7 +52,8 @@ class CpuBackend final : public Backend {
     rays_ = &rays;
     if (changes.rebuilt || changes.materials) {
       stillIsKnown_ = false;
-      for (Picture* p : {&still_, &shifted_}) p->sums.forgetPlaces();
+      for (Picture* p : {&still_, &shifted_})
+        p->forEachSums([](cpu::LightSums& sums) { sums.forgetPlaces(); });
       return;
     }
     moves_.insert(moves_.end(), changes.movedBounds.begin(), changes.movedBounds.end());
@@ -50,7 +62,8 @@ class CpuBackend final : public Backend {
 
   void reserveShadowMaps(int slots, int resolution) override {
     if (slots == slots_ && resolution == resolution_) return;
-    for (Picture* p : {&still_, &shifted_}) p->sums.forgetMaps();
+    for (Picture* p : {&still_, &shifted_})
+      p->forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
     const size_t texels = static_cast<size_t>(slots) * resolution * resolution;
     try {
       // Free first: both would not fit where one does.
@@ -69,9 +82,11 @@ class CpuBackend final : public Backend {
 
   void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
     const size_t texels = static_cast<size_t>(resolution_) * resolution_;
-    shifted_.sums.forgetMaps();
-    for (const shared::Vpl& vpl : vpls)
-      still_.sums.mapChanges(static_cast<int>(vpl.intensity.w), {mapOf(vpl), texels});
+    shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
+    still_.forEachSums([&](cpu::LightSums& sums) {
+      for (const shared::Vpl& vpl : vpls)
+        sums.mapChanges(static_cast<int>(vpl.intensity.w), {mapOf(vpl), texels});
+    });
     const int tasks = (resolution_ + kRowsPerTask - 1) / kRowsPerTask;
     tbb::parallel_for(0, static_cast<int>(vpls.size()) * tasks, [&](int task) {
       const shared::Vpl& vpl = vpls[task / tasks];
@@ -106,20 +121,31 @@ class CpuBackend final : public Backend {
       lights.push_back(cpu::makeLightRecord(vpl, vpl.intensity.w < 0.0f ? nullptr : mapOf(vpl)));
     const float d0 = params.clampAndBias.x;
     const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_, 1.0f};
-    const cpu::SumCounts counts = shown_->sums.update(shown_->gbuffer, lights, constants, patches);
-    counts_.lookUps += counts.lookUps;
-    counts_.lightPixels += counts.lightPixels;
+    const auto update = [&](cpu::LightSums& sums, const cpu::GBuffer& gbuffer,
+                            std::span<const uint32_t> wanted) {
+      const cpu::SumCounts counts = sums.update(gbuffer, lights, constants, patches, wanted);
+      counts_.lookUps += counts.lookUps;
+      counts_.lightPixels += counts.lightPixels;
+    };
+    Picture& p = *shown_;
+    p.block = std::max(1, static_cast<int>(params.block.x));
+    if (p.block == 1) {
+      update(p.sums, p.gbuffer, {});
+      return;
+    }
+    p.low.update(p.gbuffer, p.block);
+    update(p.sampleSums, p.low.samples(), {});
+    p.low.findEdges(p.gbuffer, p.sampleSums);
+    counts_.pixelsInterpolated += p.low.pixelsInterpolated();
+    update(p.sums, p.gbuffer, p.low.edges());
   }
 
   std::shared_ptr<RadianceImage> compose(bool white) override {
-    const cpu::GBuffer& g = shown_->gbuffer;
-    const cpu::LightSums& sums = shown_->sums;
-    const vec3 sky = scene_->sky;
-    return std::make_shared<HostImage>(makeImage([&](size_t i) {
-      if (!g.hit[i]) return sky;
-      const vec3 albedo = white ? vec3(1.0f) : g.albedo[i];
-      return g.emission[i] + albedo * (1.0f / kPi) * sums.irradiance(i);
-    }));
+    const Picture& p = *shown_;
+    const auto image = images_.take(p.gbuffer.width, p.gbuffer.height);
+    cpu::compose(p.gbuffer, p.sums, p.block == 1 ? nullptr : &p.low, scene_->sky, white,
+                 image->image);
+    return image;
   }
 
   std::vector<float> readShadowMap(int slot) override {
@@ -135,7 +161,7 @@ class CpuBackend final : public Backend {
 
   Image readAlbedo() override {
     const cpu::GBuffer& g = shown_->gbuffer;
-    return makeImage([&](size_t i) { return g.hit[i] ? g.albedo[i] : vec3(0.0f); });
+    return makeImage([&](size_t i) { return g.hit[i] ? g.albedo(i) : vec3(0.0f); });
   }
 
   void finish() override {}
@@ -156,6 +182,7 @@ class CpuBackend final : public Backend {
     return image;
   }
 
+  cpu::ImagePool images_;
   BackendInfo info_{"cpu", "x86-64-v3, 8 lanes", true, true};
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;

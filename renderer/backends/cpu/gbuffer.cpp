@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/scene/surface.h"
+#include "renderer/backends/cpu/raster.h"
 
 namespace lamplighter::cpu {
 
@@ -17,17 +18,55 @@ void GBuffer::resize(int w, int h) {
   tilesX = (w + kTileSize - 1) / kTileSize;
   tilesY = (h + kTileSize - 1) / kTileSize;
   const size_t n = static_cast<size_t>(tiles()) * kTilePixels;
-  for (auto* v : {&px, &py, &pz, &sx, &sy, &sz, &gx, &gy, &gz}) v->assign(n, 0.0f);
-  albedo.assign(n, vec3(0.0f));
-  emission.assign(n, vec3(0.0f));
+  for (auto* v : {&px, &py, &pz, &sx, &sy, &sz, &gx, &gy, &gz, &ar, &ag, &ab, &er, &eg, &eb})
+    v->assign(n, 0.0f);
   hit.assign(n, 0);
   object.assign(n, 0);
   triangle.assign(n, 0);
   isFlat.assign(n / kLanes, 0);
-  revision.assign(static_cast<size_t>(tiles()), 0);
+  const uint64_t last = revision.empty() ? 0 : *std::max_element(revision.begin(), revision.end());
+  revision.assign(static_cast<size_t>(tiles()), last);
 }
 
-size_t GBuffer::bytes() const { return px.size() * (9 * sizeof(float) + 2 * sizeof(vec3) + 9); }
+int GBuffer::pixelsOf(int tile, uint32_t packets) const {
+  const int w = std::min(kTileSize, width - tile % tilesX * kTileSize);
+  const int h = std::min(kTileSize, height - tile / tilesX * kTileSize);
+  if (packets == ~uint32_t{0}) return w * h;
+  int pixels = 0;
+  for (; packets != 0; packets &= packets - 1) {
+    const int packet = std::countr_zero(packets);
+    pixels += std::clamp(w - packet % kPacketsPerRow * kPacketWidth, 0, kPacketWidth) *
+              std::clamp(h - packet / kPacketsPerRow * kPacketHeight, 0, kPacketHeight);
+  }
+  return pixels;
+}
+
+void GBuffer::setSurface(size_t i, const Surface& s, bool isFront) {
+  const float side = isFront ? 1.0f : -1.0f;
+  sx[i] = side * s.normal.x;
+  sy[i] = side * s.normal.y;
+  sz[i] = side * s.normal.z;
+  gx[i] = side * s.geometricNormal.x;
+  gy[i] = side * s.geometricNormal.y;
+  gz[i] = side * s.geometricNormal.z;
+  ar[i] = s.albedo.r;
+  ag[i] = s.albedo.g;
+  ab[i] = s.albedo.b;
+  const vec3 emission = isFront || s.emitsBothSides ? s.emission : vec3(0.0f);
+  er[i] = emission.r;
+  eg[i] = emission.g;
+  eb[i] = emission.b;
+}
+
+void GBuffer::findFlat(int tile, int packet) {
+  const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
+  const auto same = [&](const std::vector<float>& a, const std::vector<float>& b) {
+    return std::equal(&a[first], &a[first] + kLanes, &b[first]);
+  };
+  isFlat[first / kLanes] = same(sx, gx) && same(sy, gy) && same(sz, gz) ? 1 : 0;
+}
+
+size_t GBuffer::bytes() const { return px.size() * (15 * sizeof(float) + 9); }
 
 namespace {
 
@@ -42,18 +81,10 @@ void store(GBuffer& out, size_t i, const RenderScene& scene, const Hit& hit,
   out.triangle[i] = hit.triangle;
   const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
   const bool front = glm::dot(direction, s.geometricNormal) < 0.0f;
-  const float side = front ? 1.0f : -1.0f;
   out.px[i] = s.position.x;
   out.py[i] = s.position.y;
   out.pz[i] = s.position.z;
-  out.sx[i] = side * s.normal.x;
-  out.sy[i] = side * s.normal.y;
-  out.sz[i] = side * s.normal.z;
-  out.gx[i] = side * s.geometricNormal.x;
-  out.gy[i] = side * s.geometricNormal.y;
-  out.gz[i] = side * s.geometricNormal.z;
-  out.albedo[i] = s.albedo;
-  out.emission[i] = front || s.emitsBothSides ? s.emission : vec3(0.0f);
+  out.setSurface(i, s, front);
 }
 
 void trace(const RenderScene& scene, const RayCaster& rays, const View& view, vec2 jitter, int tile,
@@ -77,11 +108,7 @@ void trace(const RenderScene& scene, const RayCaster& rays, const View& view, ve
     const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
     for (int lane = 0; lane < kLanes; ++lane)
       store(out, first + lane, scene, hit[lane], ray[lane].direction);
-    const auto same = [&](const std::vector<float>& a, const std::vector<float>& b) {
-      return std::equal(&a[first], &a[first] + kLanes, &b[first]);
-    };
-    out.isFlat[first / kLanes] =
-        same(out.sx, out.gx) && same(out.sy, out.gy) && same(out.sz, out.gz) ? 1 : 0;
+    out.findFlat(tile, packet);
   }
 }
 
@@ -112,34 +139,49 @@ TileRange tilesThatMaySee(const View& view, const GBuffer& g, const Bounds& box)
 
 }  // namespace
 
+namespace {
+
+// Traces tiles, those of `wanted` (by tile) or all.
+void traceTiles(const RenderScene& scene, const RayCaster& rays, const View& view, vec2 jitter,
+                std::span<const uint8_t> wanted, GBuffer& out) {
+  const auto forEachTile = [&](auto&& f) {
+    tbb::parallel_for(0, out.tiles(), [&](int tile) {
+      if (!wanted.empty() && wanted[static_cast<size_t>(tile)] == 0) return;
+      f(tile);
+      ++out.revision[static_cast<size_t>(tile)];
+    });
+  };
+  if (scene.triangleCount() > Raster::kMostTriangles) {
+    forEachTile([&](int tile) { trace(scene, rays, view, jitter, tile, out); });
+    return;
+  }
+  const Raster raster(scene, view, jitter, out, wanted);
+  forEachTile([&](int tile) { raster.trace(tile, out); });
+}
+
+}  // namespace
+
 uint64_t renderGBuffer(const RenderScene& scene, const RayCaster& rays, const View& view,
                        vec2 jitter, GBuffer& out) {
   if (out.width != view.width || out.height != view.height) out.resize(view.width, view.height);
-  tbb::parallel_for(0, out.tiles(), [&](int tile) {
-    trace(scene, rays, view, jitter, tile, out);
-    ++out.revision[static_cast<size_t>(tile)];
-  });
+  traceTiles(scene, rays, view, jitter, {}, out);
   return static_cast<uint64_t>(view.width) * view.height;
 }
 
 uint64_t updateGBuffer(const RenderScene& scene, const RayCaster& rays, const View& view,
                        std::span<const Bounds> boxes, GBuffer& out) {
   std::vector<uint8_t> isStale(static_cast<size_t>(out.tiles()), 0);
+  uint64_t traced = 0;
   for (const Bounds& box : boxes) {
     const TileRange range = tilesThatMaySee(view, out, box);
     for (int y = range.y0; y < range.y1; ++y)
-      for (int x = range.x0; x < range.x1; ++x)
-        isStale[static_cast<size_t>(y * out.tilesX + x)] = 1;
+      for (int x = range.x0; x < range.x1; ++x) {
+        uint8_t& stale = isStale[static_cast<size_t>(y * out.tilesX + x)];
+        if (stale == 0) traced += static_cast<uint64_t>(out.pixelsOf(y * out.tilesX + x));
+        stale = 1;
+      }
   }
-  std::vector<int> tiles;
-  for (int tile = 0; tile < out.tiles(); ++tile)
-    if (isStale[static_cast<size_t>(tile)] != 0) tiles.push_back(tile);
-  tbb::parallel_for(size_t{0}, tiles.size(), [&](size_t i) {
-    trace(scene, rays, view, vec2(0.0f), tiles[i], out);
-    ++out.revision[static_cast<size_t>(tiles[i])];
-  });
-  uint64_t traced = 0;
-  for (const int tile : tiles) traced += static_cast<uint64_t>(out.pixelsOf(tile));
+  if (traced > 0) traceTiles(scene, rays, view, vec2(0.0f), isStale, out);
   return traced;
 }
 

@@ -8,6 +8,7 @@
 #include "renderer/math.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/render_scene.h"
+#include "renderer/scene/surface.h"
 #include "renderer/view.h"
 
 namespace lamplighter::cpu {
@@ -29,20 +30,18 @@ struct GBuffer {
   std::vector<float> px, py, pz;  // world position [m]
   std::vector<float> sx, sy, sz;  // shading normal, on the side that the eye sees
   std::vector<float> gx, gy, gz;  // geometric normal, on that side
-  std::vector<vec3> albedo;
-  std::vector<vec3> emission;  // towards the eye [W/(m² sr)]
+  std::vector<float> ar, ag, ab;  // albedo
+  std::vector<float> er, eg, eb;  // emission towards the eye [W/(m² sr)]
   std::vector<uint8_t> hit;
   std::vector<uint32_t> object, triangle;  // where something was hit
   std::vector<uint8_t> isFlat;             // of each packet: both normals are the same
-  std::vector<uint64_t> revision;          // of each tile, another each time it is traced
+  std::vector<uint64_t> revision;          // of each tile, more each time it is traced
 
+  // Everything is a miss then, and no revision is one that was before.
   void resize(int w, int h);
   int tiles() const { return tilesX * tilesY; }
-  // Of the image, that a tile holds.
-  int pixelsOf(int tile) const {
-    return std::min(kTileSize, width - tile % tilesX * kTileSize) *
-           std::min(kTileSize, height - tile / tilesX * kTileSize);
-  }
+  // Of the image, that a tile holds, or these of its packets (a bit each).
+  int pixelsOf(int tile, uint32_t packets = ~uint32_t{0}) const;
   size_t index(int x, int y) const {
     const size_t tile = static_cast<size_t>(y / kTileSize) * tilesX + x / kTileSize;
     const int tx = x % kTileSize, ty = y % kTileSize;
@@ -50,6 +49,13 @@ struct GBuffer {
     const int lane = (ty % kPacketHeight) * kPacketWidth + tx % kPacketWidth;
     return tile * kTilePixels + packet * kLanes + lane;
   }
+  vec3 albedo(size_t i) const { return {ar[i], ag[i], ab[i]}; }
+  vec3 emission(size_t i) const { return {er[i], eg[i], eb[i]}; }
+
+  // What is seen from its front or back; all but where it is.
+  void setSurface(size_t i, const Surface& surface, bool isFront);
+  // Sets isFlat of a packet that was written.
+  void findFlat(int tile, int packet);
   size_t bytes() const;
 };
 

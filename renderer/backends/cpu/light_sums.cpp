@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -35,13 +36,15 @@ bool revised(std::vector<Revision>& last, const Source* source) {
   return isOther;
 }
 
-// Adds lights to one tile, or takes them away.
+// Adds lights to packets of one tile, or takes them away.
 class TileAdder {
  public:
-  TileAdder(const GBuffer& gbuffer, int tile, const TilePlaces& places, const PlaceTable* table,
-            const SumConstants& constants, FixedSums& sums, SumCounts& counts)
+  TileAdder(const GBuffer& gbuffer, int tile, uint32_t packets, const TilePlaces& places,
+            const PlaceTable* table, const SumConstants& constants, FixedSums& sums,
+            SumCounts& counts)
       : gbuffer_(gbuffer),
-        pixels_(static_cast<uint64_t>(gbuffer.pixelsOf(tile))),
+        packets_(packets),
+        pixels_(static_cast<uint64_t>(gbuffer.pixelsOf(tile, packets))),
         places_(places),
         table_(table),
         constants_(constants),
@@ -52,11 +55,11 @@ class TileAdder {
     counts_.lightPixels += pixels_;
     if (table_ == nullptr || light.slot < 0) {
       const LightUse use = light.map == nullptr ? LightUse::add : LightUse::addShadowed;
-      places_.listAll(lists_[0]);
+      places_.listAll(packets_, lists_[0]);
       sum(lists_[0], use, sign, light);
       return;
     }
-    places_.list(*table_, when, light.slot, lists_);
+    places_.list(*table_, when, light.slot, packets_, lists_);
     for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
       sum(lists_[static_cast<size_t>(use)], use, sign, light);
   }
@@ -68,6 +71,7 @@ class TileAdder {
   }
 
   const GBuffer& gbuffer_;
+  uint32_t packets_;
   uint64_t pixels_;
   const TilePlaces& places_;
   const PlaceTable* table_;
@@ -84,8 +88,9 @@ struct LightSums::Frame {
   std::span<const LightRecord> lights;
   std::vector<const LightRecord*> slots;
   const PatchLights* patches;
-  std::vector<Change> changes;  // of lights and their maps
-  std::vector<bool> isChanged;  // by slot
+  std::span<const uint32_t> wanted;  // by tile; empty: all
+  std::vector<Change> changes;       // of lights and their maps
+  std::vector<bool> isChanged;       // by slot
 };
 
 void LightSums::mapChanges(int slot, std::span<const float> map) {
@@ -123,8 +128,11 @@ void LightSums::compareWithLast(const Frame& frame) {
     for (auto* v : {&red_, &green_, &blue_}) v->assign(g.px.size(), 0.0f);
   }
   if (!knowsPlaces_ || (hasPatches && frame.patches->slots() != table_.slots())) knowsSums_ = false;
-  for (size_t i = 0; i < tiles; ++i)
-    tiles_[i].isStale = !knowsSums_ || tiles_[i].revision != g.revision[i];
+  for (size_t i = 0; i < tiles; ++i) {
+    Tile& tile = tiles_[i];
+    tile.wanted = frame.wanted.empty() ? ~uint32_t{0} : frame.wanted[i];
+    if (!knowsSums_ || tile.revision != g.revision[i]) tile.summed = 0;
+  }
 }
 
 std::vector<LightSums::Change> LightSums::findChanges(std::span<const LightRecord> lights) {
@@ -146,10 +154,14 @@ std::vector<LightSums::Change> LightSums::findChanges(std::span<const LightRecor
 void LightSums::findPlaces(const Frame& frame) {
   const bool anew = !knowsPlaces_;
   std::vector<size_t> found;
-  for (size_t i = 0; i < tiles_.size(); ++i)
-    if (anew || tiles_[i].revision != frame.gbuffer.revision[i]) found.push_back(i);
+  for (size_t i = 0; i < tiles_.size(); ++i) {
+    Tile& tile = tiles_[i];
+    if (anew || tile.revision != frame.gbuffer.revision[i]) tile.places.clear();
+    if (!tile.places.knows(tile.wanted)) found.push_back(i);
+  }
   tbb::parallel_for(size_t{0}, found.size(), [&](size_t i) {
-    tiles_[found[i]].places.find(frame.gbuffer, static_cast<int>(found[i]), frame.patches);
+    Tile& tile = tiles_[found[i]];
+    tile.places.find(frame.gbuffer, static_cast<int>(found[i]), frame.patches, tile.wanted);
   });
   knowsPlaces_ = true;
   if (frame.patches == nullptr) return;
@@ -166,9 +178,10 @@ void LightSums::findPlaces(const Frame& frame) {
 }
 
 SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
-                            SumConstants constants, const PatchLights* patches) {
+                            SumConstants constants, const PatchLights* patches,
+                            std::span<const uint32_t> wanted) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
-  Frame frame{gbuffer, lights, bySlot(lights), patches, {}, {}};
+  Frame frame{gbuffer, lights, bySlot(lights), patches, wanted, {}, {}};
   const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
   // Lights that cast no shadow have no slot to tell them by.
   if (constants != constants_ || !std::all_of(lights.begin(), lights.end(), hasSlot) ||
@@ -198,10 +211,13 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
     lightPixels += counts.lightPixels;
     lookUps += counts.lookUps;
     for (int tile = first; tile < last; ++tile)
-      if (finishAll || counts.lightPixels > 0 || tiles_[static_cast<size_t>(tile)].isStale)
+      if (finishAll || counts.lightPixels > 0 || tiles_[static_cast<size_t>(tile)].begun() != 0)
         finishTile(frame, tile);
   });
-  for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].revision = gbuffer.revision[i];
+  for (size_t i = 0; i < tiles_.size(); ++i) {
+    tiles_[i].revision = gbuffer.revision[i];
+    tiles_[i].summed = tiles_[i].wanted;
+  }
   table_.accept();
   lights_.assign(lights.begin(), lights.end());
   oldMaps_.clear();
@@ -209,23 +225,31 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   return {lightPixels, lookUps};
 }
 
+void LightSums::clearPackets(int tile, uint32_t packets) {
+  const size_t first = static_cast<size_t>(tile) * kTilePixels;
+  for (; packets != 0; packets &= packets - 1) {
+    const size_t at = first + static_cast<size_t>(std::countr_zero(packets)) * kLanes;
+    for (auto* v : {&sums_.r, &sums_.g, &sums_.b}) std::fill_n(&(*v)[at], kLanes, 0);
+  }
+}
+
 SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   using When = TilePlaces::When;
   SumCounts counts;
-  std::vector<TileAdder> fresh, stale;
-  fresh.reserve(static_cast<size_t>(last - first));
-  stale.reserve(static_cast<size_t>(last - first));
+  std::vector<TileAdder> kept, begun;
+  kept.reserve(static_cast<size_t>(last - first));
+  begun.reserve(static_cast<size_t>(last - first));
+  const PlaceTable* table = hasPatches_ ? &table_ : nullptr;
   for (int i = first; i < last; ++i) {
-    Tile& tile = tiles_[static_cast<size_t>(i)];
-    if (tile.isStale) {
-      const size_t at = static_cast<size_t>(i) * kTilePixels;
-      for (auto* v : {&sums_.r, &sums_.g, &sums_.b}) std::fill_n(&(*v)[at], kTilePixels, 0);
-    }
-    if (tile.places.isEmpty()) continue;
-    (tile.isStale ? stale : fresh)
-        .emplace_back(frame.gbuffer, i, tile.places, hasPatches_ ? &table_ : nullptr, constants_,
-                      sums_, counts);
-    if (tile.isStale || !hasPatches_) continue;
+    const Tile& tile = tiles_[static_cast<size_t>(i)];
+    clearPackets(i, tile.begun());
+    const auto addTo = [&](std::vector<TileAdder>& adders, uint32_t packets) {
+      if ((packets & tile.places.hit()) == 0) return false;
+      adders.emplace_back(frame.gbuffer, i, packets, tile.places, table, constants_, sums_, counts);
+      return true;
+    };
+    addTo(begun, tile.begun());
+    if (!addTo(kept, tile.kept()) || !hasPatches_) continue;
     // Lights that are the same but are used in another way here.
     std::vector<int> slots;
     for (const uint32_t row : tile.places.rows())
@@ -237,14 +261,14 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
       if (static_cast<size_t>(slot) >= frame.slots.size()) continue;
       const LightRecord* light = frame.slots[static_cast<size_t>(slot)];
       if (light == nullptr) continue;
-      fresh.back().add(*light, Sign::takeAway, When::before);
-      fresh.back().add(*light, Sign::add, When::now);
+      kept.back().add(*light, Sign::takeAway, When::before);
+      kept.back().add(*light, Sign::add, When::now);
     }
   }
   for (const Change& change : frame.changes) {
-    for (TileAdder& tile : fresh)
+    for (TileAdder& tile : kept)
       if (change.before != nullptr) tile.add(*change.before, Sign::takeAway, When::before);
-    for (TileAdder& tile : fresh)
+    for (TileAdder& tile : kept)
       if (change.now != nullptr) tile.add(*change.now, Sign::add, When::now);
   }
   // The maps of some lights fit the second-level cache, those of all do not: each is fetched for
@@ -253,7 +277,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   const size_t atOnce = std::max<size_t>(1, kMapBytesAtOnce / (texels * sizeof(float)));
   for (size_t i = 0; i < frame.lights.size(); i += atOnce) {
     const auto some = frame.lights.subspan(i, std::min(atOnce, frame.lights.size() - i));
-    for (TileAdder& tile : stale)
+    for (TileAdder& tile : begun)
       for (const LightRecord& light : some) tile.add(light, Sign::add, When::now);
   }
   return counts;
@@ -264,29 +288,32 @@ void LightSums::finishTile(const Frame& frame, int tile) {
   const GBuffer& g = frame.gbuffer;
   const size_t first = static_cast<size_t>(tile) * kTilePixels;
   const float unit = 1.0f / constants_.unitsPerIrradiance;
-  for (size_t i = first; i < first + kTilePixels; ++i) {
-    red_[i] = unit * static_cast<float>(sums_.r[i]);
-    green_[i] = unit * static_cast<float>(sums_.g[i]);
-    blue_[i] = unit * static_cast<float>(sums_.b[i]);
+  const Tile& t = tiles_[static_cast<size_t>(tile)];
+  for (uint32_t packets = t.wanted; packets != 0; packets &= packets - 1) {
+    const size_t packet = first + static_cast<size_t>(std::countr_zero(packets)) * kLanes;
+    for (size_t i = packet; i < packet + kLanes; ++i) {
+      red_[i] = unit * static_cast<float>(sums_.r[i]);
+      green_[i] = unit * static_cast<float>(sums_.g[i]);
+      blue_[i] = unit * static_cast<float>(sums_.b[i]);
+    }
   }
   if (!hasMaps_ && !hasTransfer_) return;
-  tiles_[static_cast<size_t>(tile)].places.forEachMapped(
-      [&](size_t packet, uint8_t lanes, const Place& place) {
-        const ObjectPatches& patches = frame.patches->patches(place.object);
-        for (size_t lane = 0; lane < kLanes; ++lane) {
-          if ((lanes >> lane & 1) == 0) continue;
-          const size_t i = packet + lane;
-          const vec3 position(g.px[i], g.py[i], g.pz[i]);
-          const vec3 e =
-              frame.patches->hasTransfer(place.object, place.leaf)
-                  ? frame.patches->prt()->irradiance(place.object, g.triangle[i], position)
-                  : frame.patches->maps()->irradiance(patches, place.object, place.leaf, position);
-          // The map is interpolated and what is taken away is not: no less than no light is left.
-          red_[i] = std::max(red_[i] + e.r, 0.0f);
-          green_[i] = std::max(green_[i] + e.g, 0.0f);
-          blue_[i] = std::max(blue_[i] + e.b, 0.0f);
-        }
-      });
+  t.places.forEachMapped(t.wanted, [&](size_t packet, uint8_t lanes, const Place& place) {
+    const ObjectPatches& patches = frame.patches->patches(place.object);
+    for (size_t lane = 0; lane < kLanes; ++lane) {
+      if ((lanes >> lane & 1) == 0) continue;
+      const size_t i = packet + lane;
+      const vec3 position(g.px[i], g.py[i], g.pz[i]);
+      const vec3 e =
+          frame.patches->hasTransfer(place.object, place.leaf)
+              ? frame.patches->prt()->irradiance(place.object, g.triangle[i], position)
+              : frame.patches->maps()->irradiance(patches, place.object, place.leaf, position);
+      // The map is interpolated and what is taken away is not: no less than no light is left.
+      red_[i] = std::max(red_[i] + e.r, 0.0f);
+      green_[i] = std::max(green_[i] + e.g, 0.0f);
+      blue_[i] = std::max(blue_[i] + e.b, 0.0f);
+    }
+  });
 }
 
 size_t LightSums::bytes() const {

@@ -20,10 +20,12 @@ struct SumCounts {
 
 class LightSums {
  public:
-  // Brings E up to date at all pixels. `patches`: how each patch comes by each light; null: with a
-  // look-up, or without where the light has no map. The unit in `constants` is chosen here.
+  // Brings E up to date. `patches`: how each patch comes by each light; null: with a look-up, or
+  // without where the light has no map. `wanted`: by tile, the packets where E is wanted, a bit
+  // each; empty: at all pixels. The unit in `constants` is chosen here.
   SumCounts update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
-                   SumConstants constants, const PatchLights* patches);
+                   SumConstants constants, const PatchLights* patches,
+                   std::span<const uint32_t> wanted = {});
 
   // To be called before a shadow map changes, with what it holds: its light may have to be taken
   // away with it.
@@ -33,15 +35,22 @@ class LightSums {
   // Objects are numbered anew, or have other patches though they stayed where they were.
   void forgetPlaces() { knowsPlaces_ = false; }
 
-  // E at a pixel of the G-buffer [W/m²].
+  // E at a pixel of the G-buffer, where it was wanted [W/m²].
   vec3 irradiance(size_t i) const { return {red_[i], green_[i], blue_[i]}; }
+  // A channel of it there and at the pixels that follow in the G-buffer.
+  const float* red(size_t i) const { return &red_[i]; }
+  const float* green(size_t i) const { return &green_[i]; }
+  const float* blue(size_t i) const { return &blue_[i]; }
   size_t bytes() const;
 
  private:
   struct Tile {
     uint64_t revision = 0;  // of the G-buffer's tile, as summed; 0: never
-    bool isStale = true;
+    uint32_t summed = 0;    // packets, of the lights as they were
+    uint32_t wanted = 0;    // packets; those that are summed go on from there, others begin anew
     TilePlaces places;
+    uint32_t kept() const { return wanted & summed; }
+    uint32_t begun() const { return wanted & ~summed; }
   };
   // A light to take away, one to add, or both; null: none.
   struct Change {
@@ -55,10 +64,11 @@ class LightSums {
   std::vector<Change> findChanges(std::span<const LightRecord> lights);
   void findPlaces(const Frame& frame);
   SumCounts sumTiles(const Frame& frame, int first, int last);
+  void clearPackets(int tile, uint32_t packets);
   void finishTile(const Frame& frame, int tile);
 
-  bool knowsSums_ = false;    // those of fresh tiles are of lights_ with constants_
-  bool knowsPlaces_ = false;  // of fresh tiles
+  bool knowsSums_ = false;    // those that are summed are of lights_ with constants_
+  bool knowsPlaces_ = false;  // of tiles that show the same
   bool hasPatches_ = false, hasMaps_ = false, hasTransfer_ = false;
   SumConstants constants_;
   std::vector<LightRecord> lights_;            // as summed

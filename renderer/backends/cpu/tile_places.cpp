@@ -75,14 +75,20 @@ uint16_t TilePlaces::placeOf(const GBuffer& g, const PatchLights& lights, size_t
   return static_cast<uint16_t>(places_.size() - 1);
 }
 
-void TilePlaces::find(const GBuffer& g, int tile, const PatchLights* patches) {
-  first_ = static_cast<size_t>(tile) * kTilePixels;
+void TilePlaces::clear() {
+  known_ = hit_ = 0;
   places_.clear();
   rows_.clear();
   parts_.clear();
   kinds_.clear();
+}
+
+void TilePlaces::find(const GBuffer& g, int tile, const PatchLights* patches, uint32_t packets) {
+  first_ = static_cast<size_t>(tile) * kTilePixels;
   std::vector<Part> parts;
-  for (int packet = 0; packet < kPacketsPerTile; ++packet) {
+  for (packets &= ~known_; packets != 0; packets &= packets - 1) {
+    const int packet = std::countr_zero(packets);
+    known_ |= uint32_t{1} << packet;
     parts.clear();
     for (int lane = 0; lane < kLanes; ++lane) {
       const size_t i = first_ + static_cast<size_t>(packet * kLanes + lane);
@@ -95,6 +101,7 @@ void TilePlaces::find(const GBuffer& g, int tile, const PatchLights* patches) {
     }
     if (parts.empty()) continue;
     const uint32_t bit = uint32_t{1} << packet;
+    hit_ |= bit;
     const auto it = std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& k) {
       return std::equal(parts.begin(), parts.end(), parts_.begin() + k.first,
                         parts_.begin() + k.first + k.count);
@@ -114,9 +121,12 @@ void TilePlaces::takeRows(PlaceTable& table) {
   for (const Place& place : places_) rows_.push_back(table.rowOf(place));
 }
 
-void TilePlaces::list(const PlaceTable& table, When when, int slot, Lists& out) const {
+void TilePlaces::list(const PlaceTable& table, When when, int slot, uint32_t packets,
+                      Lists& out) const {
   for (PacketList& list : out) list.clear();
   for (const Kind& kind : kinds_) {
+    const uint32_t meant = kind.packets & packets;
+    if (meant == 0) continue;
     std::array<uint8_t, 4> lanes{};
     for (size_t i = kind.first; i < kind.first + kind.count; ++i) {
       const uint32_t row = rows_[parts_[i].place];
@@ -125,17 +135,17 @@ void TilePlaces::list(const PlaceTable& table, When when, int slot, Lists& out) 
     }
     for (size_t use = 1; use < 4; ++use) {
       if (lanes[use] == 0) continue;
-      for (uint32_t packets = kind.packets; packets != 0; packets &= packets - 1)
-        out[use].add(first_ + static_cast<size_t>(std::countr_zero(packets)) * kLanes, lanes[use]);
+      for (uint32_t rest = meant; rest != 0; rest &= rest - 1)
+        out[use].add(first_ + static_cast<size_t>(std::countr_zero(rest)) * kLanes, lanes[use]);
     }
   }
 }
 
-void TilePlaces::listAll(PacketList& out) const {
+void TilePlaces::listAll(uint32_t packets, PacketList& out) const {
   out.clear();
   for (const Kind& kind : kinds_)
-    for (uint32_t packets = kind.packets; packets != 0; packets &= packets - 1)
-      out.add(first_ + static_cast<size_t>(std::countr_zero(packets)) * kLanes, 0xff);
+    for (uint32_t rest = kind.packets & packets; rest != 0; rest &= rest - 1)
+      out.add(first_ + static_cast<size_t>(std::countr_zero(rest)) * kLanes, 0xff);
 }
 
 }  // namespace lamplighter::cpu

@@ -54,27 +54,33 @@ class TilePlaces {
  public:
   using Lists = std::array<PacketList, 4>;  // by LightUse
 
+  // Forgets what it knows, when the tile shows something else.
+  void clear();
+  // Finds those of these packets (a bit each), unless they are known.
   // patches: null where all lights are looked up everywhere.
-  void find(const GBuffer& gbuffer, int tile, const PatchLights* patches);
+  void find(const GBuffer& gbuffer, int tile, const PatchLights* patches, uint32_t packets);
+  bool knows(uint32_t packets) const { return (packets & ~known_) == 0; }
   // Their rows in the table, once found. Not while other tiles do.
   void takeRows(PlaceTable& table);
 
-  bool isEmpty() const { return kinds_.empty(); }
+  // Known packets in which anything is.
+  uint32_t hit() const { return hit_; }
   std::span<const uint32_t> rows() const { return rows_; }
-  // By slot, the packets of the tile that use the light in each way.
+  // By slot, those of these packets that use the light in each way.
   enum class When : uint8_t { before, now };
-  void list(const PlaceTable& table, When when, int slot, Lists& out) const;
-  // All that is hit.
-  void listAll(PacketList& out) const;
+  void list(const PlaceTable& table, When when, int slot, uint32_t packets, Lists& out) const;
+  // All of these that are hit.
+  void listAll(uint32_t packets, PacketList& out) const;
 
-  // Calls f(first pixel of the packet, lane, place) for all lanes on a light map or with transfer.
+  // Calls f(first pixel of the packet, lane, place) for all lanes of these packets on a light map
+  // or with transfer.
   template <typename F>
-  void forEachMapped(F&& f) const {
+  void forEachMapped(uint32_t which, F&& f) const {
     for (const Kind& kind : kinds_) {
       for (size_t part = kind.first; part < kind.first + kind.count; ++part) {
         const Place& place = places_[parts_[part].place];
         if (!place.isMapped) continue;
-        for (uint32_t packets = kind.packets; packets != 0; packets &= packets - 1)
+        for (uint32_t packets = kind.packets & which; packets != 0; packets &= packets - 1)
           f(first_ + static_cast<size_t>(std::countr_zero(packets)) * kLanes, parts_[part].lanes,
             place);
       }
@@ -95,7 +101,8 @@ class TilePlaces {
 
   uint16_t placeOf(const GBuffer& gbuffer, const PatchLights& lights, size_t pixel);
 
-  size_t first_ = 0;  // pixel of the tile
+  size_t first_ = 0;              // pixel of the tile
+  uint32_t known_ = 0, hit_ = 0;  // packets
   std::vector<Place> places_;
   std::vector<uint32_t> rows_;  // by place
   std::vector<Part> parts_;

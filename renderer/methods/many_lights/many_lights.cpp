@@ -162,6 +162,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.framesUntilSettled = (pending + aFrame - 1) / aFrame + samples - samples_;
   out.stats.mergedPasses = mergedPasses_;
   out.stats.passesSaved = passesSaved_;
+  out.stats.interpolatedShare = interpolatedShare_;
   out.stats.samplesPerPixel = std::max(samples_, 1);
   return out;
 }
@@ -287,6 +288,8 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   const KernelCounts after = in.backend.counts();
   mergedPasses_ = static_cast<int>(after.mergedPasses - before.mergedPasses);
   passesSaved_ = static_cast<int>(after.passesSaved - before.passesSaved);
+  interpolatedShare_ = static_cast<float>(after.pixelsInterpolated - before.pixelsInterpolated) /
+                       static_cast<float>(in.view.width * in.view.height);
   stages.end("light sums");
   auto image = in.backend.compose(in.lightOnly);
   stages.end("composition");

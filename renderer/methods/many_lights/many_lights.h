@@ -70,6 +70,7 @@ class ManyLights final : public GiMethod {
   bool gbufferIsCurrent_ = false;
   std::shared_ptr<RadianceImage> image_;    // of the pixels' middles
   int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum
+  float interpolatedShare_ = 0.0f;  // likewise
   // Antialiasing: the sum of the samples so far; their mean when they are complete.
   Image sum_;
   int samples_ = 0, samplesWanted_ = 1;

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame.h"
@@ -15,11 +16,13 @@
 namespace lamplighter {
 namespace {
 
+// "transfer" and "blocks of N" are besides light maps.
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
-  const bool isByTransfer = technique == "transfer";
-  s.set(parameters::technique().name, isByTransfer ? "light_maps" : technique);
+  const bool isByTransfer = technique == "transfer", isByBlocks = technique.starts_with("blocks");
+  s.set(parameters::technique().name, isByTransfer || isByBlocks ? "light_maps" : technique);
   s.set(parameters::prt().name, isByTransfer);
+  s.set(parameters::block().name, isByBlocks ? technique.substr(technique.size() - 1) : "1");
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::bounces().name, 2);
   s.set(parameters::updates().name, 9);
@@ -76,8 +79,41 @@ TEST_P(KeptSums, AreThoseMadeFromNothing) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, KeptSums,
                          testing::Combine(testing::Values("naive", "visibility", "light_maps",
-                                                          "transfer"),
+                                                          "transfer", "blocks of 2", "blocks of 4",
+                                                          "blocks of 8"),
                                           testing::Range(1u, 5u)));
+
+Image settledWith(const Room& room, const Settings& settings) {
+  FrameRenderer renderer(makeCpuBackend());
+  return settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+}
+
+// From one block to another and back, and to other sizes of picture with as many tiles.
+TEST(KeptSums, FollowBlocksAndSizes) {
+  Room room;
+  FrameRenderer renderer(makeCpuBackend());
+  SceneChanges changes = SceneChanges::all();
+  for (const auto& [block, width] :
+       {std::pair("4", 93), {"8", 93}, {"4", 95}, {"1", 95}, {"2", 92}, {"4", 92}, {"1", 93}}) {
+    Settings settings = settingsOf("light_maps", 40);
+    settings.set(parameters::block().name, std::string(block));
+    room.view.width = width;
+    const Image kept = settled(renderer, room.scene, changes, room.view, settings);
+    EXPECT_TRUE(test::sameBits(kept, settledWith(room, settings))) << block << ", " << width;
+    changes = {};
+  }
+}
+
+TEST(KeptSums, BlocksAreTheSameBitsAtAnyNumberOfThreads) {
+  Room room;
+  std::vector<Image> images;
+  for (const size_t threads : {1u, 2u, 5u}) {
+    tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    images.push_back(settledWith(room, settingsOf("blocks of 4", 60)));
+  }
+  EXPECT_TRUE(test::sameBits(images[0], images[1]));
+  EXPECT_TRUE(test::sameBits(images[0], images[2]));
+}
 
 // What moves costs its own tiles, and the lights that were refreshed: far less than all.
 TEST(KeptSums, ADragCostsWhatItTouches) {

@@ -1,0 +1,75 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
+#include "renderer/backends/cpu/composition.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include <hwy/highway.h>
+#include <tbb/parallel_for.h>
+
+namespace lamplighter::cpu {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::FixedTag<float, kLanes>;
+using Floats = hn::Vec<Tag>;
+constexpr Tag kTag;
+
+// Pictures that are kept for being written again; more are in use at once nowhere.
+constexpr size_t kMostPooled = 4;
+
+}  // namespace
+
+void compose(const GBuffer& g, const LightSums& sums, const LowResolution* low, const vec3& sky,
+             bool white, Image& out) {
+  tbb::parallel_for(0, g.tiles(), [&](int tile) {
+    const int tileX = tile % g.tilesX * kTileSize, tileY = tile / g.tilesX * kTileSize;
+    const uint32_t edges = low == nullptr ? ~uint32_t{0} : low->edges()[static_cast<size_t>(tile)];
+    const Floats inversePi = hn::Set(kTag, 1.0f / kPi);
+    for (int packet = 0; packet < kPacketsPerTile; ++packet) {
+      const int x = tileX + packet % kPacketsPerRow * kPacketWidth,
+                y = tileY + packet / kPacketsPerRow * kPacketHeight;
+      if (x >= g.width || y >= g.height) continue;
+      const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
+      LowResolution::Irradiance between;
+      const float *red = sums.red(first), *green = sums.green(first), *blue = sums.blue(first);
+      if ((edges >> packet & 1) == 0) {
+        low->interpolate(tile, packet, between);
+        red = between.r;
+        green = between.g;
+        blue = between.b;
+      }
+      const auto channel = [&](const float* e, const std::vector<float>& albedo,
+                               const std::vector<float>& emission) {
+        const Floats light = hn::Mul(hn::LoadU(kTag, e), inversePi);
+        const Floats reflected = white ? light : hn::Mul(hn::LoadU(kTag, &albedo[first]), light);
+        return hn::Add(hn::LoadU(kTag, &emission[first]), reflected);
+      };
+      float pixels[3 * kLanes];
+      hn::StoreInterleaved3(channel(red, g.ar, g.er), channel(green, g.ag, g.eg),
+                            channel(blue, g.ab, g.eb), kTag, pixels);
+      for (size_t lane = 0; lane < kLanes; ++lane)
+        if (g.hit[first + lane] == 0) std::memcpy(&pixels[3 * lane], &sky, sizeof(vec3));
+      const int columns = std::min(kPacketWidth, g.width - x),
+                rows = std::min(kPacketHeight, g.height - y);
+      for (int row = 0; row < rows; ++row)
+        std::memcpy(static_cast<void*>(&out.at(x, y + row)), &pixels[3 * kPacketWidth * row],
+                    static_cast<size_t>(columns) * sizeof(vec3));
+    }
+  });
+}
+
+std::shared_ptr<ImagePool::Pooled> ImagePool::take(int width, int height) {
+  for (const auto& image : images_)
+    if (image.use_count() == 1 && image->image.width == width && image->image.height == height)
+      return image;
+  std::erase_if(images_, [](const auto& image) { return image.use_count() == 1; });
+  auto image = std::make_shared<Pooled>();
+  image->image = Image(width, height);
+  if (images_.size() < kMostPooled) images_.push_back(image);
+  return image;
+}
+
+}  // namespace lamplighter::cpu

@@ -1,0 +1,320 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
+#include "renderer/backends/cpu/low_resolution.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include <hwy/highway.h>
+#include <tbb/parallel_for.h>
+
+#include "shaders/shared/low_resolution.h"
+
+namespace lamplighter::cpu {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::FixedTag<float, kLanes>;
+using Floats = hn::Vec<Tag>;
+constexpr Tag kTag;
+
+constexpr int kTilesPerTask = 16;
+
+// Packets of a tile that cover a cell of `block` pixels in column cx and row cy of cells.
+uint32_t packetsOfCell(int block, int cx, int cy) {
+  const int x0 = cx * block / kPacketWidth, x1 = (cx * block + block - 1) / kPacketWidth;
+  const int y0 = cy * block / kPacketHeight, y1 = (cy * block + block - 1) / kPacketHeight;
+  uint32_t packets = 0;
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x) packets |= uint32_t{1} << (y * kPacketsPerRow + x);
+  return packets;
+}
+
+// The first corner of a cell in every lane: isOnSurface for eight points at a time.
+class SurfaceTest {
+ public:
+  SurfaceTest(const GBuffer& g, size_t corner)
+      : gbuffer_(g),
+        x_(hn::Set(kTag, g.px[corner])),
+        y_(hn::Set(kTag, g.py[corner])),
+        z_(hn::Set(kTag, g.pz[corner])),
+        nx_(hn::Set(kTag, g.gx[corner])),
+        ny_(hn::Set(kTag, g.gy[corner])),
+        nz_(hn::Set(kTag, g.gz[corner])),
+        sx_(hn::Set(kTag, g.sx[corner])),
+        sy_(hn::Set(kTag, g.sy[corner])),
+        sz_(hn::Set(kTag, g.sz[corner])) {}
+
+  // Whether those lanes of the packet that begins there lie on its surface. Where nothing is hit
+  // the normals are zero, and the test fails.
+  bool holds(size_t first, uint8_t lanes) const {
+    const GBuffer& g = gbuffer_;
+    const auto at = [&](const std::vector<float>& v) { return hn::LoadU(kTag, &v[first]); };
+    const Floats dx = hn::Sub(at(g.px), x_), dy = hn::Sub(at(g.py), y_), dz = hn::Sub(at(g.pz), z_);
+    const Floats off = dot(nx_, ny_, nz_, dx, dy, dz);
+    const Floats distance2 = dot(dx, dy, dz, dx, dy, dz);
+    const auto isInPlane =
+        hn::Le(hn::Mul(off, off),
+               hn::Mul(hn::Set(kTag, shared::kMostOffPlane * shared::kMostOffPlane), distance2));
+    const auto isAlike = hn::Ge(dot(sx_, sy_, sz_, at(g.sx), at(g.sy), at(g.sz)),
+                                hn::Set(kTag, shared::kLeastNormalCosine));
+    uint8_t held[8];
+    hn::StoreMaskBits(kTag, hn::And(isInPlane, isAlike), held);
+    return (~held[0] & lanes) == 0;
+  }
+
+ private:
+  static Floats dot(Floats ax, Floats ay, Floats az, Floats bx, Floats by, Floats bz) {
+    return hn::MulAdd(ax, bx, hn::MulAdd(ay, by, hn::Mul(az, bz)));
+  }
+
+  const GBuffer& gbuffer_;
+  Floats x_, y_, z_, nx_, ny_, nz_, sx_, sy_, sz_;
+};
+
+// Whether all pixels from (x0, y0) to (x1, y1), both among them, lie on the surface at the first.
+bool isOnOneSurface(const GBuffer& g, int x0, int y0, int x1, int y1) {
+  const SurfaceTest surface(g, g.index(x0, y0));
+  for (int y = y0; y <= y1; y = y / kPacketHeight * kPacketHeight + kPacketHeight) {
+    for (int x = x0; x <= x1; x = x / kPacketWidth * kPacketWidth + kPacketWidth) {
+      const int left = x % kPacketWidth, top = y % kPacketHeight;
+      const int right = std::min(kPacketWidth - 1, x1 - (x - left));
+      const int bottom = std::min(kPacketHeight - 1, y1 - (y - top));
+      const auto row = static_cast<uint8_t>(((2u << right) - 1) & ~((1u << left) - 1));
+      uint8_t lanes = 0;
+      if (top == 0) lanes |= row;
+      if (bottom == 1) lanes |= static_cast<uint8_t>(row << kPacketWidth);
+      const size_t first = g.index(x - left, y - top);
+      if (!surface.holds(first, lanes)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void LowResolution::takeSamples(const GBuffer& g) {
+  tbb::parallel_for(0, samples_.tiles(), [&](int tile) {
+    const int i0 = tile % samples_.tilesX * kTileSize, j0 = tile / samples_.tilesX * kTileSize;
+    const int i1 = std::min(i0 + kTileSize, samples_.width),
+              j1 = std::min(j0 + kTileSize, samples_.height);
+    const auto pixelOf = [&](int i, int j) {
+      return g.index(std::min(block_ * i, width_ - 1), std::min(block_ * j, height_ - 1));
+    };
+    // Revisions only grow, so that their sum tells whether one of them did.
+    uint64_t revision = 0;
+    for (int y = j0 * block_ / kTileSize; y < g.tilesY && y * kTileSize < j1 * block_; ++y)
+      for (int x = i0 * block_ / kTileSize; x < g.tilesX && x * kTileSize < i1 * block_; ++x)
+        revision += g.revision[static_cast<size_t>(y * g.tilesX + x)];
+    const auto t = static_cast<size_t>(tile);
+    if (sampleRevisions_[t] == revision) return;
+    sampleRevisions_[t] = revision;
+    ++samples_.revision[t];
+    for (int j = j0; j < j1; ++j) {
+      for (int i = i0; i < i1; ++i) {
+        const size_t from = pixelOf(i, j), to = samples_.index(i, j);
+        samples_.px[to] = g.px[from];
+        samples_.py[to] = g.py[from];
+        samples_.pz[to] = g.pz[from];
+        samples_.sx[to] = g.sx[from];
+        samples_.sy[to] = g.sy[from];
+        samples_.sz[to] = g.sz[from];
+        samples_.gx[to] = g.gx[from];
+        samples_.gy[to] = g.gy[from];
+        samples_.gz[to] = g.gz[from];
+        samples_.hit[to] = g.hit[from];
+        samples_.object[to] = g.object[from];
+        samples_.triangle[to] = g.triangle[from];
+      }
+    }
+    for (int packet = 0; packet < kPacketsPerTile; ++packet) samples_.findFlat(tile, packet);
+  });
+}
+
+void LowResolution::findPlanes(const GBuffer& g, int tile) {
+  const int x0 = tile % tilesX_ * kTileSize, y0 = tile / tilesX_ * kTileSize;
+  for (int y = y0; y < std::min(y0 + kTileSize, height_); y += block_) {
+    for (int x = x0; x < std::min(x0 + kTileSize, width_); x += block_) {
+      const int right = std::min(x + block_, width_ - 1),
+                bottom = std::min(y + block_, height_ - 1);
+      planes_[cellAt(x / block_, y / block_)] =
+          isOnOneSurface(g, x, y, right, bottom) ? 0 : kNoPlane;
+    }
+  }
+}
+
+void LowResolution::update(const GBuffer& g, int block) {
+  const auto tiles = static_cast<size_t>(g.tiles());
+  if (g.width != width_ || g.height != height_ || block != block_) {
+    width_ = g.width;
+    height_ = g.height;
+    tilesX_ = g.tilesX;
+    tilesY_ = g.tilesY;
+    block_ = block;
+    samples_.resize(shared::lowResolutionSamples(width_, block),
+                    shared::lowResolutionSamples(height_, block));
+    sampleRevisions_.assign(static_cast<size_t>(samples_.tiles()), 0);
+    planeRevisions_.assign(tiles, 0);
+    cellsX_ = (width_ + block - 1) / block;
+    cellsY_ = (height_ + block - 1) / block;
+    const size_t cells = static_cast<size_t>(cellsX_ + 2) * static_cast<size_t>(cellsY_ + 2);
+    for (auto* v : {&planes_, &cells_}) v->assign(cells, 0);
+    for (auto* v : {&red_, &green_, &blue_})
+      v->assign(rowLength() * static_cast<size_t>(samples_.height + 1) + kLanes, 0.0f);
+    edges_.assign(tiles, 0);
+  }
+  takeSamples(g);
+  tbb::parallel_for(0, (g.tiles() + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {
+    for (int tile = task * kTilesPerTask; tile < std::min((task + 1) * kTilesPerTask, g.tiles());
+         ++tile) {
+      // Cells reach over to the first pixels of the next tiles.
+      const int x = tile % tilesX_, y = tile / tilesX_;
+      uint64_t revision = 0;
+      for (int ny = y; ny < std::min(y + 2, tilesY_); ++ny)
+        for (int nx = x; nx < std::min(x + 2, tilesX_); ++nx)
+          revision += g.revision[static_cast<size_t>(ny * tilesX_ + nx)];
+      const auto t = static_cast<size_t>(tile);
+      if (planeRevisions_[t] == revision) continue;
+      planeRevisions_[t] = revision;
+      findPlanes(g, tile);
+    }
+  });
+}
+
+void LowResolution::takeLight(const LightSums& light, int row) {
+  const int from = std::min(row, samples_.height - 1);
+  const size_t to = static_cast<size_t>(row) * rowLength();
+  for (int i = 0; i <= samples_.width; ++i) {
+    const vec3 e = light.irradiance(samples_.index(std::min(i, samples_.width - 1), from));
+    red_[to + static_cast<size_t>(i)] = e.r;
+    green_[to + static_cast<size_t>(i)] = e.g;
+    blue_[to + static_cast<size_t>(i)] = e.b;
+  }
+}
+
+// shared::isSmooth for eight cells at a time.
+void LowResolution::findContrast(int row) {
+  const Floats most = hn::Set(kTag, shared::kMostContrast);
+  const Floats mostAbout = hn::Set(kTag, shared::kMostContrastAbout);
+  for (int i = 0; i < cellsX_; i += kLanes) {
+    const size_t at = static_cast<size_t>(row) * rowLength() + static_cast<size_t>(i);
+    hn::Mask<Tag> differs = hn::MaskFromVec(hn::Zero(kTag)), differsMuch = differs;
+    for (const auto* v : {&red_, &green_, &blue_}) {
+      // Past the row's end they are read and not used.
+      const float* above = v->data() + at;
+      const float* below = above + rowLength();
+      const Floats a = hn::LoadU(kTag, above), b = hn::LoadU(kTag, above + 1);
+      const Floats c = hn::LoadU(kTag, below), d = hn::LoadU(kTag, below + 1);
+      const Floats high = hn::Max(hn::Max(a, b), hn::Max(c, d));
+      const Floats spread = hn::Sub(high, hn::Min(hn::Min(a, b), hn::Min(c, d)));
+      differs = hn::Or(differs, hn::Gt(spread, hn::Mul(most, high)));
+      differsMuch = hn::Or(differsMuch, hn::Gt(spread, hn::Mul(mostAbout, high)));
+    }
+    uint8_t bits[8], muchBits[8];
+    hn::StoreMaskBits(kTag, differs, bits);
+    hn::StoreMaskBits(kTag, differsMuch, muchBits);
+    for (int k = 0; k < std::min(kLanes, cellsX_ - i); ++k) {
+      const size_t cell = cellAt(i + k, row);
+      uint8_t is = planes_[cell];
+      if ((bits[0] >> k & 1) != 0) is |= kContrast;
+      if ((muchBits[0] >> k & 1) != 0) is |= kMuchContrast;
+      cells_[cell] = is;
+    }
+  }
+}
+
+uint32_t LowResolution::edgesOf(int tile) const {
+  const int side = kTileSize / block_;
+  const int i0 = tile % tilesX_ * side, j0 = tile / tilesX_ * side;
+  uint32_t edges = 0;
+  for (int j = j0; j < std::min(j0 + side, cellsY_); ++j) {
+    for (int i = i0; i < std::min(i0 + side, cellsX_); ++i) {
+      const uint8_t* cell = &cells_[cellAt(i, j)];
+      const auto about = [&](ptrdiff_t row) {
+        const uint8_t* c = cell + row * (cellsX_ + 2);
+        return c[-1] | c[0] | c[1];
+      };
+      if (*cell != 0 || ((about(-1) | about(0) | about(1)) & kMuchContrast) != 0)
+        edges |= packetsOfCell(block_, i - i0, j - j0);
+    }
+  }
+  return edges;
+}
+
+void LowResolution::findEdges(const GBuffer& picture, const LightSums& light) {
+  tbb::parallel_for(0, samples_.height + 1, [&](int row) { takeLight(light, row); });
+  tbb::parallel_for(0, cellsY_, [&](int row) { findContrast(row); });
+  std::atomic<uint64_t> interpolated = 0;
+  const int tiles = tilesX_ * tilesY_;
+  tbb::parallel_for(0, (tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {
+    uint64_t pixels = 0;
+    for (int tile = task * kTilesPerTask; tile < std::min((task + 1) * kTilesPerTask, tiles);
+         ++tile) {
+      const uint32_t edges = edgesOf(tile);
+      edges_[static_cast<size_t>(tile)] = edges;
+      pixels += static_cast<uint64_t>(picture.pixelsOf(tile, ~edges));
+    }
+    interpolated += pixels;
+  });
+  interpolated_ = interpolated;
+}
+
+void LowResolution::interpolate(int tile, int packet, Irradiance& out) const {
+  const int x0 = tile % tilesX_ * kTileSize + packet % kPacketsPerRow * kPacketWidth;
+  const int y0 = tile / tilesX_ * kTileSize + packet / kPacketsPerRow * kPacketHeight;
+  HWY_ALIGN static constexpr float kLaneX[kLanes] = {0, 1, 2, 3, 0, 1, 2, 3};
+  HWY_ALIGN static constexpr float kLaneY[kLanes] = {0, 0, 0, 0, 1, 1, 1, 1};
+  // 1 / the distance of a cell's samples; the last of a row or column may be narrower.
+  const auto inverse = [&](int cell, int size) {
+    const int width = std::min((cell + 1) * block_, size - 1) - cell * block_;
+    return width > 0 ? 1.0f / static_cast<float>(width) : 0.0f;
+  };
+  const int i = x0 / block_, j = y0 / block_;
+  const size_t at = static_cast<size_t>(j) * rowLength() + static_cast<size_t>(i);
+  const auto along = [&](const float* lanes, int first, float scale) {
+    return hn::Mul(hn::Add(hn::Load(kTag, lanes), hn::Set(kTag, static_cast<float>(first))),
+                   hn::Set(kTag, scale));
+  };
+  const auto mix = [](Floats a, Floats b, Floats t) { return hn::MulAdd(t, hn::Sub(b, a), a); };
+  const Floats ty = along(kLaneY, y0 - j * block_, inverse(j, height_));
+  if (block_ >= kPacketWidth) {  // the packet is in one cell
+    const Floats tx = along(kLaneX, x0 - i * block_, inverse(i, width_));
+    const auto between = [&](const std::vector<float>& v, float* to) {
+      const float* above = v.data() + at;
+      const float* below = above + rowLength();
+      const Floats top = mix(hn::Set(kTag, above[0]), hn::Set(kTag, above[1]), tx);
+      const Floats bottom = mix(hn::Set(kTag, below[0]), hn::Set(kTag, below[1]), tx);
+      hn::StoreU(mix(top, bottom, ty), kTag, to);
+    };
+    between(red_, out.r);
+    between(green_, out.g);
+    between(blue_, out.b);
+    return;
+  }
+  HWY_ALIGN float t[kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const int x = lane % kPacketWidth;
+    t[lane] = static_cast<float>(x % block_) * inverse(i + x / block_, width_);
+  }
+  const Floats tx = hn::Load(kTag, t);
+  const auto between = [&](const std::vector<float>& v, float* to) {
+    const float* above = v.data() + at;
+    HWY_ALIGN float corners[4][kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      // Past the last cell of a row there is none; those lanes are not shown.
+      const int cell = std::min(lane % kPacketWidth / block_, samples_.width - 1 - i);
+      for (int corner = 0; corner < 4; ++corner)
+        corners[corner][lane] = above[static_cast<size_t>(corner / 2) * rowLength() +
+                                      static_cast<size_t>(cell + corner % 2)];
+    }
+    const Floats top = mix(hn::Load(kTag, corners[0]), hn::Load(kTag, corners[1]), tx);
+    const Floats bottom = mix(hn::Load(kTag, corners[2]), hn::Load(kTag, corners[3]), tx);
+    hn::StoreU(mix(top, bottom, ty), kTag, to);
+  };
+  between(red_, out.r);
+  between(green_, out.g);
+  between(blue_, out.b);
+}
+
+}  // namespace lamplighter::cpu

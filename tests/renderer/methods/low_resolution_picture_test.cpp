@@ -1,0 +1,153 @@
+// With blocks the picture is the one without, but for little, and no light leaks past an edge.
+#include <filesystem>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+#include "tests/support/shared_files.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 320, kHeight = 240;
+
+Settings settingsOf(int vpls, const std::string& block) {
+  Settings s;
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::updates().name, vpls);
+  s.set(parameters::bounces().name, 1);
+  s.set(parameters::antialias().name, 1);
+  s.set(parameters::block().name, block);
+  return s;
+}
+
+std::vector<View> viewsOf(const Scene& scene) {
+  std::vector<View> views;
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) views.push_back(viewOfCamera(scene, node, kWidth, kHeight));
+  if (views.empty()) {
+    RenderScene render;
+    update(render, scene, SceneChanges::all());
+    views.push_back(viewOfBounds(render.bounds, kWidth, kHeight));
+  }
+  return views;
+}
+
+struct Case {
+  const char* scene;
+  int vpls;
+  float leastInterpolated;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
+
+class LowResolutionPicture : public testing::TestWithParam<Case> {};
+
+TEST_P(LowResolutionPicture, IsTheOneOfAllPixels) {
+  const std::string name = GetParam().scene;
+  const fs::path path = name.find('/') == std::string::npos
+                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+                            : test::sharedScenes() / name;
+  if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
+  const Scene scene = loadGltf(path).scene;
+  FrameRenderer renderer(makeCpuBackend());
+  SceneChanges changes = SceneChanges::all();
+  for (const View& view : viewsOf(scene)) {
+    const auto picture = [&](const std::string& block) {
+      GiOutput out =
+          test::renderSettled(renderer, scene, changes, view, settingsOf(GetParam().vpls, block));
+      changes = {};
+      return out;
+    };
+    const GiOutput all = picture("1"), blocks = picture("4");
+    const Metrics m = compareImages(blocks.radiance->pixels(), all.radiance->pixels());
+    const float share = blocks.stats.interpolatedShare;
+    RecordProperty("relRmse", std::to_string(m.relRmse));
+    std::printf("%s: relRMSE %.4f, bias %.5f, %.1f%% interpolated\n", name.c_str(), m.relRmse,
+                m.bias, 100.0f * share);
+    EXPECT_EQ(all.stats.interpolatedShare, 0.0f);
+    EXPECT_LT(m.relRmse, 0.015);
+    EXPECT_NEAR(m.bias, 1.0, 0.002);
+    EXPECT_GT(share, GetParam().leastInterpolated);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, LowResolutionPicture,
+    testing::Values(Case{"default.gltf", 300, 0.3f}, Case{"area_light_room.gltf", 300, 0.3f},
+                    Case{"pillar_room.gltf", 300, 0.3f}, Case{"table_room.gltf", 300, 0.3f},
+                    Case{"cornell_style.gltf", 300, 0.3f}, Case{"cornell-box/cornell-box.glb", 300, 0.3f},
+                    Case{"kenney-fps-level/kenney-fps-level.gltf", 100, 0.1f}));
+
+// A floor with a wall on it that is thinner than a pixel, lit from one side only.
+struct Wall {
+  Scene scene;
+  View view = test::lookAt(vec3(0, 6, 0.01f), vec3(0), 128, 96);
+  Wall() {
+    const int white = test::addMaterial(scene, vec3(0.8f));
+    test::addMesh(scene, test::squareMesh(8.0f, white));
+    test::addMesh(scene, test::boxMesh(vec3(0.01f, 2.0f, 9.0f), white), vec3(0.013f, 1, 0));
+  }
+  Image picture(float block) const {
+    test::LitScene lit(scene);
+    shared::Vpl vpl = test::makeVpl(vec3(-1.5f, 1.9f, 0), vec3(0.2f, -1, 0));
+    vpl.intensity = vec4(vec3(5.0f), 0.0f);
+    lit.backend->reserveShadowMaps(1, 256);
+    lit.backend->renderShadowMaps({&vpl, 1});
+    lit.backend->renderGBuffer(view, vec2(0.0f));
+    lit.backend->sumVpls({&vpl, 1}, {vec4(0.1f, 0.002f, 256.0f, 64.0f), vec4(block, 0, 0, 0)},
+                         nullptr);
+    return lit.backend->compose()->pixels();
+  }
+};
+
+TEST(LowResolution, LeaksNoLightPastAThinWall) {
+  const Wall wall;
+  const Image all = wall.picture(1.0f);
+  int dark = 0, lit = 0;
+  for (const float block : {2.0f, 4.0f, 8.0f}) {
+    const Image image = wall.picture(block);
+    for (size_t i = 0; i < all.pixels.size(); ++i) {
+      if (all.pixels[i] != vec3(0.0f)) {
+        ++lit;
+        continue;
+      }
+      ++dark;
+      EXPECT_EQ(image.pixels[i], vec3(0.0f)) << i % 128 << ", " << i / 128;
+    }
+  }
+  EXPECT_GT(dark, 10000);
+  EXPECT_GT(lit, 10000);
+}
+
+// Cells at the sky and at curved surfaces are not interpolated.
+TEST(LowResolution, SpheresBeforeTheSkyAreSummedPixelByPixel) {
+  Scene scene;
+  test::addMesh(scene, test::sphereMesh(0.5f, 16, 0.0f, test::addMaterial(scene, vec3(0.8f))));
+  test::LitScene lit(scene);
+  const View view = test::lookAt(vec3(0, 0, 3), vec3(0), 64, 64, 0.6f);
+  shared::Vpl vpl = test::makeVpl(vec3(0, 2, 4), vec3(0, -0.5f, -1));
+  vpl.intensity = vec4(vec3(5.0f), 0.0f);
+  const auto picture = [&](float block) {
+    lit.backend->reserveShadowMaps(1, 64);
+    lit.backend->renderShadowMaps({&vpl, 1});
+    lit.backend->renderGBuffer(view, vec2(0.0f));
+    lit.backend->sumVpls({&vpl, 1}, {vec4(0.1f, 0.002f, 64.0f, 64.0f), vec4(block, 0, 0, 0)},
+                         nullptr);
+    return lit.backend->compose()->pixels();
+  };
+  EXPECT_TRUE(test::sameBits(picture(1.0f), picture(4.0f)));
+  EXPECT_EQ(lit.backend->counts().pixelsInterpolated, 0u);
+}
+
+}  // namespace
+}  // namespace lamplighter
