@@ -1,6 +1,5 @@
 // The place of each pixel (shared/patches.h), and what its light map says: ObjectPatches::leafAt()
-// and LightMaps::irradiance() on the GPU. With EDGES only in cells that are not interpolated
-// (shared/low_resolution.h).
+// and LightMaps::irradiance() on the GPU. At all pixels, or at one of each block.
 #include "common/cells.glsl"
 #include "common/normal_packing.glsl"
 #include "shared/bindings.h"
@@ -8,11 +7,7 @@
 
 layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGNormals) uniform sampler2D uNormals;
-// At one pixel of each block of as many a side; with EDGES at all, and of cells of that size.
-layout(location = 0) uniform int uBlock;
-#ifdef EDGES
-layout(binding = kCells) uniform usampler2D uCells;
-#endif
+layout(location = 0) uniform int uBlock;  // pixels a side, 1: all of them
 
 layout(std430, binding = kRootBuffer) readonly buffer Roots { uint roots[]; };
 layout(std430, binding = kPatchBuffer) readonly buffer Nodes { PatchNode nodes[]; };
@@ -36,14 +31,8 @@ vec3 irradianceAt(PatchTile tile, vec2 p) {
 }
 
 void main() {
-#ifdef EDGES
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  ivec2 samples = textureSize(uCells, 0) + 1;
-  if (texelFetch(uCells, cellOfPixel(pixel, uBlock, samples), 0).r != 0u) discard;
-#else
   ivec2 last = textureSize(uPosition, 0) - 1;
   ivec2 pixel = pixelOfSample(ivec2(gl_FragCoord.xy), uBlock, last);
-#endif
   vec4 position = texelFetch(uPosition, pixel, 0);
   outIrradiance = vec4(0.0);
   outPlace = 0u;

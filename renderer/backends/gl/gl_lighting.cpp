@@ -135,13 +135,14 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
     zero();
     add(sum, pixels_, 1, false);
   } else if (low_.resize(pixels_.width, pixels_.height, block)) {
-    begin(low_.samples(), block);
+    begin(low_.samples(), block, false);
     add(sum, low_.samples(), block, false);
-    low_.spread(pixels_);
+    low_.interpolate(pixels_);
+    begin(pixels_, 1, true);
     add(sum, pixels_, 1, true);
   } else {
     pixels_.dropStencil();
-    begin(pixels_, 1);
+    begin(pixels_, 1, false);
     add(sum, pixels_, 1, false);
   }
   isEmpty_ = false;
@@ -171,16 +172,17 @@ void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, con
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListBuffer, patches_->entries.name());
 }
 
-void GlLighting::begin(const SumTarget& target, int block) {
-  const PassState state(target.begin.name(), target.width, target.height);
+void GlLighting::begin(const SumTarget& target, int block, bool unmarked) {
+  PassState state(target.begin.name(), target.width, target.height);
+  if (unmarked) state.onlyWhere(false);
   findPatches_.use();
   findPatches_.set(0, block);
   drawFullScreen(emptyVertexArray_.name());
 }
 
-void GlLighting::add(const Sum& sum, const SumTarget& target, int block, bool marked) {
+void GlLighting::add(const Sum& sum, const SumTarget& target, int block, bool unmarked) {
   PassState state(target.sums.name(), target.width, target.height);
-  if (marked) state.onlyWhere(true);
+  if (unmarked) state.onlyWhere(false);
   glBindTextureUnit(shared::kIrradiance, target.irradiance.name());
   if (patches_) glBindTextureUnit(shared::kPlaces, target.places.name());
   const int most = mostLights(sum.clampAndBias);
@@ -222,7 +224,7 @@ void GlLighting::add(const Sum& sum, const SumTarget& target, int block, bool ma
     for (int pass = 0; sum.merges && pass < patches_->lists.passes()[b]; ++pass) {
       program.set(5, 1 + pass);
       draw();
-      if (!marked) ++mergedPasses_;
+      if (!unmarked) ++mergedPasses_;
     }
   }
 }

@@ -62,10 +62,11 @@ class GlLighting {
   void takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
                    const PatchLights& lights);
   void zero();
-  // What the light maps say, at one pixel of each block.
-  void begin(const SumTarget& target, int block);
-  // Adds all VPLs there; `marked`: only where the stencil buffer says so.
-  void add(const Sum& sum, const SumTarget& target, int block, bool marked);
+  // What the light maps say, at one pixel of each block; `unmarked`: only where the stencil buffer
+  // has no mark.
+  void begin(const SumTarget& target, int block, bool unmarked);
+  // Adds all VPLs there.
+  void add(const Sum& sum, const SumTarget& target, int block, bool unmarked);
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
 
   Program naive_[3], listed_[3], merged_[3];  // by Vpl.position.w

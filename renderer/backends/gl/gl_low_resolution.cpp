@@ -9,10 +9,8 @@ namespace lamplighter::gl {
 void GlLowResolution::reload(const std::filesystem::path& shaders) {
   const char* vertex = "common/full_screen.vert.glsl";
   Program findCells(shaders, {vertex, "passes/find_cells.frag.glsl"});
-  Program beginEdges(shaders, {vertex, "passes/find_patches.frag.glsl", {"EDGES"}});
   Program interpolate(shaders, {vertex, "passes/interpolate.frag.glsl"});
   findCells_ = std::move(findCells);
-  beginEdges_ = std::move(beginEdges);
   interpolate_ = std::move(interpolate);
 }
 
@@ -39,7 +37,7 @@ void GlLowResolution::release() {
   cellsFramebuffer_ = {};
 }
 
-void GlLowResolution::spread(SumTarget& pixels) const {
+void GlLowResolution::interpolate(SumTarget& pixels) const {
   glBindTextureUnit(shared::kSamples, samples_.irradiance.name());
   {
     const PassState state(cellsFramebuffer_.name(), samples_.width - 1, samples_.height - 1);
@@ -49,16 +47,9 @@ void GlLowResolution::spread(SumTarget& pixels) const {
   }
   glBindTextureUnit(shared::kCells, cells_.name());
   pixels.addStencil();
-  {
-    PassState state(pixels.begin.name(), pixels.width, pixels.height);
-    glClearNamedFramebufferfi(pixels.begin.name(), GL_DEPTH_STENCIL, 0, 0.0f, 0);
-    state.mark();
-    beginEdges_.use();
-    beginEdges_.set(0, block_);
-    drawFullScreen(emptyVertexArray_.name());
-  }
   PassState state(pixels.sums.name(), pixels.width, pixels.height);
-  state.onlyWhere(false);
+  glClearNamedFramebufferfi(pixels.sums.name(), GL_DEPTH_STENCIL, 0, 0.0f, 0);
+  state.mark();
   interpolate_.use();
   interpolate_.set(0, block_);
   drawFullScreen(emptyVertexArray_.name());

@@ -21,15 +21,14 @@ class GlLowResolution {
   void release();
   SumTarget& samples() { return samples_; }
 
-  // Once the samples are summed, with the G-buffer and what find_patches.frag.glsl reads bound:
-  // interpolates the cells that may be, begins the other pixels and marks them in the stencil
-  // buffer of `pixels`, which has places.
-  void spread(SumTarget& pixels) const;
+  // Once the samples are summed, with the G-buffer bound: the cells that may be, marked in the
+  // stencil buffer of `pixels`. The others are left as they are.
+  void interpolate(SumTarget& pixels) const;
 
   uint64_t bytes() const;
 
  private:
-  Program findCells_, beginEdges_, interpolate_;
+  Program findCells_, interpolate_;
   VertexArray emptyVertexArray_;
   SumTarget samples_;
   Texture cells_;  // R8UI

@@ -10,7 +10,7 @@ struct SumTarget {
   int width = 0, height = 0;
   Texture irradiance;  // RGBA32F: hundreds of additions must not lose the small ones
   Texture places;      // R32UI: shaders/shared/patches.h
-  Texture stencil;     // 1: a pixel that is summed by itself
+  Texture stencil;     // 1: a pixel that is interpolated
   Framebuffer sums;    // irradiance
   Framebuffer begin;   // irradiance and places
 
