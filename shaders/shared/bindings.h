@@ -20,6 +20,11 @@ SHARED_CONST int kPatchBuffer = 1;
 SHARED_CONST int kChartBuffer = 2;
 SHARED_CONST int kTileBuffer = 3;
 SHARED_CONST int kTexelBuffer = 4;
+// With these in the pass that begins pixels,
+SHARED_CONST int kCornerBuffer = 5;       // by triangle of the scene, three: its vertices
+SHARED_CONST int kPlaceBuffer = 6;        // of vertices
+SHARED_CONST int kVertexLightBuffer = 7;  // patches.h
+// with these in the sum.
 SHARED_CONST int kListRangeBuffer = 5;
 SHARED_CONST int kListBuffer = 6;
 

@@ -188,7 +188,7 @@ void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
 // A frame in which the camera moved.
 void frames(benchmark::State& state, const Case& c, const std::string& technique,
             const MakeBackend& make, int width, int height, int lightsPerPass, bool merge,
-            int block) {
+            int block, bool prt) {
   if (skip(state, c)) return;
   const World w(c);
   View view = viewOfBounds(w.render.bounds, width, height);
@@ -203,6 +203,7 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
   settings.set(parameters::lightsPerPass().name, lightsPerPass);
   settings.set(parameters::mergePasses().name, merge);
   settings.set(parameters::block().name, std::to_string(block));
+  settings.set(parameters::prt().name, prt);
   FrameRenderer renderer(make());
   GiStats stats;
   const auto frame = [&](const SceneChanges& changes) {
@@ -252,24 +253,26 @@ void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make)
       const std::string name = "visibility/frame/" + backend + "/" + c.name + "/" +
                                std::to_string(size.x) + "x" + std::to_string(size.y) + "/";
       for (const std::string technique : {"naive", "visibility", "light_maps"})
-        add(name + technique, frames, c, technique, make, size.x, size.y, 1024, false, 1);
+        add(name + technique, frames, c, technique, make, size.x, size.y, 1024, false, 1, false);
       for (const int block : {2, 4, 8}) {
         add(name + "block/" + std::to_string(block), frames, c, std::string("light_maps"), make,
-            size.x, size.y, 1024, false, block);
+            size.x, size.y, 1024, false, block, false);
       }
+      add(name + "everything", frames, c, std::string("light_maps"), make, size.x, size.y, 1024,
+          false, 4, true);
     }
     // Its own lists for each patch against merged passes of the paper's 6 lights.
     if (backend == "gl" && std::string(c.name) != "zdm2") {
       for (const bool merge : {false, true}) {
         add("visibility/merge_passes/" + backend + "/" + c.name + "/6/" + (merge ? "on" : "off"),
-            frames, c, std::string("light_maps"), make, 640, 360, 6, merge, 1);
+            frames, c, std::string("light_maps"), make, 640, 360, 6, merge, 1, false);
       }
     }
     // The paper's K lights a pass.
     if (backend != "gl" || std::string(c.name) != "area_light_room") continue;
     for (const int most : {1, 6, 64}) {
       add("visibility/lights_a_pass/" + backend + "/" + c.name + "/" + std::to_string(most), frames,
-          c, std::string("visibility"), make, 640, 360, most, false, 1);
+          c, std::string("visibility"), make, 640, 360, most, false, 1, false);
     }
   }
 }

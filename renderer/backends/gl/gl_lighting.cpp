@@ -135,14 +135,14 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
     zero();
     add(sum, pixels_, 1, false);
   } else if (low_.resize(pixels_.width, pixels_.height, block)) {
-    begin(low_.samples(), block, false);
+    begin(scene, low_.samples(), block, false);
     add(sum, low_.samples(), block, false);
     low_.interpolate(pixels_);
-    begin(pixels_, 1, true);
+    begin(scene, pixels_, 1, true);
     add(sum, pixels_, 1, true);
   } else {
     pixels_.dropStencil();
-    begin(pixels_, 1, false);
+    begin(scene, pixels_, 1, false);
     add(sum, pixels_, 1, false);
   }
   isEmpty_ = false;
@@ -167,14 +167,13 @@ void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, con
   passesSaved_ = lists.passesSaved();
   fill(patches_->ranges, lists.ranges());
   fill(patches_->entries, lists.entries());
-  trees.bind();
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListRangeBuffer, patches_->ranges.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListBuffer, patches_->entries.name());
 }
 
-void GlLighting::begin(const SumTarget& target, int block, bool unmarked) {
+void GlLighting::begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked) {
   PassState state(target.begin.name(), target.width, target.height);
   if (unmarked) state.onlyWhere(false);
+  patches_->trees.bind();
+  scene.bindCorners();
   findPatches_.use();
   findPatches_.set(0, block);
   drawFullScreen(emptyVertexArray_.name());
@@ -184,7 +183,11 @@ void GlLighting::add(const Sum& sum, const SumTarget& target, int block, bool un
   PassState state(target.sums.name(), target.width, target.height);
   if (unmarked) state.onlyWhere(false);
   glBindTextureUnit(shared::kIrradiance, target.irradiance.name());
-  if (patches_) glBindTextureUnit(shared::kPlaces, target.places.name());
+  if (patches_) {
+    glBindTextureUnit(shared::kPlaces, target.places.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListRangeBuffer, patches_->ranges.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListBuffer, patches_->entries.name());
+  }
   const int most = mostLights(sum.clampAndBias);
   const auto draw = [&] {
     glTextureBarrier();  // the irradiance is read where it is written

@@ -62,9 +62,9 @@ class GlLighting {
   void takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
                    const PatchLights& lights);
   void zero();
-  // What the light maps say, at one pixel of each block; `unmarked`: only where the stencil buffer
-  // has no mark.
-  void begin(const SumTarget& target, int block, bool unmarked);
+  // What the light maps and light by transfer say, at one pixel of each block; `unmarked`: only
+  // where the stencil buffer has no mark.
+  void begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked);
   // Adds all VPLs there.
   void add(const Sum& sum, const SumTarget& target, int block, bool unmarked);
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
