@@ -22,6 +22,8 @@ PassState::~PassState() {
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
+  glDisable(GL_STENCIL_TEST);
+  glStencilMask(~0u);
   glFrontFace(GL_CCW);
   glDepthFunc(GL_LESS);
   glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
@@ -52,6 +54,20 @@ void PassState::additive() {
 void PassState::clipDistances(int count) {
   clipDistances_ = count;
   for (int i = 0; i < count; ++i) glEnable(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i));
+}
+
+void PassState::mark() {
+  glEnable(GL_STENCIL_TEST);
+  glStencilMask(~0u);
+  glStencilFunc(GL_ALWAYS, 1, ~0u);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+}
+
+void PassState::onlyWhere(bool marked) {
+  glEnable(GL_STENCIL_TEST);
+  glStencilMask(0);
+  glStencilFunc(GL_EQUAL, marked ? 1 : 0, ~0u);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
 }
 
 void drawFullScreen(GLuint emptyVertexArray) {

@@ -19,6 +19,9 @@ class PassState {
   void cullBackFaces(bool on);
   void additive();  // colour is added to what is there
   void clipDistances(int count);
+  // The stencil buffer's bits: set to 1 by what is drawn, or asked and left as they are.
+  void mark();
+  void onlyWhere(bool marked);
 
  private:
   int clipDistances_ = 0;

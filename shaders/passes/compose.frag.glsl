@@ -1,7 +1,6 @@
 // Outgoing radiance: Le + ρ/π · E, and the sky where nothing was hit.
 #include "shared/bindings.h"
 
-layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGAlbedo) uniform sampler2D uAlbedo;
 layout(binding = kGEmission) uniform sampler2D uEmission;
 layout(binding = kIrradiance) uniform sampler2D uIrradiance;
@@ -13,12 +12,12 @@ layout(location = 0) out vec4 outRadiance;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   const float kInversePi = 0.318309886;
-  vec3 albedo = uWhite != 0 ? vec3(1.0) : texelFetch(uAlbedo, pixel, 0).rgb;
+  vec4 surface = texelFetch(uAlbedo, pixel, 0);
+  vec3 albedo = uWhite != 0 ? vec3(1.0) : surface.rgb;
   // Light maps are interpolated and the shadows taken away from them are not: no light may be left
   // less than none.
   vec3 irradiance = texelFetch(uIrradiance, pixel, 0).rgb;
   irradiance = mix(irradiance, vec3(0.0), lessThan(irradiance, vec3(0.0)));
   vec3 radiance = texelFetch(uEmission, pixel, 0).rgb + albedo * kInversePi * irradiance;
-  bool hit = texelFetch(uPosition, pixel, 0).w != 0.0;
-  outRadiance = vec4(hit ? radiance : uSky, 1.0);
+  outRadiance = vec4(surface.a != 0.0 ? radiance : uSky, 1.0);
 }

@@ -4,6 +4,8 @@
 //   without PATCHES: the same VPLs at every pixel, with their maps;
 //   with PATCHES: those that its place's list names, as it says (paper 1, 4.3.4);
 //   with MERGED besides: of these, the part that uPass says (paper 1, 4.3.5).
+// At all pixels, or at one of each block.
+#include "common/cells.glsl"
 #include "common/normal_packing.glsl"
 #include "common/vpls.glsl"
 #include "shared/patches.h"
@@ -18,6 +20,7 @@ layout(binding = kIrradiance) uniform sampler2D uIrradiance;
 layout(location = 0) uniform int uFirst;  // in uVpls, or in each list
 layout(location = 1) uniform int uEnd;
 layout(location = 2) uniform vec4 uClampAndBias;  // ShadingParams
+layout(location = 6) uniform int uBlock;          // pixels a side, 1: all of them
 
 #ifdef PATCHES
 layout(binding = kPlaces) uniform usampler2D uPlaces;
@@ -137,17 +140,18 @@ vec3 withAll(Point x, vec3 sum) {
 #endif
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  ivec2 at = ivec2(gl_FragCoord.xy);
 #ifdef PATCHES
   // What is not in a pass costs no more than to find that out. Place 0 has an empty list.
-  Part part = partOf(texelFetch(uPlaces, pixel, 0).r);
+  Part part = partOf(texelFetch(uPlaces, at, 0).r);
   if (part.plain.x >= part.plain.y && part.shadowed.x >= part.shadowed.y) discard;
 #endif
+  ivec2 pixel = pixelOfSample(at, uBlock, textureSize(uPosition, 0) - 1);
   vec4 position = texelFetch(uPosition, pixel, 0);
   if (position.w == 0.0) discard;
   vec4 normals = texelFetch(uNormals, pixel, 0);
   Point x = Point(position.xyz, unpackNormal(normals.xy), unpackNormal(normals.zw));
-  vec3 sum = texelFetch(uIrradiance, pixel, 0).rgb;
+  vec3 sum = texelFetch(uIrradiance, at, 0).rgb;
 #ifdef PATCHES
   outIrradiance = vec4(withPart(part, x, sum), 0.0);
 #else

@@ -20,6 +20,11 @@ SHARED_CONST int kPatchBuffer = 1;
 SHARED_CONST int kChartBuffer = 2;
 SHARED_CONST int kTileBuffer = 3;
 SHARED_CONST int kTexelBuffer = 4;
+// With these in the pass that begins pixels,
+SHARED_CONST int kCornerBuffer = 5;       // by triangle of the scene, three: its vertices
+SHARED_CONST int kPlaceBuffer = 6;        // of vertices
+SHARED_CONST int kVertexLightBuffer = 7;  // patches.h
+// with these in the sum.
 SHARED_CONST int kListRangeBuffer = 5;
 SHARED_CONST int kListBuffer = 6;
 
@@ -39,11 +44,13 @@ SHARED_CONST int kEmissiveTexture = 2;
 SHARED_CONST int kGPosition = 0;  // xyz: world [m]; w: 0 where nothing was hit, else the bits of a
                                   // float: kTriangleBits + the number of the scene's triangle
 SHARED_CONST int kGNormals = 1;   // octahedral: xy shading, zw geometric, on the side of the eye
-SHARED_CONST int kGAlbedo = 2;
+SHARED_CONST int kGAlbedo = 2;    // a: 0 where nothing was hit, and normals and emission are void
 SHARED_CONST int kGEmission = 3;  // towards the eye [W/(m² sr)]
 SHARED_CONST int kShadowMaps = 4;
 SHARED_CONST int kIrradiance = 5;
-SHARED_CONST int kPlaces = 6;  // of pixels: patches.h
+SHARED_CONST int kPlaces = 6;   // of pixels: patches.h
+SHARED_CONST int kSamples = 7;  // irradiance at those of the low-resolution pass
+SHARED_CONST int kCells = 8;    // of the low-resolution pass: 1: interpolated
 
 // The least normal float: no triangle's number becomes a denormal, an infinity or no number.
 SHARED_CONST int kTriangleBits = 8388608;

@@ -10,7 +10,9 @@ SHARED_BEGIN
 struct PatchNode {
   uvec4 branch;  // x: the first of its two children, 0: it is a leaf; y: 1 + its chart, 0: none;
                  // branches: z: axis of the chart's frame, w: bits of where it is split [m];
-                 // leaves: z: 1 + its tile, 0: none
+                 // leaves: z: 1 + its tile, 0: none;
+                 // in no chart: z: 1: lit by transfer at vertices (renderer/prt), w: what to add to
+                 // a vertex's number in the scene for its number among those
 };
 
 struct PatchChart {
@@ -25,7 +27,7 @@ struct PatchTile {
 };
 
 // What is known of a pixel's surface is one number, its place: 1 + 2 · the leaf, and 1 more on the
-// front of a leaf with a tile; 0: nothing is hit. Each has a list of lights.
+// front of a leaf with a tile or of a triangle lit by transfer; 0: nothing is hit. Each has a list of lights.
 
 // A list's entry is a VPL's number in the pass, and this when its light is in the tile already and
 // only its shadow is to be taken away.

@@ -187,7 +187,8 @@ void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
 
 // A frame in which the camera moved. `technique`: with "+block4" and the like, by blocks.
 void frames(benchmark::State& state, const Case& c, const std::string& technique,
-            const MakeBackend& make, int width, int height, int lightsPerPass, bool merge) {
+            const MakeBackend& make, int width, int height, int lightsPerPass, bool merge,
+            int block, bool prt) {
   if (skip(state, c)) return;
   const World w(c);
   View view = viewOfBounds(w.render.bounds, width, height);
@@ -204,6 +205,7 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
                plus == std::string::npos ? std::string("1") : technique.substr(plus + 6));
   settings.set(parameters::lightsPerPass().name, lightsPerPass);
   settings.set(parameters::mergePasses().name, merge);
+  settings.set(parameters::prt().name, prt);
   FrameRenderer renderer(make());
   GiStats stats;
   const auto frame = [&](const SceneChanges& changes) {
@@ -251,26 +253,27 @@ void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make)
     for (const glm::ivec2& size : kSizes) {
       // The room of figure 5-1, at the paper's size.
       if (size.x == 1024 && std::string(c.name) != "area_light_room") continue;
+      const std::string name = "visibility/frame/" + backend + "/" + c.name + "/" +
+                               std::to_string(size.x) + "x" + std::to_string(size.y) + "/";
       for (const std::string technique :
            {"naive", "visibility", "light_maps", "visibility+block4", "light_maps+block2",
-            "light_maps+block4", "light_maps+block8"}) {
-        add("visibility/frame/" + backend + "/" + c.name + "/" + std::to_string(size.x) + "x" +
-                std::to_string(size.y) + "/" + technique,
-            frames, c, technique, make, size.x, size.y, 1024, false);
-      }
+            "light_maps+block4", "light_maps+block8"})
+        add(name + technique, frames, c, technique, make, size.x, size.y, 1024, false, false);
+      add(name + "everything", frames, c, std::string("light_maps+block4"), make, size.x, size.y,
+          1024, false, true);
     }
     // Its own lists for each patch against merged passes of the paper's 6 lights.
     if (backend == "gl" && std::string(c.name) != "zdm2") {
       for (const bool merge : {false, true}) {
         add("visibility/merge_passes/" + backend + "/" + c.name + "/6/" + (merge ? "on" : "off"),
-            frames, c, std::string("light_maps"), make, 640, 360, 6, merge);
+            frames, c, std::string("light_maps"), make, 640, 360, 6, merge, false);
       }
     }
     // The paper's K lights a pass.
     if (backend != "gl" || std::string(c.name) != "area_light_room") continue;
     for (const int most : {1, 6, 64}) {
       add("visibility/lights_a_pass/" + backend + "/" + c.name + "/" + std::to_string(most), frames,
-          c, std::string("visibility"), make, 640, 360, most, false);
+          c, std::string("visibility"), make, 640, 360, most, false, false);
     }
   }
 }

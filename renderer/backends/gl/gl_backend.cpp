@@ -13,6 +13,7 @@ class GlBackend final : public Backend {
         gbuffer_(shaders),
         lighting_(shaders, vpls_) {
     info_.name = "gl";
+    info_.takesTransfer = true;
     info_.device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   }
 

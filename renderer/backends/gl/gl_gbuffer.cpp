@@ -88,9 +88,8 @@ void GlGBuffer::render(const GlScene& scene, const View& view, vec2 jitter) {
   const float zero[4] = {0.0f, 0.0f, 0.0f, 0.0f};
   PassState state(framebuffer_.name(), width_, height_);
   state.reversedDepth();
-  for (int i = 0; i < 4; ++i) {
+  for (const int i : {shared::kGPosition, shared::kGAlbedo})
     glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, i, zero);
-  }
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, zero);
 
   const mat4 worldToClip = rasterMatrix(view, jitter);

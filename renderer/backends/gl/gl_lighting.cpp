@@ -14,6 +14,8 @@ int arrayOf(const shared::Vpl& vpl, int slotsAnArray) {
   return slot < 0 ? 0 : slot / slotsAnArray;
 }
 
+int mostLights(const vec4& clampAndBias) { return std::max(static_cast<int>(clampAndBias.w), 1); }
+
 // A storage buffer with these values.
 template <typename T>
 void fill(Buffer& buffer, std::span<const T> values) {
@@ -34,9 +36,7 @@ void fill(Buffer& buffer, std::span<const T> values) {
 }  // namespace
 
 GlLighting::GlLighting(const std::filesystem::path& shaders, const VplBuffer& vpls)
-    : emptyVertexArray_(VertexArray::make()),
-      irradianceFramebuffer_(Framebuffer::make()),
-      pictureFramebuffer_(Framebuffer::make()) {
+    : emptyVertexArray_(VertexArray::make()), pictureFramebuffer_(Framebuffer::make()) {
   reload(shaders, vpls);
 }
 
@@ -58,6 +58,7 @@ void GlLighting::reload(const std::filesystem::path& shaders, const VplBuffer& v
   }
   Program findPatches(shaders, {vertex, "passes/find_patches.frag.glsl"});
   Program compose(shaders, {vertex, "passes/compose.frag.glsl"});
+  low_.reload(shaders);
   std::move(std::begin(naive), std::end(naive), naive_);
   std::move(std::begin(listed), std::end(listed), listed_);
   std::move(std::begin(merged), std::end(merged), merged_);
@@ -66,35 +67,35 @@ void GlLighting::reload(const std::filesystem::path& shaders, const VplBuffer& v
 }
 
 void GlLighting::clear(int width, int height) {
-  if (width_ != width || height_ != height) {
-    width_ = width;
-    height_ = height;
-    irradiance_ = makeTexture2D(GL_RGBA32F, width, height);
-    glNamedFramebufferTexture(irradianceFramebuffer_.name(), GL_COLOR_ATTACHMENT0,
-                              irradiance_.name(), 0);
+  if (pixels_.width != width || pixels_.height != height) {
+    pixels_.resize(width, height);
     pictures_.clear();
-    patches_.reset();
   }
-  const PassState state(irradianceFramebuffer_.name(), width_, height_);
-  const float zero[4] = {0.0f, 0.0f, 0.0f, 0.0f};
-  glClearNamedFramebufferfv(irradianceFramebuffer_.name(), GL_COLOR, 0, zero);
+  isEmpty_ = true;
 }
 
-void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
-                     const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
-                     const shared::ShadingParams& params, const PatchLights* patches) {
-  // In their order within each kind and array: the same bits whenever the same VPLs come in the
-  // same order.
+void GlLighting::zero() {
+  const PassState state(pixels_.sums.name(), pixels_.width, pixels_.height);
+  const float zero[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+  glClearNamedFramebufferfv(pixels_.sums.name(), GL_COLOR, 0, zero);
+  isEmpty_ = false;
+}
+
+// In their order within each kind and array: the same bits whenever the same VPLs come in the same
+// order.
+GlLighting::Sum GlLighting::makeSum(const GlShadowMaps& maps, const VplBuffer& buffer,
+                                    std::span<const shared::Vpl> vpls,
+                                    const shared::ShadingParams& params) {
   const auto batchOf = [&](const shared::Vpl& vpl) {
     return std::pair(static_cast<int>(vpl.position.w), arrayOf(vpl, maps.slotsAnArray()));
   };
-  std::vector<shared::Vpl> sorted(vpls.begin(), vpls.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
+  Sum sum{maps, buffer, {vpls.begin(), vpls.end()}, {}, params.clampAndBias};
+  std::stable_sort(sum.vpls.begin(), sum.vpls.end(),
                    [&](const auto& a, const auto& b) { return batchOf(a) < batchOf(b); });
-  std::vector<Batch> batches;
+  std::vector<Batch>& batches = sum.batches;
   const auto blockSize = static_cast<size_t>(buffer.capacity());
-  for (size_t i = 0; i < sorted.size(); ++i) {
-    const auto [kind, array] = batchOf(sorted[i]);
+  for (size_t i = 0; i < sum.vpls.size(); ++i) {
+    const auto [kind, array] = batchOf(sum.vpls[i]);
     const size_t block = i / blockSize;
     if (batches.empty() || batches.back().kind != kind || batches.back().array != array ||
         batches.back().block != block) {
@@ -102,81 +103,54 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
     }
     ++batches.back().count;
   }
+  return sum;
+}
 
-  const int most = std::max(static_cast<int>(params.clampAndBias.w), 1);
-  const bool merges = patches != nullptr && patches->mergesPasses();
+void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
+                     const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
+                     const shared::ShadingParams& params, const PatchLights* patches) {
+  Sum sum = makeSum(maps, buffer, vpls, params);
   mergedPasses_ = passesSaved_ = 0;
   clear(gbuffer.width(), gbuffer.height());
   gbuffer.bind();
-  if (patches != nullptr) {
-    beginWithPatches(scene, gbuffer, sorted, batches, *patches, most);
-  } else {
+  if (patches == nullptr) {
     patches_.reset();
+    pixels_.dropPlaces();
+    low_.release();
+  } else {
+    sum.merges = patches->mergesPasses();
+    takePatches(scene, gbuffer, sum, *patches);
+    pixels_.addPlaces();
   }
-
   // Slots within their arrays.
-  for (const Batch& batch : batches) {
-    for (shared::Vpl& vpl : std::span(sorted).subspan(batch.first, batch.count)) {
+  for (const Batch& batch : sum.batches) {
+    for (shared::Vpl& vpl : std::span(sum.vpls).subspan(batch.first, batch.count)) {
       if (vpl.intensity.w >= 0.0f)
         vpl.intensity.w -= static_cast<float>(batch.array * maps.slotsAnArray());
     }
   }
-  const PassState state(irradianceFramebuffer_.name(), width_, height_);
-  glBindTextureUnit(shared::kIrradiance, irradiance_.name());
-  const auto drawSum = [&] {
-    glTextureBarrier();  // the irradiance is read where it is written
-    drawFullScreen(emptyVertexArray_.name());
-  };
-  for (size_t b = 0; b < batches.size(); ++b) {
-    const Batch& batch = batches[b];
-    const size_t blockStart = batch.block * blockSize;
-    if (b == 0 || batches[b - 1].block != batch.block) {
-      buffer.upload(
-          std::span(sorted).subspan(blockStart, std::min(blockSize, sorted.size() - blockStart)));
-    }
-    const Program& program = (merges ? merged_ : patches_ ? listed_ : naive_)[batch.kind];
-    program.use();
-    program.set(2, params.clampAndBias);
-    glBindTextureUnit(shared::kShadowMaps,
-                      maps.hasArray(batch.array) ? maps.array(batch.array) : 0);
-    int first = 0, end = static_cast<int>(batch.count);
-    const int start = static_cast<int>(batch.first - blockStart);
-    if (patches_) {
-      const LightLists& lists = patches_->lists;
-      end = (merges ? lists.longestPlain() : lists.longest())[b];
-      program.set(3, static_cast<int>(b * LightLists::places(patches_->trees.nodes())));
-      program.set(4, start);
-    } else {
-      first += start;
-      end += start;
-    }
-    for (; first < end; first += most) {
-      program.set(0, first);
-      program.set(1, std::min(first + most, end));
-      if (merges) program.set(5, 0);
-      drawSum();
-    }
-    for (int pass = 0; merges && pass < patches_->lists.passes()[b]; ++pass) {
-      program.set(5, 1 + pass);
-      drawSum();
-      ++mergedPasses_;
-    }
+
+  const int block = static_cast<int>(params.block.x);
+  if (patches == nullptr) {
+    zero();
+    add(sum, pixels_, 1, false);
+  } else if (low_.resize(pixels_.width, pixels_.height, block)) {
+    begin(scene, low_.samples(), block, false);
+    add(sum, low_.samples(), block, false);
+    low_.interpolate(pixels_);
+    begin(scene, pixels_, 1, true);
+    add(sum, pixels_, 1, true);
+  } else {
+    pixels_.dropStencil();
+    begin(scene, pixels_, 1, false);
+    add(sum, pixels_, 1, false);
   }
+  isEmpty_ = false;
 }
 
-void GlLighting::beginWithPatches(const GlScene& scene, const GlGBuffer& gbuffer,
-                                  std::span<const shared::Vpl> vpls, std::span<const Batch> batches,
-                                  const PatchLights& lights, int mostLights) {
-  if (!patches_) {
-    patches_ = std::make_unique<Patches>();
-    patches_->places = makeTexture2D(GL_R32UI, width_, height_);
-    patches_->framebuffer = Framebuffer::make();
-    const GLuint framebuffer = patches_->framebuffer.name();
-    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, irradiance_.name(), 0);
-    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT1, patches_->places.name(), 0);
-    constexpr GLenum kTargets[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-    glNamedFramebufferDrawBuffers(framebuffer, 2, kTargets);
-  }
+void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
+                             const PatchLights& lights) {
+  if (!patches_) patches_ = std::make_unique<Patches>();
   GlPatches& trees = patches_->trees;
   trees.update(scene.scene(), lights);
 
@@ -186,21 +160,76 @@ void GlLighting::beginWithPatches(const GlScene& scene, const GlGBuffer& gbuffer
       objects.push_back({d.object, trees.firstNode(d.object), d.culled});
   }
   std::vector<LightGroup> groups;
-  for (const Batch& batch : batches) groups.push_back({batch.first, batch.count});
+  for (const Batch& batch : sum.batches) groups.push_back({batch.first, batch.count});
   LightLists& lists = patches_->lists;
-  lists.make(lights, objects, trees.nodes(), gbuffer.frustum(), vpls, groups);
-  if (lights.mergesPasses()) lists.mergePasses(mostLights);
+  lists.make(lights, objects, trees.nodes(), gbuffer.frustum(), sum.vpls, groups);
+  if (sum.merges) lists.mergePasses(mostLights(sum.clampAndBias));
   passesSaved_ = lists.passesSaved();
   fill(patches_->ranges, lists.ranges());
   fill(patches_->entries, lists.entries());
+}
 
-  const PassState state(patches_->framebuffer.name(), width_, height_);
-  trees.bind();
+void GlLighting::begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked) {
+  PassState state(target.begin.name(), target.width, target.height);
+  if (unmarked) state.onlyWhere(false);
+  patches_->trees.bind();
+  scene.bindCorners();
   findPatches_.use();
+  findPatches_.set(0, block);
   drawFullScreen(emptyVertexArray_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListRangeBuffer, patches_->ranges.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListBuffer, patches_->entries.name());
-  glBindTextureUnit(shared::kPlaces, patches_->places.name());
+}
+
+void GlLighting::add(const Sum& sum, const SumTarget& target, int block, bool unmarked) {
+  PassState state(target.sums.name(), target.width, target.height);
+  if (unmarked) state.onlyWhere(false);
+  glBindTextureUnit(shared::kIrradiance, target.irradiance.name());
+  if (patches_) {
+    glBindTextureUnit(shared::kPlaces, target.places.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListRangeBuffer, patches_->ranges.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListBuffer, patches_->entries.name());
+  }
+  const int most = mostLights(sum.clampAndBias);
+  const auto draw = [&] {
+    glTextureBarrier();  // the irradiance is read where it is written
+    drawFullScreen(emptyVertexArray_.name());
+  };
+  const auto blockSize = static_cast<size_t>(sum.buffer.capacity());
+  for (size_t b = 0; b < sum.batches.size(); ++b) {
+    const Batch& batch = sum.batches[b];
+    const size_t blockStart = batch.block * blockSize;
+    if (b == 0 || sum.batches[b - 1].block != batch.block) {
+      sum.buffer.upload(std::span(sum.vpls).subspan(
+          blockStart, std::min(blockSize, sum.vpls.size() - blockStart)));
+    }
+    const Program& program = (sum.merges ? merged_ : patches_ ? listed_ : naive_)[batch.kind];
+    program.use();
+    program.set(2, sum.clampAndBias);
+    program.set(6, block);
+    glBindTextureUnit(shared::kShadowMaps,
+                      sum.maps.hasArray(batch.array) ? sum.maps.array(batch.array) : 0);
+    int first = 0, end = static_cast<int>(batch.count);
+    const int start = static_cast<int>(batch.first - blockStart);
+    if (patches_) {
+      const LightLists& lists = patches_->lists;
+      end = (sum.merges ? lists.longestPlain() : lists.longest())[b];
+      program.set(3, static_cast<int>(b * LightLists::places(patches_->trees.nodes())));
+      program.set(4, start);
+    } else {
+      first += start;
+      end += start;
+    }
+    for (; first < end; first += most) {
+      program.set(0, first);
+      program.set(1, std::min(first + most, end));
+      if (sum.merges) program.set(5, 0);
+      draw();
+    }
+    for (int pass = 0; sum.merges && pass < patches_->lists.passes()[b]; ++pass) {
+      program.set(5, 1 + pass);
+      draw();
+      if (!unmarked) ++mergedPasses_;
+    }
+  }
 }
 
 std::shared_ptr<RadianceTexture> GlLighting::freePicture(int width, int height) {
@@ -215,12 +244,13 @@ std::shared_ptr<RadianceTexture> GlLighting::freePicture(int width, int height) 
 
 std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, const vec3& sky,
                                                      bool white) {
-  auto picture = freePicture(width_, height_);
+  auto picture = freePicture(pixels_.width, pixels_.height);
+  if (isEmpty_) zero();
   glNamedFramebufferTexture(pictureFramebuffer_.name(), GL_COLOR_ATTACHMENT0, picture->texture(),
                             0);
-  const PassState state(pictureFramebuffer_.name(), width_, height_);
+  const PassState state(pictureFramebuffer_.name(), pixels_.width, pixels_.height);
   gbuffer.bind();
-  glBindTextureUnit(shared::kIrradiance, irradiance_.name());
+  glBindTextureUnit(shared::kIrradiance, pixels_.irradiance.name());
   compose_.set(0, sky);
   compose_.set(1, white ? 1 : 0);
   compose_.use();
@@ -229,11 +259,11 @@ std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, c
 }
 
 uint64_t GlLighting::bytes() const {
-  const uint64_t pixels = static_cast<uint64_t>(width_) * height_;
-  uint64_t bytes = (1 + pictures_.size()) * uint64_t{16} * pixels;
+  const uint64_t pixels = static_cast<uint64_t>(pixels_.width) * pixels_.height;
+  uint64_t bytes = pictures_.size() * uint64_t{16} * pixels + pixels_.bytes() + low_.bytes();
   if (patches_) {
-    bytes += sizeof(uint32_t) * pixels + patches_->trees.bytes() +
-             patches_->lists.ranges().size_bytes() + patches_->lists.entries().size_bytes();
+    bytes += patches_->trees.bytes() + patches_->lists.ranges().size_bytes() +
+             patches_->lists.entries().size_bytes();
   }
   return bytes;
 }

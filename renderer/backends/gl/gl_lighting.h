@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "renderer/backends/gl/gl_gbuffer.h"
+#include "renderer/backends/gl/gl_low_resolution.h"
 #include "renderer/backends/gl/gl_patches.h"
 #include "renderer/backends/gl/gl_shadow_maps.h"
 #include "renderer/backends/gl/light_lists.h"
+#include "renderer/backends/gl/sum_target.h"
 #include "renderer/gl/radiance_texture.h"
 
 namespace lamplighter::gl {
@@ -39,26 +41,41 @@ class GlLighting {
     size_t block = 0;
     size_t first = 0, count = 0;  // in the order of the sum
   };
-  // The places of what is known by patch: all but the VPLs themselves.
+  // What is known by patch: all but the VPLs themselves.
   struct Patches {
     GlPatches trees;
     LightLists lists;
     Buffer ranges, entries;
-    Texture places;
-    Framebuffer framebuffer;  // irradiance and places
+  };
+  // A sum, with the VPLs in its order and slots within their arrays.
+  struct Sum {
+    const GlShadowMaps& maps;
+    const VplBuffer& buffer;
+    std::vector<shared::Vpl> vpls;
+    std::vector<Batch> batches;
+    vec4 clampAndBias;  // of ShadingParams
+    bool merges = false;
   };
 
+  static Sum makeSum(const GlShadowMaps& maps, const VplBuffer& buffer,
+                     std::span<const shared::Vpl> vpls, const shared::ShadingParams& params);
+  void takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
+                   const PatchLights& lights);
+  void zero();
+  // What the light maps and light by transfer say, at one pixel of each block; `unmarked`: only
+  // where the stencil buffer has no mark.
+  void begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked);
+  // Adds all VPLs there.
+  void add(const Sum& sum, const SumTarget& target, int block, bool unmarked);
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
-  void beginWithPatches(const GlScene& scene, const GlGBuffer& gbuffer,
-                        std::span<const shared::Vpl> vpls, std::span<const Batch> batches,
-                        const PatchLights& lights, int mostLights);
 
   Program naive_[3], listed_[3], merged_[3];  // by Vpl.position.w
   Program findPatches_, compose_;
   VertexArray emptyVertexArray_;
-  Framebuffer irradianceFramebuffer_, pictureFramebuffer_;
-  Texture irradiance_;  // RGBA32F: hundreds of additions must not lose the small ones
-  int width_ = 0, height_ = 0;
+  Framebuffer pictureFramebuffer_;
+  SumTarget pixels_;
+  bool isEmpty_ = true;  // pixels_ hold nothing yet: there is no light
+  GlLowResolution low_;
   int mergedPasses_ = 0, passesSaved_ = 0;
   std::unique_ptr<Patches> patches_;  // while the sums ask for them
   // Those that nobody else holds are drawn over.

@@ -33,6 +33,8 @@ GlPatches::Sizes GlPatches::sizesOf(const RenderScene& scene, const PatchLights&
   n.triangles = scene.objects[object].triangleCount();
   n.nodes = static_cast<uint32_t>(patches.patches.size());
   n.charts = static_cast<uint32_t>(patches.charts.size());
+  if (lights.prt() != nullptr && lights.prt()->hasTransfer(object))
+    n.vertices = scene.objects[object].vertexCount;
   if (lights.maps() == nullptr) return n;
   for (size_t i = 0; i < patches.patches.size(); ++i)
     n.tiles += lights.maps()->tile(object, static_cast<int>(i)) != nullptr;
@@ -49,7 +51,8 @@ void GlPatches::update(const RenderScene& scene, const PatchLights& lights) {
   std::vector<uint32_t> changed;
   for (uint32_t i = 0; i < scene.objects.size() && !resized; ++i) {
     const Object& o = objects_[i];
-    if (std::pair(o.patches, o.maps) == revisionsOf(i)) continue;
+    const bool isLit = lights.prt() != nullptr && lights.prt()->hasTransfer(i);
+    if (isLit == (o.size.vertices != 0) && std::pair(o.patches, o.maps) == revisionsOf(i)) continue;
     changed.push_back(i);
     resized = sizesOf(scene, lights, i) != o.size;
   }
@@ -68,13 +71,20 @@ void GlPatches::update(const RenderScene& scene, const PatchLights& lights) {
       total_.charts += o.size.charts;
       total_.tiles += o.size.tiles;
       total_.texels += o.size.texels;
+      total_.vertices += o.size.vertices;
       changed.push_back(i);
     }
     allocate();
   }
   for (const uint32_t i : changed) {
-    upload(lights, i);
+    upload(scene, lights, i);
     std::tie(objects_[i].patches, objects_[i].maps) = revisionsOf(i);
+  }
+  for (uint32_t i = 0; i < objects_.size(); ++i) {
+    Object& o = objects_[i];
+    if (o.size.vertices == 0 || o.light == lights.prt()->revision(i)) continue;
+    write<vec3>(vertexLight_, o.first.vertices, lights.prt()->irradiance(i));
+    o.light = lights.prt()->revision(i);
   }
 }
 
@@ -88,17 +98,25 @@ void GlPatches::allocate() {
         std::to_string(total_.texels) + " light map texels are more than OpenGL takes here",
         "raise light_map_texel or use --backend cpu");
   }
+  const uint64_t light = uint64_t{total_.vertices} * sizeof(vec3);
+  if (light > static_cast<uint64_t>(limit)) {
+    throw InputError("many_lights",
+                     std::to_string(total_.vertices) +
+                         " vertices lit by transfer are more than OpenGL takes here",
+                     "switch prt off or use --backend cpu");
+  }
   roots_ = makeBuffer(total_.triangles, sizeof(uint32_t));
   patches_ = makeBuffer(total_.nodes, sizeof(shared::PatchNode));
   charts_ = makeBuffer(total_.charts, sizeof(shared::PatchChart));
   tiles_ = makeBuffer(total_.tiles, sizeof(shared::PatchTile));
   texels_ = makeBuffer(total_.texels, sizeof(vec4));
-  bytes_ = total_.triangles * sizeof(uint32_t) + total_.nodes * sizeof(shared::PatchNode) +
+  vertexLight_ = makeBuffer(total_.vertices, sizeof(vec3));
+  bytes_ = light + total_.triangles * sizeof(uint32_t) + total_.nodes * sizeof(shared::PatchNode) +
            total_.charts * sizeof(shared::PatchChart) + total_.tiles * sizeof(shared::PatchTile) +
            texels;
 }
 
-void GlPatches::upload(const PatchLights& lights, uint32_t object) {
+void GlPatches::upload(const RenderScene& scene, const PatchLights& lights, uint32_t object) {
   const ObjectPatches& patches = lights.patches(object);
   const Sizes& first = objects_[object].first;
   std::vector<uint32_t> roots;
@@ -116,6 +134,10 @@ void GlPatches::upload(const PatchLights& lights, uint32_t object) {
       branch.z = static_cast<uint32_t>(p.axis);
       branch.w = std::bit_cast<uint32_t>(0.5f * (p.min[p.axis] + p.max[p.axis]));
       continue;
+    }
+    if (objects_[object].size.vertices != 0 && p.chart == kNone) {
+      branch.z = 1;
+      branch.w = first.vertices - scene.objects[object].firstVertex;  // modulo 2³²
     }
     if (!hasMaps_) continue;
     const LightMapTile* tile = lights.maps()->tile(object, static_cast<int>(i));
@@ -146,6 +168,7 @@ void GlPatches::bind() const {
   bind(shared::kChartBuffer, charts_);
   bind(shared::kTileBuffer, tiles_);
   bind(shared::kTexelBuffer, texels_);
+  bind(shared::kVertexLightBuffer, vertexLight_);
 }
 
 }  // namespace lamplighter::gl

@@ -1,4 +1,4 @@
-// The scene's patch trees and light maps in OpenGL's memory.
+// The scene's patch trees, light maps and light by precomputed transfer in OpenGL's memory.
 #pragma once
 
 #include <span>
@@ -14,7 +14,7 @@ class GlPatches {
  public:
   // Takes in what is new since the last call. Throws InputError when the device can't hold it.
   void update(const RenderScene& scene, const PatchLights& lights);
-  // For shaders/passes/find_patches.frag.glsl.
+  // For shaders/passes/find_patches.frag.glsl, but for the scene's corners.
   void bind() const;
 
   // Where an object's patches begin among those of the scene, and how many they all are.
@@ -25,20 +25,21 @@ class GlPatches {
  private:
   struct Sizes {
     uint32_t triangles = 0, nodes = 0, charts = 0, tiles = 0, texels = 0;
+    uint32_t vertices = 0;  // lit by transfer
     bool operator==(const Sizes&) const = default;
   };
   struct Object {
     Sizes first, size;
-    Revision patches, maps;
+    Revision patches, maps, light;
   };
   static Sizes sizesOf(const RenderScene& scene, const PatchLights& lights, uint32_t object);
   void allocate();
-  void upload(const PatchLights& lights, uint32_t object);
+  void upload(const RenderScene& scene, const PatchLights& lights, uint32_t object);
 
   std::vector<Object> objects_;
   Sizes total_;
   bool hasMaps_ = false;
-  Buffer roots_, patches_, charts_, tiles_, texels_;
+  Buffer roots_, patches_, charts_, tiles_, texels_, vertexLight_;
   uint64_t bytes_ = 0;
 };
 

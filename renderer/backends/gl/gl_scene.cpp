@@ -180,6 +180,11 @@ void GlScene::bindStorage() const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kUv1Buffer, uv1_.name());
 }
 
+void GlScene::bindCorners() const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kCornerBuffer, indices_.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kPlaceBuffer, positions_.name());
+}
+
 void GlScene::bindMaterial(int material) const {
   glBindBufferRange(GL_UNIFORM_BUFFER, shared::kMaterialBlock, materials_.name(),
                     material * materialStride_, sizeof(shared::SurfaceMaterial));

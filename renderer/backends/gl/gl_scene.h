@@ -33,6 +33,8 @@ class GlScene {
   GLuint vertexArray() const { return vertexArray_.name(); }
   // Vertices as storage buffers, for the corners of a triangle.
   void bindStorage() const;
+  // The same for shaders/passes/find_patches.frag.glsl.
+  void bindCorners() const;
   // The material's block and textures.
   void bindMaterial(int material) const;
 

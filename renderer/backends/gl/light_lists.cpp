@@ -85,7 +85,8 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
       const Patch& patch = tree.patches[i];
       if (!patch.isLeaf() || !frustum.mayMeet(boxOf(patch))) continue;
       const int leaf = static_cast<int>(i);
-      const bool mapped = patches.isMapped(object.object, leaf);
+      const bool mapped =
+          patches.isMapped(object.object, leaf) || patches.hasTransfer(object.object, leaf);
       if (mapped) addPlace(leaf, true);
       if (!mapped || !object.backIsCulled) addPlace(leaf, false);
     }

@@ -149,7 +149,7 @@ const ParameterSpec& prt() {
       "",
       "Complex meshes are lit at their vertices by precomputed radiance transfer: smoothly, with "
       "their own soft shadows and what their parts reflect onto each other, and without shadow "
-      "maps. Computed once for each shape. On the cpu backend; nothing for naive.",
+      "maps. Computed once for each shape. Nothing for naive.",
       false,
       0,
       0,

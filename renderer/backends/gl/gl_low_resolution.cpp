@@ -1,0 +1,64 @@
+#include "renderer/backends/gl/gl_low_resolution.h"
+
+#include "renderer/gl/pass_state.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/low_resolution.h"
+
+namespace lamplighter::gl {
+
+void GlLowResolution::reload(const std::filesystem::path& shaders) {
+  const char* vertex = "common/full_screen.vert.glsl";
+  Program findCells(shaders, {vertex, "passes/find_cells.frag.glsl"});
+  Program interpolate(shaders, {vertex, "passes/interpolate.frag.glsl"});
+  findCells_ = std::move(findCells);
+  interpolate_ = std::move(interpolate);
+}
+
+bool GlLowResolution::resize(int width, int height, int block) {
+  const int columns = shared::lowResolutionSamples(width, block) - 1;
+  const int rows = shared::lowResolutionSamples(height, block) - 1;
+  if (block <= 1 || columns < 1 || rows < 1) {
+    release();
+    return false;
+  }
+  block_ = block;
+  if (cells_ && samples_.width == columns + 1 && samples_.height == rows + 1) return true;
+  samples_.resize(columns + 1, rows + 1);
+  samples_.addPlaces();
+  cells_ = makeTexture2D(GL_R8UI, columns, rows);
+  cellsFramebuffer_ = Framebuffer::make();
+  glNamedFramebufferTexture(cellsFramebuffer_.name(), GL_COLOR_ATTACHMENT0, cells_.name(), 0);
+  return true;
+}
+
+void GlLowResolution::release() {
+  samples_ = {};
+  cells_ = {};
+  cellsFramebuffer_ = {};
+}
+
+void GlLowResolution::interpolate(SumTarget& pixels) const {
+  glBindTextureUnit(shared::kSamples, samples_.irradiance.name());
+  {
+    const PassState state(cellsFramebuffer_.name(), samples_.width - 1, samples_.height - 1);
+    findCells_.use();
+    findCells_.set(0, block_);
+    drawFullScreen(emptyVertexArray_.name());
+  }
+  glBindTextureUnit(shared::kCells, cells_.name());
+  pixels.addStencil();
+  PassState state(pixels.sums.name(), pixels.width, pixels.height);
+  glClearNamedFramebufferfi(pixels.sums.name(), GL_DEPTH_STENCIL, 0, 0.0f, 0);
+  state.mark();
+  interpolate_.use();
+  interpolate_.set(0, block_);
+  drawFullScreen(emptyVertexArray_.name());
+}
+
+uint64_t GlLowResolution::bytes() const {
+  const uint64_t cells =
+      cells_ ? static_cast<uint64_t>(samples_.width - 1) * (samples_.height - 1) : 0;
+  return samples_.bytes() + cells;
+}
+
+}  // namespace lamplighter::gl

@@ -1,0 +1,39 @@
+// The low-resolution pass (shaders/shared/low_resolution.h): the samples, and which pixels take
+// their light from them.
+#pragma once
+
+#include <filesystem>
+
+#include "renderer/backends/gl/sum_target.h"
+#include "renderer/gl/program.h"
+
+namespace lamplighter::gl {
+
+class GlLowResolution {
+ public:
+  GlLowResolution() : emptyVertexArray_(VertexArray::make()) {}
+  // Before anything is drawn.
+  void reload(const std::filesystem::path& shaders);
+
+  // Makes room for the samples of a picture. Returns whether it has any cells: else all of its
+  // pixels are to be summed.
+  bool resize(int width, int height, int block);
+  void release();
+  SumTarget& samples() { return samples_; }
+
+  // Once the samples are summed, with the G-buffer bound: the cells that may be, marked in the
+  // stencil buffer of `pixels`. The others are left as they are.
+  void interpolate(SumTarget& pixels) const;
+
+  uint64_t bytes() const;
+
+ private:
+  Program findCells_, interpolate_;
+  VertexArray emptyVertexArray_;
+  SumTarget samples_;
+  Texture cells_;  // R8UI
+  Framebuffer cellsFramebuffer_;
+  int block_ = 1;
+};
+
+}  // namespace lamplighter::gl

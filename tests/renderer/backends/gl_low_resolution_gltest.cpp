@@ -1,0 +1,187 @@
+// The low-resolution pass on the gl backend: near the picture of all pixels, the same bits for any
+// number of lights a pass, and no light beyond what is thinner than a block.
+#include <filesystem>
+#include <ostream>
+
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/renderer/gl/gl_test.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+#include "tests/support/shared_files.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+Settings settingsOf(int block, const std::string& technique = "light_maps", int vpls = 150,
+                    int lightsPerPass = 1024) {
+  Settings s;
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::updates().name, vpls);
+  s.set(parameters::antialias().name, 1);
+  s.set(parameters::lightsPerPass().name, lightsPerPass);
+  s.set(parameters::block().name, std::to_string(block));
+  return s;
+}
+
+View viewOf(const Scene& scene, int width, int height) {
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) return viewOfCamera(scene, node, width, height);
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  return viewOfBounds(render.bounds, width, height);
+}
+
+Image rendered(FrameRenderer& renderer, const Scene& scene, const View& view,
+               const Settings& settings) {
+  return test::renderSettled(renderer, scene, SceneChanges::all(), view, settings)
+      .radiance->pixels();
+}
+
+Image rendered(std::unique_ptr<Backend> backend, const Scene& scene, const View& view,
+               const Settings& settings) {
+  FrameRenderer renderer(std::move(backend));
+  return rendered(renderer, scene, view, settings);
+}
+
+Scene loadAsset(const std::string& name) {
+  return loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name).scene;
+}
+
+// Share of the pixels that have other bits.
+double shareOther(const Image& a, const Image& b) {
+  size_t other = 0;
+  for (size_t i = 0; i < a.pixels.size(); ++i) other += a.pixels[i] != b.pixels[i];
+  return static_cast<double>(other) / static_cast<double>(a.pixels.size());
+}
+
+struct Case {
+  const char* scene;
+};
+void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
+
+class GlLowResolutionScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
+
+TEST_P(GlLowResolutionScenes, IsNearThePictureOfAllPixels) {
+  const std::string name = GetParam().scene;
+  const fs::path path = name.find('/') == std::string::npos
+                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+                            : test::sharedScenes() / name;
+  if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
+  const Scene scene = loadGltf(path).scene;
+  const View view = viewOf(scene, 318, 211);  // no multiple of any block
+  for (const std::string technique : {"visibility", "light_maps"}) {
+    const Image all = rendered(makeGlBackend(), scene, view, settingsOf(1, technique));
+    for (const int block : {2, 4, 8}) {
+      SCOPED_TRACE(technique + " " + std::to_string(block));
+      const Image low = rendered(makeGlBackend(), scene, view, settingsOf(block, technique));
+      const Metrics m = compareImages(low, all);
+      const double share = shareOther(low, all);
+      RecordProperty(technique + std::to_string(block),
+                     std::to_string(m.relRmse) + ", interpolated " + std::to_string(share));
+      EXPECT_LT(m.relRmse, 0.015);
+      EXPECT_NEAR(m.bias, 1.0, 0.002);
+      EXPECT_GT(share, 0.03);  // else the test says nothing
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, GlLowResolutionScenes,
+                         testing::Values(Case{"area_light_room.gltf"}, Case{"pillar_room.gltf"},
+                                         Case{"cornell_style.gltf"},
+                                         Case{"modern-hall/modern-hall.glb"}));
+
+using GlLowResolution = test::GlTest;
+
+TEST_F(GlLowResolution, AnyNumberOfLightsAPassGivesTheSameBits) {
+  const Scene scene = loadAsset("pillar_room.gltf");
+  const View view = viewOf(scene, 161, 97);
+  const Image all = rendered(makeGlBackend(), scene, view, settingsOf(4, "light_maps", 60));
+  for (const int most : {1, 7}) {
+    EXPECT_TRUE(test::sameBits(
+        all, rendered(makeGlBackend(), scene, view, settingsOf(4, "light_maps", 60, most))))
+        << most;
+  }
+}
+
+TEST_F(GlLowResolution, MergedPassesAreThoseOfTheLists) {
+  const Scene scene = loadAsset("pillar_room.gltf");
+  const View view = viewOf(scene, 161, 97);
+  Settings settings = settingsOf(4, "light_maps", 60, 6);
+  const Image listed = rendered(makeGlBackend(), scene, view, settings);
+  settings.set(parameters::mergePasses().name, true);
+  // Float sums in another order; a cell at the limit of contrast may change sides.
+  EXPECT_LT(compareImages(rendered(makeGlBackend(), scene, view, settings), listed).relRmse, 1e-3);
+}
+
+// Samples and cells at the right and lower edges, pictures without any cell, and textures that are
+// made anew.
+TEST_F(GlLowResolution, AnySizeWill) {
+  const Scene scene = loadAsset("area_light_room.gltf");
+  FrameRenderer renderer(makeGlBackend());
+  for (const glm::ivec2 size :
+       {glm::ivec2(1, 1), glm::ivec2(1, 40), glm::ivec2(40, 1), glm::ivec2(2, 2), glm::ivec2(5, 4),
+        glm::ivec2(64, 64), glm::ivec2(65, 33), glm::ivec2(63, 35)}) {
+    const View view = viewOf(scene, size.x, size.y);
+    const Image all = rendered(renderer, scene, view, settingsOf(1, "light_maps", 40));
+    for (const int block : {2, 4, 8}) {
+      SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + " by " +
+                   std::to_string(block));
+      const Image low = rendered(renderer, scene, view, settingsOf(block, "light_maps", 40));
+      EXPECT_LT(compareImages(low, all).relRmse, 0.03);
+      if (size.x == 1 || size.y == 1) {
+        EXPECT_TRUE(test::sameBits(low, all));
+      }
+      EXPECT_TRUE(test::sameBits(
+          low, rendered(makeGlBackend(), scene, view, settingsOf(block, "light_maps", 40))));
+    }
+  }
+}
+
+// Naive has none of it.
+TEST_F(GlLowResolution, NaiveSumsAllPixels) {
+  const Scene scene = loadAsset("pillar_room.gltf");
+  const View view = viewOf(scene, 96, 64);
+  EXPECT_TRUE(test::sameBits(rendered(makeGlBackend(), scene, view, settingsOf(4, "naive", 40)),
+                             rendered(makeGlBackend(), scene, view, settingsOf(1, "naive", 40))));
+}
+
+// A wall between two rooms, seen end on and thinner than a block: its upper edge gets no direct
+// light, and the floor to both sides much and alike. Were cells asked for their corners alone, the
+// floor's light would get onto the wall; so too, with a dark room beyond, from room to room.
+TEST_F(GlLowResolution, NothingLeaksPastAThinWall) {
+  for (const float other : {30.0f, 0.3f}) {
+    Scene scene;
+    const int white = test::addMaterial(scene, vec3(0.7f));
+    test::addMesh(scene, test::squareMesh(16.0f, white));
+    test::addMesh(scene, test::boxMesh(vec3(0.02f, 6.0f, 16.0f), white), vec3(0.0f, 3.0f, 0.0f));
+    test::addRectangleLight(scene, vec3(-4.5f, 5, 0), vec2(2.0f), vec3(30.0f));
+    test::addRectangleLight(scene, vec3(4.5f, 5, 0), vec2(2.0f), vec3(other));
+    const View view = test::lookAt(vec3(0.0f, 10.0f, 0.5f), vec3(0.0f), 323, 203);
+    for (const std::string technique : {"visibility", "light_maps"}) {
+      SCOPED_TRACE(technique + " " + std::to_string(other));
+      const Image all = rendered(makeGlBackend(), scene, view, settingsOf(1, technique, 80));
+      for (const int block : {4, 8}) {
+        const Image low = rendered(makeGlBackend(), scene, view, settingsOf(block, technique, 80));
+        EXPECT_GT(shareOther(low, all), 0.05);
+        // Of every pixel, not of the mean: a line of light would be few pixels.
+        double worst = 0.0;
+        for (size_t i = 0; i < all.pixels.size(); ++i) {
+          const double d = std::abs(double{low.pixels[i].g} - double{all.pixels[i].g});
+          worst = std::max(worst, d / (double{all.pixels[i].g} + 1e-3));
+        }
+        RecordProperty(technique + std::to_string(block), std::to_string(worst));
+        EXPECT_LT(worst, 0.1);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter
