@@ -24,6 +24,7 @@ void GBuffer::resize(int w, int h) {
   object.assign(n, 0);
   triangle.assign(n, 0);
   isFlat.assign(n / kLanes, 0);
+  onlyTriangle.assign(static_cast<size_t>(tiles()), kMany);
   const uint64_t last = revision.empty() ? 0 : *std::max_element(revision.begin(), revision.end());
   revision.assign(static_cast<size_t>(tiles()), last);
 }
@@ -90,6 +91,7 @@ void store(GBuffer& out, size_t i, const RenderScene& scene, const Hit& hit,
 void trace(const RenderScene& scene, const RayCaster& rays, const View& view, vec2 jitter, int tile,
            GBuffer& out) {
   const vec3 forward = view.forward();
+  out.onlyTriangle[static_cast<size_t>(tile)] = GBuffer::kMany;
   const int x0 = (tile % out.tilesX) * kTileSize, y0 = (tile / out.tilesX) * kTileSize;
   for (int packet = 0; packet < kPacketsPerTile; ++packet) {
     std::array<Ray, kLanes> ray;

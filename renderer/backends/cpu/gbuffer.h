@@ -35,7 +35,10 @@ struct GBuffer {
   std::vector<uint8_t> hit;
   std::vector<uint32_t> object, triangle;  // where something was hit
   std::vector<uint8_t> isFlat;             // of each packet: both normals are the same
-  std::vector<uint64_t> revision;          // of each tile, more each time it is traced
+  // Of each tile: all of its pixels are on one flat triangle, object << 32 | triangle; else kMany.
+  static constexpr uint64_t kMany = ~uint64_t{0};
+  std::vector<uint64_t> onlyTriangle;
+  std::vector<uint64_t> revision;  // of each tile, more each time it is traced
 
   // Everything is a miss then, and no revision is one that was before.
   void resize(int w, int h);

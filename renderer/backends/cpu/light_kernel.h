@@ -46,9 +46,12 @@ struct FixedSums {
   std::vector<int32_t> r, g, b;
 };
 
-// Packets of a tile, by their first pixels, and which of their lanes are meant.
+// Packets, by their first pixels, and which of their lanes are meant. Those of several tiles, so
+// that making a light ready is worth it where few of a tile are meant; and of few, so that they
+// stay in the first-level cache.
 class PacketList {
  public:
+  static constexpr size_t kMost = 4 * kPacketsPerTile;
   void clear() { count_ = 0; }
   void add(size_t first, uint8_t lanes) {
     first_[count_] = first;
@@ -59,8 +62,8 @@ class PacketList {
   const uint8_t* lanes(size_t k) const { return &lanes_[k]; }
 
  private:
-  size_t first_[kPacketsPerTile];
-  uint8_t lanes_[kPacketsPerTile];
+  size_t first_[kMost];
+  uint8_t lanes_[kMost];
   size_t count_ = 0;
 };
 

@@ -14,6 +14,8 @@ namespace {
 constexpr size_t kMapBytesAtOnce = size_t{512} << 10;
 // Tiles that are summed together, so that each shadow map is fetched from memory once for all.
 constexpr int kTilesPerTask = 16;
+// The same where few of their packets are wanted.
+constexpr int kSparseTilesPerTask = 64;
 
 std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
   std::vector<const LightRecord*> slots;
@@ -36,49 +38,99 @@ bool revised(std::vector<Revision>& last, const Source* source) {
   return isOther;
 }
 
-// Adds lights to packets of one tile, or takes them away.
-class TileAdder {
+// Adds lights to packets of some tiles, or takes them away.
+class Adder {
  public:
-  TileAdder(const GBuffer& gbuffer, int tile, uint32_t packets, const TilePlaces& places,
-            const PlaceTable* table, const SumConstants& constants, FixedSums& sums,
-            SumCounts& counts)
-      : gbuffer_(gbuffer),
-        packets_(packets),
-        pixels_(static_cast<uint64_t>(gbuffer.pixelsOf(tile, packets))),
-        places_(places),
-        table_(table),
-        constants_(constants),
-        sums_(sums),
-        counts_(counts) {}
+  Adder(const GBuffer& gbuffer, const PlaceTable* table, const SumConstants& constants,
+        FixedSums& sums, SumCounts& counts)
+      : gbuffer_(gbuffer), table_(table), constants_(constants), sums_(sums), counts_(counts) {}
+
+  bool hasRoomFor(uint32_t packets) const {
+    return listed_ + static_cast<size_t>(std::popcount(packets)) <= PacketList::kMost;
+  }
+  void addPackets(int tile, uint32_t packets, const TilePlaces& places) {
+    listedUses_ = 0;
+    parts_.push_back({packets, &places});
+    listed_ += static_cast<size_t>(std::popcount(packets));
+    pixels_ += static_cast<uint64_t>(gbuffer_.pixelsOf(tile, packets));
+    if (table_ == nullptr) return;
+    for (const uint32_t row : places.rows())
+      if (std::find(rows_.begin(), rows_.end(), row) == rows_.end()) rows_.push_back(row);
+  }
 
   void add(const LightRecord& light, Sign sign, TilePlaces::When when) {
     counts_.lightPixels += pixels_;
-    if (table_ == nullptr || light.slot < 0) {
-      const LightUse use = light.map == nullptr ? LightUse::add : LightUse::addShadowed;
-      places_.listAll(packets_, lists_[0]);
-      sum(lists_[0], use, sign, light);
+    if (table_ != nullptr && light.slot >= 0) {
+      if (!listAs(usesOf(light.slot, when), light.slot, when)) return;
+      for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
+        sum(lists_[static_cast<size_t>(use)], use, sign, light);
       return;
     }
-    places_.list(*table_, when, light.slot, packets_, lists_);
-    for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
-      sum(lists_[static_cast<size_t>(use)], use, sign, light);
+    listedUses_ = 0;
+    lists_[0].clear();
+    for (const Part& part : parts_) part.places->listAll(part.packets, lists_[0]);
+    sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
+  }
+
+  // Adds all of these, as they are now, those that are used alike one after the other.
+  void addAll(std::span<const LightRecord> lights) {
+    order_.clear();
+    for (const LightRecord& light : lights) {
+      const bool isListed = table_ != nullptr && light.slot >= 0;
+      order_.emplace_back(isListed ? usesOf(light.slot, TilePlaces::When::now) : 0, &light);
+    }
+    std::stable_sort(order_.begin(), order_.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [uses, light] : order_) add(*light, Sign::add, TilePlaces::When::now);
   }
 
  private:
+  struct Part {
+    uint32_t packets;
+    const TilePlaces* places;
+  };
+
+  // How the light is used in each of the rows, in two bits; and a bit that is always set.
+  static constexpr size_t kMostRows = 31;
+  uint64_t usesOf(int slot, TilePlaces::When when) const {
+    if (rows_.size() > kMostRows) return 0;
+    uint64_t uses = 1;
+    for (const uint32_t row : rows_) {
+      const LightUse* of = when == TilePlaces::When::now ? table_->now(row) : table_->before(row);
+      uses = uses << 2 | static_cast<uint64_t>(of[slot]);
+    }
+    return uses;
+  }
+
+  // Lights that are used alike have the same lists. Returns whether there is anything in them.
+  bool listAs(uint64_t uses, int slot, TilePlaces::When when) {
+    static_assert(static_cast<int>(LightUse::skip) == 0);
+    if (uses != 0 && (uses & (uses - 1)) == 0) return false;
+    if (uses != 0 && uses == listedUses_) return true;
+    listedUses_ = uses;
+    for (PacketList& list : lists_) list.clear();
+    for (const Part& part : parts_) part.places->list(*table_, when, slot, part.packets, lists_);
+    return true;
+  }
+
   void sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light) {
+    if (packets.count() == 0) return;
     addLight(gbuffer_, packets, use, sign, light, constants_, sums_);
     if (use != LightUse::add) counts_.lookUps += packets.count() * kLanes;
   }
 
   const GBuffer& gbuffer_;
-  uint32_t packets_;
-  uint64_t pixels_;
-  const TilePlaces& places_;
   const PlaceTable* table_;
   const SumConstants& constants_;
   FixedSums& sums_;
   SumCounts& counts_;
+  std::vector<Part> parts_;
+  size_t listed_ = 0;
+  uint64_t pixels_ = 0;
+  std::vector<uint32_t> rows_;  // of the table, in these tiles
+  uint64_t listedUses_ = 0;     // that lists_ are for; 0: none
   TilePlaces::Lists lists_;
+  std::vector<std::pair<uint64_t, const LightRecord*>> order_;
 };
 
 }  // namespace
@@ -205,8 +257,9 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   const bool newTransfer = revised(transferRevisions_, patches ? patches->prt() : nullptr);
   const bool finishAll = newMaps || newTransfer;
   const int tiles = gbuffer.tiles();
-  tbb::parallel_for(0, (tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {
-    const int first = task * kTilesPerTask, last = std::min(first + kTilesPerTask, tiles);
+  const int aTask = wanted.empty() ? kTilesPerTask : kSparseTilesPerTask;
+  tbb::parallel_for(0, (tiles + aTask - 1) / aTask, [&](int task) {
+    const int first = task * aTask, last = std::min(first + aTask, tiles);
     const SumCounts counts = sumTiles(frame, first, last);
     lightPixels += counts.lightPixels;
     lookUps += counts.lookUps;
@@ -236,20 +289,21 @@ void LightSums::clearPackets(int tile, uint32_t packets) {
 SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   using When = TilePlaces::When;
   SumCounts counts;
-  std::vector<TileAdder> kept, begun;
-  kept.reserve(static_cast<size_t>(last - first));
-  begun.reserve(static_cast<size_t>(last - first));
+  std::vector<Adder> kept, begun;
   const PlaceTable* table = hasPatches_ ? &table_ : nullptr;
+  const auto newAdder = [&] { return Adder(frame.gbuffer, table, constants_, sums_, counts); };
+  const auto addPackets = [&](std::vector<Adder>& adders, int tile, uint32_t packets) {
+    const TilePlaces& places = tiles_[static_cast<size_t>(tile)].places;
+    if ((packets & places.hit()) == 0) return false;
+    if (adders.empty() || !adders.back().hasRoomFor(packets)) adders.push_back(newAdder());
+    adders.back().addPackets(tile, packets, places);
+    return true;
+  };
   for (int i = first; i < last; ++i) {
     const Tile& tile = tiles_[static_cast<size_t>(i)];
     clearPackets(i, tile.begun());
-    const auto addTo = [&](std::vector<TileAdder>& adders, uint32_t packets) {
-      if ((packets & tile.places.hit()) == 0) return false;
-      adders.emplace_back(frame.gbuffer, i, packets, tile.places, table, constants_, sums_, counts);
-      return true;
-    };
-    addTo(begun, tile.begun());
-    if (!addTo(kept, tile.kept()) || !hasPatches_) continue;
+    addPackets(begun, i, tile.begun());
+    if (!addPackets(kept, i, tile.kept()) || !hasPatches_) continue;
     // Lights that are the same but are used in another way here.
     std::vector<int> slots;
     for (const uint32_t row : tile.places.rows())
@@ -257,19 +311,22 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
         if (!frame.isChanged[static_cast<size_t>(slot)]) slots.push_back(slot);
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+    if (slots.empty()) continue;
+    Adder here = newAdder();
+    here.addPackets(i, tile.kept(), tile.places);
     for (const int slot : slots) {
       if (static_cast<size_t>(slot) >= frame.slots.size()) continue;
       const LightRecord* light = frame.slots[static_cast<size_t>(slot)];
       if (light == nullptr) continue;
-      kept.back().add(*light, Sign::takeAway, When::before);
-      kept.back().add(*light, Sign::add, When::now);
+      here.add(*light, Sign::takeAway, When::before);
+      here.add(*light, Sign::add, When::now);
     }
   }
   for (const Change& change : frame.changes) {
-    for (TileAdder& tile : kept)
-      if (change.before != nullptr) tile.add(*change.before, Sign::takeAway, When::before);
-    for (TileAdder& tile : kept)
-      if (change.now != nullptr) tile.add(*change.now, Sign::add, When::now);
+    for (Adder& tiles : kept)
+      if (change.before != nullptr) tiles.add(*change.before, Sign::takeAway, When::before);
+    for (Adder& tiles : kept)
+      if (change.now != nullptr) tiles.add(*change.now, Sign::add, When::now);
   }
   // The maps of some lights fit the second-level cache, those of all do not: each is fetched for
   // all of the tiles at once.
@@ -277,8 +334,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   const size_t atOnce = std::max<size_t>(1, kMapBytesAtOnce / (texels * sizeof(float)));
   for (size_t i = 0; i < frame.lights.size(); i += atOnce) {
     const auto some = frame.lights.subspan(i, std::min(atOnce, frame.lights.size() - i));
-    for (TileAdder& tile : begun)
-      for (const LightRecord& light : some) tile.add(light, Sign::add, When::now);
+    for (Adder& tiles : begun) tiles.addAll(some);
   }
   return counts;
 }

@@ -134,12 +134,18 @@ void LowResolution::takeSamples(const GBuffer& g) {
 
 void LowResolution::findPlanes(const GBuffer& g, int tile) {
   const int x0 = tile % tilesX_ * kTileSize, y0 = tile / tilesX_ * kTileSize;
+  // Mostly all is one triangle.
+  uint64_t only = g.onlyTriangle[static_cast<size_t>(tile)];
+  for (int y = tile / tilesX_; y < std::min(tile / tilesX_ + 2, tilesY_); ++y)
+    for (int x = tile % tilesX_; x < std::min(tile % tilesX_ + 2, tilesX_); ++x)
+      if (g.onlyTriangle[static_cast<size_t>(y * tilesX_ + x)] != only) only = GBuffer::kMany;
+  const bool isOnly = only != GBuffer::kMany;
   for (int y = y0; y < std::min(y0 + kTileSize, height_); y += block_) {
     for (int x = x0; x < std::min(x0 + kTileSize, width_); x += block_) {
       const int right = std::min(x + block_, width_ - 1),
                 bottom = std::min(y + block_, height_ - 1);
       planes_[cellAt(x / block_, y / block_)] =
-          isOnOneSurface(g, x, y, right, bottom) ? 0 : kNoPlane;
+          isOnly || isOnOneSurface(g, x, y, right, bottom) ? 0 : kNoPlane;
     }
   }
 }

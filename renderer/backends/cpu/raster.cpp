@@ -261,6 +261,9 @@ void store(Mask lanes, const vec3& v, std::vector<float>& x, std::vector<float>&
 void Raster::write(std::span<const Candidate> candidates, const TileHits& hits, int tile,
                    GBuffer& out) const {
   std::vector<Plain> plain(candidates.size());
+  const auto isFlat = [](const Plain& p) {
+    return p.isPlain && p.surface.normal == p.surface.geometricNormal;
+  };
   const IntTag ints;
   for (int packet = 0; packet < kPacketsPerTile; ++packet) {
     const size_t in = static_cast<size_t>(packet) * kLanes,
@@ -331,8 +334,21 @@ void Raster::write(std::span<const Candidate> candidates, const TileHits& hits, 
         out.setSurface(i, surfaceAt(scene_, c.object, c.triangle, u[lane], v[lane]), c.isFront);
       }
     }
+    const int first = hits.candidate[in];
+    if (first >= 0 && hn::AllTrue(ints, hn::Eq(which, hn::Set(ints, first))) &&
+        isFlat(plain[static_cast<size_t>(first)])) {
+      out.isFlat[at / kLanes] = 1;
+      continue;
+    }
     out.findFlat(tile, packet);
   }
+  const int first = hits.candidate[0];
+  const bool isOnly =
+      first >= 0 && isFlat(plain[static_cast<size_t>(first)]) &&
+      std::all_of(hits.candidate, hits.candidate + kTilePixels, [&](int c) { return c == first; });
+  const Candidate* only = isOnly ? &candidates[static_cast<size_t>(first)] : nullptr;
+  out.onlyTriangle[static_cast<size_t>(tile)] =
+      only == nullptr ? GBuffer::kMany : uint64_t{only->object} << 32 | only->triangle;
 }
 
 void Raster::trace(int tile, GBuffer& out) const {

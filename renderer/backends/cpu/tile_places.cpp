@@ -123,7 +123,6 @@ void TilePlaces::takeRows(PlaceTable& table) {
 
 void TilePlaces::list(const PlaceTable& table, When when, int slot, uint32_t packets,
                       Lists& out) const {
-  for (PacketList& list : out) list.clear();
   for (const Kind& kind : kinds_) {
     const uint32_t meant = kind.packets & packets;
     if (meant == 0) continue;
@@ -142,7 +141,6 @@ void TilePlaces::list(const PlaceTable& table, When when, int slot, uint32_t pac
 }
 
 void TilePlaces::listAll(uint32_t packets, PacketList& out) const {
-  out.clear();
   for (const Kind& kind : kinds_)
     for (uint32_t rest = kind.packets & packets; rest != 0; rest &= rest - 1)
       out.add(first_ + static_cast<size_t>(std::countr_zero(rest)) * kLanes, 0xff);

@@ -66,10 +66,10 @@ class TilePlaces {
   // Known packets in which anything is.
   uint32_t hit() const { return hit_; }
   std::span<const uint32_t> rows() const { return rows_; }
-  // By slot, those of these packets that use the light in each way.
+  // Appends, by slot, those of these packets that use the light in each way.
   enum class When : uint8_t { before, now };
   void list(const PlaceTable& table, When when, int slot, uint32_t packets, Lists& out) const;
-  // All of these that are hit.
+  // Appends all of these that are hit.
   void listAll(uint32_t packets, PacketList& out) const;
 
   // Calls f(first pixel of the packet, lane, place) for all lanes of these packets on a light map
