@@ -8,7 +8,9 @@
 //     leaks past what is thinner than a block;
 //   - the irradiance at its corners differs little: the borders of shadows stay where they are;
 //   - it does not differ much in any of the eight cells about it, whatever is there: the border of
-//     a hard shadow may come into this cell without reaching a corner.
+//     a hard shadow may come into this cell without reaching a corner;
+//   - none of the few lights that make hard shadows is partly hidden from the patch of a corner
+//     (renderer/backends/cpu/light_sums.h): what they light may be narrower than a block.
 // The pixels of all other cells are summed one by one.
 #ifndef LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
 #define LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
@@ -45,6 +47,13 @@ SHARED_FUNCTION bool isSmooth(vec3 a, vec3 b, vec3 c, vec3 d, float mostContrast
   vec3 allowed = mostContrast * most;
   return spread.x <= allowed.x && spread.y <= allowed.y && spread.z <= allowed.z;
 }
+
+SHARED_FUNCTION bool isSmooth(vec3 a, vec3 b, vec3 c, vec3 d) {
+  return isSmooth(a, b, c, d, kMostContrast);
+}
+
+// Share of all light of its sort that a light has that makes hard shadows.
+SHARED_CONST float kHardShare = 0.05f;
 
 SHARED_END
 #endif

@@ -1,5 +1,5 @@
-// The cpu backend: Embree for primary visibility and shadow maps, eight-wide sums. It needs no
-// OpenGL and gives the same bits at any number of threads on every x86-64-v3 machine.
+// The cpu backend: tiles of rasterised triangles, shadow maps by Embree, eight-wide sums. It needs
+// no OpenGL and gives the same bits at any number of threads on every x86-64-v3 machine.
 #pragma once
 
 #include <memory>

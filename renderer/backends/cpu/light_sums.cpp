@@ -1,11 +1,14 @@
 #include "renderer/backends/cpu/light_sums.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <utility>
 
 #include <tbb/parallel_for.h>
+
+#include "shaders/shared/low_resolution.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -370,6 +373,53 @@ void LightSums::finishTile(const Frame& frame, int tile) {
       blue_[i] = std::max(blue_[i] + e.b, 0.0f);
     }
   });
+}
+
+std::vector<uint8_t> LightSums::findHardShadows() const {
+  std::vector<uint8_t> found(red_.size(), 0);
+  if (!hasPatches_) return found;
+  using Kind = LightRecord::Kind;
+  const auto brightest = [](const LightRecord& light) {
+    return std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+  };
+  // The squares of a parallel light lie side by side: one of each direction counts.
+  std::map<std::array<float, 3>, float> squares;
+  float others = 0.0f, parallel = 0.0f;
+  for (const LightRecord& light : lights_) {
+    if (light.kind != Kind::directional) {
+      others += brightest(light);
+      continue;
+    }
+    float& square = squares[{light.normal.x, light.normal.y, light.normal.z}];
+    square = std::max(square, brightest(light));
+  }
+  for (const auto& [direction, square] : squares) parallel += square;
+  std::vector<int> slots;
+  for (const LightRecord& light : lights_) {
+    const float all = light.kind == Kind::directional ? parallel : others;
+    if (light.kind != Kind::cosine && light.slot >= 0 &&
+        static_cast<size_t>(light.slot) < table_.slots() &&
+        brightest(light) > shared::kHardShare * all)
+      slots.push_back(light.slot);
+  }
+  if (slots.empty()) return found;
+  std::vector<uint8_t> isHard(table_.rows(), 0);
+  for (const Tile& tile : tiles_)
+    for (const uint32_t row : tile.places.rows()) isHard[row] = 1;  // in use
+  for (uint32_t row = 0; row < isHard.size(); ++row) {
+    if (isHard[row] == 0) continue;
+    const LightUse* uses = table_.now(row);
+    isHard[row] = std::any_of(slots.begin(), slots.end(), [&](int slot) {
+      return uses[slot] == LightUse::addShadowed || uses[slot] == LightUse::takeShadow;
+    });
+  }
+  for (const Tile& tile : tiles_)
+    tile.places.forEachRow([&](size_t packet, uint8_t lanes, uint32_t row) {
+      if (isHard[row] == 0) return;
+      for (size_t lane = 0; lane < kLanes; ++lane)
+        if ((lanes >> lane & 1) != 0) found[packet + lane] = 1;
+    });
+  return found;
 }
 
 size_t LightSums::bytes() const {

@@ -35,6 +35,11 @@ class LightSums {
   // Objects are numbered anew, or have other patches though they stayed where they were.
   void forgetPlaces() { knowsPlaces_ = false; }
 
+  // Where one of few lights is partly hidden from a pixel's patch, so that there may be hard
+  // shadows of any shape: a parallel or punctual one with more than kHardShare (low_resolution.h)
+  // of the light of all parallel or all other lights. By pixel of the G-buffer, 1 or 0.
+  std::vector<uint8_t> findHardShadows() const;
+
   // E at a pixel of the G-buffer, where it was wanted [W/m²].
   vec3 irradiance(size_t i) const { return {red_[i], green_[i], blue_[i]}; }
   // A channel of it there and at the pixels that follow in the G-buffer.

@@ -168,6 +168,7 @@ void LowResolution::update(const GBuffer& g, int block) {
     for (auto* v : {&planes_, &cells_}) v->assign(cells, 0);
     for (auto* v : {&red_, &green_, &blue_})
       v->assign(rowLength() * static_cast<size_t>(samples_.height + 1) + kLanes, 0.0f);
+    isHard_.assign(red_.size(), 0);
     edges_.assign(tiles, 0);
   }
   takeSamples(g);
@@ -188,11 +189,13 @@ void LowResolution::update(const GBuffer& g, int block) {
   });
 }
 
-void LowResolution::takeLight(const LightSums& light, int row) {
+void LowResolution::takeLight(const LightSums& light, std::span<const uint8_t> isHard, int row) {
   const int from = std::min(row, samples_.height - 1);
   const size_t to = static_cast<size_t>(row) * rowLength();
   for (int i = 0; i <= samples_.width; ++i) {
-    const vec3 e = light.irradiance(samples_.index(std::min(i, samples_.width - 1), from));
+    const size_t sample = samples_.index(std::min(i, samples_.width - 1), from);
+    const vec3 e = light.irradiance(sample);
+    isHard_[to + static_cast<size_t>(i)] = isHard[sample];
     red_[to + static_cast<size_t>(i)] = e.r;
     green_[to + static_cast<size_t>(i)] = e.g;
     blue_[to + static_cast<size_t>(i)] = e.b;
@@ -223,7 +226,9 @@ void LowResolution::findContrast(int row) {
     for (int k = 0; k < std::min(kLanes, cellsX_ - i); ++k) {
       const size_t cell = cellAt(i + k, row);
       uint8_t is = planes_[cell];
-      if ((bits[0] >> k & 1) != 0) is |= kContrast;
+      const uint8_t* hard = isHard_.data() + at + static_cast<size_t>(k);
+      const bool isHard = (hard[0] | hard[1] | hard[rowLength()] | hard[rowLength() + 1]) != 0;
+      if ((bits[0] >> k & 1) != 0 || isHard) is |= kContrast;
       if ((muchBits[0] >> k & 1) != 0) is |= kMuchContrast;
       cells_[cell] = is;
     }
@@ -249,7 +254,8 @@ uint32_t LowResolution::edgesOf(int tile) const {
 }
 
 void LowResolution::findEdges(const GBuffer& picture, const LightSums& light) {
-  tbb::parallel_for(0, samples_.height + 1, [&](int row) { takeLight(light, row); });
+  const std::vector<uint8_t> isHard = light.findHardShadows();
+  tbb::parallel_for(0, samples_.height + 1, [&](int row) { takeLight(light, isHard, row); });
   tbb::parallel_for(0, cellsY_, [&](int row) { findContrast(row); });
   std::atomic<uint64_t> interpolated = 0;
   const int tiles = tilesX_ * tilesY_;

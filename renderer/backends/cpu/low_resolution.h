@@ -44,7 +44,7 @@ class LowResolution {
 
   void takeSamples(const GBuffer& picture);
   void findPlanes(const GBuffer& picture, int tile);
-  void takeLight(const LightSums& light, int row);
+  void takeLight(const LightSums& light, std::span<const uint8_t> isHard, int row);
   void findContrast(int row);
   uint32_t edgesOf(int tile) const;
   // Cells are in rows with one more all about them, samples in rows with a copy of the last ones.
@@ -63,6 +63,7 @@ class LowResolution {
   std::vector<uint8_t> planes_;            // by cell: kNoPlane or 0
   std::vector<uint8_t> cells_;             // by cell, all of it
   std::vector<float> red_, green_, blue_;  // E at samples, row after row
+  std::vector<uint8_t> isHard_;            // likewise: there may be hard shadows
   std::vector<uint32_t> edges_;
   uint64_t interpolated_ = 0;
 };

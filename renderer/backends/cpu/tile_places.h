@@ -72,7 +72,17 @@ class TilePlaces {
   // Appends all of these that are hit.
   void listAll(uint32_t packets, PacketList& out) const;
 
-  // Calls f(first pixel of the packet, lane, place) for all lanes of these packets on a light map
+  // Calls f(first pixel of the packet, lanes, row in the table) for all that is known.
+  template <typename F>
+  void forEachRow(F&& f) const {
+    for (const Kind& kind : kinds_)
+      for (size_t part = kind.first; part < kind.first + kind.count; ++part)
+        for (uint32_t packets = kind.packets; packets != 0; packets &= packets - 1)
+          f(first_ + static_cast<size_t>(std::countr_zero(packets)) * kLanes, parts_[part].lanes,
+            rows_[parts_[part].place]);
+  }
+
+  // Calls f(first pixel of the packet, lanes, place) for all lanes of these packets on a light map
   // or with transfer.
   template <typename F>
   void forEachMapped(uint32_t which, F&& f) const {

@@ -134,7 +134,7 @@ const ParameterSpec& block() {
       "Light is summed at one pixel of each block of as many pixels a side and interpolated between; "
       "at edges of surfaces and shadows it is summed at each pixel. 1: at each everywhere. Nothing "
       "for naive.",
-      std::string("1"),
+      std::string("4"),
       0,
       0,
       false,

@@ -80,13 +80,16 @@ TEST_P(LowResolutionPicture, IsTheOneOfAllPixels) {
     EXPECT_GT(share, GetParam().leastInterpolated);
   }
 }
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, LowResolutionPicture,
-    testing::Values(Case{"default.gltf", 300, 0.3f}, Case{"area_light_room.gltf", 300, 0.3f},
-                    Case{"pillar_room.gltf", 300, 0.3f}, Case{"table_room.gltf", 300, 0.3f},
-                    Case{"cornell_style.gltf", 300, 0.3f},
-                    Case{"cornell-box/cornell-box.glb", 300, 0.1f},
-                    Case{"kenney-fps-level/kenney-fps-level.gltf", 100, 0.05f}));
+INSTANTIATE_TEST_SUITE_P(Scenes, LowResolutionPicture,
+                         testing::Values(Case{"default.gltf", 300, 0.3f},
+                                         Case{"area_light_room.gltf", 300, 0.3f},
+                                         Case{"pillar_room.gltf", 300, 0.3f},
+                                         Case{"table_room.gltf", 300, 0.3f},
+                                         Case{"cornell_style.gltf", 300, 0.3f},
+                                         Case{"cornell-box/cornell-box.glb", 300, 0.1f},
+                                         Case{"kenney-fps-level/kenney-fps-level.gltf", 100, 0.02f},
+                                         Case{"classroom/classroom.gltf", 100, 0.05f},
+                                         Case{"modern-hall/modern-hall.glb", 100, 0.3f}));
 
 // A floor with a wall on it that is thinner than a pixel, lit from one side only.
 struct Wall {
