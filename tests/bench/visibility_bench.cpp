@@ -188,7 +188,7 @@ void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
 // A frame in which the camera moved. `technique`: with "+block4" and the like, by blocks.
 void frames(benchmark::State& state, const Case& c, const std::string& technique,
             const MakeBackend& make, int width, int height, int lightsPerPass, bool merge,
-            int block, bool prt) {
+            bool prt) {
   if (skip(state, c)) return;
   const World w(c);
   View view = viewOfBounds(w.render.bounds, width, height);
