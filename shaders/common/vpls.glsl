@@ -6,5 +6,13 @@
 #include "shared/vpl.h"
 
 layout(std140, binding = kVplBlock) uniform Vpls { Vpl uVpls[VPLS_A_PASS]; };
+// The same, for numbers that differ from pixel to pixel: llvmpipe gathers each float of a uniform
+// block by itself, and four at a time of a texture. It takes a quarter off a sum by lists.
+layout(binding = kVplTexels) uniform samplerBuffer uVplTexels;
+
+Vpl gatheredVpl(int i) {
+  return Vpl(texelFetch(uVplTexels, 4 * i), texelFetch(uVplTexels, 4 * i + 1),
+             texelFetch(uVplTexels, 4 * i + 2), texelFetch(uVplTexels, 4 * i + 3));
+}
 
 #endif

@@ -12,8 +12,23 @@ layout(location = 0) uniform int uBlock;
 
 layout(location = 0) out uint outIsSmooth;
 
+// Past the picture's edge is what is at it, which differs by no more.
 vec3 sampleAt(ivec2 at) {
+  at = clamp(at, ivec2(0), textureSize(uSamples, 0) - 1);
   return max(texelFetch(uSamples, at, 0).rgb, vec3(0.0));
+}
+
+// Whether the irradiance differs little enough at the corners of the cell and of those about it.
+bool isSmoothAbout(ivec2 cell) {
+  vec3 samples[16];
+  for (int i = 0; i < 16; ++i) samples[i] = sampleAt(cell + ivec2(i & 3, i >> 2) - 1);
+  bool isIt = isSmooth(samples[5], samples[6], samples[9], samples[10], kMostContrast);
+  for (int i = 0; i < 11; ++i) {
+    if ((i & 3) == 3) continue;
+    isIt = isIt && isSmooth(samples[i], samples[i + 1], samples[i + 4], samples[i + 5],
+                            kMostContrastAbout);
+  }
+  return isIt;
 }
 
 bool isFlat(ivec2 first, ivec2 end) {
@@ -35,8 +50,7 @@ bool isFlat(ivec2 first, ivec2 end) {
 void main() {
   ivec2 cell = ivec2(gl_FragCoord.xy);
   ivec2 last = textureSize(uPosition, 0) - 1;
-  bool smoothly = isSmooth(sampleAt(cell), sampleAt(cell + ivec2(1, 0)), sampleAt(cell + ivec2(0, 1)),
-                           sampleAt(cell + 1));
-  smoothly = smoothly && isFlat(uBlock * cell, pixelOfSample(cell + 1, uBlock, last));
-  outIsSmooth = smoothly ? 1u : 0u;
+  bool isIt = isSmoothAbout(cell) &&
+              isFlat(uBlock * cell, pixelOfSample(cell + 1, uBlock, last));
+  outIsSmooth = isIt ? 1u : 0u;
 }

@@ -62,7 +62,11 @@ bool occluded(Vpl vpl, vec3 x, vec3 normal) {
 }
 
 Vpl vplAt(int i) {
+#ifdef PATCHES
+  Vpl vpl = gatheredVpl(i);
+#else
   Vpl vpl = uVpls[i];
+#endif
   vpl.position.w = VPL_KIND;  // known to the compiler, which drops the other kinds
   return vpl;
 }

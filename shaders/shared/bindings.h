@@ -48,9 +48,10 @@ SHARED_CONST int kGAlbedo = 2;    // a: 0 where nothing was hit, and normals and
 SHARED_CONST int kGEmission = 3;  // towards the eye [W/(m² sr)]
 SHARED_CONST int kShadowMaps = 4;
 SHARED_CONST int kIrradiance = 5;
-SHARED_CONST int kPlaces = 6;   // of pixels: patches.h
-SHARED_CONST int kSamples = 7;  // irradiance at those of the low-resolution pass
-SHARED_CONST int kCells = 8;    // of the low-resolution pass: 1: interpolated
+SHARED_CONST int kPlaces = 6;     // of pixels: patches.h
+SHARED_CONST int kSamples = 7;    // irradiance at those of the low-resolution pass
+SHARED_CONST int kCells = 8;      // of the low-resolution pass: 1: interpolated
+SHARED_CONST int kVplTexels = 9;  // kVplBlock's as a buffer texture
 
 // The least normal float: no triangle's number becomes a denormal, an infinity or no number.
 SHARED_CONST int kTriangleBits = 8388608;

@@ -1,4 +1,4 @@
-// The uniform block that takes a pass's VPLs to the shaders.
+// The uniform block, and buffer texture, that takes a pass's VPLs to the shaders.
 #pragma once
 
 #include <span>
@@ -20,6 +20,7 @@ class VplBuffer {
 
  private:
   Buffer buffer_;
+  Texture texels_;
   int capacity_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <ostream>
 
+#include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
@@ -64,6 +65,7 @@ double shareOther(const Image& a, const Image& b) {
 
 struct Case {
   const char* scene;
+  double mostRelRmse = 0.015;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
@@ -86,7 +88,7 @@ TEST_P(GlLowResolutionScenes, IsNearThePictureOfAllPixels) {
       const double share = shareOther(low, all);
       RecordProperty(technique + std::to_string(block),
                      std::to_string(m.relRmse) + ", interpolated " + std::to_string(share));
-      EXPECT_LT(m.relRmse, 0.015);
+      EXPECT_LT(m.relRmse, GetParam().mostRelRmse);
       EXPECT_NEAR(m.bias, 1.0, 0.002);
       EXPECT_GT(share, 0.03);  // else the test says nothing
     }
@@ -95,7 +97,8 @@ TEST_P(GlLowResolutionScenes, IsNearThePictureOfAllPixels) {
 INSTANTIATE_TEST_SUITE_P(Scenes, GlLowResolutionScenes,
                          testing::Values(Case{"area_light_room.gltf"}, Case{"pillar_room.gltf"},
                                          Case{"cornell_style.gltf"},
-                                         Case{"modern-hall/modern-hall.glb"}));
+                                         Case{"modern-hall/modern-hall.glb", 0.03},
+                                         Case{"kenney-fps-level/kenney-fps-level.gltf"}));
 
 using GlLowResolution = test::GlTest;
 
@@ -118,6 +121,28 @@ TEST_F(GlLowResolution, MergedPassesAreThoseOfTheLists) {
   settings.set(parameters::mergePasses().name, true);
   // Float sums in another order; a cell at the limit of contrast may change sides.
   EXPECT_LT(compareImages(rendered(makeGlBackend(), scene, view, settings), listed).relRmse, 1e-3);
+}
+
+// Both backends follow one definition. Their cells differ where a pixel sees past an edge on one of
+// them only, or at the limit of contrast.
+TEST_F(GlLowResolution, ItsCellsAreThoseOfTheCpuBackend) {
+  for (const char* name : {"pillar_room.gltf", "area_light_room.gltf"}) {
+    const Scene scene = loadAsset(name);
+    const View view = viewOf(scene, 161, 97);
+    Image interpolated[2];
+    for (const int i : {0, 1}) {
+      const auto make = [&] { return i == 0 ? makeGlBackend() : makeCpuBackend(); };
+      const Image low = rendered(make(), scene, view, settingsOf(4));
+      const Image all = rendered(make(), scene, view, settingsOf(1));
+      interpolated[i] = Image(low.width, low.height);
+      for (size_t p = 0; p < low.pixels.size(); ++p)
+        interpolated[i].pixels[p] = vec3(low.pixels[p] != all.pixels[p] ? 1.0f : 0.0f);
+    }
+    const double share = shareOther(interpolated[0], interpolated[1]);
+    RecordProperty(name, std::to_string(share));
+    EXPECT_GT(test::meanOf(interpolated[0]).r, 0.3f);
+    EXPECT_LT(share, 0.01);
+  }
 }
 
 // Samples and cells at the right and lower edges, pictures without any cell, and textures that are
