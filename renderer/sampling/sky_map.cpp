@@ -117,7 +117,7 @@ SkyMap::SkyMap(const Image& image) {
       const int x0 = cx * factor_, x1 = std::min(x0 + factor_, image.width);
       const size_t cell = static_cast<size_t>(cy) * width_ + cx;
       glm::dvec3 light(0.0);
-      double around = 0.0, angle = 0.0;
+      double around = 0.0, angleAround = 0.0, angle = 0.0;
       for (int y = y0 - 1; y <= y1; ++y) {
         const int row = std::clamp(y, 0, image.height - 1);
         const double solid = static_cast<double>(pixelSolidAngle(image, row));
@@ -125,6 +125,7 @@ SkyMap::SkyMap(const Image& image) {
           const int column = (x + image.width) % image.width;
           const vec3& radiance = image.at(column, row);
           around += solid * static_cast<double>(luminance(radiance));
+          angleAround += solid;
           if (y < y0 || y >= y1 || x < x0 || x >= x1) continue;
           angle += solid;
           if (isSun[static_cast<size_t>(row) * image.width + column] == 0)
@@ -134,7 +135,7 @@ SkyMap::SkyMap(const Image& image) {
       total += light;
       cells_[cell] = vec3(light / angle);
       weights[cell] = luminance(vec3(light));
-      wide[cell] = static_cast<float>(around);
+      wide[cell] = static_cast<float>(around / angleAround * angle);
     }
   }
   irradiance_ = vec3(total);

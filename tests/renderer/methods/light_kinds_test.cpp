@@ -1,5 +1,7 @@
 // Every kind of light as a source of VPLs: the picture of many_lights, refined, against the path
-// tracer's, on a floor with a box under the open sky.
+// tracer's, on a floor with a box under the open sky. By means over blocks of 4 × 4 pixels, as
+// edges of pixels and of shadows, which maps have in texels, are no matter of how much light there
+// is.
 #include <array>
 #include <cmath>
 #include <ostream>
@@ -20,7 +22,6 @@ namespace {
 struct Kind {
   const char* name;
   void (*add)(Scene&);
-  double tolerance;  // relRMSE
 };
 void PrintTo(const Kind& k, std::ostream* out) { *out << k.name; }
 
@@ -58,28 +59,35 @@ const Kind kKinds[] = {
     {"point",
      [](Scene& s) {
        punctual(s, {PunctualKind::point, vec3(9, 8, 7)}, vec3(1, 2.5f, 1), 0.0f);
-     },
-     0.03},
+     }},
     {"spot",
      [](Scene& s) {
        punctual(s, {PunctualKind::spot, vec3(20, 18, 16), 0.0f, 0.4f, 0.8f}, vec3(0.5f, 3, 0.5f),
                 0.2f);
-     },
-     0.03},
+     }},
     {"sun",
      [](Scene& s) {
        punctual(s, {PunctualKind::directional, vec3(3, 2.8f, 2.5f)}, vec3(0), 0.6f);
-     },
-     0.04},
+     }},
     {"area",
-     [](Scene& s) { test::addRectangleLight(s, vec3(0.5f, 3, 0), vec2(1, 0.6f), vec3(20)); }, 0.03},
-    {"mesh", addGlowingBall, 0.03},
-    {"textured", addTextured, 0.03},
-    {"constant_sky", [](Scene& s) { s.sky = vec3(0.6f, 0.7f, 0.9f); }, 0.03},
-    {"gradient_sky", [](Scene& s) { s.sky = test::gradientSky(); }, 0.03},
-    {"image_sky", [](Scene& s) { s.sky = test::cloudySky(); }, 0.03},
-    {"image_sky_with_sun", [](Scene& s) { s.sky = test::sunnySky(); }, 0.04},
+     [](Scene& s) { test::addRectangleLight(s, vec3(0.5f, 3, 0), vec2(1, 0.6f), vec3(20)); }},
+    {"mesh", addGlowingBall},
+    {"textured", addTextured},
+    {"constant_sky", [](Scene& s) { s.sky = vec3(0.6f, 0.7f, 0.9f); }},
+    {"gradient_sky", [](Scene& s) { s.sky = test::gradientSky(); }},
+    {"image_sky", [](Scene& s) { s.sky = test::cloudySky(); }},
+    {"image_sky_with_sun", [](Scene& s) { s.sky = test::sunnySky(); }},
 };
+
+Image inBlocks(const Image& image) {
+  constexpr int kSide = 4;
+  Image out(image.width / kSide, image.height / kSide);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x)
+      out.at(x / kSide, y / kSide) += image.at(x, y) / static_cast<float>(kSide * kSide);
+  }
+  return out;
+}
 
 class LightKinds : public testing::TestWithParam<Kind> {};
 
@@ -89,7 +97,7 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   test::addMesh(scene, test::squareMesh(8.0f, white));
   test::addMesh(scene, test::boxMesh(vec3(1), white), vec3(-0.8f, 0.5f, -0.5f));
   GetParam().add(scene);
-  const View view = test::lookAt(vec3(1.5f, 2.2f, 4.5f), vec3(0, 0.8f, 0), 96, 64, 0.9f);
+  const View view = test::lookAt(vec3(1.5f, 2.2f, 4.5f), vec3(0), 96, 64, 0.75f);
 
   Settings settings;
   settings.set(parameters::vpls().name, 512);
@@ -107,10 +115,10 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   ASSERT_TRUE(out.settled && out.refined);
   const Image reference = test::renderReference(scene, view, 256, 1);
   const Image& picture = out.radiance->pixels();
-  const Metrics m = compareImages(picture, reference);
+  const Metrics m = compareImages(inBlocks(picture), inBlocks(reference));
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("bias", std::to_string(m.bias));
-  EXPECT_LT(m.relRmse, GetParam().tolerance);
+  EXPECT_LT(m.relRmse, 0.03);  // the most are texels of the spot's only map
   EXPECT_NEAR(m.bias, 1.0, 0.01);
 }
 

@@ -131,7 +131,9 @@ TEST_P(SkyLight, TheDensityIsThatOfTheSamplesAndNowhereMissing) {
     const vec3 d(r * std::cos(2.0f * kPi * u.y), y, r * std::sin(2.0f * kPi * u.y));
     const float density = sampler.density(d);
     total += static_cast<double>(4.0f * kPi * density / kCount);
-    if (luminance(sampler.radiance(d)) > 0.0f) EXPECT_GT(density, 0.0f);
+    if (luminance(sampler.radiance(d)) > 0.0f) {
+      EXPECT_GT(density, 0.0f);
+    }
   }
   EXPECT_NEAR(total, 1.0, GetParam() == 3 ? 0.2 : 5e-3);  // a sun is hit by few even directions
 }

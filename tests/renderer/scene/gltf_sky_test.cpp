@@ -128,8 +128,9 @@ TEST_F(SavedSky, MalformedOnesAreLeftOutWithOneWarning) {
     json["scenes"][0]["extras"]["lamplighter"]["sky"] = Json::parse(note);
     folder_.write("level.gltf", json.dump());
     const LoadedScene loaded = loadGltf(file_);
-    if (loaded.warnings.size() > 1)
+    if (loaded.warnings.size() > 1) {
       EXPECT_TRUE(loaded.scene.skyIsDefault);  // nothing is half there
+    }
     return loaded.warnings;
   };
   EXPECT_TRUE(warningsWith(R"({"type":"image","uri":"fine.exr"})").empty());
