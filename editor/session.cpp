@@ -124,6 +124,8 @@ void Session::setMeshKind(NodeId id, MeshKind kind) {
   history_.run(nodeEdit(document_, id, "Light", [&](Node& n) { n.meshKind = kind; }));
 }
 
+void Session::setSky(const Sky& sky) { history_.run(std::make_unique<EditSky>(document_, sky)); }
+
 void Session::setRender(const RenderSettings& settings) {
   history_.run(std::make_unique<EditRender>(document_, settings));
 }

@@ -53,6 +53,7 @@ class Session {
   void setName(NodeId id, const std::string& name);
   void setVisible(NodeId id, bool visible);
   void setMeshKind(NodeId id, MeshKind kind);
+  void setSky(const Sky& sky);
   void setRender(const RenderSettings& settings);
   void select(std::vector<NodeId> ids);  // those that are there; the last one is active
   void undo();

@@ -24,11 +24,13 @@ mat4 View::viewToClip() const {
   return m;
 }
 
-vec3 View::rayDirection(float x, float y) const {
+vec3 View::rayDirection(float x, float y) const { return glm::normalize(rayPlane(x, y)); }
+
+vec3 View::rayPlane(float x, float y) const {
   const float t = std::tan(0.5f * yfov);
   const float sx = (2.0f * x / static_cast<float>(width) - 1.0f) * t * aspect();
   const float sy = (1.0f - 2.0f * y / static_cast<float>(height)) * t;
-  return glm::normalize(orientation * vec3(sx, sy, -1.0f));
+  return orientation * vec3(sx, sy, -1.0f);
 }
 
 vec3 View::project(const vec3& world) const {

@@ -25,6 +25,8 @@ struct View {
   // Unit direction through the image point (x, y) in pixels; (0.5, 0.5) is the middle of the
   // top-left pixel.
   vec3 rayDirection(float x, float y) const;
+  // The same before it is made a unit vector: linear in x and y, and 1 along forward().
+  vec3 rayPlane(float x, float y) const;
   // Image position of a world point in pixels, y down; w ≤ 0 behind the eye.
   vec3 project(const vec3& world) const;  // x, y, distance along forward()
 

@@ -9,6 +9,7 @@ void addFileActions(ActionRegistry& registry);
 void addEditActions(ActionRegistry& registry);
 void addObjectActions(ActionRegistry& registry);
 void addLightActions(ActionRegistry& registry);
+void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
 void addRenderActions(ActionRegistry& registry);
 
@@ -17,6 +18,7 @@ inline void addAllActions(ActionRegistry& registry) {
   addEditActions(registry);
   addObjectActions(registry);
   addLightActions(registry);
+  addSkyActions(registry);
   addViewActions(registry);
   addRenderActions(registry);
 }

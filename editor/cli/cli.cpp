@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "editor/cli/subcommands.h"
+#include "editor/sky_text.h"
 #include "renderer/error.h"
 #include "renderer/views/debug_view.h"
 
@@ -70,6 +71,14 @@ void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
   sub->add_option("--set", o->assignments, "name=value of any parameter of the method; repeatable")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);  // one value a flag: the next word may be the scene
+  sub->add_option("--sky", o->sky, "Another sky; radiance in W/(m2 sr), or a picture")
+      ->type_name(kSkyUsage);
+  sub->add_option("--sky-rotation", o->skyRotation, "Turns the sky's picture about the vertical")
+      ->type_name("DEGREES")
+      ->check(CLI::Range(-1e6, 1e6));
+  sub->add_option("--sky-scale", o->skyScale, "Multiplies the sky's picture")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(0.0, 1e9));
   sub->add_option("--exposure", o->exposure, "EV for PNG, or auto")
       ->type_name("EV")
       ->capture_default_str();

@@ -40,6 +40,33 @@ std::string kindOf(const Node& node, bool emissiveMesh) {
   return emissiveMesh ? "mesh" : "";
 }
 
+Json skyJson(const Scene& scene) {
+  const Sky& sky = scene.sky;
+  if (sky.isBlack()) return {};
+  Json j;
+  switch (sky.kind) {
+    case SkyKind::constant:
+      j = {{"kind", "constant"}, {"radiance", toJson(sky.radiance)}};
+      break;
+    case SkyKind::gradient:
+      j = {{"kind", "gradient"},
+           {"zenith", toJson(sky.zenith)},
+           {"horizon", toJson(sky.horizon)},
+           {"ground", toJson(sky.ground)}};
+      break;
+    case SkyKind::image:
+      j = {{"kind", "image"},
+           {"file", sky.image->name},
+           {"size", {sky.image->pixels.width, sky.image->pixels.height}},
+           {"rotation_degrees", glm::degrees(sky.rotation)},
+           {"scale", sky.scale},
+           {"suns", SkySampler(sky).sunCount()}};
+      break;
+  }
+  j["is_default"] = scene.skyIsDefault;
+  return j;
+}
+
 // Everything that `info` says, once, as JSON; the text form reads it.
 Json describe(const std::string& file, const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
@@ -71,7 +98,7 @@ Json describe(const std::string& file, const LoadedScene& loaded) {
     Json& count = j["light_counts"][light["kind"].get<std::string>()];
     count = count.is_null() ? 1 : count.get<int>() + 1;
   }
-  j["sky"] = scene.sky == vec3(0.0f) ? Json() : toJson(scene.sky);
+  j["sky"] = skyJson(scene);
 
   j["cameras"] = Json::array();
   for (const Node& n : scene.nodes) {
@@ -90,6 +117,21 @@ std::string triple(const Json& v) {
                      v[2].get<float>());
 }
 
+std::string skyText(const Json& sky) {
+  if (sky["kind"] == "constant") {
+    return fmt::format("{} W/(m2 sr), plain{}", triple(sky["radiance"]),
+                       sky["is_default"].get<bool>() ? ", not saved" : "");
+  }
+  if (sky["kind"] == "gradient") {
+    return fmt::format("gradient, zenith {}, horizon {}, ground {} W/(m2 sr)",
+                       triple(sky["zenith"]), triple(sky["horizon"]), triple(sky["ground"]));
+  }
+  return fmt::format("'{}', {} x {}, turned by {:g} degrees, times {:g}, suns {}",
+                     sky["file"].get<std::string>(), sky["size"][0].get<int>(),
+                     sky["size"][1].get<int>(), sky["rotation_degrees"].get<float>(),
+                     sky["scale"].get<float>(), sky["suns"].get<int>());
+}
+
 void printText(const Json& j) {
   std::cout << fmt::format("{}\n", j["scene"].get<std::string>());
   for (const char* key :
@@ -105,8 +147,7 @@ void printText(const Json& j) {
     std::cout << fmt::format("    {:<11} '{}', {} W\n", l["kind"].get<std::string>(),
                              l["name"].get<std::string>(), triple(l["flux_w"]));
   }
-  if (!j["sky"].is_null())
-    std::cout << fmt::format("  sky        {} W/(m2 sr), plain, not saved\n", triple(j["sky"]));
+  if (!j["sky"].is_null()) std::cout << fmt::format("  sky        {}\n", skyText(j["sky"]));
   std::cout << fmt::format("  cameras    {}\n", j["cameras"].size());
   for (const Json& c : j["cameras"]) {
     std::cout << fmt::format("    '{}', {:.1f} degrees\n", c["name"].get<std::string>(),

@@ -10,6 +10,7 @@
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
 #include "editor/document/cache_folder.h"
+#include "editor/sky_text.h"
 #include "editor/views/annotate.h"
 #include "editor/views/look.h"
 #include "editor/views/vpl_overlay.h"
@@ -159,6 +160,17 @@ void requireView(const FrameRenderer& renderer, DebugView debugView, const Rende
                      "give one from 0 to " + std::to_string(count - 1));
 }
 
+// Throws InputError when there is no picture to turn.
+void turnSky(Sky& sky, const RenderOptions& o) {
+  if (!o.skyRotation && !o.skyScale) return;
+  if (sky.kind != SkyKind::image) {
+    throw InputError(o.skyRotation ? "--sky-rotation" : "--sky-scale", "the sky is no picture",
+                     "add --sky FILE");
+  }
+  if (o.skyRotation) sky.rotation = glm::radians(*o.skyRotation);
+  if (o.skyScale) sky.scale = *o.skyScale;
+}
+
 }  // namespace
 
 float exposureOf(const std::string& text, const Image& radiance) {
@@ -186,10 +198,15 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   std::optional<Font> font;
   if (o.legend) font.emplace(look::kTextFont, static_cast<int>(look::kFontSize), "--legend");
 
+  std::optional<Sky> sky;
+  if (!o.sky.empty()) sky = parseSky(o.sky);
+
   const ThreadLimit limit(o.threads);
   Totals totals;
   const double start = frontend.stopwatch();
-  const LoadedScene loaded = loadGltf(o.scene);
+  LoadedScene loaded = loadGltf(o.scene);
+  if (sky) loaded.scene.sky = *sky;
+  turnSky(loaded.scene.sky, o);
   for (const std::string& w : loaded.warnings) std::cerr << "warning: " << w << '\n';
   const View view = chooseView(loaded.scene, o.camera, width, height);
   totals.loadSeconds = frontend.stopwatch() - start;

@@ -2,6 +2,7 @@
 // code; cli.cpp parses and reports.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ int info(const InfoOptions& options);
 struct RenderOptions {
   std::string scene, output;
   std::string method = "many_lights";
+  std::string sky;                             // parseSky(); empty: the scene's own
+  std::optional<float> skyRotation, skyScale;  // degrees; of a picture
   std::string camera, size = "1280x720", backend = "auto", stats;
   std::string exposure = "0";  // EV or "auto"
   std::string view = "lit";

@@ -56,6 +56,13 @@ bool EditRender::absorb(const Command& later) {
   return true;
 }
 
+bool EditSky::absorb(const Command& later) {
+  const auto* other = dynamic_cast<const EditSky*>(&later);
+  if (other == nullptr) return false;
+  after_ = other->after_;
+  return true;
+}
+
 void AddNodes::apply(Document& document) {
   document.scene.nodes.insert(document.scene.nodes.end(), nodes_.begin(), nodes_.end());
 }

@@ -56,6 +56,28 @@ class EditRender final : public Command {
   RenderSettings before_, after_;
 };
 
+// Another sky. It is the user's then, and no longer the one that a scene without light is given.
+class EditSky final : public Command {
+ public:
+  EditSky(const Document& document, Sky after)
+      : before_(document.scene.sky),
+        after_(std::move(after)),
+        wasDefault_(document.scene.skyIsDefault) {}
+  std::string label() const override { return "Change the sky"; }
+  void apply(Document& document) override { put(document, after_, false); }
+  void revert(Document& document) override { put(document, before_, wasDefault_); }
+  bool absorb(const Command& later) override;
+  bool changesNothing() const override { return before_ == after_; }
+
+ private:
+  static void put(Document& document, const Sky& sky, bool isDefault) {
+    document.scene.sky = sky;
+    document.scene.skyIsDefault = isDefault;
+  }
+  Sky before_, after_;
+  bool wasDefault_;
+};
+
 // New nodes at the end, parents before children, with ids that Scene::nextId has given out.
 class AddNodes final : public Command {
  public:

@@ -65,12 +65,22 @@ void addMaterial(Hasher& h, const Material& m) {
   h.add(static_cast<int>(m.alphaMode)), h.add(m.alphaCutoff), h.add(m.doubleSided);
 }
 
+void addSky(Hasher& h, const Sky& sky) {
+  h.add(sky.radiance);
+  if (sky.kind == SkyKind::constant) return;
+  h.add(static_cast<int>(sky.kind)), h.add(sky.zenith), h.add(sky.horizon), h.add(sky.ground);
+  h.add(sky.rotation), h.add(sky.scale);
+  if (!sky.image) return;
+  h.add(static_cast<uint32_t>(sky.image->hash));
+  h.add(static_cast<uint32_t>(sky.image->hash >> 32));
+}
+
 void addScene(Hasher& h, const Scene& scene) {
   h.add(static_cast<uint32_t>(scene.nodes.size()));
   for (const Node& n : scene.nodes) addNode(h, n);
   h.add(static_cast<uint32_t>(scene.materials.size()));
   for (const Material& m : scene.materials) addMaterial(h, m);
-  h.add(scene.sky);
+  addSky(h, scene.sky);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Encoded images in memory to pixels, through OpenImageIO's readers.
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
@@ -90,6 +91,10 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
   return opened;
 }
 
+float decodeSrgb(float s) {
+  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
+
 }  // namespace
 
 bool checkImageHeader(std::span<const uint8_t> bytes, std::string& why) {
@@ -116,6 +121,29 @@ std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& 
     out[1] = isGray ? in[0] : in[1];
     out[2] = isGray ? in[0] : in[2];
     out[3] = hasAlpha ? in[isGray ? 1 : 3] : uint8_t{255};
+  }
+  return image;
+}
+
+std::optional<Image> decodeImage(std::span<const uint8_t> bytes, std::string& why) {
+  const Opened opened = open(bytes, why);
+  if (opened.input == nullptr) return std::nullopt;
+  const OIIO::ImageSpec& spec = opened.input->spec();
+  const size_t channels = static_cast<size_t>(spec.nchannels);
+  const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
+  std::vector<float> raw(pixels * channels);
+  if (!opened.input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.data())) {
+    why = "cannot be decoded (" + oneLine(opened.input->geterror()) + ")";
+    return std::nullopt;
+  }
+  const bool isEncoded = spec.format.basetype == OIIO::TypeDesc::UINT8 ||
+                         spec.format.basetype == OIIO::TypeDesc::UINT16;
+  Image image(spec.width, spec.height);
+  for (size_t i = 0; i < pixels; ++i) {
+    for (size_t c = 0; c < 3; ++c) {
+      const float v = raw[i * channels + (channels <= 2 ? 0 : c)];
+      image.pixels[i][static_cast<int>(c)] = isEncoded ? decodeSrgb(v) : v;
+    }
   }
   return image;
 }

@@ -26,6 +26,8 @@ std::vector<uint8_t> encodePng(const Image8& image);
 // Decodes a PNG, JPEG, … in memory, as encoded (no colour conversion), RGBA. Empty and `why` set
 // when it cannot be decoded or is unreasonably large.
 std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& why);
+// The same as linear floats: EXR and HDR as they are, 8- and 16-bit files sRGB-decoded.
+std::optional<Image> decodeImage(std::span<const uint8_t> bytes, std::string& why);
 // Whether the bytes begin as an image that decodeImage8() might decode; `why` set when not.
 bool checkImageHeader(std::span<const uint8_t> bytes, std::string& why);
 

@@ -50,7 +50,7 @@ class Tracer {
     for (int depth = 0;; ++depth) {
       ++raysTraced_;
       const Hit hit = rays_.intersect(ray, depth == 0 ? Surfaces::seen : Surfaces::all);
-      if (!hit) return radiance + throughput * scene_.sky;
+      if (!hit) return radiance + throughput * skySeen(ray.direction, pdfDirection);
       Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
       if (depth == 0 && options.lightOnly) surface.albedo = vec3(1.0f);
       const LocalSurface at(surface, -ray.direction);
@@ -95,18 +95,29 @@ class Tracer {
     return surface.emission * misWeight(pdfDirection, pdfLight);
   }
 
+  // The sky's radiance where a ray meets nothing, weighted against having sampled it as a light.
+  vec3 skySeen(const vec3& direction, float pdfDirection) const {
+    const vec3 radiance = scene_.sky.radianceFrom(direction);
+    if (pdfDirection == 0.0f || lights_.sky().isConstant() || radiance == vec3(0.0f))
+      return radiance;
+    return radiance * misWeight(pdfDirection, lights_.sky().density(direction));
+  }
+
   // The light that arrives straight from emitters, times f · cos: one sample of all surfaces that
-  // emit, one of all punctual lights. The even sky is left to the directions that bounces take, by
-  // cosine: no sampling of it could do better.
+  // emit, one of all punctual lights, one of the sky. A constant sky is left to the directions that
+  // bounces take, by cosine: no sampling of it could do better.
   vec3 directLight(const LocalSurface& at, PathSampler& sampler) {
     const float choice = sampler.next1();
     const vec2 u = sampler.next2();
     const float punctualChoice = sampler.next1();
+    const bool samplesSky = !scene_.sky.isBlack() && !lights_.sky().isConstant();
+    const vec2 skyChoice = samplesSky ? sampler.next2() : vec2(0.0f);
     if (at.s.albedo == vec3(0.0f)) return vec3(0.0f);
     float probability = 0.0f;
     const int emitter = lights_.chooseSurface(choice, probability);
     vec3 irradiance = fromPunctuals(at, punctualChoice);
     if (emitter != kNone) irradiance += fromSurface(at, emitter, u) / probability;
+    if (samplesSky) irradiance += fromSky(at, skyChoice);
     return at.s.albedo / kPi * irradiance;
   }
 
@@ -143,6 +154,15 @@ class Tracer {
     const float pdfLight = pdfAngle * lights_.surfaceProbability(emitter);
     const float pdfBsdf = std::max(0.0f, glm::dot(at.ns, w)) / kPi;
     return p.radiance * (cosHere / pdfAngle * misWeight(pdfLight, pdfBsdf));
+  }
+
+  vec3 fromSky(const LocalSurface& at, vec2 u) {
+    const SkyMap::Direction sky = lights_.sky().sampleDensity(u);
+    const float cosHere = at.cosine(sky.towards);
+    if (cosHere <= 0.0f || sky.pdf <= 0.0f) return vec3(0.0f);
+    if (!visible(at, sky.towards, std::numeric_limits<float>::infinity())) return vec3(0.0f);
+    const float pdfBsdf = std::max(0.0f, glm::dot(at.ns, sky.towards)) / kPi;
+    return scene_.sky.radianceFrom(sky.towards) * (cosHere / sky.pdf * misWeight(sky.pdf, pdfBsdf));
   }
 
   // One of them, in proportion to what it would give here if nothing stood between: then whether it

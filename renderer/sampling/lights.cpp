@@ -109,11 +109,14 @@ LightSet::LightSet(const RenderScene& s) {
     e.flux = punctualFlux(s.punctuals[i].light, radius_);
     if (luminance(e.flux) > 0.0f) emitters_.push_back(std::move(e));
   }
-  if (luminance(s.sky) > 0.0f) {
+  sky_ = SkySampler(s.sky);
+  for (uint32_t sun = 0; !s.sky.isBlack() && sun <= sky_.sunCount(); ++sun) {
     Emitter e;
     e.kind = EmitterKind::sky;
-    e.flux = 4.0f * kPi * kPi * radius_ * radius_ * s.sky;
-    emitters_.push_back(std::move(e));
+    e.skySun = sun;
+    e.flux =
+        kPi * radius_ * radius_ * (sun == 0 ? sky_.irradiance() : sky_.sun(sun - 1).irradiance);
+    if (luminance(e.flux) > 0.0f) emitters_.push_back(std::move(e));
   }
   std::vector<float> weights(emitters_.size());
   std::transform(emitters_.begin(), emitters_.end(), weights.begin(), [](const Emitter& e) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/sampling/alias_table.h"
+#include "renderer/sampling/sky_sampler.h"
 #include "renderer/scene/render_scene.h"
 
 namespace lamplighter {
@@ -15,9 +16,10 @@ struct Emitter {
   NodeId node = kNoNode;  // the light's or object's node
   uint32_t object = 0;    // surface: index into RenderScene::objects
   uint32_t punctual = 0;  // punctual: index into RenderScene::punctuals
+  uint32_t skySun = 0;    // sky: 0 all but its suns, else the sun of that number, from 1 on
   // Flux Φ [W] per channel: surface π·L·A (both sides when double-sided, the emissive texture's
-  // mean included), point 4π·I, spot I × its solid angle, directional E·πR², sky L·4π·πR², with R
-  // the radius of the scene.
+  // mean included), point 4π·I, spot I × its solid angle, directional E·πR², sky πR² ∫ L dω, with
+  // R the radius of the scene.
   vec3 flux{0.0f};
   float area = 0.0f;       // surface: m²
   bool bothSides = false;  // surface
@@ -47,6 +49,7 @@ class LightSet {
   int emitterOfObject(uint32_t object) const;
   // u selects the triangle (u.x, reused within it) and the point on it.
   EmitterPoint samplePoint(const RenderScene& scene, int emitter, vec2 u) const;
+  const SkySampler& sky() const { return sky_; }
   float sceneRadius() const { return radius_; }
   vec3 sceneCentre() const { return centre_; }
 
@@ -54,6 +57,7 @@ class LightSet {
   std::vector<Emitter> emitters_;
   std::vector<int> emitterOfObject_;
   AliasTable choice_;
+  SkySampler sky_;
   vec3 centre_{0.0f};
   float radius_ = 0.0f;
 };

@@ -128,10 +128,15 @@ class Generator {
         addPunctual(scene_.punctuals[e.punctual], count, scale);
         break;
       case EmitterKind::sky:
+        if (e.skySun > 0) {
+          const SkyMap::Light sun = skySun(e);
+          addSun(sun.towards, scale * sun.irradiance, std::min(count, kMostSquares));
+          break;
+        }
         for (id_.index = begin; id_.index < end; ++id_.index) {
-          const vec3 towards = sampleSphere(point(id_.index, kDirectionDimension, kDirectSet));
-          const vec3 irradiance = scale * 4.0f * kPi / static_cast<float>(count) * scene_.sky;
-          addDirectional(towards, irradiance);
+          const SkyMap::Light light =
+              lights_.sky().sample(point(id_.index, kDirectionDimension, kDirectSet));
+          addDirectional(light.towards, scale / static_cast<float>(count) * light.irradiance);
         }
         break;
     }
@@ -174,6 +179,13 @@ class Generator {
       added.vpl.position += vec4(axes * vec3(square.centre, 0.0f), 0.0f);
       added.vpl.tangent = vec4(tangent, square.side);
     }
+  }
+
+  // Batches shine from places all over it, so that their mean has soft shadows.
+  SkyMap::Light skySun(const Emitter& e) const {
+    const size_t sun = e.skySun - 1;
+    if (counts_.batch == 0) return lights_.sky().sun(sun);
+    return lights_.sky().sun(sun, point(counts_.batch - 1, kPlaceDimension, kDirectSet));
   }
 
   SceneVpl& addDirectional(const vec3& towards, const vec3& irradiance) {
@@ -223,8 +235,9 @@ class Generator {
       case EmitterKind::sky:
         break;
     }
-    const vec3 towards = sampleSphere(u);
-    return departParallel(towards, 4.0f * kPi * scene_.sky, path);
+    const SkyMap::Light light =
+        e.skySun > 0 ? lights_.sky().sun(e.skySun - 1, u) : lights_.sky().sample(u);
+    return departParallel(light.towards, light.irradiance, path);
   }
 
   Departure departPunctual(const RenderPunctual& p, uint32_t path, vec2 u) const {

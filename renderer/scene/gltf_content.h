@@ -47,6 +47,10 @@ Node readNode(const GltfDocument& document, size_t node);
 // Nodes of the default scene, parents before children; ids from 1 on.
 std::vector<Node> readNodes(GltfDocument& document);
 
+// gltf_sky.cpp: of the default scene. One that is malformed, or whose picture cannot be had, is
+// left out with a warning.
+std::optional<Sky> readSky(GltfDocument& document);
+
 // Of the default scene, or empty.
 std::string sceneName(const GltfDocument& document);
 

@@ -70,6 +70,8 @@ inline constexpr const char* kExtrasName = "lamplighter";
 inline constexpr const char* kSphereMark = "sphereLight";
 // A note on a node: how its mesh is lit, "simple" or "complex" (MeshKind).
 inline constexpr const char* kMeshKindNote = "mesh";
+// A note on a scene: what is around it.
+inline constexpr const char* kSkyNote = "sky";
 // object.extras.lamplighter.KEY, or null.
 const Json* noteOf(const Json& object, const char* key);
 // Whether that is true.

@@ -56,7 +56,10 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
   report(0.4f, "textures");
   scene.textures = readTextures(document, scene.materials, progress);
 
-  if (!hasLight(scene)) {
+  const std::optional<Sky> sky = readSky(document);
+  if (sky) {
+    scene.sky = *sky;
+  } else if (!hasLight(scene)) {
     scene.sky = kDefaultSky;
     scene.skyIsDefault = true;
     document.warn("no light in it; shown under a plain sky, which is not saved");
@@ -64,6 +67,8 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
   source->meshes = scene.meshes;
   source->textures = scene.textures;
   source->nodes = scene.nodes;
+  source->sky = scene.sky;
+  source->skyIsDefault = scene.skyIsDefault;
   for (const Json& name : listOf(document, "extensionsUsed")) {
     if (name.is_string()) loaded.extensions.push_back(printable(name.get<std::string>()));
   }

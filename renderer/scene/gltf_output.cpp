@@ -115,6 +115,7 @@ void save(const Scene& scene, const std::filesystem::path& path) {
   saveMeshes(out);
   const std::vector<size_t> jsonNodes = saveNodes(out);
   saveLights(out, jsonNodes);
+  saveSky(out);
   saveSphereMeshes(out, jsonNodes);
   writeFilesAtomically(out.finish());
 }

@@ -38,15 +38,17 @@ class GltfOutput {
     std::filesystem::path path;
     std::vector<uint8_t> bytes;
   };
+  void addFile(File file) { files_.push_back(std::move(file)); }  // beside them
   std::vector<File> finish();
+  bool isSameFolder() const;  // as the source's
 
  private:
   std::filesystem::path freeBufferName();
-  bool isSameFolder() const;
 
   size_t bufferIndex_ = 0;       // the buffer that new bytes go to
   std::vector<uint8_t> buffer_;  // all of it
   bool keepsBuffers_ = false;    // the source's buffers stay where they are
+  std::vector<File> files_;      // that were added
 };
 
 // The shortest decimal that gives this float again; a float as a double has digits nobody wrote.
@@ -55,6 +57,8 @@ Json toJson(const vec2& v);
 Json toJson(const vec3& v);
 Json toJson(const vec4& v);
 double shortestDouble(float value);
+// File names in URIs: what is not plain is escaped.
+std::string percentEncoded(const std::string& name);
 // Factors in [0, 1] and what to multiply them with, of a colour that may be above one.
 struct ScaledColor {
   Json color;
@@ -82,6 +86,8 @@ size_t appendIndices(GltfOutput& out, std::span<const uint32_t> indices, size_t 
 std::vector<size_t> saveNodes(GltfOutput& out);
 // gltf_save_lights.cpp
 void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes);
+// gltf_save_sky.cpp
+void saveSky(GltfOutput& out);
 // gltf_save_spheres.cpp. Last of all: see gltf_sphere_meshes.cpp.
 void saveSphereMeshes(GltfOutput& out, const std::vector<size_t>& jsonNodes);
 

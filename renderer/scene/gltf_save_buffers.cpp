@@ -26,21 +26,6 @@ void appendWord(std::vector<uint8_t>& bytes, size_t value) {
   for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<uint8_t>(value >> shift));
 }
 
-// File names in URIs: what is not plain is escaped.
-std::string percentEncoded(const std::string& name) {
-  constexpr std::string_view kHex = "0123456789ABCDEF";
-  std::string out;
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) != 0 || std::strchr("-._~", c) != nullptr) {
-      out += c;
-    } else {
-      out += {'%', kHex[byte >> 4], kHex[byte & 15]};
-    }
-  }
-  return out;
-}
-
 const char* mimeType(const std::vector<uint8_t>& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (text.starts_with("\xff\xd8\xff")) return "image/jpeg";
@@ -65,6 +50,20 @@ std::set<std::string> bufferNames(const fs::path& path) {
 }
 
 }  // namespace
+
+std::string percentEncoded(const std::string& name) {
+  constexpr std::string_view kHex = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) != 0 || std::strchr("-._~", c) != nullptr) {
+      out += c;
+    } else {
+      out += {'%', kHex[byte >> 4], kHex[byte & 15]};
+    }
+  }
+  return out;
+}
 
 bool GltfOutput::isSameFolder() const {
   const auto folder = [](const fs::path& file) {
@@ -157,7 +156,7 @@ void GltfOutput::carryImages() {
 }
 
 std::vector<GltfOutput::File> GltfOutput::finish() {
-  std::vector<File> files;
+  std::vector<File> files = files_;
   if (!buffer_.empty()) {
     Json entry = {{"byteLength", buffer_.size()}};
     if (keepsBuffers_ && bufferIndex_ < source.document.buffers.size()) {

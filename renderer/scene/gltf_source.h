@@ -16,6 +16,8 @@ class SceneSource {
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Texture> textures;
   std::vector<Node> nodes;
+  Sky sky;
+  bool skyIsDefault = false;
 };
 
 }  // namespace lamplighter

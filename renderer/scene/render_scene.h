@@ -46,7 +46,7 @@ struct RenderScene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<RenderPunctual> punctuals;
-  vec3 sky{0.0f};
+  Sky sky;
   Bounds bounds;  // of all objects
 
   size_t triangleCount() const { return indices.size() / 3; }

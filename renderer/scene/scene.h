@@ -11,6 +11,7 @@
 
 #include "renderer/image/image.h"
 #include "renderer/math.h"
+#include "renderer/scene/sky.h"
 #include "renderer/scene/transform.h"
 
 namespace lamplighter {
@@ -150,9 +151,9 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Camera> cameras;
   NodeId nextId = 1;
-  // Constant radiance from everywhere outside the scene [W/(m² sr)]. Never saved.
-  vec3 sky{0.0f};
-  bool skyIsDefault = false;  // sky was put there because the file has no light
+  Sky sky;  // around everything
+  bool skyIsDefault =
+      false;  // it was put there because the file has no light; then it is not saved
   std::shared_ptr<const SceneSource> source;
 
   const Node* find(NodeId id) const;

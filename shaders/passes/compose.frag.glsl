@@ -1,23 +1,61 @@
 // Outgoing radiance: Le + ρ/π · E, and the sky where nothing was hit.
 #include "shared/bindings.h"
+#include "shared/sky.h"
 
 layout(binding = kGAlbedo) uniform sampler2D uAlbedo;
 layout(binding = kGEmission) uniform sampler2D uEmission;
 layout(binding = kIrradiance) uniform sampler2D uIrradiance;
-layout(location = 0) uniform vec3 uSky;
+layout(binding = kSkyPicture) uniform sampler2D uSkyPicture;
+layout(location = 0) uniform vec3 uSky;   // constant, or the gradient's horizon
 layout(location = 1) uniform int uWhite;  // 1: as if every surface were white
+layout(location = 2) uniform vec3 uZenith;
+layout(location = 3) uniform vec3 uGround;
+layout(location = 4) uniform int uSkyKind;
+layout(location = 5) uniform vec2 uSkyPictureUse;  // rotation [rad], scale
+// The view ray of the picture's top left corner, not of unit length, and how it grows by a pixel.
+layout(location = 6) uniform vec3 uCorner;
+layout(location = 7) uniform vec3 uRight;
+layout(location = 8) uniform vec3 uDown;
+layout(location = 9) uniform vec2 uJitter;  // from the pixels' middles
 
 layout(location = 0) out vec4 outRadiance;
 
+// Sky::radianceFrom(): interpolated in full precision, which a sampler's eight bits are not.
+vec3 skyPicture(vec3 towards) {
+  ivec2 size = textureSize(uSkyPicture, 0);
+  vec2 at = skyCoordinates(towards, uSkyPictureUse.x) * vec2(size) - 0.5;
+  vec2 base = floor(at), t = at - base;
+  ivec2 low = ivec2(base), high = low + 1;
+  low = ivec2((low.x + size.x) % size.x, max(low.y, 0));
+  high = ivec2(high.x % size.x, min(high.y, size.y - 1));
+  vec3 top = mix(texelFetch(uSkyPicture, low, 0).rgb,
+                 texelFetch(uSkyPicture, ivec2(high.x, low.y), 0).rgb, t.x);
+  vec3 bottom = mix(texelFetch(uSkyPicture, ivec2(low.x, high.y), 0).rgb,
+                    texelFetch(uSkyPicture, high, 0).rgb, t.x);
+  return uSkyPictureUse.y * mix(top, bottom, t.y);
+}
+
+vec3 skySeen(vec2 pixel) {
+  if (uSkyKind == kSkyConstant) return uSky;
+  vec2 at = pixel + 0.5 + uJitter;
+  vec3 towards = normalize(uCorner + at.x * uRight + at.y * uDown);
+  if (uSkyKind == kSkyGradient) return skyGradient(uZenith, uSky, uGround, towards.y);
+  return skyPicture(towards);
+}
+
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  const float kInversePi = 0.318309886;
   vec4 surface = texelFetch(uAlbedo, pixel, 0);
+  if (surface.a == 0.0) {
+    outRadiance = vec4(skySeen(vec2(pixel)), 1.0);
+    return;
+  }
+  const float kInversePi = 0.318309886;
   vec3 albedo = uWhite != 0 ? vec3(1.0) : surface.rgb;
   // Light maps are interpolated and the shadows taken away from them are not: no light may be left
   // less than none.
   vec3 irradiance = texelFetch(uIrradiance, pixel, 0).rgb;
   irradiance = mix(irradiance, vec3(0.0), lessThan(irradiance, vec3(0.0)));
   vec3 radiance = texelFetch(uEmission, pixel, 0).rgb + albedo * kInversePi * irradiance;
-  outRadiance = vec4(surface.a != 0.0 ? radiance : uSky, 1.0);
+  outRadiance = vec4(radiance, 1.0);
 }

@@ -52,6 +52,7 @@ SHARED_CONST int kPlaces = 6;     // of pixels: patches.h
 SHARED_CONST int kSamples = 7;    // irradiance at those of the low-resolution pass
 SHARED_CONST int kCells = 8;      // of the low-resolution pass: 1: interpolated
 SHARED_CONST int kVplTexels = 9;  // kVplBlock's as a buffer texture
+SHARED_CONST int kSkyPicture = 10;
 
 // The least normal float: no triangle's number becomes a denormal, an infinity or no number.
 SHARED_CONST int kTriangleBits = 8388608;

@@ -9,6 +9,8 @@
 #define SHARED_BEGIN              \
   namespace lamplighter::shared { \
   using glm::abs;                 \
+  using glm::acos;                \
+  using glm::atan;                \
   using glm::clamp;               \
   using glm::cross;               \
   using glm::dot;                 \

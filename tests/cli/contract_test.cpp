@@ -48,6 +48,40 @@ class CommandLine : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(CommandLine, TheSkyCanBeAnother) {
+  const std::string scene = file("dark.gltf");
+  std::ofstream(scene) << R"({"asset":{"version":"2.0"}})";  // nothing but sky to see
+  const auto mean = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> call{"render", scene, "-o",    file("a.exr"), "--size",    "16x8",
+                                  "--vpls", "8",   "--set", "antialias=1", "--backend", "cpu"};
+    call.insert(call.end(), more.begin(), more.end());
+    const ProcessResult r = runLamplighter(call);
+    EXPECT_EQ(r.code, 0) << r.err;
+    const Image image = readImage(file("a.exr"));
+    vec3 sum(0.0f);
+    for (const vec3& p : image.pixels) sum += p / static_cast<float>(image.pixels.size());
+    return sum;
+  };
+  EXPECT_NEAR(mean({"--sky", "0.25,0.5,0.75"}).g, 0.5f, 1e-5f);
+  EXPECT_NEAR(mean({"--sky", "none"}).g, 0.0f, 1e-5f);
+  EXPECT_NEAR(mean({"--sky", "gradient:0.5,0.5,0.5/0.5,0.5,0.5/0.5,0.5,0.5"}).b, 0.5f, 1e-5f);
+  writeExr(Image(8, 4, vec3(0.3f)), file("sky.exr"));
+  EXPECT_NEAR(mean({"--sky", file("sky.exr"), "--sky-scale", "2"}).r, 0.6f, 1e-4f);
+
+  const auto bad = [&](const std::vector<std::string>& more, const std::string& part) {
+    std::vector<std::string> call{"render", scene, "-o", file("a.exr")};
+    call.insert(call.end(), more.begin(), more.end());
+    expectOneError(runLamplighter(call), part);
+  };
+  bad({"--sky", "1,2"}, "is no radiance");
+  bad({"--sky", "1,2,-3"}, "is no radiance");
+  bad({"--sky", "gradient:1,2,3"}, "is no gradient");
+  bad({"--sky", file("gone.exr")}, "is not there");
+  bad({"--sky", scene}, "no known image format");
+  bad({"--sky", "1,1,1", "--sky-rotation", "90"}, "the sky is no picture");
+  bad({"--sky", file("sky.exr"), "--sky-scale", "-1"}, "--sky-scale");
+}
+
 TEST_F(CommandLine, BadUseIsOneLineAndCode2) {
   expectOneError(runLamplighter({"render"}), "SCENE");
   expectOneError(runLamplighter({"render", kScene}), "--output");

@@ -54,6 +54,7 @@ TEST_P(EveryCommand, DoesUndoesAndRedoes) {
         r.values.set("vpls", 99);
         return std::make_unique<EditRender>(f.document, r);
       },
+      [&] { return std::make_unique<EditSky>(f.document, Sky(vec3(0.5f))); },
       [&] {
         return std::make_unique<AddNodes>("Add",
                                           copyNodes(f.document.scene, {f.parent, f.child}).nodes);
@@ -76,7 +77,7 @@ TEST_P(EveryCommand, DoesUndoesAndRedoes) {
   EXPECT_EQ(documentHash(f.document), before);
   EXPECT_FALSE(f.history.canUndo());
 }
-INSTANTIATE_TEST_SUITE_P(All, EveryCommand, testing::Range(0, 7));
+INSTANTIATE_TEST_SUITE_P(All, EveryCommand, testing::Range(0, 8));
 
 TEST(History, ADragIsOneStep) {
   Fixture f;

@@ -23,7 +23,7 @@ Image withTracedShadows(const Scene& scene, const View& view, const Settings& se
     const Ray ray{view.eye, 0.0f,
                   view.rayDirection(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)};
     const Hit hit = rays.intersect(ray, Surfaces::seen);
-    if (!hit) return render.sky;
+    if (!hit) return render.sky.radianceFrom(ray.direction);
     const Surface s = surfaceAt(render, hit.object, hit.triangle, hit.u, hit.v);
     const bool front = glm::dot(ray.direction, s.geometricNormal) < 0.0f;
     const vec3 ng = front ? s.geometricNormal : -s.geometricNormal;

@@ -126,6 +126,8 @@ void Application::runAction(const std::string& text) {
     requests_.openDialog = true;
   } else if (text == "file.save_as" || (text == "file.save" && session_->document().path.empty())) {
     requests_.saveDialog = true;
+  } else if (text == "sky.image") {
+    inspectorState_.choosesSky = true;
   } else if (text == "edit.rename") {
     inspectorState_.focusName = true;
   } else if (!session_->runAction(text) && replaying_) {
@@ -187,6 +189,20 @@ void Application::drawPanels(PanelContext ui) {
     session_->history().commit();
 }
 
+namespace {
+
+// As one argument of an action.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+}  // namespace
+
 void Application::drawDialogs(PanelContext ui) {
   if (loader_.running()) {
     const Progress progress{"Opening", loader_.what(), loader_.done(), true};
@@ -197,6 +213,8 @@ void Application::drawDialogs(PanelContext ui) {
   if (const auto path = fileDialog_.draw(ui)) {
     if (fileDialog_.kind() == FileDialog::Kind::open)
       session_->requestOpen(*path);
+    else if (fileDialog_.kind() == FileDialog::Kind::picture)
+      runAction("sky.image " + quoted(path->string()));
     else
       openSave(*path);
   }
@@ -264,6 +282,9 @@ void Application::answerRequests() {
   const Requests requests = std::exchange(requests_, {});
   if (requests.openDialog) fileDialog_.open(FileDialog::Kind::open, session_->document().path);
   if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
+
+  if (std::exchange(inspectorState_.choosesSky, false))
+    fileDialog_.open(FileDialog::Kind::picture, session_->document().path);
 
   if (const auto path = session_->takeScreenshotRequest()) {
     try {

@@ -12,11 +12,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isScene(const fs::path& path) {
+std::string endingOf(const fs::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+bool isScene(const fs::path& path) {
+  const std::string ending = endingOf(path);
   return ending == ".gltf" || ending == ".glb";
+}
+
+bool isPicture(const fs::path& path) {
+  static constexpr const char* kEndings[] = {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp"};
+  return std::find(std::begin(kEndings), std::end(kEndings), endingOf(path)) != std::end(kEndings);
 }
 
 }  // namespace
@@ -42,7 +52,7 @@ void FileDialog::list() {
     if (name.empty() || name.front() == '.') continue;
     if (it->is_directory(ignored))
       entries_.push_back({name, true});
-    else if (isScene(it->path()))
+    else if (kind_ == Kind::picture ? isPicture(it->path()) : isScene(it->path()))
       entries_.push_back({name, false});
   }
   error_ = error ? folder_.string() + ": " + error.message() : "";
@@ -53,7 +63,9 @@ void FileDialog::list() {
 
 std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   ui.prefix = "dialog/";
-  const char* title = kind_ == Kind::open ? "Open a scene###file" : "Save as###file";
+  const char* title = kind_ == Kind::open      ? "Open a scene###file"
+                      : kind_ == Kind::picture ? "Open a picture of the sky###file"
+                                               : "Save as###file";
   if (opening_) ImGui::OpenPopup(title);
   opening_ = false;
   ImGui::SetNextWindowSize({ui.px(620), ui.px(440)});
@@ -108,7 +120,7 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   ui.name("cancel");
   ImGui::SameLine(0, ui.px(7));
   ImGui::BeginDisabled(file_.empty());
-  if (ImGui::Button(kind_ == Kind::open ? "Open" : "Save", {width, 0})) done = true;
+  if (ImGui::Button(kind_ == Kind::save ? "Save" : "Open", {width, 0})) done = true;
   ui.name("ok");
   ImGui::EndDisabled();
   if (done && !file_.empty()) {

@@ -22,8 +22,14 @@ constexpr size_t kMostPooled = 4;
 
 }  // namespace
 
-void compose(const GBuffer& g, const LightSums& sums, const LowResolution* low, const vec3& sky,
-             bool white, Image& out) {
+vec3 Background::at(int x, int y) const {
+  if (sky.kind == SkyKind::constant) return sky.radiance;
+  return sky.radianceFrom(view.rayDirection(static_cast<float>(x) + 0.5f + jitter.x,
+                                            static_cast<float>(y) + 0.5f + jitter.y));
+}
+
+void compose(const GBuffer& g, const LightSums& sums, const LowResolution* low,
+             const Background& background, bool white, Image& out) {
   tbb::parallel_for(0, g.tiles(), [&](int tile) {
     const int tileX = tile % g.tilesX * kTileSize, tileY = tile / g.tilesX * kTileSize;
     const uint32_t edges = low == nullptr ? ~uint32_t{0} : low->edges()[static_cast<size_t>(tile)];
@@ -50,8 +56,11 @@ void compose(const GBuffer& g, const LightSums& sums, const LowResolution* low, 
       float pixels[3 * kLanes];
       hn::StoreInterleaved3(channel(red, g.ar, g.er), channel(green, g.ag, g.eg),
                             channel(blue, g.ab, g.eb), kTag, pixels);
-      for (size_t lane = 0; lane < kLanes; ++lane)
-        if (g.hit[first + lane] == 0) std::memcpy(&pixels[3 * lane], &sky, sizeof(vec3));
+      for (int lane = 0; lane < kLanes; ++lane) {
+        if (g.hit[first + static_cast<size_t>(lane)] != 0) continue;
+        const vec3 sky = background.at(x + lane % kPacketWidth, y + lane / kPacketWidth);
+        std::memcpy(&pixels[3 * lane], &sky, sizeof(vec3));
+      }
       const int columns = std::min(kPacketWidth, g.width - x),
                 rows = std::min(kPacketHeight, g.height - y);
       for (int row = 0; row < rows; ++row)

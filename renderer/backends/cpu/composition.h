@@ -11,10 +11,18 @@
 
 namespace lamplighter::cpu {
 
+// The sky where a view's pixels, shifted by `jitter` from their middles, meet nothing.
+struct Background {
+  const Sky& sky;
+  const View& view;
+  vec2 jitter{0.0f};
+  vec3 at(int x, int y) const;
+};
+
 // Le + ρ/π · E of each pixel, the sky where nothing is hit. `low`: what is between the samples;
 // null: all pixels are summed. `white`: with ρ = 1. The image has the G-buffer's size.
 void compose(const GBuffer& gbuffer, const LightSums& sums, const LowResolution* low,
-             const vec3& sky, bool white, Image& out);
+             const Background& background, bool white, Image& out);
 
 // Pictures that nobody holds any more are written again: fresh memory is slow.
 class ImagePool {

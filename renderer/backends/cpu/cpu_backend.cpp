@@ -22,6 +22,8 @@ constexpr int kRowsPerTask = 32;
 // What a view shows, and the light there.
 struct Picture {
   cpu::GBuffer gbuffer;
+  View view;  // of the G-buffer
+  vec2 jitter{0.0f};
   cpu::LightSums sums;  // at its pixels; with blocks, at those of cells that are not interpolated
   int block = 1;        // pixels, as summed
   cpu::LowResolution low;
@@ -107,6 +109,8 @@ class CpuBackend final : public Backend {
     } else {
       counts_.rays += cpu::renderGBuffer(*scene_, *rays_, view, jitter, shown_->gbuffer);
     }
+    shown_->view = view;
+    shown_->jitter = jitter;
     if (!isStill) return;
     stillIsKnown_ = true;
     stillView_ = view;
@@ -143,7 +147,8 @@ class CpuBackend final : public Backend {
   std::shared_ptr<RadianceImage> compose(bool white) override {
     const Picture& p = *shown_;
     const auto image = images_.take(p.gbuffer.width, p.gbuffer.height);
-    cpu::compose(p.gbuffer, p.sums, p.block == 1 ? nullptr : &p.low, scene_->sky, white,
+    const cpu::Background background{scene_->sky, p.view, p.jitter};
+    cpu::compose(p.gbuffer, p.sums, p.block == 1 ? nullptr : &p.low, background, white,
                  image->image);
     return image;
   }

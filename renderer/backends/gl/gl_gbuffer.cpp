@@ -94,6 +94,8 @@ void GlGBuffer::render(const GlScene& scene, const View& view, vec2 jitter) {
 
   const mat4 worldToClip = rasterMatrix(view, jitter);
   frustum_ = Frustum(worldToClip);
+  view_ = view;
+  jitter_ = jitter;
   glBindVertexArray(scene.vertexArray());
   scene.bindStorage();
   const Program* inUse = nullptr;

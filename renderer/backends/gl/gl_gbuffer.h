@@ -24,6 +24,8 @@ class GlGBuffer {
 
   // Of the view that it holds.
   const Frustum& frustum() const { return frustum_; }
+  const View& view() const { return view_; }
+  vec2 jitter() const { return jitter_; }
   int width() const { return width_; }
   int height() const { return height_; }
   uint64_t bytes() const;
@@ -40,6 +42,8 @@ class GlGBuffer {
   Framebuffer framebuffer_;
   Texture position_, normalsTexture_, albedo_, emission_, depth_;
   Frustum frustum_;
+  View view_;
+  vec2 jitter_{0.0f};
   int width_ = 0, height_ = 0;
 };
 

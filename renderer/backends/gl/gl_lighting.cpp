@@ -5,6 +5,7 @@
 #include "renderer/error.h"
 #include "renderer/gl/pass_state.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/sky.h"
 
 namespace lamplighter::gl {
 namespace {
@@ -242,7 +243,37 @@ std::shared_ptr<RadianceTexture> GlLighting::freePicture(int width, int height) 
   return pictures_.emplace_back(std::make_shared<RadianceTexture>(width, height));
 }
 
-std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, const vec3& sky,
+// The uniforms of compose.frag.glsl that say what is seen where nothing is hit.
+void GlLighting::setSky(const GlGBuffer& gbuffer, const Sky& sky) {
+  if (skyImage_ != sky.image) {
+    skyImage_ = sky.image;
+    skyTexture_ = Texture();
+    if (skyImage_) {
+      const Image& image = skyImage_->pixels;
+      skyTexture_ = makeTexture2D(GL_RGB32F, image.width, image.height);
+      glTextureSubImage2D(skyTexture_.name(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
+                          image.pixels.data());
+    }
+  }
+  if (skyTexture_) glBindTextureUnit(shared::kSkyPicture, skyTexture_.name());
+  const bool isConstant = sky.kind == SkyKind::constant;
+  compose_.set(0, isConstant ? sky.radiance : sky.horizon);
+  compose_.set(2, sky.zenith);
+  compose_.set(3, sky.ground);
+  compose_.set(4, isConstant                      ? shared::kSkyConstant
+                  : sky.kind == SkyKind::gradient ? shared::kSkyGradient
+                                                  : shared::kSkyImage);
+  compose_.set(5, vec2(sky.rotation, sky.scale));
+  // View::rayDirection() of a pixel: forward + right · x + up · y, in pixels from the top left.
+  const View& view = gbuffer.view();
+  const vec3 corner = view.rayPlane(0.0f, 0.0f);
+  compose_.set(6, corner);
+  compose_.set(7, view.rayPlane(1.0f, 0.0f) - corner);
+  compose_.set(8, view.rayPlane(0.0f, 1.0f) - corner);
+  compose_.set(9, gbuffer.jitter());
+}
+
+std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, const Sky& sky,
                                                      bool white) {
   auto picture = freePicture(pixels_.width, pixels_.height);
   if (isEmpty_) zero();
@@ -251,7 +282,7 @@ std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, c
   const PassState state(pictureFramebuffer_.name(), pixels_.width, pixels_.height);
   gbuffer.bind();
   glBindTextureUnit(shared::kIrradiance, pixels_.irradiance.name());
-  compose_.set(0, sky);
+  setSky(gbuffer, sky);
   compose_.set(1, white ? 1 : 0);
   compose_.use();
   drawFullScreen(emptyVertexArray_.name());
@@ -261,6 +292,7 @@ std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, c
 uint64_t GlLighting::bytes() const {
   const uint64_t pixels = static_cast<uint64_t>(pixels_.width) * pixels_.height;
   uint64_t bytes = pictures_.size() * uint64_t{16} * pixels + pixels_.bytes() + low_.bytes();
+  if (skyTexture_) bytes += skyImage_->pixels.pixels.size() * sizeof(vec3);
   if (patches_) {
     bytes += patches_->trees.bytes() + patches_->lists.ranges().size_bytes() +
              patches_->lists.entries().size_bytes();

@@ -29,7 +29,7 @@ class GlLighting {
   int passesSaved() const { return passesSaved_; }
   // No light at all, for a G-buffer that nothing was summed over yet.
   void clear(int width, int height);
-  std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const vec3& sky, bool white);
+  std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const Sky& sky, bool white);
 
   uint64_t bytes() const;
 
@@ -67,6 +67,7 @@ class GlLighting {
   void begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked);
   // Adds all VPLs there.
   void add(const Sum& sum, const SumTarget& target, int block, bool unmarked);
+  void setSky(const GlGBuffer& gbuffer, const Sky& sky);
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
 
   Program naive_[3], listed_[3], merged_[3];  // by Vpl.position.w
@@ -77,6 +78,8 @@ class GlLighting {
   bool isEmpty_ = true;  // pixels_ hold nothing yet: there is no light
   GlLowResolution low_;
   int mergedPasses_ = 0, passesSaved_ = 0;
+  std::shared_ptr<const SkyImage> skyImage_;  // whose pixels skyTexture_ has
+  Texture skyTexture_;
   std::unique_ptr<Patches> patches_;  // while the sums ask for them
   // Those that nobody else holds are drawn over.
   std::vector<std::shared_ptr<RadianceTexture>> pictures_;

@@ -10,6 +10,7 @@
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
+#include "tests/support/skies.h"
 
 namespace lamplighter {
 namespace {
@@ -126,6 +127,28 @@ TEST_F(GlShading, JitterMovesEdgesAsRaysSay) {
   EXPECT_GT(differing(pictures[1], pictures[2], 1e-3f), 0.005);
 }
 
+// The background by gradient and by picture, turned, with pixels shifted, as rays say.
+TEST_F(GlShading, SkyIsSeenWhereNothingIs) {
+  Scene scene;
+  test::addMesh(scene, test::boxMesh(vec3(0.5f), test::addMaterial(scene, vec3(0.5f))));
+  for (Sky sky : {test::gradientSky(), test::cloudySky(), test::sunnySky()}) {
+    sky.rotation = sky.kind == SkyKind::image ? 0.8f : 0.0f;
+    scene.sky = sky;
+    LitScene traced(scene), raster(scene, makeGlBackend());
+    for (const vec3& target : {vec3(1, 0, 0.2f), vec3(-0.2f, 1, 0), vec3(0, -1, 0.3f)}) {
+      const View view = lookAt(vec3(0, 0.1f, 0.7f), vec3(0, 0.1f, 0.7f) + target, 90, 60, 1.4f);
+      for (const vec2& jitter : {vec2(0.0f), vec2(0.4f, -0.3f)}) {
+        for (LitScene* lit : {&traced, &raster}) lit->backend->renderGBuffer(view, jitter);
+        const Image a = traced.backend->compose()->pixels(),
+                    b = raster.backend->compose()->pixels();
+        EXPECT_LE(differing(a, b, 2e-3f), 2.0 / 5400);
+        const vec3 corner = sky.radianceFrom(view.rayDirection(0.5f + jitter.x, 0.5f + jitter.y));
+        EXPECT_LT(glm::length(a.at(0, 0) - corner), 1e-4f);
+      }
+    }
+  }
+}
+
 // The maps are the same but for a few texels; a point on the border of a texel may fall to either
 // side, and a pixel on a silhouette to either surface.
 void expectSameLight(const Scene& scene, const std::vector<shared::Vpl>& vpls, double bound,
@@ -180,7 +203,7 @@ TEST_F(GlShading, EmissionTexturesAndSkyAreTheSame) {
     const double share = differing(a, b, 0.025f);
     EXPECT_LT(share, 0.001);  // measured: none
     int sky = 0;
-    for (size_t i = 0; i < a.pixels.size(); ++i) sky += a.pixels[i] == traced.render.sky;
+    for (size_t i = 0; i < a.pixels.size(); ++i) sky += a.pixels[i] == traced.render.sky.radiance;
     EXPECT_GT(sky, 500);
   }
 }

@@ -199,7 +199,7 @@ TEST_F(Refined, ScenesWithoutLightAreRefinedAtOnce) {
   for (const Scene& s : {dark, Scene()}) {
     scene = s;
     renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
-    EXPECT_EQ(test::meanOf(rest(SceneChanges::all(), true).radiance->pixels()), scene.sky);
+    EXPECT_EQ(test::meanOf(rest(SceneChanges::all(), true).radiance->pixels()), scene.sky.radiance);
   }
 }
 

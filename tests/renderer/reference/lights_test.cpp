@@ -15,6 +15,7 @@
 #include "renderer/scene/gltf_io.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
+#include "tests/support/skies.h"
 
 namespace lamplighter {
 namespace {
@@ -159,6 +160,42 @@ TEST(ReferenceLights, AllKindsTogetherAddUp) {
   const double irradiance = pi * 0.7 * (1.0 - form) + pi * 7.0 * form +
                             2.0 / (2.0 * std::sqrt(2.0)) + 1.5 / std::sqrt(2.0);
   EXPECT_NEAR(floorRadiance(scene, vec3(0), 1024) / (kRho / pi * irradiance), 1.0, 6e-3);
+}
+
+// E = π (horizon + 2/3 (zenith − horizon)): the ground's light comes from below.
+TEST(ReferenceLights, AGradientSkyAboveTheFloor) {
+  Scene scene = floorScene();
+  scene.sky = Sky::gradient(vec3(3.0f), vec3(1.2f), vec3(100.0f));
+  const float expected = kRho * (1.2f + 2.0f / 3.0f * 1.8f);
+  EXPECT_NEAR(floorRadiance(scene, vec3(0)) / expected, 1.0f, 4e-3f);
+}
+
+// A picture with a sun, turned and scaled, against quadrature over its interpolated pixels.
+TEST(ReferenceLights, ASkysPictureOverTheFloor) {
+  for (const Sky& picture : {test::cloudySky(), test::sunnySky()}) {
+    Scene scene = floorScene();
+    scene.sky = picture;
+    scene.sky.rotation = 1.3f;
+    scene.sky.scale = 0.4f;
+    const vec3 expected = kRho / kPi * test::irradianceOn(scene.sky, vec3(0, 1, 0));
+    const View view = lookAt(vec3(0.3f, 1.0f, 0.4f), vec3(0), 4, 4, 0.005f);
+    const vec3 actual = meanOf(renderReference(scene, view, 1024, 0));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(actual[c] / expected[c], 1.0f, 6e-3f) << c;
+  }
+}
+
+// A picture of one colour is the constant sky: the same light, the same background.
+TEST(ReferenceLights, AConstantPictureIsTheConstantSky) {
+  const View view = lookAt(vec3(1.5f, 0.8f, 2.5f), vec3(0, 0.4f, 0), 32, 24);
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f, test::addMaterial(scene, vec3(kRho))));
+  test::addMesh(scene, test::boxMesh(vec3(0.8f), 0), vec3(0, 0.4f, 0));
+  scene.sky = vec3(0.5f, 0.7f, 0.9f);
+  const Image constant = renderReference(scene, view, 256, 2);
+  scene.sky = Sky::picture(makeSkyImage(Image(64, 32, vec3(0.5f, 0.7f, 0.9f)), "even"));
+  const Metrics m = compareImages(renderReference(scene, view, 256, 2), constant);
+  EXPECT_LT(m.relRmse, 0.02);
+  EXPECT_NEAR(m.bias, 1.0, 1e-3);
 }
 
 // A floor whose normal map tilts every normal by the same angle towards +x.

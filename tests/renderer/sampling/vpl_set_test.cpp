@@ -9,6 +9,7 @@
 #include "renderer/sampling/vpl_counts.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/scenes.h"
+#include "tests/support/skies.h"
 
 namespace lamplighter {
 namespace {
@@ -269,6 +270,66 @@ TEST(SunSquares, CoverTheSceneOnceAndFollowItsDetail) {
   ASSERT_EQ(atBoxes.size(), 1u);
   ASSERT_EQ(elsewhere.size(), 1u);
   EXPECT_LE(atBoxes[0].side, 0.25f * elsewhere[0].side);
+}
+
+// Each sample of a sky has the same luminance, together they are all of its light.
+TEST(VplSet, SkysOfAllKindsGiveAllTheirLight) {
+  for (const Sky& sky : {test::gradientSky(), test::cloudySky(), test::sunnySky()}) {
+    Scene scene = room(vec3(0.5f));
+    scene.sky = sky;
+    vec3 sum(0.0f);
+    std::set<NodeId> suns;
+    for (const SceneVpl& v : vplsOf(scene, {256, 0.5f, 0, 1})) {
+      EXPECT_EQ(v.vpl.position.w, shared::kVplDirectional);
+      ASSERT_EQ(v.id.light, kSky);
+      // Squares of a sun give its light to a place each.
+      if (v.id.emitter == 0 || suns.insert(v.id.emitter).second) sum += vec3(v.vpl.intensity);
+      EXPECT_EQ(v.isSample, v.id.emitter == 0);
+    }
+    EXPECT_EQ(suns.size(), SkySampler(sky).sunCount());
+    expectNear(sum, test::irradianceOfAll(sky), 0.02f);
+  }
+}
+
+// Turned a little, a sky turns its samples a little: the ids and their brightness stay.
+TEST(VplSet, ATurnedSkyKeepsItsSamples) {
+  Scene scene = room(vec3(0.5f));
+  scene.sky = test::sunnySky();
+  const VplCounts counts{128, 0.5f, 0, 1};
+  const auto before = vplsOf(scene, counts);
+  scene.sky.rotation += 0.01f;
+  const auto after = vplsOf(scene, counts);
+  int same = 0;
+  for (size_t i = 0; i < before.size(); ++i) {
+    if (before[i].id.emitter != 0) continue;  // the sun's squares lie where the room is
+    ASSERT_EQ(after[i].id, before[i].id);
+    EXPECT_EQ(after[i].vpl.intensity, before[i].vpl.intensity);
+    EXPECT_LT(glm::length(vec3(after[i].vpl.normal - before[i].vpl.normal)), 0.011f);
+    ++same;
+  }
+  EXPECT_GT(same, 20);
+}
+
+// Batches of refinement shine from all over a sun, so that shadows get as soft as it is wide.
+TEST(VplSet, BatchesSpreadOverASun) {
+  Scene scene = room(vec3(0.5f));
+  scene.sky = test::sunnySky();
+  const vec3 middle = SkySampler(scene.sky).sun(0).towards;
+  vec3 mean(0.0f);
+  float spread = 0.0f;
+  constexpr uint32_t kBatches = 64;
+  for (uint32_t batch = 1; batch <= kBatches; ++batch) {
+    for (const SceneVpl& v : vplsOf(scene, {8, 1.0f, 0, 1, batch, 1})) {
+      if (v.id.emitter == 0) continue;
+      const vec3 towards(v.vpl.normal);
+      mean += towards / static_cast<float>(kBatches);
+      spread = std::max(spread, glm::length(towards - middle));
+      break;
+    }
+  }
+  EXPECT_LT(glm::length(mean - middle), 0.001f);
+  EXPECT_GT(spread, 0.004f);
+  EXPECT_LT(spread, 0.016f);
 }
 
 }  // namespace

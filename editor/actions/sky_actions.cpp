@@ -1,0 +1,71 @@
+// The sky: what kind it is, its picture, how that is turned and how bright it is.
+#include <cmath>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/session.h"
+#include "editor/sky_text.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+std::filesystem::path folderOf(const Session& s) { return s.document().path.parent_path(); }
+
+// The sky, if it is a picture; throws InputError.
+Sky pictureOf(const Session& s, const char* action) {
+  const Sky& sky = s.document().scene.sky;
+  if (sky.kind != SkyKind::image)
+    throw InputError(action, "the sky is no picture", "choose one with sky.image FILE");
+  return sky;
+}
+
+bool isPicture(const Session& s) { return s.document().scene.sky.kind == SkyKind::image; }
+
+}  // namespace
+
+void addSkyActions(ActionRegistry& r) {
+  r.add({"sky.set",
+         "Set sky",
+         kSkyUsage,
+         "Sets the sky: none, a radiance in W/(m² sr), a gradient or a picture.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, std::string("sky.set ") + kSkyUsage);
+           s.setSky(parseSky(a[0], folderOf(s)));
+         },
+         {}});
+  r.add({"sky.image",
+         "Sky picture",
+         "FILE",
+         "Takes an equirectangular picture as the sky, turned and scaled as the one before.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "sky.image FILE");
+           const Sky& before = s.document().scene.sky;
+           s.setSky(Sky::picture(findSkyImage(a[0], folderOf(s)), before.rotation, before.scale));
+         },
+         {}});
+  r.add({"sky.rotate", "Turn sky", "DEGREES",
+         "Turns the sky's picture about the vertical, counter-clockwise from above.", "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "sky.rotate DEGREES");
+           Sky sky = pictureOf(s, "sky.rotate");
+           sky.rotation = glm::radians(std::fmod(numberOf(a[0]), 360.0f));
+           s.setSky(sky);
+         },
+         isPicture});
+  r.add({"sky.scale", "Scale sky", "FACTOR", "Sets what the sky's picture is multiplied by.", "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "sky.scale FACTOR");
+           Sky sky = pictureOf(s, "sky.scale");
+           sky.scale = numberOf(a[0]);
+           if (!(sky.scale >= 0.0f && sky.scale <= 1e9f))
+             throw InputError("sky.scale", "a factor must be from 0 to 1e9", "give one such as 1");
+           s.setSky(sky);
+         },
+         isPicture});
+}
+
+}  // namespace lamplighter

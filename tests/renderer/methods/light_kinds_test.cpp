@@ -1,0 +1,129 @@
+// Every kind of light as a source of VPLs: the picture of many_lights, refined, against the path
+// tracer's, on a floor with a box under the open sky. By means over blocks of 4 × 4 pixels, as
+// edges of pixels and of shadows, which maps have in texels, are no matter of how much light there
+// is.
+#include <array>
+#include <cmath>
+#include <ostream>
+
+#include <gtest/gtest.h>
+
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+#include "tests/support/skies.h"
+
+namespace lamplighter {
+namespace {
+
+struct Kind {
+  const char* name;
+  void (*add)(Scene&);
+};
+void PrintTo(const Kind& k, std::ostream* out) { *out << k.name; }
+
+NodeId punctual(Scene& scene, const PunctualLight& light, const vec3& at, float tilt) {
+  const NodeId id = test::addNode(scene, "light", kNoNode, at);
+  scene.find(id)->local.rotation = glm::angleAxis(-0.5f * kPi + tilt, vec3(1, 0, 0));
+  scene.find(id)->punctual = light;
+  return id;
+}
+
+// A square that glows down, by a texture that is bright in one corner alone.
+void addTextured(Scene& scene) {
+  auto image = std::make_shared<Image8>(4, 4);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      const bool bright = x < 2 && y < 2;
+      const std::array<uint8_t, 4> texel{uint8_t(bright ? 255 : 60), uint8_t(bright ? 230 : 60),
+                                         uint8_t(bright ? 180 : 90), 255};
+      std::copy(texel.begin(), texel.end(), image->at(x, y));
+    }
+  }
+  scene.textures.push_back({"bright corner", image, Wrap::clamp, Wrap::clamp, true, false});
+  const int glow = test::addMaterial(scene, vec3(0.0f), vec3(8.0f));
+  scene.materials[static_cast<size_t>(glow)].emissiveTexture.texture = 0;
+  const NodeId id = test::addMesh(scene, test::squareMesh(2.0f, glow), vec3(0.5f, 3, 0));
+  scene.find(id)->local.rotation = glm::angleAxis(kPi, vec3(0, 0, 1));
+}
+
+void addGlowingBall(Scene& scene) {
+  const int glow = test::addMaterial(scene, vec3(0.0f), vec3(8, 6, 4));
+  test::addMesh(scene, test::sphereMesh(0.4f, 12, 0.0f, glow), vec3(1, 2.5f, 0.5f));
+}
+
+const Kind kKinds[] = {
+    {"point",
+     [](Scene& s) {
+       punctual(s, {PunctualKind::point, vec3(9, 8, 7)}, vec3(1, 2.5f, 1), 0.0f);
+     }},
+    {"spot",
+     [](Scene& s) {
+       punctual(s, {PunctualKind::spot, vec3(20, 18, 16), 0.0f, 0.4f, 0.8f}, vec3(0.5f, 3, 0.5f),
+                0.2f);
+     }},
+    {"sun",
+     [](Scene& s) {
+       punctual(s, {PunctualKind::directional, vec3(3, 2.8f, 2.5f)}, vec3(0), 0.6f);
+     }},
+    {"area",
+     [](Scene& s) { test::addRectangleLight(s, vec3(0.5f, 3, 0), vec2(1, 0.6f), vec3(20)); }},
+    {"mesh", addGlowingBall},
+    {"textured", addTextured},
+    {"constant_sky", [](Scene& s) { s.sky = vec3(0.6f, 0.7f, 0.9f); }},
+    {"gradient_sky", [](Scene& s) { s.sky = test::gradientSky(); }},
+    {"image_sky", [](Scene& s) { s.sky = test::cloudySky(); }},
+    {"image_sky_with_sun", [](Scene& s) { s.sky = test::sunnySky(); }},
+};
+
+Image inBlocks(const Image& image) {
+  constexpr int kSide = 4;
+  Image out(image.width / kSide, image.height / kSide);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x)
+      out.at(x / kSide, y / kSide) += image.at(x, y) / static_cast<float>(kSide * kSide);
+  }
+  return out;
+}
+
+class LightKinds : public testing::TestWithParam<Kind> {};
+
+TEST_P(LightKinds, AgreeWithThePathTracer) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(0.7f, 0.65f, 0.6f));
+  test::addMesh(scene, test::squareMesh(8.0f, white));
+  test::addMesh(scene, test::boxMesh(vec3(1), white), vec3(-0.8f, 0.5f, -0.5f));
+  GetParam().add(scene);
+  const View view = test::lookAt(vec3(1.5f, 2.2f, 4.5f), vec3(0), 96, 64, 0.75f);
+
+  Settings settings;
+  settings.set(parameters::vpls().name, 512);
+  settings.set(parameters::bounces().name, 1);
+  settings.set(parameters::updates().name, 4096);
+  settings.set(parameters::antialias().name, 4);
+  settings.set(parameters::refine().name, 8192);
+  FrameRenderer renderer(makeCpuBackend());
+  GiOutput out;
+  SceneChanges changes = SceneChanges::all();
+  for (int frame = 0; frame < 2000 && !(out.settled && out.refined); ++frame) {
+    out = renderer.render({scene, changes, view, "many_lights", settings, false, false, 4096});
+    changes = {};
+  }
+  ASSERT_TRUE(out.settled && out.refined);
+  const Image reference = test::renderReference(scene, view, 256, 1);
+  const Image& picture = out.radiance->pixels();
+  const Metrics m = compareImages(inBlocks(picture), inBlocks(reference));
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  RecordProperty("bias", std::to_string(m.bias));
+  EXPECT_LT(m.relRmse, 0.03);  // the most are texels of the spot's only map
+  EXPECT_NEAR(m.bias, 1.0, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LightKinds, testing::ValuesIn(kKinds),
+                         [](const auto& i) { return std::string(i.param.name); });
+
+}  // namespace
+}  // namespace lamplighter
