@@ -50,9 +50,11 @@ std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates
                     });
   order.resize(count);
   RefreshWork spent;
+  int vpls = 0;
   for (size_t k = 0; k < count; ++k) {
     spent += candidates[order[k]].work;
-    if (k > 0 && !budget.work.allows(spent)) {
+    vpls += candidates[order[k]].vpls;
+    if (k > 0 && (vpls > budget.vpls || !budget.work.allows(spent))) {
       order.resize(k);
       break;
     }
@@ -90,17 +92,18 @@ std::vector<MoverFinder::Mover> MoverFinder::update(const RenderScene& scene,
     const auto same = std::find_if(objects_.begin() + static_cast<ptrdiff_t>(old), objects_.end(),
                                    [&](const Caster& c) { return c.node == now[i].node; });
     if (same == objects_.end()) {
-      movers.push_back({Bounds(), now[i].bounds});
+      movers.push_back({Bounds(), now[i].bounds, now[i].node});
       continue;
     }
     const size_t at = static_cast<size_t>(same - objects_.begin());
-    for (; old < at; ++old) movers.push_back({objects_[old].bounds, Bounds()});
+    for (; old < at; ++old) movers.push_back({objects_[old].bounds, Bounds(), objects_[old].node});
     // Turning a symmetric box leaves its bounds, so what was moved counts whatever they say.
     if (moved[i] || !(now[i] == objects_[at]))
-      movers.push_back({objects_[at].bounds, now[i].bounds});
+      movers.push_back({objects_[at].bounds, now[i].bounds, now[i].node});
     old = at + 1;
   }
-  for (; old < objects_.size(); ++old) movers.push_back({objects_[old].bounds, Bounds()});
+  for (; old < objects_.size(); ++old)
+    movers.push_back({objects_[old].bounds, Bounds(), objects_[old].node});
   objects_ = std::move(now);
   return movers;
 }
