@@ -15,6 +15,9 @@ namespace {
 
 // Paths that may be begun for each VPL wanted: in an open scene most escape.
 constexpr size_t kPathsPerVpl = 16;
+// At rest, paths that are as good but not those of a fresh start are exchanged for these in so many
+// frames at least, as the noise of one set is not that of the other.
+constexpr size_t kRestingFrames = 8;
 
 bool sameHit(const Hit& a, const Hit& b) {
   return a.object == b.object && a.triangle == b.triangle && a.t == b.t && a.u == b.u && a.v == b.v;
@@ -168,22 +171,49 @@ void LightPaths::takeMaterials(const PathWalker& walker, Path& p) {
   }
 }
 
-void LightPaths::lookAgain(const PathWalker& walker, bool isResting, int mostPaths) {
-  std::vector<Task> tasks;
+// What is to be looked at now: what an edit touched, and at rest some of what is not its own.
+std::vector<LightPaths::Task> LightPaths::tasksOf(bool isResting, int mostPaths) {
+  std::vector<Task> stale, strange;
+  size_t count = 0;
   for (Light& light : lights_) {
+    count += light.paths.size();
     for (Path& p : light.paths) {
       if (!p.isStale() && !(isResting && !p.isOwn)) continue;
       const float brightness = std::max({p.path.flux.r, p.path.flux.g, p.path.flux.b});
-      tasks.push_back({&light, &p, brightness * static_cast<float>(++p.framesWaiting)});
+      (p.isStale() ? stale : strange)
+          .push_back({&light, &p, brightness * static_cast<float>(++p.framesWaiting)});
     }
   }
-  if (mostPaths > 0 && tasks.size() > static_cast<size_t>(mostPaths)) {
+  const auto take = [](std::vector<Task>& tasks, size_t most) {
+    if (tasks.size() <= most) return;
     std::stable_sort(tasks.begin(), tasks.end(),
                      [](const Task& a, const Task& b) { return a.priority > b.priority; });
-    tasks.resize(static_cast<size_t>(mostPaths));
-  }
+    tasks.resize(most);
+  };
+  const size_t most =
+      mostPaths > 0 ? static_cast<size_t>(mostPaths) : std::numeric_limits<size_t>::max();
+  take(stale, most);
+  take(strange, std::min(most - stale.size(), (count + kRestingFrames - 1) / kRestingFrames));
+  stale.insert(stale.end(), strange.begin(), strange.end());
+  return stale;
+}
+
+void LightPaths::lookAgain(const PathWalker& walker, bool isResting, int mostPaths) {
+  std::vector<Task> tasks = tasksOf(isResting, mostPaths);
   tbb::parallel_for(size_t{0}, tasks.size(),
                     [&](size_t i) { lookAgain(walker, isResting, tasks[i]); });
+  // A light that went far takes its own paths along: those drawn anew would be exchanged for them
+  // at rest, and cost their maps twice.
+  for (const Light& light : lights_) {
+    const auto isOf = [&](const Task& t) { return t.light == &light && t.follows; };
+    const auto following = std::count_if(tasks.begin(), tasks.end(), isOf);
+    const auto replaced = std::count_if(tasks.begin(), tasks.end(),
+                                        [&](const Task& t) { return isOf(t) && t.isReplaced; });
+    if (2 * replaced <= following) continue;
+    tbb::parallel_for(size_t{0}, tasks.size(), [&](size_t i) {
+      if (isOf(tasks[i])) walkOwn(walker, tasks[i]);
+    });
+  }
   work_.walked = static_cast<int>(tasks.size());
   for (const Task& task : tasks) {
     work_.rays += static_cast<uint64_t>(task.rays);
@@ -191,15 +221,20 @@ void LightPaths::lookAgain(const PathWalker& walker, bool isResting, int mostPat
   }
 }
 
+void LightPaths::walkOwn(const PathWalker& walker, Task& task) {
+  Path& p = *task.path;
+  p.start = walker.depart(task.light->source, p.path.index);
+  p.isOwn = true;
+  task.rays += walker.walk(task.light->source, p.start, p.path);
+  task.isReplaced = !meetSame(task.before, p.path);
+}
+
 void LightPaths::lookAgain(const PathWalker& walker, bool isResting, Task& task) const {
   const PathWalker::Source& source = task.light->source;
   Path& p = *task.path;
-  const LightPath before = p.path;
-  const Departure now = walker.depart(source, p.path.index);
+  task.before = p.path;
   if (isResting && (p.hasMoved || !p.isOwn)) {
-    p.start = now;
-    p.isOwn = true;
-    task.rays += walker.walk(source, now, p.path);
+    walkOwn(walker, task);
   } else {
     // First what moved into the way of the path as it was, then the path with its light.
     for (size_t s = std::min(p.touched, p.broken); s < p.path.steps.size(); ++s) {
@@ -212,12 +247,14 @@ void LightPaths::lookAgain(const PathWalker& walker, bool isResting, Task& task)
       task.rays += walker.walkOn(source, p.path, s);
       break;
     }
-    if (p.hasMoved) task.rays += follow(walker, *task.light, p, now);
+    task.follows = p.hasMoved;
+    if (p.hasMoved)
+      task.rays += follow(walker, *task.light, p, walker.depart(source, p.path.index));
+    task.isReplaced = !meetSame(task.before, p.path);
   }
   p.hasMoved = false;
   p.touched = p.broken = kNoStep;
   p.framesWaiting = 0;
-  task.isReplaced = !meetSame(before, p.path);
 }
 
 int LightPaths::follow(const PathWalker& walker, const Light& light, Path& p,

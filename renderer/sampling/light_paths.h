@@ -32,9 +32,10 @@ class LightPaths {
 
   // Brings the paths up to date with the scene. `changes` and `movers` are those since the last
   // call. Where they say none, the scene is at rest and the set becomes generateVpls()'s, bit for
-  // bit, whatever was before. Rays are traced for mostPaths paths at most (brightest × longest
-  // waiting first; 0: no limit), but after a change of the counts or of which objects there are all
-  // are walked at once. Returns whether the set may have changed.
+  // bit, whatever was before, a part a frame. Of a light
+  // of which few paths can stay all are walked anew at once. Rays are traced for mostPaths paths at
+  // most (brightest × longest waiting first; 0: no limit), but after a change of the counts or of
+  // which objects there are all are walked at once. Returns whether the set may have changed.
   bool update(const RenderScene& scene, const RayCaster& rays, const RenderSceneChanges& changes,
               std::span<const MoverFinder::Mover> movers, const VplCounts& counts,
               int mostPaths = 0);
@@ -73,7 +74,9 @@ class LightPaths {
     Light* light;
     Path* path;
     float priority;
+    LightPath before{};
     int rays = 0;
+    bool follows = false;  // its light has moved
     bool isReplaced = false;
   };
 
@@ -82,7 +85,9 @@ class LightPaths {
                    std::span<const MoverFinder::Mover> movers);
   static void takeMaterials(const PathWalker& walker, Path& p);
   void lookAgain(const PathWalker& walker, bool isResting, int mostPaths);
+  std::vector<Task> tasksOf(bool isResting, int mostPaths);
   void lookAgain(const PathWalker& walker, bool isResting, Task& task) const;
+  static void walkOwn(const PathWalker& walker, Task& task);
   int follow(const PathWalker& walker, const Light& light, Path& p, const Departure& now) const;
   void walkMore(const PathWalker& walker, Light& light, size_t count);
   size_t exactCount(const PathWalker& walker, Light& light, bool mayWalk);

@@ -9,6 +9,8 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kMostTries = 1000;
+// Dimensions of the tries' directions are 1 and up; of what decides about them these.
+constexpr uint32_t kChanceDimension = 2000;
 // A light's own parts that a ray may pass.
 constexpr int kMostParts = 8;
 // A vertex is seen when the ray to it ends this near, as a share of the distance.
@@ -54,9 +56,9 @@ bool sees(const PathWalker& walker, NodeId light, const vec3& from, const PathSt
 int followStart(const PathWalker& walker, const PathWalker::Source& source, const Departure& before,
                 const Departure& now, uint32_t edit, LightPath& path) {
   int traced = 0;
-  const uint32_t key = hash4(source.id.light, source.id.emitter, path.index, edit);
+  const uint32_t set = hash4(edit, 0, 0, SampleNumbers::following);
   const auto chance = [&](uint32_t i) {
-    return toUnitFloat(hash4(key, i, 0, SampleNumbers::following));
+    return walker.numbers().point(source.id, path.index, kChanceDimension + i, set).x;
   };
   PathStep& first = path.steps.front();
   const float p = densityOf(before, first), q = densityOf(now, first);
@@ -73,7 +75,6 @@ int followStart(const PathWalker& walker, const PathWalker::Source& source, cons
       return traced;
     }
   }
-  const uint32_t set = hash4(edit, 0, 0, SampleNumbers::following);
   for (uint32_t i = 1;; ++i) {
     const vec2 u = walker.numbers().point(source.id, path.index, i, set);
     const PathStep tried = walker.step(now.origin, walker.directionFrom(now, u));

@@ -1,6 +1,7 @@
 #include "renderer/shadow_maps/refresh_scheduler.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace lamplighter {
@@ -20,6 +21,16 @@ bool seesMover(const shared::Vpl& vpl, const Bounds& before, const Bounds& after
   if (vpl.position.w == shared::kVplDirectional) return true;
   const vec3 p(vpl.position), n(vpl.normal);
   return reachesAbove(before, p, n) || reachesAbove(after, p, n);
+}
+
+float hiddenShare(const shared::Vpl& vpl, const Bounds& box) {
+  if (box.empty()) return 0.0f;
+  const float r = box.radius();
+  if (vpl.position.w == shared::kVplDirectional)
+    return std::min(1.0f, kPi * r * r / (4.0f * vpl.tangent.w * vpl.tangent.w));
+  const float d = glm::distance(box.centre(), vec3(vpl.position));
+  if (d <= r) return 1.0f;
+  return 1.0f - std::sqrt(1.0f - r * r / (d * d));
 }
 
 RefreshWork& RefreshWork::operator+=(const RefreshWork& o) {

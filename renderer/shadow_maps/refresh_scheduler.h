@@ -17,6 +17,10 @@ namespace lamplighter {
 // is not wholly behind the VPL. A directional VPL sees everything.
 bool seesMover(const shared::Vpl& vpl, const Bounds& before, const Bounds& after);
 
+// How much of what the VPL lights something within the box may hide, as the share of its hemisphere
+// (directional: of its square), in [0, 1]: how wrong a map is that does not show it.
+float hiddenShare(const shared::Vpl& vpl, const Bounds& box);
+
 // Work that refreshing VPLs takes, or may take in one frame.
 struct RefreshWork {
   uint64_t shadowMaps = 0;

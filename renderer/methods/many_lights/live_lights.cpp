@@ -19,6 +19,10 @@ bool isNearly(const vec4& a, const vec4& b) {
   return glm::all(glm::lessThanEqual(difference, most));
 }
 
+// However little of a map is out of date, it waits no more than so much longer than one that all
+// is of.
+constexpr float kLeastUrgency = 0.1f;
+
 bool samePlace(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent;
 }
@@ -128,11 +132,14 @@ int LiveLights::markStale(std::span<const MoverFinder::Mover> movers,
                           const std::function<bool(const shared::Vpl&)>& spared) {
   int count = 0;
   for (Entry& e : entries_) {
-    if (!e.isLive || e.mapIsStale) continue;
-    const bool sees = std::any_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
-      return seesMover(e.current, m.before, m.after);
-    });
-    if (!sees) continue;
+    if (!e.isLive) continue;
+    bool sees = false;
+    for (const MoverFinder::Mover& m : movers) {
+      if (!seesMover(e.current, m.before, m.after)) continue;
+      sees = true;
+      e.staleShare += hiddenShare(e.current, m.before) + hiddenShare(e.current, m.after);
+    }
+    if (!sees || e.mapIsStale) continue;
     // One that moves waits as it is; its column does too.
     e.mapIsStale = e.moves() || !(spared && spared(e.current));
     count += !e.mapIsStale;
@@ -151,6 +158,7 @@ void LiveLights::loseMaps() {
   std::erase_if(entries_, [](const Entry& e) { return !e.isWanted; });
   for (Entry& e : entries_) {
     e.isLive = e.mapIsStale = e.isOff = false;
+    e.staleShare = 0.0f;
     if (e.wanted.id.bounce > 0) pathIsShown_[e.wanted.id.path()] = false;
   }
   changed_ = true;
@@ -173,7 +181,10 @@ std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& move
     Group& group = isOfPath ? groups[path->second] : groups.emplace_back();
     group.entries.push_back(i);
     RefreshCandidate& c = group.candidate;
-    c.brightness = std::max(c.brightness, brightness(e.isWanted ? e.wanted.vpl : e.current));
+    const float urgency =
+        e.moves() || e.isOff ? 1.0f : std::clamp(e.staleShare, kLeastUrgency, 1.0f);
+    c.brightness =
+        std::max(c.brightness, urgency * brightness(e.isWanted ? e.wanted.vpl : e.current));
     c.framesWaiting = std::max(c.framesWaiting, ++e.framesWaiting);
     if (!e.isWanted) continue;
     if (e.moves() || e.mapIsStale) c.work += e.moves() ? moved : stale;
@@ -207,6 +218,7 @@ int LiveLights::refresh(Backend& backend, const RefreshBudget& budget, const Ref
       e.current.intensity.w = static_cast<float>(e.slot);
       e.isLive = true;
       e.mapIsStale = false;
+      e.staleShare = 0.0f;
       maps.push_back(e.current);
     }
   }

@@ -67,6 +67,7 @@ class LiveLights {
     bool isLive = false;      // current is shown
     bool mapIsStale = false;  // its map shows what has moved
     bool isOff = false;       // its brightness is not quite what is wanted, its map is right
+    float staleShare = 0.0f;  // of its map, that is out of date
     int framesWaiting = 0;
     shared::Vpl current{};
     bool moves() const;  // it is not where it is wanted
