@@ -147,15 +147,21 @@ TEST(LightPaths, ASmallMoveKeepsMost) {
   expectSame(paths.set(stage.render).vpls, stage.fromNothing(counts));
 }
 
-// One that leaps across the room takes paths of its own along at once, which are looked at once.
+// One that is turned about has none of its paths kept, and takes its own along at once.
 TEST(LightPaths, AFarMoveWalksAllAnew) {
   Stage stage;
   LightPaths paths;
   const VplCounts counts{300, 0.5f, 2, 1};
   stage.frame(paths, counts);
-  stage.scene.find(stage.light)->local.translation = vec3(2.2f, 1.2f, -1.5f);
+  Transform& place = stage.scene.find(stage.light)->local;
+  place.translation.y = 0.3f;
+  place.rotation = place.rotation * glm::angleAxis(kPi, vec3(1, 0, 0));
   stage.frame(paths, counts);
-  EXPECT_TRUE(paths.isAtRest());
+  EXPECT_EQ(paths.work().kept, 0);
+  while (!paths.isAtRest()) {
+    stage.frame(paths, counts);
+    EXPECT_EQ(paths.work().replaced, 0);
+  }
   expectSame(paths.set(stage.render).vpls, stage.fromNothing(counts));
 }
 
