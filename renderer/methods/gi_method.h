@@ -41,13 +41,16 @@ struct FrameInputs {
 };
 
 struct GiStats {
-  int vpls = 0;                  // shown
-  int vplsPending = 0;           // not yet what the scene asks for
-  int mapsPending = 0;           // of them, those whose map must be rendered
-  int oldestFrames = 0;          // frames the oldest pending one has waited
-  int framesUntilSettled = 0;    // at this frame's pace, if nothing else changes
-  int mapsRendered = 0;          // this frame
-  int mapsSpared = 0;            // this frame: what moved is hidden from their lights
+  int vpls = 0;                // shown
+  int vplsPending = 0;         // not yet what the scene asks for
+  int mapsPending = 0;         // of them, those whose map must be rendered
+  int oldestFrames = 0;        // frames the oldest pending one has waited
+  int framesUntilSettled = 0;  // at this frame's pace, if nothing else changes
+  int mapsRendered = 0;        // this frame
+  int mapsSpared = 0;          // this frame: what moved is hidden from their lights
+  // Paths of bounced light, this frame: looked at anew by rays, of these such as meet something
+  // else now, as they were; and those that wait to be.
+  int pathsWalked = 0, pathsReplaced = 0, pathsKept = 0, pathsPending = 0;
   uint64_t raysTraced = 0;       // this frame, by the method itself
   uint64_t visibilityTests = 0;  // this frame: occlusion pyramids against the scene
   uint64_t lightMapTexels = 0;   // this frame: texels × lights added or taken away

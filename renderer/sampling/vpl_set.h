@@ -25,6 +25,9 @@ struct VplId {
   auto operator<=>(const VplId&) const = default;
   // VPLs of one set share in one light's flux at one bounce.
   VplId set() const { return {light, emitter, bounce, 0}; }
+  // VPLs of one path, the points at which it bounces, are there all or none; one on a light is a
+  // path of its own.
+  VplId path() const { return {light, emitter, bounce == 0 ? 0u : 1u, index}; }
 };
 
 struct SceneVpl {
@@ -55,7 +58,13 @@ struct VplSet {
   std::vector<SceneVpl> vpls;  // sorted by emitter, direct ones first
   uint64_t rays = 0;           // traced to find them
   int paths = 0;               // walked
+  std::vector<VplId> pathIds;  // of these (VplId::path), those that left no VPL included
 };
+
+// Where a batch goes on in a sequence of which each takes `count` points.
+inline uint32_t firstIndex(uint32_t batch, int count) {
+  return batch == 0 ? 0 : (batch - 1) * static_cast<uint32_t>(count);
+}
 
 // Lights get samples in proportion to their flux, each at least one; when there are not enough for
 // that the brightest get them and stand for the flux of all. A point light is two VPLs

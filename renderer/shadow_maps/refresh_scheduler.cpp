@@ -1,6 +1,7 @@
 #include "renderer/shadow_maps/refresh_scheduler.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace lamplighter {
@@ -20,6 +21,16 @@ bool seesMover(const shared::Vpl& vpl, const Bounds& before, const Bounds& after
   if (vpl.position.w == shared::kVplDirectional) return true;
   const vec3 p(vpl.position), n(vpl.normal);
   return reachesAbove(before, p, n) || reachesAbove(after, p, n);
+}
+
+float hiddenShare(const shared::Vpl& vpl, const Bounds& box) {
+  if (box.empty()) return 0.0f;
+  const float r = box.radius();
+  if (vpl.position.w == shared::kVplDirectional)
+    return std::min(1.0f, kPi * r * r / (4.0f * vpl.tangent.w * vpl.tangent.w));
+  const float d = glm::distance(box.centre(), vec3(vpl.position));
+  if (d <= r) return 1.0f;
+  return 1.0f - std::sqrt(1.0f - r * r / (d * d));
 }
 
 RefreshWork& RefreshWork::operator+=(const RefreshWork& o) {
@@ -50,9 +61,11 @@ std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates
                     });
   order.resize(count);
   RefreshWork spent;
+  int vpls = 0;
   for (size_t k = 0; k < count; ++k) {
     spent += candidates[order[k]].work;
-    if (k > 0 && !budget.work.allows(spent)) {
+    vpls += candidates[order[k]].vpls;
+    if (k > 0 && (vpls > budget.vpls || !budget.work.allows(spent))) {
       order.resize(k);
       break;
     }
@@ -90,17 +103,18 @@ std::vector<MoverFinder::Mover> MoverFinder::update(const RenderScene& scene,
     const auto same = std::find_if(objects_.begin() + static_cast<ptrdiff_t>(old), objects_.end(),
                                    [&](const Caster& c) { return c.node == now[i].node; });
     if (same == objects_.end()) {
-      movers.push_back({Bounds(), now[i].bounds});
+      movers.push_back({Bounds(), now[i].bounds, now[i].node});
       continue;
     }
     const size_t at = static_cast<size_t>(same - objects_.begin());
-    for (; old < at; ++old) movers.push_back({objects_[old].bounds, Bounds()});
+    for (; old < at; ++old) movers.push_back({objects_[old].bounds, Bounds(), objects_[old].node});
     // Turning a symmetric box leaves its bounds, so what was moved counts whatever they say.
     if (moved[i] || !(now[i] == objects_[at]))
-      movers.push_back({objects_[at].bounds, now[i].bounds});
+      movers.push_back({objects_[at].bounds, now[i].bounds, now[i].node});
     old = at + 1;
   }
-  for (; old < objects_.size(); ++old) movers.push_back({objects_[old].bounds, Bounds()});
+  for (; old < objects_.size(); ++old)
+    movers.push_back({objects_[old].bounds, Bounds(), objects_[old].node});
   objects_ = std::move(now);
   return movers;
 }

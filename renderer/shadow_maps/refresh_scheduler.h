@@ -17,6 +17,10 @@ namespace lamplighter {
 // is not wholly behind the VPL. A directional VPL sees everything.
 bool seesMover(const shared::Vpl& vpl, const Bounds& before, const Bounds& after);
 
+// How much of what the VPL lights something within the box may hide, as the share of its hemisphere
+// (directional: of its square), in [0, 1]: how wrong a map is that does not show it.
+float hiddenShare(const shared::Vpl& vpl, const Bounds& box);
+
 // Work that refreshing VPLs takes, or may take in one frame.
 struct RefreshWork {
   uint64_t shadowMaps = 0;
@@ -35,11 +39,12 @@ struct RefreshBudget {
   RefreshWork work{kNoLimit, kNoLimit, kNoLimit, kNoLimit};
 };
 
-// One VPL that waits for its turn.
+// One VPL that waits for its turn, or those of one path.
 struct RefreshCandidate {
   float brightness = 0.0f;  // intensity of its brightest channel
   int framesWaiting = 1;    // 1 in the frame that made it stale
   RefreshWork work{};       // that its refresh is thought to take
+  int vpls = 1;             // that must be refreshed together
 };
 
 // The indices of the candidates that the budget is enough for, highest priority = brightness ×
@@ -52,7 +57,8 @@ std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates
 class MoverFinder {
  public:
   struct Mover {
-    Bounds before, after;  // empty where it was or is not
+    Bounds before, after;   // empty where it was or is not
+    NodeId node = kNoNode;  // whose it is
   };
   // Movers since the last call; the first call gives every object.
   std::vector<Mover> update(const RenderScene& scene, const RenderSceneChanges& changes);

@@ -70,11 +70,14 @@ void drag(benchmark::State& state, const Case& c) {
     dragged->local.translation.x += (steps++ / 20) % 2 == 0 ? 0.05f : -0.05f;
     return frame(compare(before, scene));
   };
-  int refreshed = 0;
+  int refreshed = 0, kept = 0, replaced = 0, pending = 0;
   std::map<std::string, double> stages;
   for (auto _ : state) {
     const GiOutput out = step();
     refreshed += out.stats.mapsRendered;
+    kept += out.stats.pathsKept;
+    replaced += out.stats.pathsReplaced;
+    pending += out.stats.vplsPending;
     for (const auto& [name, time] : out.stats.stageSeconds) stages[name] += time;
   }
   std::vector<Image> after;
@@ -86,6 +89,9 @@ void drag(benchmark::State& state, const Case& c) {
       benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
   const auto frames = static_cast<double>(state.iterations());
   state.counters["vpls_a_frame"] = refreshed / frames;
+  state.counters["vpls_pending"] = pending / frames;
+  state.counters["paths_kept"] = kept / frames;
+  state.counters["paths_replaced"] = replaced / frames;
   state.counters["error_1"] = compareImages(after[0], truth).relRmse;
   state.counters["error_5"] = compareImages(after[4], truth).relRmse;
   for (const auto& [name, time] : stages) {

@@ -21,7 +21,11 @@ class LiveLights {
   // they are and as bright, until refresh() has their turn; so do those whose brightness is off by
   // less than a twentieth, as that of all is when one path more is walked. So a drag changes no
   // more than it refreshes.
-  void want(std::vector<SceneVpl> wanted);
+  //
+  // The bounced VPLs of a path (VplId::path) that meets something else now are replaced together,
+  // in one frame. `paths`: all of them, those that left no VPL included; needed to tell these from
+  // paths that are to come.
+  void want(std::vector<SceneVpl> wanted, std::span<const VplId> paths = {});
   // Something that casts shadows moved: maps that it may show in are stale. `spared`, if any, says
   // of a VPL that its map does not change nevertheless. Returns how many were spared.
   int markStale(std::span<const MoverFinder::Mover> movers,
@@ -29,9 +33,9 @@ class LiveLights {
   // The maps are lost: nothing is shown until it is refreshed.
   void loseMaps();
 
-  // Takes the pending VPLs of highest priority that the budget is enough for, moves each to where
-  // it is wanted, renders its map, and swaps both in together. `moved`, `stale`: the work for one
-  // that is at another place, and for one whose map alone is out of date. Returns how many.
+  // Takes the pending VPLs and paths of highest priority that the budget is enough for, moves each
+  // to where it is wanted, renders its maps, and swaps both in together. `moved`, `stale`: the work
+  // for one that is at another place, and for one whose map alone is out of date. Returns how many.
   int refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved = {},
               const RefreshWork& stale = {});
 
@@ -59,17 +63,29 @@ class LiveLights {
     SceneVpl wanted;
     float share = 1.0f;  // of its set's brightness, in [0, 1]
     int slot = -1;
-    bool isLive = false;     // current is shown
-    bool mapIsStale = true;  // must be refreshed: it moves, or its map shows what has moved
-    bool isOff = false;      // its brightness is not quite what is wanted, its map is right
+    bool isWanted = true;     // else it is shown until its path's turn
+    bool isLive = false;      // current is shown
+    bool mapIsStale = false;  // its map shows what has moved
+    bool isOff = false;       // its brightness is not quite what is wanted, its map is right
+    float staleShare = 0.0f;  // of its map, that is out of date
     int framesWaiting = 0;
     shared::Vpl current{};
-    bool isPending() const { return mapIsStale || isOff; }
+    bool moves() const;  // it is not where it is wanted
+    bool isPending() const { return moves() || mapIsStale || isOff; }
   };
+  // What is refreshed together: a VPL, or those of a path that changes.
+  struct Group {
+    std::vector<size_t> entries;
+    RefreshCandidate candidate{0.0f, 0, {}, 0};
+  };
+  std::vector<Group> pendingGroups(const RefreshWork& moved, const RefreshWork& stale);
+  void keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const;
+  void giveSlots();
   static void takeBrightness(Entry& entry);
   void fitSlots(size_t wanted);
 
-  std::vector<Entry> entries_;  // in the order wanted
+  std::vector<Entry> entries_;         // in the order wanted, those that are not behind them
+  std::map<VplId, bool> pathIsShown_;  // of all that bounce, whether as wanted or as it was
   int slots_ = 0;
   bool changed_ = true;
 };

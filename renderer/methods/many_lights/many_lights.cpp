@@ -25,11 +25,6 @@ vec2 jitterOf(int i, int n) {
 // What is left of light after as many bounces within one object is next to nothing.
 constexpr int kMostTransferBounces = 4;
 
-bool sameLights(const VplCounts& a, const VplCounts& b) {
-  return a.total == b.total && a.directShare == b.directShare && a.bounces == b.bounces &&
-         a.seed == b.seed;
-}
-
 }  // namespace
 
 // Measures each stage with the caller's clock, if there is one.
@@ -65,6 +60,7 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
   };
   budget.work = {limit(parameters::maxShadowMaps()), limit(parameters::maxVisibilityTests()),
                  limit(parameters::maxLightMapTexels()), limit(parameters::maxRays())};
+  mostPaths = settings.integer(parameters::maxPaths());
   clampDistance = settings.real(parameters::clampDistance());
   shadowBias = settings.real(parameters::shadowBias());
   antialias = settings.integer(parameters::antialias());
@@ -142,7 +138,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const int samples = options.antialias > 1 ? options.antialias : 0;
   if (options.antialias != samplesWanted_) samples_ = 0;
   samplesWanted_ = options.antialias;
-  const bool isReady = pending == 0 && out.stats.transfersPending == 0;
+  const bool isReady = pending == 0 && paths_.isAtRest() && out.stats.transfersPending == 0;
   if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
   out.settled = isReady && samples_ == samples;
@@ -169,14 +165,19 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
 void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiStats& stats) {
   const bool sceneChanged = !started_ || !in.changes.none();
-  if (sceneChanged || !sameLights(options.counts, options_.counts)) {
-    const LightSet lights(in.scene);
-    VplSet set = generateVpls(in.scene, in.rays, lights, options.counts);
-    stats.raysTraced = set.rays;
-    lights_.want(std::move(set.vpls));
+  std::vector<MoverFinder::Mover> movers;
+  if (sceneChanged) movers = movers_.update(in.scene, in.changes);
+  if (paths_.update(in.scene, in.rays, in.changes, movers, options.counts, options.mostPaths)) {
+    VplSet set = paths_.set(in.scene);
+    lights_.want(std::move(set.vpls), set.pathIds);
   }
+  const LightPaths::Work& work = paths_.work();
+  stats.raysTraced = work.rays;
+  stats.pathsWalked = work.walked;
+  stats.pathsReplaced = work.replaced;
+  stats.pathsKept = work.kept;
+  stats.pathsPending = work.pending;
   if (sceneChanged) {
-    const auto movers = movers_.update(in.scene, in.changes);
     std::function<bool(const shared::Vpl&)> isSpared;
     if (visibility_ && visibility_->moversFound() == movers.size())
       isSpared = [&](const shared::Vpl& vpl) { return visibility_->moversAreHidden(vpl); };
@@ -274,10 +275,10 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   gbufferIsCurrent_ = isMiddle;
   stages.end("g-buffer");
   const std::vector<shared::Vpl> vpls = lights_.shown();
-  const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias,
-                                          static_cast<float>(options.mapResolution),
-                                          static_cast<float>(options.lightsPerPass)),
-                                     vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f)};
+  const shared::ShadingParams params{
+      vec4(options.clampDistance, options.shadowBias, static_cast<float>(options.mapResolution),
+           static_cast<float>(options.lightsPerPass)),
+      vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f)};
   const KernelCounts before = in.backend.counts();
   if (visibility_) {
     const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses, prt_.get());
@@ -335,6 +336,7 @@ MethodInfo manyLightsInfo() {
            parameters::maxVisibilityTests(),
            parameters::maxLightMapTexels(),
            parameters::maxRays(),
+           parameters::maxPaths(),
            parameters::frameTime(),
            parameters::clampDistance(),
            parameters::shadowBias(),

@@ -10,6 +10,7 @@
 #include "renderer/methods/many_lights/live_lights.h"
 #include "renderer/methods/many_lights/refinement.h"
 #include "renderer/prt/prt_lights.h"
+#include "renderer/sampling/light_paths.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -33,6 +34,7 @@ class ManyLights final : public GiMethod {
     VplCounts counts;
     int mapResolution = 0;
     RefreshBudget budget;  // a frame
+    int mostPaths = 0;     // likewise; 0: no limit
     float clampDistance = 0.0f;
     float shadowBias = 0.0f;
     int antialias = 1;
@@ -41,7 +43,7 @@ class ManyLights final : public GiMethod {
     float lightMapTexel = 0.1f;
     int lightsPerPass = 0;  // changes no picture
     bool mergePasses = false;
-    int block = 1;  // pixels
+    int block = 1;        // pixels
     bool usePrt = false;  // besides
     PrtLights::Options prt;
     Refinement::Options refinement;
@@ -63,6 +65,7 @@ class ManyLights final : public GiMethod {
   Options options_;  // of the frame before
   View view_;
   MoverFinder movers_;
+  LightPaths paths_;
   LiveLights lights_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
   std::unique_ptr<LightMaps> lightMaps_;            // likewise

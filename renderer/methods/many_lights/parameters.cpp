@@ -63,6 +63,21 @@ const ParameterSpec& maxRays() {
   return spec;
 }
 
+const ParameterSpec& maxPaths() {
+  static const ParameterSpec spec{
+      "max_paths",
+      "Paths a frame",
+      "",
+      "Paths of bounced light that are walked again in one frame after an edit, at most. 0: no "
+      "limit.",
+      0,
+      0,
+      1000000,
+      true,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& frameTime() {
   static const ParameterSpec spec{
       "frame_time",
@@ -131,7 +146,8 @@ const ParameterSpec& block() {
       "block",
       "Block",
       "pixels",
-      "Light is summed at one pixel of each block of as many pixels a side and interpolated between; "
+      "Light is summed at one pixel of each block of as many pixels a side and interpolated "
+      "between; "
       "at edges of surfaces and shadows it is summed at each pixel. 1: at each everywhere. Nothing "
       "for naive.",
       std::string("4"),

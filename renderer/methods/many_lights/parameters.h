@@ -11,6 +11,7 @@ const ParameterSpec& maxShadowMaps();
 const ParameterSpec& maxVisibilityTests();
 const ParameterSpec& maxLightMapTexels();
 const ParameterSpec& maxRays();
+const ParameterSpec& maxPaths();       // int, 0: no limit; walked again
 const ParameterSpec& frameTime();      // float, ms; heeded in the editor's window alone
 const ParameterSpec& lightMapTexel();  // float, m
 const ParameterSpec& lightsPerPass();  // int, VPLs that one draw of the gl backend takes

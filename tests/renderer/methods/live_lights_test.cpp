@@ -168,6 +168,82 @@ TEST_F(LiveLightsTest, OnlyMapsThatSeeTheMoverAreRefreshed) {
   EXPECT_EQ(backend.rendered, 13);
 }
 
+// Two bounces of 20 paths; the flux of both is 5.
+std::vector<SceneVpl> bounced(float x, uint32_t lengthOfFirst = 2) {
+  std::vector<SceneVpl> vpls;
+  for (uint32_t path = 0; path < 20; ++path) {
+    for (uint32_t bounce = 1; bounce <= (path == 0 ? lengthOfFirst : 2); ++bounce) {
+      SceneVpl v;
+      v.vpl = test::makeVpl(vec3(x, path, bounce), vec3(0, -1, 0));
+      v.vpl.intensity = vec4(vec3(5.0f / 40.0f), -1.0f);
+      v.id = {1, 0, bounce, path};
+      vpls.push_back(v);
+    }
+  }
+  return vpls;
+}
+
+std::vector<VplId> pathsOf(uint32_t count) {
+  std::vector<VplId> paths;
+  for (uint32_t i = 0; i < count; ++i) paths.push_back({1, 0, 1, i});
+  return paths;
+}
+
+// However short the budget: at no time is one bounce of a path new and another old.
+TEST_F(LiveLightsTest, APathIsReplacedWhole) {
+  const auto paths = pathsOf(20);
+  lights.want(bounced(0.0f), paths);
+  settle(100, 5.0f);
+  lights.want(bounced(7.0f), paths);
+  EXPECT_EQ(lights.pending(), 40);
+  for (int frame = 0; lights.pending() > 0; ++frame) {
+    ASSERT_LT(frame, 20);
+    EXPECT_LE(lights.refresh(backend, {5}), 4);
+    std::map<float, std::map<float, int>> places;  // by path: where its VPLs are
+    for (const shared::Vpl& v : lights.shown()) ++places[v.position.y][v.position.x];
+    EXPECT_EQ(places.size(), 20u);
+    for (const auto& [path, at] : places) {
+      EXPECT_EQ(at.size(), 1u);
+      EXPECT_EQ(at.begin()->second, 2);
+    }
+    EXPECT_NEAR(checkedSum(), 5.0f, 1e-4f);
+  }
+  EXPECT_EQ(backend.rendered, 80);
+}
+
+// What a path leaves no more stays until its turn, and what it leaves besides is not missing
+// before.
+TEST_F(LiveLightsTest, APathGetsShorterAndLongerInOneFrame) {
+  const auto paths = pathsOf(20);
+  const float one = 5.0f / 40.0f;
+  lights.want(bounced(0.0f), paths);
+  settle(100, 5.0f);
+  for (const uint32_t length : {1u, 2u, 0u, 2u}) {
+    const float before = checkedSum();
+    lights.want(bounced(0.0f, length), paths);
+    EXPECT_GT(lights.pending(), 0);
+    EXPECT_FLOAT_EQ(checkedSum(), before);
+    lights.refresh(backend, {2});
+    EXPECT_EQ(lights.pending(), 0);
+    EXPECT_NEAR(checkedSum(), 5.0f - one * static_cast<float>(2 - length), 1e-4f);
+  }
+  // One whose light is gone goes at once.
+  lights.want({}, {});
+  EXPECT_TRUE(lights.shown().empty());
+}
+
+// Back before its turn, it needs nothing.
+TEST_F(LiveLightsTest, AnUndoneMoveCostsNoMap) {
+  lights.want(samples(1, 20, 5.0f, 0.0f));
+  settle(100, 5.0f);
+  lights.want(samples(1, 20, 5.0f, 7.0f));
+  lights.refresh(backend, {3});
+  lights.want(samples(1, 20, 5.0f, 0.0f));
+  EXPECT_EQ(lights.pending(), 3);
+  settle(100, 5.0f);
+  EXPECT_EQ(backend.rendered, 26);
+}
+
 TEST_F(LiveLightsTest, LostMapsAreNotShown) {
   lights.want(samples(1, 10, 5.0f, 0.0f));
   settle(100, 5.0f);

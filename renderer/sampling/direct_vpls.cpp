@@ -1,0 +1,111 @@
+#include "renderer/sampling/direct_vpls.h"
+
+#include <algorithm>
+
+#include "renderer/sampling/random.h"
+#include "renderer/sampling/sun_squares.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
+// A square around the scene, with what lies on its very edge.
+constexpr float kWholeScene = 1.0001f;
+// Squares that one sun may take: an eighth of the level's width each way if it is even.
+constexpr int kMostSquares = 64;
+
+}  // namespace
+
+void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
+                     std::vector<SceneVpl>& vpls) const {
+  if (count <= 0) return;
+  const Emitter& e = lights_.emitters()[static_cast<size_t>(source.emitter)];
+  VplId id = source.id;
+  const uint32_t begin = firstIndex(batch_, count), end = begin + static_cast<uint32_t>(count);
+  switch (e.kind) {
+    case EmitterKind::surface:
+      for (id.index = begin; id.index < end; ++id.index) {
+        const EmitterSample p =
+            sampleEmitter(scene_, lights_, numbers_, source, id.index, SampleNumbers::direct);
+        const vec3 intensity = scale * p.flux / (kPi * static_cast<float>(count));
+        vpls.push_back(numbers_.makeVpl(id, shared::kVplCosine, p.position, p.normal, intensity));
+      }
+      break;
+    case EmitterKind::punctual:
+      addPunctual(scene_.punctuals[e.punctual], id, count, scale, vpls);
+      break;
+    case EmitterKind::sky:
+      if (e.skySun > 0) {
+        const SkyMap::Light sun = skySun(e, id);
+        addSun(sun.towards, scale * sun.irradiance, id, std::min(count, kMostSquares), vpls);
+        break;
+      }
+      for (id.index = begin; id.index < end; ++id.index) {
+        const SkyMap::Light light = lights_.sky().sample(
+            numbers_.point(id, id.index, kDirectionDimension, SampleNumbers::direct));
+        const vec3 irradiance = scale / static_cast<float>(count) * light.irradiance;
+        vpls.push_back(directional(id, light.towards, irradiance));
+      }
+      break;
+  }
+}
+
+// Batches shine from places all over it, so that their mean has soft shadows.
+SkyMap::Light DirectVpls::skySun(const Emitter& e, const VplId& id) const {
+  const size_t sun = e.skySun - 1;
+  if (batch_ == 0) return lights_.sky().sun(sun);
+  return lights_.sky().sun(
+      sun, numbers_.point(id, batch_ - 1, kPlaceDimension, SampleNumbers::direct));
+}
+
+void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, int count, float scale,
+                             std::vector<SceneVpl>& vpls) const {
+  const vec3 intensity = scale * p.light.intensity;
+  switch (p.light.kind) {
+    case PunctualKind::point:
+      for (id.index = 0; id.index < 2; ++id.index) {
+        const vec3 axis(0.0f, id.index == 0 ? -1.0f : 1.0f, 0.0f);
+        vpls.push_back(numbers_.makeVpl(id, shared::kVplUniform, p.position, axis, intensity));
+        vpls.back().isSample = false;
+      }
+      break;
+    case PunctualKind::spot: {
+      vpls.push_back(numbers_.makeVpl(id, shared::kVplUniform, p.position, p.direction, intensity));
+      vpls.back().isSample = false;
+      const SpotCone cone(p.light);
+      vpls.back().vpl.normal.w = cone.scale;
+      vpls.back().vpl.tangent.w = cone.offset;
+      break;
+    }
+    case PunctualKind::directional:
+      addSun(-p.direction, intensity, id, std::min(count, kMostSquares), vpls);
+      break;
+  }
+}
+
+void DirectVpls::addSun(const vec3& towards, const vec3& irradiance, VplId id, int count,
+                        std::vector<SceneVpl>& vpls) const {
+  const vec3 tangent = numbers_.turnedTangent(id, towards);  // the same for all its squares
+  const mat3 axes(tangent, glm::cross(towards, tangent), towards);
+  const vec3 middle = lights_.sceneCentre();
+  const float whole = kWholeScene * lights_.sceneRadius();
+  for (const SunSquare& square : sunSquares(scene_, axes, middle, whole, count)) {
+    id.index = square.code;
+    SceneVpl added = directional(id, towards, irradiance);
+    added.isSample = false;
+    added.vpl.position += vec4(axes * vec3(square.centre, 0.0f), 0.0f);
+    added.vpl.tangent = vec4(tangent, square.side);
+    vpls.push_back(added);
+  }
+}
+
+SceneVpl DirectVpls::directional(const VplId& id, const vec3& towards,
+                                 const vec3& irradiance) const {
+  SceneVpl made =
+      numbers_.makeVpl(id, shared::kVplDirectional, lights_.sceneCentre(), towards, irradiance);
+  made.vpl.normal.w = lights_.sceneRadius();
+  made.vpl.tangent.w = kWholeScene * lights_.sceneRadius();
+  return made;
+}
+
+}  // namespace lamplighter

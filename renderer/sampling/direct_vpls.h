@@ -1,0 +1,33 @@
+// The VPLs on the lights themselves (paper 1, 4.1).
+#pragma once
+
+#include <vector>
+
+#include "renderer/sampling/path_walk.h"
+
+namespace lamplighter {
+
+class DirectVpls {
+ public:
+  DirectVpls(const RenderScene& scene, const LightSet& lights, const VplCounts& counts)
+      : scene_(scene), lights_(lights), numbers_(counts), batch_(counts.batch) {}
+
+  // Appends `count` samples of one emitter, all of them `scale` times as bright as they are.
+  void add(const PathWalker::Source& source, int count, float scale,
+           std::vector<SceneVpl>& vpls) const;
+
+ private:
+  SkyMap::Light skySun(const Emitter& e, const VplId& id) const;
+  void addPunctual(const RenderPunctual& p, VplId id, int count, float scale,
+                   std::vector<SceneVpl>& vpls) const;
+  void addSun(const vec3& towards, const vec3& irradiance, VplId id, int count,
+              std::vector<SceneVpl>& vpls) const;
+  SceneVpl directional(const VplId& id, const vec3& towards, const vec3& irradiance) const;
+
+  const RenderScene& scene_;
+  const LightSet& lights_;
+  SampleNumbers numbers_;
+  uint32_t batch_;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,375 @@
+#include "renderer/sampling/light_paths.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/sampling/direct_vpls.h"
+#include "renderer/sampling/path_following.h"
+#include "renderer/sampling/vpl_counts.h"
+#include "renderer/scene/surface.h"
+
+namespace lamplighter {
+namespace {
+
+// Paths that may be begun for each VPL wanted: in an open scene most escape.
+constexpr size_t kPathsPerVpl = 16;
+// At rest, paths that are as good but not those of a fresh start are exchanged for these in so many
+// frames at least, as the noise of one set is not that of the other.
+constexpr size_t kRestingFrames = 8;
+
+bool sameHit(const Hit& a, const Hit& b) {
+  return a.object == b.object && a.triangle == b.triangle && a.t == b.t && a.u == b.u && a.v == b.v;
+}
+
+// Whether the ray's part up to where it ends touches the box.
+bool touches(const PathStep& s, const Bounds& box) {
+  if (box.empty()) return false;
+  float from = 0.0f, to = s.hit.t;
+  const float slack = rayEpsilon(s.origin);
+  for (int i = 0; i < 3; ++i) {
+    const float low = box.min[i] - slack - s.origin[i], high = box.max[i] + slack - s.origin[i];
+    if (s.direction[i] == 0.0f) {
+      if (low > 0.0f || high < 0.0f) return false;
+      continue;
+    }
+    const float a = low / s.direction[i], b = high / s.direction[i];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b) * 1.0001f);
+  }
+  return from <= to * 1.0001f + slack;
+}
+
+bool meetSame(const LightPath& a, const LightPath& b) {
+  return std::equal(a.steps.begin(), a.steps.end(), b.steps.begin(), b.steps.end(),
+                    [](const PathStep& s, const PathStep& t) {
+                      return s.position == t.position && s.normal == t.normal &&
+                             static_cast<bool>(s.hit) == static_cast<bool>(t.hit);
+                    });
+}
+
+// The samples that an emitter cannot do without: a two-sided one takes turns, a point light is two
+// hemispheres.
+SampleShare shareOf(const RenderScene& scene, const Emitter& e) {
+  const float weight = luminance(e.flux);
+  if (e.kind != EmitterKind::punctual) return {weight, e.bothSides ? 2 : 1, false};
+  const PunctualKind kind = scene.punctuals[e.punctual].light.kind;
+  return {weight, kind == PunctualKind::point ? 2 : 1, kind != PunctualKind::directional};
+}
+
+}  // namespace
+
+bool LightPaths::update(const RenderScene& scene, const RayCaster& rays,
+                        const RenderSceneChanges& changes,
+                        std::span<const MoverFinder::Mover> movers, const VplCounts& counts,
+                        int mostPaths) {
+  work_ = {};
+  const bool isEdited = !changes.none();
+  const bool isAfresh = !started_ || changes.rebuilt || counts != counts_;
+  if (!isAfresh && !isEdited && atRest_) return false;
+  if (isAfresh) lights_.clear();
+  counts_ = counts;
+  started_ = true;
+  edits_ += isEdited;
+  if (isAfresh || isEdited) takeLights(scene, LightSet(scene));
+  const PathWalker walker(scene, rays, lightSet_, counts_);
+  if (isEdited) findTouched(walker, changes, movers);
+  const bool isResting = isAfresh || !isEdited;
+  lookAgain(walker, isResting, mostPaths);
+  fitCounts(walker, isResting);
+  atRest_ = isExact(walker);
+  return true;
+}
+
+VplSet LightPaths::generate(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
+                            const VplCounts& counts) {
+  LightPaths paths;
+  paths.counts_ = counts;
+  paths.takeLights(scene, lights);
+  paths.fitCounts(PathWalker(scene, rays, paths.lightSet_, counts), true);
+  return paths.set(scene);
+}
+
+void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
+  lightSet_ = std::move(lights);
+  const std::vector<Emitter>& emitters = lightSet_.emitters();
+  const int total = std::max(counts_.total, 0);
+  const float share = std::clamp(counts_.directShare, 0.0f, 1.0f);
+  const int direct = counts_.bounces <= 0
+                         ? total
+                         : static_cast<int>(std::lround(share * static_cast<float>(total)));
+  std::vector<SampleShare> directShares, indirectShares;
+  for (const Emitter& e : emitters) {
+    directShares.push_back(shareOf(scene, e));
+    indirectShares.push_back({luminance(e.flux), 1, false});
+  }
+  const SampleCounts directCounts = shareSamples(directShares, direct);
+  const SampleCounts indirectCounts =
+      shareSamples(indirectShares, counts_.paths > 0 ? counts_.paths : total - direct);
+
+  const std::vector<VplId> ids = emitterIds(lightSet_);
+  std::vector<Light> now(emitters.size());
+  for (size_t i = 0; i < now.size(); ++i) {
+    const auto before = std::find_if(lights_.begin(), lights_.end(),
+                                     [&](const Light& l) { return l.source.id == ids[i]; });
+    if (before != lights_.end()) now[i] = std::move(*before);
+    now[i].source = {static_cast<int>(i), ids[i]};
+    now[i].direct = directCounts.counts[i];
+    now[i].directScale = directCounts.scale;
+    now[i].wanted = counts_.bounces > 0 ? indirectCounts.counts[i] : 0;
+    now[i].scale = indirectCounts.scale;
+  }
+  lights_ = std::move(now);
+}
+
+void LightPaths::findTouched(const PathWalker& walker, const RenderSceneChanges& changes,
+                             std::span<const MoverFinder::Mover> movers) {
+  std::vector<bool> hasMoved(walker.scene().objects.size(), false);
+  for (const uint32_t object : changes.movedObjects) hasMoved[object] = true;
+  for (Light& light : lights_) {
+    for (Path& p : light.paths) {
+      const Departure now = walker.depart(light.source, p.path.index);
+      p.hasMoved = !now.startsAs(p.start);
+      if (!p.hasMoved)
+        p.path.flux =
+            p.isOwn ? now.flux : walker.fluxAlong(light.source, now, p.path.steps[0].direction);
+      if (changes.materials) takeMaterials(walker, p);
+      for (size_t s = 0; s < p.path.steps.size(); ++s) {
+        const PathStep& step = p.path.steps[s];
+        if (s >= p.broken) break;
+        if (step.hit && hasMoved[step.hit.object]) {
+          p.broken = s;
+          break;
+        }
+        if (s >= p.touched) continue;
+        // A light that moves does not stand in its own way: what its path's start was is not there
+        // any more.
+        const bool isTouched =
+            std::any_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
+              const bool isOwnBody = s == 0 && p.hasMoved && m.node == light.source.id.light;
+              return !isOwnBody && (touches(step, m.before) || touches(step, m.after));
+            });
+        if (isTouched) p.touched = s;
+      }
+    }
+  }
+}
+
+// What its vertices reflect now; they stay where they are.
+void LightPaths::takeMaterials(const PathWalker& walker, Path& p) {
+  std::vector<PathStep>& steps = p.path.steps;
+  for (size_t s = 0; s < steps.size() && steps[s].hit; ++s) {
+    const bool ended = steps[s].ends();
+    const Hit& h = steps[s].hit;
+    steps[s].albedo = surfaceAt(walker.scene(), h.object, h.triangle, h.u, h.v).albedo;
+    if (steps[s].ends()) {
+      steps.resize(s + 1);
+    } else if (ended && steps.size() < walker.bounces()) {
+      p.broken = std::min(p.broken, s);  // it goes on from there now
+    }
+  }
+}
+
+// What is to be looked at now: what an edit touched, and at rest some of what is not its own.
+std::vector<LightPaths::Task> LightPaths::tasksOf(bool isResting, int mostPaths) {
+  std::vector<Task> stale, strange;
+  size_t count = 0;
+  for (Light& light : lights_) {
+    count += light.paths.size();
+    for (Path& p : light.paths) {
+      if (!p.isStale() && !(isResting && !p.isOwn)) continue;
+      const float brightness = std::max({p.path.flux.r, p.path.flux.g, p.path.flux.b});
+      (p.isStale() ? stale : strange)
+          .push_back({&light, &p, brightness * static_cast<float>(++p.framesWaiting)});
+    }
+  }
+  const auto take = [](std::vector<Task>& tasks, size_t most) {
+    if (tasks.size() <= most) return;
+    std::stable_sort(tasks.begin(), tasks.end(),
+                     [](const Task& a, const Task& b) { return a.priority > b.priority; });
+    tasks.resize(most);
+  };
+  const size_t most =
+      mostPaths > 0 ? static_cast<size_t>(mostPaths) : std::numeric_limits<size_t>::max();
+  take(stale, most);
+  take(strange, std::min(most - stale.size(), (count + kRestingFrames - 1) / kRestingFrames));
+  stale.insert(stale.end(), strange.begin(), strange.end());
+  return stale;
+}
+
+void LightPaths::lookAgain(const PathWalker& walker, bool isResting, int mostPaths) {
+  std::vector<Task> tasks = tasksOf(isResting, mostPaths);
+  tbb::parallel_for(size_t{0}, tasks.size(),
+                    [&](size_t i) { lookAgain(walker, isResting, tasks[i]); });
+  // A light that went far takes its own paths along: those drawn anew would be exchanged for them
+  // at rest, and cost their maps twice.
+  for (const Light& light : lights_) {
+    const auto isOf = [&](const Task& t) { return t.light == &light && t.follows; };
+    const auto following = std::count_if(tasks.begin(), tasks.end(), isOf);
+    const auto replaced = std::count_if(tasks.begin(), tasks.end(),
+                                        [&](const Task& t) { return isOf(t) && t.isReplaced; });
+    if (2 * replaced <= following) continue;
+    tbb::parallel_for(size_t{0}, tasks.size(), [&](size_t i) {
+      if (isOf(tasks[i])) walkOwn(walker, tasks[i]);
+    });
+  }
+  work_.walked = static_cast<int>(tasks.size());
+  for (const Task& task : tasks) {
+    work_.rays += static_cast<uint64_t>(task.rays);
+    work_.replaced += task.isReplaced;
+  }
+}
+
+void LightPaths::walkOwn(const PathWalker& walker, Task& task) {
+  Path& p = *task.path;
+  p.start = walker.depart(task.light->source, p.path.index);
+  p.isOwn = true;
+  task.rays += walker.walk(task.light->source, p.start, p.path);
+  task.isReplaced = !meetSame(task.before, p.path);
+}
+
+void LightPaths::lookAgain(const PathWalker& walker, bool isResting, Task& task) const {
+  const PathWalker::Source& source = task.light->source;
+  Path& p = *task.path;
+  task.before = p.path;
+  if (isResting && (p.hasMoved || !p.isOwn)) {
+    walkOwn(walker, task);
+  } else {
+    // First what moved into the way of the path as it was, then the path with its light.
+    for (size_t s = std::min(p.touched, p.broken); s < p.path.steps.size(); ++s) {
+      const PathStep& step = p.path.steps[s];
+      if (s < p.broken) {
+        ++task.rays;
+        if (sameHit(walker.rays().intersect({step.origin, 0.0f, step.direction}), step.hit))
+          continue;
+      }
+      task.rays += walker.walkOn(source, p.path, s);
+      break;
+    }
+    task.follows = p.hasMoved;
+    if (p.hasMoved)
+      task.rays += follow(walker, *task.light, p, walker.depart(source, p.path.index));
+    task.isReplaced = !meetSame(task.before, p.path);
+  }
+  p.hasMoved = false;
+  p.touched = p.broken = kNoStep;
+  p.framesWaiting = 0;
+}
+
+int LightPaths::follow(const PathWalker& walker, const Light& light, Path& p,
+                       const Departure& now) const {
+  int traced = 0;
+  if (now.spread == Departure::Spread::parallel || p.start.spread != now.spread) {
+    // Parallel light starts at the scene's edge, which may be all that has moved.
+    LightPath own{p.path.index, {}, {}};
+    traced = walker.walk(light.source, now, own);
+    p.isOwn = !isNearly(own, p.path, 1e-4f * lightSet_.sceneRadius());
+    if (p.isOwn) p.path.steps = std::move(own.steps);
+    p.path.flux = now.flux;
+  } else {
+    p.isOwn = false;
+    traced = followStart(walker, light.source, p.start, now, edits_, p.path);
+    p.path.flux = walker.fluxAlong(light.source, now, p.path.steps[0].direction);
+  }
+  p.start = now;
+  return traced;
+}
+
+void LightPaths::walkMore(const PathWalker& walker, Light& light, size_t count) {
+  const size_t before = light.paths.size();
+  light.paths.resize(std::max(count, before));
+  const uint32_t first = firstIndex(counts_.batch, light.wanted);
+  std::vector<int> traced(light.paths.size() - before);
+  tbb::parallel_for(before, light.paths.size(), [&](size_t i) {
+    Path& p = light.paths[i];
+    p.path.index = first + static_cast<uint32_t>(i);
+    p.start = walker.depart(light.source, p.path.index);
+    traced[i - before] = walker.walk(light.source, p.start, p.path);
+  });
+  for (const int n : traced) work_.rays += static_cast<uint64_t>(n);
+  work_.walked += static_cast<int>(traced.size());
+}
+
+// As many paths as leave the VPLs that are wanted. One that would leave too many is not begun, so
+// that its last bounces are not cut off: that would favour the first ones. kNoStep where more would
+// have to be walked to know.
+size_t LightPaths::exactCount(const PathWalker& walker, Light& light, bool mayWalk) {
+  if (light.wanted <= 0) return 0;
+  const auto wanted = static_cast<size_t>(light.wanted);
+  const bool countsPaths = counts_.paths > 0;
+  const size_t cap = (countsPaths ? 1 : kPathsPerVpl) * wanted;
+  const size_t most = countsPaths ? std::numeric_limits<size_t>::max() : wanted;
+  size_t count = 0, vpls = 0;
+  while (count < cap && vpls < most) {
+    if (count == light.paths.size()) {
+      if (!mayWalk) return kNoStep;
+      // So many are needed in any case.
+      const size_t needed =
+          countsPaths ? cap : (most - vpls + walker.bounces() - 1) / walker.bounces();
+      walkMore(walker, light, std::min(count + needed, cap));
+    }
+    const auto length = vplCount(light.paths[count].path);
+    if (vpls > 0 && vpls + length > most) break;
+    ++count;
+    vpls += length;
+  }
+  return count;
+}
+
+// While the scene is being changed the number of paths stays, unless there would be far too few
+// VPLs or too many: each path more makes all others darker.
+void LightPaths::fitCounts(const PathWalker& walker, bool isResting) {
+  const auto isPending = [&](const Path& p) { return p.isStale() || !p.isOwn; };
+  for (Light& light : lights_) {
+    size_t vpls = 0;
+    light.count = std::min(light.count, light.paths.size());
+    for (size_t i = 0; i < light.count; ++i) vpls += vplCount(light.paths[i].path);
+    const auto wanted = static_cast<size_t>(std::max(light.wanted, 0));
+    const bool isFitting = vpls + std::max(wanted / 8, walker.bounces()) >= wanted &&
+                           vpls <= wanted + std::max(wanted / 16, walker.bounces());
+    const bool isPassing =
+        !isResting || std::any_of(light.paths.begin(), light.paths.end(), isPending);
+    if (isPassing && light.count > 0 && isFitting) continue;
+    light.count = exactCount(walker, light, true);
+    if (!isPassing) light.paths.resize(std::min(light.paths.size(), light.count + 1));
+  }
+  for (const Light& light : lights_) {
+    work_.kept += static_cast<int>(light.count);
+    work_.pending +=
+        static_cast<int>(std::count_if(light.paths.begin(), light.paths.end(), isPending));
+  }
+  work_.kept = std::max(0, work_.kept - work_.replaced);
+}
+
+bool LightPaths::isExact(const PathWalker& walker) {
+  if (work_.pending > 0) return false;
+  return std::all_of(lights_.begin(), lights_.end(),
+                     [&](Light& light) { return exactCount(walker, light, false) == light.count; });
+}
+
+VplSet LightPaths::set(const RenderScene& scene) const {
+  VplSet result;
+  result.rays = work_.rays;
+  const SampleNumbers numbers(counts_);
+  const DirectVpls direct(scene, lightSet_, counts_);
+  for (const Light& light : lights_) {
+    direct.add(light.source, light.direct, light.directScale, result.vpls);
+    const size_t first = result.vpls.size();
+    const float share = light.scale / static_cast<float>(std::max<size_t>(light.count, 1));
+    for (size_t i = 0; i < light.count; ++i) {
+      const LightPath& path = light.paths[i].path;
+      addVpls(numbers, light.source.id, path, share, result.vpls);
+      result.pathIds.push_back({light.source.id.light, light.source.id.emitter, 1, path.index});
+    }
+    // Only a path longer than all VPLs together is cut.
+    const auto most = static_cast<size_t>(std::max(light.wanted, 0));
+    if (counts_.paths == 0 && result.vpls.size() - first > most &&
+        result.vpls[first].id.path() == result.vpls.back().id.path())
+      result.vpls.resize(first + most);
+    result.paths += static_cast<int>(light.count);
+  }
+  return result;
+}
+
+}  // namespace lamplighter

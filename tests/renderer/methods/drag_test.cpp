@@ -1,0 +1,104 @@
+// A light or a coloured object under a hand: the picture follows without a jump, most paths stay,
+// and what comes to rest is what is opened afresh.
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+struct Room {
+  Scene scene;
+  NodeId cube, light;
+  // A wall with a strip of the floor, neither the light nor the cube.
+  View view = test::lookAt(vec3(0, 1.5f, -1.5f), vec3(-3, 1.2f, -1.5f), 64, 48, 0.9f);
+  Settings settings;
+
+  Room() {
+    const int white = test::addMaterial(scene, vec3(0.7f));
+    const int red = test::addMaterial(scene, vec3(0.9f, 0.05f, 0.05f));
+    test::addMesh(scene, test::roomMesh(vec3(6, 4, 6), white), vec3(0, 2, 0));
+    cube = test::addMesh(scene, test::boxMesh(vec3(1), red), vec3(-2.0f, 0.6f, 2.2f));
+    light = test::addRectangleLight(scene, vec3(0.5f, 3.8f, 0.5f), vec2(1, 0.8f), vec3(10));
+    settings.set(parameters::vpls().name, 600);
+    settings.set(parameters::bounces().name, 2);
+    settings.set(parameters::updates().name, 80);
+    settings.set(parameters::mapResolution().name, 32);
+    settings.set(parameters::antialias().name, 1);
+    // Of the paths and their maps alone: which of these are looked up is visibility's business.
+    settings.set(parameters::technique().name, std::string("naive"));
+  }
+};
+
+class Drag : public testing::TestWithParam<std::tuple<bool, int>> {};
+
+TEST_P(Drag, FollowsWithoutAJumpAndSettlesAsAFreshStart) {
+  const auto [isLight, maxPaths] = GetParam();
+  Room room;
+  room.settings.set(parameters::maxPaths().name, maxPaths);
+  FrameRenderer renderer(makeCpuBackend());
+  vec3 last = test::meanOf(
+      test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, room.settings)
+          .radiance->pixels());
+  const auto frame = [&](const SceneChanges& changes) {
+    const GiOutput out =
+        renderer.render({room.scene, changes, room.view, "many_lights", room.settings});
+    const vec3 mean = test::meanOf(out.radiance->pixels());
+    // One path of the 150, where it lands by the wall in view, is two hundredths of its light.
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(mean[i] / last[i], 1.0f, 0.04f);
+    last = mean;
+    return out;
+  };
+  for (int step = 0; step < 24; ++step) {
+    SCOPED_TRACE(step);
+    const Scene before = room.scene;
+    room.scene.find(isLight ? room.light : room.cube)->local.translation +=
+        isLight ? vec3(-0.05f, 0, 0.03f) : vec3(0, 0, -0.06f);
+    const GiOutput out = frame(compare(before, room.scene));
+    EXPECT_FALSE(out.settled);
+    EXPECT_GT(out.stats.pathsKept, (out.stats.pathsKept + out.stats.pathsReplaced) / 2);
+    if (maxPaths > 0) {
+      EXPECT_LE(out.stats.pathsWalked, maxPaths);
+    }
+  }
+  GiOutput out;
+  for (int frames = 0; !out.settled; ++frames) {
+    SCOPED_TRACE("resting");
+    ASSERT_LT(frames, 100);
+    out = frame({});
+  }
+  FrameRenderer anew(makeCpuBackend());
+  const GiOutput fresh =
+      test::renderSettled(anew, room.scene, SceneChanges::all(), room.view, room.settings);
+  EXPECT_TRUE(test::sameBits(out.radiance->pixels(), fresh.radiance->pixels()));
+}
+INSTANTIATE_TEST_SUITE_P(What, Drag, testing::Combine(testing::Bool(), testing::Values(0, 24)));
+
+// The red cube beside the wall: its colour is on the wall; taken back, the picture is what it was.
+TEST(Drag, AColouredMoverChangesTheBouncedColour) {
+  Room room;
+  FrameRenderer renderer(makeCpuBackend());
+  const Image away =
+      test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, room.settings)
+          .radiance->pixels();
+  const auto moveTo = [&](const vec3& place) {
+    const Scene before = room.scene;
+    room.scene.find(room.cube)->local.translation = place;
+    return test::renderSettled(renderer, room.scene, compare(before, room.scene), room.view,
+                               room.settings)
+        .radiance->pixels();
+  };
+  const vec3 old = room.scene.find(room.cube)->local.translation;
+  const vec3 near = test::meanOf(moveTo(vec3(-2.2f, 0.6f, 0.5f))), far = test::meanOf(away);
+  EXPECT_GT(near.r / near.g, 1.02f * far.r / far.g);
+  EXPECT_TRUE(test::sameBits(moveTo(old), away));
+}
+
+}  // namespace
+}  // namespace lamplighter
