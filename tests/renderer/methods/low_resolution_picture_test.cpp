@@ -48,6 +48,7 @@ struct Case {
   const char* scene;
   int vpls;
   float leastInterpolated;
+  double mostError = 0.015;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
@@ -75,7 +76,7 @@ TEST_P(LowResolutionPicture, IsTheOneOfAllPixels) {
     RecordProperty("relRmse", std::to_string(m.relRmse));
     RecordProperty("interpolated", std::to_string(share));
     EXPECT_EQ(all.stats.interpolatedShare, 0.0f);
-    EXPECT_LT(m.relRmse, 0.015);
+    EXPECT_LT(m.relRmse, GetParam().mostError);
     EXPECT_NEAR(m.bias, 1.0, 0.002);
     EXPECT_GT(share, GetParam().leastInterpolated);
   }
@@ -89,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LowResolutionPicture,
                                          Case{"cornell-box/cornell-box.glb", 300, 0.1f},
                                          Case{"kenney-fps-level/kenney-fps-level.gltf", 100, 0.02f},
                                          Case{"classroom/classroom.gltf", 100, 0.05f},
-                                         Case{"modern-hall/modern-hall.glb", 100, 0.3f}));
+                                         Case{"modern-hall/modern-hall.glb", 100, 0.3f, 0.03}));
 
 // A floor with a wall on it that is thinner than a pixel, lit from one side only.
 struct Wall {

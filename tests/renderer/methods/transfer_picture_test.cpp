@@ -54,6 +54,7 @@ struct BumpyRoom {
 Settings settingsOf(bool prt, int bounces) {
   Settings s;
   s.set(parameters::prt().name, prt);
+  s.set(parameters::block().name, std::string("1"));
   s.set(parameters::vpls().name, 1000);
   s.set(parameters::updates().name, 1000);
   s.set(parameters::bounces().name, bounces);

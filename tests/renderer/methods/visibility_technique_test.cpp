@@ -25,6 +25,7 @@ constexpr int kWidth = 192, kHeight = 128;
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
   s.set(parameters::technique().name, technique);
+  s.set(parameters::block().name, std::string("1"));
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::updates().name, 150);
   s.set(parameters::antialias().name, 1);
