@@ -169,37 +169,27 @@ std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
   return chosen;
 }
 
-VplSet generateVplsForView(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
-                           const VplCounts& counts, int factor, const View& view,
-                           float clampDistance) {
-  VplSet plain = generateVpls(scene, rays, lights, counts);
-  std::vector<SceneVpl> fixed;
-  int bounced = 0, sky = 0;
-  for (const SceneVpl& v : plain.vpls) {
-    if (!isCandidate(v))
-      fixed.push_back(v);
-    else
-      ++(v.id.bounce > 0 ? bounced : sky);
-  }
-  if (factor <= 1 || bounced + sky == 0) return plain;
-
-  // Candidates: what bounces, then the sky, each as many times as many.
+VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderScene& scene,
+                     const RayCaster& rays, const View& view, float clampDistance) {
+  if (counts.candidates <= 1) return set;
   std::vector<SceneVpl> candidates;
-  VplCounts more = counts;
-  more.total = counts.total * factor;
-  VplSet all = generateVpls(scene, rays, lights, more);
-  for (const SceneVpl& v : all.vpls)
-    if (isCandidate(v)) candidates.push_back(v);
-  const size_t mostPoints = kMostRays / std::max<size_t>(candidates.size() + fixed.size(), 1);
+  VplSet chosen;
+  chosen.rays = set.rays;
+  chosen.paths = set.paths;
+  int sky = 0;
+  for (const SceneVpl& v : set.vpls) {
+    (isCandidate(v) ? candidates : chosen.vpls).push_back(v);
+    sky += isCandidate(v) && v.id.bounce == 0;
+  }
+  // What lights themselves have no use for is there for the light that they bounce.
+  const int wanted = counts.bounces > 0 ? counts.total - static_cast<int>(chosen.vpls.size())
+                                        : sky / counts.candidates;
+  const size_t mostPoints = kMostRays / std::max<size_t>(set.vpls.size(), 1);
   const std::vector<SeenPoint> points = seenPoints(
       scene, rays, view, std::clamp(static_cast<int>(mostPoints), kFewestPoints, kMostPoints));
   const std::vector<float> importance =
-      importanceOf(candidates, fixed, points, rays, clampDistance);
-  VplSet chosen;
-  chosen.rays = plain.rays + all.rays;
-  chosen.paths = plain.paths;
-  chosen.vpls = std::move(fixed);
-  for (SceneVpl& v : chooseByImportance(candidates, importance, bounced + sky))
+      importanceOf(candidates, chosen.vpls, points, rays, clampDistance);
+  for (SceneVpl& v : chooseByImportance(candidates, importance, wanted))
     chosen.vpls.push_back(std::move(v));
   return chosen;
 }

@@ -49,10 +49,9 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
 std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
                                          std::span<const float> importance, int count);
 
-// generateVpls() with `factor` times as many candidates for bounced and sky light, of which as many
-// as it gives are chosen for the view. Lights' own samples are as ever.
-VplSet generateVplsForView(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
-                           const VplCounts& counts, int factor, const View& view,
-                           float clampDistance);
+// The set with as many of its candidates (VplCounts::candidates) chosen for the view as were
+// wanted. Lights' own samples are as ever; they stand first.
+VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderScene& scene,
+                     const RayCaster& rays, const View& view, float clampDistance);
 
 }  // namespace lamplighter

@@ -54,13 +54,15 @@ TEST(ViewImportance, LessensTheErrorBehindANarrowGap) {
   points.erase(points.begin(), points.begin() + 128);
   double first = 0.0, chosen = 0.0, mean = 0.0;  // squared errors and the mean ratio
   for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
-    const VplCounts counts{300, 0.3f, 3, seed}, more{300 * kFactor, 0.3f, 3, seed};
+    const VplCounts counts{300, 0.3f, 3, seed};
+    VplCounts more = counts;
+    more.candidates = kFactor;
+    const VplSet candidates = generateVpls(lit.render, *lit.rays, lights, more);
     const auto of = [&](const VplSet& set) { return lightInTheDark(lit, points, set.vpls); };
-    const VplSet some =
-        generateVplsForView(lit.render, *lit.rays, lights, counts, kFactor, kInTheDark, 0.5f);
+    const VplSet some = chooseForView(candidates, more, lit.render, *lit.rays, kInTheDark, 0.5f);
     EXPECT_LE(some.vpls.size(), 300u);
     EXPECT_GE(some.vpls.size(), 295u);
-    const double all = of(generateVpls(lit.render, *lit.rays, lights, more));
+    const double all = of(candidates);
     const double plain = of(generateVpls(lit.render, *lit.rays, lights, counts)) / all;
     const double ratio = of(some) / all;
     first += (plain - 1.0) * (plain - 1.0) / kSeeds;
