@@ -12,6 +12,7 @@ class Scene:
     def __init__(self):
         self.buffer, self.views, self.accessors = bytearray(), [], []
         self.meshes, self.materials, self.nodes, self.lights, self.cameras = [], [], [], [], []
+        self.punctuals = []
 
     def _accessor(self, data, kind, component, target, bounds=None):
         while len(self.buffer) % 4:
@@ -85,6 +86,14 @@ class Scene:
         return self.node(name, translation=translation, rotation=rotation,
                          extensions={"EXT_lights_area": {"light": len(self.lights) - 1}})
 
+    def spot(self, name, intensity, cone, translation, rotation):
+        """Candela, and the outer cone's half angle in degrees; soft over its outer fifth."""
+        top = max(intensity)
+        self.punctuals.append({"type": "spot", "name": name, "intensity": top, "color": [c / top for c in intensity],
+                               "spot": {"innerConeAngle": math.radians(0.8 * cone), "outerConeAngle": math.radians(cone)}})
+        return self.node(name, translation=translation, rotation=rotation,
+                         extensions={"KHR_lights_punctual": {"light": len(self.punctuals) - 1}})
+
     def camera(self, name, eye, target, yfov):
         b = [eye[i] - target[i] for i in range(3)]
         l = math.sqrt(sum(c * c for c in b))
@@ -97,8 +106,13 @@ class Scene:
         self.node(name, camera=len(self.cameras) - 1, translation=list(eye), rotation=quaternion(r, u, b))
 
     def write(self, name):
+        extensions = {}
+        if self.lights:
+            extensions["EXT_lights_area"] = {"lights": self.lights}
+        if self.punctuals:
+            extensions["KHR_lights_punctual"] = {"lights": self.punctuals}
         doc = {"asset": {"version": "2.0", "generator": "Lamplighter assets/scenes/generate.py"},
-               "extensionsUsed": ["EXT_lights_area"], "extensions": {"EXT_lights_area": {"lights": self.lights}},
+               "extensionsUsed": list(extensions), "extensions": extensions,
                "scene": 0, "scenes": [{"name": name, "nodes": list(range(len(self.nodes)))}], "nodes": self.nodes,
                "meshes": self.meshes, "materials": self.materials, "cameras": self.cameras,
                "accessors": self.accessors, "bufferViews": self.views,
@@ -271,5 +285,44 @@ def default():
     s.write("default")
 
 
-for make in (area_light_room, table_room, pillar_room, cornell_style, default):
+def narrow_gap():
+    """Figure 6-1: a lit room, and a dark one that light enters only by a gap in the wall between."""
+    s = Scene()
+    white, grey = s.material("white", (0.72, 0.71, 0.68)), s.material("grey", (0.55, 0.55, 0.57))
+    red, blue = s.material("red", (0.62, 0.2, 0.15)), s.material("blue", (0.2, 0.32, 0.58))
+    X, Y, Z = [1, 0, 0], [0, 1, 0], [0, 0, 1]
+    v = lambda d, k: [c * k for c in d]
+    # Both rooms are 4 m square and 3 m high; the lit one is left of the wall at x = 0, the dark one right.
+    s.quads("floor", [([-4, 0, 2], v(X, 8), v(Z, -4))], white)
+    s.quads("ceiling", [([-4, 3, -2], v(X, 8), v(Z, 4))], white)
+    s.quads("left wall", [([-4, 0, 2], v(Z, -4), v(Y, 3))], red)
+    s.quads("right wall", [([4, 0, -2], v(Z, 4), v(Y, 3))], blue)
+    s.quads("back wall", [([-4, 0, -2], v(X, 8), v(Y, 3))], white)
+    s.quads("front wall", [([4, 0, 2], v(X, -8), v(Y, 3))], white)
+    # The wall between is 0.1 m thick; its gap 0.3 m wide and 2.1 m high.
+    for name, size, at in (("wall behind the gap", (0.1, 3, 1.85), (0, 1.5, -1.075)),
+                           ("wall before the gap", (0.1, 3, 1.85), (0, 1.5, 1.075)),
+                           ("lintel", (0.1, 0.9, 0.3), (0, 2.55, 0))):
+        s.box(name, size, grey, translation=list(at))
+    s.light("lamp", (1.2, 1.2), (250.0, 235.0, 205.0), [-1.8, 2.99, 1.2], DOWN)
+    knot(s, "knot", s.material("clay", (0.7, 0.45, 0.3)), 2, 3, 0.34, 0.12, 20, 150, translation=[1.6, 0.75, -0.4])
+    s.box("plinth", (0.6, 0.3, 0.6), grey, translation=[1.6, 0.15, -0.4])
+    s.camera("camera", (0.3, 1.7, 1.8), (2.75, 0.95, -0.75), 1.1)
+    s.write("narrow_gap")
+
+
+def close_light():
+    """Figure 6-2: a floor lit by a spot alone, and an object close above it, so that some samples of the bounced
+    light lie right beside the object and throw its silhouette on the far walls."""
+    s = Scene()
+    white, grey = s.material("white", (0.74, 0.73, 0.7)), s.material("grey", (0.5, 0.5, 0.5))
+    s.room((6, 3, 5), white, white, s.material("sand", (0.65, 0.55, 0.38)), s.material("teal", (0.25, 0.5, 0.5)), white, white)
+    s.spot("spot", (240.0, 226.0, 202.0), 24, [-0.6, 2.95, 0.2], DOWN)
+    knot(s, "knot", s.material("clay", (0.7, 0.4, 0.3)), 2, 3, 0.34, 0.12, 20, 150, translation=[-0.15, 0.34, -0.3])
+    s.box("crate", (0.6, 0.6, 0.6), grey, translation=[1.7, 0.3, -1.2], rotation=turned((0, 1, 0), 30))
+    s.camera("camera", (0.3, 1.6, 2.35), (0.0, 1.05, -1.5), 1.1)
+    s.write("close_light")
+
+
+for make in (area_light_room, table_room, pillar_room, cornell_style, default, narrow_gap, close_light):
     make()

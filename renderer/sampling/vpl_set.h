@@ -50,6 +50,9 @@ struct VplCounts {
   // how many there are depends on how long they are, a small error that the mean of many sets
   // keeps.
   int paths = 0;
+  // As many times as many samples of bounced light and of the sky, of which others choose some
+  // (view_importance.h).
+  int candidates = 1;
 
   bool operator==(const VplCounts&) const = default;
 };

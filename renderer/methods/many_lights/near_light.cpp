@@ -47,20 +47,22 @@ NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
   }
 }
 
-void NearLight::addRows(const View& view, vec2 jitter, int first, int last, Image& image) const {
+void NearLight::findRows(const View& view, vec2 jitter, int first, int last,
+                         std::span<Pixel> pixels) const {
   tbb::parallel_for(first, last, [&](int y) {
     for (int x = 0; x < view.width; ++x) {
       const vec2 at = vec2(x, y) + 0.5f + jitter;
-      image.at(x, y) += pixel(view, at, static_cast<uint32_t>(y * view.width + x));
+      const auto index = static_cast<uint32_t>(y * view.width + x);
+      pixels[index] = pixel(view, at, index);
     }
   });
 }
 
-vec3 NearLight::pixel(const View& view, vec2 at, uint32_t index) const {
+NearLight::Pixel NearLight::pixel(const View& view, vec2 at, uint32_t index) const {
   const vec3 direction = view.rayDirection(at.x, at.y);
   const float tNear = view.znear / glm::dot(direction, view.forward());
   const Hit hit = rays_.intersect({view.eye, tNear, direction}, Surfaces::seen);
-  if (!hit) return vec3(0.0f);
+  if (!hit) return {};
   const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
   const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
   const vec3 normal = side * s.geometricNormal;
@@ -71,7 +73,7 @@ vec3 NearLight::pixel(const View& view, vec2 at, uint32_t index) const {
     PathSampler sampler(index, options_.sample * kPathsAPixel + path, options_.seed);
     sum += gather(from, side * s.normal, sampler);
   }
-  return albedo * sum * (1.0f / kPathsAPixel);
+  return {sum * (1.0f / kPathsAPixel), albedo, s.position, normal};
 }
 
 // By directions in proportion to the cosine, the true light less the clamped is

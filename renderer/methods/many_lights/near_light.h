@@ -29,8 +29,14 @@ class NearLight {
   NearLight(const RenderScene& scene, const RayCaster& rays, std::span<const SceneVpl> vpls,
             const Options& options);
 
-  // Adds the radiance to these rows of the view's picture, pixels moved by `jitter`.
-  void addRows(const View& view, vec2 jitter, int first, int last, Image& image) const;
+  // What is found for one pixel, and where.
+  struct Pixel {
+    vec3 light{0.0f};   // what it lacks of radiance, were it white
+    vec3 albedo{0.0f};  // 0 where nothing is seen
+    vec3 position{0.0f}, normal{0.0f};
+  };
+  // These rows of the view's picture, pixels moved by `jitter`, into their places in `pixels`.
+  void findRows(const View& view, vec2 jitter, int first, int last, std::span<Pixel> pixels) const;
 
  private:
   // VPLs that may still light a surface from which light bounces a given number of times on.
@@ -41,7 +47,7 @@ class NearLight {
   struct Place {
     vec3 position, normal;  // off its surface, on the lit side
   };
-  vec3 pixel(const View& view, vec2 at, uint32_t index) const;
+  Pixel pixel(const View& view, vec2 at, uint32_t index) const;
   vec3 gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const;
   vec3 irradiance(const Place& at, const Choice& choice, vec2 u) const;
   bool sees(const Place& at, const shared::Vpl& vpl) const;

@@ -37,6 +37,21 @@ ParameterSpec limitOf(const char* name, const char* label, const char* what) {
 
 }  // namespace
 
+const ParameterSpec& importance() {
+  static const ParameterSpec spec{
+      "importance",
+      "Candidates",
+      "",
+      "Samples of bounced light and of the sky that are tried for each that is wanted: those that "
+      "bring most to what the camera sees are taken. 1: all are taken.",
+      8,
+      1,
+      64,
+      false,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& maxShadowMaps() {
   static const ParameterSpec spec =
       limitOf("max_shadow_maps", "Maps a frame", "Shadow maps rendered");

@@ -5,7 +5,8 @@
 
 namespace lamplighter::parameters {
 
-const ParameterSpec& technique();  // which of the paper's short cuts are taken
+const ParameterSpec& technique();   // which of the paper's short cuts are taken
+const ParameterSpec& importance();  // int, candidates for each indirect VPL; 1: all are taken
 // int, the most work of each kind in a frame; 0: no limit
 const ParameterSpec& maxShadowMaps();
 const ParameterSpec& maxVisibilityTests();

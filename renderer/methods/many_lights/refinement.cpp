@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/methods/many_lights/near_light_smoothing.h"
 #include "renderer/sampling/lights.h"
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
@@ -102,13 +103,15 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   for (size_t shift = 0; shift < kShifts; ++shift)
     for (size_t i = shift; i < set.vpls.size(); i += kShifts) batch.vpls.push_back(set.vpls[i]);
   batch.image = Image(in.view.width, in.view.height);
-  if (options.clampDistance > 0.0f)
+  if (options.clampDistance > 0.0f) {
+    batch.nearPixels.resize(batch.image.pixels.size());
     batch.nearLight.emplace(
         in.scene, in.rays, batch.vpls,
         NearLight::Options{counts_.directShare < 1.0f ? counts_.bounces : 0,
                            counts_.directShare > 0.0f || counts_.bounces == 0,
                            options.clampDistance, hash4(counts_.seed, 0, 0, kNearSet),
                            counts_.batch, in.lightOnly});
+  }
 }
 
 // How many of the batch's VPLs are summed when this shift has had its share.
@@ -142,12 +145,14 @@ void Refinement::addPart(const FrameInputs& in, const Options& options, int firs
       return all == 0 ? in.view.height
                       : static_cast<int>(static_cast<size_t>(in.view.height) * vpls / all);
     };
-    batch.nearLight->addRows(in.view, batch.jitter, row(batch.summed), row(end), batch.image);
+    batch.nearLight->findRows(in.view, batch.jitter, row(batch.summed), row(end), batch.nearPixels);
   }
   batch.summed = end;
 }
 
 void Refinement::finishBatch(int target) {
+  if (batch_->nearLight)
+    addSmoothed(batch_->nearPixels, smoothingRadius(counts_.batch), batch_->image);
   // All batches count the same, however many VPLs their paths left.
   addScaled(sum_, batch_->image, static_cast<float>(kBatchVpls));
   weight_ += kBatchVpls;

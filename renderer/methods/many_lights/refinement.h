@@ -49,6 +49,7 @@ class Refinement {
     int shift = -1;  // of the pixels, the one that the G-buffer has
     vec2 jitter{0.0f};
     std::optional<NearLight> nearLight;
+    std::vector<NearLight::Pixel> nearPixels;
     size_t summed = 0;
     Image image;
   };

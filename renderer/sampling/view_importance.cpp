@@ -1,0 +1,197 @@
+#include "renderer/sampling/view_importance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/random.h"
+#include "renderer/scene/surface.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter {
+namespace {
+
+// Points that are looked at; with many candidates fewer, so that there are at most so many rays.
+constexpr int kMostPoints = 128, kFewestPoints = 32;
+constexpr size_t kMostRays = size_t{1} << 19;
+// How far beyond the picture's edges they may lie, as a share of its size.
+constexpr float kMargin = 0.1f;
+// Share of the choice that does not look at importance: what no point sees may still light what is
+// between them, and nothing stands for more than 1/kEvenShare of what it would without.
+constexpr float kEvenShare = 0.25f;
+// What is darker than this share of the mean does not count for more than if it were as bright.
+constexpr double kDarkest = 0.01;
+constexpr float kEyeGrid = 0.5f;  // metres
+constexpr float kTurnGrid = 15.0f * kPi / 180.0f;
+constexpr int kSteadyHeight = 1024;  // a picture of another size and the same ratio is the same
+constexpr uint32_t kPointSet = 0x5d, kRankSet = 0x6d;
+
+bool isCandidate(const SceneVpl& v) {
+  return v.id.bounce > 0 || (v.isSample && v.vpl.position.w == shared::kVplDirectional);
+}
+
+// Irradiance, or 0 where something stands between.
+float irradianceAt(const SeenPoint& at, const SceneVpl& light, const RayCaster& rays,
+                   float clampDistance) {
+  const shared::Vpl& vpl = light.vpl;
+  const float geometry = shared::vplGeometry(vpl, at.position, at.normal, at.normal, clampDistance);
+  const float irradiance = geometry * luminance(vec3(vpl.intensity));
+  if (!(irradiance > 0.0f)) return 0.0f;
+  Ray ray{at.position, 0.0f, vec3(vpl.normal)};
+  if (vpl.position.w != shared::kVplDirectional) {
+    const vec3 way = vec3(vpl.position) - at.position;
+    ray.tFar = glm::length(way);
+    ray.direction = way / ray.tFar;
+  }
+  return rays.occluded(ray) ? 0.0f : irradiance;
+}
+
+}  // namespace
+
+std::vector<SeenPoint> seenPoints(const RenderScene& scene, const RayCaster& rays, const View& view,
+                                  int count) {
+  std::vector<SeenPoint> points;
+  points.reserve(static_cast<size_t>(count));
+  const vec2 size(view.width, view.height);
+  for (int i = 0; i < count; ++i) {
+    const vec2 u = sobol2(static_cast<uint32_t>(i), kPointSet);
+    const vec2 at = ((1.0f + 2.0f * kMargin) * u - kMargin) * size;
+    const vec3 direction = view.rayDirection(at.x, at.y);
+    const float tNear = view.znear / glm::dot(direction, view.forward());
+    const Hit hit = rays.intersect({view.eye, tNear, direction}, Surfaces::seen);
+    if (!hit) continue;
+    const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
+    const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
+    const vec3 normal = side * s.geometricNormal;
+    points.push_back({s.position + rayEpsilon(s.position) * normal, normal});
+  }
+  return points;
+}
+
+View steadyView(const View& view, const RayCaster& rays) {
+  const auto onGrid = [](float value, float step) { return std::round(value / step) * step; };
+  View steady = view;
+  steady.height = kSteadyHeight;
+  steady.width = static_cast<int>(std::lround(view.aspect() * static_cast<float>(kSteadyHeight)));
+  const vec3 forward = view.forward();
+  const float pitch = onGrid(std::asin(std::clamp(forward.y, -1.0f, 1.0f)), kTurnGrid);
+  const float yaw = onGrid(std::atan2(-forward.x, -forward.z), kTurnGrid);
+  steady.orientation = glm::angleAxis(yaw, vec3(0, 1, 0)) * glm::angleAxis(pitch, vec3(1, 0, 0));
+  const vec3 eye(onGrid(view.eye.x, kEyeGrid), onGrid(view.eye.y, kEyeGrid),
+                 onGrid(view.eye.z, kEyeGrid));
+  const float way = glm::length(eye - view.eye);
+  // Beyond it too, so that it does not look out of a wall that it touches.
+  if (way > 0.0f && !rays.occluded({view.eye, 0.0f, (eye - view.eye) / way, way + 0.1f}))
+    steady.eye = eye;
+  return steady;
+}
+
+std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
+                                std::span<const SceneVpl> others, std::span<const SeenPoint> points,
+                                const RayCaster& rays, float clampDistance) {
+  std::vector<float> importance(candidates.size(), 0.0f);
+  if (points.empty()) return importance;
+  // One row a light, a column a point.
+  const size_t columns = points.size();
+  std::vector<float> irradiance((candidates.size() + others.size()) * columns);
+  const auto light = [&](size_t i) -> const SceneVpl& {
+    return i < candidates.size() ? candidates[i] : others[i - candidates.size()];
+  };
+  tbb::parallel_for(size_t{0}, candidates.size() + others.size(), [&](size_t i) {
+    for (size_t j = 0; j < columns; ++j)
+      irradiance[i * columns + j] = irradianceAt(points[j], light(i), rays, clampDistance);
+  });
+  std::vector<double> sums(columns, 0.0);
+  for (size_t i = 0; i < candidates.size() + others.size(); ++i)
+    for (size_t j = 0; j < columns; ++j)
+      sums[j] += static_cast<double>(irradiance[i * columns + j]);
+  const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(columns);
+  if (!(mean > 0.0)) return importance;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    double squares = 0.0;
+    for (size_t j = 0; j < columns; ++j) {
+      const double share =
+          static_cast<double>(irradiance[i * columns + j]) / std::max(sums[j], kDarkest * mean);
+      squares += share * share;
+    }
+    importance[i] = static_cast<float>(std::sqrt(squares / static_cast<double>(columns)));
+  }
+  return importance;
+}
+
+std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
+                                         std::span<const float> importance, int count) {
+  const size_t wanted = static_cast<size_t>(std::max(count, 0));
+  if (candidates.size() <= wanted) return {candidates.begin(), candidates.end()};
+  if (wanted == 0) return {};
+  // How many points each sequence has.
+  std::map<VplId, uint32_t> lengths;
+  const auto sequence = [](const VplId& id) {
+    return VplId{id.light, id.emitter, id.bounce > 0 ? 1u : 0u, 0};
+  };
+  for (const SceneVpl& c : candidates) {
+    uint32_t& length = lengths[sequence(c.id)];
+    length = std::max(length, c.id.index + 1);
+  }
+  const float sum = std::accumulate(importance.begin(), importance.end(), 0.0f);
+  const float scale =
+      sum > 0.0f ? (1.0f - kEvenShare) * static_cast<float>(candidates.size()) / sum : 0.0f;
+  // Shares of the candidates to take at their places, but for a factor; and what factor would take
+  // each.
+  std::vector<float> share(candidates.size()), taken(candidates.size());
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    const VplId of = sequence(candidates[i].id);
+    // Sequences do not end together, or few points of many lights would all come or go at once.
+    const float offset = toUnitFloat(hash4(of.light, of.emitter, of.bounce, kRankSet));
+    const float rank =
+        (static_cast<float>(candidates[i].id.index) + offset) / static_cast<float>(lengths[of]);
+    share[i] = std::exp2(std::round(std::log2(kEvenShare + scale * importance[i])));
+    taken[i] = rank / share[i];
+  }
+  std::vector<size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return taken[a] != taken[b] ? taken[a] < taken[b] : a < b; });
+  const float factor = 0.5f * (taken[order[wanted - 1]] + taken[order[wanted]]);
+  order.resize(wanted);
+  std::sort(order.begin(), order.end());
+  std::vector<SceneVpl> chosen;
+  chosen.reserve(wanted);
+  for (const size_t i : order) {
+    SceneVpl& c = chosen.emplace_back(candidates[i]);
+    const float probability = std::min(1.0f, share[i] * factor);
+    c.vpl.intensity = vec4(vec3(c.vpl.intensity) / probability, c.vpl.intensity.w);
+  }
+  return chosen;
+}
+
+VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderScene& scene,
+                     const RayCaster& rays, const View& view, float clampDistance) {
+  if (counts.candidates <= 1) return set;
+  std::vector<SceneVpl> candidates;
+  VplSet chosen;
+  chosen.rays = set.rays;
+  chosen.paths = set.paths;
+  int sky = 0;
+  for (const SceneVpl& v : set.vpls) {
+    (isCandidate(v) ? candidates : chosen.vpls).push_back(v);
+    sky += isCandidate(v) && v.id.bounce == 0;
+  }
+  // What lights themselves have no use for is there for the light that they bounce.
+  const int wanted = counts.bounces > 0 ? counts.total - static_cast<int>(chosen.vpls.size())
+                                        : sky / counts.candidates;
+  const size_t mostPoints = kMostRays / std::max<size_t>(set.vpls.size(), 1);
+  const std::vector<SeenPoint> points = seenPoints(
+      scene, rays, view, std::clamp(static_cast<int>(mostPoints), kFewestPoints, kMostPoints));
+  const std::vector<float> importance =
+      importanceOf(candidates, chosen.vpls, points, rays, clampDistance);
+  for (SceneVpl& v : chooseByImportance(candidates, importance, wanted))
+    chosen.vpls.push_back(std::move(v));
+  return chosen;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,146 @@
+#include "renderer/sampling/view_importance.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "renderer/sampling/random.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+// A lit room of 4 × 3 × 4 m and a dark one beside it, behind a wall at x = 0 with a gap of 0.2 m.
+Scene narrowGap() {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(0.7f));
+  test::addMesh(scene, test::roomMesh(vec3(8, 3, 4), white), vec3(0, 1.5f, 0));
+  test::addMesh(scene, test::boxMesh(vec3(0.1f, 3, 1.9f), white), vec3(0, 1.5f, -1.05f));
+  test::addMesh(scene, test::boxMesh(vec3(0.1f, 3, 1.9f), white), vec3(0, 1.5f, 1.05f));
+  test::addRectangleLight(scene, vec3(-2, 2.9f, 1), vec2(1), vec3(100));
+  return scene;
+}
+
+const View kInTheDark = test::lookAt(vec3(0.4f, 1.6f, 1.7f), vec3(3, 0.9f, -0.8f), 64, 48, 1.0f);
+
+// Of all samples, each with a ray for its shadow; summed over some points in the dark room.
+double lightInTheDark(const test::LitScene& lit, const std::vector<SeenPoint>& points,
+                      const std::vector<SceneVpl>& vpls) {
+  double sum = 0.0;
+  for (const SeenPoint& at : points) {
+    for (const SceneVpl& v : vpls) {
+      const vec3 way = vec3(v.vpl.position) - at.position;
+      const float d = glm::length(way);
+      const float z = -glm::dot(way, vec3(v.vpl.normal)), s = glm::dot(way, at.normal);
+      if (z <= 0.0f || s <= 0.0f || lit.rays->occluded({at.position, 0.0f, way / d, d})) continue;
+      sum += static_cast<double>(v.vpl.intensity.r * s * z / (d * d * std::max(d * d, 0.25f)));
+    }
+  }
+  return sum;
+}
+
+// Against all of the candidates: what is chosen differs from them by little each time, less than a
+// third of what the first of them do, and on average by nothing.
+TEST(ViewImportance, LessensTheErrorBehindANarrowGap) {
+  const test::LitScene lit(narrowGap());
+  const LightSet lights(lit.render);
+  constexpr int kFactor = 16;
+  constexpr uint32_t kSeeds = 16;
+  // Others than those that the samples are chosen for.
+  std::vector<SeenPoint> points = seenPoints(lit.render, *lit.rays, kInTheDark, 148);
+  ASSERT_EQ(points.size(), 148u);
+  points.erase(points.begin(), points.begin() + 128);
+  double first = 0.0, chosen = 0.0, mean = 0.0;  // squared errors and the mean ratio
+  for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
+    const VplCounts counts{300, 0.3f, 3, seed};
+    VplCounts more = counts;
+    more.candidates = kFactor;
+    const VplSet candidates = generateVpls(lit.render, *lit.rays, lights, more);
+    const auto of = [&](const VplSet& set) { return lightInTheDark(lit, points, set.vpls); };
+    const VplSet some = chooseForView(candidates, more, lit.render, *lit.rays, kInTheDark, 0.5f);
+    EXPECT_LE(some.vpls.size(), 300u);
+    EXPECT_GE(some.vpls.size(), 295u);
+    const double all = of(candidates);
+    const double plain = of(generateVpls(lit.render, *lit.rays, lights, counts)) / all;
+    const double ratio = of(some) / all;
+    first += (plain - 1.0) * (plain - 1.0) / kSeeds;
+    chosen += (ratio - 1.0) * (ratio - 1.0) / kSeeds;
+    mean += ratio / kSeeds;
+  }
+  EXPECT_LT(std::sqrt(chosen), 0.05);
+  EXPECT_LT(std::sqrt(chosen), std::sqrt(first) / 3.0);
+  EXPECT_NEAR(mean, 1.0, 0.02);
+}
+
+std::vector<SceneVpl> candidatesOf(uint32_t paths) {
+  std::vector<SceneVpl> candidates(paths);
+  for (uint32_t i = 0; i < paths; ++i) {
+    candidates[i].id = {1, 0, 1, i};
+    candidates[i].vpl.intensity = vec4(vec3(1.0f / static_cast<float>(paths)), -1.0f);
+  }
+  return candidates;
+}
+
+TEST(ViewImportance, TakesTheFirstWhereAllAreAsImportant) {
+  const std::vector<SceneVpl> candidates = candidatesOf(400);
+  const auto chosen = chooseByImportance(candidates, std::vector<float>(400, 3.0f), 100);
+  ASSERT_EQ(chosen.size(), 100u);
+  for (uint32_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(chosen[i].id.index, i);
+    EXPECT_NEAR(chosen[i].vpl.intensity.r, 0.01f, 1e-4f);
+  }
+}
+
+// Of places whose importance is 50 : 1 each still gives what it has, for any sequence.
+TEST(ViewImportance, KeepsWhatEachPlaceGives) {
+  constexpr uint32_t kPaths = 2000, kSequences = 64;
+  double rare = 0.0, common = 0.0;
+  for (uint32_t s = 0; s < kSequences; ++s) {
+    std::vector<SceneVpl> candidates = candidatesOf(kPaths);
+    std::vector<float> importance(kPaths);
+    for (uint32_t i = 0; i < kPaths; ++i) {
+      candidates[i].id.light = s;
+      importance[i] = toUnitFloat(hash4(i, s, 0, 0)) < 0.1f ? 50.0f : 1.0f;
+    }
+    const auto chosen = chooseByImportance(candidates, importance, 300);
+    for (const SceneVpl& v : chosen)
+      (importance[v.id.index] > 1.0f ? rare : common) += static_cast<double>(v.vpl.intensity.r);
+  }
+  EXPECT_NEAR(rare / kSequences, 0.1, 0.005);
+  EXPECT_NEAR(common / kSequences, 0.9, 0.03);
+}
+
+TEST(ViewImportance, ChangesFewWhenOneChanges) {
+  const std::vector<SceneVpl> candidates = candidatesOf(400);
+  std::vector<float> importance(400);
+  for (uint32_t i = 0; i < 400; ++i) importance[i] = 0.1f + toUnitFloat(hash4(i, 7, 0, 0));
+  const auto before = chooseByImportance(candidates, importance, 100);
+  importance[123] *= 3.0f;
+  const auto after = chooseByImportance(candidates, importance, 100);
+  size_t same = 0;
+  for (const SceneVpl& a : after)
+    for (const SceneVpl& b : before) same += a.id == b.id;
+  EXPECT_GE(same, 98u);
+}
+
+TEST(ViewImportance, SmallMovesOfTheCameraChangeNothing) {
+  const test::LitScene lit(narrowGap());
+  View moved = kInTheDark;
+  moved.eye += vec3(0.01f, 0.01f, -0.01f);
+  moved.width = 128;
+  moved.height = 96;
+  EXPECT_EQ(steadyView(moved, *lit.rays), steadyView(kInTheDark, *lit.rays));
+  moved.eye += vec3(1.0f, 0.0f, 0.0f);
+  EXPECT_FALSE(steadyView(moved, *lit.rays) == steadyView(kInTheDark, *lit.rays));
+  // Never through a wall: there are grid points on either side of this one.
+  for (const float z : {0.5f, 1.0f, 1.5f}) {
+    View close = kInTheDark;
+    close.eye = vec3(0.12f, 1.6f, z);
+    EXPECT_GT(steadyView(close, *lit.rays).eye.x, 0.05f);
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter
