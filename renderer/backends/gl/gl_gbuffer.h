@@ -24,6 +24,7 @@ class GlGBuffer {
 
   // Of the view that it holds.
   const Frustum& frustum() const { return frustum_; }
+  const vec3& eye() const { return eye_; }
   int width() const { return width_; }
   int height() const { return height_; }
   uint64_t bytes() const;
@@ -38,8 +39,9 @@ class GlGBuffer {
   Program normals_;
   VertexArray emptyVertexArray_;
   Framebuffer framebuffer_;
-  Texture position_, normalsTexture_, albedo_, emission_, depth_;
+  Texture position_, normalsTexture_, albedo_, emission_, gloss_, depth_;
   Frustum frustum_;
+  vec3 eye_{0.0f};
   int width_ = 0, height_ = 0;
 };
 

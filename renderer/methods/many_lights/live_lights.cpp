@@ -62,6 +62,11 @@ void LiveLights::want(std::vector<SceneVpl> wanted) {
     e.wanted = std::move(w);
     const bool stays = e.isLive && samePlace(e.current, e.wanted.vpl);
     e.mapIsStale = e.mapIsStale || !stays;
+    // What it stands for hangs on its neighbours, and no map or kept sum hangs on that.
+    if (stays && e.current.footprint != e.wanted.vpl.footprint) {
+      e.current.footprint = e.wanted.vpl.footprint;
+      changed_ = true;
+    }
     if (stays && !isNearly(e.current.intensity, e.wanted.vpl.intensity)) {
       takeBrightness(e);
       changed_ = true;

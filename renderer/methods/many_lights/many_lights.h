@@ -42,6 +42,8 @@ class ManyLights final : public GiMethod {
     int lightsPerPass = 0;  // changes no picture
     bool mergePasses = false;
     int block = 1;  // pixels
+    bool speculars = false;
+    float leastRoughness = 0.1f;
     bool usePrt = false;  // besides
     PrtLights::Options prt;
     Refinement::Options refinement;
