@@ -55,8 +55,9 @@ HWY_INLINE void addLobe(const Points& p, const Vector3& colour, Floats weight, F
                         Floats solidAngle, Vector3& sum) {
   const Floats one = all(1.0f), half = all(0.5f);
   const Floats vh2 = hn::Max(hn::MulAdd(half, lv, half), all(1e-6f)), vh = hn::Sqrt(vh2);
-  const Floats a2 =
-      hn::Min(hn::Add(p.alpha2, hn::Div(hn::Mul(solidAngle, all(1.0f / (4.0f * kPi))), vh)), one);
+  const Floats a2 = hn::Min(
+      hn::Add(p.alpha2, hn::Div(hn::Mul(solidAngle, all(shared::kSpread / (4.0f * kPi))), vh)),
+      one);
   const Floats both = hn::Add(nl, p.nv);
   const Floats nh2 = hn::Min(hn::Div(hn::Mul(both, both), hn::Mul(all(4.0f), vh2)), one);
   const Floats d = hn::MulAdd(nh2, hn::Sub(a2, one), one);
