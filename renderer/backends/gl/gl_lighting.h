@@ -31,7 +31,7 @@ class GlLighting {
   void clear(int width, int height);
   std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const vec3& sky, bool white);
 
-  GLuint irradiance() const { return irradiance_.name(); }
+  GLuint irradiance() const { return pixels_.irradiance.name(); }
 
   uint64_t bytes() const;
 
