@@ -116,7 +116,8 @@ HWY_INLINE void addSpecular(const Points& p, const SpecularLight& record, bool l
     const Floats inverse = hn::Div(all(1.0f), hn::Sqrt(d2));
     nl = hn::Mul(s, inverse);
     lv = hn::Neg(hn::Mul(dot(v, p.toEye), inverse));
-    const Floats away = hn::Mul(z, inverse);  // cosine at the light
+    // Cosine at the light. Behind it, in lanes that it does not reach, no lobe must be without end.
+    const Floats away = hn::Max(hn::Mul(z, inverse), zero);
     if constexpr (kKind == LightRecord::Kind::cosine) {
       const Floats perArea = hn::Div(away, hn::Max(d2, c.clampDistance2));
       weight = hn::Mul(nl, perArea);

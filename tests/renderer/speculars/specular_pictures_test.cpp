@@ -95,7 +95,7 @@ TEST(SpecularPictures, AGlossyFloorConvergesToTheReference) {
     const Image truth = reference(scene, kFloorView, 256, 0);
     const double few = error(scene, truth, 16), more = error(scene, truth, 64),
                  many = error(scene, truth, 1024);
-  
+
     std::printf("metallic %.0f: 16 %.4f, 64 %.4f, 1024 %.4f\n", metallic, few, more, many);
     EXPECT_LT(more, few);
     EXPECT_LT(many, more);
