@@ -61,7 +61,7 @@ void addMaterial(Hasher& h, const Material& m) {
   h.add(m.name), h.add(m.baseColor), h.add(m.baseColorTexture), h.add(m.normalTexture),
       h.add(m.normalScale);
   h.add(m.emissive), h.add(m.emissiveTexture), h.add(m.metallic), h.add(m.roughness),
-      h.add(m.transmission);
+      h.add(m.metallicRoughnessTexture), h.add(m.transmission);
   h.add(static_cast<int>(m.alphaMode)), h.add(m.alphaCutoff), h.add(m.doubleSided);
 }
 

@@ -113,4 +113,34 @@ const ParameterSpec& samplesPerFrame() {
   return spec;
 }
 
+const ParameterSpec& speculars() {
+  static const ParameterSpec spec{
+      "speculars",
+      "Speculars",
+      "",
+      "Surfaces that are seen reflect light by their metallic and roughness. Light bounces on as "
+      "from matt surfaces all the same. Off: what is seen is matt too.",
+      true,
+      0,
+      0,
+      false,
+      {}};
+  return spec;
+}
+
+const ParameterSpec& leastRoughness() {
+  static const ParameterSpec spec{"least_roughness",
+                                  "Least roughness",
+                                  "",
+                                  "Smoother surfaces are seen as if they were this rough: a mirror "
+                                  "would show light samples and "
+                                  "point lights as dots.",
+                                  0.1f,
+                                  0.05,
+                                  1.0,
+                                  false,
+                                  {}};
+  return spec;
+}
+
 }  // namespace lamplighter::parameters

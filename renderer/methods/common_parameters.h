@@ -16,4 +16,7 @@ const ParameterSpec& shadowBias();       // float, share of the distance
 const ParameterSpec& samplesPerPixel();  // int; reference: paths a pixel
 const ParameterSpec& samplesPerFrame();  // int; reference: paths a pixel a frame
 
+const ParameterSpec& speculars();       // bool, metallic-roughness at the surface that is seen
+const ParameterSpec& leastRoughness();  // float in [0.05, 1]
+
 }  // namespace lamplighter::parameters

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "renderer/reference/glossy_surface.h"
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
 #include "renderer/scene/surface.h"
@@ -18,10 +20,11 @@ constexpr int kSureBounces = 8;
 float misWeight(float pdf, float other) { return pdf / (pdf + other); }
 
 // A surface as seen from one side: both normals turned to the viewer. A mapped normal that looks
-// away from the viewer is bent back to the geometric one.
+// away from the viewer is bent back to the geometric one. Lambert's, where it has no gloss.
 struct LocalSurface {
   Surface s;
   vec3 ng, ns;
+  std::optional<GlossySurface> gloss;
 
   LocalSurface(const Surface& surface, const vec3& toViewer) : s(surface) {
     const float side = glm::dot(s.geometricNormal, toViewer) < 0.0f ? -1.0f : 1.0f;
@@ -32,6 +35,15 @@ struct LocalSurface {
   // cos at the shading normal; none for directions below the real surface, where light would leak.
   float cosine(const vec3& w) const {
     return glm::dot(ng, w) > 0.0f ? std::max(0.0f, glm::dot(ns, w)) : 0.0f;
+  }
+  // f · cos, for light from w.
+  vec3 reflected(const vec3& w) const {
+    const vec3 f = gloss ? gloss->brdf(w) : s.albedo / kPi;
+    return f * cosine(w);
+  }
+  // The density by solid angle with which a path goes on towards w.
+  float pdf(const vec3& w) const {
+    return gloss ? gloss->pdf(w) : std::max(0.0f, glm::dot(ns, w)) / kPi;
   }
 };
 
@@ -53,25 +65,33 @@ class Tracer {
       if (!hit) return radiance + throughput * skySeen(ray.direction, pdfDirection);
       Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
       if (depth == 0 && options.lightOnly) surface.albedo = vec3(1.0f);
-      const LocalSurface at(surface, -ray.direction);
+      LocalSurface at(surface, -ray.direction);
+      if (depth == 0 && options.speculars && !options.lightOnly) {
+        const Gloss gloss = glossAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
+        if (shared::isGlossy(gloss.metallic, gloss.roughness))
+          at.gloss.emplace(surface.albedo, gloss, options.leastRoughness, at.ns, -ray.direction);
+      }
       radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
       // Direct light is reflected once on its way to the camera (depth 0), each bounce adds one.
       if (depth > options.bounces) return radiance;
 
       radiance += throughput * directLight(at, sampler);
 
-      // On to the next surface, by cosine about the shading normal: f · cos / pdf = ρ.
-      const vec3 local = sampleCosineHemisphere(sampler.next2());
-      const vec3 direction = Frame(at.ns).toWorld(local);
-      if (glm::dot(at.ng, direction) <= 0.0f || local.z <= 0.0f) return radiance;
-      throughput *= at.s.albedo;
+      // On to the next surface, by cosine about the shading normal: f · cos / pdf = ρ; or where the
+      // surface has a lobe, by either.
+      const vec2 u = sampler.next2();
+      const vec3 direction = at.gloss ? at.gloss->sample(sampler.next1(), u)
+                                      : Frame(at.ns).toWorld(sampleCosineHemisphere(u));
+      const float pdf = at.pdf(direction);
+      if (glm::dot(at.ng, direction) <= 0.0f || !(pdf > 0.0f)) return radiance;
+      throughput *= at.gloss ? at.reflected(direction) / pdf : at.s.albedo;
       if (depth >= kSureBounces) {
         const float survive = std::min(0.95f, std::max({throughput.r, throughput.g, throughput.b}));
         if (sampler.next1() >= survive) return radiance;
         throughput /= survive;
       }
       if (throughput == vec3(0.0f)) return radiance;
-      pdfDirection = local.z / kPi;
+      pdfDirection = pdf;
       from = at.s.position;
       ray = {start(at), 0.0f, direction};
     }
@@ -112,13 +132,13 @@ class Tracer {
     const float punctualChoice = sampler.next1();
     const bool samplesSky = !scene_.sky.isBlack() && !lights_.sky().isConstant();
     const vec2 skyChoice = samplesSky ? sampler.next2() : vec2(0.0f);
-    if (at.s.albedo == vec3(0.0f)) return vec3(0.0f);
+    if (at.s.albedo == vec3(0.0f) && !at.gloss) return vec3(0.0f);
     float probability = 0.0f;
     const int emitter = lights_.chooseSurface(choice, probability);
-    vec3 irradiance = fromPunctuals(at, punctualChoice);
-    if (emitter != kNone) irradiance += fromSurface(at, emitter, u) / probability;
-    if (samplesSky) irradiance += fromSky(at, skyChoice);
-    return at.s.albedo / kPi * irradiance;
+    vec3 radiance = fromPunctuals(at, punctualChoice);
+    if (emitter != kNone) radiance += fromSurface(at, emitter, u) / probability;
+    if (samplesSky) radiance += fromSky(at, skyChoice);
+    return radiance;
   }
 
   bool visible(const LocalSurface& at, const vec3& direction, float distance) {
@@ -146,23 +166,22 @@ class Tracer {
     if (d2 <= 0.0f) return vec3(0.0f);
     const float distance = std::sqrt(d2);
     const vec3 w = d / distance;
-    const float cosHere = at.cosine(w);
+    const vec3 reflected = at.reflected(w);
     const float cosThere = p.bothSides ? std::abs(glm::dot(p.normal, w)) : -glm::dot(p.normal, w);
-    if (cosHere <= 0.0f || cosThere <= 0.0f) return vec3(0.0f);
+    if (reflected == vec3(0.0f) || cosThere <= 0.0f) return vec3(0.0f);
     if (!visible(at, p, w)) return vec3(0.0f);
     const float pdfAngle = p.pdfArea * d2 / cosThere;  // density by solid angle
     const float pdfLight = pdfAngle * lights_.surfaceProbability(emitter);
-    const float pdfBsdf = std::max(0.0f, glm::dot(at.ns, w)) / kPi;
-    return p.radiance * (cosHere / pdfAngle * misWeight(pdfLight, pdfBsdf));
+    return p.radiance * reflected * (misWeight(pdfLight, at.pdf(w)) / pdfAngle);
   }
 
   vec3 fromSky(const LocalSurface& at, vec2 u) {
     const SkyMap::Direction sky = lights_.sky().sampleDensity(u);
-    const float cosHere = at.cosine(sky.towards);
-    if (cosHere <= 0.0f || sky.pdf <= 0.0f) return vec3(0.0f);
+    const vec3 reflected = at.reflected(sky.towards);
+    if (reflected == vec3(0.0f) || sky.pdf <= 0.0f) return vec3(0.0f);
     if (!visible(at, sky.towards, std::numeric_limits<float>::infinity())) return vec3(0.0f);
-    const float pdfBsdf = std::max(0.0f, glm::dot(at.ns, sky.towards)) / kPi;
-    return scene_.sky.radianceFrom(sky.towards) * (cosHere / sky.pdf * misWeight(sky.pdf, pdfBsdf));
+    return scene_.sky.radianceFrom(sky.towards) * reflected *
+           (misWeight(sky.pdf, at.pdf(sky.towards)) / sky.pdf);
   }
 
   // One of them, in proportion to what it would give here if nothing stood between: then whether it
@@ -195,22 +214,22 @@ class Tracer {
     return d / std::max(distance, 1e-20f);
   }
 
-  // Irradiance [W/m²] where nothing stands between.
+  // Radiance that is reflected [W/(m² sr)] where nothing stands between.
   static vec3 unshadowed(const LocalSurface& at, const RenderPunctual& light) {
     float distance = 0.0f;
     const vec3 w = towards(at, light, distance);
-    vec3 irradiance = light.light.intensity * at.cosine(w);
-    if (light.light.kind == PunctualKind::directional) return irradiance;
+    vec3 radiance = light.light.intensity * at.reflected(w);
+    if (light.light.kind == PunctualKind::directional) return radiance;
     if (distance <= 0.0f) return vec3(0.0f);
-    irradiance /= distance * distance;
+    radiance /= distance * distance;
     if (light.light.kind == PunctualKind::spot) {
       // KHR_lights_punctual: linear in the cosine between the cones, squared.
       const float co = std::cos(light.light.outerCone), ci = std::cos(light.light.innerCone);
       const float t =
           std::clamp((-glm::dot(w, light.direction) - co) / std::max(1e-3f, ci - co), 0.0f, 1.0f);
-      irradiance *= t * t;
+      radiance *= t * t;
     }
-    return irradiance;
+    return radiance;
   }
 
   const RenderScene& scene_;

@@ -13,6 +13,12 @@ struct PathTracerOptions {
   int bounces = 5;  // indirect bounces; 0: direct light only
   uint32_t seed = 1;
   bool lightOnly = false;  // what the camera sees is white; what it is lit by is not
+  // What the camera sees reflects by metallic-roughness (shaders/shared/brdf.h), no less rough than
+  // this; what light bounces off on its way there is Lambert's.
+  bool speculars = false;
+  float leastRoughness = 0.1f;
+
+  bool operator==(const PathTracerOptions&) const = default;
 };
 
 // An unbiased estimate of the radiance [W/(m² sr)] that the pixel's box filter gathers: sample

@@ -21,12 +21,11 @@ class ReferenceMethod final : public GiMethod {
     const Settings& s = in.settings;
     const bool sameScene = in.changes.none() && sum_.width != 0;
     if (!sameScene) lights_ = LightSet(in.scene);
-    const PathTracerOptions options{s.integer(parameters::bounces()),
-                                    static_cast<uint32_t>(s.integer(parameters::seed())),
-                                    in.lightOnly};
+    const PathTracerOptions options{
+        s.integer(parameters::bounces()), static_cast<uint32_t>(s.integer(parameters::seed())),
+        in.lightOnly, s.boolean(parameters::speculars()), s.real(parameters::leastRoughness())};
     const int wanted = s.integer(parameters::samplesPerPixel());
-    const bool samePaths = options.bounces == options_.bounces && options.seed == options_.seed &&
-                           options.lightOnly == options_.lightOnly;
+    const bool samePaths = options == options_;
     // Fewer paths than there are already: begin again too, so that the picture is that of the
     // count.
     if (!sameScene || !(in.view == view_) || !samePaths || wanted < samples_) {
@@ -99,7 +98,7 @@ MethodInfo referenceInfo() {
           "Veach and L. Guibas: "
           "Optimally combining sampling techniques for Monte Carlo rendering. SIGGRAPH 1995.",
           {parameters::bounces(), parameters::seed(), parameters::samplesPerPixel(),
-           parameters::samplesPerFrame()},
+           parameters::samplesPerFrame(), parameters::speculars(), parameters::leastRoughness()},
           [] { return std::make_unique<ReferenceMethod>(); }};
 }
 

@@ -44,6 +44,7 @@ class LightPaths {
   static VplSet generate(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                          const VplCounts& counts);
 
+  const LightSet& lights() const { return lightSet_; }
   // All VPLs, direct ones made anew: sorted by emitter, direct ones first.
   VplSet set(const RenderScene& scene) const;
 

@@ -49,6 +49,7 @@ Material readMaterial(const GltfDocument& document, size_t index) {
     m.baseColorTexture = readTextureRef(document, *pbr, "baseColorTexture", at);
     m.metallic = unitMember(document, *pbr, "metallicFactor", 1.0, at);
     m.roughness = unitMember(document, *pbr, "roughnessFactor", 1.0, at);
+    m.metallicRoughnessTexture = readTextureRef(document, *pbr, "metallicRoughnessTexture", at);
   }
   if (const Json* normal = member(json, "normalTexture")) {
     m.normalTexture = readTextureRef(document, json, "normalTexture", at);

@@ -69,6 +69,9 @@ void saveMaterial(GltfOutput& out, Json& json, const Material& now, const Materi
   if (now.baseColorTexture != was.baseColorTexture) {
     saveTextureRef(out, pbr(), "baseColorTexture", now.baseColorTexture);
   }
+  if (now.metallicRoughnessTexture != was.metallicRoughnessTexture) {
+    saveTextureRef(out, pbr(), "metallicRoughnessTexture", now.metallicRoughnessTexture);
+  }
   if (now.normalTexture != was.normalTexture) {
     saveTextureRef(out, json, "normalTexture", now.normalTexture);
   }

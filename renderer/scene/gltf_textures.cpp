@@ -83,7 +83,8 @@ Wrap wrapMode(const GltfDocument& document, const Json& sampler, const char* key
 std::set<size_t> texturesInUse(const std::vector<Material>& materials) {
   std::set<size_t> used;
   for (const Material& m : materials) {
-    for (const TextureRef* ref : {&m.baseColorTexture, &m.normalTexture, &m.emissiveTexture}) {
+    for (const TextureRef* ref :
+         {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture}) {
       if (ref->texture != kNone) used.insert(static_cast<size_t>(ref->texture));
     }
   }

@@ -55,9 +55,10 @@ struct Material {
   float normalScale = 1.0f;
   vec3 emissive{0.0f};         // emissiveFactor × KHR_materials_emissive_strength [W/(m² sr)]
   TextureRef emissiveTexture;  // sRGB-encoded
-  float metallic = 1.0f;       // kept for the round trip; Lambert ignores it
+  float metallic = 1.0f;       // what bounces is Lambert; these are for the eye (brdf.h)
   float roughness = 1.0f;
-  float transmission = 0.0f;  // KHR_materials_transmission
+  TextureRef metallicRoughnessTexture;  // linear; G multiplies roughness, B metallic
+  float transmission = 0.0f;            // KHR_materials_transmission
   AlphaMode alphaMode = AlphaMode::opaque;
   float alphaCutoff = 0.5f;
   bool doubleSided = false;  // emits from both sides; reflection is two-sided always

@@ -141,6 +141,14 @@ float alphaAt(const RenderScene& s, uint32_t object, uint32_t triangle, float u,
   return alpha;
 }
 
+Gloss glossAt(const RenderScene& s, uint32_t object, uint32_t triangle, float u, float v) {
+  const Material& m = s.materials[s.objects[object].material];
+  Gloss gloss{m.metallic, m.roughness};
+  if (m.metallicRoughnessTexture.texture == kNone) return gloss;
+  const vec4 texel = look(s, m.metallicRoughnessTexture, corners(s, object, triangle, u, v), false);
+  return {gloss.metallic * texel.b, gloss.roughness * texel.g};
+}
+
 constexpr float kSameNormal = 2e-6f;
 
 Surface surfaceAt(const RenderScene& s, uint32_t object, uint32_t triangle, float u, float v) {

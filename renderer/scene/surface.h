@@ -17,6 +17,13 @@ struct Surface {
 // u, v: barycentric weights of the triangle's second and third vertex, as Embree gives them.
 Surface surfaceAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 
+// What the eye sees of a material beside its albedo (shaders/shared/brdf.h).
+struct Gloss {
+  float metallic = 0.0f, roughness = 1.0f;
+};
+// At the point, texture included. Only for surfaces that the eye sees: what bounces is Lambert.
+Gloss glossAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
+
 // Alpha of the base colour there, vertex colour included: what alpha masks are tested with.
 float alphaAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 

@@ -8,6 +8,7 @@ layout(std140, binding = kMaterialBlock) uniform MaterialBlock { SurfaceMaterial
 layout(binding = kBaseColorTexture) uniform sampler2D uBaseColor;
 layout(binding = kNormalTexture) uniform sampler2D uNormal;
 layout(binding = kEmissiveTexture) uniform sampler2D uEmissive;
+layout(binding = kGlossTexture) uniform sampler2D uGloss;
 
 vec2 lookupUv(TextureLookup lookup, vec2 uv0, vec2 uv1) {
   vec3 uv = vec3(lookup.u.w > 0.5 ? uv1 : uv0, 1.0);

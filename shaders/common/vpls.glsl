@@ -11,8 +11,9 @@ layout(std140, binding = kVplBlock) uniform Vpls { Vpl uVpls[VPLS_A_PASS]; };
 layout(binding = kVplTexels) uniform samplerBuffer uVplTexels;
 
 Vpl gatheredVpl(int i) {
-  return Vpl(texelFetch(uVplTexels, 4 * i), texelFetch(uVplTexels, 4 * i + 1),
-             texelFetch(uVplTexels, 4 * i + 2), texelFetch(uVplTexels, 4 * i + 3));
+  return Vpl(texelFetch(uVplTexels, 5 * i), texelFetch(uVplTexels, 5 * i + 1),
+             texelFetch(uVplTexels, 5 * i + 2), texelFetch(uVplTexels, 5 * i + 3),
+             vec4(0.0));  // the footprint, which irradiance does not depend on
 }
 
 #endif

@@ -25,6 +25,7 @@ layout(location = kGPosition) out vec4 outPosition;
 layout(location = kGNormals) out vec4 outNormals;
 layout(location = kGAlbedo) out vec4 outAlbedo;
 layout(location = kGEmission) out vec4 outEmission;
+layout(location = kGlossTarget) out vec2 outGloss;
 
 vec3 positionOf(uint i) {
   return vec3(positions[3u * i], positions[3u * i + 1u], positions[3u * i + 2u]);
@@ -104,4 +105,11 @@ void main() {
   outNormals = vec4(packNormal(side * n), packNormal(side * geometric));
   outAlbedo = vec4(clamp(color.rgb, 0.0, 1.0), 1.0);
   outEmission = vec4(emission, 1.0);
+  vec2 gloss = uMaterial.options.zw;
+#ifdef TEXTURED
+  if (uMaterial.glossLookup.v.w > 0.5) {
+    gloss *= lookUp(uGloss, uMaterial.glossLookup, vUv0, vUv1).bg;
+  }
+#endif
+  outGloss = gloss;
 }

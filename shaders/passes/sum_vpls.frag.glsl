@@ -7,14 +7,13 @@
 // At all pixels, or at one of each block.
 #include "common/cells.glsl"
 #include "common/normal_packing.glsl"
+#include "common/shadow_look_up.glsl"
 #include "common/vpls.glsl"
 #include "shared/patches.h"
-#include "shared/shadow_depth.h"
 #include "shared/vpl_shading.h"
 
 layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGNormals) uniform sampler2D uNormals;
-layout(binding = kShadowMaps) uniform sampler2DArray uMaps;
 layout(binding = kIrradiance) uniform sampler2D uIrradiance;
 
 layout(location = 0) uniform int uFirst;  // in uVpls, or in each list
@@ -41,25 +40,6 @@ layout(location = 0) out vec4 outIrradiance;
 struct Point {
   vec3 position, shading, geometric;
 };
-
-bool occluded(Vpl vpl, vec3 x, vec3 normal) {
-  float bias = uClampAndBias.y, resolution = uClampAndBias.z;
-  vec3 q = vplToLight(vpl, x - vpl.position.xyz);
-  vec3 n = vplToLight(vpl, normal);
-#ifdef DIRECTIONAL
-  vec2 s = directionalEncode(vpl, q);
-#else
-  vec2 s = octahedralEncode(q);
-#endif
-  vec2 texel = shadowTexel(s, resolution);
-  vec2 centre = shadowTexelCentre(texel, resolution);
-  float depth = texelFetch(uMaps, ivec3(texel, int(vpl.intensity.w)), 0).r;
-#ifdef DIRECTIONAL
-  return directionalOccluded(vpl, depth, q, n, centre, bias);
-#else
-  return hemisphereOccluded(depth * (1.0 / kShadowDepthUnit), q, n, centre, bias, resolution);
-#endif
-}
 
 Vpl vplAt(int i) {
 #ifdef PATCHES
@@ -124,7 +104,7 @@ vec3 withPart(Part part, Point x, vec3 sum) {
     bool takes = entry >= kTakeShadow;
     Vpl vpl = vplAt(uFirstVpl + (takes ? entry - kTakeShadow : entry));
     float g = geometryOf(vpl, x);
-    if (g > 0.0 && occluded(vpl, x.position, x.geometric) == takes) {
+    if (g > 0.0 && occluded(vpl, x.position, x.geometric, uClampAndBias) == takes) {
       sum += (takes ? -g : g) * vpl.intensity.rgb;
     }
   }
@@ -135,7 +115,7 @@ vec3 withAll(Point x, vec3 sum) {
   for (int i = uFirst; i < uEnd; ++i) {
     Vpl vpl = vplAt(i);
     float g = geometryOf(vpl, x);
-    if (g > 0.0 && !(vpl.intensity.w >= 0.0 && occluded(vpl, x.position, x.geometric))) {
+    if (g > 0.0 && !(vpl.intensity.w >= 0.0 && occluded(vpl, x.position, x.geometric, uClampAndBias))) {
       sum += g * vpl.intensity.rgb;
     }
   }

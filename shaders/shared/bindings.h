@@ -39,6 +39,7 @@ SHARED_CONST int kFirstIndexAttribute = 6;  // one an object: where its indices 
 SHARED_CONST int kBaseColorTexture = 0;
 SHARED_CONST int kNormalTexture = 1;
 SHARED_CONST int kEmissiveTexture = 2;
+SHARED_CONST int kGlossTexture = 3;
 
 // What the G-buffer's pass writes and the others read, in this order.
 SHARED_CONST int kGPosition = 0;  // xyz: world [m]; w: 0 where nothing was hit, else the bits of a
@@ -46,6 +47,7 @@ SHARED_CONST int kGPosition = 0;  // xyz: world [m]; w: 0 where nothing was hit,
 SHARED_CONST int kGNormals = 1;   // octahedral: xy shading, zw geometric, on the side of the eye
 SHARED_CONST int kGAlbedo = 2;    // a: 0 where nothing was hit, and normals and emission are void
 SHARED_CONST int kGEmission = 3;  // towards the eye [W/(m² sr)]
+SHARED_CONST int kGlossTarget = 4;  // in that pass; others read it as kGGloss
 SHARED_CONST int kShadowMaps = 4;
 SHARED_CONST int kIrradiance = 5;
 SHARED_CONST int kPlaces = 6;     // of pixels: patches.h
@@ -53,6 +55,8 @@ SHARED_CONST int kSamples = 7;    // irradiance at those of the low-resolution p
 SHARED_CONST int kCells = 8;      // of the low-resolution pass: 1: interpolated
 SHARED_CONST int kVplTexels = 9;  // kVplBlock's as a buffer texture
 SHARED_CONST int kSkyPicture = 10;
+SHARED_CONST int kGGloss = 12;     // x: metallic, y: roughness; void where nothing was hit
+SHARED_CONST int kSpeculars = 13;  // what the lobes give the eye [W/(m² sr)]
 
 // The least normal float: no triangle's number becomes a denormal, an infinity or no number.
 SHARED_CONST int kTriangleBits = 8388608;

@@ -18,6 +18,7 @@
   using glm::mat4;                \
   using glm::max;                 \
   using glm::min;                 \
+  using glm::pow;                 \
   using glm::sqrt;                \
   using glm::uvec4;               \
   using glm::vec2;                \
@@ -26,11 +27,14 @@
 #define SHARED_END }
 #define SHARED_FUNCTION inline
 #define SHARED_CONST inline constexpr
+#define SHARED_ZERO \
+  { 0.0f }
 #else
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_FUNCTION
 #define SHARED_CONST const
+#define SHARED_ZERO
 #endif
 
 #endif

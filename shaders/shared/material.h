@@ -14,10 +14,11 @@ struct TextureLookup {
 struct SurfaceMaterial {
   vec4 baseColor;  // linear
   vec4 emissive;   // rgb [W/(m² sr)]; w: 1 when it leaves both sides
-  vec4 options;    // x: alpha cutoff, y: normal scale
+  vec4 options;    // x: alpha cutoff, y: normal scale, z: metallic, w: roughness
   TextureLookup baseColorLookup;
   TextureLookup normalLookup;
   TextureLookup emissiveLookup;
+  TextureLookup glossLookup;  // G: roughness, B: metallic
 };
 
 SHARED_END

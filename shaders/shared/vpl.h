@@ -21,6 +21,9 @@ struct Vpl {
                    // along tangent and bitangent, so that a sun can be several squares
   vec4 intensity;  // rgb: on-axis intensity [W/sr], directional: irradiance [W/m²];
                    // w: slot of its shadow map, < 0: casts no shadow
+  // x: what it stands for, for speculars: cosine: area of surface [m²], directional: solid angle
+  // [sr]; 0: nothing but its point or direction. yzw: 0. No map or irradiance depends on it.
+  vec4 footprint SHARED_ZERO;
 };
 
 // How shading bounds and biases; the same on both backends.
@@ -31,6 +34,9 @@ struct ShadingParams {
   vec4 clampAndBias;
   // x: pixels a side of the blocks of the low-resolution pass (low_resolution.h), 1: none; yzw: 0
   vec4 block;
+  // x: 1: what is seen has speculars (vpl_speculars.h), 0: all is Lambert's; y: least roughness;
+  // zw: 0
+  vec4 speculars SHARED_ZERO;
 };
 
 SHARED_END

@@ -113,6 +113,7 @@ NodeId addRectangleLight(Scene& scene, const vec3& at, const vec2& size, const v
 int addMaterial(Scene& scene, const vec3& albedo, const vec3& emissive) {
   Material& m = scene.materials.emplace_back();
   m.baseColor = vec4(albedo, 1.0f);
+  m.metallic = 0.0f;
   m.emissive = emissive;
   return static_cast<int>(scene.materials.size()) - 1;
 }

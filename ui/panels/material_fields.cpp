@@ -80,6 +80,7 @@ void materialFields(PanelContext ui, const Node& node, InspectorState& state) {
   }
   ui.name("doubleSided");
   const int textures = (material.baseColorTexture.texture != kNone) +
+                       (material.metallicRoughnessTexture.texture != kNone) +
                        (material.normalTexture.texture != kNone) +
                        (material.emissiveTexture.texture != kNone);
   if (textures > 0)

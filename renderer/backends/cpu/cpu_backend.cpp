@@ -10,6 +10,7 @@
 #include "renderer/backends/cpu/light_sums.h"
 #include "renderer/backends/cpu/low_resolution.h"
 #include "renderer/backends/cpu/shadow_maps.h"
+#include "renderer/backends/cpu/specular_sums.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -28,13 +29,17 @@ struct Picture {
   int block = 1;        // pixels, as summed
   cpu::LowResolution low;
   cpu::LightSums sampleSums;  // at the samples of `low`
+  cpu::SpecularSums speculars;
+  vec3 eye{0.0f};
 
   template <typename F>
   void forEachSums(F&& f) {
     f(sums);
     f(sampleSums);
   }
-  size_t bytes() const { return gbuffer.bytes() + sums.bytes() + low.bytes() + sampleSums.bytes(); }
+  size_t bytes() const {
+    return gbuffer.bytes() + sums.bytes() + low.bytes() + sampleSums.bytes() + speculars.bytes();
+  }
 };
 
 class CpuBackend final : public Backend {
@@ -54,8 +59,10 @@ class CpuBackend final : public Backend {
     rays_ = &rays;
     if (changes.rebuilt || changes.materials) {
       stillIsKnown_ = false;
-      for (Picture* p : {&still_, &shifted_})
+      for (Picture* p : {&still_, &shifted_}) {
         p->forEachSums([](cpu::LightSums& sums) { sums.forgetPlaces(); });
+        p->speculars.forgetPlaces();
+      }
       return;
     }
     moves_.insert(moves_.end(), changes.movedBounds.begin(), changes.movedBounds.end());
@@ -64,8 +71,10 @@ class CpuBackend final : public Backend {
 
   void reserveShadowMaps(int slots, int resolution) override {
     if (slots == slots_ && resolution == resolution_) return;
-    for (Picture* p : {&still_, &shifted_})
+    for (Picture* p : {&still_, &shifted_}) {
       p->forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
+      p->speculars.mapsChange();
+    }
     const size_t texels = static_cast<size_t>(slots) * resolution * resolution;
     try {
       // Free first: both would not fit where one does.
@@ -85,6 +94,7 @@ class CpuBackend final : public Backend {
   void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
     const size_t texels = static_cast<size_t>(resolution_) * resolution_;
     shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
+    for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
     still_.forEachSums([&](cpu::LightSums& sums) {
       for (const shared::Vpl& vpl : vpls)
         sums.mapChanges(static_cast<int>(vpl.intensity.w), {mapOf(vpl), texels});
@@ -104,6 +114,7 @@ class CpuBackend final : public Backend {
   void renderGBuffer(const View& view, vec2 jitter) override {
     const bool isStill = jitter == vec2(0.0f);
     shown_ = isStill ? &still_ : &shifted_;
+    shown_->eye = view.eye;
     if (isStill && stillIsKnown_ && view == stillView_) {
       counts_.rays += cpu::updateGBuffer(*scene_, *rays_, view, moves_, still_.gbuffer);
     } else {
@@ -132,6 +143,16 @@ class CpuBackend final : public Backend {
       counts_.lightPixels += counts.lightPixels;
     };
     Picture& p = *shown_;
+    if (params.speculars.x == 0.0f) {
+      p.speculars.clear();
+    } else {
+      std::vector<cpu::SpecularLight> speculars;
+      speculars.reserve(vpls.size());
+      for (size_t i = 0; i < vpls.size(); ++i)
+        speculars.push_back({lights[i], vpls[i].footprint.x});
+      counts_.lightPixels += p.speculars.update(*scene_, p.gbuffer, p.eye, std::move(speculars),
+                                                constants, params.speculars.y, patches);
+    }
     p.block = std::max(1, static_cast<int>(params.block.x));
     if (p.block == 1) {
       update(p.sums, p.gbuffer, {});
@@ -150,6 +171,7 @@ class CpuBackend final : public Backend {
     const cpu::Background background{scene_->sky, p.view, p.jitter};
     cpu::compose(p.gbuffer, p.sums, p.block == 1 ? nullptr : &p.low, background, white,
                  image->image);
+    if (!white) p.speculars.addTo(p.gbuffer, image->image);
     return image;
   }
 

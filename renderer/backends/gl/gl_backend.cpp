@@ -1,6 +1,7 @@
 #include "renderer/backends/gl/gl_backend.h"
 
 #include "renderer/backends/gl/gl_lighting.h"
+#include "renderer/backends/gl/gl_speculars.h"
 
 namespace lamplighter {
 namespace {
@@ -11,7 +12,8 @@ class GlBackend final : public Backend {
       : context_(std::move(context)),
         maps_(shaders, vpls_),
         gbuffer_(shaders),
-        lighting_(shaders, vpls_) {
+        lighting_(shaders, vpls_),
+        speculars_(shaders, vpls_) {
     info_.name = "gl";
     info_.takesTransfer = true;
     info_.device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -21,7 +23,8 @@ class GlBackend final : public Backend {
 
   KernelCounts counts() const override {
     KernelCounts counts = counts_;
-    counts.memoryBytes = scene_.bytes() + maps_.bytes() + gbuffer_.bytes() + lighting_.bytes();
+    counts.memoryBytes =
+        scene_.bytes() + maps_.bytes() + gbuffer_.bytes() + lighting_.bytes() + speculars_.bytes();
     return counts;
   }
 
@@ -40,11 +43,13 @@ class GlBackend final : public Backend {
   void renderGBuffer(const View& view, vec2 jitter) override {
     gbuffer_.render(scene_, view, jitter);
     lighting_.clear(view.width, view.height);
+    speculars_.clear();
   }
 
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                const PatchLights* patches) override {
     lighting_.sum(scene_, gbuffer_, maps_, vpls_, vpls, params, patches);
+    speculars_.sum(scene_, gbuffer_, maps_, vpls_, vpls, params);
     counts_.mergedPasses += static_cast<uint64_t>(lighting_.mergedPasses());
     counts_.passesSaved += static_cast<uint64_t>(lighting_.passesSaved());
     counts_.lightPixels +=
@@ -52,7 +57,9 @@ class GlBackend final : public Backend {
   }
 
   std::shared_ptr<RadianceImage> compose(bool white) override {
-    return lighting_.compose(gbuffer_, scene_.scene().sky, white);
+    auto picture = lighting_.compose(gbuffer_, scene_.scene().sky, white);
+    if (!white) speculars_.addTo(*picture, gbuffer_, lighting_.irradiance());
+    return picture;
   }
 
   std::vector<float> readShadowMap(int slot) override { return maps_.read(slot); }
@@ -64,6 +71,7 @@ class GlBackend final : public Backend {
     maps_.reload(shaders, vpls_);
     gbuffer_.reload(shaders);
     lighting_.reload(shaders, vpls_);
+    speculars_.reload(shaders, vpls_);
   }
 
  private:
@@ -75,6 +83,7 @@ class GlBackend final : public Backend {
   gl::GlShadowMaps maps_;
   gl::GlGBuffer gbuffer_;
   gl::GlLighting lighting_;
+  gl::GlSpeculars speculars_;
 };
 
 }  // namespace

@@ -26,8 +26,8 @@ mat4 rasterMatrix(const View& view, vec2 jitter) {
 GlGBuffer::GlGBuffer(const std::filesystem::path& shaders)
     : emptyVertexArray_(VertexArray::make()), framebuffer_(Framebuffer::make()) {
   constexpr GLenum kTargets[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2,
-                                 GL_COLOR_ATTACHMENT3};
-  glNamedFramebufferDrawBuffers(framebuffer_.name(), 4, kTargets);
+                                 GL_COLOR_ATTACHMENT3, GL_COLOR_ATTACHMENT4};
+  glNamedFramebufferDrawBuffers(framebuffer_.name(), 5, kTargets);
   reload(shaders);
 }
 
@@ -71,6 +71,7 @@ void GlGBuffer::resize(int width, int height) {
   normalsTexture_ = makeTexture2D(GL_RGBA32F, width, height);
   albedo_ = makeTexture2D(GL_RGBA16, width, height);
   emission_ = makeTexture2D(GL_RGBA32F, width, height);
+  gloss_ = makeTexture2D(GL_RG16, width, height);
   depth_ = makeTexture2D(GL_DEPTH_COMPONENT32F, width, height);
   const auto attach = [&](int index, const Texture& texture) {
     glNamedFramebufferTexture(framebuffer_.name(),
@@ -80,6 +81,7 @@ void GlGBuffer::resize(int width, int height) {
   attach(shared::kGNormals, normalsTexture_);
   attach(shared::kGAlbedo, albedo_);
   attach(shared::kGEmission, emission_);
+  attach(shared::kGlossTarget, gloss_);
   glNamedFramebufferTexture(framebuffer_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
 }
 
@@ -123,6 +125,7 @@ void GlGBuffer::bind() const {
   glBindTextureUnit(shared::kGNormals, normalsTexture_.name());
   glBindTextureUnit(shared::kGAlbedo, albedo_.name());
   glBindTextureUnit(shared::kGEmission, emission_.name());
+  glBindTextureUnit(shared::kGGloss, gloss_.name());
 }
 
 Image GlGBuffer::readNormals() const {
@@ -141,7 +144,7 @@ Image GlGBuffer::readNormals() const {
 Image GlGBuffer::readAlbedo() const { return readBack(albedo_.name(), width_, height_); }
 
 uint64_t GlGBuffer::bytes() const {
-  return uint64_t{3 * 16 + 8 + 4} * static_cast<uint64_t>(width_) * height_;
+  return uint64_t{3 * 16 + 8 + 4 + 4} * static_cast<uint64_t>(width_) * height_;
 }
 
 }  // namespace lamplighter::gl

@@ -26,6 +26,7 @@ class GlGBuffer {
   const Frustum& frustum() const { return frustum_; }
   const View& view() const { return view_; }
   vec2 jitter() const { return jitter_; }
+  const vec3& eye() const { return view_.eye; }
   int width() const { return width_; }
   int height() const { return height_; }
   uint64_t bytes() const;
@@ -40,7 +41,7 @@ class GlGBuffer {
   Program normals_;
   VertexArray emptyVertexArray_;
   Framebuffer framebuffer_;
-  Texture position_, normalsTexture_, albedo_, emission_, depth_;
+  Texture position_, normalsTexture_, albedo_, emission_, gloss_, depth_;
   Frustum frustum_;
   View view_;
   vec2 jitter_{0.0f};

@@ -31,6 +31,8 @@ class GlLighting {
   void clear(int width, int height);
   std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const Sky& sky, bool white);
 
+  GLuint irradiance() const { return pixels_.irradiance.name(); }
+
   uint64_t bytes() const;
 
  private:

@@ -39,6 +39,7 @@ shared::TextureLookup lookup(const TextureRef& ref) {
 
 bool isTextured(const Material& m) {
   return m.baseColorTexture.texture != kNone || m.normalTexture.texture != kNone ||
+         m.metallicRoughnessTexture.texture != kNone ||
          (m.emissiveTexture.texture != kNone && m.emits());
 }
 
@@ -48,10 +49,11 @@ shared::SurfaceMaterial surfaceMaterial(const Material& m) {
   shared::SurfaceMaterial out{};
   out.baseColor = m.baseColor;
   out.emissive = vec4(m.emits() ? m.emissive : vec3(0.0f), m.doubleSided ? 1.0f : 0.0f);
-  out.options = vec4(m.alphaCutoff, m.normalScale, 0.0f, 0.0f);
+  out.options = vec4(m.alphaCutoff, m.normalScale, m.metallic, m.roughness);
   out.baseColorLookup = lookup(m.baseColorTexture);
   out.normalLookup = lookup(m.normalTexture);
   out.emissiveLookup = lookup(m.emissiveTexture);
+  out.glossLookup = lookup(m.metallicRoughnessTexture);
   return out;
 }
 
@@ -168,7 +170,8 @@ void GlScene::uploadMaterials() {
     if (!used[i]) continue;
     const Material& m = s.materials[i];
     materialTextures_[i] = {get(m.baseColorTexture, true), get(m.normalTexture, false),
-                            m.emits() ? get(m.emissiveTexture, true) : 0};
+                            m.emits() ? get(m.emissiveTexture, true) : 0,
+                            get(m.metallicRoughnessTexture, false)};
   }
   textures_.endUse();
 }
@@ -192,6 +195,7 @@ void GlScene::bindMaterial(int material) const {
   glBindTextureUnit(shared::kBaseColorTexture, t.baseColor);
   glBindTextureUnit(shared::kNormalTexture, t.normal);
   glBindTextureUnit(shared::kEmissiveTexture, t.emissive);
+  glBindTextureUnit(shared::kGlossTexture, t.gloss);
 }
 
 }  // namespace lamplighter::gl

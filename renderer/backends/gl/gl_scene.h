@@ -51,7 +51,7 @@ class GlScene {
   Buffer materials_;  // one SurfaceMaterial every materialStride_ bytes
   GLintptr materialStride_ = 0;
   struct MaterialTextures {
-    GLuint baseColor = 0, normal = 0, emissive = 0;
+    GLuint baseColor = 0, normal = 0, emissive = 0, gloss = 0;
   };
   std::vector<MaterialTextures> materialTextures_;
   TextureCache textures_;

@@ -13,7 +13,7 @@ VplBuffer::VplBuffer() : buffer_(Buffer::make()), texels_(Texture::make(GL_TEXTU
   capacity_ = static_cast<int>(static_cast<size_t>(std::min(limit, 65536)) / sizeof(shared::Vpl));
   glNamedBufferStorage(buffer_.name(), capacity_ * static_cast<GLsizeiptr>(sizeof(shared::Vpl)),
                        nullptr, GL_DYNAMIC_STORAGE_BIT);
-  static_assert(sizeof(shared::Vpl) == 4 * sizeof(glm::vec4));
+  static_assert(sizeof(shared::Vpl) == 5 * sizeof(glm::vec4));
   glTextureBuffer(texels_.name(), GL_RGBA32F, buffer_.name());
 }
 

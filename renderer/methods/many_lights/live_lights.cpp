@@ -81,6 +81,11 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
     e.wanted = std::move(w);
     e.isWanted = true;
     const bool stays = !e.moves();
+    // What it stands for hangs on its neighbours, and no map or kept sum hangs on that.
+    if (stays && e.current.footprint != e.wanted.vpl.footprint) {
+      e.current.footprint = e.wanted.vpl.footprint;
+      changed_ = true;
+    }
     if (stays && !isNearly(e.current.intensity, e.wanted.vpl.intensity)) {
       takeBrightness(e);
       changed_ = true;

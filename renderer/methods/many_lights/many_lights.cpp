@@ -6,6 +6,7 @@
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/lights.h"
+#include "renderer/sampling/vpl_footprints.h"
 
 namespace lamplighter {
 namespace {
@@ -20,6 +21,11 @@ vec2 jitterOf(int i, int n) {
   for (int power = 1; power < n; power *= 2) size *= 0.5f;
   const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
   return {along - 0.5f, inverse + 0.5f * size - 0.5f};
+}
+
+// Of ShadingParams.
+vec4 speculars(bool on, float leastRoughness) {
+  return {on ? 1.0f : 0.0f, leastRoughness, 0.0f, 0.0f};
 }
 
 // What is left of light after as many bounces within one object is next to nothing.
@@ -71,6 +77,8 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
   lightsPerPass = settings.integer(parameters::lightsPerPass());
   mergePasses = settings.boolean(parameters::mergePasses());
   block = useVisibility ? std::stoi(settings.choice(parameters::block())) : 1;
+  speculars = settings.boolean(parameters::speculars());
+  leastRoughness = settings.real(parameters::leastRoughness());
   usePrt = useVisibility && settings.boolean(parameters::prt());
   // Light between parts of an object is one bounce more each time, as VPLs of later bounces are.
   prt.transfer.bounces = std::min(counts.bounces, kMostTransferBounces);
@@ -81,7 +89,9 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
                 mapResolution,
                 clampDistance,
                 shadowBias,
-                lightsPerPass};
+                lightsPerPass,
+                speculars,
+                leastRoughness};
 }
 
 GiOutput ManyLights::render(const FrameInputs& in) {
@@ -109,15 +119,16 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
   // 4. The picture, where anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
-  const bool shadingChanged = options.clampDistance != options_.clampDistance ||
-                              options.shadowBias != options_.shadowBias ||
-                              options.useVisibility != options_.useVisibility ||
-                              options.useLightMaps != options_.useLightMaps ||
-                              options.lightMapTexel != options_.lightMapTexel ||
-                              options.mergePasses != options_.mergePasses ||
-                              options.block != options_.block ||
-                              options.usePrt != options_.usePrt || !(options.prt == options_.prt) ||
-                              in.lightOnly != lightOnly_;
+  const bool shadingChanged =
+      options.clampDistance != options_.clampDistance ||
+      options.shadowBias != options_.shadowBias ||
+      options.useVisibility != options_.useVisibility ||
+      options.useLightMaps != options_.useLightMaps ||
+      options.lightMapTexel != options_.lightMapTexel ||
+      options.mergePasses != options_.mergePasses || options.block != options_.block ||
+      options.speculars != options_.speculars ||
+      options.leastRoughness != options_.leastRoughness || options.usePrt != options_.usePrt ||
+      !(options.prt == options_.prt) || in.lightOnly != lightOnly_;
   if (viewChanged) gbufferIsCurrent_ = false;
   const bool shadedNow =
       !image_ || viewChanged || lights_.changed() || shadingChanged || prtChanged;
@@ -169,6 +180,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   if (sceneChanged) movers = movers_.update(in.scene, in.changes);
   if (paths_.update(in.scene, in.rays, in.changes, movers, options.counts, options.mostPaths)) {
     VplSet set = paths_.set(in.scene);
+    findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
   }
   const LightPaths::Work& work = paths_.work();
@@ -278,7 +290,8 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   const shared::ShadingParams params{
       vec4(options.clampDistance, options.shadowBias, static_cast<float>(options.mapResolution),
            static_cast<float>(options.lightsPerPass)),
-      vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f)};
+      vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f),
+      speculars(options.speculars, options.leastRoughness)};
   const KernelCounts before = in.backend.counts();
   if (visibility_) {
     const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses, prt_.get());
@@ -347,6 +360,8 @@ MethodInfo manyLightsInfo() {
            parameters::block(),
            parameters::prt(),
            parameters::prtPoints(),
+           parameters::speculars(),
+           parameters::leastRoughness(),
            parameters::antialias(),
            parameters::refine()},
           [] { return std::make_unique<ManyLights>(); }};

@@ -43,7 +43,9 @@ class ManyLights final : public GiMethod {
     float lightMapTexel = 0.1f;
     int lightsPerPass = 0;  // changes no picture
     bool mergePasses = false;
-    int block = 1;        // pixels
+    int block = 1;  // pixels
+    bool speculars = false;
+    float leastRoughness = 0.1f;
     bool usePrt = false;  // besides
     PrtLights::Options prt;
     Refinement::Options refinement;
@@ -73,7 +75,7 @@ class ManyLights final : public GiMethod {
   bool gbufferIsCurrent_ = false;
   std::shared_ptr<RadianceImage> image_;    // of the pixels' middles
   int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum
-  float interpolatedShare_ = 0.0f;  // likewise
+  float interpolatedShare_ = 0.0f;          // likewise
   // Antialiasing: the sum of the samples so far; their mean when they are complete.
   Image sum_;
   int samples_ = 0, samplesWanted_ = 1;

@@ -7,6 +7,7 @@
 
 #include "renderer/sampling/random.h"
 #include "renderer/scene/surface.h"
+#include "shaders/shared/brdf.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
@@ -67,7 +68,12 @@ NearLight::Pixel NearLight::pixel(const View& view, vec2 at, uint32_t index) con
   const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
   const vec3 normal = side * s.geometricNormal;
   const Place from{s.position + rayEpsilon(s.position) * normal, normal};
-  const vec3 albedo = options_.white ? vec3(1.0f) : s.albedo;
+  vec3 albedo = options_.white ? vec3(1.0f) : s.albedo;
+  if (options_.speculars && !options_.white) {
+    const Gloss gloss = glossAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
+    albedo *= shared::diffuseShare(gloss.metallic, gloss.roughness, options_.leastRoughness,
+                                   -side * glm::dot(s.normal, direction));
+  }
   vec3 sum(0.0f);
   for (uint32_t path = 0; path < kPathsAPixel; ++path) {
     PathSampler sampler(index, options_.sample * kPathsAPixel + path, options_.seed);

@@ -25,6 +25,9 @@ class NearLight {
     float clampDistance = 0.0f;
     uint32_t seed = 0, sample = 0;  // which random numbers
     bool white = false;             // what is seen is shown as if it were white
+    // What is seen has speculars: the diffuse part of it gets this light, the lobe does without.
+    bool speculars = false;
+    float leastRoughness = 0.1f;
   };
   NearLight(const RenderScene& scene, const RayCaster& rays, std::span<const SceneVpl> vpls,
             const Options& options);

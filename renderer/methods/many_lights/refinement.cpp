@@ -1,6 +1,7 @@
 #include "renderer/methods/many_lights/refinement.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <tbb/parallel_for.h>
 
@@ -8,6 +9,7 @@
 #include "renderer/sampling/lights.h"
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
+#include "renderer/sampling/vpl_footprints.h"
 
 namespace lamplighter {
 namespace {
@@ -98,7 +100,14 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   batch_ = std::make_unique<Batch>();
   Batch& batch = *batch_;
   // Those of each light and bounce are dealt out evenly among the shifts.
-  const VplSet set = generateVpls(in.scene, in.rays, LightSet(in.scene), counts_);
+  const LightSet lights(in.scene);
+  VplSet set = generateVpls(in.scene, in.rays, lights, counts_);
+  findFootprints(lights, set.vpls);
+  // Highlights grow sharper from batch to batch, so that their mean converges to the true ones: by
+  // the radii of Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011,
+  // with α = 2/3, area ∝ batch^(α−1).
+  const float sharper = std::pow(static_cast<float>(counts_.batch), -1.0f / 3.0f);
+  for (SceneVpl& v : set.vpls) v.vpl.footprint *= sharper;
   batch.vpls.reserve(set.vpls.size());
   for (size_t shift = 0; shift < kShifts; ++shift)
     for (size_t i = shift; i < set.vpls.size(); i += kShifts) batch.vpls.push_back(set.vpls[i]);
@@ -110,7 +119,7 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
         NearLight::Options{counts_.directShare < 1.0f ? counts_.bounces : 0,
                            counts_.directShare > 0.0f || counts_.bounces == 0,
                            options.clampDistance, hash4(counts_.seed, 0, 0, kNearSet),
-                           counts_.batch, in.lightOnly});
+                           counts_.batch, in.lightOnly, options.speculars, options.leastRoughness});
   }
 }
 
@@ -137,7 +146,9 @@ void Refinement::addPart(const FrameInputs& in, const Options& options, int firs
   in.backend.sumVpls(
       part,
       {vec4(options.clampDistance, options.shadowBias, static_cast<float>(options.mapResolution),
-            static_cast<float>(options.lightsPerPass))},
+            static_cast<float>(options.lightsPerPass)),
+       vec4(1.0f, 0.0f, 0.0f, 0.0f),
+       vec4(options.speculars ? 1.0f : 0.0f, options.leastRoughness, 0.0f, 0.0f)},
       nullptr);
   addScaled(batch.image, in.backend.compose(in.lightOnly)->pixels(), share);
   if (batch.nearLight) {

@@ -22,6 +22,8 @@ class Refinement {
     int mapResolution = 0;
     float clampDistance = 0.0f, shadowBias = 0.0f;
     int lightsPerPass = 1;  // changes no picture
+    bool speculars = false;
+    float leastRoughness = 0.1f;
 
     bool operator==(const Options&) const = default;
   };

@@ -73,15 +73,16 @@ class StructLayout : public test::GlTest {
 
 TEST_F(StructLayout, OfVpl) {
   using shared::Vpl;
-  expectLayout(
-      "shared/vpl.h", "Vpl", sizeof(Vpl),
-      {MEMBER(Vpl, position), MEMBER(Vpl, normal), MEMBER(Vpl, tangent), MEMBER(Vpl, intensity)});
+  expectLayout("shared/vpl.h", "Vpl", sizeof(Vpl),
+               {MEMBER(Vpl, position), MEMBER(Vpl, normal), MEMBER(Vpl, tangent),
+                MEMBER(Vpl, intensity), MEMBER(Vpl, footprint)});
 }
 
 TEST_F(StructLayout, OfShadingParams) {
   using shared::ShadingParams;
   expectLayout("shared/vpl.h", "ShadingParams", sizeof(ShadingParams),
-               {MEMBER(ShadingParams, clampAndBias), MEMBER(ShadingParams, block)});
+               {MEMBER(ShadingParams, clampAndBias), MEMBER(ShadingParams, block),
+                MEMBER(ShadingParams, speculars)});
 }
 
 TEST_F(StructLayout, OfSurfaceMaterial) {
@@ -91,7 +92,8 @@ TEST_F(StructLayout, OfSurfaceMaterial) {
                 MEMBER(SurfaceMaterial, options), MEMBER(SurfaceMaterial, baseColorLookup.u),
                 MEMBER(SurfaceMaterial, baseColorLookup.v), MEMBER(SurfaceMaterial, normalLookup.u),
                 MEMBER(SurfaceMaterial, normalLookup.v), MEMBER(SurfaceMaterial, emissiveLookup.u),
-                MEMBER(SurfaceMaterial, emissiveLookup.v)});
+                MEMBER(SurfaceMaterial, emissiveLookup.v), MEMBER(SurfaceMaterial, glossLookup.u),
+                MEMBER(SurfaceMaterial, glossLookup.v)});
 }
 
 TEST_F(StructLayout, OfPatchChart) {
@@ -123,9 +125,9 @@ TEST(SharedStructs, AreAllTestedHere) {
       ++structs;
     }
   }
-  // Vpl, ShadingParams, TextureLookup (within SurfaceMaterial), SurfaceMaterial, PatchNode,
-  // PatchChart, PatchTile.
-  EXPECT_EQ(structs, 7);
+  // Vpl, ShadingParams, Lobe (only passed about, in brdf.h), TextureLookup (within
+  // SurfaceMaterial), SurfaceMaterial, PatchNode, PatchChart, PatchTile.
+  EXPECT_EQ(structs, 8);
 }
 
 }  // namespace

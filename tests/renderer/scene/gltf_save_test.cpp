@@ -306,6 +306,7 @@ TEST_F(EditedScene, MaterialsTexturesMeshesAndCameras) {
   tiles.normalTexture = TextureRef{0, 1, vec2(0.1f, 0.2f), 0.3f, vec2(4, 5)};
   tiles.normalScale = 0.6f;
   tiles.roughness = 0.35f;
+  tiles.metallicRoughnessTexture = TextureRef{1, 0, vec2(0.3f, 0.1f), 0.2f, vec2(2, 3)};
   tiles.alphaMode = AlphaMode::mask;
   tiles.alphaCutoff = 0.3f;
   tiles.doubleSided = false;

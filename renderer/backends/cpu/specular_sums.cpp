@@ -1,0 +1,169 @@
+#include "renderer/backends/cpu/specular_sums.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+#include <tbb/parallel_for.h>
+
+#include "shaders/shared/brdf.h"
+
+namespace lamplighter::cpu {
+
+namespace {
+
+// The texture is looked up where the pixel's point lies in its triangle.
+Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
+  const RenderObject& object = scene.objects[g.object[i]];
+  const Material& m = scene.materials[static_cast<size_t>(object.material)];
+  if (m.metallicRoughnessTexture.texture == kNone) return {m.metallic, m.roughness};
+  const uint32_t* corner = &scene.indices[object.firstIndex + 3 * g.triangle[i]];
+  const vec3 a = scene.positions[corner[0]], b = scene.positions[corner[1]] - a,
+             c = scene.positions[corner[2]] - a, p = vec3(g.px[i], g.py[i], g.pz[i]) - a;
+  const vec3 area = glm::cross(b, c);
+  const float inverse = 1.0f / std::max(glm::dot(area, area), 1e-30f);
+  const float u = std::clamp(glm::dot(glm::cross(p, c), area) * inverse, 0.0f, 1.0f);
+  const float v = std::clamp(glm::dot(glm::cross(b, p), area) * inverse, 0.0f, 1.0f - u);
+  return glossAt(scene, g.object[i], g.triangle[i], u, v);
+}
+
+}  // namespace
+
+void SpecularSums::clear() {
+  if (isOn_) *this = SpecularSums();
+}
+
+void SpecularSums::findParts(const RenderScene& scene, const GBuffer& g, size_t index,
+                             const PatchLights* patches) {
+  Tile& tile = tiles_[index];
+  tile.parts.clear();
+  tile.gloss.clear();
+  for (size_t in = 0; in < kTilePixels; ++in) {
+    const size_t i = index * kTilePixels + in;
+    if (g.hit[i] == 0) continue;
+    const Gloss gloss = glossOf(scene, g, i);
+    if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
+    if (tile.gloss.empty()) tile.gloss.resize(kTilePixels);
+    tile.gloss[in] = gloss;
+    const auto packet = static_cast<uint8_t>(in / kLanes);
+    Patch patch{0, 0};
+    if (patches != nullptr)
+      patch = {
+          g.object[i],
+          patches->patches(g.object[i]).leafAt(g.triangle[i], vec3(g.px[i], g.py[i], g.pz[i]))};
+    auto it = std::find_if(tile.parts.rbegin(), tile.parts.rend(),
+                           [&](const Part& p) { return p.packet != packet || p.patch == patch; });
+    if (it == tile.parts.rend() || it->packet != packet) {
+      tile.parts.push_back({packet, 0, 0, patch});
+      it = tile.parts.rbegin();
+    }
+    it->lanes |= static_cast<uint8_t>(1u << in % kLanes);
+  }
+  tile.gloss.shrink_to_fit();
+  tile.radiance.assign(tile.gloss.size(), vec3(0.0f));
+  tile.radiance.shrink_to_fit();
+}
+
+// By row, whether it says something else than before.
+std::vector<bool> SpecularSums::findUses(const PatchLights& patches) {
+  rows_.clear();
+  for (Tile& tile : tiles_)
+    for (Part& part : tile.parts) {
+      part.row = rows_.try_emplace(part.patch, static_cast<uint32_t>(rows_.size())).first->second;
+    }
+  std::vector<LightUse> last = std::move(uses_);
+  slots_ = patches.slots();
+  uses_.assign(rows_.size() * slots_, LightUse::skip);
+  for (const auto& [patch, row] : rows_)
+    patches.uses(patch.first, patch.second, false, {&uses_[row * slots_], slots_});
+  std::vector<bool> isOther(rows_.size(), true);
+  if (last.size() == uses_.size())
+    for (size_t row = 0; row < rows_.size(); ++row)
+      isOther[row] =
+          !std::equal(&uses_[row * slots_], &uses_[row * slots_] + slots_, &last[row * slots_]);
+  return isOther;
+}
+
+uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const vec3& eye,
+                              std::vector<SpecularLight> lights, const SumConstants& constants,
+                              float leastRoughness, const PatchLights* patches) {
+  const bool hasPatches = patches != nullptr;
+  if (tiles_.size() != static_cast<size_t>(g.tiles())) {
+    tiles_.assign(static_cast<size_t>(g.tiles()), {});
+    knowsPlaces_ = false;
+  }
+  knowsPlaces_ = knowsPlaces_ && hasPatches == hasPatches_;
+  const bool all = !isOn_ || !isKnown_ || !knowsPlaces_ || constants != constants_ ||
+                   leastRoughness != leastRoughness_ || eye != eye_ || lights != lights_;
+  std::vector<size_t> found;
+  for (size_t i = 0; i < tiles_.size(); ++i)
+    if (!knowsPlaces_ || tiles_[i].revision != g.revision[i]) found.push_back(i);
+  tbb::parallel_for(size_t{0}, found.size(),
+                    [&](size_t i) { findParts(scene, g, found[i], patches); });
+  std::vector<bool> isOther;
+  if (hasPatches) isOther = findUses(*patches);
+
+  std::vector<size_t> stale;
+  for (size_t i = 0; i < tiles_.size(); ++i) {
+    const Tile& tile = tiles_[i];
+    const bool usesChanged =
+        hasPatches && std::any_of(tile.parts.begin(), tile.parts.end(),
+                                  [&](const Part& p) { return isOther[p.row]; });
+    if (!tile.parts.empty() && (all || usesChanged || tile.revision != g.revision[i]))
+      stale.push_back(i);
+  }
+  isKnown_ = false;  // until all is done
+  std::atomic<uint64_t> pixels = 0;
+  tbb::parallel_for(size_t{0}, stale.size(), [&](size_t k) {
+    Tile& tile = tiles_[stale[k]];
+    uint64_t here = 0;
+    for (const Part& part : tile.parts) {
+      const size_t inTile = static_cast<size_t>(part.packet) * kLanes;
+      const LightUse* uses = hasPatches ? &uses_[part.row * slots_] : nullptr;
+      specularRadiance(g, eye, stale[k] * kTilePixels + inTile, part.lanes,
+                       std::span<const Gloss, kLanes>(&tile.gloss[inTile], kLanes), lights, uses,
+                       constants, leastRoughness,
+                       std::span<vec3, kLanes>(&tile.radiance[inTile], kLanes));
+      here += static_cast<uint64_t>(std::popcount(part.lanes));
+    }
+    pixels += here;
+  });
+  for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].revision = g.revision[i];
+  lights_ = std::move(lights);
+  constants_ = constants;
+  leastRoughness_ = leastRoughness;
+  eye_ = eye;
+  hasPatches_ = hasPatches;
+  isOn_ = isKnown_ = knowsPlaces_ = true;
+  return pixels * lights_.size();
+}
+
+void SpecularSums::addTo(const GBuffer& g, Image& picture) const {
+  if (!isOn_) return;
+  tbb::parallel_for(0, picture.height, [&](int y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const size_t i = g.index(x, y);
+      const Tile& tile = tiles_[i / kTilePixels];
+      if (tile.gloss.empty() || g.hit[i] == 0) continue;
+      const Gloss gloss = tile.gloss[i % kTilePixels];
+      if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
+      const vec3 toEye = glm::normalize(eye_ - vec3(g.px[i], g.py[i], g.pz[i]));
+      const float nv = glm::dot(toEye, vec3(g.sx[i], g.sy[i], g.sz[i]));
+      const float share =
+          shared::diffuseShare(gloss.metallic, gloss.roughness, leastRoughness_, nv);
+      const vec3 emission = g.emission(i);
+      vec3& pixel = picture.at(x, y);
+      pixel = emission + share * (pixel - emission) + tile.radiance[i % kTilePixels];
+    }
+  });
+}
+
+size_t SpecularSums::bytes() const {
+  size_t bytes = uses_.size() + lights_.size() * sizeof(SpecularLight);
+  for (const Tile& tile : tiles_)
+    bytes +=
+        tile.parts.size() * sizeof(Part) + tile.radiance.size() * (sizeof(vec3) + sizeof(Gloss));
+  return bytes;
+}
+
+}  // namespace lamplighter::cpu

@@ -1,0 +1,191 @@
+// Lights and points eight at a time, for the kernels (light_kernel.cpp, specular_kernel.cpp) alone.
+// shaders/shared/vpl_shading.h is the definition, with the reasons; this is the same with
+// multiply-adds fused where written so.
+#pragma once
+
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#ifndef HWY_DISABLE_PCLMUL_AES
+#define HWY_DISABLE_PCLMUL_AES 1
+#endif
+
+#include <algorithm>
+
+#include <hwy/highway.h>
+
+#include "renderer/backends/cpu/light_kernel.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter::cpu {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::FixedTag<float, kLanes>;
+using IntTag = hn::RebindToSigned<Tag>;
+using Floats = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+inline constexpr Tag kTag;
+
+// A light's weight [1/m²] is bounded, so that sums can be: of a punctual light at 6 cm, where it
+// has no surface to be so near to; of one that stands for a surface it is the clamp that counts.
+inline constexpr float kMostUniformWeight = 256.0f;
+inline constexpr float kMostCosineWeight = 4096.0f;
+
+inline float mostWeight(LightRecord::Kind kind, float clampDistance2) {
+  switch (kind) {
+    case LightRecord::Kind::cosine:
+      return std::min(1.0f / clampDistance2, kMostCosineWeight);
+    case LightRecord::Kind::uniform:
+      return kMostUniformWeight;
+    case LightRecord::Kind::directional:
+      break;
+  }
+  return 1.0f;
+}
+
+struct Vector3 {
+  Floats x, y, z;
+};
+
+using Ints = hn::Vec<IntTag>;
+
+// Highway's own conversions also put right what is out of range, which nothing is here.
+HWY_INLINE Ints roundToInts(Floats v) {
+#if HWY_TARGET == HWY_AVX2
+  return Ints{_mm256_cvtps_epi32(v.raw)};
+#else
+  return hn::NearestInt(v);
+#endif
+}
+HWY_INLINE Ints truncateToInts(Floats v) {
+#if HWY_TARGET == HWY_AVX2
+  return Ints{_mm256_cvttps_epi32(v.raw)};
+#else
+  return hn::ConvertTo(IntTag(), v);
+#endif
+}
+
+HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+// Three arrays; as pointers of its own, which stores elsewhere don't change.
+struct Vectors {
+  Vectors(const std::vector<float>& vx, const std::vector<float>& vy, const std::vector<float>& vz)
+      : x(vx.data()), y(vy.data()), z(vz.data()) {}
+  Vector3 at(size_t i) const {
+    return {hn::LoadU(kTag, x + i), hn::LoadU(kTag, y + i), hn::LoadU(kTag, z + i)};
+  }
+  const float* HWY_RESTRICT x;
+  const float* HWY_RESTRICT y;
+  const float* HWY_RESTRICT z;
+};
+
+HWY_INLINE Vector3 all(const vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
+
+// The light in every lane, so that the loop over pixels takes it as vector operands from the stack.
+struct WideLight {
+  WideLight(const LightRecord& light, bool isNegative, const SumConstants& c)
+      : map(light.map),
+        position(all(light.position)),
+        normal(all(light.normal)),
+        tangent(all(light.tangent)),
+        bitangent(all(light.bitangent)),
+        units(all((isNegative ? -c.unitsPerIrradiance : c.unitsPerIrradiance) * light.intensity)),
+        mostWeight(all(cpu::mostWeight(light.kind, c.clampDistance2))),
+        coneScale(all(light.coneScale)),
+        coneOffset(all(light.coneOffset)),
+        side(all(light.side)),
+        inverseSide(all(1.0f / light.side)),
+        depth(all(2.0f * light.radius)),
+        deepest(all(-light.radius - c.bias * light.side)) {}
+
+  const float* map;
+  Vector3 position, normal, tangent, bitangent;
+  Vector3 units;  // intensity, in units of the sums
+  Floats mostWeight;
+  Floats coneScale, coneOffset;
+  Floats side, inverseSide, depth, deepest;  // directional
+};
+
+// Numbers of the map's grid and of the test in every lane.
+struct WideConstants {
+  explicit WideConstants(const SumConstants& c)
+      : resolution(all(static_cast<float>(c.resolution))),
+        middle(all(0.5f * static_cast<float>(c.resolution))),
+        half(all(0.5f * static_cast<float>(c.resolution) * (1.0f - 0x1p-21f))),
+        lastTexel(hn::Set(hn::RebindToUnsigned<Tag>(),
+                          static_cast<uint32_t>(c.resolution * c.resolution - 1))),
+        step(all(2.0f / static_cast<float>(c.resolution))),
+        first(all(1.0f / static_cast<float>(c.resolution) - 1.0f)),
+        beforePlane(all(1.0f + c.bias)),
+        beforePoint(all(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(c.resolution))),
+        clampDistance2(all(c.clampDistance2)) {}
+
+  Floats resolution, middle, half;
+  hn::Vec<hn::RebindToUnsigned<Tag>> lastTexel;
+  Floats step, first;
+  Floats beforePlane, beforePoint;
+  Floats clampDistance2;
+};
+
+// The texel's column or row of a square coordinate in [-1, 1]; `half` is a little less than it is,
+// so that no rounding leads out of the map.
+HWY_INLINE Floats texelOf(Floats s, const WideConstants& c) {
+  return hn::Floor(hn::MulAdd(s, c.half, c.middle));
+}
+HWY_INLINE Floats centreOf(Floats texel, const WideConstants& c) {
+  return hn::MulAdd(texel, c.step, c.first);
+}
+
+// The index of a texel is a whole number that a float holds: maps have at most 1024² texels. The
+// bound is for coordinates that are no numbers.
+HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const WideConstants& c) {
+  const Ints texel = truncateToInts(hn::MulAdd(t, c.resolution, s));
+  const hn::RebindToUnsigned<Tag> unsignedTag;
+  const auto bounded = hn::Min(hn::BitCast(unsignedTag, texel), c.lastTexel);
+  return hn::GatherIndex(kTag, map, hn::BitCast(IntTag(), bounded));
+}
+
+// v: from the light to the point; z: its height over the light's plane, > 0.
+HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& c, const Vector3& v,
+                                   Floats z, const Vector3& geometric, Floats facing) {
+  const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
+  const Floats w = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), z);
+  const Floats inverse = hn::Div(all(1.0f), w);
+  const Floats s = texelOf(hn::Mul(hn::Add(x, y), inverse), c);
+  const Floats t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c);
+  const Floats stored = fetch(light.map, s, t, c);
+  const Mask beforePoint = hn::Gt(hn::Mul(stored, w), c.beforePoint);
+  // Mostly nothing is; then the plane need not be asked.
+  if (hn::AllFalse(kTag, beforePoint)) return beforePoint;
+  const Floats cs = centreOf(s, c), ct = centreOf(t, c);
+  const Floats ex = hn::Mul(hn::Add(cs, ct), all(0.5f));
+  const Floats ey = hn::Mul(hn::Sub(cs, ct), all(0.5f));
+  const Floats ez = hn::Sub(all(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
+  const Floats plane = hn::MulAdd(
+      dot(geometric, light.tangent), ex,
+      hn::MulAdd(dot(geometric, light.bitangent), ey, hn::Mul(dot(geometric, light.normal), ez)));
+  // facing = −n·v > 0
+  const Mask beforePlane =
+      hn::Gt(hn::MulAdd(stored, facing, hn::Mul(c.beforePlane, plane)), hn::Zero(kTag));
+  return hn::And(beforePoint, beforePlane);
+}
+
+// q: the point in the light's frame.
+HWY_INLINE Mask directionalOccluded(const WideLight& light, const WideConstants& c,
+                                    const Vector3& q, const Vector3& geometric, Floats facing) {
+  // Within the square in the lanes that count.
+  const auto inSquare = [](Floats v) { return hn::Max(hn::Min(v, all(1.0f)), all(-1.0f)); };
+  const Floats s = texelOf(inSquare(hn::Mul(q.x, light.inverseSide)), c);
+  const Floats t = texelOf(inSquare(hn::Mul(q.y, light.inverseSide)), c);
+  const Floats stored = fetch(light.map, s, t, c);
+  const Floats above = hn::Sub(hn::MulAdd(stored, light.depth, light.deepest), q.z);
+  const Floats dx = hn::MulSub(centreOf(s, c), light.side, q.x);
+  const Floats dy = hn::MulSub(centreOf(t, c), light.side, q.y);
+  const Floats slope =
+      hn::MulAdd(dot(geometric, light.tangent), dx, hn::Mul(dot(geometric, light.bitangent), dy));
+  const Mask beforePoint = hn::Gt(above, hn::Zero(kTag));
+  const Mask beforePlane = hn::Gt(hn::MulAdd(above, facing, slope), hn::Zero(kTag));
+  return hn::And(beforePoint, beforePlane);
+}
+
+}  // namespace lamplighter::cpu

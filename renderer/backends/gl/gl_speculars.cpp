@@ -1,0 +1,113 @@
+#include "renderer/backends/gl/gl_speculars.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "renderer/gl/pass_state.h"
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/brdf.h"
+
+namespace lamplighter::gl {
+namespace {
+
+bool hasGlossyObject(const GlScene& scene) {
+  return std::any_of(scene.drawn().begin(), scene.drawn().end(), [&](const GlScene::Drawn& d) {
+    const Material& m = scene.scene().materials[static_cast<size_t>(d.material)];
+    return shared::isGlossy(m.metallic, m.roughness) || m.metallicRoughnessTexture.texture != kNone;
+  });
+}
+
+}  // namespace
+
+GlSpeculars::GlSpeculars(const std::filesystem::path& shaders, const VplBuffer& vpls)
+    : emptyVertexArray_(VertexArray::make()),
+      sumFramebuffer_(Framebuffer::make()),
+      pictureFramebuffer_(Framebuffer::make()) {
+  reload(shaders, vpls);
+}
+
+void GlSpeculars::reload(const std::filesystem::path& shaders, const VplBuffer& vpls) {
+  const char* vertex = "common/full_screen.vert.glsl";
+  const std::string kinds[3] = {"VPL_KIND kVplCosine", "VPL_KIND kVplUniform",
+                                "VPL_KIND kVplDirectional"};
+  Program sums[3];
+  for (int i = 0; i < 3; ++i) {
+    std::vector<std::string> defines = {vpls.define(), kinds[i]};
+    if (i == 2) defines.push_back("DIRECTIONAL");
+    sums[i] = Program(shaders, {vertex, "passes/sum_speculars.frag.glsl", defines});
+  }
+  Program add(shaders, {vertex, "passes/add_speculars.frag.glsl"});
+  std::move(std::begin(sums), std::end(sums), sums_);
+  add_ = std::move(add);
+}
+
+void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
+                      const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
+                      const shared::ShadingParams& params) {
+  isOn_ = params.speculars.x != 0.0f && hasGlossyObject(scene);
+  if (!isOn_) return;
+  leastRoughness_ = params.speculars.y;
+  if (width_ != gbuffer.width() || height_ != gbuffer.height()) {
+    width_ = gbuffer.width();
+    height_ = gbuffer.height();
+    radiance_ = makeTexture2D(GL_RGBA32F, width_, height_);
+    glNamedFramebufferTexture(sumFramebuffer_.name(), GL_COLOR_ATTACHMENT0, radiance_.name(), 0);
+  }
+  PassState state(sumFramebuffer_.name(), width_, height_);
+  const float zero[4] = {0.0f, 0.0f, 0.0f, 0.0f};
+  glClearNamedFramebufferfv(sumFramebuffer_.name(), GL_COLOR, 0, zero);
+  state.additive();
+  gbuffer.bind();
+
+  // In their order within each kind and array, as many at a time as a block and a draw take.
+  const int inArray = maps.slotsAnArray();
+  const auto arrayOf = [&](const shared::Vpl& vpl) {
+    return std::max(static_cast<int>(vpl.intensity.w), 0) / inArray;
+  };
+  const auto batchOf = [&](const shared::Vpl& vpl) {
+    return std::pair(static_cast<int>(vpl.position.w), arrayOf(vpl));
+  };
+  std::vector<shared::Vpl> sorted(vpls.begin(), vpls.end());
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const auto& a, const auto& b) { return batchOf(a) < batchOf(b); });
+  const int aDraw = std::max(static_cast<int>(params.clampAndBias.w), 1);
+  const size_t most = static_cast<size_t>(std::min(buffer.capacity(), aDraw));
+  for (size_t first = 0; first < sorted.size();) {
+    const auto [kind, array] = batchOf(sorted[first]);
+    size_t end = first;
+    while (end < sorted.size() && end - first < most &&
+           batchOf(sorted[end]) == std::pair(kind, array))
+      ++end;
+    const std::span<shared::Vpl> batch(&sorted[first], end - first);
+    first = end;
+    for (shared::Vpl& vpl : batch)
+      if (vpl.intensity.w >= 0.0f) vpl.intensity.w -= static_cast<float>(array * inArray);
+    buffer.upload(batch);
+    glBindTextureUnit(shared::kShadowMaps, maps.hasArray(array) ? maps.array(array) : 0);
+    const Program& program = sums_[kind];
+    program.use();
+    program.set(0, gbuffer.eye());
+    program.set(1, leastRoughness_);
+    program.set(2, 0);
+    program.set(3, static_cast<int>(batch.size()));
+    program.set(4, params.clampAndBias);
+    drawFullScreen(emptyVertexArray_.name());
+  }
+}
+
+void GlSpeculars::addTo(const RadianceTexture& picture, const GlGBuffer& gbuffer,
+                        GLuint irradiance) {
+  if (!isOn_) return;
+  glNamedFramebufferTexture(pictureFramebuffer_.name(), GL_COLOR_ATTACHMENT0, picture.texture(), 0);
+  PassState state(pictureFramebuffer_.name(), width_, height_);
+  state.additive();
+  gbuffer.bind();
+  glBindTextureUnit(shared::kIrradiance, irradiance);
+  glBindTextureUnit(shared::kSpeculars, radiance_.name());
+  add_.use();
+  add_.set(0, gbuffer.eye());
+  add_.set(1, leastRoughness_);
+  drawFullScreen(emptyVertexArray_.name());
+}
+
+}  // namespace lamplighter::gl

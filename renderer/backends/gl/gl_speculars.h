@@ -1,0 +1,42 @@
+// What the lobes of glossy pixels give the eye (shaders/shared/vpl_speculars.h), in a pass of its
+// own: every VPL with its shadow map at every glossy pixel. Costs nothing where none is in the
+// scene.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "renderer/backends/gl/gl_gbuffer.h"
+#include "renderer/backends/gl/gl_shadow_maps.h"
+#include "renderer/gl/radiance_texture.h"
+
+namespace lamplighter::gl {
+
+class GlSpeculars {
+ public:
+  GlSpeculars(const std::filesystem::path& shaders, const VplBuffer& vpls);
+  void reload(const std::filesystem::path& shaders, const VplBuffer& vpls);
+
+  // Of the G-buffer's glossy pixels, if `params` ask for it.
+  void sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
+           const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
+           const shared::ShadingParams& params);
+  // Makes the picture of surfaces that are all Lambert's, with this irradiance, one with speculars.
+  void addTo(const RadianceTexture& picture, const GlGBuffer& gbuffer, GLuint irradiance);
+  // There are none until the next sum.
+  void clear() { isOn_ = false; }
+
+  uint64_t bytes() const { return uint64_t{16} * static_cast<uint64_t>(width_) * height_; }
+
+ private:
+  Program sums_[3];  // by Vpl.position.w
+  Program add_;
+  VertexArray emptyVertexArray_;
+  Framebuffer sumFramebuffer_, pictureFramebuffer_;
+  Texture radiance_;  // RGBA32F
+  int width_ = 0, height_ = 0;
+  bool isOn_ = false;
+  float leastRoughness_ = 0.0f;
+};
+
+}  // namespace lamplighter::gl

@@ -1,0 +1,28 @@
+// What some VPLs of one kind, whose maps lie in one array, give the eye by the lobes of glossy pixels.
+// Drawn additively, one draw after the other.
+#include "common/gloss.glsl"
+#include "common/shadow_look_up.glsl"
+#include "common/vpls.glsl"
+#include "shared/vpl_speculars.h"
+
+layout(location = 2) uniform int uFirst;  // in uVpls
+layout(location = 3) uniform int uEnd;
+layout(location = 4) uniform vec4 uClampAndBias;  // ShadingParams
+
+layout(location = 0) out vec4 outRadiance;
+
+void main() {
+  GlossyPoint p = glossyPoint(ivec2(gl_FragCoord.xy));
+  Lobe lobe = makeLobe(p.albedo, p.metallic, p.roughness, uLeastRoughness, dot(p.shading, p.toEye));
+  vec3 sum = vec3(0.0);
+  for (int i = uFirst; i < uEnd; ++i) {
+    Vpl vpl = uVpls[i];
+    vpl.position.w = VPL_KIND;  // known to the compiler, which drops the other kinds
+    float g = vplGeometry(vpl, p.position, p.shading, p.geometric, uClampAndBias.x);
+    if (g <= 0.0) continue;
+    if (vpl.intensity.w >= 0.0 && occluded(vpl, p.position, p.geometric, uClampAndBias)) continue;
+    sum += vpl.intensity.rgb *
+           vplSpecular(vpl, lobe, p.position, p.shading, p.toEye, g, uClampAndBias.x);
+  }
+  outRadiance = vec4(sum, 0.0);
+}
