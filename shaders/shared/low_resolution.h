@@ -48,10 +48,6 @@ SHARED_FUNCTION bool isSmooth(vec3 a, vec3 b, vec3 c, vec3 d, float mostContrast
   return spread.x <= allowed.x && spread.y <= allowed.y && spread.z <= allowed.z;
 }
 
-SHARED_FUNCTION bool isSmooth(vec3 a, vec3 b, vec3 c, vec3 d) {
-  return isSmooth(a, b, c, d, kMostContrast);
-}
-
 // Share of all light of its sort that a light has that makes hard shadows.
 SHARED_CONST float kHardShare = 0.05f;
 
