@@ -105,8 +105,9 @@ void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
     indirectShares.push_back({luminance(e.flux), 1, false});
   }
   const SampleCounts directCounts = shareSamples(directShares, direct);
-  const SampleCounts indirectCounts =
-      shareSamples(indirectShares, counts_.paths > 0 ? counts_.paths : total - direct);
+  const int candidates = std::max(counts_.candidates, 1);
+  const SampleCounts indirectCounts = shareSamples(
+      indirectShares, (counts_.paths > 0 ? counts_.paths : total - direct) * candidates);
 
   const std::vector<VplId> ids = emitterIds(lightSet_);
   std::vector<Light> now(emitters.size());
@@ -115,7 +116,8 @@ void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
                                      [&](const Light& l) { return l.source.id == ids[i]; });
     if (before != lights_.end()) now[i] = std::move(*before);
     now[i].source = {static_cast<int>(i), ids[i]};
-    now[i].direct = directCounts.counts[i];
+    const bool isWholeSky = emitters[i].kind == EmitterKind::sky && emitters[i].skySun == 0;
+    now[i].direct = directCounts.counts[i] * (isWholeSky ? candidates : 1);
     now[i].directScale = directCounts.scale;
     now[i].wanted = counts_.bounces > 0 ? indirectCounts.counts[i] : 0;
     now[i].scale = indirectCounts.scale;

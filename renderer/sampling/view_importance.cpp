@@ -176,6 +176,7 @@ VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderSce
   VplSet chosen;
   chosen.rays = set.rays;
   chosen.paths = set.paths;
+  chosen.pathIds = set.pathIds;
   int sky = 0;
   for (const SceneVpl& v : set.vpls) {
     (isCandidate(v) ? candidates : chosen.vpls).push_back(v);

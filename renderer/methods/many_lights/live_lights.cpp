@@ -195,7 +195,39 @@ std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& move
     if (e.moves() || e.mapIsStale) c.work += e.moves() ? moved : stale;
     ++c.vpls;
   }
+  pairUp(groups);
   return groups;
+}
+
+// Paths that go wait for those of their light that come, so that it gets no darker in between.
+void LiveLights::pairUp(std::vector<Group>& groups) const {
+  struct Exchange {
+    std::vector<Group*> going, coming;
+  };
+  std::map<VplId, Exchange> ofLight;
+  for (Group& group : groups) {
+    const VplId& id = entries_[group.entries.front()].wanted.id;
+    if (id.bounce == 0) continue;
+    const auto any = [&](bool Entry::*is) {
+      return std::any_of(group.entries.begin(), group.entries.end(),
+                         [&](size_t i) { return entries_[i].*is; });
+    };
+    Exchange& exchange = ofLight[{id.light, id.emitter, 0, 0}];
+    if (!any(&Entry::isWanted)) {
+      exchange.going.push_back(&group);
+    } else if (!any(&Entry::isLive)) {
+      exchange.coming.push_back(&group);
+    }
+  }
+  for (auto& [light, exchange] : ofLight) {
+    for (size_t i = 0; i < std::min(exchange.going.size(), exchange.coming.size()); ++i) {
+      std::vector<size_t>& gone = exchange.going[i]->entries;
+      std::vector<size_t>& all = exchange.coming[i]->entries;
+      all.insert(all.end(), gone.begin(), gone.end());
+      gone.clear();
+    }
+  }
+  std::erase_if(groups, [](const Group& group) { return group.entries.empty(); });
 }
 
 int LiveLights::refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved,

@@ -23,8 +23,9 @@ class LiveLights {
   // more than it refreshes.
   //
   // The bounced VPLs of a path (VplId::path) that meets something else now are replaced together,
-  // in one frame. `paths`: all of them, those that left no VPL included; needed to tell these from
-  // paths that are to come.
+  // in one frame, and so is one that is wanted no more together with one that was not before.
+  // `paths`: all of them, those that left no VPL included; needed to tell these from paths that are
+  // to come.
   void want(std::vector<SceneVpl> wanted, std::span<const VplId> paths = {});
   // Something that casts shadows moved: maps that it may show in are stale. `spared`, if any, says
   // of a VPL that its map does not change nevertheless. Returns how many were spared.
@@ -79,6 +80,7 @@ class LiveLights {
     RefreshCandidate candidate{0.0f, 0, {}, 0};
   };
   std::vector<Group> pendingGroups(const RefreshWork& moved, const RefreshWork& stale);
+  void pairUp(std::vector<Group>& groups) const;
   void keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const;
   void giveSlots();
   static void takeBrightness(Entry& entry);

@@ -6,6 +6,7 @@
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/lights.h"
+#include "renderer/sampling/view_importance.h"
 #include "renderer/sampling/vpl_footprints.h"
 
 namespace lamplighter {
@@ -30,6 +31,9 @@ vec4 speculars(bool on, float leastRoughness) {
 
 // What is left of light after as many bounces within one object is next to nothing.
 constexpr int kMostTransferBounces = 4;
+
+// Rays a pixel for the light in corners, which pixels share.
+constexpr uint32_t kCornerPaths = 1;
 
 }  // namespace
 
@@ -58,6 +62,7 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
   counts.directShare = settings.real(parameters::directShare());
   counts.bounces = settings.integer(parameters::bounces());
   counts.seed = static_cast<uint32_t>(settings.integer(parameters::seed()));
+  counts.candidates = settings.integer(parameters::importance());
   mapResolution = settings.integer(parameters::mapResolution());
   budget.vpls = settings.integer(parameters::updates());
   const auto limit = [&](const ParameterSpec& spec) {
@@ -80,12 +85,16 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
   speculars = settings.boolean(parameters::speculars());
   leastRoughness = settings.real(parameters::leastRoughness());
   usePrt = useVisibility && settings.boolean(parameters::prt());
+  // What parts of an object reflect onto each other is in its transfer.
+  fillsCorners = settings.boolean(parameters::cornerLight()) && clampDistance > 0.0f && !usePrt;
   // Light between parts of an object is one bounce more each time, as VPLs of later bounces are.
   prt.transfer.bounces = std::min(counts.bounces, kMostTransferBounces);
   prt.mostPoints = settings.integer(parameters::prtPoints());
   prt.clampDistance = clampDistance;
+  VplCounts refined = counts;
+  refined.candidates = 1;
   refinement = {refines ? settings.integer(parameters::refine()) : 0,
-                counts,
+                refined,
                 mapResolution,
                 clampDistance,
                 shadowBias,
@@ -130,6 +139,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
       options.leastRoughness != options_.leastRoughness || options.usePrt != options_.usePrt ||
       !(options.prt == options_.prt) || in.lightOnly != lightOnly_;
   if (viewChanged) gbufferIsCurrent_ = false;
+  if (view_ != in.view || shadingChanged || options.fillsCorners != options_.fillsCorners)
+    corners_.forget();
   const bool shadedNow =
       !image_ || viewChanged || lights_.changed() || shadingChanged || prtChanged;
   if (shadedNow) {
@@ -137,6 +148,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     image_ = shade(in, options, vec2(0.0f), stages);
     lights_.clearChanged();
     samples_ = 0;
+    corners_.outdate();
   }
   const bool refinesOtherwise =
       options.refinement != options_.refinement || options.antialias != options_.antialias;
@@ -147,13 +159,21 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   // 5. Its edges made smooth when nothing else is to be done, one sample a frame.
   const int pending = lights_.pending();
   const int samples = options.antialias > 1 ? options.antialias : 0;
-  if (options.antialias != samplesWanted_) samples_ = 0;
+  if (options.antialias != samplesWanted_) {
+    samples_ = 0;
+    corners_.outdate();
+  }
   samplesWanted_ = options.antialias;
-  const bool isReady = pending == 0 && paths_.isAtRest() && out.stats.transfersPending == 0;
+  const bool isReady =
+      pending == 0 && paths_.isAtRest() && choiceIsCurrent_ && out.stats.transfersPending == 0;
   if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
   out.settled = isReady && samples_ == samples;
   out.radiance = out.settled && samples > 0 ? mean_ : image_;
+  if (options.fillsCorners) {
+    out.radiance = fillCorners(in, options, out.radiance, out.settled, stages);
+    out.settled = out.settled && corners_.isWhole(in.view);
+  }
 
   // 6. And then made better and better, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
@@ -178,8 +198,21 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   const bool sceneChanged = !started_ || !in.changes.none();
   std::vector<MoverFinder::Mover> movers;
   if (sceneChanged) movers = movers_.update(in.scene, in.changes);
-  if (paths_.update(in.scene, in.rays, in.changes, movers, options.counts, options.mostPaths)) {
+  // While the camera moves samples stay as they are; where it rests they are chosen for what it
+  // sees.
+  std::optional<View> chosenFor;
+  if (options.counts.candidates > 1) chosenFor = steadyView(in.view, in.rays);
+  choiceIsCurrent_ = !started_ || in.view == view_ || chosenFor == chosenFor_;
+  if (!choiceIsCurrent_) chosenFor = chosenFor_;
+  const bool choosesOtherwise =
+      chosenFor != chosenFor_ || (chosenFor && options.clampDistance != options_.clampDistance);
+  chosenFor_ = chosenFor;
+  if (paths_.update(in.scene, in.rays, in.changes, movers, options.counts, options.mostPaths) ||
+      choosesOtherwise) {
     VplSet set = paths_.set(in.scene);
+    if (chosenFor)
+      set =
+          chooseForView(set, options.counts, in.scene, in.rays, *chosenFor, options.clampDistance);
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
   }
@@ -322,6 +355,22 @@ void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& s
   stages.end("refinement");
 }
 
+std::shared_ptr<RadianceImage> ManyLights::fillCorners(
+    const FrameInputs& in, const Options& options, const std::shared_ptr<RadianceImage>& picture,
+    bool isSmooth, Stages& stages) {
+  if (isSmooth && !corners_.isWhole(in.view)) {
+    const VplCounts& counts = options.counts;
+    corners_.goOn(
+        in, lights_.inspect(),
+        {counts.directShare < 1.0f ? counts.bounces : 0,
+         counts.directShare > 0.0f || counts.bounces == 0, options.clampDistance, kCornerPaths,
+         counts.seed, 0, in.lightOnly, options.speculars, options.leastRoughness});
+    if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
+    stages.end("corners");
+  }
+  return isSmooth && corners_.isWhole(in.view) ? whole_ : corners_.scale(picture);
+}
+
 void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages& stages) {
   const auto picture = shade(in, options, jitterOf(samples_, options.antialias), stages);
   const Image& sample = picture->pixels();
@@ -343,6 +392,7 @@ MethodInfo manyLightsInfo() {
            parameters::directShare(),
            parameters::bounces(),
            parameters::seed(),
+           parameters::importance(),
            parameters::mapResolution(),
            parameters::updates(),
            parameters::maxShadowMaps(),
@@ -363,6 +413,7 @@ MethodInfo manyLightsInfo() {
            parameters::speculars(),
            parameters::leastRoughness(),
            parameters::antialias(),
+           parameters::cornerLight(),
            parameters::refine()},
           [] { return std::make_unique<ManyLights>(); }};
 }

@@ -7,6 +7,7 @@
 
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/methods/gi_method.h"
+#include "renderer/methods/many_lights/corner_light.h"
 #include "renderer/methods/many_lights/live_lights.h"
 #include "renderer/methods/many_lights/refinement.h"
 #include "renderer/prt/prt_lights.h"
@@ -38,6 +39,7 @@ class ManyLights final : public GiMethod {
     float clampDistance = 0.0f;
     float shadowBias = 0.0f;
     int antialias = 1;
+    bool fillsCorners = false;  // with what the clamp takes away
     bool useVisibility = false;
     bool useLightMaps = false;  // besides
     float lightMapTexel = 0.1f;
@@ -61,11 +63,16 @@ class ManyLights final : public GiMethod {
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
   void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out);
+  std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
+                                             const std::shared_ptr<RadianceImage>& picture,
+                                             bool isSmooth, Stages& stages);
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
   bool started_ = false, lightOnly_ = false;
   Options options_;  // of the frame before
   View view_;
+  std::optional<View> chosenFor_;  // the view that VPLs were chosen for, if for any
+  bool choiceIsCurrent_ = true;    // it is the present one, not one that the camera came from
   MoverFinder movers_;
   LightPaths paths_;
   LiveLights lights_;
@@ -80,6 +87,8 @@ class ManyLights final : public GiMethod {
   Image sum_;
   int samples_ = 0, samplesWanted_ = 1;
   std::shared_ptr<RadianceImage> mean_;
+  CornerLight corners_;
+  std::shared_ptr<RadianceImage> whole_;  // the settled picture with it
   Refinement refinement_;
 };
 

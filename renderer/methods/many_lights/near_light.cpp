@@ -13,8 +13,6 @@
 namespace lamplighter {
 namespace {
 
-// Directions in which a pixel looks for a surface nearby, for each set.
-constexpr uint32_t kPathsAPixel = 2;
 // VPLs that are tried for a point where such a ray arrives, and rays to the best of them: what is
 // too few here shows as noise along edges.
 constexpr int kVplsTried = 32, kRaysAPoint = 2;
@@ -75,11 +73,11 @@ NearLight::Pixel NearLight::pixel(const View& view, vec2 at, uint32_t index) con
                                    -side * glm::dot(s.normal, direction));
   }
   vec3 sum(0.0f);
-  for (uint32_t path = 0; path < kPathsAPixel; ++path) {
-    PathSampler sampler(index, options_.sample * kPathsAPixel + path, options_.seed);
+  for (uint32_t path = 0; path < options_.paths; ++path) {
+    PathSampler sampler(index, options_.sample * options_.paths + path, options_.seed);
     sum += gather(from, side * s.normal, sampler);
   }
-  return {sum * (1.0f / kPathsAPixel), albedo, s.position, normal};
+  return {sum / static_cast<float>(options_.paths), albedo, s.position, normal};
 }
 
 // By directions in proportion to the cosine, the true light less the clamped is

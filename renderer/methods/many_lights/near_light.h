@@ -23,6 +23,7 @@ class NearLight {
     int bounces = 0;
     bool emission = true;  // the VPLs stand for lights themselves too
     float clampDistance = 0.0f;
+    uint32_t paths = 2;             // directions in which a pixel looks for a surface nearby
     uint32_t seed = 0, sample = 0;  // which random numbers
     bool white = false;             // what is seen is shown as if it were white
     // What is seen has speculars: the diffuse part of it gets this light, the lobe does without.

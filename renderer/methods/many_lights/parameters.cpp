@@ -218,6 +218,22 @@ const ParameterSpec& antialias() {
   return spec;
 }
 
+const ParameterSpec& cornerLight() {
+  static const ParameterSpec spec{
+      "corner_light",
+      "Corner light",
+      "",
+      "The light that the clamp near light samples takes away, most of it in corners, is given "
+      "back "
+      "to a picture that is settled: found once by a short ray a pixel and smoothed.",
+      true,
+      0,
+      0,
+      false,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& refine() {
   static const ParameterSpec spec{
       "refine",

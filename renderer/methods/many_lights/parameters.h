@@ -21,6 +21,7 @@ const ParameterSpec& block();          // choice, pixels a side of the low-resol
 const ParameterSpec& prt();            // bool, cpu backend: complex meshes by transfer
 const ParameterSpec& prtPoints();      // int, light points an object
 const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled
+const ParameterSpec& cornerLight();    // bool
 const ParameterSpec& refine();         // int, VPLs in all; heeded where the caller lets it
 
 }  // namespace lamplighter::parameters

@@ -30,6 +30,8 @@ constexpr size_t kMostMapBytes = size_t{64} << 20;
 // live picture, where a light is being moved, may want it otherwise.
 constexpr float kDirectShare = 0.125f;
 
+// Rays a pixel and batch for what the clamp takes away.
+constexpr uint32_t kNearPaths = 2;
 constexpr uint32_t kJitterSet = 0x3d, kNearSet = 0x4d;
 
 void addScaled(Image& sum, const Image& image, float scale) {
@@ -118,7 +120,7 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
         in.scene, in.rays, batch.vpls,
         NearLight::Options{counts_.directShare < 1.0f ? counts_.bounces : 0,
                            counts_.directShare > 0.0f || counts_.bounces == 0,
-                           options.clampDistance, hash4(counts_.seed, 0, 0, kNearSet),
+                           options.clampDistance, kNearPaths, hash4(counts_.seed, 0, 0, kNearSet),
                            counts_.batch, in.lightOnly, options.speculars, options.leastRoughness});
   }
 }

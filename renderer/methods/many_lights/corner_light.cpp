@@ -1,0 +1,59 @@
+#include "renderer/methods/many_lights/corner_light.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/methods/many_lights/near_light_smoothing.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr int kPixelsAFrame = 1 << 15;
+// Of shares that are kept: where there was next to no light the share says nothing.
+constexpr float kMostGain = 2.0f;
+
+}  // namespace
+
+void CornerLight::goOn(const FrameInputs& in, const std::vector<InspectedLight>& lights,
+                       NearLight::Options options) {
+  const View& view = in.view;
+  std::vector<SceneVpl> vpls;
+  for (const InspectedLight& light : lights)
+    if (light.isLive) vpls.push_back({light.vpl, light.id, true});
+  const NearLight nearLight(in.scene, in.rays, vpls, options);
+  pixels_.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
+  const int end = std::min(view.height, rows_ + std::max(1, kPixelsAFrame / view.width));
+  nearLight.findRows(view, vec2(0.0f), rows_, end, pixels_);
+  rows_ = end;
+}
+
+std::shared_ptr<RadianceImage> CornerLight::addTo(RadianceImage& settled) {
+  const Image& without = settled.pixels();
+  Image with = without;
+  addSmoothed(pixels_, smoothingRadius(1), with);
+  pixels_ = {};
+  gains_ = Image(with.width, with.height);
+  tbb::parallel_for(0, with.height, [&](int y) {
+    for (int x = 0; x < with.width; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const float before = without.at(x, y)[c], after = with.at(x, y)[c];
+        gains_.at(x, y)[c] = after < kMostGain * before ? after / before : kMostGain;
+        if (!(after > before)) gains_.at(x, y)[c] = 1.0f;
+      }
+    }
+  });
+  return std::make_shared<HostImage>(std::move(with));
+}
+
+std::shared_ptr<RadianceImage> CornerLight::scale(
+    const std::shared_ptr<RadianceImage>& picture) const {
+  if (gains_.width != picture->width() || gains_.height != picture->height()) return picture;
+  Image scaled = picture->pixels();
+  tbb::parallel_for(0, scaled.height, [&](int y) {
+    for (int x = 0; x < scaled.width; ++x) scaled.at(x, y) *= gains_.at(x, y);
+  });
+  return std::make_shared<HostImage>(std::move(scaled));
+}
+
+}  // namespace lamplighter
