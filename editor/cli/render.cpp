@@ -130,6 +130,13 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   j["visibility_tests"] = t.visibilityTests;
   j["rays"] = counts.rays + t.raysOfMethod;
   j["memory_bytes"] = counts.memoryBytes;  // of the backend: maps, G-buffer, copies of the scene
+  // By what it is for. Shadow maps and all else of the backend are in memory_bytes already.
+  nlohmann::ordered_json& memory = j["memory"];
+  memory["shadow maps"] = counts.mapBytes;
+  memory["shadow maps held"] = counts.mapsHeld;
+  memory["shadow maps without room"] = out.stats.mapsWithoutRoom;
+  memory["rest of the backend"] = counts.memoryBytes - counts.mapBytes;
+  for (const auto& [what, bytes] : out.stats.memoryBytes) memory[what] = bytes;
   j["peak_memory_bytes"] = peakMemoryBytes();  // of the whole process
   return j.dump(2) + "\n";
 }

@@ -41,10 +41,11 @@ class HostImage final : public RadianceImage {
 };
 
 struct BackendInfo {
-  std::string name;               // "cpu" or "gl"
-  std::string device;             // GL renderer string, or the instruction set
-  bool tracesShadowMaps = false;  // by a ray a texel
-  bool takesTransfer = false;     // PatchLights with light by precomputed transfer
+  std::string name;                   // "cpu" or "gl"
+  std::string device;                 // GL renderer string, or the instruction set
+  bool tracesShadowMaps = false;      // by a ray a texel
+  bool specularsTakeAllMaps = false;  // lights on glossy pixels are looked up wherever they are
+  bool takesTransfer = false;         // PatchLights with light by precomputed transfer
 };
 
 // Counts of work since the backend was made.
@@ -57,6 +58,8 @@ struct KernelCounts {
   uint64_t mergedPasses = 0, passesSaved = 0;
   uint64_t pixelsInterpolated = 0;  // whose light was interpolated by the low-resolution pass
   uint64_t memoryBytes = 0;         // held now: maps, G-buffer, scene copies
+  uint64_t mapBytes = 0;            // of these, shadow maps
+  uint64_t mapsHeld = 0;            // so many
 };
 
 class Backend {
@@ -70,21 +73,26 @@ class Backend {
   virtual void setScene(const RenderScene& scene, const RenderSceneChanges& changes,
                         const RayCaster& rays) = 0;
 
-  // Makes room for `slots` shadow maps of resolution² texels; what was in them is lost when either
-  // number changes. Throws InputError when the device can't hold them.
-  virtual void reserveShadowMaps(int slots, int resolution) = 0;
+  // Makes room for VPLs of `slots` slots with shadow maps of resolution² texels, of which at most
+  // `maps` are held at a time; all are lost when any of the numbers changes. Throws InputError when
+  // the device can't hold so many.
+  virtual void reserveShadowMaps(int slots, int resolution, int maps) = 0;
+  void reserveShadowMaps(int slots, int resolution) { reserveShadowMaps(slots, resolution, slots); }
 
-  // Renders the octahedral hemisphere shadow map of each VPL into the slot in its intensity.w
-  // (directional: an orthographic map of the scene). Slots are distinct.
+  // Renders the octahedral hemisphere shadow map of each VPL for the slot in its intensity.w
+  // (directional: an orthographic map of the scene). Slots are distinct. No more maps are held
+  // afterwards than were reserved: that is for the caller to see to.
   virtual void renderShadowMaps(std::span<const shared::Vpl> vpls) = 0;
+  // Gives back the memory of these slots' maps, if they have any.
+  virtual void dropShadowMaps(std::span<const int> slots) = 0;
 
   // Primary visibility of the view into the G-buffer; `jitter` moves the sample within the pixel,
   // in pixels from its middle.
   virtual void renderGBuffer(const View& view, vec2 jitter) = 0;
 
   // E at each G-buffer pixel: the sum over the VPLs, with shadows, into the irradiance image.
-  // `patches`, if any, says by the VPLs' slots how the pixels of each patch come by each light;
-  // null: every VPL with its shadow map at every pixel.
+  // `patches`, if any, says by the VPLs' slots how the pixels of each patch come by each light, and
+  // whose map each looks up; null: every VPL with its shadow map at every pixel.
   virtual void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                        const PatchLights* patches) = 0;
 
@@ -93,7 +101,7 @@ class Backend {
   virtual std::shared_ptr<RadianceImage> compose(bool white) = 0;
   std::shared_ptr<RadianceImage> compose() { return compose(false); }
 
-  // What a shadow map holds (resolution², 1/w), for tests and views.
+  // What a shadow map holds (resolution², 1/w), for tests and views; empty: the slot has none.
   virtual std::vector<float> readShadowMap(int slot) = 0;
   // The G-buffer's world-space shading normals, albedo: for tests and views.
   virtual Image readNormals() = 0;

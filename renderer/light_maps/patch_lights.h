@@ -6,6 +6,7 @@
 #include <span>
 
 #include "renderer/light_maps/light_maps.h"
+#include "renderer/light_maps/stand_ins.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/visibility/visibility_database.h"
 
@@ -24,15 +25,24 @@ class PatchLights {
   // maps: null when there are none. mergesPasses: lights that need their shadow maps are to be
   // summed by merged passes (pass_merging.h), where the backend sums by passes at all. prt: null
   // where there is none, and for backends that do not take it (BackendInfo::takesTransfer).
+  // standIns: which VPLs have maps, and what stands for those that have none; null: all have.
   PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps,
-              bool mergesPasses = false, const PrtLights* prt = nullptr)
-      : visibility_(visibility), maps_(maps), prt_(prt), mergesPasses_(mergesPasses) {}
+              bool mergesPasses = false, const PrtLights* prt = nullptr,
+              const StandIns* standIns = nullptr)
+      : visibility_(visibility),
+        maps_(maps),
+        prt_(prt),
+        standIns_(standIns),
+        mergesPasses_(mergesPasses) {}
 
   const VisibilityDatabase& visibility() const { return visibility_; }
   const LightMaps* maps() const { return maps_; }
   const PrtLights* prt() const { return prt_; }
   bool mergesPasses() const { return mergesPasses_; }
-  size_t slots() const { return visibility_.slots(); }
+  // Of the database's lights and of what stands for some of them.
+  size_t slots() const { return standIns_ ? standIns_->slots() : visibility_.slots(); }
+  // Whose shadow map the light in a slot looks up.
+  int mapSlot(int slot) const { return standIns_ ? standIns_->mapSlot(slot) : slot; }
   const ObjectPatches& patches(uint32_t object) const { return visibility_.patches(object); }
 
   // Whether pixels on the front of this leaf begin with what the light map says. Its back, and what
@@ -49,9 +59,12 @@ class PatchLights {
   void uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
 
  private:
+  void usesOfAll(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
+
   const VisibilityDatabase& visibility_;
   const LightMaps* maps_;
   const PrtLights* prt_;
+  const StandIns* standIns_;
   bool mergesPasses_;
 };
 

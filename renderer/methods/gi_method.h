@@ -46,7 +46,10 @@ struct GiStats {
   int mapsPending = 0;         // of them, those whose map must be rendered
   int oldestFrames = 0;        // frames the oldest pending one has waited
   int framesUntilSettled = 0;  // at this frame's pace, if nothing else changes
+  int vplsRefreshed = 0;       // this frame
   int mapsRendered = 0;        // this frame
+  int mapsHeld = 0;            // of VPLs that are shown
+  int mapsWithoutRoom = 0;     // that are looked up and do not fit: others stand in
   int mapsSpared = 0;          // this frame: what moved is hidden from their lights
   // Paths of bounced light, this frame: looked at anew by rays, of these such as meet something
   // else now, as they were; and those that wait to be.
@@ -63,7 +66,8 @@ struct GiStats {
   // A settled picture that is refined: VPLs it is the mean of, those it is to be, and how many came
   // nearer this frame.
   int vplsRefined = 0, vplsToRefine = 0, mapsRefined = 0;
-  std::map<std::string, double> stageSeconds;  // by stage name
+  std::map<std::string, double> stageSeconds;   // by stage name
+  std::map<std::string, uint64_t> memoryBytes;  // of what the method keeps, by what it is
 };
 
 struct GiOutput {

@@ -23,8 +23,8 @@ void FrameTimeControl::measured(const GiStats& stats) {
   for (const auto& [stage, time] : stats.stageSeconds) seconds += time;
   // A frame in which nothing changed says nothing of one in which something does, and one with
   // less to do than it might have done does not say how much more would have been too much.
-  if (stats.mapsRendered == 0 || (stats.mapsRendered < allowed_ && seconds < wanted_)) return;
-  average(vpls_, stats.mapsRendered);
+  if (stats.vplsRefreshed == 0 || (stats.vplsRefreshed < allowed_ && seconds < wanted_)) return;
+  average(vpls_, stats.vplsRefreshed);
   average(seconds_, seconds);
 }
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "renderer/visibility/occlusion_pyramid.h"
+#include "renderer/visibility/light_shaft.h"
 
 namespace lamplighter {
 
@@ -18,6 +18,15 @@ struct Blocker {
 
 class Occluders {
  public:
+  // Triangles and large polygons that may stand in a shaft but for some objects, or more than is
+  // worth a list. Groups of loose triangles are boxes: of those a pyramid's test knows less than a
+  // shaft's, so that they are not in it.
+  struct Candidates {
+    std::vector<Blocker> items, polygons;
+    bool isWhole = false;
+    bool hasPolygons = false;
+  };
+
   void resize(size_t objects) { objects_.resize(objects); }
   // One object where it is now; call finish() after the last.
   void place(const RenderScene& scene, uint32_t object, const MeshTopology& topology,
@@ -33,6 +42,15 @@ class Occluders {
                         std::span<const uint32_t> objects, Blocker& first) const;
   // Whether one polygon of other objects hides all of the pyramid's patch.
   bool hiddenWithout(const OcclusionPyramid& pyramid, std::span<const uint32_t> objects) const;
+  // The same, of candidates; the pyramid's light is one of the shaft's.
+  void collect(const LightShaft& shaft, std::span<const uint32_t> without, Candidates& out) const;
+  Occlusion occlusionAmong(const RenderScene& scene, const OcclusionPyramid& pyramid,
+                           const Candidates& candidates, std::span<const uint32_t> without,
+                           Blocker& first) const;
+  // Whether one polygon stands between an eye, the pyramid's light, and all of its patch, so that
+  // it is drawn over it: its front does, where its back is not drawn.
+  bool hiddenFromEye(const RenderScene& scene, const OcclusionPyramid& pyramid,
+                     const vec3& eye) const;
   // Whether one of the object's polygons is large enough to hide patches.
   bool mayHide(uint32_t object) const { return !objects_[object].polygons.empty(); }
   const Caster& caster(uint32_t object) const { return objects_[object].caster; }
@@ -61,8 +79,10 @@ class Occluders {
              uint32_t object) const;
 
   std::vector<Object> objects_;
-  BoundsTree tree_;         // over the objects' bounds
-  BoundsTree polygonTree_;  // over those of their large polygons
+  std::vector<uint32_t> loose_;  // objects with groups
+  BoundsTree looseTree_;         // over the bounds of these
+  BoundsTree tree_;              // over the objects' bounds
+  BoundsTree polygonTree_;       // over those of their large polygons
 };
 
 }  // namespace lamplighter

@@ -193,6 +193,13 @@ bool VisibilityDatabase::moversAreHidden(const shared::Vpl& vpl) const {
   });
 }
 
+bool VisibilityDatabase::isHiddenFromEye(const RenderScene& scene, const shared::Vpl& eye,
+                                         uint32_t object, int patch) const {
+  const ObjectPatches& patches = patches_[object];
+  const PatchRegion region(scene, object, patches, patches.patches[static_cast<size_t>(patch)]);
+  return occluders_.hiddenFromEye(scene, OcclusionPyramid(eye, region), vec3(eye.position));
+}
+
 void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const shared::Vpl> bySlot) {
   resize(bySlot.size());
   std::vector<int> slots;
@@ -229,11 +236,17 @@ void VisibilityDatabase::clearChanged() {
   for (auto& patches : changed_) std::fill(patches.begin(), patches.end(), 0);
 }
 
+size_t VisibilityDatabase::bytes() const {
+  size_t bytes = 0;
+  for (size_t i = 0; i < rows_.size(); ++i) bytes += rows_[i].size() + withoutMovers_[i].size();
+  return bytes;
+}
+
 VisibilityCounts VisibilityDatabase::counts() const {
   VisibilityCounts c;
+  c.bytes = bytes();
   for (uint32_t i = 0; i < patches_.size(); ++i) {
     c.patches += patches_[i].patches.size();
-    c.bytes += 2 * rows_[i].size();
     for (size_t p = 0; p < patches_[i].patches.size(); ++p) {
       c.divided += divided_[i][p];
       if (!patches_[i].patches[p].isLeaf()) continue;

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/visibility/light_clusters.h"
 #include "renderer/visibility/object_identity.h"
 #include "renderer/visibility/occluders.h"
 #include "renderer/visibility/shadow_reach.h"
@@ -41,6 +42,9 @@ class VisibilityDatabase {
   // Whether everything that moved in the last setScene() was and is hidden from the light by one
   // polygon, so that its shadow map does not change.
   bool moversAreHidden(const shared::Vpl& vpl) const;
+  // Whether one polygon hides all of a patch from the eye, a light at its place that looks on.
+  bool isHiddenFromEye(const RenderScene& scene, const shared::Vpl& eye, uint32_t object,
+                       int patch) const;
   size_t moversFound() const { return moves_.size(); }  // in the last setScene()
 
   const ObjectPatches& patches(uint32_t object) const { return patches_[object]; }
@@ -68,11 +72,15 @@ class VisibilityDatabase {
   }
   void clearChanged();
 
+  // Whether new columns are looked at cluster by cluster, which changes nothing but the time.
+  void useClusters(bool use) { useClusters_ = use; }
+
   // Pyramids against the scene, since the database was made.
   uint64_t tests() const { return tests_; }
   // For a light that moved, by the last ones that did.
   uint64_t testsPerColumn() const { return testsPerColumn_; }
   VisibilityCounts counts() const;  // goes through all entries
+  size_t bytes() const;             // of the entries
 
  private:
   // An object that a column does not know the place of yet.
@@ -125,9 +133,11 @@ class VisibilityDatabase {
   BoundsTree tree_;                            // over objects' patches
   std::vector<shared::Vpl> lights_;            // by slot
   std::vector<uint8_t> isLive_;                // by slot
+  LightClusters clusters_;                     // of all lights
   std::vector<std::vector<Waiting>> waiting_;  // by slot
   // By slot: some of the waiting column was computed where the movers are now.
   std::vector<uint8_t> knowsNow_;
+  bool useClusters_ = true;
   int most_ = -1;      // that a patch that is not divided may have
   size_t stride_ = 0;  // of rows, in slots
   uint64_t tests_ = 0, testsPerColumn_ = 0;

@@ -6,6 +6,7 @@
 // are looked at.
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 #include <hwy/highway.h>
 #include <tbb/blocked_range.h>
@@ -25,6 +26,7 @@ constexpr int kMostPartial = 4;
 // Roots, and lights at a patch, that are one piece of work for a thread.
 constexpr size_t kRootsAPiece = 64;
 constexpr size_t kLightsAPiece = 32;
+constexpr size_t kLightsAShaft = 4;    // fewer are looked at alone
 constexpr size_t kLightsToShare = 96;  // fewer are not shared out
 
 // Where an object is and was before are looked at as one if the sphere around both is no larger
@@ -86,14 +88,15 @@ struct VisibilityDatabase::Task {
 class VisibilityDatabase::Update {
  public:
   // allMayDivide: patches may be divided otherwise than they are though nothing changed on them.
+  // `order`: all slots.
   Update(VisibilityDatabase& database, const RenderScene& scene, bool allMayDivide,
-         std::atomic<uint64_t>& tests)
-      : db_(database), scene_(scene), allMayDivide_(allMayDivide), tests_(tests) {
+         std::span<const int> order, std::atomic<uint64_t>& tests)
+      : db_(database), scene_(scene), allMayDivide_(allMayDivide), order_(order), tests_(tests) {
     for (const uint32_t mover : database.movers_)
       moversMayHide_ = moversMayHide_ || database.occluders_.mayHide(mover);
   }
 
-  // The root and all below it; tasks in the order of their slots.
+  // The root and all below it; tasks in the order of slots.
   void run(uint32_t object, int root, std::span<const Task> tasks) {
     tasks_.assign(tasks.begin(), tasks.end());
     visit(object, root, true, 0);
@@ -102,8 +105,18 @@ class VisibilityDatabase::Update {
  private:
   void visit(uint32_t object, int patch, bool parentIsDivided, size_t first);
   bool compute(uint32_t object, int patch, std::span<Task> tasks) const;
-  Occlusion check(const Patch& patch, const PatchRegion& region, const Task& task, bool& isSieved,
-                  uint8_t& others, Blocker& met, Blocker& metMover, uint64_t& tests) const;
+  // What may stand between the lights of a cluster and a patch, looked for when first wanted.
+  struct Shaft {
+    int cluster = -1;
+    size_t first = 0;  // of its tasks
+    LightShaft shaft{{}, PatchRegion(Bounds())};
+    Occluders::Candidates candidates;
+  };
+  const Occluders::Candidates* candidatesOf(size_t task, std::span<const Task> tasks,
+                                            const PatchRegion& region, Shaft& shaft) const;
+  Occlusion check(const Patch& patch, const PatchRegion& region, const Task& task,
+                  const Occluders::Candidates* candidates, bool& isSieved, uint8_t& others,
+                  Blocker& met, Blocker& metMover, uint64_t& tests) const;
   // Whether no mover makes a difference where this is the state by all others.
   bool isDecided(uint8_t others) const {
     return others == static_cast<uint8_t>(Occlusion::full) ||
@@ -115,6 +128,7 @@ class VisibilityDatabase::Update {
   VisibilityDatabase& db_;
   const RenderScene& scene_;
   const bool allMayDivide_;
+  const std::span<const int> order_;
   bool moversMayHide_ = false;
   std::atomic<uint64_t>& tests_;
   std::vector<Task> tasks_;  // those of the patch that is visited are the last
@@ -153,14 +167,18 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
     Blocker met, metMover;  // by the light before
     uint64_t tests = 0;
     bool changed = false;
-    for (Task& t : tasks.subspan(first, last - first)) {
+    Shaft shaft;
+    const auto some = tasks.subspan(first, last - first);
+    for (size_t i = 0; i < some.size(); ++i) {
+      Task& t = some[i];
       const auto slot = static_cast<size_t>(t.slot);
       t.was = static_cast<Occlusion>(states[slot]);
       if (t.isNew) others[slot] = kUnknown;
       if (t.work != Work::inherit) {
         if (t.met.object == kNone) t.met = met;
         if (t.metMover.object == kNone) t.metMover = metMover;
-        t.state = check(p, region, t, t.isSieved, others[slot], t.met, t.metMover, tests);
+        t.state = check(p, region, t, candidatesOf(i, some, region, shaft), t.isSieved,
+                        others[slot], t.met, t.metMover, tests);
         met = t.met;
         metMover = t.metMover;
       }
@@ -180,10 +198,39 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
   return changed;
 }
 
+// Null: the light is alone.
+const Occluders::Candidates* VisibilityDatabase::Update::candidatesOf(size_t task,
+                                                                      std::span<const Task> tasks,
+                                                                      const PatchRegion& region,
+                                                                      Shaft& shaft) const {
+  const auto clusterOf = [&](size_t i) {
+    return tasks[i].work == Work::anew ? db_.clusters_.clusterOf[static_cast<size_t>(tasks[i].slot)]
+                                       : -1;
+  };
+  if (!db_.useClusters_ || region.count != 4 || clusterOf(task) < 0) return nullptr;
+  if (shaft.cluster != clusterOf(task) || task == shaft.first) {
+    shaft.cluster = clusterOf(task);
+    shaft.first = task;
+    size_t last = task + 1;
+    while (last < tasks.size() && clusterOf(last) == shaft.cluster) ++last;
+    shaft.candidates.isWhole = false;
+    if (last - task >= kLightsAShaft) {
+      std::vector<const shared::Vpl*> lights;
+      for (size_t i = task; i < last; ++i)
+        lights.push_back(&db_.lights_[static_cast<size_t>(tasks[i].slot)]);
+      shaft.shaft = LightShaft(lights, region);
+      db_.occluders_.collect(shaft.shaft, db_.movers_, shaft.candidates);
+    }
+  }
+  const bool isIn = shaft.candidates.isWhole && shaft.shaft.holds(task - shaft.first);
+  return isIn ? &shaft.candidates : nullptr;
+}
+
 // Table 4-1: where nothing that moved can be between, before or now, nothing is looked at.
 Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegion& region,
-                                            const Task& task, bool& isSieved, uint8_t& others,
-                                            Blocker& met, Blocker& metMover,
+                                            const Task& task,
+                                            const Occluders::Candidates* candidates, bool& isSieved,
+                                            uint8_t& others, Blocker& met, Blocker& metMover,
                                             uint64_t& tests) const {
   const shared::Vpl& vpl = db_.lights_[static_cast<size_t>(task.slot)];
   isSieved = false;
@@ -209,8 +256,10 @@ Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegio
     others = static_cast<uint8_t>(Occlusion::none);
   if (others == kUnknown) {
     if (!pyramid.isDark()) ++tests;
-    others =
-        static_cast<uint8_t>(db_.occluders_.occlusionWithout(scene_, pyramid, db_.movers_, met));
+    others = static_cast<uint8_t>(
+        candidates != nullptr
+            ? db_.occluders_.occlusionAmong(scene_, pyramid, *candidates, db_.movers_, met)
+            : db_.occluders_.occlusionWithout(scene_, pyramid, db_.movers_, met));
   }
   const auto state = static_cast<Occlusion>(others);
   if (state == Occlusion::full) return state;
@@ -251,8 +300,9 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
   // Lights of which nothing changed here are to be told as well.
   const uint8_t* states = &db_.rows_[object][db_.entry(patch, 0)];
   size_t t = first;
-  for (size_t slot = 0; slot < db_.lights_.size(); ++slot) {
-    if (t < last && tasks_[t].slot == static_cast<int>(slot)) {
+  for (const int next : order_) {
+    const auto slot = static_cast<size_t>(next);
+    if (t < last && tasks_[t].slot == next) {
       pass(tasks_[t++]);
     } else if (db_.isLive_[slot] != 0 && states[slot] == static_cast<uint8_t>(Occlusion::partial)) {
       Task& task = tasks_.emplace_back();
@@ -276,8 +326,11 @@ void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const in
   const bool allMayDivide = most != most_;
   most_ = most;
   std::vector<Task> tasks;
-  for (const int slot : slots) {
-    if (!isLight(lights_[static_cast<size_t>(slot)])) continue;
+  std::vector<bool> isNew(lights_.size(), false);
+  for (const int slot : slots) isNew[static_cast<size_t>(slot)] = true;
+  clusters_ = clusterLights(lights_);
+  for (const int slot : clusters_.order) {
+    if (!isNew[static_cast<size_t>(slot)] || !isLight(lights_[static_cast<size_t>(slot)])) continue;
     Task& task = tasks.emplace_back();
     task.slot = slot;
     task.isNew = true;
@@ -289,7 +342,7 @@ void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const in
   std::atomic<uint64_t> tests = 0;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, roots.size(), kRootsAPiece),
                     [&](const tbb::blocked_range<size_t>& range) {
-                      Update update(*this, scene, allMayDivide, tests);
+                      Update update(*this, scene, allMayDivide, clusters_.order, tests);
                       for (size_t i = range.begin(); i < range.end(); ++i)
                         update.run(roots[i].first, roots[i].second, tasks);
                     });
@@ -404,9 +457,11 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
       }
     }
   }
+  std::vector<int> order(lights_.size());
+  std::iota(order.begin(), order.end(), 0);
   std::atomic<uint64_t> tests = 0;
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    Update(*this, scene, false, tests).run(jobs[i].object, jobs[i].root, jobs[i].tasks);
+    Update(*this, scene, false, order, tests).run(jobs[i].object, jobs[i].root, jobs[i].tasks);
   });
   tests_ += tests;
 }

@@ -74,7 +74,7 @@ void drag(benchmark::State& state, const Case& c) {
   std::map<std::string, double> stages;
   for (auto _ : state) {
     const GiOutput out = step();
-    refreshed += out.stats.mapsRendered;
+    refreshed += out.stats.vplsRefreshed;
     kept += out.stats.pathsKept;
     replaced += out.stats.pathsReplaced;
     pending += out.stats.vplsPending;

@@ -14,10 +14,11 @@ class SmallBackend final : public Backend {
                 const RayCaster& rays) override {
     inner_->setScene(scene, changes, rays);
   }
-  void reserveShadowMaps(int slots, int resolution) override {
+  void reserveShadowMaps(int slots, int resolution, int maps) override {
     if (resolution > 32) throw InputError("many_lights", "no memory", "lower map_resolution");
-    inner_->reserveShadowMaps(slots, resolution);
+    inner_->reserveShadowMaps(slots, resolution, maps);
   }
+  void dropShadowMaps(std::span<const int> slots) override { inner_->dropShadowMaps(slots); }
   void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
     inner_->renderShadowMaps(vpls);
   }

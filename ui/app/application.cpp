@@ -35,7 +35,7 @@ void beginPanel(const char* id, const Rect& rect, bool scrolls = true) {
 // What a frame did to refine the picture, as if that were refreshes: it costs otherwise, so that
 // its pace is found on its own.
 GiStats refinementOf(GiStats stats) {
-  stats.mapsRendered = stats.mapsRefined;
+  stats.vplsRefreshed = stats.mapsRefined;
   return stats;
 }
 

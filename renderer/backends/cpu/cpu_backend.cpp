@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <new>
+#include <stdexcept>
 
 #include <tbb/parallel_for.h>
 
@@ -48,7 +49,9 @@ class CpuBackend final : public Backend {
 
   KernelCounts counts() const override {
     KernelCounts counts = counts_;
-    counts.memoryBytes = maps_.size() * sizeof(float);
+    counts.mapsHeld = held_;
+    counts.mapBytes = held_ * texels() * sizeof(float);
+    counts.memoryBytes = counts.mapBytes;
     for (const Picture* p : {&still_, &shifted_}) counts.memoryBytes += p->bytes();
     return counts;
   }
@@ -69,36 +72,33 @@ class CpuBackend final : public Backend {
     for (const uint32_t i : changes.movedObjects) moves_.push_back(scene.objects[i].bounds);
   }
 
-  void reserveShadowMaps(int slots, int resolution) override {
-    if (slots == slots_ && resolution == resolution_) return;
+  void reserveShadowMaps(int slots, int resolution, int maps) override {
+    if (static_cast<size_t>(slots) == maps_.size() && resolution == resolution_ && maps == most_)
+      return;
     for (Picture* p : {&still_, &shifted_}) {
       p->forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
       p->speculars.mapsChange();
     }
-    const size_t texels = static_cast<size_t>(slots) * resolution * resolution;
-    try {
-      // Free first: both would not fit where one does.
-      std::vector<float>().swap(maps_);
-      slots_ = 0;
-      maps_.assign(texels, 0.0f);
-    } catch (const std::bad_alloc&) {
-      throw InputError("many_lights",
-                       "no memory for " + std::to_string(slots) + " shadow maps of " +
-                           std::to_string(resolution) + "² texels",
-                       "lower vpls or map_resolution");
-    }
-    slots_ = slots;
+    maps_.clear();
+    maps_.resize(static_cast<size_t>(slots));
+    held_ = 0;
+    most_ = maps;
     resolution_ = resolution;
   }
 
   void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
-    const size_t texels = static_cast<size_t>(resolution_) * resolution_;
+    const size_t texels = this->texels();
     shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
     for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
-    still_.forEachSums([&](cpu::LightSums& sums) {
-      for (const shared::Vpl& vpl : vpls)
+    for (const shared::Vpl& vpl : vpls) {
+      if (mapOf(vpl) == nullptr) {
+        makeMap(vpl);
+        continue;
+      }
+      still_.forEachSums([&](cpu::LightSums& sums) {
         sums.mapChanges(static_cast<int>(vpl.intensity.w), {mapOf(vpl), texels});
-    });
+      });
+    }
     const int tasks = (resolution_ + kRowsPerTask - 1) / kRowsPerTask;
     tbb::parallel_for(0, static_cast<int>(vpls.size()) * tasks, [&](int task) {
       const shared::Vpl& vpl = vpls[task / tasks];
@@ -108,6 +108,18 @@ class CpuBackend final : public Backend {
     });
     counts_.shadowMaps += vpls.size();
     counts_.rays += vpls.size() * static_cast<uint64_t>(resolution_) * resolution_;
+  }
+
+  void dropShadowMaps(std::span<const int> slots) override {
+    for (const int slot : slots) {
+      std::vector<float>& map = maps_[static_cast<size_t>(slot)];
+      if (map.empty()) continue;
+      still_.forEachSums([&](cpu::LightSums& sums) { sums.mapChanges(slot, map); });
+      shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
+      for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
+      std::vector<float>().swap(map);
+      --held_;
+    }
   }
 
   // The picture with pixels unshifted is kept, and traced again only where something moved.
@@ -132,8 +144,12 @@ class CpuBackend final : public Backend {
                const PatchLights* patches) override {
     std::vector<cpu::LightRecord> lights;
     lights.reserve(vpls.size());
-    for (const shared::Vpl& vpl : vpls)
-      lights.push_back(cpu::makeLightRecord(vpl, vpl.intensity.w < 0.0f ? nullptr : mapOf(vpl)));
+    for (const shared::Vpl& vpl : vpls) {
+      const int slot = static_cast<int>(vpl.intensity.w);
+      const int mapSlot = patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot);
+      lights.push_back(cpu::makeLightRecord(vpl, mapOf(mapSlot)));
+      lights.back().mapSlot = mapSlot;
+    }
     const float d0 = params.clampAndBias.x;
     const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_, 1.0f};
     const auto update = [&](cpu::LightSums& sums, const cpu::GBuffer& gbuffer,
@@ -175,11 +191,7 @@ class CpuBackend final : public Backend {
     return image;
   }
 
-  std::vector<float> readShadowMap(int slot) override {
-    const size_t texels = static_cast<size_t>(resolution_) * resolution_;
-    const auto first = maps_.begin() + static_cast<ptrdiff_t>(texels * slot);
-    return {first, first + static_cast<ptrdiff_t>(texels)};
-  }
+  std::vector<float> readShadowMap(int slot) override { return maps_[static_cast<size_t>(slot)]; }
 
   Image readNormals() override {
     const cpu::GBuffer& g = shown_->gbuffer;
@@ -194,8 +206,26 @@ class CpuBackend final : public Backend {
   void finish() override {}
 
  private:
-  float* mapOf(const shared::Vpl& vpl) {
-    return &maps_[static_cast<size_t>(vpl.intensity.w) * resolution_ * resolution_];
+  size_t texels() const { return static_cast<size_t>(resolution_) * resolution_; }
+
+  // Null: there is none.
+  float* mapOf(int slot) {
+    if (slot < 0 || maps_[static_cast<size_t>(slot)].empty()) return nullptr;
+    return maps_[static_cast<size_t>(slot)].data();
+  }
+  float* mapOf(const shared::Vpl& vpl) { return mapOf(static_cast<int>(vpl.intensity.w)); }
+
+  void makeMap(const shared::Vpl& vpl) {
+    if (held_ >= static_cast<size_t>(most_)) throw std::length_error("more maps than reserved");
+    try {
+      maps_[static_cast<size_t>(vpl.intensity.w)].resize(texels());
+    } catch (const std::bad_alloc&) {
+      throw InputError(
+          "many_lights",
+          "no memory for another shadow map of " + std::to_string(resolution_) + "² texels",
+          "lower map_memory or map_resolution");
+    }
+    ++held_;
   }
 
   // Of f(index into the G-buffer) at each pixel.
@@ -214,8 +244,9 @@ class CpuBackend final : public Backend {
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;
-  int slots_ = 0, resolution_ = 0;
-  std::vector<float> maps_;    // slot after slot, row after row
+  int resolution_ = 0, most_ = 0;
+  std::vector<std::vector<float>> maps_;  // by slot; row after row; empty: none
+  size_t held_ = 0;
   Picture still_, shifted_;    // pixels in their places, and moved for antialiasing
   Picture* shown_ = &still_;   // the one that was rendered last
   bool stillIsKnown_ = false;  // still_ shows stillView_, but for what moved

@@ -22,6 +22,7 @@ struct LightRecord {
   Kind kind = Kind::cosine;
   const float* map = nullptr;  // null: casts no shadow
   int slot = -1;
+  int mapSlot = -1;  // whose map it is
   vec3 position, normal, tangent, bitangent, intensity;
   float coneScale = 0.0f, coneOffset = 1.0f;
   float radius = 0.0f, side = 1.0f;  // directional: R and S

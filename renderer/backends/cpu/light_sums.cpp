@@ -15,6 +15,8 @@ namespace {
 
 // Of shadow maps, in the second-level cache beside the tiles.
 constexpr size_t kMapBytesAtOnce = size_t{512} << 10;
+// Of maps as they were, which are kept from their change to the next sum.
+constexpr size_t kMostOldBytes = size_t{16} << 20;
 // Tiles that are summed together, so that each shadow map is fetched from memory once for all.
 constexpr int kTilesPerTask = 16;
 // The same where few of their packets are wanted.
@@ -151,10 +153,11 @@ struct LightSums::Frame {
 void LightSums::mapChanges(int slot, std::span<const float> map) {
   if (!knowsSums_ || oldMaps_.contains(slot)) return;
   const bool isSummed = std::any_of(lights_.begin(), lights_.end(),
-                                    [&](const LightRecord& l) { return l.slot == slot; });
+                                    [&](const LightRecord& l) { return l.mapSlot == slot; });
   if (!isSummed) return;
   // To take more away than stays is more work than to begin anew.
   if (2 * (oldMaps_.size() + 1) > lights_.size()) return forgetMaps();
+  if ((oldMaps_.size() + 1) * map.size_bytes() > kMostOldBytes) return forgetMaps();
   oldMaps_.emplace(slot, std::vector<float>(map.begin(), map.end()));
 }
 
@@ -192,7 +195,7 @@ void LightSums::compareWithLast(const Frame& frame) {
 
 std::vector<LightSums::Change> LightSums::findChanges(std::span<const LightRecord> lights) {
   for (LightRecord& light : lights_) {
-    const auto old = oldMaps_.find(light.slot);
+    const auto old = oldMaps_.find(light.mapSlot);
     if (old != oldMaps_.end()) light.map = old->second.data();
   }
   const auto before = bySlot(lights_), now = bySlot(lights);

@@ -14,6 +14,7 @@ class GlBackend final : public Backend {
         gbuffer_(shaders),
         lighting_(shaders, vpls_),
         speculars_(shaders, vpls_) {
+    info_.specularsTakeAllMaps = true;
     info_.name = "gl";
     info_.takesTransfer = true;
     info_.device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -23,6 +24,8 @@ class GlBackend final : public Backend {
 
   KernelCounts counts() const override {
     KernelCounts counts = counts_;
+    counts.mapBytes = maps_.bytes();
+    counts.mapsHeld = static_cast<uint64_t>(maps_.held());
     counts.memoryBytes =
         scene_.bytes() + maps_.bytes() + gbuffer_.bytes() + lighting_.bytes() + speculars_.bytes();
     return counts;
@@ -33,12 +36,16 @@ class GlBackend final : public Backend {
     scene_.update(scene, changes);
   }
 
-  void reserveShadowMaps(int slots, int resolution) override { maps_.reserve(slots, resolution); }
+  void reserveShadowMaps(int slots, int resolution, int maps) override {
+    maps_.reserve(slots, resolution, maps);
+  }
 
   void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
     maps_.render(scene_, vpls, vpls_);
     counts_.shadowMaps += vpls.size();
   }
+
+  void dropShadowMaps(std::span<const int> slots) override { maps_.drop(slots); }
 
   void renderGBuffer(const View& view, vec2 jitter) override {
     gbuffer_.render(scene_, view, jitter);
@@ -49,7 +56,7 @@ class GlBackend final : public Backend {
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                const PatchLights* patches) override {
     lighting_.sum(scene_, gbuffer_, maps_, vpls_, vpls, params, patches);
-    speculars_.sum(scene_, gbuffer_, maps_, vpls_, vpls, params);
+    speculars_.sum(scene_, gbuffer_, maps_, vpls_, vpls, params, patches);
     counts_.mergedPasses += static_cast<uint64_t>(lighting_.mergedPasses());
     counts_.passesSaved += static_cast<uint64_t>(lighting_.passesSaved());
     counts_.lightPixels +=

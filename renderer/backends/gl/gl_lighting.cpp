@@ -10,9 +10,10 @@
 namespace lamplighter::gl {
 namespace {
 
-int arrayOf(const shared::Vpl& vpl, int slotsAnArray) {
+// The place of the map that a VPL looks up; kNone: there is none.
+int placeOf(const shared::Vpl& vpl, const GlShadowMaps& maps, const PatchLights* patches) {
   const int slot = static_cast<int>(vpl.intensity.w);
-  return slot < 0 ? 0 : slot / slotsAnArray;
+  return maps.place(patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot));
 }
 
 int mostLights(const vec4& clampAndBias) { return std::max(static_cast<int>(clampAndBias.w), 1); }
@@ -86,9 +87,12 @@ void GlLighting::zero() {
 // order.
 GlLighting::Sum GlLighting::makeSum(const GlShadowMaps& maps, const VplBuffer& buffer,
                                     std::span<const shared::Vpl> vpls,
-                                    const shared::ShadingParams& params) {
+                                    const shared::ShadingParams& params,
+                                    const PatchLights* patches) {
   const auto batchOf = [&](const shared::Vpl& vpl) {
-    return std::pair(static_cast<int>(vpl.position.w), arrayOf(vpl, maps.slotsAnArray()));
+    const int place = placeOf(vpl, maps, patches);
+    return std::pair(static_cast<int>(vpl.position.w),
+                     place == kNone ? 0 : place / maps.placesAnArray());
   };
   Sum sum{maps, buffer, {vpls.begin(), vpls.end()}, {}, params.clampAndBias};
   std::stable_sort(sum.vpls.begin(), sum.vpls.end(),
@@ -110,7 +114,7 @@ GlLighting::Sum GlLighting::makeSum(const GlShadowMaps& maps, const VplBuffer& b
 void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
                      const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
                      const shared::ShadingParams& params, const PatchLights* patches) {
-  Sum sum = makeSum(maps, buffer, vpls, params);
+  Sum sum = makeSum(maps, buffer, vpls, params, patches);
   mergedPasses_ = passesSaved_ = 0;
   clear(gbuffer.width(), gbuffer.height());
   gbuffer.bind();
@@ -123,11 +127,11 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
     takePatches(scene, gbuffer, sum, *patches);
     pixels_.addPlaces();
   }
-  // Slots within their arrays.
+  // Places within their arrays.
   for (const Batch& batch : sum.batches) {
     for (shared::Vpl& vpl : std::span(sum.vpls).subspan(batch.first, batch.count)) {
-      if (vpl.intensity.w >= 0.0f)
-        vpl.intensity.w -= static_cast<float>(batch.array * maps.slotsAnArray());
+      const int place = placeOf(vpl, maps, patches);
+      vpl.intensity.w = static_cast<float>(place == kNone ? kNone : place % maps.placesAnArray());
     }
   }
 

@@ -60,7 +60,8 @@ class GlLighting {
   };
 
   static Sum makeSum(const GlShadowMaps& maps, const VplBuffer& buffer,
-                     std::span<const shared::Vpl> vpls, const shared::ShadingParams& params);
+                     std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
+                     const PatchLights* patches);
   void takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
                    const PatchLights& lights);
   void zero();

@@ -1,6 +1,7 @@
 #include "renderer/backends/gl/gl_shadow_maps.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "renderer/error.h"
 #include "renderer/gl/pass_state.h"
@@ -12,6 +13,9 @@ namespace {
 
 // Of one array: drivers refuse or swap what is larger, and Mesa's llvmpipe ends at a gigabyte.
 constexpr uint64_t kMaxArrayBytes = uint64_t{512} << 20;
+
+// When the arrays are full they get at least this part more, so that growing is rare.
+constexpr int kGrowth = 4;
 
 // Share of a texel by which the faces of the octahedron reach over its creases.
 constexpr float kCreaseTexels = 0.01f;
@@ -67,13 +71,16 @@ void GlShadowMaps::reload(const std::filesystem::path& shaders, const VplBuffer&
   directional_ = std::move(directional);
 }
 
-void GlShadowMaps::reserve(int slots, int resolution) {
-  if (slots == slots_ && resolution == resolution_) return;
+void GlShadowMaps::reserve(int slots, int resolution, int most) {
+  if (static_cast<size_t>(slots) == places_.size() && resolution == resolution_ && most == most_)
+    return;
   GLint maxLayers = 1, maxSize = 1;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &maxLayers);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &maxSize);
   arrays_.clear();
-  slots_ = resolution_ = 0;
+  places_.clear();
+  free_.clear();
+  resolution_ = room_ = held_ = 0;
   if (resolution > maxSize) {
     throw InputError("many_lights",
                      "OpenGL takes shadow maps of " + std::to_string(maxSize) + "² texels at most",
@@ -81,32 +88,79 @@ void GlShadowMaps::reserve(int slots, int resolution) {
   }
   const uint64_t mapBytes = uint64_t{4} * resolution * resolution;
   const uint64_t fitting = std::max<uint64_t>(kMaxArrayBytes / mapBytes, 1);
-  slotsAnArray_ = static_cast<int>(std::min<uint64_t>(maxLayers, fitting));
+  placesAnArray_ = static_cast<int>(std::min<uint64_t>(maxLayers, fitting));
+  isDirectional_.assign(static_cast<size_t>(slots), false);
+  places_.assign(static_cast<size_t>(slots), kNone);
+  resolution_ = resolution;
+  most_ = most;
+}
+
+Texture GlShadowMaps::makeArray(int layers) const {
   while (glGetError() != GL_NO_ERROR) {
   }
-  for (int first = 0; first < slots; first += slotsAnArray_) {
-    Texture array = Texture::make(GL_TEXTURE_2D_ARRAY);
-    glTextureStorage3D(array.name(), 1, GL_DEPTH_COMPONENT32F, resolution, resolution,
-                       std::min(slotsAnArray_, slots - first));
-    if (glGetError() != GL_NO_ERROR) {
-      arrays_.clear();
-      throw InputError("many_lights",
-                       "no video memory for " + std::to_string(slots) + " shadow maps of " +
-                           std::to_string(resolution) + "² texels",
-                       "lower vpls or map_resolution");
-    }
-    glTextureParameteri(array.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(array.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    arrays_.push_back(std::move(array));
+  Texture array = Texture::make(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(array.name(), 1, GL_DEPTH_COMPONENT32F, resolution_, resolution_, layers);
+  if (glGetError() != GL_NO_ERROR) {
+    throw InputError("many_lights",
+                     "no video memory for " + std::to_string(layers) + " shadow maps of " +
+                         std::to_string(resolution_) + "² texels",
+                     "lower map_memory or map_resolution");
   }
-  isDirectional_.assign(static_cast<size_t>(slots), false);
-  slots_ = slots;
-  resolution_ = resolution;
+  glTextureParameteri(array.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTextureParameteri(array.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return array;
+}
+
+// The last array is made larger, with what it holds, and then others are added.
+void GlShadowMaps::grow(int places) {
+  while (room_ < places) {
+    const bool isFull = room_ % placesAnArray_ == 0;
+    const int first = isFull ? room_ : room_ / placesAnArray_ * placesAnArray_;
+    const int end = std::min(places, first + placesAnArray_);
+    Texture array = makeArray(end - first);
+    if (!isFull) {
+      glCopyImageSubData(arrays_.back().name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, array.name(),
+                         GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, resolution_, resolution_, room_ - first);
+      arrays_.pop_back();
+    }
+    arrays_.push_back(std::move(array));
+    room_ = end;
+  }
+}
+
+void GlShadowMaps::givePlace(int slot) {
+  int& place = places_[static_cast<size_t>(slot)];
+  if (place != kNone) return;
+  if (held_ >= most_) throw std::length_error("more maps than reserved");
+  ++held_;
+  if (free_.empty()) {
+    place = held_ - 1;
+    return;
+  }
+  place = free_.back();
+  free_.pop_back();
+}
+
+void GlShadowMaps::drop(std::span<const int> slots) {
+  for (const int slot : slots) {
+    int& place = places_[static_cast<size_t>(slot)];
+    if (place == kNone) continue;
+    free_.push_back(place);
+    place = kNone;
+    --held_;
+  }
 }
 
 void GlShadowMaps::render(const GlScene& scene, std::span<const shared::Vpl> vpls,
                           const VplBuffer& buffer) {
   if (vpls.empty()) return;
+  int places = 0;
+  for (const shared::Vpl& vpl : vpls) {
+    const int slot = static_cast<int>(vpl.intensity.w);
+    givePlace(slot);
+    places = std::max(places, places_[static_cast<size_t>(slot)] + 1);
+  }
+  if (places > room_) grow(std::min(std::max(places, room_ + room_ / kGrowth), most_));
   PassState state(framebuffer_.name(), resolution_, resolution_);
   state.reversedDepth();
   state.clipDistances(4);
@@ -123,7 +177,8 @@ void GlShadowMaps::render(const GlScene& scene, std::span<const shared::Vpl> vpl
 void GlShadowMaps::renderMap(const GlScene& scene, const shared::Vpl& vpl, int indexInBuffer) {
   const int slot = static_cast<int>(vpl.intensity.w);
   glNamedFramebufferTextureLayer(framebuffer_.name(), GL_DEPTH_ATTACHMENT,
-                                 array(slot / slotsAnArray_), 0, slot % slotsAnArray_);
+                                 array(place(slot) / placesAnArray_), 0,
+                                 place(slot) % placesAnArray_);
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &nothing);
   const bool directional = vpl.position.w == shared::kVplDirectional;
@@ -181,9 +236,10 @@ void GlShadowMaps::drawFace(const GlScene& scene, const shared::Vpl& vpl, const 
 }
 
 std::vector<float> GlShadowMaps::read(int slot) const {
+  if (place(slot) == kNone) return {};
   std::vector<float> map(static_cast<size_t>(resolution_) * resolution_);
-  glGetTextureSubImage(array(slot / slotsAnArray_), 0, 0, 0, slot % slotsAnArray_, resolution_,
-                       resolution_, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+  glGetTextureSubImage(array(place(slot) / placesAnArray_), 0, 0, 0, place(slot) % placesAnArray_,
+                       resolution_, resolution_, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
                        static_cast<GLsizei>(map.size() * sizeof(float)), map.data());
   if (!isDirectional_[static_cast<size_t>(slot)]) {
     for (float& v : map) v *= 1.0f / shared::kShadowDepthUnit;
@@ -191,6 +247,6 @@ std::vector<float> GlShadowMaps::read(int slot) const {
   return map;
 }
 
-uint64_t GlShadowMaps::bytes() const { return uint64_t{4} * slots_ * resolution_ * resolution_; }
+uint64_t GlShadowMaps::bytes() const { return uint64_t{4} * room_ * resolution_ * resolution_; }
 
 }  // namespace lamplighter::gl

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/gl/pass_state.h"
+#include "renderer/light_maps/patch_lights.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/brdf.h"
 
@@ -43,7 +44,7 @@ void GlSpeculars::reload(const std::filesystem::path& shaders, const VplBuffer& 
 
 void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
                       const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
-                      const shared::ShadingParams& params) {
+                      const shared::ShadingParams& params, const PatchLights* patches) {
   isOn_ = params.speculars.x != 0.0f && hasGlossyObject(scene);
   if (!isOn_) return;
   leastRoughness_ = params.speculars.y;
@@ -60,14 +61,25 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
   gbuffer.bind();
 
   // In their order within each kind and array, as many at a time as a block and a draw take.
-  const int inArray = maps.slotsAnArray();
+  // Those that should have a map and have none are left out: others stand for them.
+  const int inArray = maps.placesAnArray();
+  std::vector<shared::Vpl> sorted;
+  sorted.reserve(vpls.size());
+  for (shared::Vpl vpl : vpls) {
+    const int slot = static_cast<int>(vpl.intensity.w);
+    if (slot >= 0) {
+      const int place = maps.place(patches == nullptr ? slot : patches->mapSlot(slot));
+      if (place == kNone) continue;
+      vpl.intensity.w = static_cast<float>(place);
+    }
+    sorted.push_back(vpl);
+  }
   const auto arrayOf = [&](const shared::Vpl& vpl) {
     return std::max(static_cast<int>(vpl.intensity.w), 0) / inArray;
   };
   const auto batchOf = [&](const shared::Vpl& vpl) {
     return std::pair(static_cast<int>(vpl.position.w), arrayOf(vpl));
   };
-  std::vector<shared::Vpl> sorted(vpls.begin(), vpls.end());
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const auto& a, const auto& b) { return batchOf(a) < batchOf(b); });
   const int aDraw = std::max(static_cast<int>(params.clampAndBias.w), 1);

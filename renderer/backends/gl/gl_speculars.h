@@ -10,6 +10,10 @@
 #include "renderer/backends/gl/gl_shadow_maps.h"
 #include "renderer/gl/radiance_texture.h"
 
+namespace lamplighter {
+class PatchLights;
+}
+
 namespace lamplighter::gl {
 
 class GlSpeculars {
@@ -20,7 +24,7 @@ class GlSpeculars {
   // Of the G-buffer's glossy pixels, if `params` ask for it.
   void sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
            const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
-           const shared::ShadingParams& params);
+           const shared::ShadingParams& params, const PatchLights* patches);
   // Makes the picture of surfaces that are all Lambert's, with this irradiance, one with speculars.
   void addTo(const RadianceTexture& picture, const GlGBuffer& gbuffer, GLuint irradiance);
   // There are none until the next sum.

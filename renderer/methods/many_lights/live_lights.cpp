@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/visibility/light_clusters.h"
+
 namespace lamplighter {
 namespace {
 
@@ -46,6 +48,8 @@ void LiveLights::fitSlots(size_t wanted) {
   if (static_cast<int>(wanted) <= slots_ && 4 * fitting >= slots_) return;
   slots_ = fitting;
   loseMaps();
+  holds_.assign(static_cast<size_t>(slots_), 0);
+  lastMarked_.assign(static_cast<size_t>(slots_), 0);
   for (Entry& e : entries_) e.slot = -1;
 }
 
@@ -80,6 +84,7 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
     e.share = whole > 0.0f ? brightness(w.vpl) / whole : 0.0f;
     e.wanted = std::move(w);
     e.isWanted = true;
+    e.lacksMap = false;  // until updateMaps() says so
     const bool stays = !e.moves();
     // What it stands for hangs on its neighbours, and no map or kept sum hangs on that.
     if (stays && e.current.footprint != e.wanted.vpl.footprint) {
@@ -165,7 +170,9 @@ void LiveLights::loseMaps() {
     e.isLive = e.mapIsStale = e.isOff = false;
     e.staleShare = 0.0f;
     if (e.wanted.id.bounce > 0) pathIsShown_[e.wanted.id.path()] = false;
+    e.hasMap = e.lacksMap = e.hasNoRoom = false;
   }
+  std::fill(holds_.begin(), holds_.end(), uint8_t{0});
   changed_ = true;
 }
 
@@ -182,7 +189,7 @@ std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& move
     Entry& e = entries_[i];
     const auto path = e.wanted.id.bounce > 0 ? ofPath.find(e.wanted.id.path()) : ofPath.end();
     const bool isOfPath = path != ofPath.end();
-    if (!isOfPath && !e.isPending()) continue;
+    if (!isOfPath && !e.mustRefresh()) continue;
     Group& group = isOfPath ? groups[path->second] : groups.emplace_back();
     group.entries.push_back(i);
     RefreshCandidate& c = group.candidate;
@@ -232,10 +239,16 @@ void LiveLights::pairUp(std::vector<Group>& groups) const {
 
 int LiveLights::refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved,
                         const RefreshWork& stale) {
+  refresh(budget, moved, stale);
+  return updateMaps(backend, std::vector<uint8_t>(static_cast<size_t>(slots_), 1), {});
+}
+
+int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
+                        const RefreshWork& stale) {
   const std::vector<Group> groups = pendingGroups(moved, stale);
   std::vector<RefreshCandidate> candidates;
   for (const Group& group : groups) candidates.push_back(group.candidate);
-  std::vector<shared::Vpl> maps;
+  int refreshed = 0;
   for (const size_t chosen : chooseRefreshes(candidates, budget)) {
     for (const size_t index : groups[chosen].entries) {
       Entry& e = entries_[index];
@@ -254,38 +267,137 @@ int LiveLights::refresh(Backend& backend, const RefreshBudget& budget, const Ref
       e.current = e.wanted.vpl;
       e.current.intensity.w = static_cast<float>(e.slot);
       e.isLive = true;
-      e.mapIsStale = false;
+      e.mapIsStale = e.hasMap = false;
       e.staleShare = 0.0f;
-      maps.push_back(e.current);
+      ++refreshed;
     }
   }
   std::erase_if(entries_, [](const Entry& e) { return !e.isWanted && !e.isLive; });
+  return refreshed;
+}
+
+// Numbers by entry, such that the lowest of them are spread over all lights: those without maps are
+// to have neighbours that have. They follow from the lights alone, so that a camera that moves does
+// not exchange all maps.
+std::vector<uint32_t> LiveLights::spreadTurns() const {
+  std::vector<shared::Vpl> vpls;
+  vpls.reserve(entries_.size());
+  for (const Entry& e : entries_) vpls.push_back(e.isLive ? e.current : e.wanted.vpl);
+  const std::vector<int> order = clusterLights(vpls).order;
+  std::vector<uint32_t> turns(entries_.size(), 0);
+  for (uint32_t i = 0; i < order.size(); ++i) {
+    uint32_t reversed = 0;
+    for (uint32_t bit = 0; bit < 32; ++bit) reversed |= (i >> bit & 1u) << (31 - bit);
+    turns[static_cast<size_t>(order[i])] = reversed;
+  }
+  return turns;
+}
+
+int LiveLights::updateMaps(Backend& backend, const std::vector<uint8_t>& marked,
+                           const MapLimits& limits) {
+  ++calls_;
+  // What is stale waits for its refresh, but keeps the map that it has.
+  std::vector<Entry*> wants;
+  for (Entry& e : entries_) {
+    const bool isMarked = e.isLive && marked[static_cast<size_t>(e.slot)] != 0;
+    e.lacksMap = e.hasNoRoom = false;
+    if (!isMarked || ((e.moves() || e.mapIsStale) && !e.hasMap)) continue;
+    wants.push_back(&e);
+    lastMarked_[static_cast<size_t>(e.slot)] = calls_;
+  }
+  const auto room = static_cast<size_t>(std::max(limits.held, 0));
+  if (wants.size() > std::min(room, static_cast<size_t>(std::max(limits.rendered, 0)))) {
+    const std::vector<uint32_t> turns = spreadTurns();
+    std::sort(wants.begin(), wants.end(), [&](const Entry* a, const Entry* b) {
+      return turns[static_cast<size_t>(a - entries_.data())] <
+             turns[static_cast<size_t>(b - entries_.data())];
+    });
+  }
+  for (size_t i = room; i < wants.size(); ++i) wants[i]->hasNoRoom = true;
+  wants.resize(std::min(wants.size(), room));
+
+  std::vector<shared::Vpl> maps;
+  std::vector<uint8_t> keeps(holds_.size(), 0), mayKeep(holds_.size(), 0);
+  for (const Entry& e : entries_)
+    if (e.hasMap && !e.hasNoRoom) mayKeep[static_cast<size_t>(e.slot)] = 1;
+  for (Entry* e : wants) {
+    e->lacksMap = !e->hasMap;
+    if (!e->hasMap && maps.size() < static_cast<size_t>(std::max(limits.rendered, 0)))
+      maps.push_back(e->current);
+    else if (!e->hasMap)
+      continue;
+    keeps[static_cast<size_t>(e->slot)] = 1;
+  }
+  // Maps of what is no more go, and then, where room is short, those marked least recently.
+  std::vector<int> dropped, spare;
+  size_t held = static_cast<size_t>(std::count(keeps.begin(), keeps.end(), 1));
+  for (size_t slot = 0; slot < holds_.size(); ++slot) {
+    if (holds_[slot] == 0 || keeps[slot] != 0) continue;
+    (mayKeep[slot] != 0 ? spare : dropped).push_back(static_cast<int>(slot));
+  }
+  std::stable_sort(spare.begin(), spare.end(), [&](int a, int b) {
+    return lastMarked_[static_cast<size_t>(a)] > lastMarked_[static_cast<size_t>(b)];
+  });
+  for (const int slot : spare) {
+    if (held < room)
+      ++held;
+    else
+      dropped.push_back(slot);
+  }
+  for (const int slot : dropped) holds_[static_cast<size_t>(slot)] = 0;
+  for (const shared::Vpl& vpl : maps) holds_[static_cast<size_t>(vpl.intensity.w)] = 1;
+  for (Entry& e : entries_) {
+    const bool hasMap = e.hasMap;
+    e.hasMap = holds_[static_cast<size_t>(e.slot)] != 0 && (e.hasMap || e.lacksMap);
+    if (e.hasMap) e.lacksMap = false;
+    changed_ = changed_ || e.hasMap != hasMap;
+  }
+  if (!dropped.empty()) backend.dropShadowMaps(dropped);
   if (!maps.empty()) backend.renderShadowMaps(maps);
   return static_cast<int>(maps.size());
+}
+
+std::vector<uint8_t> LiveLights::hasMap() const {
+  std::vector<uint8_t> bySlot(static_cast<size_t>(slots_), 0);
+  for (const Entry& e : entries_)
+    if (e.hasMap) bySlot[static_cast<size_t>(e.slot)] = 1;
+  return bySlot;
+}
+
+void LiveLights::showOnlyMapped(bool onlyMapped) {
+  changed_ = changed_ || onlyMapped != onlyMapped_;
+  onlyMapped_ = onlyMapped;
+}
+
+int LiveLights::withoutMap() const {
+  return static_cast<int>(
+      std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.hasNoRoom; }));
 }
 
 std::vector<shared::Vpl> LiveLights::shown() const {
   struct Set {
     float share = 0.0f;
     float missing = 0.0f;  // of samples that are to come
+    bool lacks = false;    // some for good
   };
   std::map<VplId, Set> sets;
   for (const Entry& e : entries_) {
     const VplId& id = e.wanted.id;
     Set& set = sets[id.set()];
     // A path that is shown as it was stands for what it will be.
-    if (e.isLive || (id.bounce > 0 && pathIsShown_.at(id.path()))) {
+    if (isShown(e) || (!e.isLive && id.bounce > 0 && pathIsShown_.at(id.path()))) {
       set.share += e.share;
     } else if (e.wanted.isSample) {
       set.missing += e.share;
+      set.lacks = set.lacks || e.hasNoRoom;
     }
   }
   std::vector<shared::Vpl> vpls;
   for (const Entry& e : entries_) {
-    if (!e.isLive) continue;
+    if (!isShown(e)) continue;
     shared::Vpl& vpl = vpls.emplace_back(e.current);
     const Set& set = sets[e.wanted.id.set()];
-    if (set.missing <= kSmallShare || !(set.share > 0.0f)) continue;
+    if ((set.missing <= kSmallShare && !set.lacks) || !(set.share > 0.0f)) continue;
     vpl.intensity = vec4(vec3(vpl.intensity) / set.share, vpl.intensity.w);
   }
   return vpls;
@@ -307,7 +419,7 @@ int LiveLights::pending() const {
 
 int LiveLights::live() const {
   return static_cast<int>(
-      std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.isLive; }));
+      std::count_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return isShown(e); }));
 }
 
 int LiveLights::oldestFrames() const {

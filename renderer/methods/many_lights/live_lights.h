@@ -1,8 +1,11 @@
-// The VPLs that are shown, each with its own shadow map, on their way to those that are wanted
-// (design.md 4: the unit of update is one VPL).
+// The VPLs that are shown, with their shadow maps, on their way to those that are wanted (design.md
+// 4: the unit of update is one VPL). Which of them have maps is another matter: those that the view
+// looks up, as far as memory goes (paper 1, 6.2).
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
@@ -34,11 +37,34 @@ class LiveLights {
   // The maps are lost: nothing is shown until it is refreshed.
   void loseMaps();
 
-  // Takes the pending VPLs and paths of highest priority that the budget is enough for, moves each
-  // to where it is wanted, renders its maps, and swaps both in together. `moved`, `stale`: the work
-  // for one that is at another place, and for one whose map alone is out of date. Returns how many.
+  // Takes the pending VPLs and paths of highest priority that the budget is enough for and moves
+  // each to where it is wanted; its map is lost, if it has one, until updateMaps(). `moved`,
+  // `stale`: the work for one that is at another place, and for one whose map alone is out of date.
+  // Returns how many.
+  int refresh(const RefreshBudget& budget, const RefreshWork& moved = {},
+              const RefreshWork& stale = {});
+
+  struct MapLimits {
+    int held = std::numeric_limits<int>::max();      // maps at a time
+    int rendered = std::numeric_limits<int>::max();  // in this call
+  };
+  // Gives maps to the VPLs in the slots that are marked, spread over all of them where they do not
+  // all fit or there are many at once, and takes maps from
+  // others where there would be too many: from those that were not marked for longest. Returns how
+  // many were rendered.
+  int updateMaps(Backend& backend, const std::vector<uint8_t>& marked, const MapLimits& limits);
+  // Whether what has no map is not to be shown at all (naive).
+  void showOnlyMapped(bool onlyMapped);
+
+  // Both, with a map for each VPL.
   int refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved = {},
               const RefreshWork& stale = {});
+
+  // By slot, whether there is a map of the light as it is shown.
+  std::vector<uint8_t> hasMap() const;
+  int mapsHeld() const { return static_cast<int>(std::count(holds_.begin(), holds_.end(), 1)); }
+  // Marked, but more than may be held.
+  int withoutMap() const;
 
   // All of them, in the order of the wanted ones.
   std::vector<InspectedLight> inspect() const;
@@ -69,10 +95,14 @@ class LiveLights {
     bool mapIsStale = false;  // its map shows what has moved
     bool isOff = false;       // its brightness is not quite what is wanted, its map is right
     float staleShare = 0.0f;  // of its map, that is out of date
+    bool hasMap = false;      // of what is current
+    bool lacksMap = false;    // it is to get one
+    bool hasNoRoom = false;   // it is marked, and others have all the room
     int framesWaiting = 0;
     shared::Vpl current{};
     bool moves() const;  // it is not where it is wanted
-    bool isPending() const { return moves() || mapIsStale || isOff; }
+    bool mustRefresh() const { return moves() || mapIsStale || isOff; }
+    bool isPending() const { return mustRefresh() || lacksMap; }
   };
   // What is refreshed together: a VPL, or those of a path that changes.
   struct Group {
@@ -85,11 +115,18 @@ class LiveLights {
   void giveSlots();
   static void takeBrightness(Entry& entry);
   void fitSlots(size_t wanted);
+  std::vector<uint32_t> spreadTurns() const;
+  bool isShown(const Entry& e) const { return e.isLive && (e.hasMap || !onlyMapped_); }
 
   std::vector<Entry> entries_;         // in the order wanted, those that are not behind them
   std::map<VplId, bool> pathIsShown_;  // of all that bounce, whether as wanted or as it was
   int slots_ = 0;
   bool changed_ = true;
+  bool onlyMapped_ = true;
+  // By slot: the backend has a map, of whatever it is; when it was last marked.
+  std::vector<uint8_t> holds_;
+  std::vector<uint64_t> lastMarked_;
+  uint64_t calls_ = 0;  // of updateMaps()
 };
 
 }  // namespace lamplighter

@@ -8,6 +8,8 @@
 #include "renderer/sampling/lights.h"
 #include "renderer/sampling/view_importance.h"
 #include "renderer/sampling/vpl_footprints.h"
+#include "renderer/visibility/seen_lights.h"
+#include "shaders/shared/brdf.h"
 
 namespace lamplighter {
 namespace {
@@ -28,6 +30,15 @@ vec2 jitterOf(int i, int n) {
 vec4 speculars(bool on, float leastRoughness) {
   return {on ? 1.0f : 0.0f, leastRoughness, 0.0f, 0.0f};
 }
+bool hasGlossy(const RenderScene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const RenderObject& o) {
+    const Material& m = scene.materials[static_cast<size_t>(o.material)];
+    return shared::isGlossy(m.metallic, m.roughness) || m.metallicRoughnessTexture.texture != kNone;
+  });
+}
+
+// Of all shadow maps, what refinement may have.
+constexpr int kRefinementShare = 4;
 
 // What is left of light after as many bounces within one object is next to nothing.
 constexpr int kMostTransferBounces = 4;
@@ -64,6 +75,9 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
   counts.seed = static_cast<uint32_t>(settings.integer(parameters::seed()));
   counts.candidates = settings.integer(parameters::importance());
   mapResolution = settings.integer(parameters::mapResolution());
+  const uint64_t mapBytes = uint64_t{sizeof(float)} * mapResolution * mapResolution;
+  const auto memory = static_cast<uint64_t>(settings.integer(parameters::mapMemory())) << 20;
+  mostMaps = static_cast<int>(std::clamp<uint64_t>(memory / mapBytes, 2, 1 << 20));
   budget.vpls = settings.integer(parameters::updates());
   const auto limit = [&](const ParameterSpec& spec) {
     const int value = settings.integer(spec);
@@ -100,7 +114,8 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
                 shadowBias,
                 lightsPerPass,
                 speculars,
-                leastRoughness};
+                leastRoughness,
+                std::max(mostMaps / kRefinementShare, 1)};
 }
 
 GiOutput ManyLights::render(const FrameInputs& in) {
@@ -113,13 +128,14 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   updateLights(in, options, out.stats);
   stages.end("light samples");
 
-  // 2. Some of them, each wholly: place, intensity, shadow map,
-  out.stats.mapsRendered = refreshLights(in, options);
-  stages.end("shadow maps");
-
-  // 3. where its map must be looked up, and the light that it sheds without shadows.
+  // 2. Some of them, each wholly: place, intensity, where its map must be looked up,
+  out.stats.vplsRefreshed = refreshLights(in, options);
   updateVisibility(in, out.stats);
   stages.end("visibility");
+
+  // 3. the map, if that is anywhere in view, and the light that it sheds without shadows.
+  updateMaps(in, options, out.stats);
+  stages.end("shadow maps");
   updateLightMaps(in, options, out.stats);
   stages.end("light maps");
   const bool prtChanged = updatePrt(in, options, out.stats);
@@ -185,12 +201,16 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.mapsPending = pending;
   out.stats.oldestFrames = lights_.oldestFrames();
   // Frames that refresh as many as this one did, then one for each sample of the edges.
-  const int aFrame = std::max(1, out.stats.mapsRendered);
+  const int aFrame = std::max({1, out.stats.vplsRefreshed, out.stats.mapsRendered});
   out.stats.framesUntilSettled = (pending + aFrame - 1) / aFrame + samples - samples_;
   out.stats.mergedPasses = mergedPasses_;
   out.stats.passesSaved = passesSaved_;
   out.stats.interpolatedShare = interpolatedShare_;
   out.stats.samplesPerPixel = std::max(samples_, 1);
+  out.stats.mapsHeld = lights_.mapsHeld();
+  out.stats.mapsWithoutRoom = lights_.withoutMap();
+  if (visibility_) out.stats.memoryBytes["visibility"] = visibility_->bytes();
+  if (lightMaps_) out.stats.memoryBytes["light maps"] = lightMaps_->bytes();
   return out;
 }
 
@@ -228,11 +248,14 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
       isSpared = [&](const shared::Vpl& vpl) { return visibility_->moversAreHidden(vpl); };
     stats.mapsSpared = lights_.markStale(movers, isSpared);
   }
-  if (options.mapResolution != options_.mapResolution) lights_.loseMaps();
+  if (options.mapResolution != options_.mapResolution || options.mostMaps != options_.mostMaps)
+    lights_.loseMaps();
   // The backend forgets all maps when their number changes.
   const int refining = Refinement::slots(options.refinement);
   if (refining != Refinement::slots(options_.refinement)) lights_.loseMaps();
-  in.backend.reserveShadowMaps(lights_.slots() + refining, options.mapResolution);
+  const int slots = lights_.slots() + refining;
+  in.backend.reserveShadowMaps(slots, options.mapResolution, std::min(slots, options.mostMaps));
+  lights_.showOnlyMapped(!options.useVisibility);
 }
 
 int ManyLights::refreshLights(const FrameInputs& in, const Options& options) {
@@ -244,7 +267,32 @@ int ManyLights::refreshLights(const FrameInputs& in, const Options& options) {
   }
   if (visibility_) moved.visibilityTests = visibility_->testsPerColumn();
   if (lightMaps_) moved.lightMapTexels = 2 * lightMaps_->texels();  // out and in again
-  return lights_.refresh(in.backend, options.budget, moved, stale);
+  return lights_.refresh(options.budget, moved, stale);
+}
+
+// Which maps the view looks up is found anew when anything changed that they follow from.
+void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
+  const auto slots = static_cast<size_t>(lights_.slots());
+  if (!visibility_) {
+    wanted_.assign(slots, 1);
+  } else if (lights_.changed() || !in.changes.none() || in.view != view_ ||
+             wanted_.size() != slots || options.useVisibility != options_.useVisibility ||
+             options.speculars != options_.speculars) {
+    wanted_ = lightsToLookUp(*visibility_, in.scene, in.view);
+  }
+  if (visibility_ && options.speculars && in.backend.info().specularsTakeAllMaps &&
+      hasGlossy(in.scene))
+    std::fill(wanted_.begin(), wanted_.end(), uint8_t{1});
+  const RefreshWork& most = options.budget.work;
+  uint64_t maps = std::min<uint64_t>(most.shadowMaps, static_cast<uint64_t>(options.budget.vpls));
+  if (in.backend.info().tracesShadowMaps && most.rays != kNoLimit)
+    maps = std::min(maps, most.rays / static_cast<uint64_t>(options.mapResolution) /
+                              static_cast<uint64_t>(options.mapResolution));
+  const int refining = Refinement::slots(options.refinement);
+  stats.mapsRendered = lights_.updateMaps(
+      in.backend, wanted_,
+      {std::max(options.mostMaps - refining, 1), static_cast<int>(std::max<uint64_t>(maps, 1))});
+  if (visibility_) standIns_.update(lights_.shown(), slots, lights_.hasMap(), wanted_);
 }
 
 void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
@@ -319,7 +367,7 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   if (!isMiddle || !gbufferIsCurrent_) in.backend.renderGBuffer(in.view, jitter);
   gbufferIsCurrent_ = isMiddle;
   stages.end("g-buffer");
-  const std::vector<shared::Vpl> vpls = lights_.shown();
+  std::vector<shared::Vpl> vpls = lights_.shown();
   const shared::ShadingParams params{
       vec4(options.clampDistance, options.shadowBias, static_cast<float>(options.mapResolution),
            static_cast<float>(options.lightsPerPass)),
@@ -327,7 +375,9 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
       speculars(options.speculars, options.leastRoughness)};
   const KernelCounts before = in.backend.counts();
   if (visibility_) {
-    const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses, prt_.get());
+    vpls.insert(vpls.end(), standIns_.lights().begin(), standIns_.lights().end());
+    const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses, prt_.get(),
+                              &standIns_);
     in.backend.sumVpls(vpls, params, &patches);
   } else {
     in.backend.sumVpls(vpls, params, nullptr);
@@ -394,6 +444,7 @@ MethodInfo manyLightsInfo() {
            parameters::seed(),
            parameters::importance(),
            parameters::mapResolution(),
+           parameters::mapMemory(),
            parameters::updates(),
            parameters::maxShadowMaps(),
            parameters::maxVisibilityTests(),

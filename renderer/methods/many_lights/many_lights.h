@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "renderer/light_maps/light_maps.h"
+#include "renderer/light_maps/stand_ins.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/corner_light.h"
 #include "renderer/methods/many_lights/live_lights.h"
@@ -34,6 +35,7 @@ class ManyLights final : public GiMethod {
 
     VplCounts counts;
     int mapResolution = 0;
+    int mostMaps = 0;      // held at a time, those of refinement included
     RefreshBudget budget;  // a frame
     int mostPaths = 0;     // likewise; 0: no limit
     float clampDistance = 0.0f;
@@ -59,6 +61,7 @@ class ManyLights final : public GiMethod {
                                        Stages& stages);
   int refreshLights(const FrameInputs& in, const Options& options);
   void updateVisibility(const FrameInputs& in, GiStats& stats);
+  void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
@@ -77,6 +80,8 @@ class ManyLights final : public GiMethod {
   LightPaths paths_;
   LiveLights lights_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
+  std::vector<uint8_t> wanted_;                     // by slot: its map is looked up
+  StandIns standIns_;                               // for those that have none
   std::unique_ptr<LightMaps> lightMaps_;            // likewise
   std::unique_ptr<PrtLights> prt_;                  // likewise
   bool gbufferIsCurrent_ = false;

@@ -93,6 +93,22 @@ const ParameterSpec& maxPaths() {
   return spec;
 }
 
+const ParameterSpec& mapMemory() {
+  static const ParameterSpec spec{
+      "map_memory",
+      "Map memory",
+      "MiB",
+      "Shadow maps take no more memory than this. They are made for light samples that the view "
+      "looks up and dropped when others need the room; where even those do not fit, some look "
+      "up the map of their nearest neighbour (naive: their share goes to the others).",
+      256,
+      1,
+      65536,
+      true,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& frameTime() {
   static const ParameterSpec spec{
       "frame_time",

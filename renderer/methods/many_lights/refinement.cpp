@@ -52,7 +52,8 @@ vec2 jitterOf(uint32_t shift, uint32_t seed) {
 int Refinement::slots(const Options& options) {
   if (options.vpls == 0) return 0;
   const size_t mapBytes = sizeof(float) * options.mapResolution * options.mapResolution;
-  return static_cast<int>(std::clamp<size_t>(kMostMapBytes / mapBytes, 1, kMostSlots));
+  const int fitting = static_cast<int>(std::clamp<size_t>(kMostMapBytes / mapBytes, 1, kMostSlots));
+  return std::clamp(options.mostMaps, 1, fitting);
 }
 
 void Refinement::restart() {

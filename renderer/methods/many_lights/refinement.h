@@ -24,6 +24,7 @@ class Refinement {
     int lightsPerPass = 1;  // changes no picture
     bool speculars = false;
     float leastRoughness = 0.1f;
+    int mostMaps = 1 << 16;  // at a time
 
     bool operator==(const Options&) const = default;
   };

@@ -127,21 +127,34 @@ TEST_F(GlShadowMap, HasHolesWhereTheMaskHasAndNothingOfWhatIsClear) {
   EXPECT_LT(d.other, d.texels / 100);
 }
 
-// More slots than one array has layers on any device that is common (2048).
-TEST_F(GlShadowMap, SlotsMaySpanSeveralArrays) {
+// More maps than one array has layers on any device that is common (2048). Places are taken as maps
+// come, and given to others when they are dropped.
+TEST_F(GlShadowMap, MapsMaySpanSeveralArrays) {
   const Scene scene = test::randomBoxes(10, 3);
   LitScene lit(scene, makeGlBackend());
   shared::Vpl vpl = test::randomVpls(1, 1)[0];
-  lit.backend->reserveShadowMaps(5000, 16);
-  std::vector<std::vector<float>> maps;
-  for (const int slot : {0, 2047, 2048, 4999}) {
-    vpl.intensity.w = static_cast<float>(slot);
-    lit.backend->renderShadowMaps(std::span(&vpl, 1));
-    maps.push_back(lit.backend->readShadowMap(slot));
-    EXPECT_EQ(maps.back(), maps.front()) << slot;
-  }
-  EXPECT_GT(*std::max_element(maps[0].begin(), maps[0].end()), 0.0f);
-  EXPECT_EQ(lit.backend->counts().shadowMaps, 4u);
+  lit.backend->reserveShadowMaps(5000, 16, 2100);
+  std::vector<shared::Vpl> vpls(2100, vpl);
+  for (size_t i = 0; i < vpls.size(); ++i) vpls[i].intensity.w = static_cast<float>(4999 - i);
+  for (size_t first = 0; first < vpls.size(); first += 300)
+    lit.backend->renderShadowMaps(std::span(vpls).subspan(first, 300));
+  const std::vector<float> map = lit.backend->readShadowMap(4999);
+  EXPECT_GT(*std::max_element(map.begin(), map.end()), 0.0f);
+  for (const int slot : {4998, 4700, 3000, 2952, 2951, 2900})
+    EXPECT_EQ(lit.backend->readShadowMap(slot), map) << slot;
+  EXPECT_TRUE(lit.backend->readShadowMap(2899).empty());
+  EXPECT_EQ(lit.backend->counts().mapsHeld, 2100u);
+  EXPECT_LE(lit.backend->counts().mapBytes, 2100u * 16 * 16 * sizeof(float));
+
+  vpl.intensity.w = 7.0f;
+  EXPECT_THROW(lit.backend->renderShadowMaps(std::span(&vpl, 1)), std::length_error);
+  const std::vector<int> dropped = {4999, 2951};
+  lit.backend->dropShadowMaps(dropped);
+  EXPECT_EQ(lit.backend->counts().mapsHeld, 2098u);
+  lit.backend->renderShadowMaps(std::span(&vpl, 1));
+  EXPECT_EQ(lit.backend->readShadowMap(7), map);
+  EXPECT_TRUE(lit.backend->readShadowMap(4999).empty());
+  EXPECT_EQ(lit.backend->readShadowMap(4998), map);
 }
 
 TEST_F(GlShadowMap, TooLargeIsRefused) {

@@ -20,7 +20,10 @@ class RecordingBackend : public Backend {
   const BackendInfo& info() const override { return info_; }
   KernelCounts counts() const override { return {}; }
   void setScene(const RenderScene&, const RenderSceneChanges&, const RayCaster&) override {}
-  void reserveShadowMaps(int, int) override {}
+  void reserveShadowMaps(int, int, int) override {}
+  void dropShadowMaps(std::span<const int> slots) override {
+    for (const int slot : slots) maps.erase(slot);
+  }
   void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
     for (const shared::Vpl& v : vpls) maps[static_cast<int>(v.intensity.w)] = v;
     rendered += static_cast<int>(vpls.size());

@@ -88,7 +88,7 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
     return renderer.render({room.scene, changes, room.view, "many_lights", settings});
   };
   GiOutput out = step(SceneChanges::all());
-  EXPECT_EQ(out.stats.mapsRendered, 30);
+  EXPECT_EQ(out.stats.vplsRefreshed, 30);
   EXPECT_EQ(out.stats.vpls, 30);
   EXPECT_EQ(out.stats.vplsPending, 70);
   EXPECT_FALSE(out.settled);
@@ -96,7 +96,7 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
   EXPECT_EQ(step({}).stats.vplsPending, 10);
   out = step({});
   EXPECT_TRUE(out.settled);
-  EXPECT_EQ(out.stats.mapsRendered, 10);
+  EXPECT_EQ(out.stats.vplsRefreshed, 10);
   EXPECT_EQ(renderer.backend().counts().shadowMaps, 100u);
 
   // Nothing to do: no work at all, the same picture.

@@ -13,7 +13,7 @@ struct Machine {
   GiStats frame(int allowed) const {
     const int vpls = std::min(allowed, pending);
     GiStats stats;
-    stats.mapsRendered = vpls;
+    stats.vplsRefreshed = vpls;
     stats.stageSeconds = {{"shadow maps", 0.5 * perVpl * vpls},
                           {"light sums", 0.5 * perVpl * vpls + 0.6 * rest},
                           {"g-buffer", 0.4 * rest}};

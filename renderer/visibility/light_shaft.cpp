@@ -1,0 +1,125 @@
+#include "renderer/visibility/light_shaft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "renderer/raycast/ray_caster.h"
+
+namespace lamplighter {
+namespace {
+
+// A pyramid is a little wider than light and patch, by margins for rounding
+// (occlusion_pyramid.cpp): its sides by less than this many at the light, ...
+constexpr float kMargins = 8.0f;
+// ... and where that grows to more than this by a side that hardly leaves the patch, it is left out
+// [m].
+constexpr float kWidest = 0.25f;
+
+}  // namespace
+
+LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRegion& region) {
+  const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
+  const float width = 0.5f * std::min(glm::distance(region.corners[0], region.corners[1]),
+                                      glm::distance(region.corners[1], region.corners[2]));
+  const auto heightOf = [&](const shared::Vpl& v) {
+    return glm::dot(vec3(v.position) - middle, region.normal);
+  };
+  float side = 0.0f;
+  std::array<vec3, 64> points;
+  std::array<float, 64> reach;  // of the pyramid past the light
+  size_t count = 0;
+  float atBase = 0.0f, leastSlab = std::numeric_limits<float>::max(), mostSlab = 0.0f;
+  const shared::Vpl* like = nullptr;
+  bool areAlike = true;
+  for (size_t i = 0; i < lights.size() && i < points.size(); ++i) {
+    const shared::Vpl& v = *lights[i];
+    const vec3 p(v.position);
+    const float h = heightOf(v), height = std::abs(h);
+    const float slab = region.thickness + std::max(rayEpsilon(p), region.rounding);
+    const float away = glm::distance(p, middle) + region.radius;
+    if (height <= 8.0f * slab || width <= 8.0f * slab || (side != 0.0f && side * h < 0.0f))
+      continue;
+    // Two sides that lean apart by the width of the patch as it is seen meet so far past the light,
+    const float past = kMargins * slab * away / height * away / width;
+    // and one that leans over the patch meets it so far from its edge.
+    const float before = kMargins * slab * away / height;
+    if (!(past <= kWidest) || !(before <= kWidest)) continue;
+    side = h > 0.0f ? 1.0f : -1.0f;
+    held_ |= uint64_t{1} << i;
+    points[count] = p;
+    reach[count++] = past;
+    atBase = std::max(atBase, before);
+    leastSlab = std::min(leastSlab, slab);
+    mostSlab = std::max(mostSlab, slab);
+    if (like == nullptr) like = &v;
+    areAlike = areAlike &&
+               glm::all(glm::lessThan(glm::abs(vec3(v.normal) - vec3(like->normal)), vec3(1e-6f)));
+  }
+  if (count == 0) return;
+
+  // The least of dot(n, x) over what holds all pyramids: the lights and the patch, widened.
+  const auto support = [&](const vec3& n) {
+    float least = std::numeric_limits<float>::max();
+    for (const vec3& c : region.points()) least = std::min(least, glm::dot(n, c) - 3.0f * atBase);
+    for (size_t i = 0; i < count; ++i) least = std::min(least, glm::dot(n, points[i]) - reach[i]);
+    return least;
+  };
+  const vec3 up = side * region.normal;
+  // The pyramids end over the patch, by three times the slab; those of rough patches under it.
+  add(up, glm::dot(up, middle) + (region.chart != kNone ? -2.0f * mostSlab : leastSlab));
+  add(-up, support(-up));
+  if (areAlike) {
+    // Only what is over the plane of the lights gets light.
+    const vec3 n(like->normal);
+    float least = std::numeric_limits<float>::max(), farthest = 0.0f;
+    for (size_t i = 0; i < count; ++i) {
+      least = std::min(least, glm::dot(n, points[i]));
+      farthest = std::max(farthest, glm::distance(points[i], middle));
+    }
+    // Normals differ by rounding.
+    add(n, least - 4e-6f * (farthest + 2.0f * region.radius));
+  }
+  // Through each edge and the outermost of the lights, as seen from the patch.
+  for (size_t i = 0; i < 4; ++i) {
+    const vec3 &from = region.corners[i], &to = region.corners[(i + 1) % 4];
+    const vec3 along = glm::normalize(to - from);
+    const vec3 out = glm::cross(along, up);
+    const float outwards = glm::dot(out, from - middle) > 0.0f ? 1.0f : -1.0f;
+    float most = -std::numeric_limits<float>::max();
+    for (size_t k = 0; k < count; ++k) {
+      const vec3 way = points[k] - from;
+      most = std::max(most, outwards * glm::dot(out, way) / glm::dot(up, way));
+    }
+    const vec3 inwards = glm::normalize(most * up - outwards * out);
+    add(inwards, support(inwards));
+  }
+  // And a box around all.
+  for (int c = 0; c < 3; ++c) {
+    for (const float sign : {1.0f, -1.0f}) {
+      vec3 n(0.0f);
+      n[c] = sign;
+      add(n, support(n));
+    }
+  }
+}
+
+void LightShaft::add(const vec3& normal, float least) {
+  const auto i = static_cast<size_t>(count_++);
+  normals_[i] = normal;
+  least_[i] = least;
+}
+
+bool LightShaft::mayMeet(const Bounds& box) const {
+  const vec3 centre = box.centre(), half = 0.5f * box.extent();
+  for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
+    const float most = glm::dot(normals_[i], centre) + glm::dot(glm::abs(normals_[i]), half);
+    // What sums of such places are rounded by.
+    const float slack =
+        1e-6f * (glm::dot(glm::abs(normals_[i]), glm::abs(centre)) + std::abs(least_[i]));
+    if (most + slack < least_[i]) return false;
+  }
+  return true;
+}
+
+}  // namespace lamplighter

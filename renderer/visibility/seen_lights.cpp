@@ -1,0 +1,96 @@
+#include "renderer/visibility/seen_lights.h"
+
+#include <cmath>
+#include <functional>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/frustum.h"
+
+namespace lamplighter {
+namespace {
+
+// Pixels are shifted for smooth edges, by less than one.
+constexpr float kShift = 1.0f;
+
+// Around a patch, with room for rounding.
+Bounds boxOf(const Patch& patch) {
+  const vec3 half(1.01f * patch.radius + 0.001f);
+  return {patch.centre - half, patch.centre + half};
+}
+
+Frustum frustumOf(View view) {
+  const float pixels = static_cast<float>(view.height);
+  view.yfov = 2.0f * std::atan(std::tan(0.5f * view.yfov) * (1.0f + 2.0f * kShift / pixels));
+  return Frustum(view.worldToClip());
+}
+
+class Walk {
+ public:
+  Walk(const VisibilityDatabase& visibility, const RenderScene& scene, const Frustum& frustum,
+       const shared::Vpl& eye, uint32_t object, std::vector<uint8_t>& found)
+      : visibility_(visibility),
+        scene_(scene),
+        patches_(visibility.patches(object)),
+        frustum_(frustum),
+        eye_(eye),
+        object_(object),
+        backIsUnseen_(scene.backIsUnseen(object)),
+        found_(found) {}
+
+  void visit(int index) {
+    const Patch& patch = patches_.patches[static_cast<size_t>(index)];
+    if (!frustum_.mayMeet(boxOf(patch)) || isTurnedAway(patch)) return;
+    if (!patch.isLeaf() && visibility_.isDivided(object_, index)) {
+      visit(patch.firstChild);
+      visit(patch.firstChild + 1);
+      return;
+    }
+    if (visibility_.isHiddenFromEye(scene_, eye_, object_, index)) return;
+    const auto states = visibility_.row(object_, index);
+    for (size_t slot = 0; slot < states.size(); ++slot)
+      found_[slot] |= states[slot] == static_cast<uint8_t>(Occlusion::partial) ? 1 : 0;
+  }
+
+ private:
+  bool isTurnedAway(const Patch& patch) const {
+    if (!backIsUnseen_ || patch.chart == kNone) return false;
+    const Chart& chart = patches_.charts[static_cast<size_t>(patch.chart)];
+    // A rough one's bumps are turned otherwise than it is.
+    if (chart.isRough) return false;
+    return glm::dot(vec3(eye_.position) - patch.centre, chart.normal) < -chart.thickness - 0.001f;
+  }
+
+  const VisibilityDatabase& visibility_;
+  const RenderScene& scene_;
+  const ObjectPatches& patches_;
+  const Frustum& frustum_;
+  const shared::Vpl& eye_;
+  const uint32_t object_;
+  const bool backIsUnseen_;
+  std::vector<uint8_t>& found_;
+};
+
+}  // namespace
+
+std::vector<uint8_t> lightsToLookUp(const VisibilityDatabase& visibility, const RenderScene& scene,
+                                    const View& view) {
+  const Frustum frustum = frustumOf(view);
+  const size_t slots = visibility.slots();
+  const shared::Vpl eye{vec4(view.eye, shared::kVplUniform), vec4(view.forward(), 0.0f),
+                        vec4(view.right(), 1.0f), vec4(0.0f)};
+  tbb::enumerable_thread_specific<std::vector<uint8_t>> found(
+      [&] { return std::vector<uint8_t>(slots, 0); });
+  tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(visibility.objects()), [&](uint32_t i) {
+    if (!frustum.mayMeet(visibility.patches(i).bounds)) return;
+    Walk walk(visibility, scene, frustum, eye, i, found.local());
+    for (const int root : visibility.patches(i).roots) walk.visit(root);
+  });
+  std::vector<uint8_t> all(slots, 0);
+  for (const std::vector<uint8_t>& some : found)
+    for (size_t slot = 0; slot < slots; ++slot) all[slot] |= some[slot];
+  return all;
+}
+
+}  // namespace lamplighter

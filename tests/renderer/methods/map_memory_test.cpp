@@ -1,0 +1,158 @@
+// Shadow maps within bounds: those that the view looks up, made when it does, and no more than fit.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr uint64_t kMebibyte = uint64_t{1} << 20;
+
+struct Room {
+  Scene scene =
+      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
+          .scene;
+  View view;
+  Room() {
+    for (const Node& node : scene.nodes)
+      if (node.camera != kNone) view = viewOfCamera(scene, node, 96, 60);
+  }
+};
+
+Settings settingsOf(const std::string& technique, int vpls, int mebibytes) {
+  Settings s;
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::bounces().name, 1);
+  s.set(parameters::updates().name, 200);
+  s.set(parameters::antialias().name, 1);
+  s.set(parameters::mapMemory().name, mebibytes);
+  return s;
+}
+
+// 64² maps of 16 KiB: a mebibyte holds 64 of them.
+TEST(MapMemory, TheBoundHoldsInEveryFrameAndThePictureIsRight) {
+  for (const char* technique : {"naive", "visibility", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    Room room;
+    FrameRenderer plenty(makeCpuBackend());
+    const Image right = test::renderSettled(plenty, room.scene, SceneChanges::all(), room.view,
+                                            settingsOf(technique, 1200, 256))
+                            .radiance->pixels();
+    FrameRenderer short_(makeCpuBackend());
+    const Settings settings = settingsOf(technique, 1200, 4);
+    GiOutput out;
+    SceneChanges changes = SceneChanges::all();
+    uint64_t most = 0;
+    for (int frame = 0; frame < 100 && !out.settled; ++frame, changes = {}) {
+      out = short_.render({room.scene, changes, room.view, "many_lights", settings});
+      most = std::max(most, short_.backend().counts().mapBytes);
+    }
+    ASSERT_TRUE(out.settled);
+    EXPECT_LE(most, 4 * kMebibyte);
+    EXPECT_GT(most, 3 * kMebibyte);
+    EXPECT_GT(out.stats.mapsWithoutRoom, 0);
+    const double error = compareImages(out.radiance->pixels(), right).relRmse;
+    EXPECT_GT(error, 0.0);
+    EXPECT_LT(error, 0.05);
+    std::cout << technique << ": " << out.stats.mapsHeld << " maps, " << out.stats.mapsWithoutRoom
+              << " without room, relRMSE " << 100.0 * error << "%\n";
+  }
+}
+
+// Two closed rooms beside each other, a light and a box in each.
+struct TwoRooms {
+  Scene scene;
+  View view;
+  TwoRooms() {
+    for (const float x : {-3.0f, 3.0f}) {
+      test::addMesh(scene, test::roomMesh(vec3(4.0f)), vec3(x, 2, 0));
+      test::addMesh(scene, test::boxMesh(vec3(0.8f)), vec3(x, 0.7f, 0));
+      test::addRectangleLight(scene, vec3(x, 3.5f, 0.5f), vec2(1.0f), vec3(20));
+    }
+    look(-3.0f, 3.0f);
+  }
+  // From a room, towards x = `at`.
+  void look(float from, float at) {
+    view = test::lookAt(vec3(from + (at > from ? -1.5f : 1.5f), 1.6f, 0.3f), vec3(at, 1.0f, 0.0f),
+                        96, 60);
+  }
+};
+
+// Through the wall between them nothing of the other room is seen, though all of it is in the
+// view's pyramid. Whoever goes there finds the picture that he finds when he begins there.
+TEST(MapMemory, OnlyMapsThatTheViewLooksUpAreMade) {
+  TwoRooms rooms;
+  FrameRenderer renderer(makeCpuBackend());
+  const Settings settings = settingsOf("light_maps", 400, 256);
+  const GiOutput first =
+      test::renderSettled(renderer, rooms.scene, SceneChanges::all(), rooms.view, settings);
+  EXPECT_GT(first.stats.mapsHeld, first.stats.vpls / 5);
+  // Of the other room's those few that lie on its floor, from where it is not known whether the
+  // bottom of a wall hides the bottom of another.
+  const auto lights = renderer.inspect().lights;
+  const auto here = std::count_if(lights.begin(), lights.end(),
+                                  [](const auto& l) { return l.vpl.position.x < 0.0f; });
+  EXPECT_LE(first.stats.mapsHeld, 11 * here / 10);
+  FrameRenderer all(makeCpuBackend());
+  const GiOutput naive = test::renderSettled(all, rooms.scene, SceneChanges::all(), rooms.view,
+                                             settingsOf("naive", 400, 256));
+  EXPECT_EQ(naive.stats.mapsHeld, naive.stats.vpls);
+  EXPECT_LT(compareImages(first.radiance->pixels(), naive.radiance->pixels()).relRmse, 0.03);
+
+  rooms.look(3.0f, -3.0f);
+  const GiOutput gone = test::renderSettled(renderer, rooms.scene, {}, rooms.view, settings);
+  EXPECT_GT(gone.stats.mapsHeld, first.stats.mapsHeld);  // there is room for both
+  FrameRenderer fresh(makeCpuBackend());
+  const GiOutput opened =
+      test::renderSettled(fresh, rooms.scene, SceneChanges::all(), rooms.view, settings);
+  EXPECT_LT(opened.stats.mapsHeld, gone.stats.mapsHeld);
+  EXPECT_TRUE(test::sameBits(gone.radiance->pixels(), opened.radiance->pixels()));
+}
+
+// To and fro between rooms with memory for the maps of one: in every frame within bounds, and with
+// maps for a few lights a frame no frame is far from the picture that it comes to, since others
+// stand in.
+TEST(MapMemory, MapsComeAndGoWithoutAFlash) {
+  TwoRooms rooms;
+  FrameRenderer renderer(makeCpuBackend());
+  Settings settings = settingsOf("light_maps", 240, 2);
+  int stoodIn = 0;
+  for (int visit = 0; visit < 6; ++visit) {
+    settings.set(parameters::updates().name, visit == 0 ? 400 : 10);
+    rooms.look(visit % 2 == 0 ? -3.0f : 3.0f, visit % 2 == 0 ? 3.0f : -3.0f);
+    std::vector<Image> frames;
+    GiOutput out;
+    SceneChanges changes = visit == 0 ? SceneChanges::all() : SceneChanges();
+    for (int frame = 0; frame < 200 && !out.settled; ++frame, changes = {}) {
+      out = renderer.render({rooms.scene, changes, rooms.view, "many_lights", settings});
+      EXPECT_LE(renderer.backend().counts().mapBytes, 2 * kMebibyte);
+      if (visit > 0) {
+        EXPECT_LE(out.stats.mapsRendered, 10);
+      }
+      frames.push_back(out.radiance->pixels());
+    }
+    ASSERT_TRUE(out.settled);
+    stoodIn += static_cast<int>(frames.size()) - 1;
+    EXPECT_EQ(out.stats.mapsWithoutRoom, 0);
+    // In the first frame of a visit none of this room's lights may have a map at all.
+    for (size_t i = 1; i < frames.size(); ++i)
+      EXPECT_LT(compareImages(frames[i], frames.back()).relRmse, 0.1) << visit << ", frame " << i;
+  }
+  EXPECT_GT(stoodIn, 6);
+}
+
+}  // namespace
+}  // namespace lamplighter

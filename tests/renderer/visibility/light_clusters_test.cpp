@@ -1,0 +1,104 @@
+// Clusters of lights spare work and change no entry.
+#include "renderer/visibility/light_clusters.h"
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/visibility/visibility_database.h"
+#include "tests/support/random_boxes.h"
+
+namespace lamplighter {
+namespace {
+
+std::vector<shared::Vpl> lightsOf(const RenderScene& scene, int count) {
+  const RayCaster rays(scene);
+  std::vector<shared::Vpl> lights;
+  for (const SceneVpl& v : generateVpls(scene, rays, LightSet(scene), {count, 0.5f, 2, 1}).vpls)
+    lights.push_back(v.vpl);
+  return lights;
+}
+
+void fill(VisibilityDatabase& database, const RenderScene& scene,
+          std::span<const shared::Vpl> lights) {
+  RenderSceneChanges all;
+  all.rebuilt = true;
+  database.setScene(scene, all);
+  database.setLights(scene, lights);
+}
+
+// vpls: of the scene; 0: 300 anywhere.
+void compareStates(const Scene& from, int vpls) {
+  RenderScene scene;
+  update(scene, from, SceneChanges::all());
+  const std::vector<shared::Vpl> lights =
+      vpls > 0 ? lightsOf(scene, vpls) : test::randomVpls(300, 7);
+  VisibilityDatabase with, without;
+  without.useClusters(false);
+  fill(with, scene, lights);
+  fill(without, scene, lights);
+  size_t differ = 0, entries = 0;
+  for (uint32_t object = 0; object < with.objects(); ++object) {
+    for (size_t p = 0; p < with.patches(object).patches.size(); ++p) {
+      const int patch = static_cast<int>(p);
+      EXPECT_EQ(with.isDivided(object, patch), without.isDivided(object, patch));
+      for (int slot = 0; slot < static_cast<int>(lights.size()); ++slot, ++entries)
+        differ += with.state(object, patch, slot) != without.state(object, patch, slot);
+    }
+  }
+  EXPECT_GT(entries, 1000u);
+  EXPECT_EQ(differ, 0u) << "of " << entries;
+}
+
+TEST(LightClusters, StatesAreTheSameInRandomScenes) {
+  for (uint32_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    compareStates(test::randomBoxes(4 + static_cast<int>(5 * seed), seed), 0);
+  }
+}
+
+TEST(LightClusters, StatesAreTheSameInRooms) {
+  for (const char* room : {"pillar_room", "area_light_room", "table_room"}) {
+    SCOPED_TRACE(room);
+    compareStates(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
+                           (std::string(room) + ".gltf"))
+                      .scene,
+                  400);
+  }
+}
+
+TEST(LightClusters, HoldEachLightOnceAndFewAndNear) {
+  const Scene from =
+      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
+          .scene;
+  RenderScene scene;
+  update(scene, from, SceneChanges::all());
+  std::vector<shared::Vpl> lights = lightsOf(scene, 500);
+  lights[3] = {};  // an empty slot
+  lights[5].position.w = shared::kVplDirectional;
+  const LightClusters clusters = clusterLights(lights);
+  EXPECT_EQ(std::set<int>(clusters.order.begin(), clusters.order.end()).size(), lights.size());
+  EXPECT_EQ(clusters.order.size(), lights.size());
+  EXPECT_EQ(clusters.clusterOf[3], -1);
+  EXPECT_EQ(clusters.clusterOf[5], -1);
+  std::map<int, Bounds> boxes;
+  std::map<int, int> counts;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    if (clusters.clusterOf[i] < 0) continue;
+    boxes[clusters.clusterOf[i]].add(vec3(lights[i].position));
+    ++counts[clusters.clusterOf[i]];
+  }
+  for (const auto& [cluster, count] : counts) {
+    EXPECT_LE(count, 16);
+    const vec3 extent = boxes[cluster].extent();
+    EXPECT_LE(std::max({extent.x, extent.y, extent.z}), 2.0f);
+  }
+  EXPECT_LT(counts.size(), lights.size() / 4);
+}
+
+}  // namespace
+}  // namespace lamplighter
