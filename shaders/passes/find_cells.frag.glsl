@@ -8,7 +8,10 @@
 layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGNormals) uniform sampler2D uNormals;
 layout(binding = kSamples) uniform sampler2D uSamples;
+layout(binding = kPlaces) uniform usampler2D uPlaces;  // of samples
+layout(std430, binding = kHardPlaceBuffer) readonly buffer HardPlaces { uint hardPlaces[]; };
 layout(location = 0) uniform int uBlock;
+layout(location = 1) uniform int uHasHard;  // 0: no place is
 
 layout(location = 0) out uint outIsSmooth;
 
@@ -31,6 +34,15 @@ bool isSmoothAbout(ivec2 cell) {
   return isIt;
 }
 
+bool isHardAt(ivec2 at) {
+  return hardPlaces[texelFetch(uPlaces, at, 0).r] != 0u;
+}
+
+bool mayHaveHardShadow(ivec2 cell) {
+  return uHasHard != 0 && (isHardAt(cell) || isHardAt(cell + ivec2(1, 0)) ||
+                           isHardAt(cell + ivec2(0, 1)) || isHardAt(cell + 1));
+}
+
 bool isFlat(ivec2 first, ivec2 end) {
   vec4 origin = texelFetch(uPosition, first, 0);
   if (origin.w == 0.0) return false;
@@ -50,7 +62,7 @@ bool isFlat(ivec2 first, ivec2 end) {
 void main() {
   ivec2 cell = ivec2(gl_FragCoord.xy);
   ivec2 last = textureSize(uPosition, 0) - 1;
-  bool isIt = isSmoothAbout(cell) &&
+  bool isIt = isSmoothAbout(cell) && !mayHaveHardShadow(cell) &&
               isFlat(uBlock * cell, pixelOfSample(cell + 1, uBlock, last));
   outIsSmooth = isIt ? 1u : 0u;
 }

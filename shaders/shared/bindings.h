@@ -27,6 +27,8 @@ SHARED_CONST int kVertexLightBuffer = 7;  // patches.h
 // with these in the sum.
 SHARED_CONST int kListRangeBuffer = 5;
 SHARED_CONST int kListBuffer = 6;
+// with this in the pass over cells of the low-resolution pass.
+SHARED_CONST int kHardPlaceBuffer = 0;  // by place, 1: a hard shadow may lie there
 
 SHARED_CONST int kPositionAttribute = 0;
 SHARED_CONST int kNormalAttribute = 1;

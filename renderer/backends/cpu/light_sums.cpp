@@ -1,14 +1,13 @@
 #include "renderer/backends/cpu/light_sums.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <bit>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
-#include "shaders/shared/low_resolution.h"
+#include "renderer/light_maps/hard_lights.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -381,30 +380,14 @@ void LightSums::finishTile(const Frame& frame, int tile) {
 std::vector<uint8_t> LightSums::findHardShadows() const {
   std::vector<uint8_t> found(red_.size(), 0);
   if (!hasPatches_) return found;
-  using Kind = LightRecord::Kind;
-  const auto brightest = [](const LightRecord& light) {
-    return std::max({light.intensity.r, light.intensity.g, light.intensity.b});
-  };
-  // The squares of a parallel light lie side by side: one of each direction counts.
-  std::map<std::array<float, 3>, float> squares;
-  float others = 0.0f, parallel = 0.0f;
+  std::vector<LightStrength> strengths;
   for (const LightRecord& light : lights_) {
-    if (light.kind != Kind::directional) {
-      others += brightest(light);
-      continue;
-    }
-    float& square = squares[{light.normal.x, light.normal.y, light.normal.z}];
-    square = std::max(square, brightest(light));
+    const bool hasRow = light.slot >= 0 && static_cast<size_t>(light.slot) < table_.slots();
+    strengths.push_back({static_cast<LightStrength::Kind>(light.kind), light.normal,
+                         std::max({light.intensity.r, light.intensity.g, light.intensity.b}),
+                         hasRow ? light.slot : -1});
   }
-  for (const auto& [direction, square] : squares) parallel += square;
-  std::vector<int> slots;
-  for (const LightRecord& light : lights_) {
-    const float all = light.kind == Kind::directional ? parallel : others;
-    if (light.kind != Kind::cosine && light.slot >= 0 &&
-        static_cast<size_t>(light.slot) < table_.slots() &&
-        brightest(light) > shared::kHardShare * all)
-      slots.push_back(light.slot);
-  }
+  const std::vector<int> slots = hardLights(strengths);
   if (slots.empty()) return found;
   std::vector<uint8_t> isHard(table_.rows(), 0);
   for (const Tile& tile : tiles_)

@@ -142,7 +142,7 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
   } else if (low_.resize(pixels_.width, pixels_.height, block)) {
     begin(scene, low_.samples(), block, false);
     add(sum, low_.samples(), block, false);
-    low_.interpolate(pixels_);
+    low_.interpolate(pixels_, patches_->hardPlaces, !patches_->lists.hardPlaces().empty());
     begin(scene, pixels_, 1, true);
     add(sum, pixels_, 1, true);
   } else {
@@ -172,6 +172,7 @@ void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, con
   passesSaved_ = lists.passesSaved();
   fill(patches_->ranges, lists.ranges());
   fill(patches_->entries, lists.entries());
+  fill(patches_->hardPlaces, lists.hardPlaces());
 }
 
 void GlLighting::begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked) {

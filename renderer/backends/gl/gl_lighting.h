@@ -47,7 +47,7 @@ class GlLighting {
   struct Patches {
     GlPatches trees;
     LightLists lists;
-    Buffer ranges, entries;
+    Buffer ranges, entries, hardPlaces;
   };
   // A sum, with the VPLs in its order and slots within their arrays.
   struct Sum {

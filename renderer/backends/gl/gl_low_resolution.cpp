@@ -37,12 +37,15 @@ void GlLowResolution::release() {
   cellsFramebuffer_ = {};
 }
 
-void GlLowResolution::interpolate(SumTarget& pixels) const {
+void GlLowResolution::interpolate(SumTarget& pixels, const Buffer& hardPlaces, bool hasHard) const {
+  glBindTextureUnit(shared::kPlaces, samples_.places.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kHardPlaceBuffer, hardPlaces.name());
   glBindTextureUnit(shared::kSamples, samples_.irradiance.name());
   {
     const PassState state(cellsFramebuffer_.name(), samples_.width - 1, samples_.height - 1);
     findCells_.use();
     findCells_.set(0, block_);
+    findCells_.set(1, hasHard ? 1 : 0);
     drawFullScreen(emptyVertexArray_.name());
   }
   glBindTextureUnit(shared::kCells, cells_.name());

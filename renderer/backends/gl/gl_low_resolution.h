@@ -22,8 +22,9 @@ class GlLowResolution {
   SumTarget& samples() { return samples_; }
 
   // Once the samples are summed, with the G-buffer bound: the cells that may be, marked in the
-  // stencil buffer of `pixels`. The others are left as they are.
-  void interpolate(SumTarget& pixels) const;
+  // stencil buffer of `pixels`. The others are left as they are. hardPlaces: a buffer with
+  // LightLists::hardPlaces(), hasHard: whether it has any.
+  void interpolate(SumTarget& pixels, const Buffer& hardPlaces, bool hasHard) const;
 
   uint64_t bytes() const;
 

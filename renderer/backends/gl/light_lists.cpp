@@ -4,6 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/light_maps/hard_lights.h"
 #include "shaders/shared/patches.h"
 
 namespace lamplighter::gl {
@@ -25,6 +26,18 @@ Bounds boxOf(const Patch& patch) {
   return {patch.centre - half, patch.centre + half};
 }
 
+std::vector<int> hardSlots(std::span<const shared::Vpl> vpls, size_t slots) {
+  std::vector<LightStrength> strengths;
+  for (const shared::Vpl& vpl : vpls) {
+    const int slot = static_cast<int>(vpl.intensity.w);
+    const bool hasUse = slot >= 0 && static_cast<size_t>(slot) < slots;
+    strengths.push_back(
+        {static_cast<LightStrength::Kind>(static_cast<int>(vpl.position.w)), vec3(vpl.normal),
+         std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b}), hasUse ? slot : -1});
+  }
+  return hardLights(strengths);
+}
+
 }  // namespace
 
 void LightLists::make(const PatchLights& patches, std::span<const SeenObject> objects, size_t nodes,
@@ -39,6 +52,8 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
   objects_.clear();
   passes_.assign(groups.size(), 0);
   passesSaved_ = 0;
+  const std::vector<int> hard = hardSlots(vpls, patches.slots());
+  hardPlaces_.assign(hard.empty() ? 0 : stride, 0u);
   if (vpls.empty()) return;
   constexpr size_t kPatches = 256;
   std::vector<Block> blocks;
@@ -64,6 +79,10 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
           1 + 2 * (object.firstNode + static_cast<size_t>(leaf)) + (mapped ? 1 : 0);
       block.places.push_back(place);
       patches.uses(object.object, leaf, mapped, uses);
+      for (const int slot : hard) {
+        const LightUse use = uses[static_cast<size_t>(slot)];
+        if (use == LightUse::addShadowed || use == LightUse::takeShadow) hardPlaces_[place] = 1;
+      }
       for (size_t g = 0; g < groups.size(); ++g) {
         const auto lights = vpls.subspan(groups[g].first, groups[g].count);
         const size_t first = block.entries.size();

@@ -44,6 +44,9 @@ class LightLists {
   // The longest list of each group, and the longest of what of it needs no map.
   std::span<const int> longest() const { return longest_; }
   std::span<const int> longestPlain() const { return longestPlain_; }
+  // By place, 1: one of the lights that make hard shadows is partly hidden from it
+  // (hard_lights.h). Empty: no place is.
+  std::span<const uint32_t> hardPlaces() const { return hardPlaces_; }
   // By group, and what merging spared of all.
   std::span<const int> passes() const { return passes_; }
   int passesSaved() const { return passesSaved_; }
@@ -58,7 +61,7 @@ class LightLists {
   void mergeGroup(size_t group, int lightsPerPass);
 
   std::vector<glm::uvec2> ranges_;
-  std::vector<uint32_t> entries_;
+  std::vector<uint32_t> entries_, hardPlaces_;
   std::vector<int> longest_, longestPlain_;
   std::vector<LightGroup> groups_;
   std::vector<ObjectPlaces> objects_;

@@ -28,6 +28,7 @@ Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass = 
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::updates().name, 150);
   s.set(parameters::antialias().name, 1);
+  s.set(parameters::block().name, std::string("1"));
   s.set(parameters::lightsPerPass().name, lightsPerPass);
   return s;
 }

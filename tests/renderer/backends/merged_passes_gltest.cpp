@@ -33,6 +33,7 @@ Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, b
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::updates().name, vpls);
   s.set(parameters::antialias().name, 1);
+  s.set(parameters::block().name, std::string("1"));
   s.set(parameters::lightsPerPass().name, lightsPerPass);
   s.set(parameters::mergePasses().name, merge);
   return s;
