@@ -4,17 +4,12 @@
 
 namespace lamplighter {
 
-void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const {
-  const size_t slots = visibility_.slots();
-  usesOfAll(object, leaf, mapped, bySlot.first(slots));
+void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot,
+                       bool groups) const {
+  usesOfAll(object, leaf, mapped, bySlot.first(visibility_.slots()));
   if (standIns_ == nullptr) return;
-  std::fill(bySlot.begin() + static_cast<ptrdiff_t>(slots), bySlot.end(), LightUse::skip);
-  for (size_t i = 0; i < slots; ++i) {
-    if (standIns_->hasMap(i) || bySlot[i] == LightUse::skip || bySlot[i] == LightUse::add) continue;
-    const int standIn = standIns_->standInOf(i);
-    if (standIn >= 0) bySlot[static_cast<size_t>(standIn)] = bySlot[i];
-    bySlot[i] = LightUse::skip;
-  }
+  const Patch& patch = patches(object).patches[static_cast<size_t>(leaf)];
+  standIns_->apply(patch.centre, patch.radius, groups, bySlot);
 }
 
 // As if all had their maps.

@@ -6,18 +6,12 @@
 #include <span>
 
 #include "renderer/light_maps/light_maps.h"
+#include "renderer/light_maps/light_use.h"
 #include "renderer/light_maps/stand_ins.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
-
-enum class LightUse : uint8_t {
-  skip,         // nothing to sum: it is hidden, or the light map has all of it
-  add,          // nothing stands between
-  addShadowed,  // with a look-up in its shadow map
-  takeShadow    // the light map has it without shadow: what its shadow map hides is taken away
-};
 
 // Views into these, which must outlive it and stay as they are.
 class PatchLights {
@@ -43,6 +37,8 @@ class PatchLights {
   size_t slots() const { return standIns_ ? standIns_->slots() : visibility_.slots(); }
   // Whose shadow map the light in a slot looks up.
   int mapSlot(int slot) const { return standIns_ ? standIns_->mapSlot(slot) : slot; }
+  // Whether it stands for several.
+  bool isGroup(int slot) const { return standIns_ && standIns_->isGroup(slot); }
   const ObjectPatches& patches(uint32_t object) const { return visibility_.patches(object); }
 
   // Whether pixels on the front of this leaf begin with what the light map says. Its back, and what
@@ -55,8 +51,9 @@ class PatchLights {
     return prt_ != nullptr && prt_->covers(patches(object), object, leaf);
   }
   // By slot, slots() of them. `mapped`: for pixels that begin with the light map, or with light by
-  // transfer.
-  void uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
+  // transfer. `groups`: one light may stand for several, which is not for speculars.
+  void uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot,
+            bool groups = true) const;
 
  private:
   void usesOfAll(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;

@@ -1,6 +1,8 @@
 #include "renderer/light_maps/stand_ins.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <tbb/parallel_for.h>
@@ -11,6 +13,19 @@ namespace {
 // Slots are added in such steps, since a sum is made anew when their number changes.
 constexpr size_t kStep = 64;
 
+// Groups are the VPLs in a cell of a grid, of so many grids, the coarsest of cells so large [m].
+constexpr int kGrids = 7;
+constexpr float kCoarsest = 2.0f;
+// A patch is far from a group that is within this share of its distance about its place. The error
+// of the VPLs' distances is of second order, for that place is in their middle.
+constexpr float kFar = 0.3f;
+// VPLs of a group look the same way, but for this cosine.
+constexpr float kSameWay = 0.95f;
+
+float brightness(const shared::Vpl& v) {
+  return std::max({v.intensity.r, v.intensity.g, v.intensity.b});
+}
+
 // How unlike two lights are as casters of shadows: the square of their distance and, as far as they
 // look elsewhere, of what a metre away is [m²]. Lights of different kinds have nothing in common.
 float unlikeness(const shared::Vpl& a, const shared::Vpl& b) {
@@ -20,20 +35,102 @@ float unlikeness(const shared::Vpl& a, const shared::Vpl& b) {
   return glm::dot(way, way) + turned * turned;
 }
 
+uint64_t sideOf(const vec3& n) {
+  const vec3 a = glm::abs(n);
+  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+  return static_cast<uint64_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
+}
+
+// The cell of grid `grid`, 0 the coarsest; parts of a key that differ in no bit below 2^62.
+uint64_t cellOf(const shared::Vpl& v, int grid) {
+  const float size = std::ldexp(kCoarsest, -grid);
+  const auto along = [&](float x) {
+    return static_cast<uint64_t>(static_cast<int64_t>(std::floor(x / size)) & 0x1ffff);
+  };
+  return static_cast<uint64_t>(grid) << 58 | static_cast<uint64_t>(v.position.w) << 54 |
+         sideOf(vec3(v.normal)) << 51 | along(v.position.x) << 34 | along(v.position.y) << 17 |
+         along(v.position.z);
+}
+constexpr uint64_t kIsOfOne = uint64_t{1} << 62;
+
+bool sameBits(std::span<const shared::Vpl> a, std::span<const shared::Vpl> b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+}
+
 }  // namespace
 
+// Gives out the numbers of stand-ins.
+struct StandIns::Numbers {
+  std::map<uint64_t, int> before, now;
+  std::vector<bool> isTaken;
+  size_t free = 0;
+
+  explicit Numbers(std::map<uint64_t, int> last) : before(std::move(last)) {
+    int most = 0;
+    for (const auto& [key, number] : before) most = std::max(most, number + 1);
+    // Now and then they are given out anew, so that few do not have large ones.
+    if (static_cast<size_t>(most) > 4 * before.size() + kStep) before.clear();
+    isTaken.assign(static_cast<size_t>(most), false);
+    for (const auto& [key, number] : before) isTaken[static_cast<size_t>(number)] = true;
+  }
+  int take(uint64_t key) {
+    const auto it = before.find(key);
+    if (it != before.end()) return now[key] = it->second;
+    while (free < isTaken.size() && isTaken[free]) ++free;
+    if (free == isTaken.size()) isTaken.push_back(false);
+    isTaken[free] = true;
+    return now[key] = static_cast<int>(free);
+  }
+};
+
 void StandIns::update(std::span<const shared::Vpl> shown, size_t slots,
-                      const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted) {
+                      const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
+                      float groupShare) {
+  if (slots == slots_ && hasMap == hasMap_ && isWanted == isWanted_ && groupShare == groupShare_ &&
+      sameBits(shown, shown_))
+    return;
+  shown_.assign(shown.begin(), shown.end());
   slots_ = slots;
   hasMap_ = hasMap;
-  hasMap_.resize(slots, 0);
+  isWanted_ = isWanted;
+  groupShare_ = groupShare;
+  lights_.clear();
+  groups_.clear();
+  members_.clear();
   standIn_.assign(slots, -1);
+  std::fill(mapSlots_.begin(), mapSlots_.end(), 0);
+  std::fill(isGroup_.begin(), isGroup_.end(), uint8_t{0});
+  Numbers numbers(std::move(numberOf_));
+  standForOne(numbers);
+  if (groupShare > 0.0f) standForGroups(numbers, groupShare);
+  numberOf_ = std::move(numbers.now);
+  int most = 0;
+  for (const auto& [key, number] : numberOf_) most = std::max(most, number + 1);
+  room_ = (static_cast<size_t>(most) + kStep - 1) / kStep * kStep;
+  mapSlots_.resize(room_, 0);
+  isGroup_.resize(room_, 0);
+}
+
+void StandIns::add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const vec3& intensity,
+                   bool isGroup) {
+  const auto number = static_cast<size_t>(numbers.take(key));
+  if (number >= mapSlots_.size()) {
+    mapSlots_.resize(number + 1, 0);
+    isGroup_.resize(number + 1, 0);
+  }
+  mapSlots_[number] = static_cast<int>(at.intensity.w);
+  isGroup_[number] = isGroup ? 1 : 0;
+  shared::Vpl& vpl = lights_.emplace_back(at);
+  vpl.intensity = vec4(intensity, static_cast<float>(slots_ + number));
+}
+
+void StandIns::standForOne(Numbers& numbers) {
   std::vector<const shared::Vpl*> without, with;
-  for (const shared::Vpl& vpl : shown) {
+  for (const shared::Vpl& vpl : shown_) {
     const auto slot = static_cast<size_t>(vpl.intensity.w);
     if (hasMap_[slot] != 0)
       with.push_back(&vpl);
-    else if (isWanted[slot] != 0)
+    else if (isWanted_[slot] != 0)
       without.push_back(&vpl);
   }
   std::vector<const shared::Vpl*> nearest(without.size(), nullptr);
@@ -46,18 +143,89 @@ void StandIns::update(std::span<const shared::Vpl> shown, size_t slots,
       nearest[i] = vpl;
     }
   });
-  lights_.clear();
-  mapSlots_.clear();
   for (size_t i = 0; i < without.size(); ++i) {
     if (nearest[i] == nullptr) continue;
-    const size_t slot = slots_ + lights_.size();
-    standIn_[static_cast<size_t>(without[i]->intensity.w)] = static_cast<int>(slot);
-    mapSlots_.push_back(static_cast<int>(nearest[i]->intensity.w));
-    shared::Vpl vpl = *nearest[i];
-    vpl.intensity = vec4(vec3(without[i]->intensity), static_cast<float>(slot));
-    lights_.push_back(vpl);
+    const auto slot = static_cast<size_t>(without[i]->intensity.w);
+    add(numbers, kIsOfOne | slot, *nearest[i], vec3(without[i]->intensity), false);
+    lights_.back().footprint = without[i]->footprint;
+    standIn_[slot] = static_cast<int>(lights_.back().intensity.w);
   }
-  room_ = (lights_.size() + kStep - 1) / kStep * kStep;
+}
+
+// In cells of finer and finer grids, what is not too bright for one shadow.
+void StandIns::standForGroups(Numbers& numbers, float share) {
+  float all = 0.0f;
+  for (const shared::Vpl& v : shown_) all += brightness(v);
+  const float most = share * all;
+  std::vector<const shared::Vpl*> lights;  // those that may be in groups
+  for (const shared::Vpl& v : shown_) {
+    if (v.position.w == shared::kVplDirectional || 2.0f * brightness(v) > most) continue;
+    if (hasMap_[static_cast<size_t>(v.intensity.w)] != 0) lights.push_back(&v);
+  }
+  std::vector<std::pair<uint64_t, uint32_t>> cells(lights.size());
+  for (int grid = 0; grid < kGrids; ++grid) {
+    for (uint32_t i = 0; i < lights.size(); ++i) cells[i] = {cellOf(*lights[i], grid), i};
+    std::sort(cells.begin(), cells.end());
+    for (size_t first = 0, last = 0; first < cells.size(); first = last) {
+      float bright = 0.0f;
+      vec3 middle(0.0f), intensity(0.0f);
+      for (last = first; last < cells.size() && cells[last].first == cells[first].first; ++last) {
+        const shared::Vpl& v = *lights[cells[last].second];
+        bright += brightness(v);
+        middle += brightness(v) * vec3(v.position);
+        intensity += vec3(v.intensity);
+      }
+      if (last - first < 2 || !(bright > 0.0f) || bright > most) continue;
+      middle /= bright;
+      const shared::Vpl* at = nullptr;
+      for (size_t i = first; i < last; ++i) {
+        const shared::Vpl& v = *lights[cells[i].second];
+        if (at == nullptr ||
+            glm::distance(vec3(v.position), middle) < glm::distance(vec3(at->position), middle))
+          at = &v;
+      }
+      Group group{0, vec3(at->position), 0.0f, members_.size(), last - first};
+      bool areAlike = true;
+      for (size_t i = first; i < last; ++i) {
+        const shared::Vpl& v = *lights[cells[i].second];
+        group.radius = std::max(group.radius, glm::distance(vec3(v.position), group.place));
+        areAlike = areAlike && glm::dot(vec3(v.normal), vec3(at->normal)) >= kSameWay &&
+                   v.normal.w == at->normal.w && v.tangent.w == at->tangent.w;
+      }
+      if (!areAlike) continue;
+      for (size_t i = first; i < last; ++i)
+        members_.push_back(static_cast<int>(lights[cells[i].second]->intensity.w));
+      add(numbers, cells[first].first, *at, intensity, true);
+      group.slot = static_cast<int>(lights_.back().intensity.w);
+      groups_.push_back(group);
+    }
+  }
+}
+
+void StandIns::apply(const vec3& centre, float radius, bool groups,
+                     std::span<LightUse> bySlot) const {
+  const auto looksUp = [](LightUse use) {
+    return use == LightUse::addShadowed || use == LightUse::takeShadow;
+  };
+  std::fill(bySlot.begin() + static_cast<ptrdiff_t>(slots_), bySlot.end(), LightUse::skip);
+  for (size_t i = 0; i < slots_; ++i) {
+    if (hasMap_[i] != 0 || !looksUp(bySlot[i])) continue;
+    if (standIn_[i] >= 0) bySlot[static_cast<size_t>(standIn_[i])] = bySlot[i];
+    bySlot[i] = LightUse::skip;
+  }
+  if (!groups) return;
+  for (const Group& group : groups_) {
+    const int* members = &members_[group.first];
+    const LightUse use = bySlot[static_cast<size_t>(members[0])];
+    if (!looksUp(use)) continue;
+    if (group.radius > kFar * (glm::distance(group.place, centre) - radius)) continue;
+    if (!std::all_of(members + 1, members + group.count,
+                     [&](int slot) { return bySlot[static_cast<size_t>(slot)] == use; }))
+      continue;
+    for (size_t i = 0; i < group.count; ++i)
+      bySlot[static_cast<size_t>(members[i])] = LightUse::skip;
+    bySlot[static_cast<size_t>(group.slot)] = use;
+  }
 }
 
 }  // namespace lamplighter

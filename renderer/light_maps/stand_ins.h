@@ -1,13 +1,19 @@
-// Lights that stand for others where these would have to look up shadow maps: for a VPL that has no
-// map, because memory is short or its turn has not come, one at the nearest place that has.
+// Lights that stand for others where these would have to look up shadow maps:
+// - for a VPL that has no map, because memory is short or its turn has not come, one as bright at
+//   the place of the nearest that has;
+// - for a group of VPLs near each other, one as bright as all of them at the place of one of them
+//   (Walter et al., Lightcuts, 2005), for patches that are far from the group and on which all its
+//   VPLs would look their maps up.
 //
 // A stand-in is a light as any other for the backends: it has a slot, behind those of the VPLs, and
 // looks up the map of the VPL at whose place it is.
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
+#include "renderer/light_maps/light_use.h"
 #include "renderer/math.h"
 #include "shaders/shared/vpl.h"
 
@@ -16,27 +22,53 @@ namespace lamplighter {
 class StandIns {
  public:
   // `shown`: the VPLs, with their slots in intensity.w; by slot whether it has a map, and whether
-  // the view wants it to have one.
+  // the view wants it to have one. `groupShare`: of all light, what a group has at most; 0: none.
   void update(std::span<const shared::Vpl> shown, size_t slots, const std::vector<uint8_t>& hasMap,
-              const std::vector<uint8_t>& isWanted);
+              const std::vector<uint8_t>& isWanted, float groupShare);
 
   size_t slots() const { return slots_ + room_; }  // of VPLs and stand-ins
+  // In an order that follows from what is shown.
   const std::vector<shared::Vpl>& lights() const { return lights_; }
+  size_t groups() const { return groups_.size(); }
   // Whose map the light in a slot looks up, its own or another's.
   int mapSlot(int slot) const {
     const auto s = static_cast<size_t>(slot);
     return s < slots_ ? slot : mapSlots_[s - slots_];
   }
-  bool hasMap(size_t slot) const { return hasMap_[slot] != 0; }
-  // The slot of what stands for a VPL without a map; −1: nothing does.
-  int standInOf(size_t slot) const { return standIn_[slot]; }
+  bool isGroup(int slot) const {
+    const auto s = static_cast<size_t>(slot);
+    return s >= slots_ && isGroup_[s - slots_] != 0;
+  }
+
+  // Makes of how the pixels of a patch would use each VPL, if all had maps, how they use VPLs and
+  // stand-ins. `groups`: whether any may stand for several.
+  void apply(const vec3& centre, float radius, bool groups, std::span<LightUse> bySlot) const;
 
  private:
+  struct Group {
+    int slot = 0;
+    vec3 place{0.0f};
+    float radius = 0.0f;  // all of its VPLs are within it of the place [m]
+    size_t first = 0, count = 0;
+  };
+  struct Numbers;
+  void standForOne(Numbers& numbers);
+  void standForGroups(Numbers& numbers, float share);
+  void add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const vec3& intensity,
+           bool isGroup);
+
+  std::vector<shared::Vpl> shown_;
+  std::vector<uint8_t> hasMap_, isWanted_;  // by slot
+  float groupShare_ = 0.0f;
   size_t slots_ = 0, room_ = 0;
   std::vector<shared::Vpl> lights_;
-  std::vector<int> mapSlots_;    // by stand-in
-  std::vector<int> standIn_;     // by slot
-  std::vector<uint8_t> hasMap_;  // by slot
+  // By stand-in's slot behind the VPLs'.
+  std::vector<int> mapSlots_;
+  std::vector<uint8_t> isGroup_;
+  std::vector<int> standIn_;          // by slot of a VPL without a map
+  std::vector<Group> groups_;         // large ones first
+  std::vector<int> members_;          // slots
+  std::map<uint64_t, int> numberOf_;  // of what there was last: it keeps its slot while it is there
 };
 
 }  // namespace lamplighter

@@ -98,6 +98,20 @@ void build(benchmark::State& state, const Case& c) {
   state.counters["partial"] = static_cast<double>(counts.partial) / entries;
 }
 
+// With more and more VPLs, each for itself or by clusters.
+void buildMany(benchmark::State& state, Case c, bool clusters) {
+  if (skip(state, c)) return;
+  c.vpls = static_cast<int>(state.range(0));
+  const World w(c);
+  for (auto _ : state) {
+    VisibilityDatabase database;
+    database.useClusters(clusters);
+    fill(database, w);
+    state.counters["tests"] = static_cast<double>(database.tests());
+    state.counters["megabytes"] = 1e-6 * static_cast<double>(database.bytes());
+  }
+}
+
 void moveObject(benchmark::State& state, const Case& c) {
   if (skip(state, c)) return;
   World w(c);
@@ -236,6 +250,17 @@ void add(const std::string& name, F function, More... more) {
   for (const Case& c : kCases) {
     const std::string name = c.name;
     add("visibility/build/" + name, build, c);
+    for (const bool clusters : {false, true}) {
+      benchmark::RegisterBenchmark(
+          ("visibility/clusters/" + name + (clusters ? "/on" : "/off")).c_str(), buildMany, c,
+          clusters)
+          ->Unit(benchmark::kMillisecond)
+          ->MeasureProcessCPUTime()
+          ->Iterations(1)
+          ->Arg(300)
+          ->Arg(1000)
+          ->Arg(4096);
+    }
     add("visibility/object_moves/" + name, moveObject, c);
     add("visibility/one_light_moves/" + name, moveOneLight, c);
     add("visibility/lights_move/" + name, moveLights, c);

@@ -75,7 +75,7 @@ std::vector<bool> SpecularSums::findUses(const PatchLights& patches) {
   slots_ = patches.slots();
   uses_.assign(rows_.size() * slots_, LightUse::skip);
   for (const auto& [patch, row] : rows_)
-    patches.uses(patch.first, patch.second, false, {&uses_[row * slots_], slots_});
+    patches.uses(patch.first, patch.second, false, {&uses_[row * slots_], slots_}, false);
   std::vector<bool> isOther(rows_.size(), true);
   if (last.size() == uses_.size())
     for (size_t row = 0; row < rows_.size(); ++row)

@@ -68,6 +68,7 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
   for (shared::Vpl vpl : vpls) {
     const int slot = static_cast<int>(vpl.intensity.w);
     if (slot >= 0) {
+      if (patches != nullptr && patches->isGroup(slot)) continue;
       const int place = maps.place(patches == nullptr ? slot : patches->mapSlot(slot));
       if (place == kNone) continue;
       vpl.intensity.w = static_cast<float>(place);

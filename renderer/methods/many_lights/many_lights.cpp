@@ -92,6 +92,7 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
   const std::string technique = settings.choice(parameters::technique());
   useLightMaps = technique == "light_maps";
   useVisibility = useLightMaps || technique == "visibility";
+  groupShare = 0.01f * settings.real(parameters::groupShare());
   lightMapTexel = settings.real(parameters::lightMapTexel());
   lightsPerPass = settings.integer(parameters::lightsPerPass());
   mergePasses = settings.boolean(parameters::mergePasses());
@@ -148,7 +149,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
       options.clampDistance != options_.clampDistance ||
       options.shadowBias != options_.shadowBias ||
       options.useVisibility != options_.useVisibility ||
-      options.useLightMaps != options_.useLightMaps ||
+      options.useLightMaps != options_.useLightMaps || options.groupShare != options_.groupShare ||
       options.lightMapTexel != options_.lightMapTexel ||
       options.mergePasses != options_.mergePasses || options.block != options_.block ||
       options.speculars != options_.speculars ||
@@ -288,11 +289,13 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
   if (in.backend.info().tracesShadowMaps && most.rays != kNoLimit)
     maps = std::min(maps, most.rays / static_cast<uint64_t>(options.mapResolution) /
                               static_cast<uint64_t>(options.mapResolution));
+  // A path is refreshed whole, however many VPLs it has.
+  maps = std::max<uint64_t>({maps, static_cast<uint64_t>(stats.vplsRefreshed), 1});
   const int refining = Refinement::slots(options.refinement);
   stats.mapsRendered = lights_.updateMaps(
-      in.backend, wanted_,
-      {std::max(options.mostMaps - refining, 1), static_cast<int>(std::max<uint64_t>(maps, 1))});
-  if (visibility_) standIns_.update(lights_.shown(), slots, lights_.hasMap(), wanted_);
+      in.backend, wanted_, {std::max(options.mostMaps - refining, 1), static_cast<int>(maps)});
+  if (visibility_)
+    standIns_.update(lights_.shown(), slots, lights_.hasMap(), wanted_, options.groupShare);
 }
 
 void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
@@ -445,6 +448,7 @@ MethodInfo manyLightsInfo() {
            parameters::importance(),
            parameters::mapResolution(),
            parameters::mapMemory(),
+           parameters::groupShare(),
            parameters::updates(),
            parameters::maxShadowMaps(),
            parameters::maxVisibilityTests(),

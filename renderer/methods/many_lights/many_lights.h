@@ -35,6 +35,7 @@ class ManyLights final : public GiMethod {
 
     VplCounts counts;
     int mapResolution = 0;
+    float groupShare = 0.0f;
     int mostMaps = 0;      // held at a time, those of refinement included
     RefreshBudget budget;  // a frame
     int mostPaths = 0;     // likewise; 0: no limit

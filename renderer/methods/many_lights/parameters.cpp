@@ -93,6 +93,23 @@ const ParameterSpec& maxPaths() {
   return spec;
 }
 
+const ParameterSpec& groupShare() {
+  static const ParameterSpec spec{
+      "group_share",
+      "Group share",
+      "%",
+      "Where shadow maps are looked up, one look-up may do for a group of light samples near each "
+      "other that is far away, as long as the group has no more than this share of all light. So "
+      "that more light samples cost less than their number. 0: a look-up for each. Nothing for "
+      "naive.",
+      0.2f,
+      0.0,
+      5.0,
+      false,
+      {}};
+  return spec;
+}
+
 const ParameterSpec& mapMemory() {
   static const ParameterSpec spec{
       "map_memory",

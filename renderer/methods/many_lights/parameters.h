@@ -13,6 +13,7 @@ const ParameterSpec& maxVisibilityTests();
 const ParameterSpec& maxLightMapTexels();
 const ParameterSpec& maxRays();
 const ParameterSpec& maxPaths();       // int, 0: no limit; walked again
+const ParameterSpec& groupShare();     // float, percent; 0: no groups
 const ParameterSpec& mapMemory();      // int, MiB
 const ParameterSpec& frameTime();      // float, ms; heeded in the editor's window alone
 const ParameterSpec& lightMapTexel();  // float, m
