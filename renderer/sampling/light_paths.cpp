@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kPathsPerVpl = 16;
 // At rest, paths that are as good but not those of a fresh start are exchanged for these in so many
 // frames at least, as the noise of one set is not that of the other.
-constexpr size_t kRestingFrames = 8;
+constexpr size_t kRestingFrames = LightPaths::kRestingFrames;
 
 bool sameHit(const Hit& a, const Hit& b) {
   return a.object == b.object && a.triangle == b.triangle && a.t == b.t && a.u == b.u && a.v == b.v;

@@ -22,6 +22,9 @@ namespace lamplighter {
 
 class LightPaths {
  public:
+  // In so many frames at rest kept paths are exchanged for those of a scene opened afresh.
+  static constexpr int kRestingFrames = 8;
+
   struct Work {        // of the last update()
     int walked = 0;    // for which rays were traced
     int replaced = 0;  // of these, those that meet something else now

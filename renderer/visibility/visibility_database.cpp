@@ -201,6 +201,10 @@ bool VisibilityDatabase::isHiddenFromEye(const RenderScene& scene, const shared:
 }
 
 void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const shared::Vpl> bySlot) {
+  // Patches may be divided for lights that are gone.
+  bool areGone = false;
+  for (size_t i = 0; i < lights_.size(); ++i)
+    areGone = areGone || (isLight(lights_[i]) && (i >= bySlot.size() || !isLight(bySlot[i])));
   resize(bySlot.size());
   std::vector<int> slots;
   for (size_t i = 0; i < bySlot.size(); ++i) {
@@ -213,10 +217,10 @@ void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const sha
   lights_.assign(bySlot.begin(), bySlot.end());
   isLive_.resize(lights_.size());
   for (size_t i = 0; i < lights_.size(); ++i) isLive_[i] = isLight(lights_[i]) ? 1 : 0;
-  if (slots.empty()) return;
+  if (slots.empty() && !areGone) return;
   const uint64_t before = tests_;
-  computeNew(scene, slots);
-  testsPerColumn_ = (tests_ - before) / slots.size();
+  computeNew(scene, slots, areGone);
+  if (!slots.empty()) testsPerColumn_ = (tests_ - before) / slots.size();
 }
 
 void VisibilityDatabase::refreshAll(const RenderScene& scene) {

@@ -106,7 +106,8 @@ class VisibilityDatabase {
   void addWaiting(int object, const Caster& before, bool couldHide);
   void forgetOthers();
   void growTree();
-  void computeNew(const RenderScene& scene, std::span<const int> slots);
+  // areGone: others, so that patches may be divided no more.
+  void computeNew(const RenderScene& scene, std::span<const int> slots, bool areGone);
   void computeWaiting(const RenderScene& scene, std::span<const int> slots);
   Column takeWaiting(int slot);
   int mostPartial() const;

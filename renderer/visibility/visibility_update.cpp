@@ -321,9 +321,10 @@ int VisibilityDatabase::mostPartial() const {
 }
 
 // All columns of lights that are new.
-void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const int> slots) {
+void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const int> slots,
+                                    bool areGone) {
   const int most = mostPartial();
-  const bool allMayDivide = most != most_;
+  const bool allMayDivide = areGone || most != most_;
   most_ = most;
   std::vector<Task> tasks;
   std::vector<bool> isNew(lights_.size(), false);

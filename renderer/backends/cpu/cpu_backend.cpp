@@ -240,7 +240,10 @@ class CpuBackend final : public Backend {
   }
 
   cpu::ImagePool images_;
-  BackendInfo info_{"cpu", "x86-64-v3, 8 lanes", true, true};
+  BackendInfo info_{.name = "cpu",
+                    .device = "x86-64-v3, 8 lanes",
+                    .tracesShadowMaps = true,
+                    .takesTransfer = true};
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;

@@ -203,7 +203,11 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.oldestFrames = lights_.oldestFrames();
   // Frames that refresh as many as this one did, then one for each sample of the edges.
   const int aFrame = std::max({1, out.stats.vplsRefreshed, out.stats.mapsRendered});
-  out.stats.framesUntilSettled = (pending + aFrame - 1) / aFrame + samples - samples_;
+  const int exchange = paths_.isAtRest() ? 0 : LightPaths::kRestingFrames;
+  out.stats.framesUntilSettled =
+      std::max((pending + aFrame - 1) / aFrame, exchange) + samples - samples_;
+  // And what cannot be counted yet, such as paths that are exchanged, takes a frame at least.
+  if (!out.settled) out.stats.framesUntilSettled = std::max(out.stats.framesUntilSettled, 1);
   out.stats.mergedPasses = mergedPasses_;
   out.stats.passesSaved = passesSaved_;
   out.stats.interpolatedShare = interpolatedShare_;

@@ -55,6 +55,8 @@ Settings settingsOf(bool prt, int bounces) {
   Settings s;
   s.set(parameters::prt().name, prt);
   s.set(parameters::block().name, std::string("1"));
+  // It is found from the light of the whole picture, transfer's too.
+  s.set(parameters::cornerLight().name, false);
   s.set(parameters::vpls().name, 1000);
   s.set(parameters::updates().name, 1000);
   s.set(parameters::bounces().name, bounces);
