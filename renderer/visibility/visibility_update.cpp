@@ -323,7 +323,11 @@ int VisibilityDatabase::mostPartial() const {
 // All columns of lights that are new.
 void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const int> slots) {
   const int most = mostPartial();
-  const bool allMayDivide = most != most_;
+  // A light that is gone leaves nothing to do, but fewer are partial where it was.
+  const bool isGone = std::any_of(slots.begin(), slots.end(), [&](int slot) {
+    return !isLight(lights_[static_cast<size_t>(slot)]);
+  });
+  const bool allMayDivide = most != most_ || isGone;
   most_ = most;
   std::vector<Task> tasks;
   std::vector<bool> isNew(lights_.size(), false);
