@@ -44,8 +44,8 @@ struct BackendInfo {
   std::string name;                   // "cpu" or "gl"
   std::string device;                 // GL renderer string, or the instruction set
   bool tracesShadowMaps = false;      // by a ray a texel
-  bool specularsTakeAllMaps = false;  // lights on glossy pixels are looked up wherever they are
   bool takesTransfer = false;         // PatchLights with light by precomputed transfer
+  bool specularsTakeAllMaps = false;  // lights on glossy pixels are looked up wherever they are
 };
 
 // Counts of work since the backend was made.

@@ -97,7 +97,11 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
   out = step({});
   EXPECT_TRUE(out.settled);
   EXPECT_EQ(out.stats.vplsRefreshed, 10);
-  EXPECT_EQ(renderer.backend().counts().shadowMaps, 100u);
+  // Of some it is known everywhere in the view whether anything stands between.
+  const uint64_t maps = renderer.backend().counts().shadowMaps;
+  EXPECT_GT(maps, 80u);
+  EXPECT_LE(maps, 100u);
+  EXPECT_EQ(static_cast<uint64_t>(out.stats.mapsHeld), maps);
 
   // Nothing to do: no work at all, the same picture.
   const uint64_t sums = renderer.backend().counts().lightPixels;
@@ -106,13 +110,14 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
   EXPECT_TRUE(out.settled);
   EXPECT_EQ(out.radiance, picture);
   EXPECT_EQ(renderer.backend().counts().lightPixels, sums);
-  EXPECT_EQ(renderer.backend().counts().shadowMaps, 100u);
+  EXPECT_EQ(renderer.backend().counts().shadowMaps, maps);
 
-  // Another view: the sums alone.
+  // Another view: the sums alone, and maps that it is the first to look up.
   room.view.eye.x += 0.1f;
   EXPECT_TRUE(step({}).settled);
   EXPECT_GT(renderer.backend().counts().lightPixels, sums);
-  EXPECT_EQ(renderer.backend().counts().shadowMaps, 100u);
+  EXPECT_GE(renderer.backend().counts().shadowMaps, maps);
+  EXPECT_LE(renderer.backend().counts().shadowMaps, 100u);
 }
 
 // The light moves: each frame's pixels lie between what the old and the new VPLs give, all told,

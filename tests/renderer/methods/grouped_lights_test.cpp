@@ -1,0 +1,166 @@
+// Look-ups that groups of light samples share: fewer, with a picture that stays right.
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/light_maps/stand_ins.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/lit_scene.h"
+
+namespace lamplighter {
+namespace {
+
+struct Room {
+  Scene scene;
+  View view;
+  explicit Room(const std::string& name)
+      : scene(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
+                       (name + ".gltf"))
+                  .scene) {
+    for (const Node& node : scene.nodes)
+      if (node.camera != kNone) view = viewOfCamera(scene, node, 160, 100);
+  }
+};
+
+Settings settingsOf(const std::string& technique, int vpls, float groupShare) {
+  Settings s;
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::bounces().name, 1);
+  s.set(parameters::updates().name, vpls);
+  s.set(parameters::antialias().name, 1);
+  s.set(parameters::groupShare().name, groupShare);
+  return s;
+}
+
+struct Result {
+  Image image;
+  uint64_t lookUps;
+};
+
+Result render(const Room& room, const Settings& settings) {
+  FrameRenderer renderer(makeCpuBackend());
+  const GiOutput out =
+      test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  return {out.radiance->pixels(), renderer.backend().counts().lookUps};
+}
+
+TEST(GroupedLights, LookUpLessAndShowTheSame) {
+  for (const char* name : {"pillar_room", "table_room"}) {
+    const Room room(name);
+    const Result naive = render(room, settingsOf("naive", 1500, 0.4f));
+    for (const char* technique : {"visibility", "light_maps"}) {
+      SCOPED_TRACE(std::string(name) + " " + technique);
+      const Result each = render(room, settingsOf(technique, 1500, 0.0f));
+      const Result grouped = render(room, settingsOf(technique, 1500, 0.4f));
+      const double error = compareImages(grouped.image, naive.image).relRmse;
+      const double bias = compareImages(grouped.image, naive.image).bias;
+      std::cout << name << ", " << technique << ": relRMSE to naive " << 100.0 * error
+                << "% (each alone " << 100.0 * compareImages(each.image, naive.image).relRmse
+                << "%), look-ups " << grouped.lookUps << " for " << each.lookUps << "\n";
+      EXPECT_LT(error, 0.03);
+      EXPECT_NEAR(bias, 1.0, 0.003);
+      EXPECT_LT(3 * grouped.lookUps, 2 * each.lookUps);
+    }
+  }
+}
+
+TEST(GroupedLights, FewLightsAreNotGrouped) {
+  const Room room("pillar_room");
+  const Result each = render(room, settingsOf("light_maps", 200, 0.0f));
+  const Result grouped = render(room, settingsOf("light_maps", 200, 0.2f));
+  EXPECT_EQ(grouped.lookUps, each.lookUps);
+  EXPECT_TRUE(test::sameBits(grouped.image, each.image));
+}
+
+TEST(GroupedLights, LeaveNoTraceOfHowTheyCameAbout) {
+  Room room("pillar_room");
+  Settings settings = settingsOf("light_maps", 900, 0.4f);
+  settings.set(parameters::updates().name, 250);
+  settings.set(parameters::mapResolution().name, 16);
+  FrameRenderer renderer(makeCpuBackend());
+  test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  for (int edit = 0; edit < 4; ++edit) {
+    const Scene before = room.scene;
+    for (Node& node : room.scene.nodes) {
+      if (edit % 2 == 0 && node.name == "mover") node.local.translation.x += 0.3f;
+      if (edit % 2 == 1 && node.area) node.local.translation.z += 0.2f;
+    }
+    SceneChanges changes = compare(before, room.scene);
+    for (int frame = 0; frame < edit; ++frame, changes = {})
+      renderer.render({room.scene, changes, room.view, "many_lights", settings});
+    const Image edited =
+        test::renderSettled(renderer, room.scene, changes, room.view, settings).radiance->pixels();
+    EXPECT_TRUE(test::sameBits(edited, render(room, settings).image)) << edit;
+  }
+}
+
+std::vector<shared::Vpl> row(int count, const vec3& step) {
+  std::vector<shared::Vpl> vpls;
+  for (int i = 0; i < count; ++i) {
+    vpls.push_back(
+        test::makeVpl(vec3(0.01f, 0.01f, 0.01f) + static_cast<float>(i) * step, vec3(0, -1, 0)));
+    vpls.back().intensity = vec4(vec3(1.0f), static_cast<float>(i));
+  }
+  return vpls;
+}
+
+TEST(StandIns, OneWithoutMapLooksUpThatOfItsNeighbour) {
+  const auto vpls = row(4, vec3(1, 0, 0));
+  StandIns standIns;
+  standIns.update(vpls, 4, {1, 0, 1, 0}, {1, 0, 1, 1}, 0.0f);
+  ASSERT_EQ(standIns.lights().size(), 1u);  // nothing looks up that of light 1
+  const int slot = static_cast<int>(standIns.lights()[0].intensity.w);
+  EXPECT_EQ(standIns.mapSlot(slot), 2);
+  EXPECT_EQ(standIns.mapSlot(3), 3);
+  EXPECT_FALSE(standIns.isGroup(slot));
+  std::vector<LightUse> uses(standIns.slots(), LightUse::skip);
+  uses[0] = LightUse::takeShadow;
+  uses[1] = LightUse::add;
+  uses[3] = LightUse::addShadowed;
+  standIns.apply(vec3(0, -5, 0), 1.0f, true, uses);
+  EXPECT_EQ(uses[0], LightUse::takeShadow);
+  EXPECT_EQ(uses[1], LightUse::add);
+  EXPECT_EQ(uses[3], LightUse::skip);
+  EXPECT_EQ(uses[static_cast<size_t>(slot)], LightUse::addShadowed);
+}
+
+TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
+  const auto vpls = row(4, vec3(0.01f, 0, 0));
+  StandIns standIns;
+  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, 1.0f);
+  ASSERT_GE(standIns.groups(), 1u);
+  const shared::Vpl group = standIns.lights()[0];
+  const auto slot = static_cast<size_t>(group.intensity.w);
+  EXPECT_EQ(group.intensity.r, 4.0f);
+  EXPECT_TRUE(standIns.isGroup(static_cast<int>(slot)));
+  const auto usesAt = [&](float y, bool groups, LightUse second) {
+    std::vector<LightUse> uses(standIns.slots(), LightUse::skip);
+    for (size_t i = 0; i < 4; ++i) uses[i] = LightUse::takeShadow;
+    uses[1] = second;
+    standIns.apply(vec3(0, -y, 0), 0.5f, groups, uses);
+    return uses;
+  };
+  const auto far = usesAt(5.0f, true, LightUse::takeShadow);
+  EXPECT_EQ(far[slot], LightUse::takeShadow);
+  EXPECT_EQ(std::count(far.begin(), far.end(), LightUse::skip),
+            static_cast<std::ptrdiff_t>(far.size() - 1));
+  for (const auto& uses : {usesAt(0.5f, true, LightUse::takeShadow),   // near
+                           usesAt(5.0f, false, LightUse::takeShadow),  // not wanted
+                           usesAt(5.0f, true, LightUse::skip)}) {      // not all are looked up
+    EXPECT_EQ(uses[slot], LightUse::skip);
+    EXPECT_EQ(uses[0], LightUse::takeShadow);
+  }
+  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, 0.3f);  // too bright
+  EXPECT_EQ(standIns.groups(), 0u);
+}
+
+}  // namespace
+}  // namespace lamplighter
