@@ -1,4 +1,5 @@
 // Outgoing radiance: Le + ρ/π · E, and the sky where nothing was hit.
+// SKY_KIND is known to the compiler: llvmpipe takes all ways of all branches.
 #include "shared/bindings.h"
 #include "shared/sky.h"
 
@@ -10,7 +11,6 @@ layout(location = 0) uniform vec3 uSky;   // constant, or the gradient's horizon
 layout(location = 1) uniform int uWhite;  // 1: as if every surface were white
 layout(location = 2) uniform vec3 uZenith;
 layout(location = 3) uniform vec3 uGround;
-layout(location = 4) uniform int uSkyKind;
 layout(location = 5) uniform vec2 uSkyPictureUse;  // rotation [rad], scale
 // The view ray of the picture's top left corner, not of unit length, and how it grows by a pixel.
 layout(location = 6) uniform vec3 uCorner;
@@ -36,10 +36,10 @@ vec3 skyPicture(vec3 towards) {
 }
 
 vec3 skySeen(vec2 pixel) {
-  if (uSkyKind == kSkyConstant) return uSky;
+  if (SKY_KIND == kSkyConstant) return uSky;
   vec2 at = pixel + 0.5 + uJitter;
   vec3 towards = normalize(uCorner + at.x * uRight + at.y * uDown);
-  if (uSkyKind == kSkyGradient) return skyGradient(uZenith, uSky, uGround, towards.y);
+  if (SKY_KIND == kSkyGradient) return skyGradient(uZenith, uSky, uGround, towards.y);
   return skyPicture(towards);
 }
 

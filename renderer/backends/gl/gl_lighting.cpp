@@ -59,13 +59,17 @@ void GlLighting::reload(const std::filesystem::path& shaders, const VplBuffer& v
     merged[i] = Program(shaders, {vertex, sum, defines});
   }
   Program findPatches(shaders, {vertex, "passes/find_patches.frag.glsl"});
-  Program compose(shaders, {vertex, "passes/compose.frag.glsl"});
+  Program compose[3];
+  for (int i = 0; i < 3; ++i) {
+    compose[i] =
+        Program(shaders, {vertex, "passes/compose.frag.glsl", {"SKY_KIND " + std::to_string(i)}});
+  }
   low_.reload(shaders);
   std::move(std::begin(naive), std::end(naive), naive_);
   std::move(std::begin(listed), std::end(listed), listed_);
   std::move(std::begin(merged), std::end(merged), merged_);
   findPatches_ = std::move(findPatches);
-  compose_ = std::move(compose);
+  std::move(std::begin(compose), std::end(compose), compose_);
 }
 
 void GlLighting::clear(int width, int height) {
@@ -249,7 +253,7 @@ std::shared_ptr<RadianceTexture> GlLighting::freePicture(int width, int height) 
 }
 
 // The uniforms of compose.frag.glsl that say what is seen where nothing is hit.
-void GlLighting::setSky(const GlGBuffer& gbuffer, const Sky& sky) {
+const Program& GlLighting::setSky(const GlGBuffer& gbuffer, const Sky& sky) {
   if (skyImage_ != sky.image) {
     skyImage_ = sky.image;
     skyTexture_ = Texture();
@@ -262,20 +266,22 @@ void GlLighting::setSky(const GlGBuffer& gbuffer, const Sky& sky) {
   }
   if (skyTexture_) glBindTextureUnit(shared::kSkyPicture, skyTexture_.name());
   const bool isConstant = sky.kind == SkyKind::constant;
-  compose_.set(0, isConstant ? sky.radiance : sky.horizon);
-  compose_.set(2, sky.zenith);
-  compose_.set(3, sky.ground);
-  compose_.set(4, isConstant                      ? shared::kSkyConstant
-                  : sky.kind == SkyKind::gradient ? shared::kSkyGradient
-                                                  : shared::kSkyImage);
-  compose_.set(5, vec2(sky.rotation, sky.scale));
+  const int kind = isConstant                      ? shared::kSkyConstant
+                   : sky.kind == SkyKind::gradient ? shared::kSkyGradient
+                                                   : shared::kSkyImage;
+  const Program& compose = compose_[kind];
+  compose.set(0, isConstant ? sky.radiance : sky.horizon);
+  compose.set(2, sky.zenith);
+  compose.set(3, sky.ground);
+  compose.set(5, vec2(sky.rotation, sky.scale));
   // View::rayDirection() of a pixel: forward + right · x + up · y, in pixels from the top left.
   const View& view = gbuffer.view();
   const vec3 corner = view.rayPlane(0.0f, 0.0f);
-  compose_.set(6, corner);
-  compose_.set(7, view.rayPlane(1.0f, 0.0f) - corner);
-  compose_.set(8, view.rayPlane(0.0f, 1.0f) - corner);
-  compose_.set(9, gbuffer.jitter());
+  compose.set(6, corner);
+  compose.set(7, view.rayPlane(1.0f, 0.0f) - corner);
+  compose.set(8, view.rayPlane(0.0f, 1.0f) - corner);
+  compose.set(9, gbuffer.jitter());
+  return compose;
 }
 
 std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, const Sky& sky,
@@ -287,9 +293,9 @@ std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, c
   const PassState state(pictureFramebuffer_.name(), pixels_.width, pixels_.height);
   gbuffer.bind();
   glBindTextureUnit(shared::kIrradiance, pixels_.irradiance.name());
-  setSky(gbuffer, sky);
-  compose_.set(1, white ? 1 : 0);
-  compose_.use();
+  const Program& compose = setSky(gbuffer, sky);
+  compose.set(1, white ? 1 : 0);
+  compose.use();
   drawFullScreen(emptyVertexArray_.name());
   return picture;
 }

@@ -70,11 +70,13 @@ class GlLighting {
   void begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked);
   // Adds all VPLs there.
   void add(const Sum& sum, const SumTarget& target, int block, bool unmarked);
-  void setSky(const GlGBuffer& gbuffer, const Sky& sky);
+  // Of the program that composes with that kind, which it returns.
+  const Program& setSky(const GlGBuffer& gbuffer, const Sky& sky);
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
 
   Program naive_[3], listed_[3], merged_[3];  // by Vpl.position.w
-  Program findPatches_, compose_;
+  Program findPatches_;
+  Program compose_[3];  // by kind of sky (shaders/shared/sky.h)
   VertexArray emptyVertexArray_;
   Framebuffer pictureFramebuffer_;
   SumTarget pixels_;
