@@ -31,7 +31,7 @@ void CornerLight::goOn(const FrameInputs& in, const std::vector<InspectedLight>&
 std::shared_ptr<RadianceImage> CornerLight::addTo(RadianceImage& settled) {
   const Image& without = settled.pixels();
   Image with = without;
-  addSmoothed(pixels_, smoothingRadius(1), with);
+  addSmoothed(pixels_, smoothingRadius(1, with.height), with);
   pixels_ = {};
   gains_ = Image(with.width, with.height);
   tbb::parallel_for(0, with.height, [&](int y) {

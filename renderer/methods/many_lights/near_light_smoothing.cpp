@@ -8,15 +8,18 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kFirstRadius = 6.0f;  // of the first batch [pixels]
+// Of the first batch [pixels], and at most this share of the picture's rows: what is few pixels
+// wide must not be blurred.
+constexpr float kFirstRadius = 6.0f, kMostOfRows = 1.0f / 60.0f;
 // The same surface: normals within 25°, and no further off the plane than a fifth of the way along
 // it, so that round things share too.
 constexpr float kLeastCosine = 0.9f, kMostSlope = 0.2f;
 
 }  // namespace
 
-int smoothingRadius(uint32_t batch) {
-  return static_cast<int>(kFirstRadius / std::sqrt(static_cast<float>(std::max(batch, 1u))));
+int smoothingRadius(uint32_t batch, int height) {
+  const float first = std::min(kFirstRadius, kMostOfRows * static_cast<float>(height));
+  return static_cast<int>(first / std::sqrt(static_cast<float>(std::max(batch, 1u))));
 }
 
 void addSmoothed(std::span<const NearLight::Pixel> pixels, int radius, Image& image) {

@@ -11,8 +11,9 @@
 
 namespace lamplighter {
 
-// Pixels to each side that the batch (from 1) shares with; 0 from the 37th on.
-int smoothingRadius(uint32_t batch);
+// Pixels to each side that the batch (from 1) shares with in a picture of so many rows; 0 from the
+// 37th on, and in the smallest pictures.
+int smoothingRadius(uint32_t batch, int height);
 
 // Adds to the picture the mean of what pixels within `radius` to each side have found that show the
 // same surface (nearly in its plane, nearly the same normal), times each pixel's own albedo.

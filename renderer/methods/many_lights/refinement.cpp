@@ -166,7 +166,8 @@ void Refinement::addPart(const FrameInputs& in, const Options& options, int firs
 
 void Refinement::finishBatch(int target) {
   if (batch_->nearLight)
-    addSmoothed(batch_->nearPixels, smoothingRadius(counts_.batch), batch_->image);
+    addSmoothed(batch_->nearPixels, smoothingRadius(counts_.batch, batch_->image.height),
+                batch_->image);
   // All batches count the same, however many VPLs their paths left.
   addScaled(sum_, batch_->image, static_cast<float>(kBatchVpls));
   weight_ += kBatchVpls;

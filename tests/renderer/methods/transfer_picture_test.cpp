@@ -57,6 +57,7 @@ Settings settingsOf(bool prt, int bounces) {
   s.set(parameters::block().name, std::string("1"));
   // It is found from the light of the whole picture, transfer's too.
   s.set(parameters::cornerLight().name, false);
+  s.set(parameters::importance().name, 1);  // of all samples, as many as for any view
   s.set(parameters::vpls().name, 1000);
   s.set(parameters::updates().name, 1000);
   s.set(parameters::bounces().name, bounces);
