@@ -1,13 +1,24 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
 #include "renderer/visibility/light_shaft.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include <hwy/highway.h>
+
 #include "renderer/raycast/ray_caster.h"
 
 namespace lamplighter {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr int kLanes = 8;
+constexpr hn::FixedTag<float, kLanes> kTag;
+
+constexpr float kRounding = 2e-6f;
 
 // A pyramid is a little wider than light and patch, by margins for rounding
 // (occlusion_pyramid.cpp): its sides by less than this many at the light, ...
@@ -19,6 +30,7 @@ constexpr float kWidest = 0.25f;
 }  // namespace
 
 LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRegion& region) {
+  least_.fill(-1.0f);
   const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
   const float width = 0.5f * std::min(glm::distance(region.corners[0], region.corners[1]),
                                       glm::distance(region.corners[1], region.corners[2]));
@@ -47,6 +59,7 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
     if (!(past <= kWidest) || !(before <= kWidest)) continue;
     side = h > 0.0f ? 1.0f : -1.0f;
     held_ |= uint64_t{1} << i;
+    reach_ = std::max(reach_, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
     points[count] = p;
     reach[count++] = past;
     atBase = std::max(atBase, before);
@@ -57,6 +70,8 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
                glm::all(glm::lessThan(glm::abs(vec3(v.normal) - vec3(like->normal)), vec3(1e-6f)));
   }
   if (count == 0) return;
+  for (const vec3& c : region.points())
+    reach_ = std::max(reach_, std::abs(c.x) + std::abs(c.y) + std::abs(c.z));
 
   // The least of dot(n, x) over what holds all pyramids: the lights and the patch, widened.
   const auto support = [&](const vec3& n) {
@@ -106,18 +121,28 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
 
 void LightShaft::add(const vec3& normal, float least) {
   const auto i = static_cast<size_t>(count_++);
-  normals_[i] = normal;
+  x_[i] = normal.x;
+  y_[i] = normal.y;
+  z_[i] = normal.z;
   least_[i] = least;
 }
 
 bool LightShaft::mayMeet(const Bounds& box) const {
   const vec3 centre = box.centre(), half = 0.5f * box.extent();
-  for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
-    const float most = glm::dot(normals_[i], centre) + glm::dot(glm::abs(normals_[i]), half);
-    // What sums of such places are rounded by.
-    const float slack =
-        1e-6f * (glm::dot(glm::abs(normals_[i]), glm::abs(centre)) + std::abs(least_[i]));
-    if (most + slack < least_[i]) return false;
+  // What sums of such places are rounded by.
+  const auto slack = hn::Set(
+      kTag, kRounding * (std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + reach_));
+  for (size_t first = 0; first < static_cast<size_t>(count_); first += kLanes) {
+    const auto x = hn::LoadU(kTag, &x_[first]), y = hn::LoadU(kTag, &y_[first]),
+               z = hn::LoadU(kTag, &z_[first]);
+    auto most = slack;
+    most = hn::MulAdd(x, hn::Set(kTag, centre.x), most);
+    most = hn::MulAdd(y, hn::Set(kTag, centre.y), most);
+    most = hn::MulAdd(z, hn::Set(kTag, centre.z), most);
+    most = hn::MulAdd(hn::Abs(x), hn::Set(kTag, half.x), most);
+    most = hn::MulAdd(hn::Abs(y), hn::Set(kTag, half.y), most);
+    most = hn::MulAdd(hn::Abs(z), hn::Set(kTag, half.z), most);
+    if (!hn::AllFalse(kTag, hn::Lt(most, hn::LoadU(kTag, &least_[first])))) return false;
   }
   return true;
 }

@@ -25,9 +25,11 @@ class LightShaft {
   void add(const vec3& normal, float least);
 
   static constexpr int kMostPlanes = 16;
-  std::array<vec3, kMostPlanes> normals_;
-  std::array<float, kMostPlanes> least_;  // inside: dot(normal, x) >= least
+  // Inside: dot(normal, x) >= least. Eight at a time are tested: what follows the last are planes
+  // that everything is inside of.
+  std::array<float, kMostPlanes> x_{}, y_{}, z_{}, least_;
   int count_ = 0;
+  float reach_ = 0.0f;  // of what it holds, from the origin along all axes together [m]
   uint64_t held_ = 0;
 };
 

@@ -51,9 +51,9 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
   boxes.clear();
   for (const Chart& chart : patches.charts) {
     if (chart.outline.empty() || chart.area < kLargePolygon) continue;
-    object.polygons.push_back({chart.outline, chart.normal});
     Bounds& box = boxes.emplace_back();
     for (const vec3& corner : chart.outline) box.add(corner);
+    object.polygons.push_back({chart.outline, chart.normal, box});
   }
   object.polygonTree = BoundsTree(boxes);
 }
@@ -84,37 +84,53 @@ void Occluders::finish(const RenderScene& s) {
 }
 
 bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uint32_t index,
-                      uint32_t item) const {
+                      uint32_t item, vec3& at) const {
   const Object& object = objects_[index];
-  if (item >= object.flat.size()) return pyramid.mayMeet(object.groups[item - object.flat.size()]);
-  if (!object.roughChart.empty() && object.roughChart[item] != kNone &&
-      pyramid.isOfRough(index, object.roughChart[item]))
-    return false;
+  if (item >= object.flat.size()) {
+    const Bounds& group = object.groups[item - object.flat.size()];
+    at = group.centre();
+    return pyramid.mayMeet(group);
+  }
   const uint32_t* i = &s.indices[s.objects[index].firstIndex + 3 * object.flat[item]];
-  return pyramid.meets(s.positions[i[0]], s.positions[i[1]], s.positions[i[2]]);
+  return pyramid.meets(s.positions[i[0]], s.positions[i[1]], s.positions[i[2]], &at);
+}
+
+bool Occluders::isItself(const OcclusionPyramid& pyramid, uint32_t index, uint32_t item) const {
+  const Object& object = objects_[index];
+  return item < object.flat.size() && !object.roughChart.empty() &&
+         object.roughChart[item] != kNone && pyramid.isOfRough(index, object.roughChart[item]);
 }
 
 bool Occluders::meets(const RenderScene& s, const OcclusionPyramid& pyramid, uint32_t index,
                       Blocker& met) const {
   const Caster& caster = objects_[index].caster;
   if (!pyramid.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius)) return false;
-  const bool isMet =
-      !objects_[index].tree.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
-                                  [&](uint32_t item) {
-                                    if (!meets(s, pyramid, index, item)) return true;
-                                    met = {static_cast<int>(index), item};
-                                    return false;
-                                  });
+  const bool isMet = !objects_[index].tree.visit(
+      [&](const Bounds& b) { return pyramid.mayMeet(b); },
+      [&](uint32_t item) {
+        vec3 at;
+        if (isItself(pyramid, index, item) || !meets(s, pyramid, index, item, at)) return true;
+        met = {static_cast<int>(index), item, true, at};
+        return false;
+      });
   return isMet && pyramid.mayBeShadowedBy(caster);
 }
 
 bool Occluders::stillMeets(const RenderScene& s, const OcclusionPyramid& pyramid,
-                           const Blocker& blocker) const {
+                           Blocker& blocker) const {
   if (blocker.object == kNone) return false;
   const auto object = static_cast<uint32_t>(blocker.object);
   const Caster& caster = objects_[object].caster;
   if (!pyramid.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius)) return false;
-  return meets(s, pyramid, object, blocker.item) && pyramid.mayBeShadowedBy(caster);
+  if (isItself(pyramid, object, blocker.item)) return false;
+  if (!blocker.hasPoint || !pyramid.holds(blocker.at)) {
+    if (!meets(s, pyramid, object, blocker.item, blocker.at)) {
+      blocker.hasPoint = false;
+      return false;
+    }
+    blocker.hasPoint = true;
+  }
+  return pyramid.mayBeShadowedBy(caster);
 }
 
 bool Occluders::hides(const OcclusionPyramid& pyramid, const OcclusionPyramid::Axis& axis,
@@ -162,7 +178,7 @@ void Occluders::collect(const LightShaft& shaft, std::span<const uint32_t> witho
   out.hasPolygons = polygonTree_.visit(enter, [&](uint32_t i) {
     return !counts(i) || objects_[i].polygonTree.visit(enter, [&](uint32_t p) {
       if (out.polygons.size() == kMostPolygons) return false;
-      out.polygons.push_back({static_cast<int>(i), p});
+      out.polygons.emplace_back(i, p);
       return true;
     });
   });
@@ -176,8 +192,9 @@ Occlusion Occluders::occlusionAmong(const RenderScene& s, const OcclusionPyramid
   if (pyramid.isDegenerate()) return Occlusion::partial;
   bool isMet = stillMeets(s, pyramid, first);
   for (size_t i = 0; !isMet && i < candidates.items.size(); ++i) {
-    isMet = stillMeets(s, pyramid, candidates.items[i]);
-    if (isMet) first = candidates.items[i];
+    Blocker candidate = candidates.items[i];
+    isMet = stillMeets(s, pyramid, candidate);
+    if (isMet) first = candidate;
   }
   isMet = isMet || !looseTree_.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
                                      [&](uint32_t i) {
@@ -188,10 +205,11 @@ Occlusion Occluders::occlusionAmong(const RenderScene& s, const OcclusionPyramid
   if (!isMet) return Occlusion::none;
   if (!candidates.hasPolygons)
     return hiddenWithout(pyramid, without) ? Occlusion::full : Occlusion::partial;
-  const bool isHidden =
-      std::any_of(candidates.polygons.begin(), candidates.polygons.end(), [&](const Blocker& b) {
-        const Polygon& polygon = objects_[static_cast<size_t>(b.object)].polygons[b.item];
-        return pyramid.isCutBy(polygon.corners, polygon.normal);
+  const OcclusionPyramid::Axis axis(pyramid);
+  const bool isHidden = std::any_of(
+      candidates.polygons.begin(), candidates.polygons.end(), [&](const auto& candidate) {
+        const Polygon& polygon = objects_[candidate.first].polygons[candidate.second];
+        return axis.mayMeet(polygon.box) && pyramid.isCutBy(polygon.corners, polygon.normal);
       });
   return isHidden ? Occlusion::full : Occlusion::partial;
 }

@@ -14,6 +14,9 @@ namespace lamplighter {
 struct Blocker {
   int object = kNone;
   uint32_t item = 0;
+  // A point of it where it was met, if that is known: a pyramid that holds it meets the item.
+  bool hasPoint = false;
+  vec3 at{0.0f};
 };
 
 class Occluders {
@@ -22,7 +25,8 @@ class Occluders {
   // worth a list. Groups of loose triangles are boxes: of those a pyramid's test knows less than a
   // shaft's, so that they are not in it.
   struct Candidates {
-    std::vector<Blocker> items, polygons;
+    std::vector<Blocker> items;
+    std::vector<std::pair<uint32_t, uint32_t>> polygons;  // of object
     bool isWhole = false;
     bool hasPolygons = false;
   };
@@ -59,6 +63,7 @@ class Occluders {
   struct Polygon {
     std::vector<vec3> corners;  // convex
     vec3 normal{0.0f};
+    Bounds box;
   };
   struct Object {
     Caster caster;
@@ -70,11 +75,13 @@ class Occluders {
     BoundsTree polygonTree;
   };
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
-             uint32_t item) const;
+             uint32_t item, vec3& at) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
              Blocker& met) const;
+  // A rough chart's bumps do not stand in its own light.
+  bool isItself(const OcclusionPyramid& pyramid, uint32_t object, uint32_t item) const;
   bool stillMeets(const RenderScene& scene, const OcclusionPyramid& pyramid,
-                  const Blocker& blocker) const;
+                  Blocker& blocker) const;
   bool hides(const OcclusionPyramid& pyramid, const OcclusionPyramid::Axis& axis,
              uint32_t object) const;
 

@@ -223,7 +223,16 @@ bool OcclusionPyramid::mayMeetSphere(const vec3& centre, float radius) const {
   return hn::AllFalse(kTag, hn::Lt(farthest, hn::Set(kTag, -radius)));
 }
 
-bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const {
+bool OcclusionPyramid::mayBeOutside(const vec3& point, float margin) const {
+  auto distance = hn::LoadU(kTag, planes_.offset.data());
+  distance = hn::MulAdd(hn::LoadU(kTag, planes_.x.data()), hn::Set(kTag, point.x), distance);
+  distance = hn::MulAdd(hn::LoadU(kTag, planes_.y.data()), hn::Set(kTag, point.y), distance);
+  distance = hn::MulAdd(hn::LoadU(kTag, planes_.z.data()), hn::Set(kTag, point.z), distance);
+  static_assert(kMostPlanes == kLanes);
+  return !hn::AllFalse(kTag, hn::Lt(distance, hn::Set(kTag, margin)));
+}
+
+bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c, vec3* at) const {
   // Most triangles are wholly outside of one plane, or have a corner inside all.
   const auto zero = hn::Zero(kTag);
   const std::array<vec3, 3> points{a, b, c};
@@ -244,7 +253,12 @@ bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const 
     }
     if (!hn::AllFalse(kTag, allOutside)) return false;
   }
-  if (isInside[0] || isInside[1] || isInside[2]) return true;
+  for (size_t i = 0; i < 3; ++i) {
+    if (!isInside[i]) continue;
+    if (at != nullptr) *at = points[i];
+    return true;
+  }
+  if (at != nullptr) *at = a;  // unless a better one is found
 
   std::array<vec3, kMostCorners> corners{a, b, c}, clipped;
   size_t count = 3;
@@ -263,6 +277,11 @@ bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c) const 
     if (kept == 0) return false;
     corners = clipped;
     count = kept;
+  }
+  if (at != nullptr) {
+    *at = vec3(0.0f);
+    for (size_t k = 0; k < count; ++k) *at += corners[k];
+    *at /= static_cast<float>(count);
   }
   return true;
 }

@@ -67,7 +67,10 @@ class OcclusionPyramid {
   // Whether it may be met; exact for triangles but for a margin of rounding.
   bool mayMeet(const Bounds& box) const;
   bool mayMeetSphere(const vec3& centre, float radius) const;
-  bool meets(const vec3& a, const vec3& b, const vec3& c) const;
+  // `at`: a point of what is met, if so.
+  bool meets(const vec3& a, const vec3& b, const vec3& c, vec3* at = nullptr) const;
+  // Whether a point is in it, by more than rounding.
+  bool holds(const vec3& point) const { return !mayBeOutside(point, margin_); }
   // Whether a convex polygon with unit normal n stands wholly across it, between light and patch.
   bool isCutBy(std::span<const vec3> polygon, const vec3& n) const;
 
@@ -90,6 +93,8 @@ class OcclusionPyramid {
   };
 
  private:
+  bool mayBeOutside(const vec3& point, float margin) const;
+
   static constexpr int kMostPlanes = 8;
   // Unit normals inwards; inside: dot(normal, x) + offset >= 0. Eight at a time are tested, so that
   // what follows the last are planes that everything is inside of.

@@ -5,6 +5,7 @@
 // all lights at once, so that it is known there whether the patch is divided before its children
 // are looked at.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numeric>
 
@@ -108,15 +109,20 @@ class VisibilityDatabase::Update {
   // What may stand between the lights of a cluster and a patch, looked for when first wanted.
   struct Shaft {
     int cluster = -1;
-    size_t first = 0;  // of its tasks
+    size_t first = 0, last = 0;  // of its tasks
     LightShaft shaft{{}, PatchRegion(Bounds())};
     Occluders::Candidates candidates;
   };
-  const Occluders::Candidates* candidatesOf(size_t task, std::span<const Task> tasks,
-                                            const PatchRegion& region, Shaft& shaft) const;
+  // A task among others at the same patch.
+  struct Place {
+    std::span<const Task> tasks;
+    size_t index;
+    Shaft& shaft;
+  };
+  const Occluders::Candidates* candidatesOf(const Place& place, const PatchRegion& region) const;
   Occlusion check(const Patch& patch, const PatchRegion& region, const Task& task,
-                  const Occluders::Candidates* candidates, bool& isSieved, uint8_t& others,
-                  Blocker& met, Blocker& metMover, uint64_t& tests) const;
+                  const Place& place, bool& isSieved, uint8_t& others, Blocker& met,
+                  Blocker& metMover, uint64_t& tests) const;
   // Whether no mover makes a difference where this is the state by all others.
   bool isDecided(uint8_t others) const {
     return others == static_cast<uint8_t>(Occlusion::full) ||
@@ -177,8 +183,8 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
       if (t.work != Work::inherit) {
         if (t.met.object == kNone) t.met = met;
         if (t.metMover.object == kNone) t.metMover = metMover;
-        t.state = check(p, region, t, candidatesOf(i, some, region, shaft), t.isSieved,
-                        others[slot], t.met, t.metMover, tests);
+        t.state = check(p, region, t, {some, i, shaft}, t.isSieved, others[slot], t.met, t.metMover,
+                        tests);
         met = t.met;
         metMover = t.metMover;
       }
@@ -199,37 +205,36 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
 }
 
 // Null: the light is alone.
-const Occluders::Candidates* VisibilityDatabase::Update::candidatesOf(size_t task,
-                                                                      std::span<const Task> tasks,
-                                                                      const PatchRegion& region,
-                                                                      Shaft& shaft) const {
+const Occluders::Candidates* VisibilityDatabase::Update::candidatesOf(
+    const Place& place, const PatchRegion& region) const {
   const auto clusterOf = [&](size_t i) {
-    return tasks[i].work == Work::anew ? db_.clusters_.clusterOf[static_cast<size_t>(tasks[i].slot)]
-                                       : -1;
+    const Task& task = place.tasks[i];
+    return task.work == Work::anew ? db_.clusters_.clusterOf[static_cast<size_t>(task.slot)] : -1;
   };
-  if (!db_.useClusters_ || region.count != 4 || clusterOf(task) < 0) return nullptr;
-  if (shaft.cluster != clusterOf(task) || task == shaft.first) {
-    shaft.cluster = clusterOf(task);
-    shaft.first = task;
-    size_t last = task + 1;
-    while (last < tasks.size() && clusterOf(last) == shaft.cluster) ++last;
+  const int cluster = clusterOf(place.index);
+  if (!db_.useClusters_ || region.count != 4 || cluster < 0) return nullptr;
+  Shaft& shaft = place.shaft;
+  if (shaft.cluster != cluster || place.index >= shaft.last) {
+    shaft.cluster = cluster;
+    shaft.first = shaft.last = place.index;
+    while (shaft.last < place.tasks.size() && clusterOf(shaft.last) == cluster) ++shaft.last;
     shaft.candidates.isWhole = false;
-    if (last - task >= kLightsAShaft) {
-      std::vector<const shared::Vpl*> lights;
-      for (size_t i = task; i < last; ++i)
-        lights.push_back(&db_.lights_[static_cast<size_t>(tasks[i].slot)]);
-      shaft.shaft = LightShaft(lights, region);
+    if (shaft.last - shaft.first >= kLightsAShaft) {
+      std::array<const shared::Vpl*, 64> lights;
+      const size_t count = std::min(lights.size(), shaft.last - shaft.first);
+      for (size_t i = 0; i < count; ++i)
+        lights[i] = &db_.lights_[static_cast<size_t>(place.tasks[shaft.first + i].slot)];
+      shaft.shaft = LightShaft({lights.data(), count}, region);
       db_.occluders_.collect(shaft.shaft, db_.movers_, shaft.candidates);
     }
   }
-  const bool isIn = shaft.candidates.isWhole && shaft.shaft.holds(task - shaft.first);
+  const bool isIn = shaft.candidates.isWhole && shaft.shaft.holds(place.index - shaft.first);
   return isIn ? &shaft.candidates : nullptr;
 }
 
 // Table 4-1: where nothing that moved can be between, before or now, nothing is looked at.
 Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegion& region,
-                                            const Task& task,
-                                            const Occluders::Candidates* candidates, bool& isSieved,
+                                            const Task& task, const Place& place, bool& isSieved,
                                             uint8_t& others, Blocker& met, Blocker& metMover,
                                             uint64_t& tests) const {
   const shared::Vpl& vpl = db_.lights_[static_cast<size_t>(task.slot)];
@@ -256,6 +261,8 @@ Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegio
     others = static_cast<uint8_t>(Occlusion::none);
   if (others == kUnknown) {
     if (!pyramid.isDark()) ++tests;
+    const Occluders::Candidates* candidates =
+        pyramid.isDark() || pyramid.isDegenerate() ? nullptr : candidatesOf(place, region);
     others = static_cast<uint8_t>(
         candidates != nullptr
             ? db_.occluders_.occlusionAmong(scene_, pyramid, *candidates, db_.movers_, met)
