@@ -208,7 +208,7 @@ void LightPaths::lookAgain(const PathWalker& walker, bool isResting, int mostPat
     const auto following = std::count_if(tasks.begin(), tasks.end(), isOf);
     const auto replaced = std::count_if(tasks.begin(), tasks.end(),
                                         [&](const Task& t) { return isOf(t) && t.isReplaced; });
-    if (2 * replaced <= following) continue;
+    if (kFarShare * replaced <= following) continue;
     tbb::parallel_for(size_t{0}, tasks.size(), [&](size_t i) {
       if (isOf(tasks[i])) walkOwn(walker, tasks[i]);
     });

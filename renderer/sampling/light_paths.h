@@ -24,6 +24,9 @@ class LightPaths {
  public:
   // In so many frames at rest kept paths are exchanged for those of a scene opened afresh.
   static constexpr int kRestingFrames = 8;
+  // A light of which more than one in so many paths cannot stay has gone far. Dragged by a hand it
+  // loses one in fifteen a frame.
+  static constexpr int kFarShare = 5;
 
   struct Work {        // of the last update()
     int walked = 0;    // for which rays were traced
@@ -36,7 +39,7 @@ class LightPaths {
   // Brings the paths up to date with the scene. `changes` and `movers` are those since the last
   // call. Where they say none, the scene is at rest and the set becomes generateVpls()'s, bit for
   // bit, whatever was before, a part a frame. Of a light
-  // of which few paths can stay all are walked anew at once. Rays are traced for mostPaths paths at
+  // of which too few paths can stay all are walked anew at once. Rays are traced for mostPaths paths at
   // most (brightest × longest waiting first; 0: no limit), but after a change of the counts or of
   // which objects there are all are walked at once. Returns whether the set may have changed.
   bool update(const RenderScene& scene, const RayCaster& rays, const RenderSceneChanges& changes,
