@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <tbb/parallel_for.h>
 
@@ -15,6 +16,13 @@ constexpr float kFirstRadius = 6.0f, kMostOfRows = 1.0f / 60.0f;
 // it, so that round things share too.
 constexpr float kLeastCosine = 0.9f, kMostSlope = 0.2f;
 
+bool isSameSurface(const NearLight::Pixel& own, const NearLight::Pixel& other) {
+  const vec3 way = other.position - own.position;
+  const float off = glm::dot(way, own.normal);
+  return glm::dot(other.normal, own.normal) >= kLeastCosine &&
+         off * off <= kMostSlope * kMostSlope * glm::dot(way, way);
+}
+
 }  // namespace
 
 int smoothingRadius(uint32_t batch, int height) {
@@ -22,30 +30,42 @@ int smoothingRadius(uint32_t batch, int height) {
   return static_cast<int>(first / std::sqrt(static_cast<float>(std::max(batch, 1u))));
 }
 
+// Along a row and then along columns of what came: where both ways run over one surface that is
+// the mean over the whole square, at a sixth of the look-ups.
 void addSmoothed(std::span<const NearLight::Pixel> pixels, int radius, Image& image) {
-  tbb::parallel_for(0, image.height, [&](int y) {
-    const auto pixel = [&](int px, int py) -> const NearLight::Pixel& {
-      return pixels[static_cast<size_t>(py) * static_cast<size_t>(image.width) +
-                    static_cast<size_t>(px)];
-    };
-    for (int x = 0; x < image.width; ++x) {
-      const NearLight::Pixel& own = pixel(x, y);
+  const int width = image.width, height = image.height;
+  const auto index = [&](int x, int y) {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+  };
+  struct Sum {
+    vec3 light{0.0f};
+    float count = 0.0f;
+  };
+  std::vector<Sum> rows(pixels.size());
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const NearLight::Pixel& own = pixels[index(x, y)];
       if (own.albedo == vec3(0.0f)) continue;
-      vec3 sum(0.0f);
-      int count = 0;
-      for (int py = std::max(y - radius, 0); py <= std::min(y + radius, image.height - 1); ++py) {
-        for (int px = std::max(x - radius, 0); px <= std::min(x + radius, image.width - 1); ++px) {
-          const NearLight::Pixel& other = pixel(px, py);
-          const vec3 way = other.position - own.position;
-          const float off = glm::dot(way, own.normal);
-          if (glm::dot(other.normal, own.normal) < kLeastCosine ||
-              off * off > kMostSlope * kMostSlope * glm::dot(way, way))
-            continue;
-          sum += other.light;
-          ++count;
-        }
+      Sum& sum = rows[index(x, y)];
+      for (int px = std::max(x - radius, 0); px <= std::min(x + radius, width - 1); ++px) {
+        const NearLight::Pixel& other = pixels[index(px, y)];
+        if (!isSameSurface(own, other)) continue;
+        sum.light += other.light;
+        sum.count += 1.0f;
       }
-      image.at(x, y) += own.albedo * sum / static_cast<float>(count);
+    }
+  });
+  tbb::parallel_for(0, height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const NearLight::Pixel& own = pixels[index(x, y)];
+      if (own.albedo == vec3(0.0f)) continue;
+      Sum sum;
+      for (int py = std::max(y - radius, 0); py <= std::min(y + radius, height - 1); ++py) {
+        if (!isSameSurface(own, pixels[index(x, py)])) continue;
+        sum.light += rows[index(x, py)].light;
+        sum.count += rows[index(x, py)].count;
+      }
+      image.at(x, y) += own.albedo * sum.light / sum.count;
     }
   });
 }
