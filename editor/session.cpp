@@ -5,21 +5,24 @@
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
 #include "editor/tools/camera_controller.h"
+#include "editor/tools/light_handles.h"
 #include "editor/tools/picker.h"
 #include "editor/tools/placement.h"
+#include "editor/tools/placing.h"
 #include "editor/tools/scene_overlay.h"
+#include "editor/tools/surface_search.h"
 #include "editor/views/vpl_overlay.h"
 #include "renderer/error.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/scene/gltf_io.h"
-#include "renderer/scene/surface.h"
 
 namespace lamplighter {
 
 struct Session::Tools {
   CameraController camera;
   Gizmo gizmo;
+  LightHandles lightHandles;
   vec2 pointer{0.0f};  // where it was last over the viewport
   bool pointerKnown = false;
 };
@@ -35,13 +38,15 @@ Session::~Session() = default;
 void Session::open(Scene scene, std::filesystem::path path,
                    const std::vector<std::string>& warnings) {
   tools_->gizmo.forget();
+  tools_->lightHandles.forget();
+  placing_.clear();
+  ++level_;
   document_.scene = std::move(scene);
   document_.selection.clear();
   document_.path = std::move(path);
   history_.clear();
   savedHash_ = sceneHash(document_.scene);
   tools_->pointerKnown = false;
-  clipboard_.clear();  // its meshes and materials are the other level's
 
   RenderScene world;
   update(world, document_.scene, SceneChanges::all());
@@ -178,9 +183,19 @@ void Session::setTool(ToolMode mode) {
   if (!tools_->gizmo.dragging()) tools_->gizmo.mode = mode;
 }
 
-bool Session::dragging() const { return tools_->gizmo.dragging(); }
-void Session::finishDrag() { tools_->gizmo.finish(history_); }
-void Session::cancelDrag() { tools_->gizmo.cancel(history_); }
+bool Session::dragging() const {
+  return tools_->gizmo.dragging() || tools_->lightHandles.dragging();
+}
+void Session::finishDrag() {
+  tools_->gizmo.finish(history_);
+  tools_->lightHandles.finish(history_);
+}
+void Session::cancelDrag() {
+  tools_->gizmo.cancel(history_);
+  tools_->lightHandles.cancel(history_);
+}
+SnapTo Session::snapTo() const { return tools_->gizmo.snapTo; }
+void Session::setSnapTo(SnapTo target) { tools_->gizmo.snapTo = target; }
 bool Session::snapping() const { return tools_->gizmo.snap; }
 void Session::setSnapping(bool on) { tools_->gizmo.snap = on; }
 bool Session::flying() const { return tools_->camera.flying(); }
@@ -209,18 +224,34 @@ void Session::viewport(const ViewportInput& input) {
     tools_->pointer = input.pointer;
     tools_->pointerKnown = true;
   }
-  // A drag of the gizmo goes first, since the right button takes it back; then the camera.
+  // A drag goes first, since the right button takes it back; then the camera.
+  const auto surface = [&](SnapTo target) -> std::optional<vec3> {
+    if (target == SnapTo::vertex) return vertexUnderPointer(document_.selection);
+    const auto place = surfaceUnderPointer(document_.selection);
+    if (!place) return std::nullopt;
+    return place->position +
+           standOff(document_.scene, document_.active(), place->normal) * place->normal;
+  };
+  const auto aimedAt = [&]() -> std::optional<vec3> {
+    const auto place = surfaceUnderPointer(document_.selection);
+    return place ? std::optional(place->position) : std::nullopt;
+  };
+  const auto dragHandles = [&] {
+    return tools_->lightHandles.update(view_, input, document_, history_, snapping(), aimedAt);
+  };
+  if (tools_->lightHandles.dragging()) {
+    dragHandles();
+    return;
+  }
   if (tools_->gizmo.dragging()) {
-    tools_->gizmo.update(view_, input, document_, history_, [&]() -> std::optional<vec3> {
-      const auto place = surfaceUnderPointer(document_.selection);
-      if (!place) return std::nullopt;
-      return place->position +
-             standOff(document_.scene, document_.active(), place->normal) * place->normal;
-    });
+    tools_->gizmo.update(view_, input, document_, history_, surface);
     return;
   }
   if (tools_->camera.update(view_, input)) return;
+  if (placing() && input.pressed[0] && input.hovered)
+    return placeUnderPointer(*this, input.modifiers.shift);
   if (tools_->gizmo.update(view_, input, document_, history_)) return;
+  if (dragHandles()) return;
   if (!input.pressed[0] || !input.hovered || renderer_->rays() == nullptr) return;
   if (display_.showsVpls()) {
     const Inspection inspection = inspect();
@@ -244,27 +275,14 @@ void Session::viewport(const ViewportInput& input) {
 std::optional<Session::Place> Session::surfaceAlong(const vec3& direction,
                                                     const std::vector<NodeId>& ignored) const {
   if (renderer_->rays() == nullptr) return std::nullopt;
-  const RenderScene& scene = renderer_->scene();
-  const auto isIgnored = [&](NodeId id) {
-    for (const Node* n = document_.scene.find(id); n != nullptr;
-         n = document_.scene.find(n->parent)) {
-      if (std::find(ignored.begin(), ignored.end(), n->id) != ignored.end()) return true;
-    }
-    return false;
-  };
-  Ray ray{view_.eye, 0.0f, direction};
-  constexpr int kMostLayers = 1000;  // of ignored surfaces one behind the other
-  for (int i = 0; i < kMostLayers; ++i) {
-    const Hit hit = renderer_->rays()->intersect(ray, Surfaces::seen);
-    if (!hit) return std::nullopt;
-    if (!isIgnored(scene.objects[hit.object].node)) {
-      const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
-      const bool front = glm::dot(s.geometricNormal, direction) < 0.0f;
-      return Place{s.position, front ? s.geometricNormal : -s.geometricNormal};
-    }
-    ray.tNear = hit.t + rayEpsilon(view_.eye + hit.t * direction);
-  }
-  return std::nullopt;
+  return SurfaceSearch{document_, renderer_->scene(), *renderer_->rays(), ignored}.along(view_.eye,
+                                                                                         direction);
+}
+
+std::optional<vec3> Session::vertexUnderPointer(const std::vector<NodeId>& ignored) const {
+  if (!tools_->pointerKnown || renderer_->rays() == nullptr) return std::nullopt;
+  return SurfaceSearch{document_, renderer_->scene(), *renderer_->rays(), ignored}.vertexAt(
+      view_, tools_->pointer);
 }
 
 std::optional<Session::Place> Session::surfaceUnderPointer(
@@ -311,6 +329,7 @@ Overlay Session::overlay() const {
     const Inspection inspection = inspect();
     drawVpls(overlay, view_, inspection, *renderer_->rays(), display_.chosen(inspection));
   }
+  tools_->lightHandles.draw(overlay, view_, document_);
   tools_->gizmo.draw(overlay, view_, document_);
   return overlay;
 }

@@ -13,9 +13,11 @@
 
 #include "editor/actions/action.h"
 #include "editor/commands/history.h"
+#include "editor/document/clipping.h"
 #include "editor/document/document.h"
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
+#include "editor/tools/placement.h"
 #include "editor/tools/viewport_input.h"
 #include "editor/views/view_display.h"
 #include "renderer/frame.h"
@@ -67,6 +69,13 @@ class Session {
   void setTool(ToolMode mode);
   bool snapping() const;
   void setSnapping(bool on);
+  SnapTo snapTo() const;
+  void setSnapTo(SnapTo target);
+  // What the next click in the viewport adds and puts on the surface there: an action that adds and
+  // selects something ("light.add disk"). "": a click selects, as ever.
+  bool placing() const { return !placing_.empty(); }
+  const std::string& placed() const { return placing_; }
+  void startPlacing(std::string action) { placing_ = std::move(action); }
   // A drag of the gizmo is under way. It can be ended as a step, or taken back.
   bool dragging() const;
   void finishDrag();
@@ -99,9 +108,13 @@ class Session {
 
   const std::string& status() const { return status_; }
   void setStatus(std::string text) { status_ = std::move(text); }
-  // What edit.copy has put by: nodes, parents before children.
-  const std::vector<Node>& clipboard() const { return clipboard_; }
-  void setClipboard(std::vector<Node> nodes) { clipboard_ = std::move(nodes); }
+  // What edit.copy has put by; opening another level leaves it.
+  const Clipping& clipboard() const { return clipboard_; }
+  void setClipboard(Clipping clipping) {
+    clipboard_ = std::move(clipping);
+    clipboardLevel_ = level_;
+  }
+  bool clipboardIsOfThisLevel() const { return clipboardLevel_ == level_; }
 
   // The reference, and from it back to the method that was shown before.
   void toggleReference();
@@ -123,10 +136,7 @@ class Session {
   bool takeShadersRequest() { return std::exchange(shadersRequested_, false); }
 
   // Where a thing would be put: the surface under the pointer, or ahead of the camera.
-  struct Place {
-    vec3 position{0.0f};
-    vec3 normal{0.0f, 1.0f, 0.0f};  // unit, towards the viewer
-  };
+  using Place = SurfacePoint;
   // The nearest surface under the last pointer position that is not part of `ignored`.
   std::optional<Place> surfaceUnderPointer(const std::vector<NodeId>& ignored) const;
   std::optional<Place> surfaceAhead(const std::vector<NodeId>& ignored = {}) const;  // mid-view
@@ -141,15 +151,17 @@ class Session {
   View view_;
   GiOutput output_;
   ViewDisplay display_;
-  std::string status_, renderError_;
+  std::string status_, renderError_, placing_;
   uint32_t frame_ = 0;
   uint64_t savedHash_ = 0;
   bool quit_ = false, shadersRequested_ = false;
   std::string methodBeforeReference_ = "many_lights";
-  std::vector<Node> clipboard_;
+  Clipping clipboard_;
+  int level_ = 0, clipboardLevel_ = 0;  // counts what was opened
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 
   void pruneSelection();
+  std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;
   std::optional<Place> surfaceAlong(const vec3& direction,
                                     const std::vector<NodeId>& ignored) const;
 };

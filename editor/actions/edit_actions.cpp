@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <map>
 
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
+#include "editor/document/clipping.h"
 #include "editor/session.h"
 
 namespace lamplighter {
@@ -12,39 +12,18 @@ namespace {
 
 bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
 
-void copy(Session& s) {
-  const Scene& scene = s.document().scene;
-  std::vector<Node> nodes;
-  for (const Node& n : scene.nodes) {
-    for (const Node* p = &n; p != nullptr; p = scene.find(p->parent)) {
-      if (!s.document().isSelected(p->id)) continue;
-      nodes.push_back(n);
-      break;
-    }
-  }
-  s.setClipboard(std::move(nodes));
-}
+void copy(Session& s) { s.setClipboard(clip(s.document().scene, s.document().selection)); }
 
-// The copied nodes again, with new ids, where they were: below their parents, or at the same place
-// in the world where a parent is gone.
+// The copied nodes again, with new ids, where they were, in this level or another.
 void paste(Session& s) {
-  Scene& scene = s.document().scene;
-  std::vector<Node> nodes = s.clipboard();
-  std::map<NodeId, NodeId> newId;
-  std::vector<NodeId> roots;
-  for (Node& n : nodes) {
-    newId[n.id] = scene.nextId;
-    n.id = scene.nextId++;
-    if (const auto parent = newId.find(n.parent); parent != newId.end()) {
-      n.parent = parent->second;
-    } else {
-      if (scene.find(n.parent) == nullptr) n.parent = kNoNode;
-      roots.push_back(n.id);
-    }
-  }
-  const std::string label = nodes.size() == 1 ? "Paste " + nodes[0].name : "Paste objects";
-  s.history().run(std::make_unique<AddNodes>(label, std::move(nodes)));
-  s.select(std::move(roots));
+  Pasting pasting = pasteInto(s.document().scene, s.clipboard(), s.clipboardIsOfThisLevel());
+  const std::string label =
+      pasting.nodes.size() == 1 ? "Paste " + pasting.nodes[0].name : "Paste objects";
+  s.history().begin(label);
+  if (!pasting.assets->changesNothing()) s.history().run(std::move(pasting.assets));
+  s.history().run(std::make_unique<AddNodes>(label, std::move(pasting.nodes)));
+  s.history().commit();
+  s.select(std::move(pasting.roots));
 }
 
 void remove(Session& s, const std::string& verb) {
@@ -84,8 +63,8 @@ void addEditActions(ActionRegistry& r) {
            remove(s, "Cut");
          },
          hasSelection});
-  r.add({"edit.paste", "Paste", "", "Adds what was copied, where it was.", "Ctrl+V",
-         [](Session& s, const Arguments&) { paste(s); },
+  r.add({"edit.paste", "Paste", "", "Adds what was copied, in this level or another, where it was.",
+         "Ctrl+V", [](Session& s, const Arguments&) { paste(s); },
          [](const Session& s) { return !s.clipboard().empty(); }});
   r.add({"edit.duplicate", "Duplicate", "", "Copies what is selected to the same place.", "Ctrl+D",
          [](Session& s, const Arguments&) { duplicate(s); }, hasSelection});
@@ -124,15 +103,17 @@ void addEditActions(ActionRegistry& r) {
            s.select(std::move(ids));
          },
          {}});
-  r.add({"select.none", "Deselect", "", "Takes back a drag under way, else selects nothing.",
-         "Escape",
+  r.add({"select.none", "Deselect", "",
+         "Takes back a drag under way, or leaves placing, else selects nothing.", "Escape",
          [](Session& s, const Arguments&) {
            if (s.dragging())
              s.cancelDrag();
+           else if (s.placing())
+             s.startPlacing("");
            else
              s.select({});
          },
-         hasSelection, true});
+         [](const Session& s) { return hasSelection(s) || s.placing(); }, true});
 }
 
 }  // namespace lamplighter

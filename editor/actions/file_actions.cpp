@@ -48,6 +48,14 @@ void addFileActions(ActionRegistry& r) {
            s.requestScreenshot(a.empty() ? "screenshot.png" : a[0]);
          },
          {}});
+  r.add({"app.palette",
+         "Command palette",
+         "",
+         "Lists all actions by name, to be chosen and run.",
+         "Ctrl+P",
+         [](Session&, const Arguments&) {},  // the window opens it
+         {},
+         true});
   r.add({"app.quit",
          "Quit",
          "",

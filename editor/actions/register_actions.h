@@ -8,6 +8,7 @@ namespace lamplighter {
 void addFileActions(ActionRegistry& registry);
 void addEditActions(ActionRegistry& registry);
 void addObjectActions(ActionRegistry& registry);
+void addPlaceActions(ActionRegistry& registry);
 void addLightActions(ActionRegistry& registry);
 void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
@@ -18,6 +19,7 @@ inline void addAllActions(ActionRegistry& registry) {
   addEditActions(registry);
   addObjectActions(registry);
   addLightActions(registry);
+  addPlaceActions(registry);  // after light.add, whose kinds it offers
   addSkyActions(registry);
   addViewActions(registry);
   addRenderActions(registry);

@@ -306,10 +306,13 @@ bool Gizmo::update(const View& view, const ViewportInput& in, Document& document
                                  ? drag_->nodes[0].name
                                  : std::to_string(drag_->nodes.size()) + " objects";
     std::optional<std::vector<Node>> nodes;
-    if (mode == ToolMode::move && in.modifiers.shift && surface) {
-      if (const auto place = surface()) nodes = moved(*place - drag_->axes.origin);
+    const bool snapping = snap != in.modifiers.ctrl;
+    const bool follows = in.modifiers.shift || (snapping && snapTo != SnapTo::grid);
+    if (mode == ToolMode::move && follows && surface) {
+      const SnapTo target = in.modifiers.shift ? SnapTo::surface : snapTo;
+      if (const auto place = surface(target)) nodes = moved(*place - drag_->axes.origin);
     } else {
-      nodes = dragged(view, in.pointer, snap != in.modifiers.ctrl);
+      nodes = dragged(view, in.pointer, snapping);
     }
     // Where the pointer means no place, beyond the horizon say, all stays as it was last.
     if (nodes) {

@@ -15,17 +15,21 @@ namespace lamplighter {
 
 enum class ToolMode { select, move, rotate, scale };
 
-// Where the active node's origin comes to lie when it is put on the surface under the pointer.
-using SurfaceSnap = std::function<std::optional<vec3>()>;
+// What a move snaps to: steps of a length, or what is under the pointer.
+enum class SnapTo { grid, surface, vertex };
+
+// Where the active node's origin comes to lie when it is put on what is under the pointer.
+using SurfaceSnap = std::function<std::optional<vec3>(SnapTo)>;
 
 class Gizmo {
  public:
   ToolMode mode = ToolMode::select;
   bool snap = false;  // always, not only while Ctrl is held
+  SnapTo snapTo = SnapTo::grid;
 
   // Hovers, begins, goes on with and ends a drag. True when the pointer is its. A drag is one
   // transaction of `history`; Esc or the right button takes it back. While Shift is held a move
-  // follows `surface`.
+  // follows the surface, and while it snaps what `snapTo` says.
   bool update(const View& view, const ViewportInput& input, Document& document, History& history,
               const SurfaceSnap& surface = {});
   bool dragging() const { return drag_.has_value(); }

@@ -26,6 +26,13 @@ float reachBelow(const AreaLight& light, const mat3& world, const vec3& n) {
 
 }  // namespace
 
+quat leastTurn(const vec3& from, const vec3& to) {
+  const float cosine = glm::dot(from, to);
+  // Right round: about any axis across.
+  if (cosine < -0.9999f) return glm::angleAxis(kPi, Frame(from).tangent);
+  return glm::normalize(quat(1.0f + cosine, glm::cross(from, to)));
+}
+
 bool hasVolume(const mat4& m) {
   const mat3 a(m);
   const float sides = glm::length(a[0]) * glm::length(a[1]) * glm::length(a[2]);

@@ -20,6 +20,9 @@ float standOff(const Scene& scene, NodeId id, const vec3& n);
 // away from the surface. None when its parent squeezes space flat.
 std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePoint& at);
 
+// The least rotation that takes one unit direction to another.
+quat leastTurn(const vec3& from, const vec3& to);
+
 // A parent that squeezes space flat has no inverse: nothing below it can be put at a place.
 bool hasVolume(const mat4& m);
 

@@ -54,11 +54,49 @@ TEST_F(Clipboard, CopiesATreeOnce) {
   EXPECT_EQ(placeOf(child.id), placeOf(light_));
 }
 
-TEST_F(Clipboard, AnotherLevelHasNoneOfItsMeshes) {
-  session_.select({box_});
+// What is pasted into another level brings its mesh and material along, stands where it stood, and
+// is gone without a trace when it is undone.
+TEST_F(Clipboard, PastesIntoAnotherLevel) {
+  Scene scene = session_.document().scene;
+  scene.find(floor_)->local.translation = vec3(0, -1, 0);
+  scene.find(box_)->parent = floor_;
+  open(std::move(scene));
+  session_.select({box_, light_});
+  const vec3 boxPlace = placeOf(box_), lightPlace = placeOf(light_);
   session_.actions().run(session_, "edit.copy");
-  open(Scene());
-  EXPECT_TRUE(session_.clipboard().empty());
+
+  Scene other;
+  const int red = test::addMaterial(other, vec3(0.6f, 0.1f, 0.1f));
+  const NodeId ground = test::addMesh(other, test::squareMesh(4.0f, red));
+  open(std::move(other));
+  session_.renderFrame();
+  const uint64_t before = hash();
+  session_.actions().run(session_, "edit.paste");
+  const Scene& now = session_.document().scene;
+  ASSERT_EQ(now.nodes.size(), 3u);
+  EXPECT_EQ(now.meshes.size(), 2u);
+  EXPECT_EQ(now.materials.size(), 2u);
+  ASSERT_EQ(session_.document().selection.size(), 2u);
+  const Node& box = node(session_.document().selection[0]);
+  EXPECT_EQ(box.parent, kNoNode);
+  EXPECT_NE(box.id, ground);
+  EXPECT_EQ(placeOf(box.id), boxPlace);
+  EXPECT_EQ(placeOf(session_.document().selection[1]), lightPlace);
+  const int material = now.meshes[static_cast<size_t>(box.mesh)]->primitives[0].material;
+  EXPECT_EQ(now.materials[static_cast<size_t>(material)].baseColor, vec4(0.6f, 0.6f, 0.6f, 1.0f));
+  session_.renderFrame();
+  EXPECT_EQ(session_.renderError(), "");
+
+  const uint64_t pasted = hash();
+  session_.undo();
+  EXPECT_EQ(hash(), before);
+  EXPECT_EQ(session_.document().scene.meshes.size(), 1u);
+  session_.renderFrame();
+  session_.redo();
+  EXPECT_EQ(hash(), pasted);
+  // Again: what it is made of is there already.
+  session_.actions().run(session_, "edit.paste");
+  EXPECT_EQ(session_.document().scene.materials.size(), 2u);
 }
 
 using Placing = test::SessionFixture;

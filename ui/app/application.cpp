@@ -128,6 +128,8 @@ void Application::runAction(const std::string& text) {
     requests_.saveDialog = true;
   } else if (text == "sky.image") {
     inspectorState_.choosesSky = true;
+  } else if (text == "app.palette") {
+    palette_.open();
   } else if (text == "edit.rename") {
     inspectorState_.focusName = true;
   } else if (!session_->runAction(text) && replaying_) {
@@ -218,6 +220,7 @@ void Application::drawDialogs(PanelContext ui) {
     else
       openSave(*path);
   }
+  if (const std::string action = palette_.draw(ui); !action.empty()) runAction(action);
   switch (saveQuestion_.draw(ui)) {
     case SaveQuestion::Answer::none:
       break;
@@ -281,6 +284,7 @@ void Application::exposeAutomatically() {
 void Application::answerRequests() {
   const Requests requests = std::exchange(requests_, {});
   if (requests.openDialog) fileDialog_.open(FileDialog::Kind::open, session_->document().path);
+  if (!requests.palette.empty()) palette_.open(requests.palette);
   if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
 
   if (std::exchange(inspectorState_.choosesSky, false))

@@ -16,6 +16,7 @@
 #include "ui/app/layout.h"
 #include "ui/app/scene_loader.h"
 #include "ui/app/widget_map.h"
+#include "ui/panels/command_palette.h"
 #include "ui/panels/panels.h"
 #include "ui/platform/platform.h"
 #include "ui/viewport/picture.h"
@@ -92,6 +93,7 @@ class Application {
   MessageBox messageBox_;
   SaveQuestion saveQuestion_;
   ProgressBox progressBox_;
+  CommandPalette palette_;
 
   // What to do once the question of unsaved changes is answered.
   enum class Pending { none, quit, open };

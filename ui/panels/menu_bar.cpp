@@ -29,8 +29,8 @@ const std::vector<Menu>& menus() {
       {"Edit",
        {"edit", "selection", "select"},
        {"edit.undo", "edit.redo", "-", "edit.duplicate", "edit.delete", "edit.rename"}},
-      {"Light", {"light"}, {"light.add"}},
-      {"Object", {"object", "node"}, {}},
+      {"Light", {"light"}, {"light.add", "light.place"}},
+      {"Object", {"object", "node", "place"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
       {"View", {"view", "camera"}, viewActions()},
       {"Render", {"render"}, {}},
@@ -74,13 +74,18 @@ void menuItem(const PanelContext& ui, const Action& action, Requests& requests) 
     ImGui::EndMenu();
     return;
   }
-  // The application asks for what these need; others that need arguments are for scripts.
+  // The application asks for what these need; arguments of others are typed in the palette.
   const bool asks =
       action.name == "file.open" || action.name == "file.save_as" || action.name == "edit.rename";
-  if (!standsAlone(action) && !asks) return;
+  const bool isTyped = !standsAlone(action) && !asks;
   const bool checked = action.checked && action.checked(ui.session);
-  if (ImGui::MenuItem(action.label.c_str(), shortcut, checked, enabled))
-    requests.actions.push_back(action.name);
+  const std::string label = action.label + (isTyped ? "\u2026" : "");
+  if (ImGui::MenuItem(label.c_str(), shortcut, checked, enabled)) {
+    if (isTyped)
+      requests.palette = action.name + " ";
+    else
+      requests.actions.push_back(action.name);
+  }
   ui.name(action.name);
   tooltip(ui, action.help);
 }

@@ -15,6 +15,7 @@ struct Requests {
   bool openDialog = false;
   bool saveDialog = false;
   std::vector<std::string> actions;  // to run, as text
+  std::string palette;               // open the command palette with this in it
 };
 
 void menuBar(PanelContext ui, Requests& requests);

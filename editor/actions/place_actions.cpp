@@ -1,0 +1,164 @@
+// Putting things where they belong: by a click, in rows and grids, along surfaces.
+#include <algorithm>
+#include <cmath>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/commands/edits.h"
+#include "editor/session.h"
+#include "editor/tools/placement.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr int kMostCopies = 10000;
+
+bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
+
+int countOf(const std::string& text) {
+  const float value = numberOf(text);
+  if (value != std::floor(value) || value < 1.0f || value > static_cast<float>(kMostCopies))
+    throw InputError(text, "is no number of copies", "give a whole one from 1 to 10000");
+  return static_cast<int>(value);
+}
+
+// Copies of the selection in the cells of a grid, whose first is the selection itself. `step`: from
+// cell to cell along the world's axes [m].
+void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
+                     const std::string& label) {
+  const double cells = static_cast<double>(count.x) * count.y * count.z;
+  if (cells - 1.0 > kMostCopies)
+    throw InputError(std::to_string(static_cast<long long>(cells)), "are too many copies",
+                     "make 10000 at most in one step");
+  Scene& scene = s.document().scene;
+  const std::vector<NodeId> originals = s.document().selection;
+  std::vector<Node> nodes;
+  std::vector<NodeId> roots = originals;
+  for (int z = 0; z < count.z; ++z) {
+    for (int y = 0; y < count.y; ++y) {
+      for (int x = 0; x < count.x; ++x) {
+        if (x == 0 && y == 0 && z == 0) continue;
+        const vec3 way = steps * vec3(x, y, z);
+        Copies copies = copyNodes(scene, originals);
+        for (Node& n : copies.nodes) {
+          if (std::find(copies.roots.begin(), copies.roots.end(), n.id) == copies.roots.end())
+            continue;
+          const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, n.parent);
+          if (!hasVolume(parent)) continue;
+          n.local.translation += glm::inverse(mat3(parent)) * way;
+        }
+        nodes.insert(nodes.end(), copies.nodes.begin(), copies.nodes.end());
+        roots.insert(roots.end(), copies.roots.begin(), copies.roots.end());
+      }
+    }
+  }
+  if (nodes.empty()) return;
+  s.history().run(std::make_unique<AddNodes>(label, std::move(nodes)));
+  s.select(std::move(roots));
+}
+
+// Turns the active object so that its up, or what a light shines away from, is the normal of the
+// surface under the pointer. Its place stays.
+void align(Session& s) {
+  const Node& active = activeNode(s.document());
+  auto place = s.surfaceUnderPointer({active.id});
+  if (!place) place = s.surfaceAhead({active.id});
+  if (!place)
+    throw InputError("object.align", "there is no surface under the pointer", "point at one");
+  Node node = active;
+  const Scene& scene = s.document().scene;
+  const mat4 parent = node.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, node.parent);
+  if (!hasVolume(parent))
+    throw InputError(node.name, "hangs below an object that has no volume",
+                     "give that one a scale other than 0");
+  const quat now = decompose(worldMatrix(scene, node.id)).rotation;
+  const bool isLight = node.area || node.punctual;
+  node.local.rotation = glm::normalize(
+      glm::inverse(decompose(parent).rotation) *
+      leastTurn(now * (isLight ? vec3(0, 0, -1) : vec3(0, 1, 0)), place->normal) * now);
+  s.setNodeTransform(node.id, node.local);
+}
+
+}  // namespace
+
+void addPlaceActions(ActionRegistry& r) {
+  r.add(
+      {"place.start",
+       "Click to place",
+       "ACTION [ARGUMENT]…",
+       "The next click in the viewport runs an action that adds something, such as light.add disk, "
+       "and puts that on the surface there, facing out; with Shift the click after it as well.",
+       "",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 1, 100, "place.start ACTION [ARGUMENT]…");
+         if (s.actions().find(a[0]) == nullptr)
+           throw InputError(a[0], "there is no such action", "give one such as light.add disk");
+         std::string text;
+         for (const std::string& word : a)
+           text +=
+               (text.empty() ? "" : " ") + (word.find(' ') == word.npos ? word : '"' + word + '"');
+         s.startPlacing(text);
+         s.setStatus("Click where it is to be; Esc leaves it");
+       },
+       {}});
+  const std::string kinds = r.find("light.add")->usage;
+  r.add({"light.place",
+         "Click to place a light",
+         kinds,
+         "The next click in the viewport puts a new light on the surface there, facing out; with "
+         "Shift the click after it as well.",
+         "",
+         [kinds](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "light.place " + kinds);
+           s.runAction("place.start light.add " + a[0]);
+         },
+         {}});
+  r.add({"place.stop", "Place nothing", "", "The next click selects again.", "",
+         [](Session& s, const Arguments&) { s.startPlacing(""); },
+         [](const Session& s) { return s.placing(); }});
+  r.add({"object.align", "Align to the surface", "",
+         "Turns the active object upright on the surface under the pointer, a light away from it.",
+         "Ctrl+Shift+T", [](Session& s, const Arguments&) { align(s); }, hasSelection});
+  r.add({"edit.duplicate_line", "Duplicate along a line", "COPIES X Y Z",
+         "Adds copies of the selection, each so many metres from the one before.", "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 4, 4, "edit.duplicate_line COPIES X Y Z");
+           const vec3 step = vectorOf(a, 1);
+           duplicateInGrid(s, {countOf(a[0]) + 1, 1, 1}, mat3(step, vec3(0.0f), vec3(0.0f)),
+                           "Duplicate along a line");
+         },
+         hasSelection});
+  r.add(
+      {"edit.duplicate_grid", "Duplicate in a grid", "COLUMNS ROWS LAYERS X Y Z",
+       "Fills a grid with copies of the selection: columns along X, rows along Z, layers along Y, "
+       "so many metres apart.",
+       "",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 6, 6, "edit.duplicate_grid COLUMNS ROWS LAYERS X Y Z");
+         const vec3 step = vectorOf(a, 3);
+         duplicateInGrid(s, {countOf(a[0]), countOf(a[2]), countOf(a[1])},
+                         mat3(vec3(step.x, 0, 0), vec3(0, step.y, 0), vec3(0, 0, step.z)),
+                         "Duplicate in a grid");
+       },
+       hasSelection});
+  const auto addSnap = [&](const char* name, const char* label, const char* help, SnapTo target) {
+    r.add({name,
+           label,
+           "",
+           help,
+           "",
+           [target](Session& s, const Arguments&) { s.setSnapTo(target); },
+           {},
+           true,
+           [target](const Session& s) { return s.snapTo() == target; }});
+  };
+  addSnap("tool.snap_grid", "Snap to steps", "Snapping moves by steps of 25 cm.", SnapTo::grid);
+  addSnap("tool.snap_surface", "Snap to surfaces",
+          "Snapping moves onto the surface under the pointer.", SnapTo::surface);
+  addSnap("tool.snap_vertex", "Snap to vertices",
+          "Snapping moves onto the corner under the pointer.", SnapTo::vertex);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,120 @@
+#include "editor/document/clipping.h"
+
+#include <algorithm>
+
+namespace lamplighter {
+
+namespace {
+
+// Calls f for each reference of a material to a texture.
+template <typename F>
+void eachTexture(Material& m, F f) {
+  for (TextureRef* ref :
+       {&m.baseColorTexture, &m.normalTexture, &m.emissiveTexture, &m.metallicRoughnessTexture})
+    if (ref->texture != kNone) f(ref->texture);
+}
+
+// Finds its like in a list of the scene's and of what is added to it, or adds it.
+template <typename T>
+int indexOf(const T& value, const std::vector<T>& present, std::vector<T>& added) {
+  if (const auto it = std::find(present.begin(), present.end(), value); it != present.end())
+    return static_cast<int>(it - present.begin());
+  if (const auto it = std::find(added.begin(), added.end(), value); it != added.end())
+    return static_cast<int>(present.size()) + static_cast<int>(it - added.begin());
+  added.push_back(value);
+  return static_cast<int>(present.size() + added.size()) - 1;
+}
+
+bool hasMaterials(const Mesh& mesh, const std::map<int, int>& newIndex) {
+  return std::all_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& p) {
+    return p.material == kNone || newIndex.at(p.material) == p.material;
+  });
+}
+
+}  // namespace
+
+Clipping clip(const Scene& scene, const std::vector<NodeId>& ids) {
+  Clipping out;
+  for (const Node& n : scene.nodes) {
+    bool isIn = false;
+    for (const Node* p = &n; p != nullptr && !isIn; p = scene.find(p->parent))
+      isIn = std::find(ids.begin(), ids.end(), p->id) != ids.end();
+    if (!isIn) continue;
+    out.nodes.push_back(n);
+    const bool isBelow = std::any_of(out.nodes.begin(), out.nodes.end(),
+                                     [&](const Node& other) { return other.id == n.parent; });
+    if (!isBelow) out.places[n.id] = decompose(worldMatrix(scene, n.id));
+    if (n.mesh != kNone) out.meshes[n.mesh] = scene.meshes[static_cast<size_t>(n.mesh)];
+  }
+  for (const auto& [index, mesh] : out.meshes) {
+    for (const Primitive& p : mesh->primitives)
+      if (p.material != kNone)
+        out.materials[p.material] = scene.materials[static_cast<size_t>(p.material)];
+  }
+  for (auto& [index, material] : out.materials)
+    eachTexture(material, [&](int t) { out.textures[t] = scene.textures[static_cast<size_t>(t)]; });
+  return out;
+}
+
+void AddAssets::apply(Document& document) {
+  Scene& s = document.scene;
+  s.meshes.insert(s.meshes.end(), meshes.begin(), meshes.end());
+  s.materials.insert(s.materials.end(), materials.begin(), materials.end());
+  s.textures.insert(s.textures.end(), textures.begin(), textures.end());
+}
+
+void AddAssets::revert(Document& document) {
+  // They stand at the ends: whatever came after them was undone before.
+  Scene& s = document.scene;
+  s.meshes.resize(s.meshes.size() - meshes.size());
+  s.materials.resize(s.materials.size() - materials.size());
+  s.textures.resize(s.textures.size() - textures.size());
+}
+
+Pasting pasteInto(Scene& scene, const Clipping& clipping, bool isSameLevel) {
+  Pasting out;
+  out.assets = std::make_unique<AddAssets>();
+  AddAssets& assets = *out.assets;
+  std::map<int, int> textures, materials, meshes;
+  for (const auto& [index, texture] : clipping.textures)
+    textures[index] = indexOf(texture, scene.textures, assets.textures);
+  for (const auto& [index, material] : clipping.materials) {
+    Material m = material;
+    eachTexture(m, [&](int& t) { t = textures.at(t); });
+    materials[index] = indexOf(m, scene.materials, assets.materials);
+  }
+  for (const auto& [index, mesh] : clipping.meshes) {
+    std::shared_ptr<const Mesh> here = mesh;
+    if (!hasMaterials(*mesh, materials)) {
+      auto changed = std::make_shared<Mesh>(*mesh);
+      for (Primitive& p : changed->primitives)
+        if (p.material != kNone) p.material = materials.at(p.material);
+      here = std::move(changed);
+    }
+    meshes[index] = indexOf(here, scene.meshes, assets.meshes);
+  }
+
+  std::map<NodeId, NodeId> newId;
+  for (Node n : clipping.nodes) {
+    const NodeId was = n.id;
+    newId[was] = n.id = scene.nextId++;
+    if (n.mesh != kNone) n.mesh = meshes.at(n.mesh);
+    if (const auto parent = newId.find(n.parent); parent != newId.end()) {
+      n.parent = parent->second;
+    } else {
+      out.roots.push_back(n.id);
+      if (n.parent != kNoNode && (!isSameLevel || scene.find(n.parent) == nullptr)) {
+        n.parent = kNoNode;
+        n.local = clipping.places.at(was);
+      }
+    }
+    if (!isSameLevel) {
+      n.camera = kNone;  // the other level's list
+      n.sourceNode = kNone;
+    }
+    out.nodes.push_back(std::move(n));
+  }
+  return out;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,253 @@
+#include "editor/tools/light_handles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/commands/edits.h"
+#include "editor/tools/placement.h"
+#include "editor/tools/projection.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr float kGrab = 8.0f;             // px
+constexpr float kReach = 60.0f;           // px that aim and cones are away from the light
+constexpr float kLeast = 0.001f;          // m, of a size
+constexpr float kSizeStep = 0.05f;        // m
+constexpr float kConeStep = kPi / 36.0f;  // 5°
+constexpr float kMostCone = 0.5f * kPi;   // glTF's bound of a spot's cones
+constexpr float kLeastCone = 0.01f;       // rad
+
+const vec4 kColour{1.0f, 0.93f, 0.6f, 1.0f};
+const vec4 kHoverColour{1.0f, 0.85f, 0.3f, 1.0f};
+
+struct Place {
+  vec3 origin, aim;  // aim: unit, where the light shines
+  float reach;       // m
+};
+
+std::optional<Place> placeOf(const View& view, const mat4& world) {
+  Place p;
+  p.origin = vec3(world[3]);
+  const vec3 aim = mat3(world) * vec3(0, 0, -1);
+  if (!(glm::length(aim) > 0.0f)) return std::nullopt;
+  if (glm::dot(p.origin - view.eye, view.forward()) < view.znear) return std::nullopt;
+  p.aim = glm::normalize(aim);
+  p.reach = kReach * metresPerPixel(view, p.origin);
+  return p;
+}
+
+// The way from the axis to a cone's handle: across the line of sight, so that it lies in the
+// picture's plane as far as it can.
+vec3 sideOf(const View& view, const vec3& aim) {
+  const vec3 side = glm::cross(view.forward(), aim);
+  return glm::length(side) > 1e-3f ? glm::normalize(side) : view.right();
+}
+
+// Where a ray through the pointer meets a plane; none behind the eye or along the plane.
+std::optional<vec3> onPlane(const View& view, const vec2& pointer, const vec3& origin,
+                            const vec3& normal) {
+  const vec3 direction = view.rayDirection(pointer.x, pointer.y);
+  const float along = glm::dot(normal, direction);
+  if (std::abs(along) < 1e-4f) return std::nullopt;
+  const float t = glm::dot(normal, origin - view.eye) / along;
+  constexpr float kFarthest = 100.0f;  // times the light's distance: past that a pixel is too much
+  if (t <= 0.0f || t > kFarthest * glm::length(origin - view.eye)) return std::nullopt;
+  return view.eye + t * direction;
+}
+
+float snapped(float value, float step) { return std::max(step, std::round(value / step) * step); }
+
+bool isBall(const AreaLight& light) { return light.shape == AreaShape::sphere; }
+
+}  // namespace
+
+std::vector<LightHandles::Handle> LightHandles::handlesOf(const View& view,
+                                                          const Document& document) {
+  std::vector<Handle> out;
+  const Node* node = document.scene.find(document.active());
+  if (node == nullptr || !node->visible || (!node->area && !node->punctual)) return out;
+  const mat4 world = worldMatrix(document.scene, node->id);
+  const auto place = placeOf(view, world);
+  if (!place || !hasVolume(world)) return out;
+  const auto at = [&](float x, float y) { return vec3(world * vec4(x, y, 0.0f, 1.0f)); };
+  if (node->area) {
+    const float x = 0.5f * node->area->size.x, y = 0.5f * node->area->size.y;
+    if (node->area->shape == AreaShape::rectangle) {
+      out = {{Kind::right, at(x, 0)},
+             {Kind::left, at(-x, 0)},
+             {Kind::top, at(0, y)},
+             {Kind::bottom, at(0, -y)}};
+    } else if (isBall(*node->area)) {
+      // On its outline as it is seen.
+      const mat3 toWorld(world);
+      const vec3 right = glm::normalize(glm::inverse(toWorld) * view.right());
+      out = {{Kind::rim, vec3(world[3]) + toWorld * (x * right)}};
+    } else {
+      out = {{Kind::rim, at(x, 0)},
+             {Kind::rim, at(-x, 0)},
+             {Kind::rim, at(0, x)},
+             {Kind::rim, at(0, -x)}};
+    }
+  }
+  const bool aims = node->area ? !isBall(*node->area) : node->punctual->kind != PunctualKind::point;
+  if (aims) out.push_back({Kind::aim, place->origin + place->reach * place->aim});
+  if (node->punctual && node->punctual->kind == PunctualKind::spot) {
+    const vec3 side = sideOf(view, place->aim);
+    const auto onCone = [&](float angle, float sign) {
+      return place->origin +
+             place->reach * (std::cos(angle) * place->aim + sign * std::sin(angle) * side);
+    };
+    out.push_back({Kind::outerCone, onCone(node->punctual->outerCone, 1.0f)});
+    out.push_back({Kind::innerCone, onCone(node->punctual->innerCone, -1.0f)});
+  }
+  return out;
+}
+
+bool LightHandles::update(const View& view, const ViewportInput& in, Document& document,
+                          History& history, bool snap, const AimTarget& target) {
+  if (drag_ && !history.inTransaction()) drag_.reset();  // somebody else has ended the step
+  if (drag_) {
+    if (in.keys.contains(Key::escape) || in.pressed[1]) {
+      cancel(history);
+      return true;
+    }
+    if (const auto node = dragged(view, in, snap != in.modifiers.ctrl, target)) {
+      const std::string verb = drag_->kind == Kind::aim ? "Aim " : "Resize ";
+      history.run(std::make_unique<EditNodes>(verb + node->name, document, std::vector{*node}));
+    }
+    if (in.released[0] || !in.down[0]) finish(history);
+    return true;
+  }
+  hovered_ = Kind::none;
+  if (!in.hovered) return false;
+  float nearest = kGrab;
+  for (const Handle& handle : handlesOf(view, document)) {
+    const auto point = projectPoint(view, handle.place);
+    if (!point || glm::length(*point - in.pointer) >= nearest) continue;
+    nearest = glm::length(*point - in.pointer);
+    hovered_ = handle.kind;
+  }
+  if (hovered_ == Kind::none || !in.pressed[0]) return false;
+  const Node& node = *document.scene.find(document.active());
+  const mat4 parent =
+      node.parent == kNoNode ? mat4(1.0f) : worldMatrix(document.scene, node.parent);
+  drag_ = Drag{hovered_, node, parent * toMatrix(node.local), parent};
+  history.begin("");
+  return true;
+}
+
+std::optional<Node> LightHandles::dragged(const View& view, const ViewportInput& in, bool snapping,
+                                          const AimTarget& target) const {
+  const auto place = placeOf(view, drag_->world);
+  if (!place) return std::nullopt;
+  if (drag_->kind == Kind::aim) {
+    // At what is under the pointer, or where nothing is at a place as far away as the light.
+    std::optional<vec3> at = target ? target() : std::nullopt;
+    if (!at) at = onPlane(view, in.pointer, place->origin, view.forward());
+    return at ? aimed(*at) : std::nullopt;
+  }
+  const bool isCone = drag_->kind == Kind::outerCone || drag_->kind == Kind::innerCone;
+  vec3 normal = place->aim;
+  if (isCone) normal = glm::cross(sideOf(view, place->aim), place->aim);
+  if (drag_->node.area && isBall(*drag_->node.area)) normal = view.forward();
+  const auto at = onPlane(view, in.pointer, place->origin, normal);
+  if (!at) return std::nullopt;
+  return isCone ? widened(*at, snapping) : resized(*at, in.modifiers.shift, snapping);
+}
+
+std::optional<Node> LightHandles::resized(const vec3& at, bool bothSides, bool snapping) const {
+  Node node = drag_->node;
+  vec2& size = node.area->size;
+  const vec3 p(glm::inverse(drag_->world) * vec4(at, 1.0f));
+  const auto rounded = [&](float value) {
+    return std::max(kLeast, snapping ? snapped(value, kSizeStep) : value);
+  };
+  if (drag_->kind == Kind::rim) {
+    size.x = size.y = rounded(2.0f * glm::length(isBall(*node.area) ? p : vec3(p.x, p.y, 0.0f)));
+    return node;
+  }
+  const int axis = drag_->kind == Kind::right || drag_->kind == Kind::left ? 0 : 1;
+  const float sign = drag_->kind == Kind::right || drag_->kind == Kind::top ? 1.0f : -1.0f;
+  const float before = size[axis];
+  const float out = sign * p[axis];  // from the middle, to where the edge is pulled
+  size[axis] = rounded(bothSides ? 2.0f * out : out + 0.5f * before);
+  if (!bothSides) {
+    vec3 middle(0.0f);
+    middle[axis] = sign * 0.5f * (size[axis] - before);
+    node.local.translation = vec3(toMatrix(drag_->node.local) * vec4(middle, 1.0f));
+  }
+  return node;
+}
+
+// The least turn that takes the light's direction to that place.
+std::optional<Node> LightHandles::aimed(const vec3& at) const {
+  Node node = drag_->node;
+  const vec3 way = at - vec3(drag_->world[3]);
+  if (!(glm::length(way) > 1e-4f)) return std::nullopt;
+  const quat now = decompose(drag_->world).rotation;
+  const quat parent = decompose(drag_->parent).rotation;
+  node.local.rotation = glm::normalize(glm::inverse(parent) *
+                                       leastTurn(now * vec3(0, 0, -1), glm::normalize(way)) * now);
+  return node;
+}
+
+std::optional<Node> LightHandles::widened(const vec3& at, bool snapping) const {
+  Node node = drag_->node;
+  PunctualLight& light = *node.punctual;
+  const vec3 aim = glm::normalize(mat3(drag_->world) * vec3(0, 0, -1));
+  const vec3 way = at - vec3(drag_->world[3]);
+  const float along = glm::dot(way, aim);
+  float angle = std::atan2(glm::length(way - along * aim), along);
+  if (snapping) angle = snapped(angle, kConeStep);
+  if (drag_->kind == Kind::outerCone) {
+    light.outerCone = std::clamp(angle, kLeastCone, kMostCone);
+    light.innerCone = std::min(light.innerCone, light.outerCone);
+  } else {
+    light.innerCone = std::clamp(angle, 0.0f, light.outerCone);
+  }
+  return node;
+}
+
+void LightHandles::finish(History& history) {
+  if (!drag_) return;
+  history.commit();
+  drag_.reset();
+}
+
+void LightHandles::cancel(History& history) {
+  if (!drag_) return;
+  history.cancel();
+  drag_.reset();
+}
+
+void LightHandles::draw(Overlay& overlay, const View& view, const Document& document) const {
+  const Kind lit = drag_ ? drag_->kind : hovered_;
+  const Node* node = document.scene.find(document.active());
+  for (const Handle& handle : handlesOf(view, document)) {
+    const auto p = projectPoint(view, handle.place);
+    if (!p) continue;
+    const vec4 colour = handle.kind == lit ? kHoverColour : kColour;
+    const float r = handle.kind == lit ? 5.5f : 4.0f;
+    if (handle.kind == Kind::aim || handle.kind == Kind::innerCone ||
+        handle.kind == Kind::outerCone) {
+      addLine(overlay, view, vec3(worldMatrix(document.scene, node->id)[3]), handle.place, colour);
+      OverlayShape dot{{}, true, handle.kind != Kind::innerCone, colour, 1.5f};
+      for (int i = 0; i < 16; ++i) {
+        const float a = 2.0f * kPi * static_cast<float>(i) / 16.0f;
+        dot.points.push_back(*p + r * vec2(std::cos(a), std::sin(a)));
+      }
+      overlay.shapes.push_back(std::move(dot));
+    } else {
+      overlay.shapes.push_back(
+          {{*p + vec2(-r, -r), *p + vec2(r, -r), *p + vec2(r, r), *p + vec2(-r, r)},
+           true,
+           true,
+           colour,
+           1.0f});
+    }
+  }
+}
+
+}  // namespace lamplighter
