@@ -9,6 +9,8 @@ void addFileActions(ActionRegistry& registry);
 void addEditActions(ActionRegistry& registry);
 void addObjectActions(ActionRegistry& registry);
 void addLightActions(ActionRegistry& registry);
+void addLightsActions(ActionRegistry& registry);
+void addLightStateActions(ActionRegistry& registry);
 void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
 void addRenderActions(ActionRegistry& registry);
@@ -18,6 +20,8 @@ inline void addAllActions(ActionRegistry& registry) {
   addEditActions(registry);
   addObjectActions(registry);
   addLightActions(registry);
+  addLightsActions(registry);
+  addLightStateActions(registry);
   addSkyActions(registry);
   addViewActions(registry);
   addRenderActions(registry);

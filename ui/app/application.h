@@ -16,6 +16,7 @@
 #include "ui/app/layout.h"
 #include "ui/app/scene_loader.h"
 #include "ui/app/widget_map.h"
+#include "ui/panels/light_table_panel.h"
 #include "ui/panels/panels.h"
 #include "ui/platform/platform.h"
 #include "ui/viewport/picture.h"
@@ -87,6 +88,7 @@ class Application {
 
   OutlinerState outlinerState_;
   InspectorState inspectorState_;
+  LightTableState lightTableState_;
   Requests requests_;
   FileDialog fileDialog_;
   MessageBox messageBox_;

@@ -29,10 +29,10 @@ const std::vector<Menu>& menus() {
       {"Edit",
        {"edit", "selection", "select"},
        {"edit.undo", "edit.redo", "-", "edit.duplicate", "edit.delete", "edit.rename"}},
-      {"Light", {"light"}, {"light.add"}},
+      {"Light", {"light", "lights"}, {"light.add", "-", "panel.lights"}},
       {"Object", {"object", "node"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
-      {"View", {"view", "camera"}, viewActions()},
+      {"View", {"view", "camera", "panel"}, viewActions()},
       {"Render", {"render"}, {}},
   };
   return kMenus;
