@@ -296,13 +296,15 @@ std::optional<Session::Place> Session::surfaceAhead(const std::vector<NodeId>& i
 }
 
 const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
-  const SceneChanges changes = history_.takeChanges();
+  SceneChanges changes = history_.takeChanges();
+  const Scene& scene = workLight_.with(document_.scene, view_, lighting_.workLight, changes);
+  sceneRevision_ += !changes.none();
   renderError_.clear();
   const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
   Settings settings = document_.render.values;
   if (updates) settings.set(parameters::updates().name, *updates);
   try {
-    output_ = renderer_->render({document_.scene, changes, view_, document_.render.method, settings,
+    output_ = renderer_->render({scene, changes, view_, document_.render.method, settings,
                                  display_.lightOnly(), updates.has_value(), refineUpdates});
     const bool same = output_.settled && output_.radiance == before && changes.none();
     display_.update(*renderer_, view_, document_.render, !same);

@@ -15,6 +15,8 @@
 #include "editor/commands/history.h"
 #include "editor/document/clipping.h"
 #include "editor/document/document.h"
+#include "editor/lights/lighting_state.h"
+#include "editor/lights/work_light.h"
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/placement.h"
@@ -102,6 +104,10 @@ class Session {
   // What the viewport shows, without what is drawn over it.
   Image8 picture() const;
   uint32_t frame() const { return frame_; }
+  const RenderScene& renderScene() const { return renderer_->scene(); }  // of the last frame
+  uint64_t sceneRevision() const { return sceneRevision_; }  // another after each change of it
+  LightingState& lighting() { return lighting_; }
+  const LightingState& lighting() const { return lighting_; }
 
   // What tools draw over the picture: gizmo, selection outline, lights' shapes.
   Overlay overlay() const;
@@ -153,6 +159,9 @@ class Session {
   ViewDisplay display_;
   std::string status_, renderError_, placing_;
   uint32_t frame_ = 0;
+  uint64_t sceneRevision_ = 0;
+  LightingState lighting_;
+  WorkLight workLight_;
   uint64_t savedHash_ = 0;
   bool quit_ = false, shadersRequested_ = false;
   std::string methodBeforeReference_ = "many_lights";

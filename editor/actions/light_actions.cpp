@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cmath>
-#include <map>
+#include <filesystem>
 
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
+#include "editor/lights/new_light.h"
 #include "editor/session.h"
 #include "renderer/error.h"
 
@@ -12,43 +12,18 @@ namespace lamplighter {
 
 namespace {
 
-const std::map<std::string, AreaShape> kShapes = {
-    {"rectangle", AreaShape::rectangle}, {"disk", AreaShape::disk}, {"sphere", AreaShape::sphere}};
-
-// Facing down: the light's −Z along the world's −Y.
-const quat kDown = glm::angleAxis(-0.5f * kPi, vec3(1, 0, 0));
-
-float areaSeenFromBelow(const AreaLight& l) {
-  return l.shape == AreaShape::rectangle ? l.size.x * l.size.y : 0.25f * kPi * l.size.x * l.size.x;
-}
-
-// A new light hangs between the eye and what the eye looks at, and faces down. Its size suits the
-// distance, and its radiance is such that a white floor as far below shows as middle grey to white
-// at the present exposure: L A / h² · ρ/π = 0.4 · 2^−EV.
-void addLight(Session& s, AreaShape shape) {
+// A new light hangs between the eye and what the eye looks at, and faces down.
+void addLight(Session& s, const std::string& kind) {
   const View& view = s.view();
   const float sceneRadius = std::max(s.renderer().scene().bounds.radius(), 0.1f);
   float distance = 0.5f * sceneRadius;
   if (const auto ahead = s.surfaceAhead())
     distance = std::min(distance, 0.6f * glm::length(ahead->position - view.eye));
 
-  Scene& scene = s.document().scene;
-  Node n;
-  n.id = scene.nextId++;
+  Node n = newLight(kind, distance, s.document().render.exposureEv);
+  n.id = s.document().scene.nextId++;
   n.local.translation = view.eye + distance * view.forward();
-  n.local.rotation = kDown;
-  AreaLight light;
-  light.shape = shape;
-  const float size = std::clamp(0.3f * distance, 0.02f, 2.0f);
-  light.size = shape == AreaShape::rectangle ? vec2(size, size) : vec2(size);
-  const float height = std::clamp(distance, 0.2f, 3.0f);
-  const float radiance = 0.4f * std::exp2(-s.document().render.exposureEv) * kPi * height * height /
-                         areaSeenFromBelow(light);
-  light.radiance = vec3(radiance);
-  n.area = light;
-  for (const auto& [name, value] : kShapes) {
-    if (value == shape) n.name = name + " light " + std::to_string(n.id);
-  }
+  n.name = kind + " light " + std::to_string(n.id);
   const NodeId id = n.id;
   s.history().run(std::make_unique<AddNodes>("Add " + n.name, std::vector<Node>{n}));
   s.select({id});
@@ -60,20 +35,45 @@ const Node& activeAreaLight(const Session& s) {
   return n;
 }
 
+// As it is named from where the program runs, or else from the scene's folder.
+std::string fileBeside(const Document& document, const std::string& name) {
+  const std::filesystem::path beside = document.path.parent_path() / name;
+  std::error_code error;
+  return std::filesystem::exists(name, error) || !std::filesystem::exists(beside, error)
+             ? name
+             : beside.string();
+}
+
 }  // namespace
 
 void addLightActions(ActionRegistry& r) {
   r.add({"light.add",
-         "Add area light",
-         "rectangle|disk|sphere",
-         "Puts a new area light ahead of the camera, facing down.",
+         "Add light",
+         "rectangle|disk|sphere|tube|spot|point|sun",
+         "Puts a new light ahead of the camera, facing down, as bright as the place asks for.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "light.add rectangle|disk|sphere");
-           const auto shape = kShapes.find(a[0]);
-           if (shape == kShapes.end())
-             throw InputError(a[0], "is no shape of a light", "give rectangle, disk or sphere");
-           addLight(s, shape->second);
+           requireArguments(a, 1, 1, "light.add rectangle|disk|sphere|tube|spot|point|sun");
+           addLight(s, a[0]);
+         },
+         {}});
+  r.add({"light.ies",
+         "Set profile",
+         "FILE|none",
+         "Gives the active point or spot light the profile of an IES file, and its brightness.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "light.ies FILE|none");
+           const Node& n = activeNode(s.document());
+           if (!n.punctual || n.punctual->kind == PunctualKind::directional)
+             throw InputError(n.name, "is neither a point nor a spot light", "select one");
+           PunctualLight light = *n.punctual;
+           light.profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
+           const float was = luminance(light.intensity);
+           if (light.profile)  // its colour, at the profile's candela
+             light.intensity = was > 0.0f ? light.intensity * (light.profile->peak / was)
+                                          : vec3(light.profile->peak);
+           s.setPunctualLight(n.id, light);
          },
          {}});
   r.add({"light.radiance",

@@ -10,6 +10,8 @@ void addEditActions(ActionRegistry& registry);
 void addObjectActions(ActionRegistry& registry);
 void addPlaceActions(ActionRegistry& registry);
 void addLightActions(ActionRegistry& registry);
+void addLightsActions(ActionRegistry& registry);
+void addLightStateActions(ActionRegistry& registry);
 void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
 void addRenderActions(ActionRegistry& registry);
@@ -20,6 +22,8 @@ inline void addAllActions(ActionRegistry& registry) {
   addObjectActions(registry);
   addLightActions(registry);
   addPlaceActions(registry);  // after light.add, whose kinds it offers
+  addLightsActions(registry);
+  addLightStateActions(registry);
   addSkyActions(registry);
   addViewActions(registry);
   addRenderActions(registry);

@@ -25,6 +25,8 @@ std::string kindOf(const Node& node, bool emissiveMesh) {
         return "disk";
       case AreaShape::sphere:
         return "sphere";
+      case AreaShape::tube:
+        return "tube";
     }
   }
   if (node.punctual) {

@@ -40,6 +40,12 @@ class Hasher {
   uint64_t hash_ = 0xcbf29ce484222325ull;
 };
 
+// Nothing for the state that lights have at first.
+void addLightState(Hasher& h, const LightState& s) {
+  if (s == LightState()) return;
+  h.add(s.on), h.add(s.solo), h.add(s.group);
+}
+
 void addNode(Hasher& h, const Node& n) {
   h.add(n.id), h.add(n.name), h.add(n.parent);
   h.add(n.local.translation), h.add(n.local.scale), h.add(n.local.shear);
@@ -52,9 +58,11 @@ void addNode(Hasher& h, const Node& n) {
     const PunctualLight& l = *n.punctual;
     h.add(static_cast<int>(l.kind)), h.add(l.intensity), h.add(l.range), h.add(l.innerCone),
         h.add(l.outerCone);
+    if (l.profile) h.add(l.profile->file), h.add(l.profile->text);
   }
   h.add(n.area.has_value());
   if (n.area) h.add(static_cast<int>(n.area->shape)), h.add(n.area->radiance), h.add(n.area->size);
+  addLightState(h, n.light);
 }
 
 void addMaterial(Hasher& h, const Material& m) {
@@ -81,6 +89,8 @@ void addScene(Hasher& h, const Scene& scene) {
   h.add(static_cast<uint32_t>(scene.materials.size()));
   for (const Material& m : scene.materials) addMaterial(h, m);
   addSky(h, scene.sky);
+  addLightState(h, scene.skyLight);
+  for (const LightGroup& g : scene.lightGroups) h.add(g.name), h.add(g.muted), h.add(g.solo);
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ float reachBelow(const AreaLight& light, const mat3& world, const vec3& n) {
       return light.size.x * glm::length(vec2(local));
     case AreaShape::sphere:
       return light.size.x * glm::length(local);
+    case AreaShape::tube:
+      return std::abs(local.x) * light.size.x + light.size.y * glm::length(vec2(local.y, local.z));
   }
   return 0.0f;
 }

@@ -41,6 +41,16 @@ void drawAreaLight(Overlay& overlay, const View& view, const AreaLight& light, c
   if (light.shape == AreaShape::rectangle) {
     outline = {at({-x, -y, 0}), at({x, -y, 0}), at({x, y, 0}), at({-x, y, 0})};
     addLoop(overlay, view, outline, colour, 2.0f);
+  } else if (light.shape == AreaShape::tube) {
+    for (const float side : {-x, x}) {
+      outline.clear();
+      for (const vec3& p : circle(vec3(side, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), y))
+        outline.push_back(at(p));
+      addLoop(overlay, view, outline, colour, 2.0f);
+    }
+    for (const vec2& d : {vec2(y, 0), vec2(0, y), vec2(-y, 0), vec2(0, -y)})
+      addLine(overlay, view, at({-x, d.x, d.y}), at({x, d.x, d.y}), colour);
+    return;
   } else {
     for (const vec3& p : circle(vec3(0), vec3(1, 0, 0), vec3(0, 1, 0), x)) outline.push_back(at(p));
     addLoop(overlay, view, outline, colour, 2.0f);

@@ -1,7 +1,7 @@
 // KHR_lights_punctual; EXT_lights_area (draft, KhronosGroup/glTF pull request 2525): a rectangle
 // or disk that emits towards −Z, size its height or diameter, rect.aspect width over height,
-// intensity in nits; and this program's own note of a sphere, on a node whose mesh shows it to
-// others. A nit is taken as one unit of radiance, as a candela is as one of radiant intensity.
+// intensity in nits; and this program's own note of a sphere or tube, on a node whose mesh shows
+// it to others. A nit is taken as one unit of radiance, as a candela is as one of radiant intensity.
 #include "renderer/scene/gltf_lights.h"
 
 #include <algorithm>
@@ -50,19 +50,21 @@ vec3 colored(const GltfDocument& document, const Json& light, double defaultInte
   return out;
 }
 
-std::optional<AreaLight> readSphere(const GltfDocument& document, const Json& node, At at) {
+std::optional<AreaLight> readNoted(const GltfDocument& document, const Json& node, At at) {
   const Json* light = noteOf(node, "areaLight");
-  if (light == nullptr || textMember(document, *light, "shape", at) != "sphere") {
-    return std::nullopt;
-  }
+  if (light == nullptr) return std::nullopt;
+  const std::string shape = textMember(document, *light, "shape", at);
+  if (shape != "sphere" && shape != "tube") return std::nullopt;
   AreaLight area;
-  area.shape = AreaShape::sphere;
+  area.shape = shape == "tube" ? AreaShape::tube : AreaShape::sphere;
   area.radiance = glm::clamp(vec3Member(document, *light, "radiance", vec3(1.0f), at), 0.0f, 1e30f);
   const double diameter = numberMember(document, *light, "diameter", 1.0, at);
-  if (!(diameter > 0.0 && diameter < 1e9)) {
-    document.fail(at, "has a sphere light of no sound diameter", kExportAgain);
+  const double length = shape == "tube" ? numberMember(document, *light, "length", 1.0, at) : 1.0;
+  if (!(diameter > 0.0 && diameter < 1e9 && length > 0.0 && length < 1e9)) {
+    document.fail(at, "has a " + shape + " light of no sound size", kExportAgain);
   }
   area.size = vec2(static_cast<float>(diameter));
+  if (area.shape == AreaShape::tube) area.size.x = static_cast<float>(length);
   return area;
 }
 
@@ -102,7 +104,7 @@ std::optional<PunctualLight> readPunctual(const GltfDocument& document, size_t n
 std::optional<AreaLight> readArea(const GltfDocument& document, size_t node,
                                   const vec3& worldScale) {
   const Json& json = listOf(document, "nodes")[node];
-  if (auto sphere = readSphere(document, json, {"nodes", node})) return sphere;
+  if (auto noted = readNoted(document, json, {"nodes", node})) return noted;
 
   At at{"EXT_lights_area.lights", 0};
   const Json* light = lightOf(document, node, "EXT_lights_area", at.index);

@@ -2,8 +2,14 @@
 #pragma once
 
 #include "renderer/math.h"
+#include "renderer/scene/scene.h"
 
 namespace lamplighter {
+
+// Shapes that EXT_lights_area does not have: a note on the node says what they are.
+inline bool isNotedShape(AreaShape shape) {
+  return shape == AreaShape::sphere || shape == AreaShape::tube;
+}
 
 // EXT_lights_area scales a light uniformly, by the largest of its node's world scales; AreaLight
 // takes each axis as it is. Lengths in the file times these are AreaLight's: 1 where the scale is

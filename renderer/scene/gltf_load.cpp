@@ -50,6 +50,8 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
   scene.cameras = readCameras(document);
   warnOfUnknownLights(document);
   scene.nodes = readNodes(document);
+  readLightNotes(document, scene.nodes);
+  readSceneLightNotes(document, scene);
   scene.nextId = static_cast<NodeId>(scene.nodes.size() + 1);
   checkSize(document, scene);
   scene.name = sceneName(document);
@@ -69,6 +71,8 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
   source->nodes = scene.nodes;
   source->sky = scene.sky;
   source->skyIsDefault = scene.skyIsDefault;
+  source->skyLight = scene.skyLight;
+  source->lightGroups = scene.lightGroups;
   for (const Json& name : listOf(document, "extensionsUsed")) {
     if (name.is_string()) loaded.extensions.push_back(printable(name.get<std::string>()));
   }

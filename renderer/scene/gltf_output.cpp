@@ -46,6 +46,13 @@ void GltfOutput::useExtension(const char* name) {
   if (std::find(used.begin(), used.end(), Json(name)) == used.end()) used.push_back(name);
 }
 
+const GltfOutput::File* GltfOutput::addedFile(const std::filesystem::path& target) const {
+  for (const File& file : files_) {
+    if (file.path == target) return &file;
+  }
+  return nullptr;
+}
+
 size_t GltfOutput::append(const char* list, Json entry) {
   json[list].push_back(std::move(entry));
   return json[list].size() - 1;

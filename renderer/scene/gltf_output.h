@@ -39,6 +39,8 @@ class GltfOutput {
     std::vector<uint8_t> bytes;
   };
   void addFile(File file) { files_.push_back(std::move(file)); }  // beside them
+  // One of them, or null.
+  const File* addedFile(const std::filesystem::path& target) const;
   std::vector<File> finish();
   bool isSameFolder() const;  // as the source's
 
@@ -86,7 +88,13 @@ size_t appendIndices(GltfOutput& out, std::span<const uint32_t> indices, size_t 
 std::vector<size_t> saveNodes(GltfOutput& out);
 // gltf_save_lights.cpp
 void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes);
+// gltf_light_notes.cpp: what glTF has no place for, as notes: on and solo, groups, profiles.
+void saveLightNotes(GltfOutput& out, Json& json, const Node& now, const Node& was);
+void saveSceneLightNotes(GltfOutput& out);
 // gltf_save_sky.cpp
+// The URI of a file beside the scene with these bytes: one that is there already, or a new one that
+// is added to the output under a name that no other file has.
+std::string uriOfFile(GltfOutput& out, const std::filesystem::path& name, std::span<const uint8_t> bytes);
 void saveSky(GltfOutput& out);
 // gltf_save_spheres.cpp. Last of all: see gltf_sphere_meshes.cpp.
 void saveSphereMeshes(GltfOutput& out, const std::vector<size_t>& jsonNodes);

@@ -73,23 +73,25 @@ void savePunctual(GltfOutput& out, Json& json, const Node& now, const Node& was)
   if (now.punctual) refer(out, json, kPunctual, punctualJson(std::move(old), *now.punctual));
 }
 
-void saveSphereNote(Json& json, const AreaLight& light) {
-  noteFor(json)["areaLight"] = {{"shape", "sphere"},
-                                {"radiance", toJson(light.radiance)},
-                                {"diameter", toJson(light.size.x)}};
+void saveShapeNote(Json& json, const AreaLight& light) {
+  const bool isTube = light.shape == AreaShape::tube;
+  Json& note = noteFor(json)["areaLight"];
+  note = {{"shape", isTube ? "tube" : "sphere"}, {"radiance", toJson(light.radiance)}};
+  if (isTube) note["length"] = toJson(light.size.x);
+  note["diameter"] = toJson(isTube ? light.size.y : light.size.x);
 }
 
 void saveArea(GltfOutput& out, Json& json, const Node& now, const Node& was, const vec3& scaleNow,
               const vec3& scaleWas) {
   const AxisRatios ratios = areaScale(scaleNow);
-  const bool isSphere = now.area && now.area->shape == AreaShape::sphere;
-  if (now.area == was.area && (isSphere || !now.area || ratios == areaScale(scaleWas))) return;
+  const bool isNoted = now.area && isNotedShape(now.area->shape);
+  if (now.area == was.area && (isNoted || !now.area || ratios == areaScale(scaleWas))) return;
   Json old = lightOf(out.json, json, kArea);
   eraseExtension(json, kArea);
   eraseNote(json, "areaLight");
   if (!now.area) return;
-  if (isSphere) {
-    saveSphereNote(json, *now.area);
+  if (isNoted) {
+    saveShapeNote(json, *now.area);
   } else {
     refer(out, json, kArea, areaJson(std::move(old), *now.area, ratios));
   }
@@ -162,10 +164,12 @@ void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes) {
     const mat4& before = known ? worldWas[bySource[source]] : worldNow[i];
     Json& json = out.json["nodes"][jsonNodes[i]];
     savePunctual(out, json, now, was);
+    saveLightNotes(out, json, now, was);
     saveArea(out, json, now, was, axisLengths(worldNow[i]), axisLengths(before));
   }
   dropOrphans(out, kPunctual);
   dropOrphans(out, kArea);
+  saveSceneLightNotes(out);
 }
 
 }  // namespace lamplighter

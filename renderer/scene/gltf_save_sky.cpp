@@ -1,4 +1,6 @@
 // The sky as a note on the scene, its picture as a file beside it (docs/gltf.md).
+#include <algorithm>
+
 #include "renderer/error.h"
 #include "renderer/scene/gltf_output.h"
 
@@ -20,23 +22,7 @@ std::string pictureUri(GltfOutput& out, const SkyImage& image) {
     throw InputError(out.path.string(), "has a sky whose picture came from no file",
                      "take a picture that is in a file");
   }
-  // Another file of that name is not overwritten.
-  const fs::path name = image.name.empty() ? "sky.exr" : image.name;
-  for (int i = 0;; ++i) {
-    const std::string free =
-        name.stem().string() + (i == 0 ? "" : "-" + std::to_string(i)) + name.extension().string();
-    if (free == out.path.filename().string()) continue;
-    const fs::path target = out.path.parent_path() / free;
-    std::error_code error;
-    if (!fs::exists(target, error)) {
-      out.addFile({target, *image.file});
-      return percentEncoded(free);
-    }
-    std::string why;
-    const bool isSameSize = fs::file_size(target, error) == image.file->size() && !error;
-    const Bytes there = isSameSize ? readWholeFile(target, why) : nullptr;
-    if (there != nullptr && *there == *image.file) return percentEncoded(free);
-  }
+  return uriOfFile(out, image.name.empty() ? "sky.exr" : image.name, *image.file);
 }
 
 Json noteOfSky(GltfOutput& out, const Sky& sky) {
@@ -58,6 +44,32 @@ Json noteOfSky(GltfOutput& out, const Sky& sky) {
 }
 
 }  // namespace
+
+std::string uriOfFile(GltfOutput& out, const fs::path& name, std::span<const uint8_t> bytes) {
+  // Another file of that name is not overwritten.
+  for (int i = 0;; ++i) {
+    const std::string free =
+        name.stem().string() + (i == 0 ? "" : "-" + std::to_string(i)) + name.extension().string();
+    if (free == out.path.filename().string()) continue;
+    const fs::path target = out.path.parent_path() / free;
+    const GltfOutput::File* added = out.addedFile(target);
+    if (added != nullptr) {
+      if (std::equal(bytes.begin(), bytes.end(), added->bytes.begin(), added->bytes.end()))
+        return percentEncoded(free);
+      continue;
+    }
+    std::error_code error;
+    if (!fs::exists(target, error)) {
+      out.addFile({target, {bytes.begin(), bytes.end()}});
+      return percentEncoded(free);
+    }
+    std::string why;
+    const bool isSameSize = fs::file_size(target, error) == bytes.size() && !error;
+    const Bytes there = isSameSize ? readWholeFile(target, why) : nullptr;
+    if (there != nullptr && std::equal(bytes.begin(), bytes.end(), there->begin(), there->end()))
+      return percentEncoded(free);
+  }
+}
 
 void saveSky(GltfOutput& out) {
   const Scene& now = out.scene;

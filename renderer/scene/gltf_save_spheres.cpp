@@ -1,6 +1,7 @@
 #include <map>
 #include <tuple>
 
+#include "renderer/scene/gltf_lights.h"
 #include "renderer/scene/gltf_output.h"
 #include "renderer/scene/light_shapes.h"
 
@@ -9,31 +10,38 @@ namespace lamplighter {
 namespace {
 
 using Color = std::tuple<float, float, float>;
+using Shape = std::tuple<bool, float, float>;  // a tube; its size
 
 class SphereSaver {
  public:
   explicit SphereSaver(GltfOutput& out) : out_(out) {}
 
-  // The mesh for a sphere light; equal lights share it.
+  // The mesh for a sphere or tube; equal lights share it.
   size_t mesh(const AreaLight& light) {
     const Color color{light.radiance.r, light.radiance.g, light.radiance.b};
-    const auto [it, isNew] = meshes_.try_emplace({color, light.size.x}, 0);
+    const bool isTube = light.shape == AreaShape::tube;
+    const Shape shapeKey{isTube, light.size.x, isTube ? light.size.y : light.size.x};
+    const auto [it, isNew] = meshes_.try_emplace({color, shapeKey}, 0);
     if (!isNew) return it->second;
     const Primitive shape = tessellate(light);
-    if (meshes_.size() == 1) {
-      normals_ = marked("accessors", appendFloats(out_, floats(shape.normals), 3, false));
-      indices_ = marked("accessors", appendIndices(out_, shape.indices, shape.positions.size()));
+    const auto [shared, isNewKind] = shared_.try_emplace(isTube);
+    if (isNewKind) {
+      shared->second.normals =
+          marked("accessors", appendFloats(out_, floats(shape.normals), 3, false));
+      shared->second.indices =
+          marked("accessors", appendIndices(out_, shape.indices, shape.positions.size()));
       markLastViews(2);
     }
-    const auto [place, isNewSize] = positions_.try_emplace(light.size.x, 0);
+    const auto [place, isNewSize] = positions_.try_emplace(shapeKey, 0);
     if (isNewSize) {
       place->second = marked("accessors", appendFloats(out_, floats(shape.positions), 3, true));
       markLastViews(1);
     }
-    Json primitive = {{"attributes", {{"POSITION", place->second}, {"NORMAL", normals_}}},
-                      {"indices", indices_},
-                      {"material", material(light.radiance, color)}};
-    Json json = {{"name", "sphere light"}};
+    Json primitive = {
+        {"attributes", {{"POSITION", place->second}, {"NORMAL", shared->second.normals}}},
+        {"indices", shared->second.indices},
+        {"material", material(light.radiance, color)}};
+    Json json = {{"name", isTube ? "tube light" : "sphere light"}};
     json["primitives"].push_back(std::move(primitive));
     it->second = marked("meshes", out_.append("meshes", std::move(json)));
     return it->second;
@@ -71,10 +79,13 @@ class SphereSaver {
   }
 
   GltfOutput& out_;
-  size_t normals_ = 0, indices_ = 0;                  // accessors that all spheres share
-  std::map<float, size_t> positions_;                 // accessors, by diameter
+  struct Shared {
+    size_t normals = 0, indices = 0;  // accessors
+  };
+  std::map<bool, Shared> shared_;                     // that all spheres share, and all tubes
+  std::map<Shape, size_t> positions_;                 // accessors
   std::map<Color, size_t> materials_;                 // by radiance
-  std::map<std::pair<Color, float>, size_t> meshes_;  // by radiance and diameter
+  std::map<std::pair<Color, Shape>, size_t> meshes_;
 };
 
 }  // namespace
@@ -83,9 +94,9 @@ void saveSphereMeshes(GltfOutput& out, const std::vector<size_t>& jsonNodes) {
   SphereSaver saver(out);
   for (size_t i = 0; i < jsonNodes.size(); ++i) {
     const Node& node = out.scene.nodes[i];
-    const bool isSphere = node.area && node.area->shape == AreaShape::sphere;
+    const bool isNoted = node.area && isNotedShape(node.area->shape);
     // A node has room for one mesh; its own goes first, and the light is in the extras alone.
-    if (isSphere && node.mesh == kNone) {
+    if (isNoted && node.mesh == kNone) {
       const size_t mesh = saver.mesh(*node.area);
       out.json["nodes"][jsonNodes[i]]["mesh"] = mesh;
     }

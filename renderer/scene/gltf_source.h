@@ -18,6 +18,8 @@ class SceneSource {
   std::vector<Node> nodes;
   Sky sky;
   bool skyIsDefault = false;
+  LightState skyLight;
+  std::vector<LightGroup> lightGroups;
 };
 
 }  // namespace lamplighter

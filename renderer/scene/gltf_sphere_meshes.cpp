@@ -1,4 +1,4 @@
-// A sphere light has no place in EXT_lights_area. It is saved as a node with extras that say what
+// A sphere or tube light has no place in EXT_lights_area. It is saved as a node with extras that say what
 // it is and an emissive mesh, so that other programs show it; here the mesh is taken out again.
 // What belongs to these meshes is marked by extras.lamplighter.sphereLight, and saveGltf() puts it
 // last in every list, so that nothing else changes its index.
@@ -44,7 +44,7 @@ void stripSphereMeshes(GltfDocument& document) {
   if (!root.contains("nodes")) return;
   for (size_t i = 0; i < root["nodes"].size(); ++i) {
     const auto light = readArea(document, i, vec3(1.0f));
-    if (!light || light->shape != AreaShape::sphere) continue;
+    if (!light || !isNotedShape(light->shape)) continue;
     hasSphere = true;
     const Json* mesh = member(root["nodes"][i], "mesh");
     if (mesh != nullptr && isMarked(root["meshes"][mesh->get<size_t>()], kSphereMark)) {

@@ -10,6 +10,7 @@ namespace lamplighter {
 namespace {
 
 constexpr int kDiskSides = 64;
+constexpr int kTubeSides = 32, kTubeRings = 8;
 constexpr int kSphereSubdivisions = 3;  // 20 · 4³ = 1280 triangles
 
 Primitive rectangle(const vec2& size) {
@@ -87,6 +88,34 @@ Primitive sphere(float diameter) {
   return p;
 }
 
+// Its lateral surface: a prism of the same area, 2πrl, so that the sides of its polygon are those of
+// a circle's circumference: n · 2R sin(π/n) = 2πr. Cut along its length as well, so that triangles
+// are no slivers.
+Primitive tube(float length, float diameter) {
+  Primitive p;
+  const float half = kPi / static_cast<float>(kTubeSides);
+  const float radius = 0.5f * diameter * half / std::sin(half);
+  for (int ring = 0; ring <= kTubeRings; ++ring) {
+    const float along = static_cast<float>(ring) / kTubeRings;
+    for (int side = 0; side <= kTubeSides; ++side) {
+      const float around = static_cast<float>(side) / kTubeSides;
+      const float a = 2.0f * kPi * static_cast<float>(side % kTubeSides) / kTubeSides;
+      const vec3 out(0.0f, std::cos(a), std::sin(a));
+      p.positions.push_back(radius * out + vec3((along - 0.5f) * length, 0.0f, 0.0f));
+      p.normals.push_back(out);
+      p.uv0.emplace_back(along, around);
+    }
+  }
+  for (uint32_t ring = 0; ring < kTubeRings; ++ring) {
+    for (uint32_t side = 0; side < kTubeSides; ++side) {
+      const uint32_t a = ring * (kTubeSides + 1) + side, b = a + 1;
+      const uint32_t c = a + kTubeSides + 1, d = c + 1;
+      p.indices.insert(p.indices.end(), {a, b, d, a, d, c});
+    }
+  }
+  return p;
+}
+
 }  // namespace
 
 Primitive tessellate(const AreaLight& light) {
@@ -97,8 +126,36 @@ Primitive tessellate(const AreaLight& light) {
       return disk(light.size.x);
     case AreaShape::sphere:
       return sphere(light.size.x);
+    case AreaShape::tube:
+      return tube(light.size.x, light.size.y);
   }
   return {};
+}
+
+float areaOf(const AreaLight& light, const mat4& world) {
+  const vec3 x(world[0]), y(world[1]), z(world[2]);
+  switch (light.shape) {
+    case AreaShape::rectangle:
+      return glm::length(glm::cross(x, y)) * light.size.x * light.size.y;
+    case AreaShape::disk:
+      return glm::length(glm::cross(x, y)) * kPi * 0.25f * light.size.x * light.size.x;
+    case AreaShape::sphere: {
+      const float diameter =
+          light.size.x * (glm::length(x) + glm::length(y) + glm::length(z)) / 3.0f;
+      return kPi * diameter * diameter;
+    }
+    case AreaShape::tube: {
+      const float diameter = light.size.y * (glm::length(y) + glm::length(z)) / 2.0f;
+      return kPi * diameter * light.size.x * glm::length(x);
+    }
+  }
+  return 0.0f;
+}
+
+float projectedAreaOf(const AreaLight& light, const mat4& world) {
+  const float area = areaOf(light, world);
+  if (light.shape == AreaShape::sphere) return 0.25f * area;
+  return light.shape == AreaShape::tube ? area / kPi : area;
 }
 
 }  // namespace lamplighter

@@ -8,12 +8,19 @@ namespace lamplighter {
 
 namespace {
 
-Material emitterMaterial(const AreaLight& light) {
+// Black as long as the light does not shine: it is there all the same, dark, to be seen and chosen.
+Material emitterMaterial(const AreaLight& light, bool shines) {
   Material m;
   m.name = "area light";
   m.baseColor = vec4(0.0f, 0.0f, 0.0f, 1.0f);
   m.metallic = 0.0f;
-  m.emissive = light.radiance;
+  m.emissive = shines ? light.radiance : vec3(0.0f);
+  return m;
+}
+
+Material darkCopy(const Material& material) {
+  Material m = material;
+  m.emissive = vec3(0.0f);
   return m;
 }
 
@@ -81,10 +88,11 @@ void append(RenderScene& render, NodeId node, const Primitive& p, const mat4& wo
   render.objects.push_back(o);
 }
 
-RenderPunctual placed(const Node& node, const mat4& world) {
+RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
   RenderPunctual r;
   r.node = node.id;
   r.light = *node.punctual;
+  if (!shines) r.light.intensity = vec3(0.0f);
   r.position = vec3(world[3]);
   const vec3 aim = mat3(world) * vec3(0, 0, -1);
   const float length = glm::length(aim);
@@ -100,9 +108,15 @@ void rebuild(RenderScene& render, const Scene& scene) {
   render.textures = scene.textures;
   const std::vector<mat4> world = worldMatrices(scene);
   const std::vector<bool> visible = visibleNodes(scene);
+  const std::vector<bool> shining = shiningLights(scene).nodes;
+  struct Dark {
+    size_t object;
+    int material;
+  };
+  std::vector<Dark> dark;
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
-    if (node.area) render.materials.push_back(emitterMaterial(*node.area));
+    if (node.area) render.materials.push_back(emitterMaterial(*node.area, shining[i]));
     if (!visible[i]) continue;
     if (node.mesh != kNone) {
       for (const Primitive& p : scene.meshes[node.mesh]->primitives) {
@@ -110,13 +124,26 @@ void rebuild(RenderScene& render, const Scene& scene) {
         append(render, node.id, p, world[i], p.material == kNone ? defaultMaterial : p.material,
                false);
         render.objects.back().kind = node.meshKind;
+        if (!shining[i] && p.material != kNone && scene.materials[p.material].emits())
+          dark.push_back({render.objects.size() - 1, p.material});
       }
     }
     if (node.area) {
       append(render, node.id, tessellate(*node.area), world[i],
              static_cast<int>(render.materials.size()) - 1, true);
     }
-    if (node.punctual) render.punctuals.push_back(placed(node, world[i]));
+    if (node.punctual) render.punctuals.push_back(placed(node, world[i], shining[i]));
+  }
+  const auto firstDark = static_cast<int>(render.materials.size());
+  for (const Dark& d : dark) {
+    const auto known =
+        std::find(render.darkMaterials.begin(), render.darkMaterials.end(), d.material);
+    const auto index = static_cast<int>(known - render.darkMaterials.begin());
+    if (known == render.darkMaterials.end()) {
+      render.darkMaterials.push_back(d.material);
+      render.materials.push_back(darkCopy(scene.materials[d.material]));
+    }
+    render.objects[d.object].material = firstDark + index;
   }
 }
 
@@ -130,6 +157,7 @@ void findBounds(RenderScene& render) {
 void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& changes,
                  RenderSceneChanges& out) {
   const std::vector<mat4> world = worldMatrices(scene);
+  const std::vector<bool> shining = shiningLights(scene).nodes;
   const auto hasMoved = [&](NodeId id) {
     return std::binary_search(changes.moved.begin(), changes.moved.end(), id);
   };
@@ -158,9 +186,29 @@ void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& ch
     if (!moved && !changed) continue;
     const auto it = std::find_if(scene.nodes.begin(), scene.nodes.end(),
                                  [&](const Node& n) { return n.id == p.node; });
-    p = placed(*it, world[static_cast<size_t>(it - scene.nodes.begin())]);
+    const auto index = static_cast<size_t>(it - scene.nodes.begin());
+    p = placed(*it, world[index], shining[index]);
     out.lights = true;
   }
+}
+
+// Materials that follow those of the scene: of area lights, and dark copies. True when one changed.
+bool takeEmitters(RenderScene& render, const Scene& scene) {
+  size_t next = scene.materials.size() + 1;
+  bool changed = false;
+  const auto take = [&](Material m) {
+    if (!(render.materials[next] == m)) {
+      render.materials[next] = std::move(m);
+      changed = true;
+    }
+    ++next;
+  };
+  const std::vector<bool> shining = shiningLights(scene).nodes;
+  for (size_t i = 0; i < scene.nodes.size(); ++i) {
+    if (scene.nodes[i].area) take(emitterMaterial(*scene.nodes[i].area, shining[i]));
+  }
+  for (const int material : render.darkMaterials) take(darkCopy(scene.materials[material]));
+  return changed;
 }
 
 }  // namespace
@@ -177,19 +225,11 @@ RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneCh
       render.materials[i] = scene.materials[i];
       out.materials = true;
     }
-    int next = static_cast<int>(scene.materials.size()) + 1;
-    for (const Node& node : scene.nodes) {
-      if (!node.area) continue;
-      Material m = emitterMaterial(*node.area);
-      if (!(render.materials[next] == m)) {
-        render.materials[next] = std::move(m);
-        out.materials = true;
-      }
-      ++next;
-    }
+    out.materials |= takeEmitters(render, scene);
   }
-  out.sky = render.sky != scene.sky || out.rebuilt;
-  render.sky = scene.sky;
+  const Sky sky = shiningLights(scene).sky ? scene.sky : Sky();
+  out.sky = render.sky != sky || out.rebuilt;
+  render.sky = sky;
   findBounds(render);
   return out;
 }

@@ -42,8 +42,10 @@ struct RenderScene {
   std::vector<vec4> colors;
   std::vector<uint32_t> indices;
   std::vector<RenderObject> objects;
-  // Scene::materials, then the default material, then one for each area light (albedo 0).
+  // Scene::materials, then the default material, then one for each area light (albedo 0), then
+  // copies that emit nothing, for emissive meshes that do not shine.
   std::vector<Material> materials;
+  std::vector<int> darkMaterials;  // of which of Scene::materials those copies are
   std::vector<Texture> textures;
   std::vector<RenderPunctual> punctuals;
   Sky sky;

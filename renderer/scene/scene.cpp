@@ -56,15 +56,24 @@ std::vector<bool> visibleNodes(const Scene& scene) {
   return visible;
 }
 
-bool hasLight(const Scene& scene) {
-  return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const Node& n) {
-    if (n.area || n.punctual) return true;
-    if (n.mesh == kNone) return false;
-    const auto& primitives = scene.meshes[n.mesh]->primitives;
-    return std::any_of(primitives.begin(), primitives.end(), [&](const Primitive& p) {
-      return p.material != kNone && scene.materials[p.material].emits();
-    });
+bool PunctualLight::operator==(const PunctualLight& o) const {
+  return kind == o.kind && intensity == o.intensity && range == o.range &&
+         innerCone == o.innerCone && outerCone == o.outerCone &&
+         (profile == o.profile || (profile && o.profile && *profile == *o.profile));
+}
+
+bool emitsLight(const Scene& scene, const Node& n) {
+  if (n.area || n.punctual) return true;
+  if (n.mesh == kNone) return false;
+  const auto& primitives = scene.meshes[n.mesh]->primitives;
+  return std::any_of(primitives.begin(), primitives.end(), [&](const Primitive& p) {
+    return p.material != kNone && scene.materials[p.material].emits();
   });
+}
+
+bool hasLight(const Scene& scene) {
+  return std::any_of(scene.nodes.begin(), scene.nodes.end(),
+                     [&](const Node& n) { return emitsLight(scene, n); });
 }
 
 }  // namespace lamplighter

@@ -11,6 +11,8 @@
 
 #include "renderer/image/image.h"
 #include "renderer/math.h"
+#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_state.h"
 #include "renderer/scene/sky.h"
 #include "renderer/scene/transform.h"
 
@@ -103,17 +105,21 @@ struct PunctualLight {
   float range = 0.0f;      // metres, 0: infinite
   float innerCone = 0.0f;  // radians, spot
   float outerCone = 0.78539816339f;  // radians, spot
-  bool operator==(const PunctualLight&) const = default;
+  // Point and spot: intensity is that in the profile's brightest direction. Null: none.
+  std::shared_ptr<const IesProfile> profile;
+  bool operator==(const PunctualLight& other) const;  // profiles by what is in them
 };
 
-enum class AreaShape : uint8_t { rectangle, disk, sphere };
+enum class AreaShape : uint8_t { rectangle, disk, sphere, tube };
 
-// A Lambertian emitter centred on its node, which emits towards the node's −Z (a sphere: outwards).
-// Size is in the node's space and so takes the node's scale. Reflects nothing.
+// A Lambertian emitter centred on its node, which emits towards the node's −Z (a sphere or tube:
+// outwards; a tube lies along X and its ends are open). Size is in the node's space and so takes the
+// node's scale. Reflects nothing.
 struct AreaLight {
   AreaShape shape = AreaShape::rectangle;
   vec3 radiance{10.0f};   // W/(m² sr)
-  vec2 size{1.0f, 1.0f};  // rectangle: width (X), height (Y); disk and sphere: diameter in x
+  // Rectangle: width (X), height (Y); disk and sphere: diameter in x; tube: length (X), diameter.
+  vec2 size{1.0f, 1.0f};
   bool operator==(const AreaLight&) const = default;
 };
 
@@ -135,6 +141,7 @@ struct Node {
   std::optional<PunctualLight> punctual;
   std::optional<AreaLight> area;
   bool visible = true;
+  LightState light;  // of what it emits, if it emits
   MeshKind meshKind = MeshKind::automatic;
   int sourceNode = kNone;  // index in the file it came from; kNone for one made here
 
@@ -153,6 +160,8 @@ struct Scene {
   std::vector<Camera> cameras;
   NodeId nextId = 1;
   Sky sky;  // around everything
+  LightState skyLight;
+  std::vector<LightGroup> lightGroups;  // by name, each once
   bool skyIsDefault =
       false;  // it was put there because the file has no light; then it is not saved
   std::shared_ptr<const SceneSource> source;
@@ -172,5 +181,7 @@ std::vector<bool> visibleNodes(const Scene& scene);
 inline constexpr vec3 kDefaultSky{1.0f, 1.0f, 1.0f};
 // True when something in the scene emits: an area or punctual light or an emissive material in use.
 bool hasLight(const Scene& scene);
+// The same of one node, whatever its state is.
+bool emitsLight(const Scene& scene, const Node& node);
 
 }  // namespace lamplighter

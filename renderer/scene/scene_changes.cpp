@@ -19,6 +19,12 @@ bool looksEqual(Material a, const Material& b) {
   return a == b;
 }
 
+bool meshEmits(const Scene& scene, Node node) {
+  node.area.reset();
+  node.punctual.reset();
+  return emitsLight(scene, node);
+}
+
 bool sameStructure(const Scene& a, const Scene& b) {
   if (a.nodes.size() != b.nodes.size() || a.meshes != b.meshes || a.textures != b.textures ||
       a.materials.size() != b.materials.size()) {
@@ -56,10 +62,22 @@ SceneChanges compare(const Scene& before, const Scene& after) {
     changes.materials.push_back(static_cast<int>(i));
     // Clear and masked surfaces are other occluders; emitters are other lights.
     if (before.materials[i].isClear() != after.materials[i].isClear()) changes.structure = true;
+    // An object that does not shine has a material of its own.
+    if (before.materials[i].emits() != after.materials[i].emits() && anyLightDark(after))
+      changes.structure = true;
   }
   if (!sameStructure(before, after)) {
     changes.structure = true;
     return changes;  // everything of the nodes is looked at again anyhow
+  }
+
+  const ShiningLights shone = shiningLights(before), shining = shiningLights(after);
+  changes.sky |= shone.sky != shining.sky;
+  for (size_t i = 0; i < after.nodes.size(); ++i) {
+    if (shone.nodes[i] == shining.nodes[i]) continue;
+    const Node& n = after.nodes[i];
+    if (n.area || n.punctual) changes.lights.push_back(n.id);
+    if (n.mesh != kNone) changes.structure |= meshEmits(after, n);
   }
 
   // A node has moved when its own or any parent's transform differs; parents come first.
@@ -71,13 +89,12 @@ SceneChanges compare(const Scene& before, const Scene& after) {
     // A light's size is in its surface as its place is.
     const bool resized = n.area && m.area->size != n.area->size;
     if (parentMoved || resized || !(m.local == n.local)) moved.push_back(n.id);
-    if ((n.area && !(*m.area == *n.area)) || (n.punctual && !(*m.punctual == *n.punctual))) {
+    if ((n.area && !(*m.area == *n.area)) || (n.punctual && !(*m.punctual == *n.punctual)))
       changes.lights.push_back(n.id);
-    }
   }
   changes.moved = std::move(moved);
   std::sort(changes.moved.begin(), changes.moved.end());
-  std::sort(changes.lights.begin(), changes.lights.end());
+  mergeSorted(changes.lights, {});
   return changes;
 }
 

@@ -62,6 +62,7 @@ std::string difference(const Scene& a, const Scene& b) {
     if (m.punctual != n.punctual) return "punctual light" + at;
     if (m.area != n.area) return "area light" + at;
     if (m.visible != n.visible) return "visibility" + at;
+    if (m.light != n.light) return "state of the light" + at;
   }
   if (a.meshes.size() != b.meshes.size()) return "count of meshes";
   for (size_t i = 0; i < a.meshes.size(); ++i) {
@@ -87,6 +88,8 @@ std::string difference(const Scene& a, const Scene& b) {
     }
   }
   if (a.sky != b.sky || a.skyIsDefault != b.skyIsDefault) return "sky";
+  if (a.skyLight != b.skyLight) return "state of the sky";
+  if (a.lightGroups != b.lightGroups) return "groups of lights";
   return "";
 }
 

@@ -168,7 +168,8 @@ void Application::drawStatusLine(const PanelContext& ui) {
 void Application::drawPanels(PanelContext ui) {
   menuBar(ui, requests_);
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  layout_.divide({window.x, window.y}, ImGui::GetFrameHeight(), ui.scale);
+  layout_.divide({window.x, window.y}, ImGui::GetFrameHeight(), ui.scale,
+                 session_->lighting().showsTable);
 
   beginPanel("##toolbar", layout_.toolbar, false);
   toolbar(ui, requests_);
@@ -182,6 +183,11 @@ void Application::drawPanels(PanelContext ui) {
   beginPanel("##render", layout_.render);
   renderPanel(ui);
   ImGui::End();
+  if (!layout_.bottom.empty()) {
+    beginPanel("##lights", layout_.bottom, false);
+    lightTable(ui, lightTableState_, requests_);
+    ImGui::End();
+  }
   layout_.splitters(ui);
   // At once, so that this frame shows what they do.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
@@ -217,6 +223,8 @@ void Application::drawDialogs(PanelContext ui) {
       session_->requestOpen(*path);
     else if (fileDialog_.kind() == FileDialog::Kind::picture)
       runAction("sky.image " + quoted(path->string()));
+    else if (fileDialog_.kind() == FileDialog::Kind::profile)
+      runAction("light.ies " + quoted(path->string()));
     else
       openSave(*path);
   }
@@ -287,6 +295,8 @@ void Application::answerRequests() {
   if (!requests.palette.empty()) palette_.open(requests.palette);
   if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
 
+  if (std::exchange(inspectorState_.choosesProfile, false))
+    fileDialog_.open(FileDialog::Kind::profile, session_->document().path);
   if (std::exchange(inspectorState_.choosesSky, false))
     fileDialog_.open(FileDialog::Kind::picture, session_->document().path);
 

@@ -17,6 +17,7 @@
 #include "ui/app/scene_loader.h"
 #include "ui/app/widget_map.h"
 #include "ui/panels/command_palette.h"
+#include "ui/panels/light_table_panel.h"
 #include "ui/panels/panels.h"
 #include "ui/platform/platform.h"
 #include "ui/viewport/picture.h"
@@ -88,6 +89,7 @@ class Application {
 
   OutlinerState outlinerState_;
   InspectorState inspectorState_;
+  LightTableState lightTableState_;
   Requests requests_;
   FileDialog fileDialog_;
   MessageBox messageBox_;

@@ -9,11 +9,11 @@ namespace lamplighter {
 namespace {
 
 constexpr float kToolbarHeight = 38.0f, kStatusHeight = 28.0f, kBorder = 4.0f;
-constexpr float kLeastPanel = 150.0f, kLeastView = 160.0f;
+constexpr float kLeastPanel = 150.0f, kLeastView = 160.0f, kLeastBottom = 120.0f;
 
 }  // namespace
 
-void Layout::divide(vec2 window, float menuHeight, float scale) {
+void Layout::divide(vec2 window, float menuHeight, float scale, bool showsBottom) {
   scale_ = scale;
   const auto px = [&](float designPixels) { return std::round(designPixels * scale); };
   // The view keeps some room whatever the window's size.
@@ -23,16 +23,25 @@ void Layout::divide(vec2 window, float menuHeight, float scale) {
   renderShare_ = std::clamp(renderShare_, 0.15f, 0.85f);
 
   const float top = menuHeight + px(kToolbarHeight);
-  const float bottom = window.y - px(kStatusHeight);
+  const float lowest = window.y - px(kStatusHeight);
   const float border = px(kBorder);
   toolbar = {{0, menuHeight}, {window.x, top}};
-  status = {{0, bottom}, window};
-  left = {{0, top}, {px(leftWidth_), bottom}};
+  status = {{0, lowest}, window};
+  float viewBottom = lowest;
+  left = {{0, top}, {px(leftWidth_), viewBottom}};
   const float rightEdge = window.x - px(rightWidth_);
-  view = {{left.max.x + border, top}, {rightEdge - border, bottom}};
-  const float middle = std::round(bottom - renderShare_ * (bottom - top));
+  bottom = {};
+  if (showsBottom) {
+    bottomHeight_ = std::clamp(bottomHeight_, kLeastBottom,
+                               std::max((viewBottom - top) / scale - kLeastView, kLeastBottom));
+    bottom = {{0, viewBottom - px(bottomHeight_)}, {rightEdge - border, viewBottom}};
+    viewBottom = bottom.min.y - border;
+    left.max.y = viewBottom;
+  }
+  view = {{left.max.x + border, top}, {rightEdge - border, viewBottom}};
+  const float middle = std::round(lowest - renderShare_ * (lowest - top));
   inspector = {{rightEdge, top}, {window.x, middle - border / 2}};
-  render = {{rightEdge, middle + border / 2}, {window.x, bottom}};
+  render = {{rightEdge, middle + border / 2}, {window.x, lowest}};
 }
 
 void Layout::splitters(PanelContext ui) {
@@ -42,6 +51,10 @@ void Layout::splitters(PanelContext ui) {
            leftWidth_);
   splitter(ui, "right", {{view.max.x, view.min.y}, {render.min.x, view.max.y}}, true,
            -1.0f / scale_, rightWidth_);
+  if (!bottom.empty()) {
+    splitter(ui, "bottom", {{0, view.max.y}, {bottom.max.x, bottom.min.y}}, false, -1.0f / scale_,
+             bottomHeight_);
+  }
   splitter(ui, "render", {{render.min.x, inspector.max.y}, {render.max.x, render.min.y}}, false,
            -1.0f / std::max(height, 1.0f), renderShare_);
 }

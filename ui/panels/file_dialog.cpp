@@ -29,6 +29,11 @@ bool isPicture(const fs::path& path) {
   return std::find(std::begin(kEndings), std::end(kEndings), endingOf(path)) != std::end(kEndings);
 }
 
+bool fits(FileDialog::Kind kind, const fs::path& path) {
+  if (kind == FileDialog::Kind::picture) return isPicture(path);
+  return kind == FileDialog::Kind::profile ? endingOf(path) == ".ies" : isScene(path);
+}
+
 }  // namespace
 
 void FileDialog::open(Kind kind, const fs::path& start) {
@@ -52,7 +57,7 @@ void FileDialog::list() {
     if (name.empty() || name.front() == '.') continue;
     if (it->is_directory(ignored))
       entries_.push_back({name, true});
-    else if (kind_ == Kind::picture ? isPicture(it->path()) : isScene(it->path()))
+    else if (fits(kind_, it->path()))
       entries_.push_back({name, false});
   }
   error_ = error ? folder_.string() + ": " + error.message() : "";
@@ -65,6 +70,7 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   ui.prefix = "dialog/";
   const char* title = kind_ == Kind::open      ? "Open a scene###file"
                       : kind_ == Kind::picture ? "Open a picture of the sky###file"
+                      : kind_ == Kind::profile ? "Open a profile of a light###file"
                                                : "Save as###file";
   if (opening_) ImGui::OpenPopup(title);
   opening_ = false;

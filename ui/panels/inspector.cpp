@@ -89,7 +89,7 @@ void inspector(PanelContext ui, InspectorState& state) {
   nameField(ui, node, state);
   if (section(ui, "Transform")) transformFields(ui, node, state);
   if (node.area && section(ui, "Area light")) areaLightFields(ui, node, state);
-  if (node.punctual && section(ui, "Light")) punctualLightFields(ui, node);
+  if (node.punctual && section(ui, "Light")) punctualLightFields(ui, node, state);
   if (node.mesh != kNone && section(ui, "Mesh")) meshKindField(ui, node);
   if (node.mesh != kNone && section(ui, "Material")) materialFields(ui, node, state);
   ImGui::PopID();

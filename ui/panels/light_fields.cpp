@@ -1,33 +1,15 @@
 #include <algorithm>
 #include <array>
 
+#include "editor/lights/colour_temperature.h"
+#include "editor/lights/light_edits.h"
 #include "ui/panels/colour_fields.h"
 #include "ui/panels/panels.h"
 
 namespace lamplighter {
 namespace {
 
-constexpr std::array kShapeNames = {"Rectangle", "Disk", "Sphere"};
-
-// Emitting area [m²], with the scale of the node's place in the world along its own axes. Exact
-// where the scale is equal on the axes that the shape has, else a disk is taken as an ellipse and a
-// sphere by its mean radius.
-float areaOf(const Scene& scene, const Node& node, const AreaLight& light) {
-  const mat4 world = worldMatrix(scene, node.id);
-  const vec3 x(world[0]), y(world[1]), z(world[2]);
-  switch (light.shape) {
-    case AreaShape::rectangle:
-      return glm::length(glm::cross(x, y)) * light.size.x * light.size.y;
-    case AreaShape::disk:
-      return glm::length(glm::cross(x, y)) * kPi * 0.25f * light.size.x * light.size.x;
-    case AreaShape::sphere: {
-      const float diameter =
-          light.size.x * (glm::length(x) + glm::length(y) + glm::length(z)) / 3.0f;
-      return kPi * diameter * diameter;
-    }
-  }
-  return 0.0f;
-}
+constexpr std::array kShapeNames = {"Rectangle", "Disk", "Sphere", "Tube"};
 
 bool shapeCombo(const PanelContext& ui, AreaLight& light) {
   labelledRow(ui, "Shape");
@@ -47,46 +29,120 @@ bool shapeCombo(const PanelContext& ui, AreaLight& light) {
   return changed;
 }
 
-// Strength as nits or as the lumens of the whole lamp: Φ = π·L·A of a Lambertian emitter.
-bool strengthField(const PanelContext& ui, const std::string& step, float area,
-                   ColouredStrength& light, InspectorState& state) {
-  const float lumensOfUnit = kPi * area * luminance(light.colour);
-  const bool byFlux = state.lumens && lumensOfUnit > 0.0f;
-  labelledRow(ui, byFlux ? "Flux" : "Radiance",
-              byFlux ? "Light of the whole lamp. A bulb gives 600 to 1200 lm."
-                     : "Brightness of the surface, in nits (cd/m\u00b2).");
+// The black body of nearest colour; an edit gives the light the colour of another, as bright.
+bool temperatureField(const PanelContext& ui, const std::string& step, vec3& emission) {
+  const std::optional<float> kelvin = temperatureOf(emission);
+  labelledRow(ui, "Temperature",
+              "The colour of a black body. Candles 1900 K, warm lamps 2700 K, daylight 6500 K.");
+  // What the temperature would look like, also where the colour is none.
+  const float side = ImGui::GetFrameHeight();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  float value = kelvin.value_or(6500.0f);
+  const float most = std::max({emission.r, emission.g, emission.b, 1e-6f});
+  const vec3 shown = linearToSrgb(glm::clamp(emission / most, 0.0f, 1.0f));
+  ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side},
+                                            ImGui::GetColorU32({shown.r, shown.g, shown.b, 1.0f}),
+                                            ui.px(3));
+  ImGui::Dummy({side, side});
+  ImGui::SameLine(0, ui.px(5));
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  const bool changed = dragField(ui, "temperature", value, 10.0f, kelvin ? "%.0f K" : "\u2013",
+                                 kLeastKelvin, kMostKelvin);
+  trackEdit(ui, step);
+  if (!changed || !(luminance(emission) > 0.0f)) return false;
+  emission = withTemperature(emission, value);
+  return true;
+}
+
+// Strength in the unit that the session shows, or the light's own where it has no such unit.
+bool strengthField(const PanelContext& ui, const std::string& step, const LightMeasure& measure,
+                   vec3& emission) {
+  const LightUnit wanted = ui.session.lighting().unit;
+  const LightUnit unit = unitFor(measure, wanted);
+  static constexpr std::array kLabels = {"Flux", "Intensity", "Radiance", "Power", "Illuminance"};
+  static constexpr std::array kHelp = {
+      "Light of the whole lamp, in lumens. A bulb gives 600 to 1200 lm.",
+      "Light in the direction of most, in candela.",
+      "Brightness of the surface, in nits (cd/m\u00b2).",
+      "Light of the whole lamp in watts, at 683 lm/W: a tenth or less of what it draws.",
+      "On a surface that faces the light, in lux; the sun gives 100,000 lx."};
+  labelledRow(ui, kLabels[static_cast<size_t>(unit)], kHelp[static_cast<size_t>(unit)]);
   const float unitWidth = ui.px(52);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - unitWidth - ui.px(5));
-  float value = byFlux ? light.strength * lumensOfUnit : light.strength;
+  const auto units = static_cast<float>(unitsPerRadiance(measure, unit));
+  const float before = luminance(emission);
+  float value = before * units;
   const bool changed =
-      dragField(ui, "strength", value, std::max(0.01f, value * 0.01f), "%.4g", 0.0f, 1e8f);
+      dragField(ui, "strength", value, std::max(0.01f, value * 0.01f), "%.4g", 0.0f, 1e9f);
   trackEdit(ui, step);
-  if (changed) light.strength = byFlux ? value / lumensOfUnit : value;
+  if (changed && units > 0.0f) {
+    const float strength = std::clamp(value / units, 0.0f, 1e8f);
+    // A black light has no colour to keep.
+    emission = before > 0.0f ? emission * (strength / before) : vec3(strength);
+  }
   ImGui::SameLine(0, ui.px(5));
-  if (ImGui::Button(byFlux ? "lm##unit" : "nt##unit", {unitWidth, 0})) state.lumens = !state.lumens;
+  const std::string label = std::string(unitSymbol(unit)) + "##unit";
+  if (ImGui::Button(label.c_str(), {unitWidth, 0})) {
+    // The next that this light has.
+    constexpr int kUnits = 4;  // lux is the sun's alone
+    for (int i = 1; i <= kUnits; ++i) {
+      const auto next = static_cast<LightUnit>((static_cast<int>(wanted) + i) % kUnits);
+      if (unitsPerRadiance(measure, next) <= 0.0) continue;
+      ui.session.lighting().unit = next;
+      break;
+    }
+  }
   ui.name("unit");
-  tooltip(ui, "Switch between nits and lumens.");
+  tooltip(ui, "Lumens, candela, nits or watts, of all lights.");
   return changed;
+}
+
+bool emissionFields(const PanelContext& ui, const std::string& step, const LightMeasure& measure,
+                    vec3& emission) {
+  ColouredStrength coloured = split(emission);
+  labelledRow(ui, "Colour");
+  bool changed = colourField(ui, "colour", step, coloured.colour);
+  if (changed) emission = join(coloured);
+  changed |= temperatureField(ui, step, emission);
+  changed |= strengthField(ui, step, measure, emission);
+  return changed;
+}
+
+// Whether it shines, by itself and by all others.
+void stateFields(const PanelContext& ui, const Node& node) {
+  LightState state = node.light;
+  labelledRow(ui, "Shines", "Off gives no light. While any light is solo, only those that are do.");
+  bool changed = ImGui::Checkbox("On", &state.on);
+  ui.name("on");
+  ImGui::SameLine(0, ui.px(14));
+  changed |= ImGui::Checkbox("Solo", &state.solo);
+  ui.name("solo");
+  if (!state.group.empty()) {
+    ImGui::SameLine(0, ui.px(14));
+    ImGui::TextUnformatted(("in " + state.group).c_str());
+  }
+  if (changed)
+    editLightStates(ui.session, {node.id}, state.on == node.light.on ? "Solo" : "Switch",
+                    [&](LightState& s) { s = state; });
 }
 
 }  // namespace
 
-void areaLightFields(PanelContext ui, const Node& node, InspectorState& state) {
+void areaLightFields(PanelContext ui, const Node& node, InspectorState&) {
   AreaLight light = *node.area;
   const std::string step = "Change light " + node.name;
+  stateFields(ui, node);
   bool changed = shapeCombo(ui, light);
-
-  const float area = areaOf(ui.session.document().scene, node, light);
-  ColouredStrength radiance = split(light.radiance);
-  labelledRow(ui, "Colour");
-  bool lit = colourField(ui, "colour", step, radiance.colour);
-  lit |= strengthField(ui, step, area, radiance, state);
-  if (lit) light.radiance = join(radiance);
-  changed |= lit;
+  const Scene& scene = ui.session.document().scene;
+  const LightMeasure measure = measureOf(scene, node, worldMatrix(scene, node.id));
+  changed |= emissionFields(ui, step, measure, light.radiance);
 
   constexpr float kLeast = 0.001f, kMost = 1000.0f;
-  if (light.shape == AreaShape::rectangle) {
-    labelledRow(ui, "Size", "Width and height in metres, before the object's scale.");
+  const bool isTube = light.shape == AreaShape::tube;
+  if (light.shape == AreaShape::rectangle || isTube) {
+    labelledRow(ui, "Size",
+                isTube ? "Length and diameter in metres, before the object's scale."
+                       : "Width and height in metres, before the object's scale.");
     const float gap = ui.px(5);
     const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
     ImGui::SetNextItemWidth(width);
@@ -103,26 +159,20 @@ void areaLightFields(PanelContext ui, const Node& node, InspectorState& state) {
   }
   light.size = glm::clamp(light.size, kLeast, kMost);
   const double nits = luminance(light.radiance);
-  note(short3(nits) + " nt \u00b7 " + short3(nits * kPi * area) + " lm \u00b7 " + short3(area) +
-       " m\u00b2");
+  const auto in = [&](LightUnit unit) {
+    return short3(nits * unitsPerRadiance(measure, unit)) + " " + unitSymbol(unit);
+  };
+  note(in(LightUnit::nits) + " \u00b7 " + in(LightUnit::lumens) + " \u00b7 " +
+       short3(measure.area) + " m\u00b2");
   if (changed && light != *node.area) ui.session.setAreaLight(node.id, light);
 }
 
-void punctualLightFields(PanelContext ui, const Node& node) {
+void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state) {
   PunctualLight light = *node.punctual;
   const std::string step = "Change light " + node.name;
-  const bool directional = light.kind == PunctualKind::directional;
-  ColouredStrength intensity = split(light.intensity);
-  labelledRow(ui, "Colour");
-  bool changed = colourField(ui, "colour", step, intensity.colour);
-  labelledRow(ui, directional ? "Illuminance" : "Intensity",
-              directional ? "On a surface that faces the light; the sun gives 100,000 lx."
-                          : "Light in each direction, in candela.");
-  changed |=
-      dragField(ui, "strength", intensity.strength, std::max(0.01f, intensity.strength * 0.01f),
-                directional ? "%.4g lx" : "%.4g cd", 0.0f, 1e8f);
-  trackEdit(ui, step);
-  light.intensity = join(intensity);
+  stateFields(ui, node);
+  bool changed = emissionFields(
+      ui, step, measureOf(ui.session.document().scene, node, mat4(1.0f)), light.intensity);
   if (light.kind == PunctualKind::spot) {
     float inner = glm::degrees(light.innerCone), outer = glm::degrees(light.outerCone);
     labelledRow(ui, "Inner cone", "Half the angle within which the light is full.");
@@ -138,6 +188,7 @@ void punctualLightFields(PanelContext ui, const Node& node) {
     changed |= cone;
   }
   if (changed && light != *node.punctual) ui.session.setPunctualLight(node.id, light);
+  if (light.kind != PunctualKind::directional) profileFields(ui, node, state);
 }
 
 }  // namespace lamplighter

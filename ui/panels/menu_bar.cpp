@@ -29,10 +29,10 @@ const std::vector<Menu>& menus() {
       {"Edit",
        {"edit", "selection", "select"},
        {"edit.undo", "edit.redo", "-", "edit.duplicate", "edit.delete", "edit.rename"}},
-      {"Light", {"light"}, {"light.add", "light.place"}},
+      {"Light", {"light", "lights"}, {"light.add", "light.place", "-", "panel.lights"}},
       {"Object", {"object", "node", "place"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
-      {"View", {"view", "camera"}, viewActions()},
+      {"View", {"view", "camera", "panel"}, viewActions()},
       {"Render", {"render"}, {}},
   };
   return kMenus;

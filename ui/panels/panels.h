@@ -33,16 +33,17 @@ struct InspectorState {
   vec3 degrees{0.0f};  // of the rotation below, as the fields show it
   quat rotation{1, 0, 0, 0};
   int slot = 0;             // which of the mesh's materials
-  bool lumens = false;      // area lights by flux and not by radiance
   bool focusName = false;   // give the name field the keyboard
   bool choosesSky = false;  // a file dialog for the sky's picture is wanted
+  bool choosesProfile = false;  // one for the light's profile
 };
 void inspector(PanelContext ui, InspectorState& state);
 // Parts of the inspector.
 void transformFields(PanelContext ui, const Node& node, InspectorState& state);
 void materialFields(PanelContext ui, const Node& node, InspectorState& state);
 void areaLightFields(PanelContext ui, const Node& node, InspectorState& state);
-void punctualLightFields(PanelContext ui, const Node& node);
+void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state);
+void profileFields(const PanelContext& ui, const Node& node, InspectorState& state);  // of an IES file
 void skyFields(PanelContext ui, InspectorState& state);
 
 void renderPanel(PanelContext ui);
@@ -57,7 +58,7 @@ void statusLine(PanelContext ui, const StatusInfo& info);
 // Modal dialogs. They are opened by open() and draw themselves each frame.
 class FileDialog {
  public:
-  enum class Kind { open, save, picture };
+  enum class Kind { open, save, picture, profile };
   void open(Kind kind, const std::filesystem::path& start);
   // The chosen file, once.
   std::optional<std::filesystem::path> draw(PanelContext ui);

@@ -1,0 +1,152 @@
+// Which lights shine: on, solo, groups; the light table, and the work light.
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/lights/light_edits.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr const char* kTrueFalse = "true|false";
+
+bool flagOf(const std::string& text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  throw InputError(text, "is neither true nor false", "give one of them");
+}
+
+// A switch of the selected lights or of the sky: with one argument, true or false.
+void addSwitch(ActionRegistry& r, const std::string& name, const char* label, const char* help,
+               std::function<void(Session&, bool)> run) {
+  r.add({name,
+         label,
+         kTrueFalse,
+         help,
+         "",
+         [name, run](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, name + " " + kTrueFalse);
+           run(s, flagOf(a[0]));
+         },
+         {}});
+}
+
+void addGroupSwitch(ActionRegistry& r, const std::string& name, const char* label,
+                    const char* help, bool LightGroup::*flag) {
+  r.add({name,
+         label,
+         "NAME true|false",
+         help,
+         "",
+         [name, label, flag](Session& s, const Arguments& a) {
+           requireArguments(a, 2, 2, name + " NAME true|false");
+           const bool value = flagOf(a[1]);
+           editLightGroup(s, label, a[0], [&](LightGroup& g) { g.*flag = value; });
+         },
+         {}});
+}
+
+// Bright enough for what is looked at now.
+void toggleWorkLight(Session& s) {
+  if (s.lighting().workLight > 0.0f) {
+    s.lighting().workLight = 0.0f;
+    return;
+  }
+  float distance = 0.5f * std::max(s.renderScene().bounds.radius(), 0.1f);
+  if (const auto ahead = s.surfaceAhead())
+    distance = glm::length(ahead->position - s.view().eye);
+  s.lighting().workLight =
+      workLightIntensity(std::clamp(distance, 0.2f, 100.0f), s.document().render.exposureEv);
+}
+
+}  // namespace
+
+void addLightStateActions(ActionRegistry& r) {
+  addSwitch(r, "lights.on", "Switch lights on or off", "Switches the selected lights on or off.",
+            [](Session& s, bool on) {
+              editLightStates(s, on ? "Switch on" : "Switch off",
+                              [on](LightState& state) { state.on = on; });
+            });
+  addSwitch(r, "lights.solo", "Solo lights",
+            "While any light is solo, those that are not give no light.",
+            [](Session& s, bool solo) {
+              editLightStates(s, solo ? "Solo" : "End solo of",
+                              [solo](LightState& state) { state.solo = solo; });
+            });
+  addSwitch(r, "sky.on", "Switch sky on or off", "Switches the sky on or off.",
+            [](Session& s, bool on) {
+              editSkyState(s, on ? "Switch on the sky" : "Switch off the sky",
+                           [on](LightState& state) { state.on = on; });
+            });
+  addSwitch(r, "sky.solo", "Solo sky", "While the sky is solo, no light shines but it.",
+            [](Session& s, bool solo) {
+              editSkyState(s, solo ? "Solo the sky" : "End solo of the sky",
+                           [solo](LightState& state) { state.solo = solo; });
+            });
+  r.add({"lights.all_on", "Switch all lights on", "",
+         "Switches all lights on and ends all solo and mute.", "",
+         [](Session& s, const Arguments&) { shineAll(s); },
+         [](const Session& s) { return anyLightDark(s.document().scene); }});
+  r.add({"lights.group",
+         "Group lights",
+         "NAME",
+         "Puts the selected lights into a group, which is made if there is none of that name.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "lights.group NAME");
+           groupLights(s, a[0]);
+         },
+         {}});
+  r.add({"lights.ungroup",
+         "Ungroup lights",
+         "",
+         "Takes the selected lights out of their groups.",
+         "",
+         [](Session& s, const Arguments&) { groupLights(s, ""); },
+         [](const Session& s) { return !selectedLights(s.document()).empty(); }});
+  r.add({"lights.select_group",
+         "Select group",
+         "NAME",
+         "Selects the lights of a group.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "lights.select_group NAME");
+           std::vector<NodeId> ids;
+           for (const Node& n : s.document().scene.nodes) {
+             if (n.light.group == a[0]) ids.push_back(n.id);
+           }
+           if (ids.empty() || a[0].empty())
+             throw InputError(a[0], "no light is in a group of that name", "look in the table");
+           s.select(std::move(ids));
+         },
+         {}});
+  addGroupSwitch(r, "lights.mute_group", "Mute group",
+                 "Mutes a group of lights, or ends that: its lights give no light.",
+                 &LightGroup::muted);
+  addGroupSwitch(r, "lights.solo_group", "Solo group",
+                 "Lets no lights shine but those of this group and of others that are solo.",
+                 &LightGroup::solo);
+  r.add({"panel.lights",
+         "Light table",
+         "",
+         "A table of all lights, below the view.",
+         "L",
+         [](Session& s, const Arguments&) {
+           s.lighting().showsTable = !s.lighting().showsTable;
+         },
+         {},
+         true,
+         [](const Session& s) { return s.lighting().showsTable; }});
+  r.add({"view.work_light",
+         "Work light",
+         "",
+         "A lamp at the camera, for dark levels. It is no part of the level and never saved.",
+         "Shift+L",
+         [](Session& s, const Arguments&) { toggleWorkLight(s); },
+         {},
+         true,
+         [](const Session& s) { return s.lighting().workLight > 0.0f; }});
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,114 @@
+// Edits of all selected lights at once.
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/lights/light_edits.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+LightProperty propertyNamed(const std::string& name) {
+  std::string names;
+  for (const LightPropertyInfo& info : lightProperties()) {
+    if (name == info.name) return info.property;
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  }
+  throw InputError(name, "is no property of lights", "give one of " + names);
+}
+
+LightUnit unitOf(const std::string& name) {
+  const auto unit = unitNamed(name);
+  if (!unit) throw InputError(name, "is no unit of light", "give lm, cd, nits, W or lx");
+  return *unit;
+}
+
+// PROPERTY VALUE [UNIT]
+void edit(Session& s, const Arguments& a, LightOperation operation, const std::string& usage) {
+  requireArguments(a, 2, operation == LightOperation::multiply ? 2 : 3, usage);
+  const LightProperty property = propertyNamed(a[0]);
+  LightUnit unit = s.lighting().unit;
+  if (a.size() == 3) {
+    if (property != LightProperty::intensity)
+      throw InputError(a[2], "is not needed: " + a[0] + " has one unit alone", "leave it out");
+    unit = unitOf(a[2]);
+  }
+  editLights(s, operation, property, static_cast<double>(numberOf(a[1])), unit);
+}
+
+bool anySelected(const Session& s) { return !selectedLights(s.document()).empty(); }
+
+}  // namespace
+
+void addLightsActions(ActionRegistry& r) {
+  const auto add = [&](const char* name, const char* label, const char* usage, const char* help,
+                       LightOperation operation) {
+    r.add({name,
+           label,
+           usage,
+           help,
+           "",
+           [=](Session& s, const Arguments& a) {
+             edit(s, a, operation, std::string(name) + " " + usage);
+           },
+           {}});
+  };
+  add("lights.set", "Set of lights", "PROPERTY VALUE [UNIT]",
+      "Gives all selected lights the same intensity, temperature (K), width or height (m), "
+      "inner_cone or outer_cone (degrees).",
+      LightOperation::set);
+  add("lights.multiply", "Multiply of lights", "PROPERTY FACTOR",
+      "Multiplies a property of all selected lights.", LightOperation::multiply);
+  add("lights.offset", "Offset of lights", "PROPERTY VALUE [UNIT]",
+      "Adds to a property of all selected lights.", LightOperation::offset);
+  r.add({"lights.colour",
+         "Colour of lights",
+         "R G B",
+         "Gives all selected lights a linear colour; they stay as bright as they are.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 3, 3, "lights.colour R G B");
+           colourLights(s, vectorOf(a, 0));
+         },
+         {}});
+  r.add({"lights.unit",
+         "Unit of light",
+         "lm|cd|nits|W",
+         "What the strength of lights is shown and typed in; lights that have no such unit keep "
+         "their own.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "lights.unit lm|cd|nits|W");
+           s.lighting().unit = unitOf(a[0]);
+         },
+         {},
+         true});
+  r.add({"lights.select",
+         "Select all lights",
+         "",
+         "Selects every light that is not hidden.",
+         "",
+         [](Session& s, const Arguments&) {
+           const Scene& scene = s.document().scene;
+           const std::vector<bool> visible = visibleNodes(scene);
+           std::vector<NodeId> ids;
+           for (const LightSource& light : lightsOf(scene)) {
+             if (light.node != kNoNode && visible[light.index]) ids.push_back(light.node);
+           }
+           s.select(std::move(ids));
+         },
+         {}});
+  r.add({"lights.brighter", "Twice as bright", "", "Doubles the intensity of the selected lights.",
+         "", [](Session& s, const Arguments&) {
+           editLights(s, LightOperation::multiply, LightProperty::intensity, 2.0, LightUnit::nits);
+         },
+         anySelected});
+  r.add({"lights.darker", "Half as bright", "", "Halves the intensity of the selected lights.", "",
+         [](Session& s, const Arguments&) {
+           editLights(s, LightOperation::multiply, LightProperty::intensity, 0.5, LightUnit::nits);
+         },
+         anySelected});
+}
+
+}  // namespace lamplighter

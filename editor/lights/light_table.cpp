@@ -1,0 +1,240 @@
+#include "editor/lights/light_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "editor/lights/colour_temperature.h"
+#include "editor/lights/work_light.h"
+#include "editor/session.h"
+#include "renderer/sampling/lights.h"
+#include "renderer/visibility/visibility_database.h"
+
+namespace lamplighter {
+
+namespace {
+
+vec2 sizeOf(const Scene& scene, const LightSource& light) {
+  if (light.node == kNoNode) return vec2(0.0f);
+  const Node& node = scene.nodes[light.index];
+  if (!node.area) return vec2(static_cast<float>(std::sqrt(light.measure.area)));
+  const bool isRound =
+      node.area->shape == AreaShape::disk || node.area->shape == AreaShape::sphere;
+  return isRound ? vec2(node.area->size.x) : node.area->size;
+}
+
+// What a column is sorted by: a text or a number; neither where it shows nothing.
+struct SortKey {
+  std::string text;
+  std::optional<double> number;
+  bool isEmpty() const { return text.empty() && !number; }
+  auto operator<=>(const SortKey& o) const {
+    if (const auto c = text.compare(o.text); c != 0) return c <=> 0;
+    const double a = number.value_or(0.0), b = o.number.value_or(0.0);
+    return a < b ? std::strong_ordering::less
+                 : a > b ? std::strong_ordering::greater : std::strong_ordering::equal;
+  }
+};
+
+SortKey keyOf(const LightRow& r, LightColumn column) {
+  switch (column) {
+    case LightColumn::name:
+      return {r.name, {}};
+    case LightColumn::kind:
+      return {kindLabel(r.source.measure.kind), {}};
+    case LightColumn::colour: {  // by saturation: whites together
+      const float most = std::max({r.colour.r, r.colour.g, r.colour.b});
+      const float least = std::min({r.colour.r, r.colour.g, r.colour.b});
+      return {"", most > 0.0f ? 1.0 - static_cast<double>(least / most) : 0.0};
+    }
+    case LightColumn::temperature:
+      return {"", r.kelvin ? std::optional<double>(*r.kelvin) : std::nullopt};
+    case LightColumn::strength:
+      return {unitSymbol(r.unit), r.strength};  // those of one unit together
+    case LightColumn::size:
+      return {"", r.size.x > 0.0f
+                      ? std::optional<double>(static_cast<double>(r.size.x * r.size.y))
+                      : std::nullopt};
+    case LightColumn::on:
+      return {"", r.state.on ? 1.0 : 0.0};
+    case LightColumn::solo:
+      return {"", r.state.solo ? 1.0 : 0.0};
+    case LightColumn::group:
+      return {r.state.group, {}};
+    case LightColumn::samples:
+      return {"", r.figures.samples};
+    case LightColumn::share:
+      return {"", r.figures.share};
+    case LightColumn::patches:
+      return {"", r.figures.patches};
+    case LightColumn::milliseconds:
+      return {"", r.figures.milliseconds};
+    case LightColumn::pending:
+      return {"", r.figures.mapsPending};
+    case LightColumn::age:
+      return {"", r.figures.age};
+  }
+  return {};
+}
+
+// Goes through the patches as the method looks at them: parts of one that is divided, or all of it.
+template <typename Visit>
+void forEachPatch(const VisibilityDatabase& visibility, Visit visit) {
+  std::vector<int> open;
+  for (uint32_t object = 0; object < visibility.objects(); ++object) {
+    const ObjectPatches& patches = visibility.patches(object);
+    open.assign(patches.roots.begin(), patches.roots.end());
+    while (!open.empty()) {
+      const int patch = open.back();
+      open.pop_back();
+      const Patch& p = patches.patches[static_cast<size_t>(patch)];
+      if (!p.isLeaf() && visibility.isDivided(object, patch)) {
+        open.insert(open.end(), {p.firstChild, p.firstChild + 1});
+      } else {
+        visit(visibility.row(object, patch));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<LightRow> lightRows(const Document& document, LightUnit unit) {
+  const Scene& scene = document.scene;
+  const ShiningLights shining = shiningLights(scene);
+  const std::vector<bool> visible = visibleNodes(scene);
+  std::vector<LightRow> rows;
+  for (const LightSource& light : lightsOf(scene)) {
+    LightRow r;
+    r.source = light;
+    const bool isSky = light.node == kNoNode;
+    r.name = isSky ? "Sky" : scene.nodes[light.index].name;
+    const vec3 emission = emissionOf(scene, light);
+    const float strength = luminance(emission);
+    if (strength > 0.0f) r.colour = emission / strength;
+    if (!isSky || scene.sky.kind != SkyKind::image) r.kelvin = temperatureOf(emission);
+    r.unit = unitFor(light.measure, unit);
+    r.strength = unitsPerRadiance(light.measure, r.unit) * static_cast<double>(strength);
+    r.size = sizeOf(scene, light);
+    r.state = stateOf(scene, light);
+    r.visible = isSky || visible[light.index];
+    r.shines = isSky ? shining.sky : shining.nodes[light.index];
+    r.selected = !isSky && document.isSelected(light.node);
+    rows.push_back(std::move(r));
+  }
+  return rows;
+}
+
+void sortRows(std::vector<LightRow>& rows, LightColumn column, bool ascending) {
+  std::vector<SortKey> keys;
+  for (const LightRow& r : rows) keys.push_back(keyOf(r, column));
+  std::vector<size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    if (keys[a].isEmpty() != keys[b].isEmpty()) return keys[b].isEmpty();
+    return ascending ? keys[a] < keys[b] : keys[b] < keys[a];
+  });
+  std::vector<LightRow> sorted;
+  for (const size_t i : order) sorted.push_back(std::move(rows[i]));
+  rows = std::move(sorted);
+}
+
+std::vector<NodeId> rowsBetween(const std::vector<LightRow>& rows, NodeId from, NodeId to) {
+  const auto at = [&](NodeId id) {
+    return std::find_if(rows.begin(), rows.end(),
+                        [&](const LightRow& r) { return r.source.node == id; });
+  };
+  auto first = at(from), last = at(to);
+  if (last == rows.end()) return {};
+  if (first == rows.end()) first = last;
+  if (last < first) std::swap(first, last);
+  std::vector<NodeId> ids;
+  for (auto r = first; r <= last; ++r) {
+    if (r->source.node != kNoNode && r->source.node != to) ids.push_back(r->source.node);
+  }
+  if (to != kNoNode) ids.push_back(to);
+  return ids;
+}
+
+std::map<NodeId, LightFigures> lightFigures(const Inspection& in, double lightSeconds) {
+  std::map<NodeId, LightFigures> out;
+  std::vector<LightFigures*> bySlot;
+  for (const InspectedLight& light : in.lights) {
+    LightFigures& f = out[light.id.light];
+    if (light.isStale) {
+      ++f.mapsPending;
+      f.age = std::max(f.age, light.framesWaiting);
+    }
+    if (!light.isLive) continue;
+    ++f.samples;
+    ++f.work;  // the sample itself, also where nothing is known of patches
+    if (light.slot < 0) continue;
+    const auto slot = static_cast<size_t>(light.slot);
+    if (bySlot.size() <= slot) bySlot.resize(slot + 1, nullptr);
+    bySlot[slot] = &f;
+  }
+  if (in.visibility != nullptr) {
+    std::vector<LightFigures*> reached;
+    forEachPatch(*in.visibility, [&](std::span<const uint8_t> row) {
+      reached.clear();
+      LightFigures* last = nullptr;
+      for (size_t slot = 0; slot < std::min(row.size(), bySlot.size()); ++slot) {
+        LightFigures* f = bySlot[slot];
+        if (f == nullptr || static_cast<Occlusion>(row[slot]) == Occlusion::full) continue;
+        ++f->work;
+        if (f == last) continue;  // samples of a light stand together, mostly
+        last = f;
+        if (std::find(reached.begin(), reached.end(), f) == reached.end()) reached.push_back(f);
+      }
+      for (LightFigures* f : reached) ++f->patches;
+    });
+  }
+  double work = 0.0;
+  for (const auto& [id, f] : out) work += static_cast<double>(f.work);
+  for (auto& [id, f] : out) {
+    if (work > 0.0) f.milliseconds = 1e3 * lightSeconds * static_cast<double>(f.work) / work;
+  }
+  return out;
+}
+
+std::map<NodeId, double> fluxShares(const RenderScene& scene) {
+  const LightSet lights(scene);
+  std::map<NodeId, double> out;
+  double all = 0.0;
+  for (const Emitter& e : lights.emitters()) {
+    if (e.node == kWorkLight) continue;
+    const double flux = luminance(e.flux);
+    out[e.node] += flux;
+    all += flux;
+  }
+  for (auto& [id, flux] : out) flux = all > 0.0 ? flux / all : 0.0;
+  return out;
+}
+
+std::vector<LightRow> LightTable::rows(const Session& session, LightUnit unit) {
+  const GiOutput& output = session.output();
+  double seconds = 0.0;
+  for (const auto& [stage, s] : output.stats.stageSeconds) seconds += s;
+  if (!output.settled && session.frame() != frame_)
+    lightSeconds_ = lightSeconds_ > 0.0 ? glm::mix(lightSeconds_, seconds, 0.1) : seconds;
+  if (!known_ || scene_ != session.sceneRevision()) {
+    scene_ = session.sceneRevision();
+    shares_ = fluxShares(session.renderScene());
+  }
+  const bool settledNow = output.settled && !wasSettled_;
+  if (!known_ || settledNow || (!output.settled && session.frame() % kFrames == 0))
+    figures_ = lightFigures(session.inspect(), lightSeconds_);
+  known_ = true;
+  wasSettled_ = output.settled;
+  frame_ = session.frame();
+
+  std::vector<LightRow> rows = lightRows(session.document(), unit);
+  for (LightRow& r : rows) {
+    if (const auto f = figures_.find(r.source.node); f != figures_.end()) r.figures = f->second;
+    const auto share = shares_.find(r.source.node);
+    r.figures.share = share == shares_.end() ? 0.0 : share->second;
+  }
+  return rows;
+}
+
+}  // namespace lamplighter

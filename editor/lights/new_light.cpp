@@ -1,0 +1,86 @@
+#include "editor/lights/new_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/error.h"
+#include "renderer/scene/light_shapes.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr float kSpotInner = 0.35f, kSpotOuter = 0.7f;  // 20° and 40°
+constexpr float kSunTilt = 0.6f;                        // from straight down; shadows to be seen
+
+// The strength of a light of one unit's: the irradiance E at the distance, at π E^-1 · 0.4.
+float strengthFor(float irradiance, float exposureEv) {
+  return 0.4f * std::exp2(-exposureEv) * kPi / irradiance;
+}
+
+AreaLight areaLight(AreaShape shape, float distance, float exposureEv) {
+  AreaLight light;
+  light.shape = shape;
+  const float size = std::clamp(0.3f * distance, 0.02f, 2.0f);
+  light.size = vec2(size);
+  if (shape == AreaShape::tube) light.size = vec2(2.0f * size, std::max(0.1f * size, 0.01f));
+  const float height = std::clamp(distance, 0.2f, 3.0f);
+  // L A / h² · ρ/π = 0.4 · 2^−EV, with what is seen of it from below as A.
+  light.radiance = vec3(0.4f * std::exp2(-exposureEv) * kPi * height * height /
+                        projectedAreaOf(light, mat4(1.0f)));
+  return light;
+}
+
+PunctualLight punctualLight(PunctualKind kind, float distance, float exposureEv) {
+  PunctualLight light;
+  light.kind = kind;
+  const float height = std::clamp(distance, 0.2f, 3.0f);
+  const bool isSun = kind == PunctualKind::directional;
+  light.intensity = vec3(strengthFor(isSun ? 1.0f : 1.0f / (height * height), exposureEv));
+  if (kind == PunctualKind::spot) {
+    light.innerCone = kSpotInner;
+    light.outerCone = kSpotOuter;
+  }
+  return light;
+}
+
+}  // namespace
+
+const std::vector<std::string>& newLightKinds() {
+  static const std::vector<std::string> kKinds = {"rectangle", "disk",  "sphere", "tube",
+                                                  "spot",      "point", "sun"};
+  return kKinds;
+}
+
+Node newLight(const std::string& kind, float distance, float exposureEv) {
+  const auto& kinds = newLightKinds();
+  const auto index = std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
+  Node n;
+  // Facing down: the light's −Z along the world's −Y.
+  n.local.rotation = glm::angleAxis(-0.5f * kPi, vec3(1, 0, 0));
+  switch (index) {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+      n.area = areaLight(static_cast<AreaShape>(index), distance, exposureEv);
+      break;
+    case 4:
+      n.punctual = punctualLight(PunctualKind::spot, distance, exposureEv);
+      break;
+    case 5:
+      n.punctual = punctualLight(PunctualKind::point, distance, exposureEv);
+      break;
+    case 6:
+      n.punctual = punctualLight(PunctualKind::directional, distance, exposureEv);
+      n.local.rotation = glm::angleAxis(-0.5f * kPi + kSunTilt, vec3(1, 0, 0)) *
+                         glm::angleAxis(0.3f, vec3(0, 1, 0));
+      break;
+    default:
+      throw InputError(kind, "is no kind of light",
+                       "give rectangle, disk, sphere, tube, spot, point or sun");
+  }
+  return n;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,156 @@
+// IES files: closed forms of what they say, and what is none.
+#include <gmock/gmock.h>
+
+#include "renderer/error.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/ies_profile.h"
+#include "tests/support/gltf_files.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+// A file with these angles and candela, horizontal angle by horizontal angle.
+std::string ies(int type, const std::string& vertical, const std::string& horizontal,
+                const std::string& candela, int rows, int columns,
+                const std::string& multiplier = "1", const std::string& head = "IESNA:LM-63-1995\n[TEST] one\nTILT=NONE\n") {
+  return head + "1 1000 " + multiplier + " " + std::to_string(rows) + " " +
+         std::to_string(columns) + " " + std::to_string(type) + " 2 0 0 0\n1.0 1.0 60\n" + vertical +
+         "\n" + horizontal + "\n" + candela + "\n";
+}
+
+vec3 typeC(float vertical, float horizontal) {
+  const float v = glm::radians(vertical), h = glm::radians(horizontal);
+  return {std::sin(v) * std::cos(h), std::sin(v) * std::sin(h), -std::cos(v)};
+}
+vec3 typeB(float vertical, float horizontal) {
+  const float v = glm::radians(vertical), h = glm::radians(horizontal);
+  return {std::sin(h), std::cos(h) * std::sin(v), -std::cos(h) * std::cos(v)};
+}
+
+TEST(IesProfile, AnEvenOneGivesFourPi) {
+  const auto p = parseIes(ies(1, "0 90 180", "0", "50 50 50", 3, 1, "2"), "even.ies");
+  EXPECT_FLOAT_EQ(p->peak, 100.0f);
+  EXPECT_NEAR(p->solidAngle, 4.0f * kPi, 1e-3f);
+  EXPECT_FLOAT_EQ(p->at({0.6f, 0.0f, 0.8f}), 1.0f);
+}
+
+// cos θ below the horizon: ∫ = π. Every 5°, linear between: a little less.
+TEST(IesProfile, ALambertianOneGivesPi) {
+  std::string vertical, candela;
+  for (int v = 0; v <= 90; v += 5) {
+    vertical += std::to_string(v) + " ";
+    candela += std::to_string(300.0 * std::cos(v * 3.14159265358979 / 180.0)) + " ";
+  }
+  const auto p = parseIes(ies(1, vertical, "0", candela, 19, 1), "lambert.ies");
+  EXPECT_NEAR(p->peak * p->solidAngle, 300.0f * kPi, 2.0f);
+  EXPECT_NEAR(p->at(typeC(60, 123)), 0.5f, 1e-3f);
+  EXPECT_EQ(p->at(typeC(91, 0)), 0.0f);  // beyond its angles
+}
+
+TEST(IesProfile, InterpolatesBetweenAngles) {
+  const auto p = parseIes(ies(1, "0 90", "0 90 180 270 360", "10 0 20 0 30 0 40 0 10 0", 2, 5),
+                          "turn.ies");
+  EXPECT_NEAR(p->at(typeC(45, 90)) * p->peak, 10.0f, 1e-4f);
+  EXPECT_NEAR(p->at(typeC(45, 45)) * p->peak, 7.5f, 1e-3f);
+  EXPECT_NEAR(p->at(typeC(45, 315)) * p->peak, 12.5f, 1e-3f);
+}
+
+TEST(IesProfile, MirrorsHalvesAndQuarters) {
+  const auto quarter = parseIes(ies(1, "0 180", "0 90", "1 1 3 3", 2, 2), "quarter.ies");
+  for (const float h : {30.0f, 150.0f, 210.0f, 330.0f})
+    EXPECT_NEAR(quarter->at(typeC(90, h)) * 3.0f, 1.0f + 2.0f * 30.0f / 90.0f, 1e-3f) << h;
+  const auto half = parseIes(ies(1, "0 180", "0 180", "1 1 3 3", 2, 2), "half.ies");
+  EXPECT_NEAR(half->at(typeC(90, 240)) * 3.0f, 1.0f + 2.0f * 120.0f / 180.0f, 1e-3f);
+  const auto turned = parseIes(ies(1, "0 180", "90 270", "1 1 3 3", 2, 2), "turned.ies");
+  EXPECT_NEAR(turned->at(typeC(90, 0)) * 3.0f, 2.0f, 1e-3f);
+  EXPECT_NEAR(turned->at(typeC(90, 300)) * 3.0f, 1.0f + 2.0f * 150.0f / 180.0f, 1e-3f);
+  EXPECT_NEAR(turned->at(typeC(90, 60)) * 3.0f, 1.0f + 2.0f * 30.0f / 180.0f, 1e-3f);
+}
+
+TEST(IesProfile, TypeBHasItsPoleAside) {
+  // A beam along the aim, 10° high and 40° wide.
+  const auto p = parseIes(ies(2, "-90 -10 0 10 90", "-90 -40 0 40 90",
+                              "0 0 0 0 0  0 0 0 0 0  0 0 100 0 0  0 0 0 0 0  0 0 0 0 0", 5, 5),
+                          "flood.ies");
+  EXPECT_TRUE(p->isTypeB);
+  EXPECT_NEAR(p->at({0, 0, -1}), 1.0f, 1e-4f);
+  EXPECT_NEAR(p->at(typeB(5, 0)), 0.5f, 1e-3f);
+  EXPECT_NEAR(p->at(typeB(0, 20)), 0.5f, 1e-3f);
+  EXPECT_NEAR(p->at(typeB(-5, 20)), 0.25f, 1e-3f);
+  EXPECT_EQ(p->at({0, 1, 0}), 0.0f);
+  EXPECT_EQ(p->at({0, 0, 1}), 0.0f);
+  // One side alone stands for both.
+  const auto mirrored = parseIes(ies(2, "0 10 90", "0 40 90", "100 0 0 0 0 0 0 0 0", 3, 3), "m.ies");
+  EXPECT_NEAR(mirrored->at(typeB(-5, -20)), 0.25f, 1e-3f);
+}
+
+TEST(IesProfile, TakesEveryEdition) {
+  const std::string rest = "0 90", h = "0", c = "7 0";
+  for (const char* head : {"TILT=NONE\n", "IESNA91\n[MANUFAC] x\nTILT=NONE\r\n",
+                           "IESNA:LM-63-2002\n[OTHER]\nTILT=NONE\n",
+                           "some lamp of 1986\nTILT=INCLUDE\n1\n3\n0 45 90\n1 0.9 0.8\n"}) {
+    const auto p = parseIes(ies(1, rest, h, c, 2, 1, "1", head), "x.ies");
+    EXPECT_FLOAT_EQ(p->peak, 7.0f) << head;
+  }
+  // Numbers may be broken anywhere and parted by commas.
+  const auto p = parseIes("TILT=NONE\n1,1000,1\n2 1 1\n2 0 0 0 1\n1 60 0\n90 0 +7\n.5e1", "x.ies");
+  EXPECT_NEAR(p->at(typeC(90, 0)), 5.0f / 7.0f, 1e-5f);
+}
+
+TEST(IesProfile, BadFilesAreOneClearLine) {
+  const std::string good = ies(1, "0 90", "0", "7 0", 2, 1);
+  std::vector<std::string> bad = {
+      "", "hello", "TILT=NONE\n", "TILT=lamp.tlt\n1 2 3", ies(3, "0 90", "0", "7 0", 2, 1),
+      ies(1, "0 90", "0", "7 -1", 2, 1), ies(1, "0 90", "0", "0 0", 2, 1),
+      ies(1, "90 0", "0", "7 0", 2, 1), ies(1, "0 90", "0", "7", 2, 1),
+      ies(1, "0 90", "0", "7 x", 2, 1), ies(1, "0 90", "0 33", "7 0 7 0", 2, 2),
+      ies(1, "0 190", "0", "7 0", 2, 1), ies(1, "0 90", "0", "7 nan", 2, 1),
+      ies(1, "0 90", "0", "7 1e300", 2, 1), ies(1, "0 90", "0", "7 0", 2, 1, "-1"),
+      ies(1, "0 90", "0", "7 0", -2, 1), ies(1, "0 90", "0", "7 0", 2, 0),
+      // A billion values promised by a hundred bytes.
+      ies(1, "0 90", "0", "7 0", 100000, 100000),
+      "TILT=INCLUDE\n1 99999 0 1 2", std::string(100, '\0')};
+  for (size_t i = 0; i + 12 < good.size(); ++i) bad.push_back(good.substr(0, i));
+  for (const std::string& text : bad) {
+    try {
+      parseIes(text, "bad.ies");
+      ADD_FAILURE() << "taken: " << text;
+    } catch (const InputError& e) {
+      const std::string what = e.what();
+      EXPECT_THAT(what, testing::StartsWith("bad.ies: "));
+      EXPECT_EQ(what.find('\n'), std::string::npos);
+    }
+  }
+  EXPECT_THROW(readIes("/nowhere/gone.ies"), InputError);
+}
+
+TEST(IesProfile, IsSavedBesideTheScene) {
+  const test::TemporaryFolder folder, other;
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(1.0f));
+  const NodeId id = test::addNode(scene, "bulb");
+  const auto profile = parseIes(ies(1, "0 90", "0", "7 0", 2, 1), "a lamp.ies");
+  scene.find(id)->punctual = PunctualLight{PunctualKind::point, vec3(2)};
+  scene.find(id)->punctual->profile = profile;
+  const NodeId second = test::addNode(scene, "bulb 2");
+  scene.find(second)->punctual = scene.find(id)->punctual;
+  saveGltf(scene, folder.path() / "s.gltf");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "a lamp.ies"));
+  const Scene loaded = loadGltf(folder.path() / "s.gltf").scene;
+  ASSERT_TRUE(loaded.nodes[1].punctual && loaded.nodes[1].punctual->profile);
+  EXPECT_EQ(*loaded.nodes[1].punctual->profile, *profile);
+  EXPECT_EQ(loaded.nodes[2].punctual->profile, loaded.nodes[1].punctual->profile);
+  // To another folder it goes along, once.
+  saveGltf(loaded, other.path() / "s.glb");
+  EXPECT_EQ(loadGltf(other.path() / "s.glb").scene.nodes[1].punctual, loaded.nodes[1].punctual);
+  // Gone: a warning, and a plain light.
+  std::filesystem::remove(folder.path() / "a lamp.ies");
+  const LoadedScene without = loadGltf(folder.path() / "s.gltf");
+  EXPECT_FALSE(without.scene.nodes[1].punctual->profile);
+  ASSERT_EQ(without.warnings.size(), 1u);
+  EXPECT_THAT(without.warnings[0], testing::HasSubstr("lamp.ies"));
+}
+
+}  // namespace
+}  // namespace lamplighter

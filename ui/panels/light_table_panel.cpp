@@ -1,0 +1,229 @@
+// The light table as it is drawn: rows and figures come from editor/lights/light_table.h.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include <imgui.h>
+
+#include "editor/lights/light_edits.h"
+#include "ui/panels/light_table_panel.h"
+#include "ui/theme.h"
+
+namespace lamplighter {
+namespace {
+
+struct ColumnInfo {
+  LightColumn column;
+  const char* name;  // of the widget
+  const char* label;
+  float width;  // design pixels
+  bool isNumber;
+  const char* help;
+};
+constexpr std::array kColumns = {
+    ColumnInfo{LightColumn::name, "name", "Name", 126, false, ""},
+    ColumnInfo{LightColumn::kind, "kind", "Kind", 68, false, ""},
+    ColumnInfo{LightColumn::on, "on", "On", 28, false, "Whether it is switched on."},
+    ColumnInfo{LightColumn::solo, "solo", "Solo", 36, false,
+               "While any light is solo, those that are not give no light."},
+    ColumnInfo{LightColumn::colour, "colour", "Colour", 44, false, ""},
+    ColumnInfo{LightColumn::temperature, "temperature", "Temp.", 58, true,
+               "The black body of nearest colour."},
+    ColumnInfo{LightColumn::strength, "strength", "Intensity", 74, true,
+               "In the unit chosen above, or the light's own where it has no such unit."},
+    ColumnInfo{LightColumn::size, "size", "Size", 80, true, "In metres, before the scale."},
+    ColumnInfo{LightColumn::group, "group", "Group", 64, false, ""},
+    ColumnInfo{LightColumn::share, "share", "Share", 44, true,
+               "Of the flux of all lights that shine."},
+    ColumnInfo{LightColumn::samples, "samples", "VPLs", 42, true,
+               "Light samples that are shown, bounced ones included."},
+    ColumnInfo{LightColumn::patches, "patches", "Patches", 52, true,
+               "Patches of surface that at least one of its samples may reach."},
+    ColumnInfo{LightColumn::milliseconds, "milliseconds", "ms", 38, true,
+               "Its part, by its samples and the patches they reach, of the time that a frame "
+               "takes for light while the picture changes."},
+    ColumnInfo{LightColumn::pending, "pending", "Pending", 54, true,
+               "Samples that wait for their map to be brought up to date."},
+    ColumnInfo{LightColumn::age, "age", "Age", 32, true,
+               "Frames that the oldest of them has waited."},
+};
+
+void rightAligned(const std::string& text) {
+  const float left = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (left > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + left);
+  ImGui::TextUnformatted(text.c_str());
+}
+
+std::string countOf(int value) { return value == 0 ? "\u2013" : grouped(value); }
+
+std::string textOf(const LightRow& r, LightColumn column) {
+  const LightFigures& f = r.figures;
+  char text[64] = "";
+  switch (column) {
+    case LightColumn::kind:
+      return kindLabel(r.source.measure.kind);
+    case LightColumn::temperature:
+      return r.kelvin ? grouped(std::lround(*r.kelvin)) + " K" : "\u2013";
+    case LightColumn::strength:
+      return short3(r.strength) + " " + unitSymbol(r.unit);
+    case LightColumn::size:
+      if (r.size.x <= 0.0f) return "\u2013";
+      return r.size.x == r.size.y ? short3(static_cast<double>(r.size.x))
+                                  : short3(static_cast<double>(r.size.x)) + " \u00d7 " +
+                                        short3(static_cast<double>(r.size.y));
+    case LightColumn::group:
+      return r.state.group;
+    case LightColumn::share:
+      if (f.share <= 0.0) return "\u2013";
+      std::snprintf(text, sizeof text, f.share < 0.1 ? "%.1f%%" : "%.0f%%", 100.0 * f.share);
+      return text;
+    case LightColumn::samples:
+      return countOf(f.samples);
+    case LightColumn::patches:
+      return countOf(f.patches);
+    case LightColumn::milliseconds:
+      if (f.milliseconds <= 0.0) return "\u2013";
+      std::snprintf(text, sizeof text, "%.2f", f.milliseconds);
+      return text;
+    case LightColumn::pending:
+      return countOf(f.mapsPending);
+    case LightColumn::age:
+      return countOf(f.age);
+    default:
+      return r.name;
+  }
+}
+
+class Table {
+ public:
+  explicit Table(const PanelContext& ui) : ui_(ui) {
+    rows_ = ui.session.lighting().table.rows(ui.session, ui.session.lighting().unit);
+  }
+
+  void draw() {
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate | ImGuiTableFlags_Resizable |
+        ImGuiTableFlags_Reorderable | ImGuiTableFlags_Hideable | ImGuiTableFlags_RowBg |
+        ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit |
+        ImGuiTableFlags_BordersInnerV;
+    ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui_.px(4), ui_.px(2)});
+    if (ImGui::BeginTable("##table", static_cast<int>(kColumns.size()), kFlags)) {
+      headers();
+      sort();
+      for (const LightRow& r : rows_) row(r);
+      ImGui::EndTable();
+    }
+    ImGui::PopStyleVar();
+    if (rows_.empty()) note("The scene has no light. Add one by the menu Light.");
+  }
+
+ private:
+  void headers() {
+    ImGui::TableSetupScrollFreeze(1, 1);
+    for (const ColumnInfo& c : kColumns)
+      ImGui::TableSetupColumn(c.label, ImGuiTableColumnFlags_WidthFixed, ui_.px(c.width));
+    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+    for (size_t i = 0; i < kColumns.size(); ++i) {
+      if (!ImGui::TableSetColumnIndex(static_cast<int>(i))) continue;
+      ImGui::TableHeader(kColumns[i].label);
+      ui_.name(std::string("header/") + kColumns[i].name);
+      tooltip(ui_, kColumns[i].help);
+    }
+  }
+
+  void sort() {
+    const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
+    if (specs == nullptr || specs->SpecsCount == 0) return;
+    const ImGuiTableColumnSortSpecs& by = specs->Specs[0];
+    sortRows(rows_, kColumns[static_cast<size_t>(by.ColumnIndex)].column,
+             by.SortDirection == ImGuiSortDirection_Ascending);
+  }
+
+  void row(const LightRow& r) {
+    ImGui::PushID(static_cast<int>(r.source.node));
+    ImGui::TableNextRow();
+    const bool isDim = !r.visible || !r.shines;
+    if (isDim) ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
+    for (size_t i = 0; i < kColumns.size(); ++i) {
+      if (ImGui::TableSetColumnIndex(static_cast<int>(i))) cell(r, kColumns[i]);
+    }
+    if (isDim) ImGui::PopStyleColor();
+    ImGui::PopID();
+  }
+
+  void cell(const LightRow& r, const ColumnInfo& c) {
+    switch (c.column) {
+      case LightColumn::name:
+        nameCell(r);
+        return;
+      case LightColumn::on:
+        toggle(r, "on", r.state.on, [](LightState& s, bool on) { s.on = on; });
+        return;
+      case LightColumn::solo:
+        toggle(r, "solo", r.state.solo, [](LightState& s, bool solo) { s.solo = solo; });
+        return;
+      case LightColumn::colour:
+        swatch(ui_, r.colour, ImGui::GetContentRegionAvail().x);
+        return;
+      default:
+        if (c.isNumber)
+          rightAligned(textOf(r, c.column));
+        else
+          ImGui::TextUnformatted(textOf(r, c.column).c_str());
+    }
+  }
+
+  void nameCell(const LightRow& r) {
+    constexpr ImGuiSelectableFlags kFlags =
+        ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap;
+    const std::string name = r.name.empty() ? "(unnamed)" : r.name;
+    if (ImGui::Selectable(name.c_str(), r.selected, kFlags)) select(r.source.node);
+    ui_.name(name);
+    if (!r.visible) tooltip(ui_, "It is hidden: the eye in the outliner shows it.");
+  }
+
+  template <typename Change>
+  void toggle(const LightRow& r, const char* what, bool value, Change change) {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui_.px(1), ui_.px(0)});
+    const std::string id = std::string("##") + what;
+    const bool clicked = ImGui::Checkbox(id.c_str(), &value);
+    ImGui::PopStyleVar();
+    ui_.name(r.name + "/" + what);
+    if (!clicked) return;
+    const std::string label = std::string(value ? "Switch " : "End ") + what;
+    const auto apply = [&](LightState& s) { change(s, value); };
+    if (r.source.node == kNoNode)
+      editSkyState(ui_.session, label, apply);
+    else if (r.selected)
+      editLightStates(ui_.session, label, apply);
+    else
+      editLightStates(ui_.session, {r.source.node}, label, apply);
+  }
+
+  void select(NodeId id) {
+    Session& s = ui_.session;
+    if (id == kNoNode) return s.select({});  // the inspector shows the sky then
+    if (ImGui::GetIO().KeyShift) {
+      s.select(rowsBetween(rows_, s.document().active(), id));
+    } else if (ImGui::GetIO().KeyCtrl) {
+      std::vector<NodeId> ids = s.document().selection;
+      if (std::erase(ids, id) == 0) ids.push_back(id);
+      s.select(std::move(ids));
+    } else {
+      s.select({id});
+    }
+  }
+
+  const PanelContext& ui_;
+  std::vector<LightRow> rows_;
+};
+
+}  // namespace
+
+void lightTable(PanelContext ui, LightTableState& state, Requests& requests) {
+  ui.prefix = "lights/";
+  lightTableBar(ui, state, requests);
+  Table(ui).draw();
+}
+
+}  // namespace lamplighter
