@@ -14,6 +14,7 @@
 #include "editor/actions/action.h"
 #include "editor/commands/history.h"
 #include "editor/document/document.h"
+#include "editor/explain/point_tools.h"
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/viewport_input.h"
@@ -94,6 +95,12 @@ class Session {
   Image8 picture() const;
   uint32_t frame() const { return frame_; }
 
+  // What tells of a clicked point, and what it looks at.
+  PointTools& points() { return points_; }
+  const PointTools& points() const { return points_; }
+  PointTools::Subject pointSubject() const;
+  std::optional<vec2> pointer() const;  // where it was last over the viewport
+
   // What tools draw over the picture: gizmo, selection outline, lights' shapes.
   Overlay overlay() const;
 
@@ -141,6 +148,7 @@ class Session {
   View view_;
   GiOutput output_;
   ViewDisplay display_;
+  PointTools points_;
   std::string status_, renderError_;
   uint32_t frame_ = 0;
   uint64_t savedHash_ = 0;

@@ -124,15 +124,19 @@ void addEditActions(ActionRegistry& r) {
            s.select(std::move(ids));
          },
          {}});
-  r.add({"select.none", "Deselect", "", "Takes back a drag under way, else selects nothing.",
+  r.add({"select.none", "Deselect", "",
+         "Takes back a drag under way, or puts down a tool that clicks ask; else selects nothing.",
          "Escape",
          [](Session& s, const Arguments&) {
            if (s.dragging())
              s.cancelDrag();
+           else if (s.points().tool() != PointTool::none)
+             s.points().setTool(PointTool::none);
            else
              s.select({});
          },
-         hasSelection, true});
+         [](const Session& s) { return hasSelection(s) || s.points().tool() != PointTool::none; },
+         true});
 }
 
 }  // namespace lamplighter

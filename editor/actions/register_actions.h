@@ -12,6 +12,7 @@ void addLightActions(ActionRegistry& registry);
 void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
 void addRenderActions(ActionRegistry& registry);
+void addSeeingActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -21,6 +22,7 @@ inline void addAllActions(ActionRegistry& registry) {
   addSkyActions(registry);
   addViewActions(registry);
   addRenderActions(registry);
+  addSeeingActions(registry);
 }
 
 }  // namespace lamplighter

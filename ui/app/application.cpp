@@ -180,6 +180,7 @@ void Application::drawPanels(PanelContext ui) {
   beginPanel("##render", layout_.render);
   renderPanel(ui);
   ImGui::End();
+  explainPanel(ui, layout_.view, requests_);
   layout_.splitters(ui);
   // At once, so that this frame shows what they do.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);

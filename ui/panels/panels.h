@@ -46,6 +46,10 @@ void skyFields(PanelContext ui, InspectorState& state);
 
 void renderPanel(PanelContext ui);
 
+// Why the point that was clicked is as dark as it is; a window in the upper right corner of `view`,
+// while there is such a point.
+void explainPanel(PanelContext ui, const Rect& view, Requests& requests);
+
 struct StatusInfo {
   double frameSeconds = 0.0;  // smoothed
   bool recording = false;
