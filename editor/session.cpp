@@ -315,7 +315,9 @@ std::optional<vec2> Session::pointer() const {
 
 Image8 Session::picture() const {
   const auto& view = display_.picture();
-  return view ? view->image : toneMap(output_.radiance->pixels(), document_.render.exposureEv);
+  return view ? view->image
+              : toneMap(output_.radiance->pixels(), document_.render.exposureEv,
+                        display_.toneMapper());
 }
 
 Overlay Session::overlay() const {

@@ -30,6 +30,7 @@ inline constexpr const char* kWarning = "\uf071";     // exclamation-triangle
 inline constexpr const char* kExplain = "\uf059";     // question-circle
 inline constexpr const char* kMeasure = "\uf07d";     // arrows-v
 inline constexpr const char* kProbeLight = "\uf1fb";  // eyedropper
+inline constexpr const char* kHistogram = "\uf080";   // bar-chart
 inline constexpr const char* kClose = "\uf00d";
 inline constexpr const char* kSettled = "\uf058";   // check-circle
 inline constexpr const char* kUpdating = "\uf252";  // hourglass-half

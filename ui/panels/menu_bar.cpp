@@ -19,7 +19,7 @@ struct Menu {
 std::vector<std::string> viewActions() {
   std::vector<std::string> names;
   for (const DebugViewInfo& info : debugViews()) names.push_back(std::string("view.") + info.name);
-  names.insert(names.end(), {"-", "view.vpls", "view.probe"});
+  names.insert(names.end(), {"-", "view.vpls", "view.probe", "view.histogram"});
   return names;
 }
 

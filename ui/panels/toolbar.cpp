@@ -41,6 +41,7 @@ void seeingButtons(const PanelContext& ui, Requests& requests) {
       Item{"tool.explain", icon::kExplain, "Why dark?"},
       Item{"view.probe", icon::kProbeLight, "Probe"},
       Item{"tool.measure", icon::kMeasure, "Measure"},
+      Item{"view.histogram", icon::kHistogram, "Histogram"},
   };
   for (const Item& item : kItems) {
     if (&item != &kItems.front()) ImGui::SameLine();
