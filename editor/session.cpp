@@ -47,6 +47,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   history_.clear();
   savedHash_ = sceneHash(document_.scene);
   tools_->pointerKnown = false;
+  points_.forget();
 
   RenderScene world;
   update(world, document_.scene, SceneChanges::all());
@@ -180,7 +181,9 @@ void Session::resizeViewport(int width, int height) {
 ToolMode Session::tool() const { return tools_->gizmo.mode; }
 
 void Session::setTool(ToolMode mode) {
-  if (!tools_->gizmo.dragging()) tools_->gizmo.mode = mode;
+  if (tools_->gizmo.dragging()) return;
+  tools_->gizmo.mode = mode;
+  points_.setTool(PointTool::none);
 }
 
 bool Session::dragging() const {
@@ -250,6 +253,7 @@ void Session::viewport(const ViewportInput& input) {
   if (tools_->camera.update(view_, input)) return;
   if (placing() && input.pressed[0] && input.hovered)
     return placeUnderPointer(*this, input.modifiers.shift);
+  if (points_.pointer(pointSubject(), input)) return;
   if (tools_->gizmo.update(view_, input, document_, history_)) return;
   if (dragHandles()) return;
   if (!input.pressed[0] || !input.hovered || renderer_->rays() == nullptr) return;
@@ -308,6 +312,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
                                  display_.lightOnly(), updates.has_value(), refineUpdates});
     const bool same = output_.settled && output_.radiance == before && changes.none();
     display_.update(*renderer_, view_, document_.render, !same);
+    points_.update(pointSubject(), !same, !changes.none());
   } catch (const InputError& e) {
     history_.showAll();  // part of it may have arrived: the next frame begins anew
     renderError_ = status_ = e.what();
@@ -319,9 +324,20 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
   return output_;
 }
 
+PointTools::Subject Session::pointSubject() const {
+  RadianceImage* lit = display_.lightOnly() ? nullptr : output_.radiance.get();
+  return {document_.scene, *renderer_, view_, document_.render.values, lit};
+}
+
+std::optional<vec2> Session::pointer() const {
+  return tools_->pointerKnown ? std::optional(tools_->pointer) : std::nullopt;
+}
+
 Image8 Session::picture() const {
   const auto& view = display_.picture();
-  return view ? view->image : toneMap(output_.radiance->pixels(), document_.render.exposureEv);
+  return view ? view->image
+              : toneMap(output_.radiance->pixels(), document_.render.exposureEv,
+                        display_.toneMapper());
 }
 
 Overlay Session::overlay() const {
@@ -332,7 +348,8 @@ Overlay Session::overlay() const {
     drawVpls(overlay, view_, inspection, *renderer_->rays(), display_.chosen(inspection));
   }
   tools_->lightHandles.draw(overlay, view_, document_);
-  tools_->gizmo.draw(overlay, view_, document_);
+  if (points_.tool() == PointTool::none) tools_->gizmo.draw(overlay, view_, document_);
+  points_.draw(overlay, pointSubject());
   return overlay;
 }
 

@@ -15,6 +15,7 @@
 #include "editor/commands/history.h"
 #include "editor/document/clipping.h"
 #include "editor/document/document.h"
+#include "editor/explain/point_tools.h"
 #include "editor/lights/lighting_state.h"
 #include "editor/lights/work_light.h"
 #include "editor/tools/gizmo.h"
@@ -109,6 +110,12 @@ class Session {
   LightingState& lighting() { return lighting_; }
   const LightingState& lighting() const { return lighting_; }
 
+  // What tells of a clicked point, and what it looks at.
+  PointTools& points() { return points_; }
+  const PointTools& points() const { return points_; }
+  PointTools::Subject pointSubject() const;
+  std::optional<vec2> pointer() const;  // where it was last over the viewport
+
   // What tools draw over the picture: gizmo, selection outline, lights' shapes.
   Overlay overlay() const;
 
@@ -157,6 +164,7 @@ class Session {
   View view_;
   GiOutput output_;
   ViewDisplay display_;
+  PointTools points_;
   std::string status_, renderError_, placing_;
   uint32_t frame_ = 0;
   uint64_t sceneRevision_ = 0;

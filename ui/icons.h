@@ -25,8 +25,13 @@ inline constexpr const char* kEye = "\uf06e";
 inline constexpr const char* kEyeSlash = "\uf070";
 inline constexpr const char* kSearch = "\uf002";
 inline constexpr const char* kFolder = "\uf07b";
-inline constexpr const char* kFile = "\uf016";      // file-o
-inline constexpr const char* kWarning = "\uf071";   // exclamation-triangle
+inline constexpr const char* kFile = "\uf016";        // file-o
+inline constexpr const char* kWarning = "\uf071";     // exclamation-triangle
+inline constexpr const char* kExplain = "\uf059";     // question-circle
+inline constexpr const char* kMeasure = "\uf07d";     // arrows-v
+inline constexpr const char* kProbeLight = "\uf1fb";  // eyedropper
+inline constexpr const char* kHistogram = "\uf080";   // bar-chart
+inline constexpr const char* kClose = "\uf00d";
 inline constexpr const char* kSettled = "\uf058";   // check-circle
 inline constexpr const char* kUpdating = "\uf252";  // hourglass-half
 

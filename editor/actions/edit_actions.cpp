@@ -104,16 +104,23 @@ void addEditActions(ActionRegistry& r) {
          },
          {}});
   r.add({"select.none", "Deselect", "",
-         "Takes back a drag under way, or leaves placing, else selects nothing.", "Escape",
+         "Takes back a drag under way, leaves placing or puts down a tool that clicks ask; else "
+         "selects nothing.",
+         "Escape",
          [](Session& s, const Arguments&) {
            if (s.dragging())
              s.cancelDrag();
            else if (s.placing())
              s.startPlacing("");
+           else if (s.points().tool() != PointTool::none)
+             s.points().setTool(PointTool::none);
            else
              s.select({});
          },
-         [](const Session& s) { return hasSelection(s) || s.placing(); }, true});
+         [](const Session& s) {
+           return hasSelection(s) || s.placing() || s.points().tool() != PointTool::none;
+         },
+         true});
 }
 
 }  // namespace lamplighter

@@ -15,6 +15,7 @@ void addLightStateActions(ActionRegistry& registry);
 void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
 void addRenderActions(ActionRegistry& registry);
+void addSeeingActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -27,6 +28,7 @@ inline void addAllActions(ActionRegistry& registry) {
   addSkyActions(registry);
   addViewActions(registry);
   addRenderActions(registry);
+  addSeeingActions(registry);
 }
 
 }  // namespace lamplighter

@@ -79,6 +79,32 @@ void addViewActions(ActionRegistry& r) {
          {},
          true,
          {}});
+  std::string mappers;
+  for (const ToneMapperInfo& m : toneMappers())
+    mappers += (mappers.empty() ? "" : "|") + std::string(m.name);
+  r.add({"view.tone_mapper",
+         "Tone mapper",
+         mappers,
+         "How radiance is brought to the display; nothing of the work.",
+         "",
+         [mappers](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "view.tone_mapper " + mappers);
+           s.display().setToneMapper(findToneMapper(a[0]).mapper);
+         },
+         {},
+         true,
+         {}});
+  r.add({"view.histogram",
+         "Histogram",
+         "",
+         "Shows how often each brightness is in the picture, with exposure and tone mapper.",
+         "N",
+         [](Session& s, const Arguments&) {
+           s.display().showHistogram(!s.display().showsHistogram());
+         },
+         {},
+         true,
+         [](const Session& s) { return s.display().showsHistogram(); }});
   r.add({"view.camera",
          "Look through camera",
          "NAME",

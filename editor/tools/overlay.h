@@ -19,8 +19,9 @@ struct OverlayShape {
 
 struct OverlayText {
   vec2 position{0.0f};
-  std::string text;
+  std::string text;  // lines are parted by \n
   vec4 colour{1.0f};
+  bool boxed = false;  // on a dark ground, to be read over any picture
 };
 
 struct Overlay {

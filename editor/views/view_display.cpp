@@ -34,12 +34,24 @@ void ViewDisplay::update(const FrameRenderer& renderer, const View& camera,
     return;
   }
   const Inspection inspection = renderer.inspect();
-  Key key{view_, camera, settings, chosen(inspection)};
+  Key key{view_, camera, settings, chosen(inspection), toneMapper_};
   if (picture_ && !changed && key == key_) return;
   key_ = std::move(key);
   picture_ = std::make_shared<ViewPicture>(
       drawView(view_, {renderer.scene(), *renderer.rays(), camera, inspection,
-                       std::max(key_.chosen, 0), settings.exposureEv}));
+                       std::max(key_.chosen, 0), settings.exposureEv, toneMapper_}));
+}
+
+const Histogram& ViewDisplay::histogram(const std::shared_ptr<RadianceImage>& radiance,
+                                        float exposureEv) {
+  if (radiance &&
+      (radiance != countedFrom_ || exposureEv != countedEv_ || toneMapper_ != countedBy_)) {
+    histogram_ = histogramOf(radiance->pixels(), exposureEv, toneMapper_);
+    countedFrom_ = radiance;
+    countedEv_ = exposureEv;
+    countedBy_ = toneMapper_;
+  }
+  return histogram_;
 }
 
 std::string ViewDisplay::viewText() const {

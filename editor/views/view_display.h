@@ -8,6 +8,7 @@
 
 #include "editor/document/document.h"
 #include "renderer/frame.h"
+#include "renderer/image/histogram.h"
 #include "renderer/views/view_picture.h"
 
 namespace lamplighter {
@@ -19,6 +20,14 @@ class ViewDisplay {
   bool lightOnly() const { return view_ == DebugView::lightOnly; }
   bool showsVpls() const { return showsVpls_; }
   void showVpls(bool on) { showsVpls_ = on; }
+
+  // How radiance is shown; a setting of the display, as the window is.
+  ToneMapper toneMapper() const { return toneMapper_; }
+  void setToneMapper(ToneMapper mapper) { toneMapper_ = mapper; }
+  bool showsHistogram() const { return showsHistogram_; }
+  void showHistogram(bool on) { showsHistogram_ = on; }
+  // Of the picture as it is exposed and mapped; counted once for each.
+  const Histogram& histogram(const std::shared_ptr<RadianceImage>& radiance, float exposureEv);
 
   // By its place among the light samples; throws InputError when there are not so many.
   void choose(const Inspection& inspection, int index);
@@ -44,14 +53,21 @@ class ViewDisplay {
     View camera;
     RenderSettings settings;
     int chosen = kNone;
+    ToneMapper toneMapper = ToneMapper::filmic;
     bool operator==(const Key&) const = default;
   };
 
   DebugView view_ = DebugView::lit;
-  bool showsVpls_ = false;
+  bool showsVpls_ = false, showsHistogram_ = false;
+  ToneMapper toneMapper_ = ToneMapper::filmic;
   std::optional<VplId> chosen_;
   Key key_;
   std::shared_ptr<const ViewPicture> picture_;
+  // What the histogram is of; held, so that no other picture can have its address.
+  std::shared_ptr<RadianceImage> countedFrom_;
+  float countedEv_ = 0.0f;
+  ToneMapper countedBy_ = ToneMapper::filmic;
+  Histogram histogram_;
 };
 
 }  // namespace lamplighter

@@ -16,19 +16,21 @@ void DisplayPass::reload(const std::filesystem::path& shaders) {
   program_ = Program(shaders, {"common/full_screen.vert.glsl", "passes/display.frag.glsl"});
 }
 
-GLuint DisplayPass::render(const std::shared_ptr<RadianceImage>& image, float exposureEv) {
+GLuint DisplayPass::render(const std::shared_ptr<RadianceImage>& image, float exposureEv,
+                           ToneMapper mapper) {
   if (width_ != image->width() || height_ != image->height()) {
     resize(image->width(), image->height());
   }
   const GLuint texture = textureOf(*image) != 0 ? textureOf(*image) : upload(image);
-  draw(texture, exposureEv, framebuffer_.name(), width_, height_);
+  draw(texture, exposureEv, mapper, framebuffer_.name(), width_, height_);
   return target_.name();
 }
 
-void DisplayPass::draw(GLuint radianceTexture, float exposureEv, GLuint framebuffer, int width,
-                       int height) {
+void DisplayPass::draw(GLuint radianceTexture, float exposureEv, ToneMapper mapper,
+                       GLuint framebuffer, int width, int height) {
   const PassState state(framebuffer, width, height);
   program_.set(0, std::exp2(exposureEv));
+  program_.set(1, static_cast<int>(mapper));
   program_.use();
   glBindTextureUnit(0, radianceTexture);
   drawFullScreen(vertexArray_.name());

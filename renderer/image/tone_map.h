@@ -1,15 +1,32 @@
 // From scene-referred radiance to a picture on a display.
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "renderer/image/image.h"
 
 namespace lamplighter {
 
-// colour × 2^exposureEv, then the filmic curve, then sRGB encoding. shaders/passes/tone_map.glsl
-// does the same on the GPU.
-Image8 toneMap(const Image& radiance, float exposureEv);
+enum class ToneMapper { linear, reinhard, filmic, hable, agx };
+
+struct ToneMapperInfo {
+  ToneMapper mapper;
+  const char* name;   // as in actions
+  const char* label;  // as in panels
+  const char* help;   // one sentence
+};
+// In the order they are shown.
+std::span<const ToneMapperInfo> toneMappers();
+const ToneMapperInfo& infoOf(ToneMapper mapper);
+// Throws InputError when there is none of that name.
+const ToneMapperInfo& findToneMapper(std::string_view name);
+
+// colour × 2^exposureEv, then the curve, then sRGB encoding. shaders/passes/tone_map.glsl does the
+// same on the GPU.
+Image8 toneMap(const Image& radiance, float exposureEv, ToneMapper mapper = ToneMapper::filmic);
 // The sRGB encoding of a linear value; 1 and more is 1.
 float encodeSrgb(float v);
-vec3 toneMapPixel(const vec3& radiance, float exposureEv);
+vec3 toneMapPixel(const vec3& radiance, float exposureEv, ToneMapper mapper = ToneMapper::filmic);
 
 }  // namespace lamplighter

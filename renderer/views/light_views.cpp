@@ -42,7 +42,7 @@ ViewPicture lightMaps(const ViewSubject& in) {
     const Patch& patch = patches.patches[static_cast<size_t>(p.leaf(i))];
     const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
     const vec3 e = maps.irradiance(patches, object, p.leaf(i), s.surface.position);
-    const vec3 colour = toneMapPixel(e / kPi, in.exposureEv);
+    const vec3 colour = toneMapPixel(e / kPi, in.exposureEv, in.toneMapper);
     const vec2 texels(static_cast<float>(tile->columns - 1), static_cast<float>(tile->rows - 1));
     const vec2 perMetre = texels / (patch.max - patch.min);
     const vec2 at = (chart.project(s.surface.position) - patch.min) * perMetre;

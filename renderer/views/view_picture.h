@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/image/image.h"
+#include "renderer/image/tone_map.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/view.h"
@@ -39,8 +40,9 @@ struct ViewSubject {
   const RayCaster& rays;
   const View& view;
   const Inspection& inspection;
-  int chosenLight = 0;      // index into inspection.lights
-  float exposureEv = 0.0f;  // at which light maps are shown
+  int chosenLight = 0;                         // index into inspection.lights
+  float exposureEv = 0.0f;                     // at which light maps are shown
+  ToneMapper toneMapper = ToneMapper::filmic;  // likewise
 };
 
 // Why a view cannot be made of this; "": it can.

@@ -175,5 +175,31 @@ TEST_F(ViewDisplayTest, TheFramesUntilSettledComeTrue) {
   }
 }
 
+TEST_F(ViewDisplayTest, AToneMapperIsASettingOfTheDisplay) {
+  const uint64_t before = hash();
+  const Image8 filmic = session_.picture();
+  ASSERT_TRUE(session_.runAction("view.tone_mapper linear"));
+  EXPECT_EQ(session_.picture().pixels,
+            toneMap(session_.output().radiance->pixels(), session_.document().render.exposureEv,
+                    ToneMapper::linear)
+                .pixels);
+  EXPECT_NE(session_.picture().pixels, filmic.pixels);
+  EXPECT_FALSE(session_.runAction("view.tone_mapper brown"));
+  EXPECT_FALSE(session_.runAction("view.tone_mapper"));
+  EXPECT_EQ(session_.display().toneMapper(), ToneMapper::linear);
+  EXPECT_EQ(hash(), before);
+  EXPECT_FALSE(session_.history().canUndo());
+  // The histogram is of what is shown.
+  ASSERT_TRUE(session_.runAction("view.histogram"));
+  EXPECT_TRUE(session_.display().showsHistogram());
+  const auto counted = [&] {
+    return session_.display().histogram(session_.output().radiance,
+                                        session_.document().render.exposureEv);
+  };
+  const float white = counted().white;
+  ASSERT_TRUE(session_.runAction("render.exposure 10"));
+  EXPECT_GT(counted().white, white);
+}
+
 }  // namespace
 }  // namespace lamplighter

@@ -188,6 +188,8 @@ void Application::drawPanels(PanelContext ui) {
     lightTable(ui, lightTableState_, requests_);
     ImGui::End();
   }
+  explainPanel(ui, layout_.view, requests_);
+  histogramPanel(ui, layout_.view, requests_);
   layout_.splitters(ui);
   // At once, so that this frame shows what they do.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
@@ -270,7 +272,8 @@ void Application::present() {
   if (const auto& view = session_->display().picture())
     picture_.show(view);
   else
-    picture_.show(session_->output().radiance, session_->document().render.exposureEv);
+    picture_.show(session_->output().radiance, session_->document().render.exposureEv,
+                  session_->display().toneMapper());
 }
 
 void Application::takeLoaded() {

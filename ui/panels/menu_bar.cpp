@@ -19,7 +19,7 @@ struct Menu {
 std::vector<std::string> viewActions() {
   std::vector<std::string> names;
   for (const DebugViewInfo& info : debugViews()) names.push_back(std::string("view.") + info.name);
-  names.insert(names.end(), {"-", "view.vpls"});
+  names.insert(names.end(), {"-", "view.vpls", "view.probe", "view.histogram"});
   return names;
 }
 
@@ -32,7 +32,7 @@ const std::vector<Menu>& menus() {
       {"Light", {"light", "lights"}, {"light.add", "light.place", "-", "panel.lights"}},
       {"Object", {"object", "node", "place"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
-      {"View", {"view", "camera", "panel"}, viewActions()},
+      {"View", {"view", "camera", "panel", "explain", "probe", "measure"}, viewActions()},
       {"Render", {"render"}, {}},
   };
   return kMenus;

@@ -98,6 +98,12 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
   const std::string vpl = display.vplText(ui.session.document().scene, ui.session.inspect());
   if (!vpl.empty()) part(ui, "vpl", vpl, theme::kText, "The chosen light sample.");
 
+  if (const auto& reading = ui.session.points().reading();
+      reading && ui.session.points().probesPointer())
+    part(ui, "probe", readingText(*reading), theme::kText,
+         "Under the pointer: the light that falls on the surface (lx), and what comes from it to "
+         "the camera (nt = cd/m\u00b2).");
+
   // What there is to tell stands at the end, so that what stands before does not move.
   const std::string& status = ui.session.status();
   if (status.empty()) return;

@@ -32,6 +32,26 @@ void gap(const PanelContext& ui) {
   ImGui::SameLine(0, ui.px(9));
 }
 
+// What tells of the picture. They stand for actions as they are.
+void seeingButtons(const PanelContext& ui, Requests& requests) {
+  struct Item {
+    const char *action, *icon, *label;
+  };
+  static constexpr std::array kItems = {
+      Item{"tool.explain", icon::kExplain, "Why dark?"},
+      Item{"view.probe", icon::kProbeLight, "Probe"},
+      Item{"tool.measure", icon::kMeasure, "Measure"},
+      Item{"view.histogram", icon::kHistogram, "Histogram"},
+  };
+  for (const Item& item : kItems) {
+    if (&item != &kItems.front()) ImGui::SameLine();
+    const Action& action = *ui.session.actions().find(item.action);
+    if (button(ui, item.action, item.icon, item.label, action.checked(ui.session), true,
+               action.help + " (" + action.shortcut + ")"))
+      requests.actions.emplace_back(item.action);
+  }
+}
+
 }  // namespace
 
 void toolbar(PanelContext ui, Requests& requests) {
@@ -49,8 +69,8 @@ void toolbar(PanelContext ui, Requests& requests) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(4), ui.px(4)});
   for (const Tool& tool : kTools) {
     if (tool.mode != ToolMode::select) ImGui::SameLine();
-    if (button(ui, tool.name, tool.icon, tool.label, ui.session.tool() == tool.mode, true,
-               tool.help))
+    const bool on = ui.session.tool() == tool.mode && ui.session.points().tool() == PointTool::none;
+    if (button(ui, tool.name, tool.icon, tool.label, on, true, tool.help))
       ui.session.setTool(tool.mode);
   }
   gap(ui);
@@ -78,6 +98,8 @@ void toolbar(PanelContext ui, Requests& requests) {
   if (button(ui, "redo", icon::kRedo, "Redo", false, history.canRedo(),
              history.canRedo() ? "Redo: " + history.redoLabel() : "Nothing to redo"))
     requests.actions.emplace_back("edit.redo");
+  gap(ui);
+  seeingButtons(ui, requests);
   ImGui::PopStyleVar();
 }
 

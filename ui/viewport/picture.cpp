@@ -7,10 +7,11 @@ namespace lamplighter {
 Picture::Picture() = default;
 Picture::~Picture() = default;
 
-void Picture::show(const std::shared_ptr<RadianceImage>& radiance, float exposureEv) {
+void Picture::show(const std::shared_ptr<RadianceImage>& radiance, float exposureEv,
+                   ToneMapper mapper) {
   if (!radiance) return;
   if (!pass_) pass_ = std::make_unique<gl::DisplayPass>();
-  texture_ = pass_->render(radiance, exposureEv);
+  texture_ = pass_->render(radiance, exposureEv, mapper);
 }
 
 void Picture::show(const std::shared_ptr<const ViewPicture>& picture) {

@@ -22,7 +22,7 @@ class Picture {
   Picture& operator=(const Picture&) = delete;
 
   // Shows this radiance at this exposure. Needs a current OpenGL context, then and when this ends.
-  void show(const std::shared_ptr<RadianceImage>& radiance, float exposureEv);
+  void show(const std::shared_ptr<RadianceImage>& radiance, float exposureEv, ToneMapper mapper);
   // Shows a picture that is of the display already.
   void show(const std::shared_ptr<const ViewPicture>& picture);
   uint32_t texture() const { return texture_; }  // 0: nothing yet

@@ -32,6 +32,12 @@ void drawOverlay(ImDrawList& list, const Overlay& overlay, vec2 origin, float sc
   for (const OverlayShape& shape : overlay.shapes) drawShape(list, shape, origin, scale);
   for (const OverlayText& text : overlay.texts) {
     const ImVec2 at{text.position.x + origin.x, text.position.y + origin.y};
+    if (text.boxed) {
+      const ImVec2 size = ImGui::CalcTextSize(text.text.c_str());
+      const float pad = 5.0f * scale;
+      list.AddRectFilled({at.x - pad, at.y - pad}, {at.x + size.x + pad, at.y + size.y + pad},
+                         theme::colour(theme::kBackground, 200), 4.0f * scale);
+    }
     list.AddText({at.x + 1, at.y + 1}, theme::colour(0, 160), text.text.c_str());
     list.AddText(at, packed(text.colour), text.text.c_str());
   }

@@ -45,6 +45,11 @@ TEST_F(Display, ShowsAHostPictureAsItWouldBeWritten) {
   for (const float ev : {0.0f, -3.0f, 2.5f}) {
     expectNear(read(pass.render(image, ev), image->pixels()), toneMap(image->pixels(), ev));
   }
+  for (const ToneMapperInfo& m : toneMappers()) {
+    SCOPED_TRACE(m.name);
+    expectNear(read(pass.render(image, 1.0f, m.mapper), image->pixels()),
+               toneMap(image->pixels(), 1.0f, m.mapper));
+  }
   // Another picture of another size.
   const auto other = std::make_shared<HostImage>(Image(7, 5, vec3(0.18f)));
   expectNear(read(pass.render(other, 0), other->pixels()), toneMap(other->pixels(), 0));

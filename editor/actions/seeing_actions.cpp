@@ -1,0 +1,149 @@
+// What tells of the picture: why a point is dark, how bright it is, how far it is from another.
+#include <cmath>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+namespace {
+
+vec2 pixelOf(const Arguments& a, const std::string& usage) {
+  requireArguments(a, 2, 2, usage);
+  return {numberOf(a[0]), numberOf(a[1])};
+}
+
+int rowOf(const std::string& text) {
+  const float number = numberOf(text);
+  if (number != std::floor(number) || std::abs(number) > 1e6f)
+    throw InputError(text, "is no whole number", "give one such as 0");
+  return static_cast<int>(number);
+}
+
+vec2 pointerOf(const Session& s) {
+  if (const auto at = s.pointer()) return *at;
+  throw InputError("pointer", "it has not been over the picture yet", "point at a surface");
+}
+
+void explainAt(Session& s, const vec2& pixel) { s.points().explainAt(s.pointSubject(), pixel); }
+
+void addExplain(ActionRegistry& r) {
+  r.add({"explain.at",
+         "Why is it dark at",
+         "X Y",
+         "Tells what each light gives the surface at a viewport pixel, and what stands between.",
+         "",
+         [](Session& s, const Arguments& a) { explainAt(s, pixelOf(a, "explain.at X Y")); },
+         {}});
+  r.add({"explain.pointer",
+         "Why is it dark here?",
+         "",
+         "Tells what each light gives the surface under the pointer, and what stands between.",
+         "Y",
+         [](Session& s, const Arguments&) { explainAt(s, pointerOf(s)); },
+         {}});
+  r.add({"explain.light",
+         "Show light's rays",
+         "ROW",
+         "Draws the rays between the explained point and a light, by its row from 0.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "explain.light ROW");
+           s.points().explainer().choose(rowOf(a[0]));
+         },
+         {}});
+  r.add({"explain.blocker",
+         "Select what stands before a light",
+         "ROW [INDEX]",
+         "Selects what stands between the explained point and a light; rows and indices from 0.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 2, "explain.blocker ROW [INDEX]");
+           s.select({s.points().explainer().blocker(rowOf(a[0]), a.size() > 1 ? rowOf(a[1]) : 0)});
+         },
+         {}});
+  r.add({"explain.close", "Close the explanation", "",
+         "Closes the panel that tells why it is dark.", "",
+         [](Session& s, const Arguments&) { s.points().explainer().close(); },
+         [](const Session& s) { return s.points().explainer().answer() != nullptr; }});
+}
+
+void addTool(ActionRegistry& r, const char* name, const char* label, const char* help,
+             const char* key, PointTool tool) {
+  r.add({name,
+         label,
+         "",
+         help,
+         key,
+         [tool](Session& s, const Arguments&) {
+           s.points().setTool(s.points().tool() == tool ? PointTool::none : tool);
+         },
+         {},
+         false,
+         [tool](const Session& s) { return s.points().tool() == tool; }});
+}
+
+void addProbe(ActionRegistry& r) {
+  r.add({"probe.at",
+         "Probe at",
+         "X Y",
+         "Reads illuminance and luminance at a viewport pixel into the status line.",
+         "",
+         [](Session& s, const Arguments& a) {
+           const vec2 pixel = pixelOf(a, "probe.at X Y");
+           s.setStatus(readingText(s.points().probeAt(s.pointSubject(), pixel)));
+         },
+         {}});
+  r.add({"view.probe",
+         "Probe",
+         "",
+         "Shows illuminance (lx) and luminance (nt) under the pointer.",
+         "I",
+         [](Session& s, const Arguments&) { s.points().probePointer(!s.points().probesPointer()); },
+         {},
+         true,
+         [](const Session& s) { return s.points().probesPointer(); }});
+}
+
+void addMeasure(ActionRegistry& r) {
+  r.add({"measure.start",
+         "Measure from here on",
+         "",
+         "Takes up the tool with which two clicks measure a distance, from nothing.",
+         "",
+         [](Session& s, const Arguments&) {
+           s.points().setTool(PointTool::measure);
+           s.points().measurement().clear();
+         },
+         {}});
+  r.add({"measure.at",
+         "Measure at",
+         "X Y",
+         "Takes the surface at a viewport pixel as the next end of the measured distance.",
+         "",
+         [](Session& s, const Arguments& a) {
+           s.points().measureAt(s.pointSubject(), pixelOf(a, "measure.at X Y"));
+           if (s.points().measurement().isComplete()) s.setStatus(s.points().measurement().text());
+         },
+         {}});
+  r.add({"measure.clear", "Clear the measurement", "",
+         "Takes the measured distance off the picture.", "",
+         [](Session& s, const Arguments&) { s.points().measurement().clear(); },
+         [](const Session& s) { return s.points().measurement().hasBegun(); }});
+}
+
+}  // namespace
+
+void addSeeingActions(ActionRegistry& r) {
+  addTool(r, "tool.explain", "Why is it dark?",
+          "A click tells what each light gives there, and what stands between.", "Shift+Y",
+          PointTool::explain);
+  addTool(r, "tool.measure", "Measure", "Two clicks on surfaces show the distance between them.",
+          "M", PointTool::measure);
+  addExplain(r);
+  addProbe(r);
+  addMeasure(r);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,102 @@
+#include "editor/explain/explainer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/tools/projection.h"
+#include "renderer/error.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter {
+namespace {
+
+const vec4 kPoint{1.0f, 1.0f, 1.0f, 1.0f};
+const vec4 kSeen{0.55f, 0.9f, 0.55f, 0.8f};
+const vec4 kHidden{0.95f, 0.35f, 0.3f, 0.8f};
+constexpr size_t kMostLines = 64;  // more would be a smear
+
+}  // namespace
+
+void Explainer::ask(const Scene& scene, const RenderScene& world, const RayCaster& rays,
+                    const PickedPoint& point, const LightSamples& samples) {
+  anchor_.emplace(scene, point);
+  answer_ = explain(scene, world, rays, point, samples);
+  // What matters most: who would give most and does not, else who gives most.
+  const auto worst = std::max_element(
+      answer_->lights.begin(), answer_->lights.end(),
+      [](const LightShare& a, const LightShare& b) { return a.withheld < b.withheld; });
+  chosen_.reset();
+  if (worst != answer_->lights.end() && worst->withheld > 0.0f)
+    chosen_ = worst->light;
+  else if (!answer_->lights.empty())
+    chosen_ = answer_->lights.front().light;
+}
+
+void Explainer::askAgain(const Scene& scene, const RenderScene& world, const RayCaster& rays,
+                         const LightSamples& samples) {
+  if (!anchor_) return;
+  if (const auto point = anchor_->placedIn(scene))
+    answer_ = explain(scene, world, rays, *point, samples);
+  else
+    close();
+}
+
+const LightShare* Explainer::chosen() const {
+  if (!answer_ || !chosen_) return nullptr;
+  const auto found = std::find_if(answer_->lights.begin(), answer_->lights.end(),
+                                  [&](const LightShare& l) { return l.light == *chosen_; });
+  return found == answer_->lights.end() ? nullptr : &*found;
+}
+
+const LightShare& Explainer::row(int index) const {
+  const size_t count = answer_ ? answer_->lights.size() : 0;
+  if (index < 0 || static_cast<size_t>(index) >= count)
+    throw InputError("light " + std::to_string(index), "there is no such row",
+                     count == 0 ? "point at a surface first, with explain.at X Y"
+                                : "give one from 0 to " + std::to_string(count - 1));
+  return answer_->lights[static_cast<size_t>(index)];
+}
+
+void Explainer::choose(int index) { chosen_ = row(index).light; }
+
+NodeId Explainer::blocker(int index, int which) const {
+  const LightShare& light = row(index);
+  if (which < 0 || static_cast<size_t>(which) >= light.blockers.size())
+    throw InputError(
+        "blocker " + std::to_string(which) + " of " + light.name, "there is none of that number",
+        light.blockers.empty() ? "nothing stands before it"
+                               : "give one from 0 to " + std::to_string(light.blockers.size() - 1));
+  return light.blockers[static_cast<size_t>(which)].node;
+}
+
+void Explainer::draw(Overlay& overlay, const View& view, const RenderScene& world,
+                     const RayCaster& rays, const LightSamples& samples) const {
+  if (!answer_) return;
+  const PickedPoint& p = answer_->point;
+  if (const LightShare* light = chosen()) {
+    std::vector<const LightSamples::Sample*> facing;
+    for (const LightSamples::Sample& s : samples.samples)
+      if (s.id.light == light->light && s.id.bounce == 0 &&
+          shared::vplGeometry(s.vpl, p.position, p.normal, p.geometricNormal, 0.0f) > 0.0f)
+        facing.push_back(&s);
+    const size_t step = (facing.size() + kMostLines - 1) / kMostLines;
+    for (size_t i = 0; i < facing.size(); i += step) {
+      const Ray ray = rayTo(p, facing[i]->vpl);
+      const Hit hit = rays.intersect(ray);
+      // Parallel light comes from beyond the level.
+      const float end = std::isfinite(ray.tFar) ? ray.tFar : 2.0f * world.bounds.radius();
+      const float t = hit ? hit.t : end;
+      addLine(overlay, view, ray.origin, ray.origin + t * ray.direction, hit ? kHidden : kSeen,
+              1.0f);
+    }
+  }
+  const float size = metresPerPixel(view, p.position);
+  const Frame frame(p.geometricNormal);
+  addLoop(overlay, view, circle(p.position, frame.tangent, frame.bitangent, 9.0f * size, 24),
+          vec4(0, 0, 0, 0.6f), 4.0f);
+  addLoop(overlay, view, circle(p.position, frame.tangent, frame.bitangent, 9.0f * size, 24),
+          kPoint, 2.0f);
+  addLine(overlay, view, p.position, p.position + 22.0f * size * p.geometricNormal, kPoint, 2.0f);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,143 @@
+#include "editor/explain/explanation.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "renderer/sampling/lights.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter {
+namespace {
+
+// E of one sample if nothing stood between [lx].
+float unshadowed(const PickedPoint& p, const LightSamples::Sample& s, float clampDistance) {
+  return luminance(vec3(s.vpl.intensity)) *
+         shared::vplGeometry(s.vpl, p.position, p.normal, p.geometricNormal, clampDistance);
+}
+
+std::string nameIn(const Scene& scene, NodeId id) {
+  if (id == kNoNode) return "sky";
+  const Node* node = scene.find(id);
+  return node == nullptr || node->name.empty() ? "(unnamed)" : node->name;
+}
+
+bool isMeantToLight(const Scene& scene, const Node& node) {
+  if (node.area || node.punctual) return true;
+  if (node.mesh == kNone) return false;
+  const auto& primitives = scene.meshes[static_cast<size_t>(node.mesh)]->primitives;
+  return std::any_of(primitives.begin(), primitives.end(), [&](const Primitive& p) {
+    return p.material != kNone && scene.materials[static_cast<size_t>(p.material)].emits();
+  });
+}
+
+LightState stateOf(const LightShare& l) {
+  if (l.samples == 0) return LightState::unsampled;
+  if (l.facing == 0) return LightState::away;
+  if (l.seen == 0) return LightState::shadowed;
+  return l.seen == l.facing ? LightState::lit : LightState::partly;
+}
+
+// One for each light that emits, and for each that is meant to.
+std::map<NodeId, LightShare> allLights(const Scene& scene, const RenderScene& world) {
+  std::map<NodeId, LightShare> shares;
+  for (const Node& node : scene.nodes)
+    if (isMeantToLight(scene, node)) shares[node.id].light = node.id;
+  const LightSet lights(world);
+  for (const Emitter& e : lights.emitters()) {
+    LightShare& l = shares[e.node];
+    l.light = e.node;
+    l.state = LightState::unsampled;
+  }
+  for (auto& [id, l] : shares) l.name = nameIn(scene, id);
+  return shares;
+}
+
+void addSample(const RenderScene& world, const RayCaster& rays, const PickedPoint& point,
+               const LightSamples::Sample& sample, float given, LightShare& l) {
+  const bool isDirect = sample.id.bounce == 0;
+  if (isDirect) ++l.samples;
+  if (!(given > 0.0f)) return;
+  ++(isDirect ? l.facing : l.bouncedFacing);
+  const Hit hit = rays.intersect(rayTo(point, sample.vpl));
+  if (!hit) {
+    ++(isDirect ? l.seen : l.bouncedSeen);
+    (isDirect ? l.direct : l.bounced) += given;
+    return;
+  }
+  if (!isDirect) return;
+  l.withheld += given;
+  const NodeId node = world.objects[hit.object].node;
+  auto blocker = std::find_if(l.blockers.begin(), l.blockers.end(),
+                              [&](const Blocker& b) { return b.node == node; });
+  if (blocker == l.blockers.end()) blocker = l.blockers.insert(blocker, Blocker{node, "", 0, 0});
+  blocker->withheld += given;
+  ++blocker->samples;
+}
+
+}  // namespace
+
+const char* nameOf(LightState state) {
+  switch (state) {
+    case LightState::lit:
+      return "lit";
+    case LightState::partly:
+      return "partly";
+    case LightState::shadowed:
+      return "shadowed";
+    case LightState::away:
+      return "faces away";
+    case LightState::unsampled:
+      return "no samples";
+    case LightState::off:
+      break;
+  }
+  return "off";
+}
+
+Ray rayTo(const PickedPoint& p, const shared::Vpl& vpl) {
+  const vec3 start = p.position + rayEpsilon(p.position) * p.geometricNormal;
+  const vec3 axis(vpl.normal);
+  if (vpl.position.w == shared::kVplDirectional) return {start, 0.0f, axis};
+  vec3 end(vpl.position);
+  if (vpl.position.w == shared::kVplCosine) end += rayEpsilon(end) * axis;
+  return {start, 0.0f, end - start, 1.0f};
+}
+
+float irradianceAt(const RayCaster& rays, const PickedPoint& point, const LightSamples& samples) {
+  float sum = 0.0f;
+  for (const LightSamples::Sample& s : samples.samples) {
+    const float given = unshadowed(point, s, samples.clampDistance);
+    if (given > 0.0f && !rays.occluded(rayTo(point, s.vpl))) sum += given;
+  }
+  return sum;
+}
+
+Explanation explain(const Scene& scene, const RenderScene& world, const RayCaster& rays,
+                    const PickedPoint& point, const LightSamples& samples) {
+  Explanation out;
+  out.point = point;
+  out.object = nameIn(scene, point.node);
+  std::map<NodeId, LightShare> shares = allLights(scene, world);
+  for (const LightSamples::Sample& s : samples.samples) {
+    const auto found = shares.find(s.id.light);
+    if (found == shares.end()) continue;  // of a light that has just gone
+    addSample(world, rays, point, s, unshadowed(point, s, samples.clampDistance), found->second);
+  }
+  for (auto& [id, l] : shares) {
+    if (l.state != LightState::off) l.state = stateOf(l);
+    for (Blocker& b : l.blockers) b.name = nameIn(scene, b.node);
+    std::stable_sort(l.blockers.begin(), l.blockers.end(),
+                     [](const Blocker& a, const Blocker& b) { return a.withheld > b.withheld; });
+    out.irradiance += l.given();
+    out.lights.push_back(std::move(l));
+  }
+  std::stable_sort(out.lights.begin(), out.lights.end(),
+                   [](const LightShare& a, const LightShare& b) {
+                     const float mayA = a.given() + a.withheld, mayB = b.given() + b.withheld;
+                     return mayA != mayB ? mayA > mayB : a.state < b.state;
+                   });
+  return out;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,18 @@
+// Numbers with units, as they are read out.
+#pragma once
+
+#include <string>
+
+#include "renderer/math.h"
+
+namespace lamplighter {
+
+// Three digits are as much as an estimate by samples says: "0.0123", "12.3", "12300".
+std::string threeDigits(float value);
+std::string luxText(float irradiance);       // "123 lx"
+std::string nitsText(float luminance);       // "45.6 nt"
+std::string metresText(float metres);        // "2.350 m"
+std::string offsetText(const vec3& metres);  // "dx +1.000  dy -0.500  dz +0.000 m"
+std::string percentText(float share);        // "12%", "0.4%"
+
+}  // namespace lamplighter

@@ -1,0 +1,174 @@
+// The answer to "why is it dark here?": a row for each light.
+#include <algorithm>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "editor/explain/quantity.h"
+#include "ui/icons.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr float kWidth = 540.0f, kMostRows = 9.0f;  // design pixels; rows without scrolling
+
+unsigned colourOf(LightState state) {
+  switch (state) {
+    case LightState::lit:
+      return theme::kGood;
+    case LightState::partly:
+      return theme::kWarning;
+    case LightState::shadowed:
+      return 0xe06a5a;
+    default:
+      return theme::kTextDim;
+  }
+}
+
+void coloured(const std::string& text, unsigned colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(colour));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+// Flush right within its column.
+void number(const std::string& text, unsigned colour = theme::kText) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  coloured(text, colour);
+}
+
+std::string stateText(const LightShare& l) {
+  const std::string name = nameOf(l.state);
+  return l.state == LightState::partly ? fmt::format("{} {}/{}", name, l.seen, l.facing) : name;
+}
+
+std::string stateHelp(const LightShare& l) {
+  switch (l.state) {
+    case LightState::off:
+      return "It is hidden, or has no strength.";
+    case LightState::unsampled:
+      return "Brighter lights take all light samples; a larger number of them reaches this one.";
+    case LightState::away:
+      return "The surface looks away from it, or is behind it or outside its cone.";
+    default:
+      break;
+  }
+  std::string text =
+      fmt::format("{} of the {} light samples that face the point reach it.", l.seen, l.facing);
+  if (l.withheld > 0.0f) text += fmt::format(" {} are kept away.", luxText(l.withheld));
+  if (l.bouncedFacing > 0)
+    text += fmt::format(" Of its bounces {} of {} do.", l.bouncedSeen, l.bouncedFacing);
+  return text;
+}
+
+void header(const PanelContext& ui, const Explanation& e, Requests& requests) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted("Why is it dark here?");
+  const float width = ImGui::GetFrameHeight();
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+  if (ImGui::Button(theme::hasIcons() ? icon::kClose : "x", {width, 0}))
+    requests.actions.emplace_back("explain.close");
+  ui.name("close");
+  tooltip(ui, "Close");
+  const vec3& p = e.point.position;
+  coloured(fmt::format("{}  at {:.2f}, {:.2f}, {:.2f}", e.object, p.x, p.y, p.z), theme::kTextDim);
+  ImGui::SameLine(0, ui.px(14));
+  coloured(luxText(e.irradiance), theme::kAccent);
+  ui.name("irradiance");
+  tooltip(ui, "Light that falls on the surface, of all lights and bounces together.");
+}
+
+void blockers(const PanelContext& ui, const LightShare& l, int row, Requests& requests) {
+  // The first; the others are told by its tooltip.
+  const Blocker& first = l.blockers.front();
+  std::string label = first.name;
+  if (l.blockers.size() > 1) label += fmt::format(" +{}", l.blockers.size() - 1);
+  if (ImGui::SmallButton((label + "##blocker").c_str()))
+    requests.actions.push_back(fmt::format("explain.blocker {} 0", row));
+  ui.name(fmt::format("row.{}/blocker", row));
+  std::string help = "Keeps light away; a click selects it.";
+  for (const Blocker& b : l.blockers)
+    help += fmt::format("\n{}: {}, {} sample{}", b.name, luxText(b.withheld), b.samples,
+                        b.samples == 1 ? "" : "s");
+  tooltip(ui, help);
+}
+
+void lightRow(const PanelContext& ui, const Explanation& e, int row, bool chosen,
+              Requests& requests) {
+  const LightShare& l = e.lights[static_cast<size_t>(row)];
+  const bool gives = l.given() > 0.0f;
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  ImGui::PushID(row);
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(gives ? theme::kText : theme::kTextDim));
+  if (ImGui::Selectable(
+          l.name.c_str(), chosen,
+          ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap))
+    requests.actions.push_back("explain.light " + std::to_string(row));
+  ImGui::PopStyleColor();
+  ui.name("row." + std::to_string(row));
+  tooltip(ui, l.name + ": " + stateHelp(l));
+  ImGui::TableNextColumn();
+  coloured(stateText(l), colourOf(l.state));
+  ImGui::TableNextColumn();
+  number(l.direct > 0.0f ? threeDigits(l.direct) : "-", gives ? theme::kText : theme::kTextDim);
+  ImGui::TableNextColumn();
+  number(l.bounced > 0.0f ? threeDigits(l.bounced) : "-", gives ? theme::kText : theme::kTextDim);
+  ImGui::TableNextColumn();
+  number(percentText(e.shareOf(l)), gives ? theme::kText : theme::kTextDim);
+  ImGui::TableNextColumn();
+  if (!l.blockers.empty()) blockers(ui, l, row, requests);
+  ImGui::PopID();
+}
+
+void columns(const PanelContext& ui) {
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("Light", ImGuiTableColumnFlags_WidthStretch, 1.25f);
+  ImGui::TableSetupColumn("State", ImGuiTableColumnFlags_WidthFixed, ui.px(94));
+  ImGui::TableSetupColumn("Direct lx", ImGuiTableColumnFlags_WidthFixed, ui.px(58));
+  ImGui::TableSetupColumn("Bounced lx", ImGuiTableColumnFlags_WidthFixed, ui.px(72));
+  ImGui::TableSetupColumn("Share", ImGuiTableColumnFlags_WidthFixed, ui.px(40));
+  ImGui::TableSetupColumn("Kept away by", ImGuiTableColumnFlags_WidthStretch, 1.0f);
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
+  ImGui::TableHeadersRow();
+  ImGui::PopStyleColor();
+}
+
+}  // namespace
+
+void explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
+  const Explanation* answer = ui.session.points().explainer().answer();
+  if (answer == nullptr) return;
+  ui.prefix = "explain/";
+  const float gap = ui.px(10);
+  const float width = std::min(ui.px(kWidth), view.size().x - 2.0f * gap);
+  const float rowHeight = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
+  const float rows = std::min(static_cast<float>(answer->lights.size()), kMostRows) + 1.0f;
+  const float tableHeight = std::ceil(rows * (rowHeight + ui.px(1)) + ui.px(4));
+  ImGui::SetNextWindowPos({view.max.x - gap - width, view.min.y + gap});
+  ImGui::SetNextWindowSize({width, 0.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+  ImGui::Begin(
+      "##explain", nullptr,
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleVar(2);
+  header(ui, *answer, requests);
+  if (answer->lights.empty()) {
+    note("The level has no light.");
+  } else if (ImGui::BeginTable(
+                 "lights", 6,
+                 ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH,
+                 {0.0f, tableHeight})) {
+    columns(ui);
+    const LightShare* chosen = ui.session.points().explainer().chosen();
+    for (int row = 0; row < static_cast<int>(answer->lights.size()); ++row)
+      lightRow(ui, *answer, row, chosen == &answer->lights[static_cast<size_t>(row)], requests);
+    ImGui::EndTable();
+  }
+  ImGui::End();
+}
+
+}  // namespace lamplighter

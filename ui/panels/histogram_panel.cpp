@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "editor/explain/quantity.h"
+#include "ui/icons.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr float kWidth = 330.0f, kHeight = 92.0f;  // design pixels; of the bars
+
+float atStops(const Rect& area, float stops) {
+  const float t = (stops - Histogram::kLowest) / (Histogram::kHighest - Histogram::kLowest);
+  return area.min.x + t * area.size().x;
+}
+
+// Bars, with lines at 1 and at middle grey and a tick a stop.
+void bars(const PanelContext& ui, const Histogram& h) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = ui.px(kHeight);
+  ImGui::InvisibleButton("bars", {width, height});
+  ui.name("bars");
+  const Rect area{{at.x, at.y}, {at.x + width, at.y + height}};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {area.max.x, area.max.y}, theme::colour(theme::kBackground), ui.px(3));
+  // The end bins hold all beyond: they must not press the others flat.
+  const uint64_t most =
+      std::max<uint64_t>(*std::max_element(h.bins.begin() + 1, h.bins.end() - 1), 1);
+  const float step = width / Histogram::kBins;
+  for (int i = 0; i < Histogram::kBins; ++i) {
+    const auto count = static_cast<float>(h.bins[static_cast<size_t>(i)]);
+    if (count == 0.0f) continue;
+    // The root shows rare brightnesses too.
+    const float share = std::min(std::sqrt(count / static_cast<float>(most)), 1.0f);
+    const float x = area.min.x + step * static_cast<float>(i);
+    const float top = area.max.y - std::max(share * (height - ui.px(4)), 1.0f);
+    const float stops = Histogram::kLowest + (Histogram::kHighest - Histogram::kLowest) *
+                                                 (static_cast<float>(i) + 0.5f) / Histogram::kBins;
+    list.AddRectFilled({x, top}, {x + step, area.max.y},
+                       theme::colour(stops >= 0.0f ? theme::kWarning : theme::kTextDim, 220));
+  }
+  for (const auto& [stops, colour] : {std::pair{0.0f, theme::kText}, {-2.474f, theme::kAccent}}) {
+    const float x = std::round(atStops(area, stops));
+    list.AddLine({x, area.min.y}, {x, area.max.y}, theme::colour(colour, 150));
+  }
+  for (float stops = Histogram::kLowest; stops <= Histogram::kHighest; stops += 1.0f) {
+    const float x = std::round(atStops(area, stops));
+    list.AddLine({x, area.max.y - ui.px(4)}, {x, area.max.y}, theme::colour(theme::kLine));
+  }
+  const float stops = Histogram::kLowest + (Histogram::kHighest - Histogram::kLowest) *
+                                               (ImGui::GetMousePos().x - area.min.x) / width;
+  const float ev = ui.session.document().render.exposureEv;
+  tooltip(ui, fmt::format("{:+.1f} stops: {}. The white line is display white of a linear curve, "
+                          "the other one middle grey (0.18).",
+                          stops, nitsText(std::exp2(stops - ev))));
+}
+
+void exposureField(const PanelContext& ui, Requests& requests) {
+  labelledRow(ui, "Exposure", "Doubles the picture's brightness a step.");
+  const float button = ui.px(56), gap = ui.px(5);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
+  float ev = ui.session.document().render.exposureEv;
+  ImGui::InputFloat("##exposure", &ev, 0.25f, 1.0f, "%+.2f EV");
+  ui.name("exposure");
+  if (ImGui::IsItemDeactivatedAfterEdit() && std::isfinite(ev))
+    requests.actions.push_back(fmt::format("render.exposure {}", ev));
+  ImGui::SameLine(0, gap);
+  if (ImGui::Button("Auto", {button, 0})) requests.actions.emplace_back("render.auto_exposure");
+  ui.name("auto");
+  tooltip(ui, "The exposure that suits the picture.");
+}
+
+void mapperCombo(const PanelContext& ui, Requests& requests) {
+  const ToneMapperInfo& now = infoOf(ui.session.display().toneMapper());
+  labelledRow(ui, "Tone mapper", now.help);
+  const bool open = ImGui::BeginCombo("##mapper", now.label);
+  ui.name("tone_mapper");
+  if (!open) return;
+  for (const ToneMapperInfo& m : toneMappers()) {
+    if (ImGui::Selectable(m.label, m.mapper == now.mapper))
+      requests.actions.push_back(std::string("view.tone_mapper ") + m.name);
+    ui.name(std::string("tone_mapper/") + m.name);
+    tooltip(ui, m.help);
+  }
+  ImGui::EndCombo();
+}
+
+}  // namespace
+
+void histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
+  Session& session = ui.session;
+  if (!session.display().showsHistogram() || !session.output().radiance) return;
+  ui.prefix = "histogram/";
+  const float gap = ui.px(10);
+  const float width = std::min(ui.px(kWidth), view.size().x - 2.0f * gap);
+  ImGui::SetNextWindowPos({view.max.x - gap, view.max.y - gap}, ImGuiCond_Always, {1.0f, 1.0f});
+  ImGui::SetNextWindowSize({width, 0.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+  ImGui::Begin(
+      "##histogram", nullptr,
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleVar(2);
+  const Histogram& h =
+      session.display().histogram(session.output().radiance, session.document().render.exposureEv);
+  bars(ui, h);
+  note(fmt::format("{} white   {} black   median {}", percentText(h.white), percentText(h.black),
+                   nitsText(h.median)));
+  ui.name("clipped");
+  exposureField(ui, requests);
+  mapperCombo(ui, requests);
+  ImGui::End();
+}
+
+}  // namespace lamplighter
