@@ -45,6 +45,8 @@ void punctualLightFields(PanelContext ui, const Node& node);
 void skyFields(PanelContext ui, InspectorState& state);
 
 void renderPanel(PanelContext ui);
+// The method's parameters of a group under a header that opens; nothing where it has none of them.
+void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group);
 
 struct StatusInfo {
   double frameSeconds = 0.0;  // smoothed
