@@ -131,6 +131,7 @@ void Session::setRender(const RenderSettings& settings) {
 }
 
 void Session::toggleReference() {
+  if (split_.on()) return split_.toggleWhole();
   RenderSettings settings = document_.render;
   if (settings.method == "reference") {
     settings.method = methodBeforeReference_;
@@ -219,6 +220,7 @@ void Session::viewport(const ViewportInput& input) {
     });
     return;
   }
+  if (split_.drag(input, view_.width)) return;
   if (tools_->camera.update(view_, input)) return;
   if (tools_->gizmo.update(view_, input, document_, history_)) return;
   if (!input.pressed[0] || !input.hovered || renderer_->rays() == nullptr) return;
@@ -278,16 +280,20 @@ std::optional<Session::Place> Session::surfaceAhead(const std::vector<NodeId>& i
 }
 
 const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
+  const double begin = clock_ ? clock_() : 0.0;
   const SceneChanges changes = history_.takeChanges();
   renderError_.clear();
   const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
-  Settings settings = document_.render.values;
+  const RenderSettings render =
+      split_.on() ? split_.first().of(document_.render) : document_.render;
+  Settings settings = render.values;
   if (updates) settings.set(parameters::updates().name, *updates);
   try {
-    output_ = renderer_->render({document_.scene, changes, view_, document_.render.method, settings,
+    output_ = renderer_->render({document_.scene, changes, view_, render.method, settings,
                                  display_.lightOnly(), updates.has_value(), refineUpdates});
     const bool same = output_.settled && output_.radiance == before && changes.none();
     display_.update(*renderer_, view_, document_.render, !same);
+    watchFrame(changes, begin);
   } catch (const InputError& e) {
     history_.showAll();  // part of it may have arrived: the next frame begins anew
     renderError_ = status_ = e.what();
@@ -299,9 +305,27 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
   return output_;
 }
 
+// Measured and compared once the frame is done; the second picture is no part of its time.
+void Session::watchFrame(const SceneChanges& changes, double begin) {
+  const double end = clock_ ? clock_() : 0.0;
+  watch_.timeline.add(frame_, begin, end, output_.stats);
+  RenderSettings shown = document_.render;
+  shown.exposureEv = watch_.shown.exposureEv;  // shows the same picture
+  const bool edited = !changes.none() || !(shown == watch_.shown);
+  watch_.shown = std::move(shown);
+  watch_.latency.frame({edited && !changes.everything, history_.undoLabel(), output_.settled, view_,
+                        output_.radiance, begin, end});
+  watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_.radiance);
+  if (watch_.meter.measured()) status_ = watch_.meter.text();
+  split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
+  output_.settled = output_.settled && split_.settled();
+}
+
 Image8 Session::picture() const {
   const auto& view = display_.picture();
-  return view ? view->image : toneMap(output_.radiance->pixels(), document_.render.exposureEv);
+  const float ev = document_.render.exposureEv;
+  if (split_.on() && split_.heat()) return split_.heat()->image;
+  return split_.compose(view ? view->image : toneMap(output_.radiance->pixels(), ev), ev);
 }
 
 Overlay Session::overlay() const {

@@ -14,6 +14,8 @@
 #include "editor/actions/action.h"
 #include "editor/commands/history.h"
 #include "editor/document/document.h"
+#include "editor/frame_watch.h"
+#include "editor/split/split_view.h"
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/viewport_input.h"
@@ -94,6 +96,14 @@ class Session {
   Image8 picture() const;
   uint32_t frame() const { return frame_; }
 
+  // What frames cost and how soon and how well they show edits; another picture beside the first.
+  FrameWatch& watch() { return watch_; }
+  const FrameWatch& watch() const { return watch_; }
+  SplitView& split() { return split_; }
+  const SplitView& split() const { return split_; }
+  // By which frames are timed; without one they are counted only.
+  void setClock(Stopwatch clock) { clock_ = std::move(clock); }
+
   // What tools draw over the picture: gizmo, selection outline, lights' shapes.
   Overlay overlay() const;
 
@@ -141,6 +151,9 @@ class Session {
   View view_;
   GiOutput output_;
   ViewDisplay display_;
+  FrameWatch watch_;
+  SplitView split_;
+  Stopwatch clock_;
   std::string status_, renderError_;
   uint32_t frame_ = 0;
   uint64_t savedHash_ = 0;
@@ -150,6 +163,7 @@ class Session {
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 
   void pruneSelection();
+  void watchFrame(const SceneChanges& changes, double begin);
   std::optional<Place> surfaceAlong(const vec3& direction,
                                     const std::vector<NodeId>& ignored) const;
 };

@@ -12,6 +12,8 @@ void addLightActions(ActionRegistry& registry);
 void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
 void addRenderActions(ActionRegistry& registry);
+void addCostActions(ActionRegistry& registry);
+void addSplitActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -21,6 +23,8 @@ inline void addAllActions(ActionRegistry& registry) {
   addSkyActions(registry);
   addViewActions(registry);
   addRenderActions(registry);
+  addCostActions(registry);
+  addSplitActions(registry);
 }
 
 }  // namespace lamplighter

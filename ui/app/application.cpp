@@ -44,6 +44,7 @@ GiStats refinementOf(GiStats stats) {
 Application::Application(Platform& platform, std::unique_ptr<Session> session)
     : platform_(platform), session_(std::move(session)), gui_(platform) {
   lastSeconds_ = platform_.seconds();
+  session_->setClock([this] { return platform_.seconds(); });
 }
 
 void Application::openNow(const std::filesystem::path& path) {
@@ -68,6 +69,8 @@ void Application::frame() {
   const PanelContext ui{*session_, widgets_, platform_.contentScale(), ""};
   drawPanels(ui);
   viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
+  // A replay must not depend on how far a thread has come.
+  if (!replaying_) meterWorker_.exchange(session_->watch().meter);
   session_->renderFrame(updatesWithinTime(), refineUpdates());
   frameTime_.measured(session_->output().stats);
   refineTime_.measured(refinementOf(session_->output().stats));
@@ -76,7 +79,8 @@ void Application::frame() {
     exposeAutomatically();
   }
   present();
-  viewport_.draw(ui, picture_.texture());
+  const bool isSplit = session_->split().on() && session_->split().secondPicture();
+  viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0);
   drawStatusLine(ui);
   drawDialogs(ui);
   gui_.endFrame();
@@ -178,7 +182,7 @@ void Application::drawPanels(PanelContext ui) {
   inspector(ui, inspectorState_);
   ImGui::End();
   beginPanel("##render", layout_.render);
-  renderPanel(ui);
+  renderPanel(ui, timelineState_, requests_);
   ImGui::End();
   layout_.splitters(ui);
   // At once, so that this frame shows what they do.
@@ -215,6 +219,8 @@ void Application::drawDialogs(PanelContext ui) {
       session_->requestOpen(*path);
     else if (fileDialog_.kind() == FileDialog::Kind::picture)
       runAction("sky.image " + quoted(path->string()));
+    else if (fileDialog_.kind() == FileDialog::Kind::timeline)
+      runAction("timeline.export " + quoted(path->string()));
     else
       openSave(*path);
   }
@@ -256,7 +262,12 @@ void Application::closeIfSaved() {
 
 void Application::present() {
   if (!platform_.hasGl()) return;
-  if (const auto& view = session_->display().picture())
+  const SplitView& split = session_->split();
+  if (split.on() && split.secondPicture() && split.shown() != SplitView::Shown::heat)
+    secondPicture_.show(split.secondPicture(), session_->document().render.exposureEv);
+  if (split.on() && split.heat())
+    picture_.show(split.heat());
+  else if (const auto& view = session_->display().picture())
     picture_.show(view);
   else
     picture_.show(session_->output().radiance, session_->document().render.exposureEv);
@@ -281,6 +292,8 @@ void Application::exposeAutomatically() {
 void Application::answerRequests() {
   const Requests requests = std::exchange(requests_, {});
   if (requests.openDialog) fileDialog_.open(FileDialog::Kind::open, session_->document().path);
+  if (requests.timelineDialog)
+    fileDialog_.open(FileDialog::Kind::timeline, session_->document().path);
   if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
 
   if (std::exchange(inspectorState_.choosesSky, false))

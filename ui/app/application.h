@@ -14,6 +14,7 @@
 #include "ui/app/input_queue.h"
 #include "ui/app/input_router.h"
 #include "ui/app/layout.h"
+#include "ui/app/meter_worker.h"
 #include "ui/app/scene_loader.h"
 #include "ui/app/widget_map.h"
 #include "ui/panels/panels.h"
@@ -79,7 +80,8 @@ class Application {
   InputQueue input_;
   InputRouter router_{widgets_};
   ImGuiLayer gui_;
-  Picture picture_;
+  Picture picture_, secondPicture_;
+  MeterWorker meterWorker_;
   Viewport viewport_;
   Layout layout_;
   SceneLoader loader_;
@@ -87,6 +89,7 @@ class Application {
 
   OutlinerState outlinerState_;
   InspectorState inspectorState_;
+  TimelineState timelineState_;
   Requests requests_;
   FileDialog fileDialog_;
   MessageBox messageBox_;

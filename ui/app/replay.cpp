@@ -29,7 +29,8 @@ class Replay {
   Replay(const ReplayOptions& options, Recording recording)
       : options_(options), updated_(recording), player_(std::move(recording), kPatience) {}
 
-  int run(Platform& platform, std::unique_ptr<FrameRenderer> renderer);
+  using MakeRenderer = SplitView::MakeRenderer;
+  int run(Platform& platform, const MakeRenderer& makeRenderer);
 
  private:
   const RecordingHeader& header() const { return player_.recording().header; }
@@ -65,8 +66,9 @@ void Replay::start(Application& app) {
   app.openNow(scene);
 }
 
-int Replay::run(Platform& platform, std::unique_ptr<FrameRenderer> renderer) {
-  Application app(platform, std::make_unique<Session>(std::move(renderer)));
+int Replay::run(Platform& platform, const MakeRenderer& makeRenderer) {
+  Application app(platform, std::make_unique<Session>(makeRenderer()));
+  app.session().split().setRenderer(makeRenderer);
   start(app);
   while (!player_.finished() && !app.finished()) {
     std::vector<InputEvent> ignored;
@@ -174,7 +176,7 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   };
   if (!options.headless) {
     Window window(header.width, header.height, "Lamplighter: replay", Window::Kind::fixed);
-    return replay.run(window, renderer());
+    return replay.run(window, renderer);
   }
   // OpenGL is needed only by the gl backend and for pictures of the panels.
   std::unique_ptr<gl::HeadlessContext> context;
@@ -185,7 +187,7 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
     if (backend == "gl") throw;
   }
   Headless headless(header.width, header.height, context != nullptr);
-  return replay.run(headless, renderer());
+  return replay.run(headless, renderer);
 }
 
 }  // namespace lamplighter

@@ -14,6 +14,7 @@ namespace lamplighter {
 struct Requests {
   bool openDialog = false;
   bool saveDialog = false;
+  bool timelineDialog = false;
   std::vector<std::string> actions;  // to run, as text
 };
 
@@ -44,7 +45,11 @@ void areaLightFields(PanelContext ui, const Node& node, InspectorState& state);
 void punctualLightFields(PanelContext ui, const Node& node);
 void skyFields(PanelContext ui, InspectorState& state);
 
-void renderPanel(PanelContext ui);
+struct TimelineState {
+  std::optional<Timeline> held;  // what is pointed at
+};
+void renderPanel(PanelContext ui, TimelineState& state, Requests& requests);
+void timelineSection(const PanelContext& ui, TimelineState& state, Requests& requests);
 // The method's parameters of a group under a header that opens; nothing where it has none of them.
 void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group);
 
@@ -58,7 +63,7 @@ void statusLine(PanelContext ui, const StatusInfo& info);
 // Modal dialogs. They are opened by open() and draw themselves each frame.
 class FileDialog {
  public:
-  enum class Kind { open, save, picture };
+  enum class Kind { open, save, picture, timeline };
   void open(Kind kind, const std::filesystem::path& start);
   // The chosen file, once.
   std::optional<std::filesystem::path> draw(PanelContext ui);

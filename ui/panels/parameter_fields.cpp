@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "editor/budgets/budget_costs.h"
 #include "renderer/methods/gi_method.h"
 #include "ui/panels/panels.h"
+#include "ui/theme.h"
 
 namespace lamplighter {
 namespace {
@@ -76,6 +78,20 @@ bool resetMenu(const PanelContext& ui, const ParameterSpec& spec, bool isSet) {
   return reset;
 }
 
+// Below a budget's slider: what it cost in the last seconds; what it buys where it is pointed at.
+void costLine(const PanelContext& ui, const ParameterSpec& spec, const Settings& settings) {
+  const auto cost =
+      costOf(spec.name, ui.session.watch().timeline, ui.session.output().stats, settings);
+  if (!cost) return;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + labelWidth(ui));
+  // One line whatever it says, so that nothing below moves with what was measured.
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
+  ImGui::TextUnformatted(cost->measured.c_str());
+  ImGui::PopStyleColor();
+  ui.name(spec.name + "/cost");
+  tooltip(ui, "Mean of the frames of the last seconds that drew upon this budget. " + cost->buys);
+}
+
 void parameterRow(const PanelContext& ui, const ParameterSpec& spec) {
   labelledRow(ui, spec.label.c_str(), spec.help.c_str());
   const auto value = parameterField(ui, spec, ui.session.document().render.values);
@@ -88,6 +104,7 @@ void parameterRow(const PanelContext& ui, const ParameterSpec& spec) {
     render.values.reset(spec.name);
     ui.session.setRender(render);
   }
+  if (spec.group == ParameterGroup::budgets) costLine(ui, spec, render.values);
 }
 
 }  // namespace

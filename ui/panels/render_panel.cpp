@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include "editor/presets/presets.h"
 #include "renderer/methods/gi_method.h"
 #include "ui/panels/panels.h"
+#include "ui/theme.h"
 
 namespace lamplighter {
 namespace {
@@ -24,9 +26,30 @@ void methodCombo(const PanelContext& ui, const MethodInfo& current) {
   ImGui::EndCombo();
 }
 
+// Side by side, the one that holds lit up.
+void presetRow(const PanelContext& ui, Requests& requests) {
+  labelledRow(ui, "Preset", "Budgets and qualities at once; each is one step to undo.");
+  const float gap = ui.px(4);
+  const float width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) /
+                                 static_cast<float>(presets().size()));
+  for (const Preset& preset : presets()) {
+    if (&preset != &presets().front()) ImGui::SameLine(0, gap);
+    const bool holds = hasPreset(ui.session.document().render, preset);
+    if (holds) {
+      ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
+      ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
+    }
+    const bool clicked = ImGui::Button(preset.label.c_str(), {width, 0});
+    if (holds) ImGui::PopStyleColor(2);
+    ui.name("preset/" + preset.name);
+    tooltip(ui, preset.help);
+    if (clicked) requests.actions.push_back("preset." + preset.name);
+  }
+}
+
 }  // namespace
 
-void renderPanel(PanelContext ui) {
+void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
   ui.prefix = "render/";
   const auto& all = methods();
   const auto found = std::find_if(all.begin(), all.end(), [&](const MethodInfo& m) {
@@ -34,6 +57,7 @@ void renderPanel(PanelContext ui) {
   });
   if (found == all.end()) return;
   methodCombo(ui, *found);
+  presetRow(ui, requests);
 
   labelledRow(ui, "Exposure", "Doubles the picture's brightness a step.");
   RenderSettings render = ui.session.document().render;
@@ -44,6 +68,7 @@ void renderPanel(PanelContext ui) {
   if (exposed) ui.session.setRender(render);
 
   for (const ParameterGroup group : kParameterGroups) parameterSection(ui, *found, group);
+  timelineSection(ui, state, requests);
 }
 
 }  // namespace lamplighter
