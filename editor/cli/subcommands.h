@@ -50,6 +50,13 @@ struct TonemapOptions {
 };
 int tonemap(const TonemapOptions& options);
 
+struct ScriptOptions {
+  std::string script, scene;  // scene "": the actions open one
+  std::string size = "1280x720", backend = "auto";
+  int threads = 0;
+};
+int script(const ScriptOptions& options, const Frontend& frontend);
+
 // "auto" or a number of EV; throws InputError.
 float exposureOf(const std::string& text, const Image& radiance);
 

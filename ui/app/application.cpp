@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <imgui.h>
+#include <spdlog/spdlog.h>
 
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/error.h"
@@ -74,6 +75,7 @@ void Application::frame() {
   session_->renderFrame(updatesWithinTime(), refineUpdates());
   frameTime_.measured(session_->output().stats);
   refineTime_.measured(refinementOf(session_->output().stats));
+  logLatency();
   if (framesToExposure_ > 0 && (--framesToExposure_ == 0 || session_->output().settled)) {
     framesToExposure_ = 0;
     exposeAutomatically();
@@ -87,6 +89,16 @@ void Application::frame() {
   answerRequests();
   platform_.present();
   updateTitle();
+}
+
+// Each edit once, when its picture has settled. A replay has a report for that.
+void Application::logLatency() {
+  const EditLatency& latency = session_->watch().latency;
+  if (latency.measured() == latenciesLogged_) return;
+  latenciesLogged_ = latency.measured();
+  if (replaying_) return;
+  const LatencyResult& last = latency.results().back();
+  spdlog::info("edit \"{}\": {}", last.what, latencyText(last, true));
 }
 
 void Application::takeInput() {

@@ -67,6 +67,7 @@ class Application {
   std::optional<int> updatesWithinTime();
   int refineUpdates();
   void present();
+  void logLatency();
   void takeLoaded();
   void answerRequests();
   void openSave(const std::filesystem::path& path);
@@ -109,6 +110,7 @@ class Application {
   bool replaying_ = false;
   bool finished_ = false;
   int framesToExposure_ = 0;
+  size_t latenciesLogged_ = 0;
   int quietFrames_ = 0;
   size_t titlePosition_ = ~size_t{0};  // of the history, when the title was made
   std::string title_;

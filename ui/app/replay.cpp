@@ -2,7 +2,11 @@
 #include <iostream>
 #include <optional>
 
+#include <nlohmann/json.hpp>
+
+#include "editor/document/write_file.h"
 #include "editor/input/player.h"
+#include "editor/latency/latency_report.h"
 #include "renderer/error.h"
 #include "renderer/gl/headless_context.h"
 #include "renderer/image/image_io.h"
@@ -40,11 +44,13 @@ class Replay {
   std::string pictureProblem(Session& session, const Image8& picture, const Checkpoint& checkpoint);
   void writePictures(Platform& platform, const Image8& picture, const Checkpoint& checkpoint);
   fs::path outputOf(const Checkpoint& checkpoint, const char* ending) const;
+  void writeReport(Session& session) const;
 
   const ReplayOptions& options_;
   Recording updated_;  // with the hashes of this run
   Player player_;
   int passed_ = 0, failed_ = 0;
+  nlohmann::ordered_json checks_ = nlohmann::ordered_json::array();
 };
 
 void Replay::start(Application& app) {
@@ -85,8 +91,22 @@ int Replay::run(Platform& platform, const MakeRenderer& makeRenderer) {
     for (const Checkpoint& checkpoint : player_.endFrame(settled)) check(app, platform, checkpoint);
   }
   if (options_.updateBaselines) writeRecording(updated_);
+  const std::string latency = latencySummary(app.session().watch().latency);
+  if (!latency.empty()) std::cout << latency << '\n';
+  if (!options_.report.empty()) writeReport(app.session());
   if (options_.check) std::cout << passed_ << " checks passed, " << failed_ << " failed\n";
   return failed_ == 0 ? 0 : 1;
+}
+
+void Replay::writeReport(Session& session) const {
+  const BackendInfo& backend = session.renderer().backend().info();
+  const nlohmann::ordered_json report{{"recording", options_.recording},
+                                      {"backend", backend.name},
+                                      {"device", backend.device},
+                                      {"frames", session.frame()},
+                                      {"checks", checks_},
+                                      {"edits", latencyJson(session.watch().latency)}};
+  writeFile(options_.report, report.dump(2) + '\n');
 }
 
 fs::path Replay::outputOf(const Checkpoint& checkpoint, const char* ending) const {
@@ -155,6 +175,7 @@ void Replay::check(Application& app, Platform& platform, const Checkpoint& check
   if (!problem.empty() && !seen.empty()) problem += "; ";
   problem += seen;
   (problem.empty() ? passed_ : failed_) += 1;
+  checks_.push_back({{"name", checkpoint.name}, {"passed", problem.empty()}, {"problem", problem}});
   std::cout << checkpoint.name << ": "
             << (!problem.empty()           ? "FAILED: " + problem
                 : options_.updateBaselines ? "written"
