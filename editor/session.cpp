@@ -137,6 +137,7 @@ void Session::setRender(const RenderSettings& settings) {
 }
 
 void Session::toggleReference() {
+  if (split_.on()) return split_.toggleWhole();
   RenderSettings settings = document_.render;
   if (settings.method == "reference") {
     settings.method = methodBeforeReference_;
@@ -250,6 +251,7 @@ void Session::viewport(const ViewportInput& input) {
     tools_->gizmo.update(view_, input, document_, history_, surface);
     return;
   }
+  if (split_.drag(input, view_.width)) return;
   if (tools_->camera.update(view_, input)) return;
   if (placing() && input.pressed[0] && input.hovered)
     return placeUnderPointer(*this, input.modifiers.shift);
@@ -300,19 +302,23 @@ std::optional<Session::Place> Session::surfaceAhead(const std::vector<NodeId>& i
 }
 
 const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
+  const double begin = clock_ ? clock_() : 0.0;
   SceneChanges changes = history_.takeChanges();
   const Scene& scene = workLight_.with(document_.scene, view_, lighting_.workLight, changes);
   sceneRevision_ += !changes.none();
   renderError_.clear();
   const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
-  Settings settings = document_.render.values;
+  const RenderSettings render =
+      split_.on() ? split_.first().of(document_.render) : document_.render;
+  Settings settings = render.values;
   if (updates) settings.set(parameters::updates().name, *updates);
   try {
-    output_ = renderer_->render({scene, changes, view_, document_.render.method, settings,
+    output_ = renderer_->render({scene, changes, view_, render.method, settings,
                                  display_.lightOnly(), updates.has_value(), refineUpdates});
     const bool same = output_.settled && output_.radiance == before && changes.none();
     display_.update(*renderer_, view_, document_.render, !same);
     points_.update(pointSubject(), !same, !changes.none());
+    watchFrame(changes, begin);
   } catch (const InputError& e) {
     history_.showAll();  // part of it may have arrived: the next frame begins anew
     renderError_ = status_ = e.what();
@@ -333,11 +339,29 @@ std::optional<vec2> Session::pointer() const {
   return tools_->pointerKnown ? std::optional(tools_->pointer) : std::nullopt;
 }
 
+// Measured and compared once the frame is done; the second picture is no part of its time.
+void Session::watchFrame(const SceneChanges& changes, double begin) {
+  const double end = clock_ ? clock_() : 0.0;
+  watch_.timeline.add(frame_, begin, end, output_.stats);
+  RenderSettings shown = document_.render;
+  shown.exposureEv = watch_.shown.exposureEv;  // shows the same picture
+  const bool edited = !changes.none() || !(shown == watch_.shown);
+  watch_.shown = std::move(shown);
+  watch_.latency.frame({edited && !changes.everything, history_.undoLabel(), output_.settled, view_,
+                        output_.radiance, begin, end});
+  watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_.radiance);
+  if (watch_.meter.measured()) status_ = watch_.meter.text();
+  split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
+  output_.settled = output_.settled && split_.settled();
+}
+
 Image8 Session::picture() const {
   const auto& view = display_.picture();
-  return view ? view->image
-              : toneMap(output_.radiance->pixels(), document_.render.exposureEv,
-                        display_.toneMapper());
+  const float ev = document_.render.exposureEv;
+  if (split_.on() && split_.heat()) return split_.heat()->image;
+  const ToneMapper mapper = display_.toneMapper();
+  return split_.compose(view ? view->image : toneMap(output_.radiance->pixels(), ev, mapper), ev,
+                        mapper);
 }
 
 Overlay Session::overlay() const {

@@ -16,8 +16,10 @@
 #include "editor/document/clipping.h"
 #include "editor/document/document.h"
 #include "editor/explain/point_tools.h"
+#include "editor/frame_watch.h"
 #include "editor/lights/lighting_state.h"
 #include "editor/lights/work_light.h"
+#include "editor/split/split_view.h"
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/placement.h"
@@ -116,6 +118,14 @@ class Session {
   PointTools::Subject pointSubject() const;
   std::optional<vec2> pointer() const;  // where it was last over the viewport
 
+  // What frames cost and how soon and how well they show edits; another picture beside the first.
+  FrameWatch& watch() { return watch_; }
+  const FrameWatch& watch() const { return watch_; }
+  SplitView& split() { return split_; }
+  const SplitView& split() const { return split_; }
+  // By which frames are timed; without one they are counted only.
+  void setClock(Stopwatch clock) { clock_ = std::move(clock); }
+
   // What tools draw over the picture: gizmo, selection outline, lights' shapes.
   Overlay overlay() const;
 
@@ -165,6 +175,9 @@ class Session {
   GiOutput output_;
   ViewDisplay display_;
   PointTools points_;
+  FrameWatch watch_;
+  SplitView split_;
+  Stopwatch clock_;
   std::string status_, renderError_, placing_;
   uint32_t frame_ = 0;
   uint64_t sceneRevision_ = 0;
@@ -179,6 +192,7 @@ class Session {
 
   void pruneSelection();
   std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;
+  void watchFrame(const SceneChanges& changes, double begin);
   std::optional<Place> surfaceAlong(const vec3& direction,
                                     const std::vector<NodeId>& ignored) const;
 };

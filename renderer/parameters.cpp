@@ -29,6 +29,22 @@ T parseNumber(const ParameterSpec& spec, std::string_view text, const char* kind
 
 }  // namespace
 
+const char* labelOf(ParameterGroup group) {
+  switch (group) {
+    case ParameterGroup::lightSamples:
+      return "Light samples";
+    case ParameterGroup::budgets:
+      return "Budgets";
+    case ParameterGroup::quality:
+      return "Quality";
+    case ParameterGroup::technique:
+      return "Technique";
+    case ParameterGroup::picture:
+      break;
+  }
+  return "Picture";
+}
+
 ParameterValue Settings::parse(const ParameterSpec& spec, std::string_view text) {
   if (std::holds_alternative<int>(spec.defaultValue))
     return parseNumber<int>(spec, text, "whole number");

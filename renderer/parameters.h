@@ -11,6 +11,13 @@ namespace lamplighter {
 
 using ParameterValue = std::variant<bool, int, float, std::string>;
 
+// What a parameter is about: panels show those of a group together, in this order.
+enum class ParameterGroup { lightSamples, budgets, quality, technique, picture };
+inline constexpr ParameterGroup kParameterGroups[] = {
+    ParameterGroup::lightSamples, ParameterGroup::budgets, ParameterGroup::quality,
+    ParameterGroup::technique, ParameterGroup::picture};
+const char* labelOf(ParameterGroup group);  // "Light samples"
+
 struct ParameterSpec {
   std::string name;   // as in --set name=value
   std::string label;  // as in the panel
@@ -20,6 +27,7 @@ struct ParameterSpec {
   double minimum = 0.0, maximum = 0.0;  // int and float
   bool logarithmic = false;             // the slider's scale
   std::vector<std::string> choices;     // for strings: the allowed ones
+  ParameterGroup group = ParameterGroup::quality;
 };
 
 // The values of a set of declared parameters. Unset ones have their default.

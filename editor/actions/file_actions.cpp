@@ -56,6 +56,18 @@ void addFileActions(ActionRegistry& r) {
          [](Session&, const Arguments&) {},  // the window opens it
          {},
          true});
+  r.add({"app.wait",
+         "Wait until settled",
+         "",
+         "Renders until another frame would change nothing; for scripts.",
+         "",
+         [](Session& s, const Arguments&) {
+           constexpr int kPatience = 100000;  // frames
+           for (int i = 0; i < kPatience; ++i)
+             if (s.renderFrame().settled) return;
+           throw InputError("app.wait", "the picture does not settle", "set smaller counts");
+         },
+         {}});
   r.add({"app.quit",
          "Quit",
          "",

@@ -16,6 +16,8 @@ void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
 void addRenderActions(ActionRegistry& registry);
 void addSeeingActions(ActionRegistry& registry);
+void addCostActions(ActionRegistry& registry);
+void addSplitActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -29,6 +31,8 @@ inline void addAllActions(ActionRegistry& registry) {
   addViewActions(registry);
   addRenderActions(registry);
   addSeeingActions(registry);
+  addCostActions(registry);
+  addSplitActions(registry);
 }
 
 }  // namespace lamplighter

@@ -110,6 +110,15 @@ void addMethods(CLI::App& app, Run& run) {
   sub->callback([=, &run] { run = [=] { return cli::methods(*o); }; });
 }
 
+void addActions(CLI::App& app, Run& run) {
+  auto* sub = app.add_subcommand("actions", "Every action of the editor, its arguments and key");
+  auto o = std::make_shared<cli::ActionsOptions>();
+  sub->add_flag("--json", o->json, "As JSON");
+  sub->add_flag("--markdown", o->markdown, "As the tables of docs/actions.md");
+  sub->footer("Example: lamplighter actions --json");
+  sub->callback([=, &run] { run = [=] { return cli::actions(*o); }; });
+}
+
 void addCompare(CLI::App& app, Run& run) {
   auto* sub = app.add_subcommand("compare", "How far picture A is from the reference B");
   auto o = std::make_shared<cli::CompareOptions>();
@@ -139,6 +148,28 @@ void addTonemap(CLI::App& app, Run& run) {
   sub->callback([=, &run] { run = [=] { return cli::tonemap(*o); }; });
 }
 
+void addScript(CLI::App& app, Run& run, const Frontend& frontend) {
+  auto* sub = app.add_subcommand("script", "Run a file of actions on a scene, without a window");
+  auto o = std::make_shared<cli::ScriptOptions>();
+  sub->add_option("FILE", o->script, "Actions, one a line; # begins a comment")
+      ->type_name("FILE")
+      ->required();
+  sub->add_option("SCENE", o->scene, ".gltf or .glb file [none: the script opens one]")
+      ->type_name("FILE");
+  sub->add_option("--size", o->size, "WxH of the view in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  sub->add_option("--backend", o->backend, "gl, cpu or auto")
+      ->check(kBackends)
+      ->capture_default_str();
+  sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  sub->footer("Example: lamplighter script relight.txt level.glb");
+  sub->callback(
+      [=, &run, &frontend] { run = [=, &frontend] { return cli::script(*o, frontend); }; });
+}
+
 void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
   auto* sub = app.add_subcommand("replay", "Play a recording of input");
   auto o = std::make_shared<ReplayOptions>();
@@ -149,6 +180,8 @@ void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
   sub->add_flag("--check", o->check,
                 "Compare with the baselines; exit code 1 when something differs");
   sub->add_flag("--update-baselines", o->updateBaselines, "Write the baselines anew");
+  sub->add_option("--report", o->report, "JSON file for its checks and edit latencies")
+      ->type_name("FILE");
   sub->add_option("--method", o->method, "Another method than the recorded one")->type_name("NAME");
   sub->add_option("--backend", o->backend, "gl, cpu or auto")
       ->check(kBackends)
@@ -179,9 +212,11 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
   addInfo(app, run);
   addRender(app, run, frontend);
   addMethods(app, run);
+  addActions(app, run);
   addCompare(app, run);
   addTonemap(app, run);
   addReplay(app, run, frontend);
+  addScript(app, run, frontend);
   app.require_subcommand(0, 1);
 
   try {

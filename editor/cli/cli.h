@@ -21,6 +21,7 @@ struct ReplayOptions {
   std::string recording;
   bool headless = false;
   std::string outputFolder;  // "": none
+  std::string report;        // JSON file, "": none
   bool check = false;
   bool updateBaselines = false;
   std::string method;  // "": as recorded

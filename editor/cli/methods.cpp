@@ -29,11 +29,8 @@ void printJson() {
     nlohmann::ordered_json j{{"name", m.name}, {"label", m.label}, {"citation", m.citation}};
     j["parameters"] = nlohmann::ordered_json::array();
     for (const ParameterSpec& p : m.parameters) {
-      nlohmann::ordered_json q{{"name", p.name},
-                               {"label", p.label},
-                               {"type", kindOf(p)},
-                               {"unit", p.unit},
-                               {"help", p.help}};
+      nlohmann::ordered_json q{{"name", p.name}, {"label", p.label}, {"type", kindOf(p)},
+                               {"unit", p.unit}, {"help", p.help},   {"group", labelOf(p.group)}};
       std::visit([&](const auto& v) { q["default"] = v; }, p.defaultValue);
       if (!p.choices.empty()) {
         q["choices"] = p.choices;
@@ -53,12 +50,14 @@ void printMarkdown() {
                "name=value`.\n";
   for (const MethodInfo& m : lamplighter::methods()) {
     std::cout << fmt::format(
-        "\n## {}: {}\n\n{}\n\n| name | type | unit | default | range | |\n| --- | --- | --- | --- "
-        "| --- | --- |\n",
+        "\n## {}: {}\n\n{}\n\n| name | group | type | unit | default | range | |\n| --- | --- | "
+        "--- "
+        "| --- | --- | --- | --- |\n",
         m.name, m.label, m.citation);
     for (const ParameterSpec& p : m.parameters) {
-      std::cout << fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", p.name, kindOf(p), p.unit,
-                               Settings::format(p.defaultValue), rangeOf(p), p.help);
+      std::cout << fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", p.name, labelOf(p.group),
+                               kindOf(p), p.unit, Settings::format(p.defaultValue), rangeOf(p),
+                               p.help);
     }
   }
 }

@@ -101,19 +101,4 @@ void requireWritable(const std::filesystem::path& file, const std::vector<std::s
   }
 }
 
-void writeText(const std::filesystem::path& file, const std::string& text) {
-  namespace fs = std::filesystem;
-  const fs::path temporary = file.string() + "." + std::to_string(::getpid()) + ".part";
-  std::ofstream out(temporary, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(temporary, file, error);
-  if (!out || error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw InputError(file.string(), "cannot be written", "check the folder and the space left");
-  }
-}
-
 }  // namespace lamplighter::cli

@@ -29,7 +29,4 @@ View chooseView(const Scene& scene, const std::string& camera, int width, int he
 // writable, or an ending that is none of `endings` (such as ".png"; empty: any).
 void requireWritable(const std::filesystem::path& file, const std::vector<std::string>& endings);
 
-// Writes text to a file whole or not at all; throws InputError.
-void writeText(const std::filesystem::path& file, const std::string& text);
-
 }  // namespace lamplighter::cli

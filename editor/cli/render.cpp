@@ -10,6 +10,7 @@
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
 #include "editor/document/cache_folder.h"
+#include "editor/document/write_file.h"
 #include "editor/sky_text.h"
 #include "editor/views/annotate.h"
 #include "editor/views/look.h"
@@ -263,7 +264,7 @@ int render(const RenderOptions& o, const Frontend& frontend) {
     }
     writePng(font ? withLegend(picture, *font) : picture.image, o.output);
   }
-  if (!o.stats.empty()) writeText(o.stats, statsText(o, view, out, totals, renderer.backend()));
+  if (!o.stats.empty()) writeFile(o.stats, statsText(o, view, out, totals, renderer.backend()));
   return 0;
 }
 

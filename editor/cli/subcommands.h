@@ -38,6 +38,11 @@ struct MethodsOptions {
 };
 int methods(const MethodsOptions& options);
 
+struct ActionsOptions {
+  bool json = false, markdown = false;
+};
+int actions(const ActionsOptions& options);
+
 struct CompareOptions {
   std::string a, b, mask, heatmap;
   double maxRelRmse = -1.0;  // < 0: not checked
@@ -49,6 +54,13 @@ struct TonemapOptions {
   std::string input, output, exposure = "0";
 };
 int tonemap(const TonemapOptions& options);
+
+struct ScriptOptions {
+  std::string script, scene;  // scene "": the actions open one
+  std::string size = "1280x720", backend = "auto";
+  int threads = 0;
+};
+int script(const ScriptOptions& options, const Frontend& frontend);
 
 // "auto" or a number of EV; throws InputError.
 float exposureOf(const std::string& text, const Image& radiance);

@@ -31,11 +31,11 @@ bool isMeantToLight(const Scene& scene, const Node& node) {
   });
 }
 
-LightState stateOf(const LightShare& l) {
-  if (l.samples == 0) return LightState::unsampled;
-  if (l.facing == 0) return LightState::away;
-  if (l.seen == 0) return LightState::shadowed;
-  return l.seen == l.facing ? LightState::lit : LightState::partly;
+LightArrival stateOf(const LightShare& l) {
+  if (l.samples == 0) return LightArrival::unsampled;
+  if (l.facing == 0) return LightArrival::away;
+  if (l.seen == 0) return LightArrival::shadowed;
+  return l.seen == l.facing ? LightArrival::lit : LightArrival::partly;
 }
 
 // One for each light that emits, and for each that is meant to.
@@ -47,7 +47,7 @@ std::map<NodeId, LightShare> allLights(const Scene& scene, const RenderScene& wo
   for (const Emitter& e : lights.emitters()) {
     LightShare& l = shares[e.node];
     l.light = e.node;
-    l.state = LightState::unsampled;
+    l.state = LightArrival::unsampled;
   }
   for (auto& [id, l] : shares) l.name = nameIn(scene, id);
   return shares;
@@ -69,27 +69,28 @@ void addSample(const RenderScene& world, const RayCaster& rays, const PickedPoin
   l.withheld += given;
   const NodeId node = world.objects[hit.object].node;
   auto blocker = std::find_if(l.blockers.begin(), l.blockers.end(),
-                              [&](const Blocker& b) { return b.node == node; });
-  if (blocker == l.blockers.end()) blocker = l.blockers.insert(blocker, Blocker{node, "", 0, 0});
+                              [&](const BlockingObject& b) { return b.node == node; });
+  if (blocker == l.blockers.end())
+    blocker = l.blockers.insert(blocker, BlockingObject{node, "", 0, 0});
   blocker->withheld += given;
   ++blocker->samples;
 }
 
 }  // namespace
 
-const char* nameOf(LightState state) {
+const char* nameOf(LightArrival state) {
   switch (state) {
-    case LightState::lit:
+    case LightArrival::lit:
       return "lit";
-    case LightState::partly:
+    case LightArrival::partly:
       return "partly";
-    case LightState::shadowed:
+    case LightArrival::shadowed:
       return "shadowed";
-    case LightState::away:
+    case LightArrival::away:
       return "faces away";
-    case LightState::unsampled:
+    case LightArrival::unsampled:
       return "no samples";
-    case LightState::off:
+    case LightArrival::off:
       break;
   }
   return "off";
@@ -125,10 +126,11 @@ Explanation explain(const Scene& scene, const RenderScene& world, const RayCaste
     addSample(world, rays, point, s, unshadowed(point, s, samples.clampDistance), found->second);
   }
   for (auto& [id, l] : shares) {
-    if (l.state != LightState::off) l.state = stateOf(l);
-    for (Blocker& b : l.blockers) b.name = nameIn(scene, b.node);
-    std::stable_sort(l.blockers.begin(), l.blockers.end(),
-                     [](const Blocker& a, const Blocker& b) { return a.withheld > b.withheld; });
+    if (l.state != LightArrival::off) l.state = stateOf(l);
+    for (BlockingObject& b : l.blockers) b.name = nameIn(scene, b.node);
+    std::stable_sort(
+        l.blockers.begin(), l.blockers.end(),
+        [](const BlockingObject& a, const BlockingObject& b) { return a.withheld > b.withheld; });
     out.irradiance += l.given();
     out.lights.push_back(std::move(l));
   }

@@ -10,7 +10,7 @@
 
 namespace lamplighter {
 
-enum class LightState {
+enum class LightArrival {
   lit,        // by all of its samples that face the point
   partly,     // by some of them
   shadowed,   // by none: all are hidden
@@ -18,9 +18,9 @@ enum class LightState {
   unsampled,  // the method has no sample on it: brighter lights took them all
   off         // hidden, or without strength
 };
-const char* nameOf(LightState state);  // "lit"
+const char* nameOf(LightArrival state);  // "lit"
 
-struct Blocker {
+struct BlockingObject {
   NodeId node = kNoNode;
   std::string name;
   float withheld = 0.0f;  // irradiance that it keeps away [lx]
@@ -31,12 +31,12 @@ struct Blocker {
 struct LightShare {
   NodeId light = kNoNode;  // the sky: kNoNode
   std::string name;
-  LightState state = LightState::off;
+  LightArrival state = LightArrival::off;
   float direct = 0.0f, bounced = 0.0f;    // irradiance [lx]
   float withheld = 0.0f;                  // direct irradiance that does not arrive [lx]
   int samples = 0, facing = 0, seen = 0;  // on the light itself
   int bouncedFacing = 0, bouncedSeen = 0;
-  std::vector<Blocker> blockers;  // of direct light, the one that withholds most first
+  std::vector<BlockingObject> blockers;  // of direct light, the one that withholds most first
 
   float given() const { return direct + bounced; }
 };

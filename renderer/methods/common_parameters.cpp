@@ -3,14 +3,20 @@
 namespace lamplighter::parameters {
 
 const ParameterSpec& bounces() {
-  static const ParameterSpec spec{
-      "bounces", "Bounces", "", "Indirect bounces; 0 is direct light only.", 2, 0, 64, false, {}};
+  static const ParameterSpec spec{"bounces", "Bounces",
+                                  "",        "Indirect bounces; 0 is direct light only.",
+                                  2,         0,
+                                  64,        false,
+                                  {},        ParameterGroup::lightSamples};
   return spec;
 }
 
 const ParameterSpec& seed() {
-  static const ParameterSpec spec{
-      "seed", "Seed", "", "Chooses another set of random numbers.", 1, 0, 1000000, false, {}};
+  static const ParameterSpec spec{"seed",  "Seed",
+                                  "",      "Chooses another set of random numbers.",
+                                  1,       0,
+                                  1000000, false,
+                                  {},      ParameterGroup::lightSamples};
   return spec;
 }
 
@@ -19,7 +25,7 @@ const ParameterSpec& vpls() {
                                   "",     "Virtual point lights in all, direct and indirect.",
                                   300,    1,
                                   65536,  true,
-                                  {}};
+                                  {},     ParameterGroup::lightSamples};
   return spec;
 }
 
@@ -33,7 +39,8 @@ const ParameterSpec& directShare() {
       0.0,
       1.0,
       false,
-      {}};
+      {},
+      ParameterGroup::lightSamples};
   return spec;
 }
 
@@ -46,7 +53,8 @@ const ParameterSpec& mapResolution() {
                                   8,
                                   1024,
                                   true,
-                                  {}};
+                                  {},
+                                  ParameterGroup::quality};
   return spec;
 }
 
@@ -55,7 +63,7 @@ const ParameterSpec& updates() {
                                   "",        "Light samples that may change in one frame, at most.",
                                   100,       1,
                                   65536,     true,
-                                  {}};
+                                  {},        ParameterGroup::budgets};
   return spec;
 }
 
@@ -69,7 +77,8 @@ const ParameterSpec& clampDistance() {
       0.0,
       10.0,
       false,
-      {}};
+      {},
+      ParameterGroup::quality};
   return spec;
 }
 
@@ -83,7 +92,8 @@ const ParameterSpec& shadowBias() {
       0.0,
       0.1,
       false,
-      {}};
+      {},
+      ParameterGroup::quality};
   return spec;
 }
 
@@ -96,7 +106,8 @@ const ParameterSpec& samplesPerPixel() {
                                   1,
                                   1048576,
                                   true,
-                                  {}};
+                                  {},
+                                  ParameterGroup::budgets};
   return spec;
 }
 
@@ -109,7 +120,8 @@ const ParameterSpec& samplesPerFrame() {
                                   1,
                                   4096,
                                   true,
-                                  {}};
+                                  {},
+                                  ParameterGroup::budgets};
   return spec;
 }
 
@@ -124,7 +136,8 @@ const ParameterSpec& speculars() {
       0,
       0,
       false,
-      {}};
+      {},
+      ParameterGroup::picture};
   return spec;
 }
 
@@ -139,7 +152,8 @@ const ParameterSpec& leastRoughness() {
                                   0.05,
                                   1.0,
                                   false,
-                                  {}};
+                                  {},
+                                  ParameterGroup::picture};
   return spec;
 }
 

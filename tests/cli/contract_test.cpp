@@ -128,7 +128,7 @@ TEST_F(CommandLine, AnErrorNamesTheHelpOfItsSubcommand) {
 TEST_F(CommandLine, EveryFlagIsInTheDocs) {
   std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/cli.md");
   const std::string docs{std::istreambuf_iterator<char>(in), {}};
-  for (const char* sub : {"info", "render", "methods", "compare", "tonemap", "replay"}) {
+  for (const char* sub : {"info", "render", "methods", "actions", "compare", "tonemap", "replay"}) {
     const std::string help = runLamplighter({sub, "--help"}).out;
     EXPECT_NE(help.find("Example: lamplighter " + std::string(sub)), std::string::npos) << sub;
     const size_t from = docs.find("\n## " + std::string(sub) + "\n");
@@ -173,6 +173,24 @@ TEST_F(CommandLine, TheTableOfParametersIsUpToDate) {
   const std::string written{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(runLamplighter({"methods", "--markdown"}).out, written)
       << "run: lamplighter methods --markdown > docs/parameters.md";
+}
+
+TEST_F(CommandLine, EveryActionSaysWhatItDoesAndTheTableIsUpToDate) {
+  const json j = json::parse(runLamplighter({"actions", "--json"}).out);
+  ASSERT_GE(j.size(), 50u);
+  std::map<std::string, std::string> ofKey;
+  for (const json& a : j) {
+    EXPECT_FALSE(a["label"].get<std::string>().empty()) << a["name"];
+    EXPECT_FALSE(a["help"].get<std::string>().empty()) << a["name"];
+    const std::string key = a["shortcut"];
+    if (key.empty()) continue;
+    EXPECT_TRUE(ofKey.emplace(key, a["name"]).second)
+        << key << " is " << ofKey[key] << " and " << a["name"];
+  }
+  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/actions.md");
+  const std::string written{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(runLamplighter({"actions", "--markdown"}).out, written)
+      << "run: lamplighter actions --markdown > docs/actions.md";
 }
 
 TEST_F(CommandLine, RendersEveryMethodToExrAndPng) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "editor/cli/subcommands.h"
+#include "editor/document/write_file.h"
 #include "renderer/error.h"
 #include "tests/support/scenes.h"
 
@@ -144,8 +145,8 @@ TEST(RequireWritable, FindsOutBeforeAnyWorkAndLeavesNothing) {
 
 TEST(WriteText, ReplacesAFileWhole) {
   const fs::path file = fs::path(testing::TempDir()) / "lamplighter_text.json";
-  writeText(file, "a longer text");
-  writeText(file, "short");
+  writeFile(file, "a longer text");
+  writeFile(file, "short");
   std::ifstream in(file);
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "short");
   fs::remove(file);

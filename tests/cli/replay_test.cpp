@@ -5,6 +5,7 @@
 #include <map>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/process.h"
 
@@ -118,6 +119,28 @@ TEST_F(Replay, FailsACheckWithoutABaselineAndWritesItWhenTold) {
   EXPECT_EQ(replay({"--check"}).code, 0);
   EXPECT_EQ(contents(folder_ / "recordings/place_light.moved.png"),
             contents(kRecordings / "place_light.moved.png"));
+}
+
+TEST_F(Replay, ReportsItsChecksAndHowSoonEditsAreSeen) {
+  const ProcessResult r =
+      replay({"--check", "--report", (folder_ / "report.json").string(), "--threads", "2"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto report = nlohmann::json::parse(contents(folder_ / "report.json"));
+  EXPECT_EQ(report["backend"], "cpu");
+  EXPECT_EQ(report["checks"].size(), 6u);
+  EXPECT_EQ(report["checks"][0]["passed"], true);
+  int seen = 0;
+  for (const auto& edit : report["edits"]) {
+    if (!edit["visible"].get<bool>()) continue;
+    ++seen;
+    const int half = edit["within_50"]["frames"], most = edit["within_95"]["frames"];
+    EXPECT_GE(half, 1);
+    EXPECT_LE(half, most);
+    EXPECT_LE(most, edit["settled"]["frames"].get<int>());
+    EXPECT_GT(edit["settled"]["milliseconds"].get<double>(), 0.0);
+  }
+  EXPECT_GE(seen, 3);  // a light is placed, moved, and the steps are undone
+  EXPECT_NE(r.out.find(" edits seen: 95% in "), std::string::npos) << r.out;
 }
 
 TEST_F(Replay, RefusesASceneThatIsNotTheRecordedOne) {

@@ -1,9 +1,12 @@
 #include "renderer/parameters.h"
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "renderer/error.h"
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/gi_method.h"
 
 namespace lamplighter {
 namespace {
@@ -33,6 +36,22 @@ TEST(Parameters, UnsetOnesHaveTheirDefault) {
   EXPECT_EQ(s.integer(parameters::bounces()), 5);
   s.reset("bounces");
   EXPECT_EQ(s.integer(parameters::bounces()), 2);
+}
+
+// Panels show group by group: one that is not listed would not be seen at all.
+TEST(Parameters, EveryParameterIsInAGroupThatPanelsShow) {
+  for (const MethodInfo& method : methods()) {
+    std::set<std::string> shown;
+    for (const ParameterGroup group : kParameterGroups) {
+      for (const ParameterSpec& spec : method.parameters) {
+        const bool isNew = spec.group != group || shown.insert(spec.name).second;
+        EXPECT_TRUE(isNew) << spec.name;
+      }
+    }
+    EXPECT_EQ(shown.size(), method.parameters.size()) << method.name;
+  }
+  EXPECT_EQ(parameters::updates().group, ParameterGroup::budgets);
+  EXPECT_EQ(parameters::vpls().group, ParameterGroup::lightSamples);
 }
 
 }  // namespace

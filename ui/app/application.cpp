@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <imgui.h>
+#include <spdlog/spdlog.h>
 
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/error.h"
@@ -44,6 +45,7 @@ GiStats refinementOf(GiStats stats) {
 Application::Application(Platform& platform, std::unique_ptr<Session> session)
     : platform_(platform), session_(std::move(session)), gui_(platform) {
   lastSeconds_ = platform_.seconds();
+  session_->setClock([this] { return platform_.seconds(); });
 }
 
 void Application::openNow(const std::filesystem::path& path) {
@@ -68,21 +70,35 @@ void Application::frame() {
   const PanelContext ui{*session_, widgets_, platform_.contentScale(), ""};
   drawPanels(ui);
   viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
+  // A replay must not depend on how far a thread has come.
+  if (!replaying_) meterWorker_.exchange(session_->watch().meter);
   session_->renderFrame(updatesWithinTime(), refineUpdates());
   frameTime_.measured(session_->output().stats);
   refineTime_.measured(refinementOf(session_->output().stats));
+  logLatency();
   if (framesToExposure_ > 0 && (--framesToExposure_ == 0 || session_->output().settled)) {
     framesToExposure_ = 0;
     exposeAutomatically();
   }
   present();
-  viewport_.draw(ui, picture_.texture());
+  const bool isSplit = session_->split().on() && session_->split().secondPicture();
+  viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0);
   drawStatusLine(ui);
   drawDialogs(ui);
   gui_.endFrame();
   answerRequests();
   platform_.present();
   updateTitle();
+}
+
+// Each edit once, when its picture has settled. A replay has a report for that.
+void Application::logLatency() {
+  const EditLatency& latency = session_->watch().latency;
+  if (latency.measured() == latenciesLogged_) return;
+  latenciesLogged_ = latency.measured();
+  if (replaying_) return;
+  const LatencyResult& last = latency.results().back();
+  spdlog::info("edit \"{}\": {}", last.what, latencyText(last, true));
 }
 
 void Application::takeInput() {
@@ -181,7 +197,7 @@ void Application::drawPanels(PanelContext ui) {
   inspector(ui, inspectorState_);
   ImGui::End();
   beginPanel("##render", layout_.render);
-  renderPanel(ui);
+  renderPanel(ui, timelineState_, requests_);
   ImGui::End();
   if (!layout_.bottom.empty()) {
     beginPanel("##lights", layout_.bottom, false);
@@ -227,6 +243,8 @@ void Application::drawDialogs(PanelContext ui) {
       runAction("sky.image " + quoted(path->string()));
     else if (fileDialog_.kind() == FileDialog::Kind::profile)
       runAction("light.ies " + quoted(path->string()));
+    else if (fileDialog_.kind() == FileDialog::Kind::timeline)
+      runAction("timeline.export " + quoted(path->string()));
     else
       openSave(*path);
   }
@@ -269,7 +287,13 @@ void Application::closeIfSaved() {
 
 void Application::present() {
   if (!platform_.hasGl()) return;
-  if (const auto& view = session_->display().picture())
+  const SplitView& split = session_->split();
+  if (split.on() && split.secondPicture() && split.shown() != SplitView::Shown::heat)
+    secondPicture_.show(split.secondPicture(), session_->document().render.exposureEv,
+                        session_->display().toneMapper());
+  if (split.on() && split.heat())
+    picture_.show(split.heat());
+  else if (const auto& view = session_->display().picture())
     picture_.show(view);
   else
     picture_.show(session_->output().radiance, session_->document().render.exposureEv,
@@ -296,6 +320,8 @@ void Application::answerRequests() {
   const Requests requests = std::exchange(requests_, {});
   if (requests.openDialog) fileDialog_.open(FileDialog::Kind::open, session_->document().path);
   if (!requests.palette.empty()) palette_.open(requests.palette);
+  if (requests.timelineDialog)
+    fileDialog_.open(FileDialog::Kind::timeline, session_->document().path);
   if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
 
   if (std::exchange(inspectorState_.choosesProfile, false))

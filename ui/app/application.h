@@ -14,6 +14,7 @@
 #include "ui/app/input_queue.h"
 #include "ui/app/input_router.h"
 #include "ui/app/layout.h"
+#include "ui/app/meter_worker.h"
 #include "ui/app/scene_loader.h"
 #include "ui/app/widget_map.h"
 #include "ui/panels/command_palette.h"
@@ -68,6 +69,7 @@ class Application {
   std::optional<int> updatesWithinTime();
   int refineUpdates();
   void present();
+  void logLatency();
   void takeLoaded();
   void answerRequests();
   void openSave(const std::filesystem::path& path);
@@ -81,7 +83,8 @@ class Application {
   InputQueue input_;
   InputRouter router_{widgets_};
   ImGuiLayer gui_;
-  Picture picture_;
+  Picture picture_, secondPicture_;
+  MeterWorker meterWorker_;
   Viewport viewport_;
   Layout layout_;
   SceneLoader loader_;
@@ -90,6 +93,7 @@ class Application {
   OutlinerState outlinerState_;
   InspectorState inspectorState_;
   LightTableState lightTableState_;
+  TimelineState timelineState_;
   Requests requests_;
   FileDialog fileDialog_;
   MessageBox messageBox_;
@@ -110,6 +114,7 @@ class Application {
   bool replaying_ = false;
   bool finished_ = false;
   int framesToExposure_ = 0;
+  size_t latenciesLogged_ = 0;
   int quietFrames_ = 0;
   size_t titlePosition_ = ~size_t{0};  // of the history, when the title was made
   std::string title_;

@@ -2,7 +2,11 @@
 #include <iostream>
 #include <optional>
 
+#include <nlohmann/json.hpp>
+
+#include "editor/document/write_file.h"
 #include "editor/input/player.h"
+#include "editor/latency/latency_report.h"
 #include "renderer/error.h"
 #include "renderer/gl/headless_context.h"
 #include "renderer/image/image_io.h"
@@ -29,7 +33,8 @@ class Replay {
   Replay(const ReplayOptions& options, Recording recording)
       : options_(options), updated_(recording), player_(std::move(recording), kPatience) {}
 
-  int run(Platform& platform, std::unique_ptr<FrameRenderer> renderer);
+  using MakeRenderer = SplitView::MakeRenderer;
+  int run(Platform& platform, const MakeRenderer& makeRenderer);
 
  private:
   const RecordingHeader& header() const { return player_.recording().header; }
@@ -39,11 +44,13 @@ class Replay {
   std::string pictureProblem(Session& session, const Image8& picture, const Checkpoint& checkpoint);
   void writePictures(Platform& platform, const Image8& picture, const Checkpoint& checkpoint);
   fs::path outputOf(const Checkpoint& checkpoint, const char* ending) const;
+  void writeReport(Session& session) const;
 
   const ReplayOptions& options_;
   Recording updated_;  // with the hashes of this run
   Player player_;
   int passed_ = 0, failed_ = 0;
+  nlohmann::ordered_json checks_ = nlohmann::ordered_json::array();
 };
 
 void Replay::start(Application& app) {
@@ -65,8 +72,9 @@ void Replay::start(Application& app) {
   app.openNow(scene);
 }
 
-int Replay::run(Platform& platform, std::unique_ptr<FrameRenderer> renderer) {
-  Application app(platform, std::make_unique<Session>(std::move(renderer)));
+int Replay::run(Platform& platform, const MakeRenderer& makeRenderer) {
+  Application app(platform, std::make_unique<Session>(makeRenderer()));
+  app.session().split().setRenderer(makeRenderer);
   start(app);
   while (!player_.finished() && !app.finished()) {
     std::vector<InputEvent> ignored;
@@ -83,8 +91,22 @@ int Replay::run(Platform& platform, std::unique_ptr<FrameRenderer> renderer) {
     for (const Checkpoint& checkpoint : player_.endFrame(settled)) check(app, platform, checkpoint);
   }
   if (options_.updateBaselines) writeRecording(updated_);
+  const std::string latency = latencySummary(app.session().watch().latency);
+  if (!latency.empty()) std::cout << latency << '\n';
+  if (!options_.report.empty()) writeReport(app.session());
   if (options_.check) std::cout << passed_ << " checks passed, " << failed_ << " failed\n";
   return failed_ == 0 ? 0 : 1;
+}
+
+void Replay::writeReport(Session& session) const {
+  const BackendInfo& backend = session.renderer().backend().info();
+  const nlohmann::ordered_json report{{"recording", options_.recording},
+                                      {"backend", backend.name},
+                                      {"device", backend.device},
+                                      {"frames", session.frame()},
+                                      {"checks", checks_},
+                                      {"edits", latencyJson(session.watch().latency)}};
+  writeFile(options_.report, report.dump(2) + '\n');
 }
 
 fs::path Replay::outputOf(const Checkpoint& checkpoint, const char* ending) const {
@@ -153,6 +175,7 @@ void Replay::check(Application& app, Platform& platform, const Checkpoint& check
   if (!problem.empty() && !seen.empty()) problem += "; ";
   problem += seen;
   (problem.empty() ? passed_ : failed_) += 1;
+  checks_.push_back({{"name", checkpoint.name}, {"passed", problem.empty()}, {"problem", problem}});
   std::cout << checkpoint.name << ": "
             << (!problem.empty()           ? "FAILED: " + problem
                 : options_.updateBaselines ? "written"
@@ -174,7 +197,7 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   };
   if (!options.headless) {
     Window window(header.width, header.height, "Lamplighter: replay", Window::Kind::fixed);
-    return replay.run(window, renderer());
+    return replay.run(window, renderer);
   }
   // OpenGL is needed only by the gl backend and for pictures of the panels.
   std::unique_ptr<gl::HeadlessContext> context;
@@ -185,7 +208,7 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
     if (backend == "gl") throw;
   }
   Headless headless(header.width, header.height, context != nullptr);
-  return replay.run(headless, renderer());
+  return replay.run(headless, renderer);
 }
 
 }  // namespace lamplighter

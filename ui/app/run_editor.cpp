@@ -65,12 +65,17 @@ int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
   Window window(kWidth, kHeight, "Lamplighter",
                 recording ? Window::Kind::fixed : Window::Kind::resizable);
   showPreparing(window);
-  auto renderer =
-      std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
+  const auto makeRenderer = [&] {
+    return std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
+  };
+  auto renderer = makeRenderer();
   // Recordings must not depend on what is there from before.
   if (!recording) renderer->setCacheFolder(transferFolder());
   Application app(window, std::make_unique<Session>(std::move(renderer)));
+  app.session().split().setRenderer(makeRenderer);
   std::optional<Recorder> recorder;
+  // What is recorded must not hang on a thread's pace; there it is measured by an action.
+  app.session().watch().meter.setOn(!recording);
   if (!recording) {
     app.openInBackground(scene);
   } else {

@@ -13,13 +13,13 @@ namespace {
 
 constexpr float kWidth = 540.0f, kMostRows = 9.0f;  // design pixels; rows without scrolling
 
-unsigned colourOf(LightState state) {
+unsigned colourOf(LightArrival state) {
   switch (state) {
-    case LightState::lit:
+    case LightArrival::lit:
       return theme::kGood;
-    case LightState::partly:
+    case LightArrival::partly:
       return theme::kWarning;
-    case LightState::shadowed:
+    case LightArrival::shadowed:
       return 0xe06a5a;
     default:
       return theme::kTextDim;
@@ -41,16 +41,16 @@ void number(const std::string& text, unsigned colour = theme::kText) {
 
 std::string stateText(const LightShare& l) {
   const std::string name = nameOf(l.state);
-  return l.state == LightState::partly ? fmt::format("{} {}/{}", name, l.seen, l.facing) : name;
+  return l.state == LightArrival::partly ? fmt::format("{} {}/{}", name, l.seen, l.facing) : name;
 }
 
 std::string stateHelp(const LightShare& l) {
   switch (l.state) {
-    case LightState::off:
+    case LightArrival::off:
       return "It is hidden, or has no strength.";
-    case LightState::unsampled:
+    case LightArrival::unsampled:
       return "Brighter lights take all light samples; a larger number of them reaches this one.";
-    case LightState::away:
+    case LightArrival::away:
       return "The surface looks away from it, or is behind it or outside its cone.";
     default:
       break;
@@ -82,14 +82,14 @@ void header(const PanelContext& ui, const Explanation& e, Requests& requests) {
 
 void blockers(const PanelContext& ui, const LightShare& l, int row, Requests& requests) {
   // The first; the others are told by its tooltip.
-  const Blocker& first = l.blockers.front();
+  const BlockingObject& first = l.blockers.front();
   std::string label = first.name;
   if (l.blockers.size() > 1) label += fmt::format(" +{}", l.blockers.size() - 1);
   if (ImGui::SmallButton((label + "##blocker").c_str()))
     requests.actions.push_back(fmt::format("explain.blocker {} 0", row));
   ui.name(fmt::format("row.{}/blocker", row));
   std::string help = "Keeps light away; a click selects it.";
-  for (const Blocker& b : l.blockers)
+  for (const BlockingObject& b : l.blockers)
     help += fmt::format("\n{}: {}, {} sample{}", b.name, luxText(b.withheld), b.samples,
                         b.samples == 1 ? "" : "s");
   tooltip(ui, help);

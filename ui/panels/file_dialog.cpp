@@ -29,9 +29,14 @@ bool isPicture(const fs::path& path) {
   return std::find(std::begin(kEndings), std::end(kEndings), endingOf(path)) != std::end(kEndings);
 }
 
+bool isTimeline(const fs::path& path) {
+  return endingOf(path) == ".json" || endingOf(path) == ".csv";
+}
+
 bool fits(FileDialog::Kind kind, const fs::path& path) {
   if (kind == FileDialog::Kind::picture) return isPicture(path);
-  return kind == FileDialog::Kind::profile ? endingOf(path) == ".ies" : isScene(path);
+  if (kind == FileDialog::Kind::profile) return endingOf(path) == ".ies";
+  return kind == FileDialog::Kind::timeline ? isTimeline(path) : isScene(path);
 }
 
 }  // namespace
@@ -45,6 +50,7 @@ void FileDialog::open(Kind kind, const fs::path& start) {
   if (!fs::is_directory(folder_, error)) folder_ = fs::current_path(error);
   file_ = kind == Kind::save ? start.filename().string() : "";
   if (kind == Kind::save && file_.empty()) file_ = "untitled.gltf";
+  if (kind == Kind::timeline) file_ = "timeline.json";
   list();
 }
 
@@ -68,10 +74,11 @@ void FileDialog::list() {
 
 std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   ui.prefix = "dialog/";
-  const char* title = kind_ == Kind::open      ? "Open a scene###file"
-                      : kind_ == Kind::picture ? "Open a picture of the sky###file"
-                      : kind_ == Kind::profile ? "Open a profile of a light###file"
-                                               : "Save as###file";
+  const char* title = kind_ == Kind::open       ? "Open a scene###file"
+                      : kind_ == Kind::picture  ? "Open a picture of the sky###file"
+                      : kind_ == Kind::profile  ? "Open a profile of a light###file"
+                      : kind_ == Kind::timeline ? "Export the timeline###file"
+                                                : "Save as###file";
   if (opening_) ImGui::OpenPopup(title);
   opening_ = false;
   ImGui::SetNextWindowSize({ui.px(620), ui.px(440)});
@@ -126,12 +133,14 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   ui.name("cancel");
   ImGui::SameLine(0, ui.px(7));
   ImGui::BeginDisabled(file_.empty());
-  if (ImGui::Button(kind_ == Kind::save ? "Save" : "Open", {width, 0})) done = true;
+  const bool writes = kind_ == Kind::save || kind_ == Kind::timeline;
+  if (ImGui::Button(writes ? "Save" : "Open", {width, 0})) done = true;
   ui.name("ok");
   ImGui::EndDisabled();
   if (done && !file_.empty()) {
     fs::path path = folder_ / file_;  // an absolute name replaces the folder
     if (kind_ == Kind::save && !isScene(path)) path += ".gltf";
+    if (kind_ == Kind::timeline && !isTimeline(path)) path += ".json";
     chosen = path.lexically_normal();
     ImGui::CloseCurrentPopup();
   }

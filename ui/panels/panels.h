@@ -14,6 +14,7 @@ namespace lamplighter {
 struct Requests {
   bool openDialog = false;
   bool saveDialog = false;
+  bool timelineDialog = false;
   std::vector<std::string> actions;  // to run, as text
   std::string palette;               // open the command palette with this in it
 };
@@ -46,7 +47,13 @@ void punctualLightFields(PanelContext ui, const Node& node, InspectorState& stat
 void profileFields(const PanelContext& ui, const Node& node, InspectorState& state);  // of an IES file
 void skyFields(PanelContext ui, InspectorState& state);
 
-void renderPanel(PanelContext ui);
+struct TimelineState {
+  std::optional<Timeline> held;  // what is pointed at
+};
+void renderPanel(PanelContext ui, TimelineState& state, Requests& requests);
+void timelineSection(const PanelContext& ui, TimelineState& state, Requests& requests);
+// The method's parameters of a group under a header that opens; nothing where it has none of them.
+void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group);
 
 // How often each brightness is in the picture, with exposure and tone mapper: a window in the lower
 // right corner of `view`, while it is asked for.
@@ -66,7 +73,7 @@ void statusLine(PanelContext ui, const StatusInfo& info);
 // Modal dialogs. They are opened by open() and draw themselves each frame.
 class FileDialog {
  public:
-  enum class Kind { open, save, picture, profile };
+  enum class Kind { open, save, picture, profile, timeline };
   void open(Kind kind, const std::filesystem::path& start);
   // The chosen file, once.
   std::optional<std::filesystem::path> draw(PanelContext ui);

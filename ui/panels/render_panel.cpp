@@ -1,69 +1,12 @@
 #include <algorithm>
 
+#include "editor/presets/presets.h"
 #include "renderer/methods/gi_method.h"
 #include "ui/panels/panels.h"
+#include "ui/theme.h"
 
 namespace lamplighter {
 namespace {
-
-ImGuiSliderFlags sliderFlags(const ParameterSpec& spec) {
-  return ImGuiSliderFlags_AlwaysClamp | (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-}
-
-// "%d" or "%.3g" with the unit; a % in the unit is doubled for printf.
-std::string formatOf(const ParameterSpec& spec, const char* number) {
-  std::string format = number;
-  if (spec.unit.empty()) return format;
-  format += ' ';
-  for (const char c : spec.unit) {
-    format += c;
-    if (c == '%') format += c;
-  }
-  return format;
-}
-
-// One field made from what the parameter says of itself. The new value, if it changed.
-std::optional<ParameterValue> parameterField(const PanelContext& ui, const ParameterSpec& spec,
-                                             const Settings& settings) {
-  const std::string id = "##" + spec.name;
-  const std::string step = "Change " + spec.label;
-  if (std::holds_alternative<bool>(spec.defaultValue)) {
-    bool value = settings.boolean(spec);
-    const bool changed = ImGui::Checkbox(id.c_str(), &value);
-    ui.name(spec.name);
-    return changed ? std::optional<ParameterValue>(value) : std::nullopt;
-  }
-  if (std::holds_alternative<int>(spec.defaultValue)) {
-    int value = settings.integer(spec);
-    const auto low = static_cast<int>(spec.minimum), high = static_cast<int>(spec.maximum);
-    const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high,
-                                          formatOf(spec, "%d").c_str(), sliderFlags(spec));
-    ui.name(spec.name);
-    trackEdit(ui, step);
-    return changed ? std::optional<ParameterValue>(std::clamp(value, low, high)) : std::nullopt;
-  }
-  if (std::holds_alternative<float>(spec.defaultValue)) {
-    float value = settings.real(spec);
-    const auto low = static_cast<float>(spec.minimum), high = static_cast<float>(spec.maximum);
-    const bool changed = ImGui::SliderFloat(id.c_str(), &value, low, high,
-                                            formatOf(spec, "%.3g").c_str(), sliderFlags(spec));
-    ui.name(spec.name);
-    trackEdit(ui, step);
-    return changed ? std::optional<ParameterValue>(std::clamp(value, low, high)) : std::nullopt;
-  }
-  const std::string value = settings.choice(spec);
-  std::optional<ParameterValue> chosen;
-  const bool open = ImGui::BeginCombo(id.c_str(), value.c_str());
-  ui.name(spec.name);
-  if (open) {
-    for (const std::string& choice : spec.choices) {
-      if (ImGui::Selectable(choice.c_str(), choice == value)) chosen = choice;
-      ui.name(spec.name + "/" + choice);
-    }
-    ImGui::EndCombo();
-  }
-  return chosen;
-}
 
 void methodCombo(const PanelContext& ui, const MethodInfo& current) {
   labelledRow(ui, "Method", current.citation.c_str());
@@ -83,20 +26,30 @@ void methodCombo(const PanelContext& ui, const MethodInfo& current) {
   ImGui::EndCombo();
 }
 
-// Right-click puts a parameter back to its default.
-bool resetMenu(const PanelContext& ui, const ParameterSpec& spec, bool isSet) {
-  bool reset = false;
-  if (ImGui::BeginPopupContextItem(("reset " + spec.name).c_str())) {
-    reset = ImGui::MenuItem("Reset to default", nullptr, false, isSet);
-    ui.name(spec.name + "/reset");
-    ImGui::EndPopup();
+// Side by side, the one that holds lit up.
+void presetRow(const PanelContext& ui, Requests& requests) {
+  labelledRow(ui, "Preset", "Budgets and qualities at once; each is one step to undo.");
+  const float gap = ui.px(4);
+  const float width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) /
+                                 static_cast<float>(presets().size()));
+  for (const Preset& preset : presets()) {
+    if (&preset != &presets().front()) ImGui::SameLine(0, gap);
+    const bool holds = hasPreset(ui.session.document().render, preset);
+    if (holds) {
+      ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
+      ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
+    }
+    const bool clicked = ImGui::Button(preset.label.c_str(), {width, 0});
+    if (holds) ImGui::PopStyleColor(2);
+    ui.name("preset/" + preset.name);
+    tooltip(ui, preset.help);
+    if (clicked) requests.actions.push_back("preset." + preset.name);
   }
-  return reset;
 }
 
 }  // namespace
 
-void renderPanel(PanelContext ui) {
+void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
   ui.prefix = "render/";
   const auto& all = methods();
   const auto found = std::find_if(all.begin(), all.end(), [&](const MethodInfo& m) {
@@ -104,6 +57,7 @@ void renderPanel(PanelContext ui) {
   });
   if (found == all.end()) return;
   methodCombo(ui, *found);
+  presetRow(ui, requests);
 
   labelledRow(ui, "Exposure", "Doubles the picture's brightness a step.");
   RenderSettings render = ui.session.document().render;
@@ -113,19 +67,8 @@ void renderPanel(PanelContext ui) {
   trackEdit(ui, "Change exposure");
   if (exposed) ui.session.setRender(render);
 
-  for (const ParameterSpec& spec : found->parameters) {
-    labelledRow(ui, spec.label.c_str(), spec.help.c_str());
-    const auto value = parameterField(ui, spec, ui.session.document().render.values);
-    tooltip(ui, spec.help + " Ctrl+click to type a value, right-click to reset it.");
-    render = ui.session.document().render;
-    if (value) {
-      render.values.set(spec.name, *value);
-      ui.session.setRender(render);
-    } else if (resetMenu(ui, spec, render.values.has(spec.name))) {
-      render.values.reset(spec.name);
-      ui.session.setRender(render);
-    }
-  }
+  for (const ParameterGroup group : kParameterGroups) parameterSection(ui, *found, group);
+  timelineSection(ui, state, requests);
 }
 
 }  // namespace lamplighter

@@ -25,6 +25,29 @@ std::string frameTime(double seconds) {
   return text;
 }
 
+std::string errorHelp(const ErrorMeter& meter) {
+  const std::string blocks = std::to_string(meter.block());
+  std::string help =
+      "How far the picture is from the path-traced reference: the root mean square of "
+      "the difference of blocks of " +
+      blocks + " x " + blocks +
+      " pixels, as a share of the mean; blocks that show a lamp itself are left out. The "
+      "reference's own noise is taken out; "
+      "what it leaves unknown stands behind the \u00b1 (one standard deviation).";
+  if (meter.estimate()) help += " " + grouped(meter.estimate()->samples) + " paths a block so far.";
+  return help;
+}
+
+// "edit 95% in 7 frames, 120 ms"
+std::string latencyShort(const LatencyResult& result) {
+  if (!result.visible) return "edit not seen";
+  char text[64];
+  std::snprintf(text, sizeof text, "edit 95%% in %.0f ms, %d frame%s",
+                result.within[1].milliseconds, result.within[1].frames,
+                result.within[1].frames == 1 ? "" : "s");
+  return text;
+}
+
 std::string frames(int count) { return grouped(count) + (count == 1 ? " frame" : " frames"); }
 
 }  // namespace
@@ -84,6 +107,16 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
   if (stats.samplesPerPixel > 1)
     part(ui, "samples", grouped(stats.samplesPerPixel) + " samples a pixel", theme::kText,
          "Paths traced for each pixel so far.");
+  const FrameWatch& watch = ui.session.watch();
+  if (const std::string error = watch.meter.text(); !error.empty())
+    part(ui, "error", error,
+         watch.meter.estimate() && watch.meter.estimate()->isKnown ? theme::kText : theme::kTextDim,
+         errorHelp(watch.meter));
+  if (!watch.latency.results().empty())
+    part(ui, "latency", latencyShort(watch.latency.results().back()), theme::kText,
+         "How soon the last edit was seen: " + watch.latency.results().back().what + ": " +
+             latencyText(watch.latency.results().back(), true) +
+             ". So many percent of the way from the picture before it to the settled one.");
   const BackendInfo& backend = ui.session.renderer().backend().info();
   part(ui, "backend", backend.name, theme::kTextDim, backend.name + ": " + backend.device);
   if (info.recording) part(ui, "recording", "recording", 0xe06a5a, "Input is being recorded.");

@@ -4,6 +4,7 @@
 
 #include "editor/views/legend.h"
 #include "ui/theme.h"
+#include "ui/viewport/split_sides.h"
 
 namespace lamplighter {
 namespace {
@@ -104,7 +105,7 @@ void Viewport::takeInput(PanelContext ui, const Rect& area, const PointerKeys& i
   ui.session.viewport(in);
 }
 
-void Viewport::draw(PanelContext ui, uint32_t texture) const {
+void Viewport::draw(PanelContext ui, uint32_t texture, uint32_t second) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImVec2 low{area_.min.x, area_.min.y}, high{area_.max.x, area_.max.y};
   list.PushClipRect(low, high, true);
@@ -112,8 +113,14 @@ void Viewport::draw(PanelContext ui, uint32_t texture) const {
     list.AddImage(reinterpret_cast<ImTextureID>(static_cast<intptr_t>(texture)), low, high);
   else
     list.AddRectFilled(low, high, theme::colour(0x000000));
+  const SplitView& split = ui.session.split();
+  if (split.on()) drawSecondSide(ui, list, area_, split, second);
   drawOverlay(list, ui.session.overlay(), area_.min, ui.scale);
-  if (const auto& view = ui.session.display().picture()) drawLegend(ui, list, area_, *view);
+  if (split.on()) drawSplitLabels(ui, list, area_, split);
+  if (split.on() && split.heat())
+    drawLegend(ui, list, area_, *split.heat());
+  else if (const auto& view = ui.session.display().picture())
+    drawLegend(ui, list, area_, *view);
   list.PopClipRect();
 }
 

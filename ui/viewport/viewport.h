@@ -10,8 +10,9 @@ class Viewport {
  public:
   // Lays the view over `area` of the window and hands the session what the hand does there.
   void takeInput(PanelContext ui, const Rect& area, const PointerKeys& input, float seconds);
-  // Draws the picture (an OpenGL texture, 0: none) and the session's overlay behind all panels.
-  void draw(PanelContext ui, uint32_t texture) const;
+  // Draws the picture (an OpenGL texture, 0: none), that of a split view's second side, and the
+  // session's overlay behind all panels.
+  void draw(PanelContext ui, uint32_t texture, uint32_t second) const;
 
  private:
   Rect area_;

@@ -15,7 +15,8 @@ const ParameterSpec& technique() {
       0,
       0,
       false,
-      {"naive", "visibility", "light_maps"}};
+      {"naive", "visibility", "light_maps"},
+      ParameterGroup::technique};
   return spec;
 }
 
@@ -32,7 +33,8 @@ ParameterSpec limitOf(const char* name, const char* label, const char* what) {
           0,
           1000000000,
           true,
-          {}};
+          {},
+          ParameterGroup::budgets};
 }
 
 }  // namespace
@@ -48,7 +50,8 @@ const ParameterSpec& importance() {
       1,
       64,
       false,
-      {}};
+      {},
+      ParameterGroup::lightSamples};
   return spec;
 }
 
@@ -89,7 +92,8 @@ const ParameterSpec& maxPaths() {
       0,
       1000000,
       true,
-      {}};
+      {},
+      ParameterGroup::budgets};
   return spec;
 }
 
@@ -106,7 +110,8 @@ const ParameterSpec& groupShare() {
       0.0,
       5.0,
       false,
-      {}};
+      {},
+      ParameterGroup::quality};
   return spec;
 }
 
@@ -122,7 +127,8 @@ const ParameterSpec& mapMemory() {
       1,
       65536,
       true,
-      {}};
+      {},
+      ParameterGroup::budgets};
   return spec;
 }
 
@@ -138,7 +144,8 @@ const ParameterSpec& frameTime() {
       0.0,
       1000.0,
       false,
-      {}};
+      {},
+      ParameterGroup::budgets};
   return spec;
 }
 
@@ -152,7 +159,8 @@ const ParameterSpec& lightMapTexel() {
       0.01,
       2.0,
       true,
-      {}};
+      {},
+      ParameterGroup::quality};
   return spec;
 }
 
@@ -167,7 +175,8 @@ const ParameterSpec& lightsPerPass() {
       1,
       1024,
       true,
-      {}};
+      {},
+      ParameterGroup::technique};
   return spec;
 }
 
@@ -185,7 +194,8 @@ const ParameterSpec& mergePasses() {
       0,
       0,
       false,
-      {}};
+      {},
+      ParameterGroup::technique};
   return spec;
 }
 
@@ -202,7 +212,8 @@ const ParameterSpec& block() {
       0,
       0,
       false,
-      {"1", "2", "4", "8"}};
+      {"1", "2", "4", "8"},
+      ParameterGroup::quality};
   return spec;
 }
 
@@ -218,7 +229,8 @@ const ParameterSpec& prt() {
       0,
       0,
       false,
-      {}};
+      {},
+      ParameterGroup::technique};
   return spec;
 }
 
@@ -233,7 +245,8 @@ const ParameterSpec& prtPoints() {
       1,
       255,
       true,
-      {}};
+      {},
+      ParameterGroup::quality};
   return spec;
 }
 
@@ -247,7 +260,8 @@ const ParameterSpec& antialias() {
       1,
       256,
       true,
-      {}};
+      {},
+      ParameterGroup::picture};
   return spec;
 }
 
@@ -263,7 +277,8 @@ const ParameterSpec& cornerLight() {
       0,
       0,
       false,
-      {}};
+      {},
+      ParameterGroup::picture};
   return spec;
 }
 
@@ -279,7 +294,8 @@ const ParameterSpec& refine() {
       0,
       1 << 24,
       true,
-      {}};
+      {},
+      ParameterGroup::picture};
   return spec;
 }
 

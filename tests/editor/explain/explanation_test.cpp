@@ -73,7 +73,7 @@ TEST_P(Explaining, ALampOverAFloorGivesTheInverseSquare) {
   const LightShare& lamp = e.lights[0];
   EXPECT_EQ(lamp.light, lamp_);
   EXPECT_EQ(lamp.name, "lamp");
-  EXPECT_EQ(lamp.state, LightState::lit);
+  EXPECT_EQ(lamp.state, LightArrival::lit);
   EXPECT_EQ(lamp.seen, lamp.samples);
   EXPECT_NEAR(lamp.direct / kUnder, 1.0f, 2e-3f);
   EXPECT_EQ(lamp.bounced, 0.0f);  // all is black
@@ -88,7 +88,7 @@ TEST_P(Explaining, APlateBetweenIsNamedWithWhatItKeepsAway) {
   const NodeId plate = addPlate(vec3(0, 1, 0), vec3(1.0f, 0.1f, 1.0f));
   const Explanation e = explainAt(vec3(0));
   const LightShare& lamp = shareOf(e, lamp_);
-  EXPECT_EQ(lamp.state, LightState::shadowed);
+  EXPECT_EQ(lamp.state, LightArrival::shadowed);
   EXPECT_EQ(lamp.seen, 0);
   EXPECT_GT(lamp.facing, 10);
   EXPECT_EQ(e.irradiance, 0.0f);
@@ -105,7 +105,7 @@ TEST_P(Explaining, APlateBetweenIsNamedWithWhatItKeepsAway) {
 TEST_P(Explaining, APlateThatHidesHalfOfALampLeavesHalf) {
   addPlate(vec3(0.5f, 1, 0), vec3(1.0f, 0.001f, 1.0f));
   const LightShare lamp = shareOf(explainAt(vec3(0)), lamp_);
-  EXPECT_EQ(lamp.state, LightState::partly);
+  EXPECT_EQ(lamp.state, LightArrival::partly);
   EXPECT_NEAR(lamp.direct / kUnder, 0.5f, 0.06f);
   EXPECT_NEAR((lamp.direct + lamp.withheld) / kUnder, 1.0f, 2e-3f);
   EXPECT_GT(lamp.seen, 0);
@@ -120,9 +120,9 @@ TEST_P(Explaining, SaysOfEachOtherLightWhyItGivesNothing) {
   const Explanation e = explainAt(vec3(0));
   ASSERT_EQ(e.lights.size(), 4u);
   EXPECT_EQ(e.lights[0].light, lamp_);  // what gives most is first
-  EXPECT_EQ(shareOf(e, below).state, LightState::away);
-  EXPECT_EQ(shareOf(e, hidden).state, LightState::off);
-  EXPECT_EQ(shareOf(e, black).state, LightState::off);
+  EXPECT_EQ(shareOf(e, below).state, LightArrival::away);
+  EXPECT_EQ(shareOf(e, hidden).state, LightArrival::off);
+  EXPECT_EQ(shareOf(e, black).state, LightArrival::off);
 }
 
 TEST_P(Explaining, ASunAndASkyAreParallelLight) {

@@ -57,7 +57,7 @@ TEST_F(PointToolsTest, ExplainAtAnswersWithoutAStepAndSelectsBlockers) {
   session_.history().showAll();
   settle();
   ASSERT_NE(answer(), nullptr);
-  EXPECT_EQ(answer()->lights.front().state, LightState::shadowed);
+  EXPECT_EQ(answer()->lights.front().state, LightArrival::shadowed);
   ASSERT_TRUE(session_.runAction("explain.blocker 0 0")) << session_.status();
   EXPECT_EQ(session_.document().active(), plate_);
   EXPECT_TRUE(session_.runAction("explain.close"));

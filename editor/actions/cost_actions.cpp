@@ -1,0 +1,101 @@
+// What the picture costs, and how far it is from the truth: the error meter, the timeline, presets.
+#include <cmath>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/presets/presets.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+namespace {
+
+int wholeNumberOf(const std::string& text, int least, int most) {
+  const float number = numberOf(text);
+  if (number != std::floor(number) || number < static_cast<float>(least) ||
+      number > static_cast<float>(most))
+    throw InputError(
+        text, "is no whole number from " + std::to_string(least) + " to " + std::to_string(most),
+        "give one in that range");
+  return static_cast<int>(number);
+}
+
+}  // namespace
+
+void addCostActions(ActionRegistry& r) {
+  r.add({"error.meter",
+         "Error meter",
+         "",
+         "Traces the reference beside the live picture and shows how far that is from it.",
+         "",
+         [](Session& s, const Arguments&) { s.watch().meter.setOn(!s.watch().meter.on()); },
+         {},
+         true,
+         [](const Session& s) { return s.watch().meter.on(); }});
+  r.add({"error.measure",
+         "Measure the error",
+         "PATHS",
+         "Traces as many paths a block of pixels for each half of the reference, waits for them, "
+         "and tells how far the picture is from it.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "error.measure PATHS");
+           s.watch().meter.measureAtOnce(wholeNumberOf(a[0], 1, 65536));
+         },
+         {},
+         true,
+         {}});
+  r.add({"error.block",
+         "Compare by blocks",
+         "1|2|4|8",
+         "Pixels a side of the blocks in which the error meter compares: larger ones are known "
+         "sooner, smaller ones show finer errors.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "error.block 1|2|4|8");
+           const int block = wholeNumberOf(a[0], 1, 8);
+           if ((block & (block - 1)) != 0)
+             throw InputError(a[0], "is no size of a block", "give 1, 2, 4 or 8");
+           s.watch().meter.setBlock(block);
+         },
+         {},
+         true,
+         {}});
+  r.add({"timeline.export",
+         "Export the timeline",
+         "FILE.json|FILE.csv",
+         "Writes what the last seconds' frames were spent on: as a Chrome trace or as a table.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "timeline.export FILE.json|FILE.csv");
+           exportTimeline(s.watch().timeline, a[0]);
+           s.setStatus("Wrote " + a[0]);
+         },
+         {},
+         true,
+         {}});
+  r.add({"timeline.clear",
+         "Clear the timeline",
+         "",
+         "Forgets the frames that were timed.",
+         "",
+         [](Session& s, const Arguments&) { s.watch().timeline.clear(); },
+         {},
+         true,
+         {}});
+  for (const Preset& preset : presets()) {
+    r.add({"preset." + preset.name,
+           preset.label,
+           "",
+           preset.help,
+           "",
+           [&preset](Session& s, const Arguments&) {
+             s.setRender(withPreset(s.document().render, preset));
+           },
+           {},
+           false,
+           [&preset](const Session& s) { return hasPreset(s.document().render, preset); }});
+  }
+}
+
+}  // namespace lamplighter

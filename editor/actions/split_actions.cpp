@@ -1,0 +1,111 @@
+// Two pictures beside each other, and how far they are apart.
+#include <algorithm>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+namespace {
+
+bool isOn(const Session& s) { return s.split().on(); }
+
+// On with the live picture and the reference, unless it is on already.
+void makeSureOfSplit(Session& s) {
+  const std::string& method = s.document().render.method;
+  if (!s.split().on()) s.split().turnOn(readSide("live", method), readSide("reference", method));
+}
+
+}  // namespace
+
+void addSplitActions(ActionRegistry& r) {
+  r.add({"split.on",
+         "Split view",
+         "[A B]",
+         "Shows two pictures of the view, A left and B right of a divider: each is live or a "
+         "method's name, and may have parameters of its own (many_lights,vpls=1000). The live "
+         "picture and the reference where none are named.",
+         "Shift+Space",
+         [](Session& s, const Arguments& a) {
+           if (a.empty()) {
+             makeSureOfSplit(s);
+             s.split().setShown(SplitView::Shown::both);
+             return;
+           }
+           requireArguments(a, 2, 2, "split.on A B");
+           const std::string& method = s.document().render.method;
+           SplitSide first = readSide(a[0], method), second = readSide(a[1], method);
+           s.split().turnOn(std::move(first), std::move(second));
+         },
+         {},
+         true,
+         [](const Session& s) { return isOn(s) && s.split().shown() == SplitView::Shown::both; }});
+  r.add({"split.off",
+         "One picture",
+         "",
+         "Ends the split view.",
+         "",
+         [](Session& s, const Arguments&) { s.split().turnOff(); },
+         isOn,
+         true,
+         {}});
+  r.add({"split.position",
+         "Move the divider",
+         "SHARE",
+         "Puts the divider of the split view at a share of the view's width, from 0 to 1.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "split.position SHARE");
+           const float share = numberOf(a[0]);
+           if (share < 0.0f || share > 1.0f)
+             throw InputError(a[0], "is no share of the width", "give one from 0 to 1");
+           s.split().setPosition(share);
+           s.split().setShown(SplitView::Shown::both);
+         },
+         isOn,
+         true,
+         {}});
+  r.add({"split.toggle",
+         "Show the other side",
+         "",
+         "Shows one side of the split view whole, then the other.",
+         "",
+         [](Session& s, const Arguments&) { s.split().toggleWhole(); },
+         isOn,
+         true,
+         {}});
+  r.add(
+      {"split.heat",
+       "Heat map",
+       "",
+       "Shows in false colour how far the two sides of the split view are apart: the live picture "
+       "and the reference where it was off.",
+       "",
+       [](Session& s, const Arguments&) {
+         if (s.split().on() && s.split().shown() == SplitView::Shown::heat)
+           return s.split().setShown(SplitView::Shown::both);
+         makeSureOfSplit(s);
+         s.split().setShown(SplitView::Shown::heat);
+       },
+       {},
+       true,
+       [](const Session& s) { return isOn(s) && s.split().shown() == SplitView::Shown::heat; }});
+  r.add({"split.heat_scale",
+         "Heat map's range",
+         "SHARE",
+         "Sets the difference at which the heat map's colours end, as a share of the mean of B.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "split.heat_scale SHARE");
+           const float share = numberOf(a[0]);
+           if (share < 0.001f || share > 100.0f)
+             throw InputError(a[0], "is no such share", "give one from 0.001 to 100");
+           s.split().setHeatScale(share);
+         },
+         {},
+         true,
+         {}});
+}
+
+}  // namespace lamplighter

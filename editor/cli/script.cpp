@@ -1,0 +1,99 @@
+// A file of actions, one a line, run against a level without a window.
+#include <fstream>
+#include <iostream>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "editor/cli/options.h"
+#include "editor/cli/subcommands.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+#include "renderer/image/image_io.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/threads.h"
+
+namespace lamplighter::cli {
+namespace {
+
+struct Line {
+  int number;
+  std::string text;
+};
+
+// Without empty lines and comments, which begin with # (within a line: after a space).
+std::vector<Line> readScript(const std::string& path) {
+  std::ifstream in(path);
+  if (!in) throw InputError(path, "cannot be read", "name a text file of actions");
+  std::vector<Line> lines;
+  int number = 0;
+  for (std::string text; std::getline(in, text);) {
+    ++number;
+    bool inQuotes = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) inQuotes = !inQuotes;
+      if (text[i] == '#' && !inQuotes && (i == 0 || text[i - 1] == ' ' || text[i - 1] == '\t'))
+        text.resize(i);
+    }
+    const size_t from = text.find_first_not_of(" \t\r");
+    if (from == std::string::npos) continue;
+    lines.push_back({number, text.substr(from, text.find_last_not_of(" \t\r") - from + 1)});
+  }
+  return lines;
+}
+
+void open(Session& session, const std::string& path) {
+  LoadedScene loaded = loadGltf(path);
+  session.open(std::move(loaded.scene), path, loaded.warnings);
+}
+
+// What the window does for actions once their frame is there.
+void answer(Session& session) {
+  if (const auto path = session.takeOpenRequest()) {
+    open(session, path->string());
+    session.renderFrame();
+  }
+  if (const auto path = session.takeScreenshotRequest()) {
+    writePng(session.picture(), *path);
+    session.setStatus("Wrote " + path->string());
+  }
+  session.takeShadersRequest();
+}
+
+void runLine(Session& session, const std::string& text) {
+  session.setStatus("");
+  session.actions().run(session, text);
+  session.history().commit();
+  session.renderFrame();
+  if (!session.renderError().empty()) throw InputError(session.renderError());
+  answer(session);
+  if (!session.status().empty()) std::cout << session.status() << '\n';
+}
+
+}  // namespace
+
+int script(const ScriptOptions& options, const Frontend& frontend) {
+  const ThreadLimit limit(options.threads);
+  const std::vector<Line> lines = readScript(options.script);
+  const auto [width, height] = parseSize(options.size);
+  const auto makeRenderer = [&] {
+    return std::make_unique<FrameRenderer>(frontend.makeBackend(options.backend),
+                                           frontend.stopwatch);
+  };
+  Session session(makeRenderer());
+  session.setClock(frontend.stopwatch);
+  session.split().setRenderer(makeRenderer);
+  session.resizeViewport(width, height);
+  if (!options.scene.empty()) open(session, options.scene);
+  session.renderFrame();
+  for (const Line& line : lines) {
+    try {
+      runLine(session, line.text);
+    } catch (const InputError& e) {
+      throw InputError(fmt::format("{}:{}: {}", options.script, line.number, e.what()));
+    }
+    if (session.quitRequested()) break;
+  }
+  return 0;
+}
+
+}  // namespace lamplighter::cli

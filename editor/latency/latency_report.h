@@ -1,0 +1,18 @@
+// Edit latencies as figures: for the reports of replays.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "editor/latency/edit_latency.h"
+
+namespace lamplighter {
+
+// "3 edits seen: 95% in 4 frames (median), 12 at most"; counted by frames alone, so that it is the
+// same on every machine. "": none was measured.
+std::string latencySummary(const EditLatency& latency);
+// Every edit, with frames and milliseconds.
+nlohmann::ordered_json latencyJson(const EditLatency& latency);
+
+}  // namespace lamplighter

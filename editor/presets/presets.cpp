@@ -1,0 +1,79 @@
+#include "editor/presets/presets.h"
+
+#include <functional>
+
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+
+namespace lamplighter {
+namespace {
+
+// One parameter's values in draft, work and final. Those of work are the defaults.
+struct Row {
+  const ParameterSpec& spec;
+  ParameterValue draft, final;
+};
+
+const std::vector<Row>& rows() {
+  namespace p = parameters;
+  static const std::vector<Row> all{
+      {p::vpls(), 100, 2000},
+      {p::bounces(), 1, 3},
+      {p::importance(), 4, 16},
+      {p::mapResolution(), 32, 128},
+      {p::mapMemory(), 64, 1024},
+      {p::frameTime(), 25.0f, 200.0f},
+      {p::lightMapTexel(), 0.2f, 0.05f},
+      {p::block(), std::string("8"), std::string("2")},
+      {p::antialias(), 1, 16},
+      {p::cornerLight(), false, true},
+      {p::refine(), 0, 1 << 20},
+      {p::samplesPerPixel(), 16, 1024},
+  };
+  return all;
+}
+
+Preset made(std::string name, std::string label, std::string help,
+            const std::function<ParameterValue(const Row&)>& value) {
+  Preset preset{std::move(name), std::move(label), std::move(help), {}};
+  for (const Row& row : rows()) preset.values.set(row.spec.name, value(row));
+  return preset;
+}
+
+}  // namespace
+
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all{
+      made("draft", "Draft", "Few light samples and coarse shadows: edits are seen at once.",
+           [](const Row& row) { return row.draft; }),
+      made("work", "Work", "The defaults: quick enough to drag lights, good enough to judge them.",
+           [](const Row& row) { return row.spec.defaultValue; }),
+      made("final", "Final", "Many light samples, fine shadows, smooth edges, refined at rest.",
+           [](const Row& row) { return row.final; }),
+  };
+  return all;
+}
+
+RenderSettings withPreset(const RenderSettings& settings, const Preset& preset) {
+  RenderSettings result = settings;
+  for (const Row& row : rows()) {
+    const ParameterValue& value = preset.values.values().at(row.spec.name);
+    if (value == row.spec.defaultValue)
+      result.values.reset(row.spec.name);
+    else
+      result.values.set(row.spec.name, value);
+  }
+  return result;
+}
+
+bool hasPreset(const RenderSettings& settings, const Preset& preset) {
+  for (const Row& row : rows()) {
+    const auto& set = settings.values.values();
+    const auto it = set.find(row.spec.name);
+    const ParameterValue& value = it == set.end() ? row.spec.defaultValue : it->second;
+    if (value != preset.values.values().at(row.spec.name)) return false;
+  }
+  return true;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,80 @@
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "editor/document/write_file.h"
+#include "editor/timeline/timeline.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double microseconds(double seconds) { return 1e6 * seconds; }
+
+// A complete event ("X") of the Trace Event Format.
+Json span(const std::string& name, double begin, double seconds) {
+  return {{"name", name},
+          {"ph", "X"},
+          {"pid", 1},
+          {"tid", 1},
+          {"ts", microseconds(begin)},
+          {"dur", microseconds(seconds)}};
+}
+
+}  // namespace
+
+std::string chromeTrace(const Timeline& timeline) {
+  Json events = Json::array();
+  const double origin = timeline.frames().empty() ? 0.0 : timeline.frames().front().begin;
+  for (const FrameTiming& f : timeline.frames()) {
+    Json frame = span("frame", f.begin - origin, f.seconds());
+    frame["args"] = {{"frame", f.frame}};
+    events.push_back(std::move(frame));
+    double at = f.begin - origin;
+    for (size_t i = 0; i < f.stageSeconds.size(); ++i) {
+      if (f.stageSeconds[i] <= 0.0) continue;
+      events.push_back(span(Timeline::stages()[i], at, f.stageSeconds[i]));
+      at += f.stageSeconds[i];
+    }
+    for (const Counter& counter : counters())
+      events.push_back({{"name", counter.name},
+                        {"ph", "C"},
+                        {"pid", 1},
+                        {"ts", microseconds(f.begin - origin)},
+                        {"args", {{"count", counter.of(f.stats)}}}});
+  }
+  return Json{{"displayTimeUnit", "ms"}, {"traceEvents", events}}.dump() + '\n';
+}
+
+std::string timelineCsv(const Timeline& timeline) {
+  std::string text = "frame,begin_s,frame_ms";
+  const auto column = [](std::string name) {
+    for (char& c : name)
+      if (c == ' ' || c == '-') c = '_';
+    return name;
+  };
+  for (const std::string& stage : Timeline::stages()) text += "," + column(stage) + "_ms";
+  for (const Counter& counter : counters()) text += fmt::format(",{}", counter.name);
+  text += '\n';
+  const double origin = timeline.frames().empty() ? 0.0 : timeline.frames().front().begin;
+  for (const FrameTiming& f : timeline.frames()) {
+    text += fmt::format("{},{:.6f},{:.4f}", f.frame, f.begin - origin, 1e3 * f.seconds());
+    for (const double seconds : f.stageSeconds) text += fmt::format(",{:.4f}", 1e3 * seconds);
+    for (const Counter& counter : counters()) text += fmt::format(",{}", counter.of(f.stats));
+    text += '\n';
+  }
+  return text;
+}
+
+void exportTimeline(const Timeline& timeline, const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  if (ending != ".json" && ending != ".csv")
+    throw InputError(path.string(), "is neither a Chrome trace nor a table",
+                     "give a name that ends in .json or .csv");
+  if (timeline.frames().empty())
+    throw InputError("timeline", "no frame was timed yet", "render some first");
+  writeFile(path, ending == ".json" ? chromeTrace(timeline) : timelineCsv(timeline));
+}
+
+}  // namespace lamplighter

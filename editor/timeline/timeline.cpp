@@ -1,0 +1,67 @@
+#include "editor/timeline/timeline.h"
+
+#include <algorithm>
+
+namespace lamplighter {
+namespace {
+
+constexpr double kSecondsKept = 10.0;
+constexpr size_t kFramesKept = 2000;
+
+}  // namespace
+
+const std::vector<std::string>& Timeline::stages() {
+  static const std::vector<std::string> names{
+      "light samples", "visibility", "shadow maps", "light maps",   "transfer",
+      "g-buffer",      "light sums", "composition", "antialiasing", "corners",
+      "refinement",    "paths",      "other"};
+  return names;
+}
+
+void Timeline::add(uint32_t frame, double begin, double end, const GiStats& stats) {
+  if (!(end > begin)) return;
+  FrameTiming timing{frame, begin, end, std::vector<double>(stages().size()), stats};
+  double rest = timing.seconds();
+  for (const auto& [name, seconds] : stats.stageSeconds) {
+    const auto found = std::find(stages().begin(), stages().end(), name);
+    if (found == stages().end()) continue;  // it is in "other" then
+    timing.stageSeconds[static_cast<size_t>(found - stages().begin())] = seconds;
+    rest -= seconds;
+  }
+  timing.stageSeconds.back() = std::max(rest, 0.0);
+  timing.stats.stageSeconds.clear();
+  frames_.push_back(std::move(timing));
+  while (frames_.size() > kFramesKept || end - frames_.front().end > kSecondsKept)
+    frames_.pop_front();
+}
+
+double Timeline::meanOf(size_t stage) const {
+  double sum = 0.0;
+  int count = 0;
+  for (const FrameTiming& f : frames_) {
+    if (f.stageSeconds[stage] <= 0.0) continue;
+    sum += f.stageSeconds[stage];
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum / count;
+}
+
+const std::vector<Counter>& counters() {
+  static const auto of = [](auto value) { return static_cast<uint64_t>(value); };
+  static const std::vector<Counter> all{
+      {"vpls", "Light samples", [](const GiStats& s) { return of(s.vpls); }},
+      {"vpls_refreshed", "Refreshed", [](const GiStats& s) { return of(s.vplsRefreshed); }},
+      {"vpls_pending", "Pending", [](const GiStats& s) { return of(s.vplsPending); }},
+      {"maps_rendered", "Maps rendered", [](const GiStats& s) { return of(s.mapsRendered); }},
+      {"maps_held", "Maps held", [](const GiStats& s) { return of(s.mapsHeld); }},
+      {"visibility_tests", "Visibility tests",
+       [](const GiStats& s) { return of(s.visibilityTests); }},
+      {"light_map_texels", "Light-map texels",
+       [](const GiStats& s) { return of(s.lightMapTexels); }},
+      {"paths_walked", "Paths walked", [](const GiStats& s) { return of(s.pathsWalked); }},
+      {"rays", "Rays", [](const GiStats& s) { return of(s.raysTraced); }},
+  };
+  return all;
+}
+
+}  // namespace lamplighter

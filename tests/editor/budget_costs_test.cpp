@@ -1,0 +1,40 @@
+// What the panel says of each budget.
+#include "editor/budgets/budget_costs.h"
+
+#include "tests/editor/session_fixture.h"
+
+namespace lamplighter {
+namespace {
+
+TEST(BudgetCosts, EveryBudgetHasOne) {
+  for (const MethodInfo& method : methods()) {
+    for (const ParameterSpec& spec : method.parameters) {
+      const auto cost = costOf(spec.name, {}, {}, {});
+      EXPECT_EQ(cost.has_value(), spec.group == ParameterGroup::budgets) << spec.name;
+      EXPECT_FALSE(cost && cost->buys.empty()) << spec.name;
+    }
+  }
+}
+
+TEST(BudgetCosts, AreMeansOverTheFramesThatDrewUponThem) {
+  Timeline timeline;
+  GiStats stats;
+  stats.mapsRendered = 20;
+  stats.stageSeconds = {{"shadow maps", 0.010}};
+  timeline.add(1, 0.00, 0.02, stats);
+  stats.mapsRendered = 30;
+  stats.stageSeconds = {{"shadow maps", 0.020}};
+  timeline.add(2, 0.02, 0.05, stats);
+  timeline.add(3, 0.05, 0.06, {});  // at rest
+  Settings settings;
+  settings.set("map_resolution", 10);
+  EXPECT_EQ(costOf("max_shadow_maps", timeline, {}, settings)->measured,
+            "25 maps, 15 ms (600 \u00b5s each)");
+  EXPECT_EQ(costOf("max_rays", timeline, {}, settings)->measured,
+            "2500 rays, 15 ms (6 \u00b5s each)");
+  EXPECT_EQ(costOf("max_paths", timeline, {}, settings)->measured, "idle");
+  EXPECT_EQ(costOf("frame_time", timeline, {}, settings)->measured, "20 ms a frame, 30 ms at most");
+}
+
+}  // namespace
+}  // namespace lamplighter

@@ -1,0 +1,95 @@
+#include "ui/app/meter_worker.h"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+namespace lamplighter {
+namespace {
+
+// Paths a block in each half after which more would not be seen in the figures.
+constexpr int kMostSamples = 4096;
+
+// Of the processor's threads; frames take all of them where they can.
+int threadsBeside() { return std::max(1, tbb::this_task_arena::max_concurrency() / 4); }
+
+// The scheduler gives this thread what others leave. Linux counts priorities by thread.
+void yieldToOthers() {
+  constexpr int kLowest = 19;
+  const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
+  ::setpriority(PRIO_PROCESS, thread, kLowest);  // at worst it stays as it is
+}
+
+}  // namespace
+
+MeterWorker::~MeterWorker() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+    stop_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void MeterWorker::exchange(ErrorMeter& meter) {
+  const std::shared_ptr<const MeterSubject> wanted = meter.wanted();
+  if (!thread_.joinable()) {
+    if (!wanted) return;
+    thread_ = std::thread([this] { run(); });
+  }
+  std::shared_ptr<const ReferenceHalves> traced;
+  {
+    const std::lock_guard lock(mutex_);
+    traced = std::exchange(traced_, nullptr);
+    if (wanted != wanted_) {
+      wanted_ = wanted;
+      stop_ = true;
+      changed_.notify_one();
+    }
+  }
+  if (traced) meter.take(std::move(traced));
+}
+
+void MeterWorker::run() {
+  yieldToOthers();
+  tbb::task_arena beside(threadsBeside(), 1, tbb::task_arena::priority::low);
+  std::shared_ptr<const MeterSubject> done;
+  for (;;) {
+    std::shared_ptr<const MeterSubject> subject;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return quit_ || (wanted_ && wanted_ != done); });
+      if (quit_) return;
+      subject = wanted_;
+      stop_ = false;
+    }
+    // Without memory for it there is no figure; the editor goes on.
+    try {
+      beside.execute([&] { trace(subject); });
+    } catch (const std::exception&) {
+      sampler_.reset();
+    }
+    done = std::move(subject);
+  }
+}
+
+void MeterWorker::trace(const std::shared_ptr<const MeterSubject>& subject) {
+  if (!sampler_) sampler_ = std::make_unique<ReferenceSampler>();
+  sampler_->begin(*subject);
+  for (int i = 0; i < kMostSamples; ++i) {
+    if (!sampler_->step([&] { return stop_.load(); })) return;
+    auto halves = std::make_shared<const ReferenceHalves>(sampler_->halves());
+    const std::lock_guard lock(mutex_);
+    if (stop_) return;
+    traced_ = std::move(halves);
+  }
+}
+
+}  // namespace lamplighter

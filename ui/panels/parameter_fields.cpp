@@ -1,0 +1,123 @@
+#include <algorithm>
+
+#include "editor/budgets/budget_costs.h"
+#include "renderer/methods/gi_method.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+
+namespace lamplighter {
+namespace {
+
+ImGuiSliderFlags sliderFlags(const ParameterSpec& spec) {
+  return ImGuiSliderFlags_AlwaysClamp | (spec.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+}
+
+// "%d" or "%.3g" with the unit; a % in the unit is doubled for printf.
+std::string formatOf(const ParameterSpec& spec, const char* number) {
+  std::string format = number;
+  if (spec.unit.empty()) return format;
+  format += ' ';
+  for (const char c : spec.unit) {
+    format += c;
+    if (c == '%') format += c;
+  }
+  return format;
+}
+
+// One field made from what the parameter says of itself. The new value, if it changed.
+std::optional<ParameterValue> parameterField(const PanelContext& ui, const ParameterSpec& spec,
+                                             const Settings& settings) {
+  const std::string id = "##" + spec.name;
+  const std::string step = "Change " + spec.label;
+  if (std::holds_alternative<bool>(spec.defaultValue)) {
+    bool value = settings.boolean(spec);
+    const bool changed = ImGui::Checkbox(id.c_str(), &value);
+    ui.name(spec.name);
+    return changed ? std::optional<ParameterValue>(value) : std::nullopt;
+  }
+  if (std::holds_alternative<int>(spec.defaultValue)) {
+    int value = settings.integer(spec);
+    const auto low = static_cast<int>(spec.minimum), high = static_cast<int>(spec.maximum);
+    const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high,
+                                          formatOf(spec, "%d").c_str(), sliderFlags(spec));
+    ui.name(spec.name);
+    trackEdit(ui, step);
+    return changed ? std::optional<ParameterValue>(std::clamp(value, low, high)) : std::nullopt;
+  }
+  if (std::holds_alternative<float>(spec.defaultValue)) {
+    float value = settings.real(spec);
+    const auto low = static_cast<float>(spec.minimum), high = static_cast<float>(spec.maximum);
+    const bool changed = ImGui::SliderFloat(id.c_str(), &value, low, high,
+                                            formatOf(spec, "%.3g").c_str(), sliderFlags(spec));
+    ui.name(spec.name);
+    trackEdit(ui, step);
+    return changed ? std::optional<ParameterValue>(std::clamp(value, low, high)) : std::nullopt;
+  }
+  const std::string value = settings.choice(spec);
+  std::optional<ParameterValue> chosen;
+  const bool open = ImGui::BeginCombo(id.c_str(), value.c_str());
+  ui.name(spec.name);
+  if (open) {
+    for (const std::string& choice : spec.choices) {
+      if (ImGui::Selectable(choice.c_str(), choice == value)) chosen = choice;
+      ui.name(spec.name + "/" + choice);
+    }
+    ImGui::EndCombo();
+  }
+  return chosen;
+}
+
+// Right-click puts a parameter back to its default.
+bool resetMenu(const PanelContext& ui, const ParameterSpec& spec, bool isSet) {
+  bool reset = false;
+  if (ImGui::BeginPopupContextItem(("reset " + spec.name).c_str())) {
+    reset = ImGui::MenuItem("Reset to default", nullptr, false, isSet);
+    ui.name(spec.name + "/reset");
+    ImGui::EndPopup();
+  }
+  return reset;
+}
+
+// Below a budget's slider: what it cost in the last seconds; what it buys where it is pointed at.
+void costLine(const PanelContext& ui, const ParameterSpec& spec, const Settings& settings) {
+  const auto cost =
+      costOf(spec.name, ui.session.watch().timeline, ui.session.output().stats, settings);
+  if (!cost) return;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + labelWidth(ui));
+  // One line whatever it says, so that nothing below moves with what was measured.
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
+  ImGui::TextUnformatted(cost->measured.c_str());
+  ImGui::PopStyleColor();
+  ui.name(spec.name + "/cost");
+  tooltip(ui, "Mean of the frames of the last seconds that drew upon this budget. " + cost->buys);
+}
+
+void parameterRow(const PanelContext& ui, const ParameterSpec& spec) {
+  labelledRow(ui, spec.label.c_str(), spec.help.c_str());
+  const auto value = parameterField(ui, spec, ui.session.document().render.values);
+  tooltip(ui, spec.help + " Ctrl+click to type a value, right-click to reset it.");
+  RenderSettings render = ui.session.document().render;
+  if (value) {
+    render.values.set(spec.name, *value);
+    ui.session.setRender(render);
+  } else if (resetMenu(ui, spec, render.values.has(spec.name))) {
+    render.values.reset(spec.name);
+    ui.session.setRender(render);
+  }
+  if (spec.group == ParameterGroup::budgets) costLine(ui, spec, render.values);
+}
+
+}  // namespace
+
+void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group) {
+  const auto& all = method.parameters;
+  const auto isInGroup = [&](const ParameterSpec& spec) { return spec.group == group; };
+  if (std::none_of(all.begin(), all.end(), isInGroup)) return;
+  // What is turned most often is open at first: all of it would not fit the panel.
+  const bool openAtFirst = group == ParameterGroup::lightSamples;
+  if (!section(ui, labelOf(group), openAtFirst)) return;
+  for (const ParameterSpec& spec : all)
+    if (isInGroup(spec)) parameterRow(ui, spec);
+}
+
+}  // namespace lamplighter

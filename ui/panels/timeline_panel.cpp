@@ -1,0 +1,207 @@
+// What the last seconds' frames were spent on: bars of stages, their legend, and what was counted.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+
+namespace lamplighter {
+namespace {
+
+// By Timeline::stages(). Neighbours in a bar differ in hue and in lightness.
+constexpr unsigned kStageColours[] = {0xd9b44a, 0x4f80c8, 0x9fc25b, 0xa0558a, 0x5fb6a6, 0x8d8f98,
+                                      0xe2793f, 0x3f6b59, 0xc7a3d8, 0xb5534c, 0x7fb7e6, 0x4a4e57};
+
+// Stages that took less are not told of [s]: they would read 0.0 ms.
+constexpr double kSeen = 5e-5;
+
+unsigned colourOf(size_t stage) {
+  return kStageColours[std::min(stage, std::size(kStageColours) - 1)];
+}
+
+std::string milliseconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, seconds < 0.0995 ? "%.1f ms" : "%.0f ms", 1e3 * seconds);
+  return text;
+}
+
+// What the graph's upper edge stands for [s]: all but the longest frames fit, and the budget does.
+double rangeOf(const Timeline& timeline, size_t bars, double budget) {
+  std::vector<double> lengths;
+  const auto& frames = timeline.frames();
+  for (size_t i = frames.size() - std::min(bars, frames.size()); i < frames.size(); ++i)
+    lengths.push_back(frames[i].seconds());
+  if (lengths.empty()) return std::max(budget, 0.01);
+  std::sort(lengths.begin(), lengths.end());
+  const double most = std::max(lengths[(lengths.size() - 1) * 95 / 100], 1.1 * budget);
+  // 1, 2 or 5 times a power of ten.
+  const double unit = std::pow(10.0, std::floor(std::log10(std::max(most, 1e-4))));
+  for (const double step : {1.0, 2.0, 5.0, 10.0})
+    if (step * unit >= most) return step * unit;
+  return most;
+}
+
+void stageTooltip(const PanelContext& ui, const FrameTiming& frame, size_t hovered) {
+  ImGui::BeginTooltip();
+  ImGui::Text("frame %u: %s", frame.frame, milliseconds(frame.seconds()).c_str());
+  for (size_t i = 0; i < frame.stageSeconds.size(); ++i) {
+    if (frame.stageSeconds[i] < kSeen) continue;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float side = ImGui::GetTextLineHeight();
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + ui.px(2)},
+                                              {at.x + side - ui.px(4), at.y + side - ui.px(2)},
+                                              theme::colour(colourOf(i)), ui.px(2));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side);
+    const unsigned colour = i == hovered ? theme::kAccent : theme::kText;
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(colour));
+    ImGui::Text("%s  %s", Timeline::stages()[i].c_str(),
+                milliseconds(frame.stageSeconds[i]).c_str());
+    ImGui::PopStyleColor();
+  }
+  ImGui::EndTooltip();
+}
+
+struct Graph {
+  ImVec2 low, high;
+  float bar = 3.0f;
+  double range = 0.1;
+  float yOf(double seconds) const {
+    return high.y - static_cast<float>(std::min(seconds / range, 1.0)) * (high.y - low.y);
+  }
+};
+
+// The newest frame at the right edge.
+void drawBars(const PanelContext& ui, const Timeline& timeline, const Graph& graph, bool hovered) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float gap = ui.px(1);
+  float right = graph.high.x;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  for (auto frame = timeline.frames().rbegin();
+       frame != timeline.frames().rend() && right - graph.bar >= graph.low.x; ++frame) {
+    const float left = right - graph.bar;
+    const bool isUnder = hovered && mouse.x >= left && mouse.x < right;
+    double below = 0.0;
+    size_t under = frame->stageSeconds.size();
+    for (size_t i = 0; i < frame->stageSeconds.size(); ++i) {
+      if (frame->stageSeconds[i] <= 0.0) continue;
+      const float bottom = graph.yOf(below), top = graph.yOf(below + frame->stageSeconds[i]);
+      list.AddRectFilled({left, top}, {right - gap, bottom}, theme::colour(colourOf(i)));
+      if (isUnder && mouse.y >= top && mouse.y < bottom) under = i;
+      below += frame->stageSeconds[i];
+    }
+    if (isUnder) {
+      list.AddRect({left - gap, graph.yOf(below) - gap}, {right, graph.high.y},
+                   theme::colour(theme::kText));
+      stageTooltip(ui, *frame, under);
+    }
+    right = left;
+  }
+}
+
+void drawGraph(const PanelContext& ui, TimelineState& state) {
+  const Timeline& live = ui.session.watch().timeline;
+  const float width = std::max(ImGui::GetContentRegionAvail().x, ui.px(60));
+  Graph graph;
+  graph.low = ImGui::GetCursorScreenPos();
+  graph.high = {graph.low.x + width, graph.low.y + ui.px(96)};
+  graph.bar = ui.px(4);
+  ImGui::InvisibleButton("##timeline", {width, ui.px(96)});
+  ui.name("timeline");
+  // Bars that move on could not be pointed at: they stand while the pointer is over them.
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered && !state.held) state.held = live;
+  if (!hovered) state.held.reset();
+  const Timeline& timeline = state.held ? *state.held : live;
+
+  const double budget = 1e-3 * ui.session.document().render.values.real(parameters::frameTime());
+  graph.range = rangeOf(timeline, static_cast<size_t>(width / graph.bar), budget);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(graph.low, graph.high, theme::colour(theme::kBackground), ui.px(3));
+  list.PushClipRect(graph.low, graph.high, true);
+  drawBars(ui, timeline, graph, hovered);
+  if (budget > 0.0 && budget <= graph.range) {
+    const float y = graph.yOf(budget);
+    list.AddLine({graph.low.x, y}, {graph.high.x, y}, theme::colour(theme::kAccent, 160), ui.px(1));
+    list.AddText({graph.low.x + ui.px(5), y + ui.px(1)}, theme::colour(theme::kAccent),
+                 ("budget " + milliseconds(budget)).c_str());
+  }
+  list.AddText({graph.low.x + ui.px(5), graph.low.y + ui.px(1)}, theme::colour(theme::kTextDim),
+               milliseconds(graph.range).c_str());
+  list.PopClipRect();
+}
+
+// A square and a name for each stage with its mean, in two columns; those that took no time are
+// dim, so that nothing below moves.
+void drawLegend(const PanelContext& ui) {
+  const Timeline& timeline = ui.session.watch().timeline;
+  if (!ImGui::BeginTable("##stages", 2, ImGuiTableFlags_SizingStretchSame)) return;
+  for (size_t i = 0; i < Timeline::stages().size(); ++i) {
+    const double mean = timeline.meanOf(i);
+    ImGui::TableNextColumn();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float side = ImGui::GetTextLineHeight();
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + ui.px(3)},
+                                              {at.x + side - ui.px(6), at.y + side - ui.px(3)},
+                                              theme::colour(colourOf(i)), ui.px(2));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side);
+    const bool took = mean >= kSeen;
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(took ? theme::kText : theme::kTextDim));
+    ImGui::TextUnformatted(
+        (Timeline::stages()[i] + (took ? "  " + milliseconds(mean) : "")).c_str());
+    ImGui::PopStyleColor();
+    tooltip(ui, "Mean of the frames in which it took any time: " + milliseconds(mean) + ".");
+  }
+  ImGui::EndTable();
+}
+
+void drawCounters(const PanelContext& ui) {
+  const auto& frames = ui.session.watch().timeline.frames();
+  const GiStats& now = ui.session.output().stats;
+  if (!ImGui::BeginTable("##counters", 3, ImGuiTableFlags_SizingStretchProp)) return;
+  const auto right = [](const std::string& text) {
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+    ImGui::TextUnformatted(text.c_str());
+  };
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted("Counts");
+  ImGui::TableNextColumn();
+  right("this frame");
+  ImGui::TableNextColumn();
+  right("most in one");
+  ImGui::PopStyleColor();
+  for (const Counter& counter : counters()) {
+    uint64_t most = counter.of(now);
+    for (const FrameTiming& f : frames) most = std::max(most, counter.of(f.stats));
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(counter.label);
+    ImGui::TableNextColumn();
+    right(grouped(static_cast<long long>(counter.of(now))));
+    ImGui::TableNextColumn();
+    right(grouped(static_cast<long long>(most)));
+  }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void timelineSection(const PanelContext& ui, TimelineState& state, Requests& requests) {
+  if (!section(ui, "Timeline", false)) return;
+  drawGraph(ui, state);
+  drawLegend(ui);
+  if (ImGui::Button("Export\u2026")) requests.timelineDialog = true;
+  ui.name("export");
+  tooltip(ui,
+          "Writes the frames of the last seconds: .json for chrome://tracing and Perfetto, .csv "
+          "for a table.");
+  ImGui::SameLine();
+  if (ImGui::Button("Clear")) requests.actions.emplace_back("timeline.clear");
+  ui.name("clear");
+  drawCounters(ui);
+}
+
+}  // namespace lamplighter
