@@ -60,6 +60,14 @@ std::optional<vec3> onPlane(const View& view, const vec2& pointer, const vec3& o
 float snapped(float value, float step) { return std::max(step, std::round(value / step) * step); }
 
 bool isBall(const AreaLight& light) { return light.shape == AreaShape::sphere; }
+bool isTube(const AreaLight& light) { return light.shape == AreaShape::tube; }
+
+// A tube's axis is its X. The plane through it that faces the eye as far as it can.
+vec3 facingNormal(const View& view, const mat4& world) {
+  const vec3 axis = glm::normalize(vec3(world[0]));
+  const vec3 normal = view.forward() - glm::dot(view.forward(), axis) * axis;
+  return glm::length(normal) > 1e-3f ? glm::normalize(normal) : view.up();
+}
 
 }  // namespace
 
@@ -84,6 +92,12 @@ std::vector<LightHandles::Handle> LightHandles::handlesOf(const View& view,
       const mat3 toWorld(world);
       const vec3 right = glm::normalize(glm::inverse(toWorld) * view.right());
       out = {{Kind::rim, vec3(world[3]) + toWorld * (x * right)}};
+    } else if (isTube(*node->area)) {
+      const vec3 across = glm::cross(facingNormal(view, world), vec3(world[0]));
+      const vec3 local = glm::normalize(glm::inverse(mat3(world)) * across);
+      out = {{Kind::right, at(x, 0)},
+             {Kind::left, at(-x, 0)},
+             {Kind::rim, vec3(world * vec4(y * local, 1.0f))}};
     } else {
       out = {{Kind::rim, at(x, 0)},
              {Kind::rim, at(-x, 0)},
@@ -91,7 +105,8 @@ std::vector<LightHandles::Handle> LightHandles::handlesOf(const View& view,
              {Kind::rim, at(0, -x)}};
     }
   }
-  const bool aims = node->area ? !isBall(*node->area) : node->punctual->kind != PunctualKind::point;
+  const bool aims = node->area ? !isBall(*node->area) && !isTube(*node->area)
+                               : node->punctual->kind != PunctualKind::point;
   if (aims) out.push_back({Kind::aim, place->origin + place->reach * place->aim});
   if (node->punctual && node->punctual->kind == PunctualKind::spot) {
     const vec3 side = sideOf(view, place->aim);
@@ -152,6 +167,7 @@ std::optional<Node> LightHandles::dragged(const View& view, const ViewportInput&
   vec3 normal = place->aim;
   if (isCone) normal = glm::cross(sideOf(view, place->aim), place->aim);
   if (drag_->node.area && isBall(*drag_->node.area)) normal = view.forward();
+  if (drag_->node.area && isTube(*drag_->node.area)) normal = facingNormal(view, drag_->world);
   const auto at = onPlane(view, in.pointer, place->origin, normal);
   if (!at) return std::nullopt;
   return isCone ? widened(*at, snapping) : resized(*at, in.modifiers.shift, snapping);
@@ -164,6 +180,10 @@ std::optional<Node> LightHandles::resized(const vec3& at, bool bothSides, bool s
   const auto rounded = [&](float value) {
     return std::max(kLeast, snapping ? snapped(value, kSizeStep) : value);
   };
+  if (drag_->kind == Kind::rim && isTube(*node.area)) {
+    size.y = rounded(2.0f * glm::length(vec2(p.y, p.z)));
+    return node;
+  }
   if (drag_->kind == Kind::rim) {
     size.x = size.y = rounded(2.0f * glm::length(isBall(*node.area) ? p : vec3(p.x, p.y, 0.0f)));
     return node;

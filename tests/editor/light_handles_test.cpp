@@ -87,6 +87,25 @@ TEST_F(LightHandlesTest, TheRimIsADisksDiameter) {
   EXPECT_NEAR(node(light_).area->size.x, 1.4f, 0.03f);
 }
 
+TEST_F(LightHandlesTest, ATubeHasALengthAndADiameter) {
+  AreaLight tube;
+  tube.shape = AreaShape::tube;
+  tube.size = vec2(2.0f, 0.2f);
+  session_.setAreaLight(light_, tube);
+  lookFrom(vec3(0, 3, 6), 0.0f);
+  session_.select({light_});
+  const vec3 right = handle(Kind::right), left = handle(Kind::left), rim = handle(Kind::rim);
+  EXPECT_NEAR(glm::length(right - left), 2.0f, 1e-4f);
+  EXPECT_NEAR(glm::length(rim - placeOf(light_)), 0.1f, 1e-4f);
+  drag(Kind::right, right + 0.25f * (right - left));
+  EXPECT_NEAR(node(light_).area->size.x, 2.5f, 0.03f);
+  EXPECT_LT(glm::length(handle(Kind::left) - left), 1e-4f);
+  const vec3 middle = placeOf(light_);
+  drag(Kind::rim, middle + 3.0f * (handle(Kind::rim) - middle));
+  EXPECT_NEAR(node(light_).area->size.y, 0.6f, 0.03f);
+  EXPECT_NEAR(node(light_).area->size.x, 2.5f, 0.03f);
+}
+
 TEST_F(LightHandlesTest, ALightIsAimedAtWhatIsUnderThePointer) {
   session_.select({spot_});
   const uint64_t before = hash();
