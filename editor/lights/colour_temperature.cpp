@@ -8,7 +8,7 @@ namespace lamplighter {
 namespace {
 
 // Of CIE XYZ to linear Rec. 709, white point D65 (ITU-R BT.709-6; columns are X, Y, Z).
-const mat3 kRec709FromXyz(3.2404542f, -0.9692660f, 0.0556434f,  // X
+const mat3 kRec709FromXyz(3.2404542f, -0.9692660f, 0.0556434f,   // X
                           -1.5371385f, 1.8760108f, -0.2040259f,  // Y
                           -0.4985314f, 0.0415560f, 1.0572252f);  // Z
 

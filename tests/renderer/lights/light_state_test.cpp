@@ -100,10 +100,11 @@ TEST_F(LightStates, UpdatesAsARebuildWould) {
     return structure;
   };
   EXPECT_FALSE(edit("area off", [&] { state(area_).on = false; }));
-  EXPECT_FALSE(edit("area brighter while off", [&] { scene_.find(area_)->area->radiance *= 2.0f; }));
+  EXPECT_FALSE(
+      edit("area brighter while off", [&] { scene_.find(area_)->area->radiance *= 2.0f; }));
   EXPECT_FALSE(edit("point off", [&] { state(point_).on = false; }));
-  EXPECT_FALSE(edit("point moved while off",
-                    [&] { scene_.find(point_)->local.translation = vec3(2); }));
+  EXPECT_FALSE(
+      edit("point moved while off", [&] { scene_.find(point_)->local.translation = vec3(2); }));
   EXPECT_TRUE(edit("mesh off", [&] { state(glow_).on = false; }));
   EXPECT_FALSE(edit("its material brighter", [&] { scene_.materials[0].emissive *= 2.0f; }));
   edit("its material dark", [&] { scene_.materials[0].emissive = vec3(0); });
@@ -150,7 +151,8 @@ TEST(TubeLights, HaveTheAreaOfACylinderAndAreSaved) {
   EXPECT_NEAR(lights.emitters()[0].area, kPi * 0.05f * 1.2f, 1e-6f);
   // Faces look outwards, and it is centred along X.
   for (size_t i = 0; i < render.indices.size(); i += 3) {
-    const vec3 &a = render.positions[render.indices[i]], &b = render.positions[render.indices[i + 1]],
+    const vec3 &a = render.positions[render.indices[i]],
+               &b = render.positions[render.indices[i + 1]],
                &c = render.positions[render.indices[i + 2]];
     const vec3 middle = (a + b + c) / 3.0f;
     EXPECT_GT(glm::dot(glm::cross(b - a, c - a), vec3(0, middle.y, middle.z)), 0.0f);
