@@ -98,6 +98,8 @@ vec3 emissionOf(const Scene& scene, const LightSource& light) {
   const Node& node = scene.nodes[light.index];
   if (node.area) return node.area->radiance;
   if (node.punctual) return node.punctual->intensity;
+  const std::vector<int> materials = emissiveMaterials(scene, node);
+  if (materials.size() == 1) return scene.materials[static_cast<size_t>(materials[0])].emissive;
   vec3 sum(0.0f);
   float area = 0.0f;
   forEachEmissive(scene, node, [&](const Primitive& p, const Material& m) {

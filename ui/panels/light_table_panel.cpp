@@ -22,7 +22,7 @@ struct ColumnInfo {
   const char* help;
 };
 constexpr std::array kColumns = {
-    ColumnInfo{LightColumn::name, "name", "Name", 120, false, ""},
+    ColumnInfo{LightColumn::name, "name", "Name", 108, false, ""},
     ColumnInfo{LightColumn::kind, "kind", "Kind", 66, false, ""},
     ColumnInfo{LightColumn::on, "on", "On", 20, false, "Whether it is switched on."},
     ColumnInfo{LightColumn::solo, "solo", "Solo", 30, false,

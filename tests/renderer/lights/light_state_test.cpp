@@ -1,6 +1,9 @@
 // What does not shine: which lights those are, what the renderer makes of them, and files.
+#include <fstream>
+
 #include <gmock/gmock.h>
 
+#include "renderer/error.h"
 #include "renderer/sampling/lights.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/scene/render_scene.h"
@@ -138,6 +141,31 @@ TEST_F(LightStates, AreSavedAndLoaded) {
   const Scene again = loadGltf(folder.path() / "plain.gltf").scene;
   EXPECT_EQ(test::difference(plain, again), "");
   EXPECT_TRUE(again.lightGroups.empty());
+}
+
+TEST_F(LightStates, NotesOfAnotherTypeAreRefusedInOneLine) {
+  const test::TemporaryFolder folder;
+  state(area_) = {false, true, "a"};
+  saveGltf(scene_, folder.path() / "s.gltf");
+  std::ifstream in(folder.path() / "s.gltf");
+  const std::string good((std::istreambuf_iterator<char>(in)), {});
+  const auto with = [&](const std::string& what, const std::string& by) {
+    std::string text = good;
+    const size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    if (at != std::string::npos) text.replace(at, what.size(), by);
+    std::ofstream(folder.path() / "bad.gltf") << text;
+    return folder.path() / "bad.gltf";
+  };
+  const std::string key = good.find("\"on\": false") != std::string::npos ? "\"on\": " : "\"on\":";
+  for (const char* value : {"7", "\"no\"", "[]"}) {
+    try {
+      loadGltf(with(key + "false", key + value));
+      ADD_FAILURE() << value;
+    } catch (const InputError& e) {
+      EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+    }
+  }
 }
 
 TEST(TubeLights, HaveTheAreaOfACylinderAndAreSaved) {
