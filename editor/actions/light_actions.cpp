@@ -4,9 +4,11 @@
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
+#include "editor/lights/light_list.h"
 #include "editor/lights/new_light.h"
 #include "editor/session.h"
 #include "renderer/error.h"
+#include "renderer/scene/ies_profile.h"
 
 namespace lamplighter {
 
@@ -59,20 +61,25 @@ void addLightActions(ActionRegistry& r) {
          {}});
   r.add({"light.ies",
          "Set profile",
-         "FILE|none",
-         "Gives the active point or spot light the profile of an IES file, and its brightness.",
+         "FILE",
+         "Gives the active point or spot light the profile of an IES file; none takes it away. It "
+         "keeps its lumens.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "light.ies FILE|none");
+           requireArguments(a, 1, 1, "light.ies FILE");
            const Node& n = activeNode(s.document());
            if (!n.punctual || n.punctual->kind == PunctualKind::directional)
              throw InputError(n.name, "is neither a point nor a spot light", "select one");
            PunctualLight light = *n.punctual;
            light.profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
-           const float was = luminance(light.intensity);
-           if (light.profile)  // its colour, at the profile's candela
-             light.intensity = was > 0.0f ? light.intensity * (light.profile->peak / was)
-                                          : vec3(light.profile->peak);
+           // As much light as before, in other directions.
+           Node with = n;
+           with.punctual = light;
+           const auto lumens = [&](const Node& node) {
+             return unitsPerRadiance(measureOf(s.document().scene, node, mat4(1.0f)),
+                                     LightUnit::lumens);
+           };
+           light.intensity *= static_cast<float>(lumens(n) / lumens(with));
            s.setPunctualLight(n.id, light);
          },
          {}});

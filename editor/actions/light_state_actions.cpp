@@ -32,8 +32,8 @@ void addSwitch(ActionRegistry& r, const std::string& name, const char* label, co
          {}});
 }
 
-void addGroupSwitch(ActionRegistry& r, const std::string& name, const char* label,
-                    const char* help, bool LightGroup::*flag) {
+void addGroupSwitch(ActionRegistry& r, const std::string& name, const char* label, const char* help,
+                    bool LightGroup::*flag) {
   r.add({name,
          label,
          "NAME true|false",
@@ -54,8 +54,7 @@ void toggleWorkLight(Session& s) {
     return;
   }
   float distance = 0.5f * std::max(s.renderScene().bounds.radius(), 0.1f);
-  if (const auto ahead = s.surfaceAhead())
-    distance = glm::length(ahead->position - s.view().eye);
+  if (const auto ahead = s.surfaceAhead()) distance = glm::length(ahead->position - s.view().eye);
   s.lighting().workLight =
       workLightIntensity(std::clamp(distance, 0.2f, 100.0f), s.document().render.exposureEv);
 }
@@ -98,12 +97,8 @@ void addLightStateActions(ActionRegistry& r) {
            groupLights(s, a[0]);
          },
          {}});
-  r.add({"lights.ungroup",
-         "Ungroup lights",
-         "",
-         "Takes the selected lights out of their groups.",
-         "",
-         [](Session& s, const Arguments&) { groupLights(s, ""); },
+  r.add({"lights.ungroup", "Ungroup lights", "", "Takes the selected lights out of their groups.",
+         "", [](Session& s, const Arguments&) { groupLights(s, ""); },
          [](const Session& s) { return !selectedLights(s.document()).empty(); }});
   r.add({"lights.select_group",
          "Select group",
@@ -132,9 +127,7 @@ void addLightStateActions(ActionRegistry& r) {
          "",
          "A table of all lights, below the view.",
          "L",
-         [](Session& s, const Arguments&) {
-           s.lighting().showsTable = !s.lighting().showsTable;
-         },
+         [](Session& s, const Arguments&) { s.lighting().showsTable = !s.lighting().showsTable; },
          {},
          true,
          [](const Session& s) { return s.lighting().showsTable; }});

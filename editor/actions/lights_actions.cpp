@@ -100,7 +100,8 @@ void addLightsActions(ActionRegistry& r) {
          },
          {}});
   r.add({"lights.brighter", "Twice as bright", "", "Doubles the intensity of the selected lights.",
-         "", [](Session& s, const Arguments&) {
+         "",
+         [](Session& s, const Arguments&) {
            editLights(s, LightOperation::multiply, LightProperty::intensity, 2.0, LightUnit::nits);
          },
          anySelected});

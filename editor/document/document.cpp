@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "renderer/scene/ies_profile.h"
+
 namespace lamplighter {
 
 namespace {

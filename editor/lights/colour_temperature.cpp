@@ -2,24 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace lamplighter {
 
 namespace {
 
 // Of CIE XYZ to linear Rec. 709, white point D65 (ITU-R BT.709-6; columns are X, Y, Z).
-const mat3 kRec709FromXyz(3.2404542f, -0.9692660f, 0.0556434f,  // X
+const mat3 kRec709FromXyz(3.2404542f, -0.9692660f, 0.0556434f,   // X
                           -1.5371385f, 1.8760108f, -0.2040259f,  // Y
                           -0.4985314f, 0.0415560f, 1.0572252f);  // Z
 
 vec2 uvOf(const vec3& rgb) {
-  const vec3 xyz = glm::inverse(kRec709FromXyz) * rgb;
+  static const mat3 kXyzFromRec709 = glm::inverse(kRec709FromXyz);
+  const vec3 xyz = kXyzFromRec709 * rgb;
   const float sum = xyz.x + 15.0f * xyz.y + 3.0f * xyz.z;
   return vec2(4.0f * xyz.x, 6.0f * xyz.y) / sum;
 }
 
-float distanceTo(const vec2& uv, double mired) {
-  return glm::length(uvOf(planckianColour(static_cast<float>(1e6 / mired))) - uv);
+vec2 locusAt(double mired) { return uvOf(planckianColour(static_cast<float>(1e6 / mired))); }
+
+// Even steps in mired are about even steps along the curve.
+constexpr double kFirst = 1e6 / kMostKelvin, kLast = 1e6 / kLeastKelvin, kStep = 4.0;
+
+// The curve at these steps.
+const std::vector<vec2>& locus() {
+  static const std::vector<vec2> kLocus = [] {
+    std::vector<vec2> points;
+    for (double mired = kFirst; mired <= kLast; mired += kStep) points.push_back(locusAt(mired));
+    return points;
+  }();
+  return kLocus;
 }
 
 }  // namespace
@@ -40,16 +53,16 @@ vec3 planckianColour(float kelvin) {
 std::optional<float> temperatureOf(const vec3& colour) {
   if (!(luminance(colour) > 0.0f)) return std::nullopt;
   const vec2 uv = uvOf(colour / luminance(colour));
-  // Even steps in mired are about even steps along the curve.
-  constexpr double kFirst = 1e6 / kMostKelvin, kLast = 1e6 / kLeastKelvin, kStep = 4.0;
-  double best = kFirst;
-  for (double mired = kFirst; mired <= kLast; mired += kStep) {
-    if (distanceTo(uv, mired) < distanceTo(uv, best)) best = mired;
-  }
+  const auto nearer = [&](const vec2& a, const vec2& b) {
+    return glm::distance(a, uv) < glm::distance(b, uv);
+  };
+  const auto nearest = std::min_element(locus().begin(), locus().end(), nearer);
+  const double best = kFirst + kStep * static_cast<double>(nearest - locus().begin());
   double low = std::max(best - kStep, kFirst), high = std::min(best + kStep, kLast);
+  const auto distanceTo = [&](double mired) { return glm::distance(locusAt(mired), uv); };
   for (int i = 0; i < 40; ++i) {
     const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-    if (distanceTo(uv, a) <= distanceTo(uv, b)) {
+    if (distanceTo(a) <= distanceTo(b)) {
       high = b;
     } else {
       low = a;
@@ -57,7 +70,7 @@ std::optional<float> temperatureOf(const vec3& colour) {
   }
   const double mired = 0.5 * (low + high);
   constexpr float kFarthest = 0.0054f;
-  if (distanceTo(uv, mired) > kFarthest) return std::nullopt;
+  if (distanceTo(mired) > kFarthest) return std::nullopt;
   return static_cast<float>(1e6 / mired);
 }
 

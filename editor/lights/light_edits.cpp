@@ -58,10 +58,10 @@ void checkValue(LightOperation operation, LightProperty property, double value) 
       if (text.back() == '.') text.pop_back();
       return text;
     };
-    throw InputError("lights.set",
-                     std::string(info.name) + " must be from " + number(info.least) + " to " +
-                         number(info.most),
-                     "give such a value");
+    throw InputError(
+        "lights.set",
+        std::string(info.name) + " must be from " + number(info.least) + " to " + number(info.most),
+        "give such a value");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "renderer/scene/ies_profile.h"
 #include "renderer/scene/light_shapes.h"
 
 namespace lamplighter {
@@ -13,8 +14,8 @@ float areaOf(const Primitive& p, const mat4& world) {
   const auto at = [&](uint32_t i) { return vec3(world * vec4(p.positions[i], 1.0f)); };
   for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
     const vec3 a = at(p.indices[i]);
-    area += 0.5 * static_cast<double>(glm::length(
-                      glm::cross(at(p.indices[i + 1]) - a, at(p.indices[i + 2]) - a)));
+    area += 0.5 * static_cast<double>(
+                      glm::length(glm::cross(at(p.indices[i + 1]) - a, at(p.indices[i + 2]) - a)));
   }
   return static_cast<float>(area);
 }
@@ -27,11 +28,12 @@ double spotSolidAngle(const PunctualLight& l) {
 }
 
 LightMeasure punctualMeasure(const PunctualLight& l) {
+  const bool isSpot = l.kind == PunctualKind::spot;
+  if (l.profile && l.kind != PunctualKind::directional)
+    return {isSpot ? LightKind::spot : LightKind::point, 0.0, 0.0, l.profile->solidAngle};
   switch (l.kind) {
     case PunctualKind::point:
-      return {LightKind::point, 0.0, 0.0,
-              l.profile ? static_cast<double>(l.profile->solidAngle)
-                        : 4.0 * static_cast<double>(kPi)};
+      return {LightKind::point, 0.0, 0.0, 4.0 * static_cast<double>(kPi)};
     case PunctualKind::spot:
       return {LightKind::spot, 0.0, 0.0, spotSolidAngle(l)};
     case PunctualKind::directional:
@@ -81,9 +83,8 @@ std::vector<LightSource> lightsOf(const Scene& scene) {
 
 std::vector<LightSource> selectedLights(const Document& document) {
   std::vector<LightSource> out = lightsOf(document.scene);
-  std::erase_if(out, [&](const LightSource& l) {
-    return l.node == kNoNode || !document.isSelected(l.node);
-  });
+  std::erase_if(
+      out, [&](const LightSource& l) { return l.node == kNoNode || !document.isSelected(l.node); });
   return out;
 }
 
@@ -97,6 +98,8 @@ vec3 emissionOf(const Scene& scene, const LightSource& light) {
   const Node& node = scene.nodes[light.index];
   if (node.area) return node.area->radiance;
   if (node.punctual) return node.punctual->intensity;
+  const std::vector<int> materials = emissiveMaterials(scene, node);
+  if (materials.size() == 1) return scene.materials[static_cast<size_t>(materials[0])].emissive;
   vec3 sum(0.0f);
   float area = 0.0f;
   forEachEmissive(scene, node, [&](const Primitive& p, const Material& m) {

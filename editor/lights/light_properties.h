@@ -21,8 +21,8 @@ struct LightPropertyInfo {
 const std::vector<LightPropertyInfo>& lightProperties();
 const LightPropertyInfo& lightPropertyInfo(LightProperty property);
 
-// In metres, degrees, kelvin; intensity in `unit`, or in the one unitFor() gives instead. None where
-// the light has no such property: a disk has no height, a green light no temperature.
+// In metres, degrees, kelvin; intensity in `unit`, or in the one unitFor() gives instead. None
+// where the light has no such property: a disk has no height, a green light no temperature.
 std::optional<double> valueOf(const Scene& scene, const LightSource& light, LightProperty property,
                               LightUnit unit);
 

@@ -18,8 +18,7 @@ vec2 sizeOf(const Scene& scene, const LightSource& light) {
   if (light.node == kNoNode) return vec2(0.0f);
   const Node& node = scene.nodes[light.index];
   if (!node.area) return vec2(static_cast<float>(std::sqrt(light.measure.area)));
-  const bool isRound =
-      node.area->shape == AreaShape::disk || node.area->shape == AreaShape::sphere;
+  const bool isRound = node.area->shape == AreaShape::disk || node.area->shape == AreaShape::sphere;
   return isRound ? vec2(node.area->size.x) : node.area->size;
 }
 
@@ -31,8 +30,9 @@ struct SortKey {
   auto operator<=>(const SortKey& o) const {
     if (const auto c = text.compare(o.text); c != 0) return c <=> 0;
     const double a = number.value_or(0.0), b = o.number.value_or(0.0);
-    return a < b ? std::strong_ordering::less
-                 : a > b ? std::strong_ordering::greater : std::strong_ordering::equal;
+    return a < b   ? std::strong_ordering::less
+           : a > b ? std::strong_ordering::greater
+                   : std::strong_ordering::equal;
   }
 };
 
@@ -52,9 +52,8 @@ SortKey keyOf(const LightRow& r, LightColumn column) {
     case LightColumn::strength:
       return {unitSymbol(r.unit), r.strength};  // those of one unit together
     case LightColumn::size:
-      return {"", r.size.x > 0.0f
-                      ? std::optional<double>(static_cast<double>(r.size.x * r.size.y))
-                      : std::nullopt};
+      return {"", r.size.x > 0.0f ? std::optional<double>(static_cast<double>(r.size.x * r.size.y))
+                                  : std::nullopt};
     case LightColumn::on:
       return {"", r.state.on ? 1.0 : 0.0};
     case LightColumn::solo:

@@ -18,13 +18,13 @@ class Session;
 
 // What a light costs and brings, by the method's own account.
 struct LightFigures {
-  int samples = 0;           // its VPLs that are shown, bounced ones included
-  int patches = 0;           // patches that at least one of them reaches, wholly or in part
-  uint64_t work = 0;         // VPLs × patches that they reach
-  int mapsPending = 0;       // VPLs that wait to be brought up to date
-  int age = 0;               // frames that the oldest of these has waited
-  double milliseconds = 0.0; // its part, by work, of the time that a frame takes for light
-  double share = 0.0;        // its part of the flux of all that shine
+  int samples = 0;            // its VPLs that are shown, bounced ones included
+  int patches = 0;            // patches that at least one of them reaches, wholly or in part
+  uint64_t work = 0;          // VPLs × patches that they reach
+  int mapsPending = 0;        // VPLs that wait to be brought up to date
+  int age = 0;                // frames that the oldest of these has waited
+  double milliseconds = 0.0;  // its part, by work, of the time that a frame takes for light
+  double share = 0.0;         // its part of the flux of all that shine
 
   bool operator==(const LightFigures&) const = default;
 };
@@ -45,8 +45,21 @@ struct LightRow {
 };
 
 enum class LightColumn {
-  name, kind, colour, temperature, strength, size, on, solo, group,
-  samples, share, patches, milliseconds, pending, age
+  name,
+  kind,
+  colour,
+  temperature,
+  strength,
+  size,
+  on,
+  solo,
+  group,
+  samples,
+  share,
+  patches,
+  milliseconds,
+  pending,
+  age
 };
 
 // Rows as the document has them, in the order of its nodes, without figures.
@@ -71,8 +84,8 @@ class LightTable {
  private:
   bool known_ = false, wasSettled_ = false;
   uint32_t frame_ = 0;
-  uint64_t scene_ = 0;        // revision
-  double lightSeconds_ = 0.0; // smoothed, of frames that had something to do
+  uint64_t scene_ = 0;         // revision
+  double lightSeconds_ = 0.0;  // smoothed, of frames that had something to do
   std::map<NodeId, LightFigures> figures_;
   std::map<NodeId, double> shares_;
 };

@@ -7,6 +7,7 @@
 #include "renderer/reference/glossy_surface.h"
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
+#include "renderer/scene/ies_profile.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -222,6 +223,8 @@ class Tracer {
     if (light.light.kind == PunctualKind::directional) return radiance;
     if (distance <= 0.0f) return vec3(0.0f);
     radiance /= distance * distance;
+    if (light.light.profile)
+      return radiance * light.light.profile->at(glm::transpose(light.axes) * -w);
     if (light.light.kind == PunctualKind::spot) {
       // KHR_lights_punctual: linear in the cosine between the cones, squared.
       const float co = std::cos(light.light.outerCone), ci = std::cos(light.light.innerCone);

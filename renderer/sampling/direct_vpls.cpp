@@ -4,6 +4,7 @@
 
 #include "renderer/sampling/random.h"
 #include "renderer/sampling/sun_squares.h"
+#include "renderer/scene/ies_profile.h"
 
 namespace lamplighter {
 namespace {
@@ -54,13 +55,25 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
 SkyMap::Light DirectVpls::skySun(const Emitter& e, const VplId& id) const {
   const size_t sun = e.skySun - 1;
   if (batch_ == 0) return lights_.sky().sun(sun);
-  return lights_.sky().sun(
-      sun, numbers_.point(id, batch_ - 1, kPlaceDimension, SampleNumbers::direct));
+  return lights_.sky().sun(sun,
+                           numbers_.point(id, batch_ - 1, kPlaceDimension, SampleNumbers::direct));
 }
 
 void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, int count, float scale,
                              std::vector<SceneVpl>& vpls) const {
   const vec3 intensity = scale * p.light.intensity;
+  if (p.light.profile) {
+    id.index = 0;
+    for (const SpotLobe& lobe : p.light.profile->lobes) {
+      vpls.push_back(numbers_.makeVpl(id, shared::kVplUniform, p.position, p.axes * lobe.axis,
+                                      lobe.intensity * intensity));
+      vpls.back().isSample = false;
+      vpls.back().vpl.normal.w = lobe.scale;
+      vpls.back().vpl.tangent.w = lobe.offset;
+      ++id.index;
+    }
+    return;
+  }
   switch (p.light.kind) {
     case PunctualKind::point:
       for (id.index = 0; id.index < 2; ++id.index) {

@@ -8,6 +8,7 @@
 #include "renderer/sampling/direct_vpls.h"
 #include "renderer/sampling/path_following.h"
 #include "renderer/sampling/vpl_counts.h"
+#include "renderer/scene/ies_profile.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -47,11 +48,13 @@ bool meetSame(const LightPath& a, const LightPath& b) {
 }
 
 // The samples that an emitter cannot do without: a two-sided one takes turns, a point light is two
-// hemispheres.
+// hemispheres, one with a profile its lobes.
 SampleShare shareOf(const RenderScene& scene, const Emitter& e) {
   const float weight = luminance(e.flux);
   if (e.kind != EmitterKind::punctual) return {weight, e.bothSides ? 2 : 1, false};
-  const PunctualKind kind = scene.punctuals[e.punctual].light.kind;
+  const PunctualLight& light = scene.punctuals[e.punctual].light;
+  if (light.profile) return {weight, static_cast<int>(light.profile->lobes.size()), true};
+  const PunctualKind kind = light.kind;
   return {weight, kind == PunctualKind::point ? 2 : 1, kind != PunctualKind::directional};
 }
 

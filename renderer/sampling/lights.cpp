@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "renderer/sampling/low_discrepancy.h"
+#include "renderer/scene/ies_profile.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -76,6 +77,7 @@ float spotSolidAngle(const PunctualLight& l) {
 }
 
 vec3 punctualFlux(const PunctualLight& l, float sceneRadius) {
+  if (l.profile) return l.profile->solidAngle * l.intensity;
   switch (l.kind) {
     case PunctualKind::point:
       return 4.0f * kPi * l.intensity;

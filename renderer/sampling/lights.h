@@ -18,8 +18,8 @@ struct Emitter {
   uint32_t punctual = 0;  // punctual: index into RenderScene::punctuals
   uint32_t skySun = 0;    // sky: 0 all but its suns, else the sun of that number, from 1 on
   // Flux Φ [W] per channel: surface π·L·A (both sides when double-sided, the emissive texture's
-  // mean included), point 4π·I, spot I × its solid angle, directional E·πR², sky πR² ∫ L dω, with
-  // R the radius of the scene.
+  // mean included), point 4π·I, spot I × its solid angle (both that of their profile), directional
+  // E·πR², sky πR² ∫ L dω, with R the radius of the scene.
   vec3 flux{0.0f};
   float area = 0.0f;       // surface: m²
   bool bothSides = false;  // surface

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "renderer/sampling/random.h"
+#include "renderer/scene/ies_profile.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -116,6 +117,13 @@ Departure PathWalker::departPunctual(const Source& source, const RenderPunctual&
   Departure d;
   d.origin = p.position;
   d.spread = Departure::Spread::cap;
+  if (p.light.profile) {
+    d.normal = p.direction;
+    d.cap = p.light.profile->cap;
+    d.direction = directionFrom(d, u);
+    d.flux = fluxAlong(source, d, d.direction);
+    return d;
+  }
   if (p.light.kind == PunctualKind::point) {
     d.direction = sampleSphere(u);
     d.flux = 4.0f * kPi * p.light.intensity;
@@ -160,6 +168,10 @@ vec3 PathWalker::fluxAlong(const Source& source, const Departure& start,
   const Emitter& e = lights_.emitters()[static_cast<size_t>(source.emitter)];
   if (e.kind != EmitterKind::punctual) return start.flux;
   const RenderPunctual& p = scene_.punctuals[e.punctual];
+  if (p.light.profile) {
+    const float share = p.light.profile->at(glm::transpose(p.axes) * direction);
+    return 2.0f * kPi * start.cap * share * p.light.intensity;
+  }
   if (p.light.kind != PunctualKind::spot) return start.flux;
   const float attenuation = SpotCone(p.light).at(glm::dot(p.direction, direction));
   return 2.0f * kPi * start.cap * attenuation * p.light.intensity;

@@ -35,7 +35,8 @@ std::optional<AreaLight> readArea(const GltfDocument& document, size_t node,
 // A spot's or rectangle's light that cannot be read right is an error; lights of unknown kinds are
 // left out with a warning.
 void warnOfUnknownLights(GltfDocument& document);
-// gltf_light_notes.cpp: on, solo, group and profile of the nodes' lights; groups and the sky's state.
+// gltf_light_notes.cpp: on, solo, group and profile of the nodes' lights; groups and the sky's
+// state.
 void readLightNotes(GltfDocument& document, std::vector<Node>& nodes);
 void readSceneLightNotes(GltfDocument& document, Scene& scene);
 // gltf_sphere_meshes.cpp: takes out what saveGltf() put in to show sphere lights to other programs.

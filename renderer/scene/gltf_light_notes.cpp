@@ -6,6 +6,7 @@
 #include "renderer/error.h"
 #include "renderer/scene/gltf_content.h"
 #include "renderer/scene/gltf_output.h"
+#include "renderer/scene/ies_profile.h"
 
 namespace lamplighter {
 
@@ -65,7 +66,7 @@ void readLightNotes(GltfDocument& document, std::vector<Node>& nodes) {
     if (note == nullptr || !note->is_object()) continue;
     node.light = readState(document, *note, {"nodes", index});
     const std::string uri = textMember(document, *note, kProfile, {"nodes", index});
-    if (uri.empty() || !node.punctual) continue;
+    if (uri.empty() || !node.punctual || node.punctual->kind == PunctualKind::directional) continue;
     const auto [it, isNew] = profiles.try_emplace(uri);
     if (isNew) it->second = readProfile(document, uri);
     node.punctual->profile = it->second;

@@ -1,7 +1,8 @@
 // KHR_lights_punctual; EXT_lights_area (draft, KhronosGroup/glTF pull request 2525): a rectangle
 // or disk that emits towards −Z, size its height or diameter, rect.aspect width over height,
 // intensity in nits; and this program's own note of a sphere or tube, on a node whose mesh shows
-// it to others. A nit is taken as one unit of radiance, as a candela is as one of radiant intensity.
+// it to others. A nit is taken as one unit of radiance, as a candela is as one of radiant
+// intensity.
 #include "renderer/scene/gltf_lights.h"
 
 #include <algorithm>

@@ -94,7 +94,8 @@ void saveSceneLightNotes(GltfOutput& out);
 // gltf_save_sky.cpp
 // The URI of a file beside the scene with these bytes: one that is there already, or a new one that
 // is added to the output under a name that no other file has.
-std::string uriOfFile(GltfOutput& out, const std::filesystem::path& name, std::span<const uint8_t> bytes);
+std::string uriOfFile(GltfOutput& out, const std::filesystem::path& name,
+                      std::span<const uint8_t> bytes);
 void saveSky(GltfOutput& out);
 // gltf_save_spheres.cpp. Last of all: see gltf_sphere_meshes.cpp.
 void saveSphereMeshes(GltfOutput& out, const std::vector<size_t>& jsonNodes);

@@ -82,9 +82,9 @@ class SphereSaver {
   struct Shared {
     size_t normals = 0, indices = 0;  // accessors
   };
-  std::map<bool, Shared> shared_;                     // that all spheres share, and all tubes
-  std::map<Shape, size_t> positions_;                 // accessors
-  std::map<Color, size_t> materials_;                 // by radiance
+  std::map<bool, Shared> shared_;      // that all spheres share, and all tubes
+  std::map<Shape, size_t> positions_;  // accessors
+  std::map<Color, size_t> materials_;  // by radiance
   std::map<std::pair<Color, Shape>, size_t> meshes_;
 };
 

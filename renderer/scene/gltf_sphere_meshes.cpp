@@ -1,7 +1,7 @@
-// A sphere or tube light has no place in EXT_lights_area. It is saved as a node with extras that say what
-// it is and an emissive mesh, so that other programs show it; here the mesh is taken out again.
-// What belongs to these meshes is marked by extras.lamplighter.sphereLight, and saveGltf() puts it
-// last in every list, so that nothing else changes its index.
+// A sphere or tube light has no place in EXT_lights_area. It is saved as a node with extras that
+// say what it is and an emissive mesh, so that other programs show it; here the mesh is taken out
+// again. What belongs to these meshes is marked by extras.lamplighter.sphereLight, and saveGltf()
+// puts it last in every list, so that nothing else changes its index.
 #include "renderer/scene/gltf_content.h"
 #include "renderer/scene/gltf_lights.h"
 

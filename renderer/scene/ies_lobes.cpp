@@ -37,14 +37,19 @@ SpotLobe lobe(const vec3& axis, float inner, float outer) {
 // round.
 std::vector<SpotLobe> dictionary() {
   std::vector<SpotLobe> out;
-  for (const float side : {-1.0f, 1.0f}) out.push_back({vec3(0, 0, side), 1.0f});
+  // Not dark at the horizon: together they are near a cosine, too.
+  for (const float side : {-1.0f, 1.0f}) {
+    for (const float edge : {1.0f, 0.7f, 0.5f, 0.35f, 0.2f, 0.1f})
+      out.push_back({vec3(0, 0, side), 1.0f, 1.0f - edge, edge});
+  }
   struct Cone {
     float inner, outer;
   };
   static constexpr Cone kSoft[] = {{0, 90}, {0, 60}, {0, 42}, {0, 30}, {0, 21},
                                    {0, 15}, {0, 10}, {0, 7},  {0, 4}};
   static constexpr Cone kSharp[] = {{80, 90}, {60, 80}, {50, 65}, {38, 50}, {28, 38},
-                                    {20, 28}, {14, 20}, {9, 14},  {5, 9}};
+                                    {20, 28}, {14, 20}, {9, 14},  {5, 9},   {73, 77},
+                                    {58, 62}, {43, 47}, {29, 31}};
   for (const float side : {-1.0f, 1.0f}) {
     for (const Cone& c : kSoft) out.push_back(lobe(vec3(0, 0, side), c.inner, c.outer));
     for (const Cone& c : kSharp) out.push_back(lobe(vec3(0, 0, side), c.inner, c.outer));
@@ -77,7 +82,8 @@ void weigh(const std::vector<std::vector<double>>& gram, const std::vector<doubl
 
 double dot(const std::vector<float>& a, const std::vector<float>& b) {
   double sum = 0.0;
-  for (size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  for (size_t i = 0; i < a.size(); ++i)
+    sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
   return sum;
 }
 

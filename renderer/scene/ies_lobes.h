@@ -9,7 +9,7 @@
 
 namespace lamplighter {
 
-// intensity × clamp(cos·scale + offset, 0, 1)² about the axis, cos from the axis; nothing behind it.
+// intensity × clamp(cos·scale + offset, 0, 1)² about the axis, cos from the axis; none behind it.
 struct SpotLobe {
   vec3 axis{0.0f, 0.0f, -1.0f};  // unit, in the light's space
   float intensity = 0.0f;

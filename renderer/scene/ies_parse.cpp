@@ -57,11 +57,15 @@ class Parser {
     out->peak = static_cast<float>(most * factor);
     for (const double c : candela) out->values.push_back(static_cast<float>(c / most));
     integrate(*out);
+    out->lobes = fitLobes([&](const vec3& direction) { return out->at(direction); });
+    if (out->lobes.empty()) fail("gives no light but in a direction or two");
     return out;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& wrong) const { throw InputError(file_, wrong, kRemedy); }
+  [[noreturn]] void fail(const std::string& wrong) const {
+    throw InputError(file_, wrong, kRemedy);
+  }
 
   // Goes past the line TILT=, and past what is tilted: factors for lamps that are installed
   // otherwise than they were measured. Ours hang as measured.
@@ -141,17 +145,22 @@ class Parser {
   static void integrate(IesProfile& p) {
     constexpr int kRows = 180, kColumns = 360;
     double sum = 0.0;
+    int last = 0;  // row with light
     for (int row = 0; row < kRows; ++row) {
       const double top = kPi * row / kRows, bottom = kPi * (row + 1) / kRows;
       const double weight = (std::cos(top) - std::cos(bottom)) * 2.0 * kPi / kColumns;
       const auto theta = static_cast<float>(0.5 * (top + bottom));
+      double values = 0.0;
       for (int column = 0; column < kColumns; ++column) {
         const float phi = 2.0f * kPi * (static_cast<float>(column) + 0.5f) / kColumns;
         const float s = std::sin(theta);
-        sum += weight * p.at({s * std::cos(phi), s * std::sin(phi), -std::cos(theta)});
+        values += p.at({s * std::cos(phi), s * std::sin(phi), -std::cos(theta)});
       }
+      if (values > 0.0) last = row;
+      sum += weight * values;
     }
     p.solidAngle = static_cast<float>(sum);
+    p.cap = static_cast<float>(1.0 - std::cos(kPi * std::min(last + 2, kRows) / kRows));
   }
 
   static constexpr size_t kEnd = std::string_view::npos;

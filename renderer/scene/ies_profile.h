@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/math.h"
+#include "renderer/scene/ies_lobes.h"
 
 namespace lamplighter {
 
@@ -17,8 +18,11 @@ struct IesProfile {
   float peak = 0.0f;  // intensity in the brightest direction [cd], the file's factors included
   // ∫ at() dω [sr], by the midpoint rule in cells of 1°; peak times this are the file's lumens.
   float solidAngle = 0.0f;
-  // Intensity over the peak's, [0, 1], at horizontal angle h and vertical angle v at h·vertical + v,
-  // angles in degrees, growing.
+  // 1 − cos of the widest angle from −Z at which there is any light; 2: all round.
+  float cap = 2.0f;
+  std::vector<SpotLobe> lobes;  // what virtual point lights make of at()
+  // Intensity over the peak's, [0, 1], at horizontal angle h and vertical angle v at h·vertical +
+  // v, angles in degrees, growing.
   //   C: v from the nadir, h about it.
   //   B: h is the latitude towards +X, v the longitude about X, both from the aim.
   bool isTypeB = false;

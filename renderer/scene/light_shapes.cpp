@@ -88,9 +88,9 @@ Primitive sphere(float diameter) {
   return p;
 }
 
-// Its lateral surface: a prism of the same area, 2πrl, so that the sides of its polygon are those of
-// a circle's circumference: n · 2R sin(π/n) = 2πr. Cut along its length as well, so that triangles
-// are no slivers.
+// Its lateral surface: a prism of the same area, 2πrl, so that the sides of its polygon are those
+// of a circle's circumference: n · 2R sin(π/n) = 2πr. Cut along its length as well, so that
+// triangles are no slivers.
 Primitive tube(float length, float diameter) {
   Primitive p;
   const float half = kPi / static_cast<float>(kTubeSides);

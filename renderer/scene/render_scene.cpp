@@ -97,6 +97,10 @@ RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
   const vec3 aim = mat3(world) * vec3(0, 0, -1);
   const float length = glm::length(aim);
   if (length > 0.0f) r.direction = aim / length;
+  // Scale, shear and mirroring change nothing of it but where X is.
+  const vec3 z = -r.direction, x = vec3(world[0]) - glm::dot(vec3(world[0]), z) * z;
+  const vec3 right = glm::length(x) > 0.0f ? glm::normalize(x) : Frame(z).tangent;
+  r.axes = mat3(right, glm::cross(z, right), z);
   return r;
 }
 

@@ -30,6 +30,7 @@ struct RenderPunctual {
   PunctualLight light;
   vec3 position{0.0f};
   vec3 direction{0.0f, 0.0f, -1.0f};  // unit, where it aims
+  mat3 axes{1.0f};                    // its X, Y and Z, orthonormal; Z is −direction
 };
 
 struct RenderScene {

@@ -4,6 +4,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "renderer/scene/ies_profile.h"
+
 namespace lamplighter {
 
 const Node* Scene::find(NodeId id) const {

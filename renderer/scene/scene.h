@@ -11,12 +11,13 @@
 
 #include "renderer/image/image.h"
 #include "renderer/math.h"
-#include "renderer/scene/ies_profile.h"
 #include "renderer/scene/light_state.h"
 #include "renderer/scene/sky.h"
 #include "renderer/scene/transform.h"
 
 namespace lamplighter {
+
+struct IesProfile;  // ies_profile.h
 
 // Stable for the life of a document; never given twice. 0 is no node.
 using NodeId = uint32_t;
@@ -105,7 +106,8 @@ struct PunctualLight {
   float range = 0.0f;      // metres, 0: infinite
   float innerCone = 0.0f;  // radians, spot
   float outerCone = 0.78539816339f;  // radians, spot
-  // Point and spot: intensity is that in the profile's brightest direction. Null: none.
+  // Point and spot: how it spreads its light, instead of evenly or by the cones; intensity is that
+  // in its brightest direction. Null: none.
   std::shared_ptr<const IesProfile> profile;
   bool operator==(const PunctualLight& other) const;  // profiles by what is in them
 };
@@ -113,11 +115,11 @@ struct PunctualLight {
 enum class AreaShape : uint8_t { rectangle, disk, sphere, tube };
 
 // A Lambertian emitter centred on its node, which emits towards the node's −Z (a sphere or tube:
-// outwards; a tube lies along X and its ends are open). Size is in the node's space and so takes the
-// node's scale. Reflects nothing.
+// outwards; a tube lies along X and its ends are open). Size is in the node's space and so takes
+// the node's scale. Reflects nothing.
 struct AreaLight {
   AreaShape shape = AreaShape::rectangle;
-  vec3 radiance{10.0f};   // W/(m² sr)
+  vec3 radiance{10.0f};  // W/(m² sr)
   // Rectangle: width (X), height (Y); disk and sphere: diameter in x; tube: length (X), diameter.
   vec2 size{1.0f, 1.0f};
   bool operator==(const AreaLight&) const = default;

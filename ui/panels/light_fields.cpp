@@ -171,8 +171,8 @@ void punctualLightFields(PanelContext ui, const Node& node, InspectorState& stat
   PunctualLight light = *node.punctual;
   const std::string step = "Change light " + node.name;
   stateFields(ui, node);
-  bool changed = emissionFields(
-      ui, step, measureOf(ui.session.document().scene, node, mat4(1.0f)), light.intensity);
+  bool changed = emissionFields(ui, step, measureOf(ui.session.document().scene, node, mat4(1.0f)),
+                                light.intensity);
   if (light.kind == PunctualKind::spot) {
     float inner = glm::degrees(light.innerCone), outer = glm::degrees(light.outerCone);
     labelledRow(ui, "Inner cone", "Half the angle within which the light is full.");

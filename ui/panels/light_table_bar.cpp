@@ -45,9 +45,10 @@ class Bar {
     const bool any = !lights_.empty();
     ImGui::AlignTextToFramePadding();
     ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
-    ImGui::TextUnformatted(!any                  ? "No light selected"
-                           : lights_.size() == 1 ? "1 light"
-                                                 : (std::to_string(lights_.size()) + " lights").c_str());
+    ImGui::TextUnformatted(!any ? "No light selected"
+                           : lights_.size() == 1
+                               ? "1 light"
+                               : (std::to_string(lights_.size()) + " lights").c_str());
     ImGui::PopStyleColor();
     ui_.name("count");
     ImGui::SameLine(ui_.px(128));
@@ -94,10 +95,9 @@ class Bar {
     const bool isIntensity = property_ == LightProperty::intensity;
     const LightPropertyInfo& info = lightPropertyInfo(property_);
     ImGui::SetNextItemWidth(ui_.px(190));
-    const bool typed = ImGui::InputTextWithHint("##value", textOf(common, property_).c_str(),
-                                                &state_.value,
-                                                ImGuiInputTextFlags_EnterReturnsTrue |
-                                                    ImGuiInputTextFlags_CharsScientific);
+    const bool typed = ImGui::InputTextWithHint(
+        "##value", textOf(common, property_).c_str(), &state_.value,
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CharsScientific);
     ui_.name("value");
     tooltip(ui_, "Type a number, then set it, multiply by it, or add it. Enter sets.");
     if (isIntensity) {
@@ -141,9 +141,8 @@ class Bar {
     if (!lights_.empty())
       now = split(emissionOf(ui_.session.document().scene, lights_.back())).colour;
     vec3 shown = linearToSrgb(glm::clamp(now, 0.0f, 1.0f));
-    const bool changed = ImGui::ColorEdit3("##colour", &shown.x,
-                                           ImGuiColorEditFlags_NoInputs |
-                                               ImGuiColorEditFlags_PickerHueWheel);
+    const bool changed = ImGui::ColorEdit3(
+        "##colour", &shown.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_PickerHueWheel);
     ui_.name("colour");
     tooltip(ui_, "Colour of all selected lights; they stay as bright as they are.");
     trackEdit(ui_, "Change colour of lights");
@@ -190,9 +189,9 @@ class Bar {
     ImGui::SameLine(ui_.px(128));
     ImGui::BeginDisabled(!any);
     ImGui::SetNextItemWidth(ui_.px(130));
-    const bool typed = ImGui::InputTextWithHint(
-        "##group", common.empty() ? "Group of selection" : common.c_str(), &state_.group,
-        ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool typed =
+        ImGui::InputTextWithHint("##group", common.empty() ? "Group of selection" : common.c_str(),
+                                 &state_.group, ImGuiInputTextFlags_EnterReturnsTrue);
     ui_.name("group");
     gap();
     const bool set = button("set_group", "Put in", "Puts the selected lights into this group.");

@@ -1,4 +1,6 @@
 // The light table as it is drawn: rows and figures come from editor/lights/light_table.h.
+#include "ui/panels/light_table_panel.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -6,7 +8,6 @@
 #include <imgui.h>
 
 #include "editor/lights/light_edits.h"
-#include "ui/panels/light_table_panel.h"
 #include "ui/theme.h"
 
 namespace lamplighter {
@@ -21,30 +22,30 @@ struct ColumnInfo {
   const char* help;
 };
 constexpr std::array kColumns = {
-    ColumnInfo{LightColumn::name, "name", "Name", 126, false, ""},
-    ColumnInfo{LightColumn::kind, "kind", "Kind", 68, false, ""},
-    ColumnInfo{LightColumn::on, "on", "On", 28, false, "Whether it is switched on."},
-    ColumnInfo{LightColumn::solo, "solo", "Solo", 36, false,
+    ColumnInfo{LightColumn::name, "name", "Name", 108, false, ""},
+    ColumnInfo{LightColumn::kind, "kind", "Kind", 66, false, ""},
+    ColumnInfo{LightColumn::on, "on", "On", 20, false, "Whether it is switched on."},
+    ColumnInfo{LightColumn::solo, "solo", "Solo", 30, false,
                "While any light is solo, those that are not give no light."},
-    ColumnInfo{LightColumn::colour, "colour", "Colour", 44, false, ""},
-    ColumnInfo{LightColumn::temperature, "temperature", "Temp.", 58, true,
+    ColumnInfo{LightColumn::colour, "colour", "Colour", 46, false, ""},
+    ColumnInfo{LightColumn::temperature, "temperature", "Temp.", 56, true,
                "The black body of nearest colour."},
-    ColumnInfo{LightColumn::strength, "strength", "Intensity", 74, true,
+    ColumnInfo{LightColumn::strength, "strength", "Intensity", 66, true,
                "In the unit chosen above, or the light's own where it has no such unit."},
-    ColumnInfo{LightColumn::size, "size", "Size", 80, true, "In metres, before the scale."},
-    ColumnInfo{LightColumn::group, "group", "Group", 64, false, ""},
-    ColumnInfo{LightColumn::share, "share", "Share", 44, true,
+    ColumnInfo{LightColumn::size, "size", "Size", 78, true, "In metres, before the scale."},
+    ColumnInfo{LightColumn::group, "group", "Group", 60, false, ""},
+    ColumnInfo{LightColumn::share, "share", "Share", 40, true,
                "Of the flux of all lights that shine."},
-    ColumnInfo{LightColumn::samples, "samples", "VPLs", 42, true,
+    ColumnInfo{LightColumn::samples, "samples", "VPLs", 36, true,
                "Light samples that are shown, bounced ones included."},
     ColumnInfo{LightColumn::patches, "patches", "Patches", 52, true,
                "Patches of surface that at least one of its samples may reach."},
-    ColumnInfo{LightColumn::milliseconds, "milliseconds", "ms", 38, true,
+    ColumnInfo{LightColumn::milliseconds, "milliseconds", "ms", 44, true,
                "Its part, by its samples and the patches they reach, of the time that a frame "
                "takes for light while the picture changes."},
-    ColumnInfo{LightColumn::pending, "pending", "Pending", 54, true,
+    ColumnInfo{LightColumn::pending, "pending", "Pending", 52, true,
                "Samples that wait for their map to be brought up to date."},
-    ColumnInfo{LightColumn::age, "age", "Age", 32, true,
+    ColumnInfo{LightColumn::age, "age", "Age", 28, true,
                "Frames that the oldest of them has waited."},
 };
 
@@ -105,7 +106,7 @@ class Table {
         ImGuiTableFlags_Sortable | ImGuiTableFlags_SortTristate | ImGuiTableFlags_Resizable |
         ImGuiTableFlags_Reorderable | ImGuiTableFlags_Hideable | ImGuiTableFlags_RowBg |
         ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit |
-        ImGuiTableFlags_BordersInnerV;
+        ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_PadOuterX;
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui_.px(4), ui_.px(2)});
     if (ImGui::BeginTable("##table", static_cast<int>(kColumns.size()), kFlags)) {
       headers();
@@ -125,7 +126,11 @@ class Table {
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     for (size_t i = 0; i < kColumns.size(); ++i) {
       if (!ImGui::TableSetColumnIndex(static_cast<int>(i))) continue;
-      ImGui::TableHeader(kColumns[i].label);
+      // ImGui would cut the label for the sake of an arrow that is not there yet.
+      ImGui::TableHeader((std::string("##") + kColumns[i].name).c_str());
+      const ImVec2 at = ImGui::GetItemRectMin();
+      ImGui::GetWindowDrawList()->AddText({at.x + ui_.px(4), at.y + ui_.px(2)},
+                                          ImGui::GetColorU32(ImGuiCol_Text), kColumns[i].label);
       ui_.name(std::string("header/") + kColumns[i].name);
       tooltip(ui_, kColumns[i].help);
     }

@@ -33,9 +33,9 @@ struct InspectorState {
   std::string name;    // being typed
   vec3 degrees{0.0f};  // of the rotation below, as the fields show it
   quat rotation{1, 0, 0, 0};
-  int slot = 0;             // which of the mesh's materials
-  bool focusName = false;   // give the name field the keyboard
-  bool choosesSky = false;  // a file dialog for the sky's picture is wanted
+  int slot = 0;                 // which of the mesh's materials
+  bool focusName = false;       // give the name field the keyboard
+  bool choosesSky = false;      // a file dialog for the sky's picture is wanted
   bool choosesProfile = false;  // one for the light's profile
 };
 void inspector(PanelContext ui, InspectorState& state);
@@ -44,7 +44,8 @@ void transformFields(PanelContext ui, const Node& node, InspectorState& state);
 void materialFields(PanelContext ui, const Node& node, InspectorState& state);
 void areaLightFields(PanelContext ui, const Node& node, InspectorState& state);
 void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state);
-void profileFields(const PanelContext& ui, const Node& node, InspectorState& state);  // of an IES file
+void profileFields(const PanelContext& ui, const Node& node,
+                   InspectorState& state);  // of an IES file
 void skyFields(PanelContext ui, InspectorState& state);
 
 struct TimelineState {

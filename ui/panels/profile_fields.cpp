@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include "renderer/scene/ies_profile.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 
@@ -18,13 +19,14 @@ void polarPlot(const PanelContext& ui, const IesProfile& profile) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::Dummy({side, side});
   ui.name("profile/plot");
-  tooltip(ui, "Intensity over the angle from the aim, down here. Bright: the plane of the light's X; "
-              "dim: that of its Y.");
+  tooltip(ui,
+          "Intensity over the angle from the aim, down here. Bright: the plane of the light's X; "
+          "dim: that of its Y.");
   const vec2 centre(corner.x + 0.5f * side, corner.y + 0.5f * side);
   const float radius = 0.48f * side;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(corner, {corner.x + side, corner.y + side},
-                     theme::colour(theme::kBackground), ui.px(4));
+  draw.AddRectFilled(corner, {corner.x + side, corner.y + side}, theme::colour(theme::kBackground),
+                     ui.px(4));
   const ImU32 line = theme::colour(theme::kLine);
   for (const float ring : {0.25f, 0.5f, 0.75f, 1.0f})
     draw.AddCircle({centre.x, centre.y}, ring * radius, line, 64);
@@ -66,9 +68,18 @@ void profileFields(const PanelContext& ui, const Node& node, InspectorState& sta
   ui.name("profile/remove");
   tooltip(ui, "Take the profile away.");
   polarPlot(ui, *profile);
+  const float measured = profile->peak * profile->solidAngle;
+  if (ImGui::Button("As measured", {-FLT_MIN, 0})) {
+    PunctualLight light = *node.punctual;
+    const float was = luminance(light.intensity);
+    light.intensity = was > 0.0f ? light.intensity * (profile->peak / was) : vec3(profile->peak);
+    ui.session.setPunctualLight(node.id, light);
+  }
+  ui.name("profile/measured");
+  tooltip(ui, "Gives the light the candela of the file.");
   note(std::string(profile->isTypeB ? "Type B" : "Type C") + " \u00b7 " +
        short3(static_cast<double>(profile->peak)) + " cd \u00b7 " +
-       short3(static_cast<double>(profile->peak * profile->solidAngle)) + " lm as measured");
+       short3(static_cast<double>(measured)) + " lm as measured");
 }
 
 }  // namespace lamplighter

@@ -1,8 +1,10 @@
 // Edits of many lights: one step each, undone and done again; bad ones change nothing.
+#include "editor/lights/light_edits.h"
+
 #include <gtest/gtest.h>
 
 #include "editor/lights/colour_temperature.h"
-#include "editor/lights/light_edits.h"
+#include "renderer/scene/ies_profile.h"
 #include "tests/editor/session_fixture.h"
 
 namespace lamplighter {
@@ -53,8 +55,8 @@ TEST_F(LightEdits, SetsManyKindsAtOnce) {
     EXPECT_NEAR(value(id, LightProperty::intensity), 500.0, 0.01);
   EXPECT_FALSE(common(LightProperty::intensity).isMixed);
   // Colours stay.
-  const vec3 e = scene().materials[static_cast<size_t>(emissiveMaterials(scene(), node(glow_))[0])]
-                     .emissive;
+  const vec3 e =
+      scene().materials[static_cast<size_t>(emissiveMaterials(scene(), node(glow_))[0])].emissive;
   EXPECT_NEAR(e.r / e.b, 4.0f, 1e-4f);
 }
 
@@ -165,14 +167,34 @@ TEST_F(LightEdits, NewLightsSuitThePlace) {
   for (const char* kind : {"rectangle", "disk", "sphere", "tube", "spot", "point"}) {
     session_.runAction(std::string("light.add ") + kind);
     const auto lights = selectedLights(session_.document());
-    const double candela = valueOf(scene(), lights[0], LightProperty::intensity,
-                                   LightUnit::candela).value();
+    const double candela =
+        valueOf(scene(), lights[0], LightProperty::intensity, LightUnit::candela).value();
     const float height = placeOf(lights[0].node).y;
     const double radiance = candela / static_cast<double>(height * height) / 3.14159 * 0.6;
     EXPECT_GT(radiance, 0.05) << kind;
     EXPECT_LT(radiance, 1.0) << kind;
     session_.undo();
   }
+}
+
+TEST_F(LightEdits, ProfilesComeFromFiles) {
+  const std::string folder = std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/profiles/";
+  session_.select({point_});
+  const double lumens = value(point_, LightProperty::intensity);
+  expectOneStep("light.ies " + folder + "downlight.ies");
+  ASSERT_TRUE(node(point_).punctual->profile);
+  EXPECT_NEAR(value(point_, LightProperty::intensity), lumens, 1e-3 * lumens);
+  for (int i = 0; i < 50; ++i) session_.renderFrame();
+  EXPECT_EQ(session_.renderError(), "");
+  const uint64_t before = hash();
+  for (const char* action : {"light.ies", "light.ies gone.ies"}) {
+    EXPECT_FALSE(session_.runAction(action)) << action;
+    EXPECT_EQ(hash(), before);
+  }
+  expectOneStep("light.ies none");
+  EXPECT_NEAR(value(point_, LightProperty::intensity), lumens, 1e-3 * lumens);
+  session_.select({light_});
+  EXPECT_FALSE(session_.runAction("light.ies " + folder + "downlight.ies"));  // an area light
 }
 
 TEST_F(LightEdits, TheWorkLightIsInNoDocument) {

@@ -1,7 +1,8 @@
 // The rows of the light table: what the document says, and what the method says.
+#include "editor/lights/light_table.h"
+
 #include <gtest/gtest.h>
 
-#include "editor/lights/light_table.h"
 #include "editor/lights/colour_temperature.h"
 #include "tests/editor/session_fixture.h"
 

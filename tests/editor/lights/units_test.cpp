@@ -20,9 +20,7 @@ struct Lamp {
   explicit Lamp(const PunctualLight& light) {
     scene.find(test::addNode(scene, "lamp"))->punctual = light;
   }
-  double in(LightUnit unit) const {
-    return unitsPerRadiance(lightsOf(scene).at(0).measure, unit);
-  }
+  double in(LightUnit unit) const { return unitsPerRadiance(lightsOf(scene).at(0).measure, unit); }
 };
 
 TEST(LightUnits, SurfacesByTheirArea) {

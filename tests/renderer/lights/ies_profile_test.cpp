@@ -1,9 +1,10 @@
 // IES files: closed forms of what they say, and what is none.
+#include "renderer/scene/ies_profile.h"
+
 #include <gmock/gmock.h>
 
 #include "renderer/error.h"
 #include "renderer/scene/gltf_io.h"
-#include "renderer/scene/ies_profile.h"
 #include "tests/support/gltf_files.h"
 #include "tests/support/scenes.h"
 
@@ -13,10 +14,11 @@ namespace {
 // A file with these angles and candela, horizontal angle by horizontal angle.
 std::string ies(int type, const std::string& vertical, const std::string& horizontal,
                 const std::string& candela, int rows, int columns,
-                const std::string& multiplier = "1", const std::string& head = "IESNA:LM-63-1995\n[TEST] one\nTILT=NONE\n") {
+                const std::string& multiplier = "1",
+                const std::string& head = "IESNA:LM-63-1995\n[TEST] one\nTILT=NONE\n") {
   return head + "1 1000 " + multiplier + " " + std::to_string(rows) + " " +
-         std::to_string(columns) + " " + std::to_string(type) + " 2 0 0 0\n1.0 1.0 60\n" + vertical +
-         "\n" + horizontal + "\n" + candela + "\n";
+         std::to_string(columns) + " " + std::to_string(type) + " 2 0 0 0\n1.0 1.0 60\n" +
+         vertical + "\n" + horizontal + "\n" + candela + "\n";
 }
 
 vec3 typeC(float vertical, float horizontal) {
@@ -49,8 +51,8 @@ TEST(IesProfile, ALambertianOneGivesPi) {
 }
 
 TEST(IesProfile, InterpolatesBetweenAngles) {
-  const auto p = parseIes(ies(1, "0 90", "0 90 180 270 360", "10 0 20 0 30 0 40 0 10 0", 2, 5),
-                          "turn.ies");
+  const auto p =
+      parseIes(ies(1, "0 90", "0 90 180 270 360", "10 0 20 0 30 0 40 0 10 0", 2, 5), "turn.ies");
   EXPECT_NEAR(p->at(typeC(45, 90)) * p->peak, 10.0f, 1e-4f);
   EXPECT_NEAR(p->at(typeC(45, 45)) * p->peak, 7.5f, 1e-3f);
   EXPECT_NEAR(p->at(typeC(45, 315)) * p->peak, 12.5f, 1e-3f);
@@ -81,7 +83,8 @@ TEST(IesProfile, TypeBHasItsPoleAside) {
   EXPECT_EQ(p->at({0, 1, 0}), 0.0f);
   EXPECT_EQ(p->at({0, 0, 1}), 0.0f);
   // One side alone stands for both.
-  const auto mirrored = parseIes(ies(2, "0 10 90", "0 40 90", "100 0 0 0 0 0 0 0 0", 3, 3), "m.ies");
+  const auto mirrored =
+      parseIes(ies(2, "0 10 90", "0 40 90", "100 0 0 0 0 0 0 0 0", 3, 3), "m.ies");
   EXPECT_NEAR(mirrored->at(typeB(-5, -20)), 0.25f, 1e-3f);
 }
 
@@ -98,6 +101,66 @@ TEST(IesProfile, TakesEveryEdition) {
   EXPECT_NEAR(p->at(typeC(90, 0)), 5.0f / 7.0f, 1e-5f);
 }
 
+// What the virtual point lights make of some kinds of luminaires: how far it is off, over all
+// directions, and that no light is lost.
+TEST(IesProfile, LobesComeNear) {
+  struct Kind {
+    const char* name;
+    float (*at)(float vertical, float horizontal);  // degrees
+    double mostError;
+  };
+  const auto cosine = [](float degrees) { return std::max(std::cos(glm::radians(degrees)), 0.0f); };
+  static const auto kCosine = cosine;
+  static constexpr float kWide = 1.0f;
+  const Kind kinds[] = {
+      {"even", [](float, float) { return kWide; }, 1e-3},
+      {"down", [](float v, float) { return kCosine(v); }, 0.05},
+      {"beam", [](float v, float) { return std::pow(kCosine(v), 40.0f); }, 0.05},
+      {"batwing",
+       [](float v, float) {
+         return kCosine(v) * (0.3f + std::pow(std::sin(glm::radians(v)), 2.0f) * 2.0f);
+       },
+       0.10},
+      {"up and down",
+       [](float v, float) { return v < 90.0f ? kCosine(v) : 0.5f * kCosine(180.0f - v); }, 0.05},
+      {"wall washer",
+       [](float v, float h) { return kCosine(v) * (1.0f + 0.8f * std::cos(glm::radians(h))); },
+       0.12},
+  };
+  for (const Kind& kind : kinds) {
+    std::string vertical, horizontal, candela;
+    for (int v = 0; v <= 180; v += 5) vertical += std::to_string(v) + " ";
+    for (int h = 0; h <= 360; h += 15) {
+      horizontal += std::to_string(h) + " ";
+      for (int v = 0; v <= 180; v += 5)
+        candela +=
+            std::to_string(1000.0f * kind.at(static_cast<float>(v), static_cast<float>(h))) + " ";
+    }
+    const auto p = parseIes(ies(1, vertical, horizontal, candela, 37, 25), "kind.ies");
+    ASSERT_LE(p->lobes.size(), kMostLobes);
+    double wrong = 0.0, all = 0.0, flux = 0.0, wanted = 0.0;
+    for (float v = 1.0f; v < 180.0f; v += 2.0f) {
+      for (float h = 1.0f; h < 360.0f; h += 4.0f) {
+        const vec3 d = typeC(v, h);
+        const double weight = std::sin(glm::radians(v));
+        double sum = 0.0;
+        for (const SpotLobe& lobe : p->lobes) {
+          EXPECT_GT(lobe.intensity, 0.0f);
+          sum += lobe.at(d);
+        }
+        const double here = p->at(d);
+        wrong += weight * (sum - here) * (sum - here);
+        all += weight * here * here;
+        flux += weight * sum;
+        wanted += weight * here;
+      }
+    }
+    RecordProperty(kind.name, std::to_string(std::sqrt(wrong / all)));
+    EXPECT_LT(std::sqrt(wrong / all), kind.mostError) << kind.name;
+    EXPECT_NEAR(flux / wanted, 1.0, 0.01) << kind.name;
+  }
+}
+
 TEST(IesProfile, BadFilesAreOneClearLine) {
   const std::string good = ies(1, "0 90", "0", "7 0", 2, 1);
   std::vector<std::string> bad = {
@@ -109,8 +172,8 @@ TEST(IesProfile, BadFilesAreOneClearLine) {
       ies(1, "0 90", "0", "7 1e300", 2, 1), ies(1, "0 90", "0", "7 0", 2, 1, "-1"),
       ies(1, "0 90", "0", "7 0", -2, 1), ies(1, "0 90", "0", "7 0", 2, 0),
       // A billion values promised by a hundred bytes.
-      ies(1, "0 90", "0", "7 0", 100000, 100000),
-      "TILT=INCLUDE\n1 99999 0 1 2", std::string(100, '\0')};
+      ies(1, "0 90", "0", "7 0", 100000, 100000), "TILT=INCLUDE\n1 99999 0 1 2",
+      std::string(100, '\0')};
   for (size_t i = 0; i + 12 < good.size(); ++i) bad.push_back(good.substr(0, i));
   for (const std::string& text : bad) {
     try {

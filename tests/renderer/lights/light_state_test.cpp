@@ -1,6 +1,9 @@
 // What does not shine: which lights those are, what the renderer makes of them, and files.
+#include <fstream>
+
 #include <gmock/gmock.h>
 
+#include "renderer/error.h"
 #include "renderer/sampling/lights.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/scene/render_scene.h"
@@ -100,10 +103,11 @@ TEST_F(LightStates, UpdatesAsARebuildWould) {
     return structure;
   };
   EXPECT_FALSE(edit("area off", [&] { state(area_).on = false; }));
-  EXPECT_FALSE(edit("area brighter while off", [&] { scene_.find(area_)->area->radiance *= 2.0f; }));
+  EXPECT_FALSE(
+      edit("area brighter while off", [&] { scene_.find(area_)->area->radiance *= 2.0f; }));
   EXPECT_FALSE(edit("point off", [&] { state(point_).on = false; }));
-  EXPECT_FALSE(edit("point moved while off",
-                    [&] { scene_.find(point_)->local.translation = vec3(2); }));
+  EXPECT_FALSE(
+      edit("point moved while off", [&] { scene_.find(point_)->local.translation = vec3(2); }));
   EXPECT_TRUE(edit("mesh off", [&] { state(glow_).on = false; }));
   EXPECT_FALSE(edit("its material brighter", [&] { scene_.materials[0].emissive *= 2.0f; }));
   edit("its material dark", [&] { scene_.materials[0].emissive = vec3(0); });
@@ -139,6 +143,31 @@ TEST_F(LightStates, AreSavedAndLoaded) {
   EXPECT_TRUE(again.lightGroups.empty());
 }
 
+TEST_F(LightStates, NotesOfAnotherTypeAreRefusedInOneLine) {
+  const test::TemporaryFolder folder;
+  state(area_) = {false, true, "a"};
+  saveGltf(scene_, folder.path() / "s.gltf");
+  std::ifstream in(folder.path() / "s.gltf");
+  const std::string good((std::istreambuf_iterator<char>(in)), {});
+  const auto with = [&](const std::string& what, const std::string& by) {
+    std::string text = good;
+    const size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    if (at != std::string::npos) text.replace(at, what.size(), by);
+    std::ofstream(folder.path() / "bad.gltf") << text;
+    return folder.path() / "bad.gltf";
+  };
+  const std::string key = good.find("\"on\": false") != std::string::npos ? "\"on\": " : "\"on\":";
+  for (const char* value : {"7", "\"no\"", "[]"}) {
+    try {
+      loadGltf(with(key + "false", key + value));
+      ADD_FAILURE() << value;
+    } catch (const InputError& e) {
+      EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+    }
+  }
+}
+
 TEST(TubeLights, HaveTheAreaOfACylinderAndAreSaved) {
   Scene scene;
   const NodeId id = test::addNode(scene, "tube");
@@ -150,7 +179,8 @@ TEST(TubeLights, HaveTheAreaOfACylinderAndAreSaved) {
   EXPECT_NEAR(lights.emitters()[0].area, kPi * 0.05f * 1.2f, 1e-6f);
   // Faces look outwards, and it is centred along X.
   for (size_t i = 0; i < render.indices.size(); i += 3) {
-    const vec3 &a = render.positions[render.indices[i]], &b = render.positions[render.indices[i + 1]],
+    const vec3 &a = render.positions[render.indices[i]],
+               &b = render.positions[render.indices[i + 1]],
                &c = render.positions[render.indices[i + 2]];
     const vec3 middle = (a + b + c) / 3.0f;
     EXPECT_GT(glm::dot(glm::cross(b - a, c - a), vec3(0, middle.y, middle.z)), 0.0f);
