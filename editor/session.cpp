@@ -314,9 +314,11 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
   if (updates) settings.set(parameters::updates().name, *updates);
   try {
     output_ = renderer_->render({scene, changes, view_, render.method, settings,
-                                 display_.lightOnly(), updates.has_value(), refineUpdates});
+                                 display_.lightOnly(), updates.has_value(), refineUpdates,
+                                 display_.part()});
     const bool same = output_.settled && output_.radiance == before && changes.none();
-    display_.update(*renderer_, view_, document_.render, !same);
+    if (document_.active() != kNoNode) display_.chooseLight(document_.active());
+    display_.update(*renderer_, *output_.radiance, view_, document_.render, !same);
     points_.update(pointSubject(), !same, !changes.none());
     watchFrame(changes, begin);
   } catch (const InputError& e) {
@@ -331,7 +333,8 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
 }
 
 PointTools::Subject Session::pointSubject() const {
-  RadianceImage* lit = display_.lightOnly() ? nullptr : output_.radiance.get();
+  RadianceImage* lit =
+      display_.lightOnly() || display_.part() != LightPart::all ? nullptr : output_.radiance.get();
   return {document_.scene, *renderer_, view_, document_.render.values, lit};
 }
 

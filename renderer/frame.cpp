@@ -29,7 +29,7 @@ GiOutput FrameRenderer::render(const Request& request) {
   }
   return method_->render({scene_, changes, *rays_, request.view, *backend_, request.settings,
                           frame_++, stopwatch_, request.lightOnly, request.inBackground,
-                          cacheFolder_, request.refineUpdates});
+                          cacheFolder_, request.refineUpdates, request.part});
 }
 
 void FrameRenderer::restart() {

@@ -25,6 +25,7 @@ class FrameRenderer {
     bool inBackground = false;  // FrameInputs
     // Light samples by which a settled picture may be refined in this frame; 0: it stays as it is.
     int refineUpdates = 0;
+    LightPart part = LightPart::all;
   };
   // One frame. Throws InputError for an unknown method.
   GiOutput render(const Request& request);

@@ -79,6 +79,56 @@ void addViewActions(ActionRegistry& r) {
          {},
          true,
          {}});
+  r.add(
+      {"view.choose_light",
+       "Choose light",
+       "NAME",
+       "Chooses the light that the view Occlusion of a light is about; selecting one does so too.",
+       "",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 1, 1, "view.choose_light NAME");
+         s.display().chooseLight(nodeNamed(s.document(), a[0]).id);
+       },
+       {},
+       true,
+       {}});
+  r.add({"view.false_colour_unit",
+         "False colour of",
+         "lux|nits",
+         "Shows illuminance (lux) or luminance (nits) in the view False colour.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "view.false_colour_unit lux|nits");
+           if (a[0] != "lux" && a[0] != "nits")
+             throw InputError(a[0], "is no unit of light", "give lux or nits");
+           FalseColour f = s.display().falseColour();
+           f.isLux = a[0] == "lux";
+           s.display().setFalseColour(f);
+         },
+         {},
+         true,
+         {}});
+  r.add(
+      {"view.false_colour_range",
+       "Automatic range of false colour",
+       "[LOW HIGH]",
+       "Sets what the ends of the colours stand for, in the unit shown; without numbers what suits "
+       "the picture.",
+       "",
+       [](Session& s, const Arguments& a) {
+         if (a.size() == 1) requireArguments(a, 2, 2, "view.false_colour_range LOW HIGH");
+         requireArguments(a, 0, 2, "view.false_colour_range LOW HIGH");
+         FalseColour f = s.display().falseColour();
+         f.low = a.empty() ? 0.0f : numberOf(a[0]);
+         f.high = a.empty() ? 0.0f : numberOf(a[1]);
+         if (!a.empty() && !(f.low > 0.0f && f.high > f.low))
+           throw InputError("view.false_colour_range", "its ends are " + a[0] + " and " + a[1],
+                            "give two numbers over 0, the smaller first");
+         s.display().setFalseColour(f);
+       },
+       {},
+       true,
+       {}});
   std::string mappers;
   for (const ToneMapperInfo& m : toneMappers())
     mappers += (mappers.empty() ? "" : "|") + std::string(m.name);

@@ -14,6 +14,7 @@
 #include "editor/sky_text.h"
 #include "editor/views/annotate.h"
 #include "editor/views/look.h"
+#include "editor/views/view_display.h"
 #include "editor/views/vpl_overlay.h"
 #include "renderer/error.h"
 #include "renderer/frame.h"
@@ -163,9 +164,28 @@ void requireView(const FrameRenderer& renderer, DebugView debugView, const Rende
   if (!problem.empty())
     throw InputError("--view " + o.view, problem, "add --set technique=light_maps");
   const size_t count = inspection.lights.size();
-  if (debugView == DebugView::occlusion && static_cast<size_t>(o.viewVpl) >= count)
+  if (needsLightSample(debugView) && static_cast<size_t>(o.viewVpl) >= count)
     throw InputError("--view-vpl", "there is no light sample " + std::to_string(o.viewVpl),
                      "give one from 0 to " + std::to_string(count - 1));
+}
+
+ViewSubject subjectOf(FrameRenderer& renderer, const View& view, const Inspection& inspection,
+                      DebugView debugView, int chosen, float ev, RadianceImage& radiance) {
+  ViewSubject subject{renderer.scene(),
+                      *renderer.rays(),
+                      view,
+                      inspection,
+                      chosen,
+                      ev,
+                      ToneMapper::filmic,
+                      {},
+                      {},
+                      {},
+                      {},
+                      {}};
+  subject.chosenNode = nodeOfSample(inspection, chosen);
+  takeFromBackend(debugView, renderer.backend(), radiance, subject);
+  return subject;
 }
 
 // Throws InputError when there is no picture to turn.
@@ -219,14 +239,16 @@ int render(const RenderOptions& o, const Frontend& frontend) {
   const View view = chooseView(loaded.scene, o.camera, width, height);
   totals.loadSeconds = frontend.stopwatch() - start;
 
+  ViewDisplay display;
+  display.setView(debugView);
   FrameRenderer renderer(frontend.makeBackend(o.backend), frontend.stopwatch);
   renderer.setCacheFolder(transferFolder());
   SceneChanges changes = SceneChanges::all();
   GiOutput out;
   ProgressLine progress;
   do {
-    out = renderer.render({loaded.scene, changes, view, o.method, settings,
-                           debugView == DebugView::lightOnly, false, kAllAtOnce});
+    out = renderer.render({loaded.scene, changes, view, o.method, settings, display.lightOnly(),
+                           false, kAllAtOnce, display.part()});
     if (totals.frames == 0) requireView(renderer, debugView, o);
     changes = SceneChanges();
     ++totals.frames;
@@ -254,12 +276,14 @@ int render(const RenderOptions& o, const Frontend& frontend) {
     if (isRadiance(debugView))
       picture.image = toneMap(image, ev);
     else
-      picture = drawView(debugView,
-                         {renderer.scene(), *renderer.rays(), view, inspection, o.viewVpl, ev});
+      picture = drawView(debugView, subjectOf(renderer, view, inspection, debugView, o.viewVpl, ev,
+                                              *out.radiance));
+    if (!picture.problem.empty())
+      throw InputError("--view " + o.view, picture.problem, "choose another view or sample");
     if (o.marks) {
       Overlay marks;
       drawVpls(marks, view, inspection, *renderer.rays(),
-               debugView == DebugView::occlusion ? o.viewVpl : kNone);
+               needsLightSample(debugView) ? o.viewVpl : kNone);
       drawOverlay(picture.image, marks, nullptr);
     }
     writePng(font ? withLegend(picture, *font) : picture.image, o.output);

@@ -62,6 +62,17 @@ void addRamp(Layout& layout, const Legend& legend) {
     layout.box({at.x + width * static_cast<float>(i) / kBands, at.y}, high, vec4(colour, 1.0f));
   }
   const float below = at.y + layout.line();
+  for (const auto& [t, label] : legend.ticks) {
+    const float middle = at.x + t * width;
+    const float half = 0.5f * layout.textWidth(label);
+    // The outer ones end with the ramp.
+    const float left = std::clamp(middle - half, at.x, std::max(at.x, high.x - 2.0f * half));
+    layout.text({left, below}, label, look::kTextDim);
+    if (t > 0.0f && t < 1.0f)
+      layout.box({middle - 0.5f, high.y - layout.px(4)}, {middle + 0.5f, high.y},
+                 look::colour(look::kBackground));
+  }
+  if (!legend.ticks.empty()) return;
   layout.text({at.x, below}, legend.low, look::kTextDim);
   layout.text({high.x - layout.textWidth(legend.high), below}, legend.high, look::kTextDim);
 }

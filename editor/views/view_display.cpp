@@ -27,19 +27,52 @@ int ViewDisplay::chosen(const Inspection& inspection) const {
   return found == lights.end() ? 0 : static_cast<int>(found - lights.begin());
 }
 
-void ViewDisplay::update(const FrameRenderer& renderer, const View& camera,
+bool ViewDisplay::lightOnly() const {
+  return view_ == DebugView::lightOnly || (view_ == DebugView::falseColour && falseColour_.isLux);
+}
+
+LightPart ViewDisplay::part() const {
+  if (view_ == DebugView::direct) return LightPart::direct;
+  return view_ == DebugView::indirect ? LightPart::indirect : LightPart::all;
+}
+
+NodeId ViewDisplay::chosenLight(const Inspection& inspection) const {
+  const bool isThere =
+      light_ && std::any_of(inspection.lights.begin(), inspection.lights.end(),
+                            [&](const InspectedLight& l) { return l.id.light == *light_; });
+  return isThere ? *light_ : nodeOfSample(inspection, chosen(inspection));
+}
+
+void ViewDisplay::update(FrameRenderer& renderer, RadianceImage& radiance, const View& camera,
                          const RenderSettings& settings, bool changed) {
   if (isRadiance(view_) || renderer.rays() == nullptr) {
     picture_.reset();
     return;
   }
   const Inspection inspection = renderer.inspect();
-  Key key{view_, camera, settings, chosen(inspection), toneMapper_};
+  Key key{view_,
+          camera,
+          settings,
+          chosen(inspection),
+          toneMapper_,
+          falseColour_,
+          chosenLight(inspection)};
   if (picture_ && !changed && key == key_) return;
   key_ = std::move(key);
-  picture_ = std::make_shared<ViewPicture>(
-      drawView(view_, {renderer.scene(), *renderer.rays(), camera, inspection,
-                       std::max(key_.chosen, 0), settings.exposureEv, toneMapper_}));
+  ViewSubject subject{renderer.scene(),
+                      *renderer.rays(),
+                      camera,
+                      inspection,
+                      std::max(key_.chosen, 0),
+                      settings.exposureEv,
+                      toneMapper_,
+                      key_.light,
+                      falseColour_,
+                      nullptr,
+                      {},
+                      {}};
+  takeFromBackend(view_, renderer.backend(), radiance, subject);
+  picture_ = std::make_shared<ViewPicture>(drawView(view_, subject));
 }
 
 const Histogram& ViewDisplay::histogram(const std::shared_ptr<RadianceImage>& radiance,
@@ -62,7 +95,9 @@ std::string ViewDisplay::viewText() const {
 
 std::string ViewDisplay::vplText(const Scene& scene, const Inspection& inspection) const {
   const int index = chosen(inspection);
-  if (index == kNone || (!showsVpls_ && view_ != DebugView::occlusion)) return "";
+  if (index == kNone ||
+      (!showsVpls_ && view_ != DebugView::occlusion && view_ != DebugView::shadowMap))
+    return "";
   const InspectedLight& light = inspection.lights[static_cast<size_t>(index)];
   const Node* node = scene.find(light.id.light);
   const vec3 intensity(light.vpl.intensity);

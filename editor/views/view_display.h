@@ -17,7 +17,9 @@ class ViewDisplay {
  public:
   DebugView view() const { return view_; }
   void setView(DebugView view) { view_ = view; }
-  bool lightOnly() const { return view_ == DebugView::lightOnly; }
+  // What the frame must render for the view.
+  bool lightOnly() const;
+  LightPart part() const;
   bool showsVpls() const { return showsVpls_; }
   void showVpls(bool on) { showsVpls_ = on; }
 
@@ -29,6 +31,13 @@ class ViewDisplay {
   // Of the picture as it is exposed and mapped; counted once for each.
   const Histogram& histogram(const std::shared_ptr<RadianceImage>& radiance, float exposureEv);
 
+  const FalseColour& falseColour() const { return falseColour_; }
+  void setFalseColour(const FalseColour& f) { falseColour_ = f; }
+  // The light that the view of a light's occlusion is about: the last one that was selected or
+  // chosen, as long as it is there; else that of the chosen light sample. Its sky: kNoNode.
+  void chooseLight(NodeId light) { light_ = light; }
+  NodeId chosenLight(const Inspection& inspection) const;
+
   // By its place among the light samples; throws InputError when there are not so many.
   void choose(const Inspection& inspection, int index);
   // The place of the chosen one: the first while none was chosen or when it is gone. kNone: there
@@ -37,8 +46,8 @@ class ViewDisplay {
 
   // Makes the picture of the view, if it is no radiance and anything changed since the last call.
   // `changed`: something that the key below does not tell.
-  void update(const FrameRenderer& renderer, const View& camera, const RenderSettings& settings,
-              bool changed);
+  void update(FrameRenderer& renderer, RadianceImage& radiance, const View& camera,
+              const RenderSettings& settings, bool changed);
   // Null: the frame's radiance is what is shown.
   const std::shared_ptr<const ViewPicture>& picture() const { return picture_; }
 
@@ -54,6 +63,8 @@ class ViewDisplay {
     RenderSettings settings;
     int chosen = kNone;
     ToneMapper toneMapper = ToneMapper::filmic;
+    FalseColour falseColour;
+    NodeId light = kNoNode;
     bool operator==(const Key&) const = default;
   };
 
@@ -61,6 +72,8 @@ class ViewDisplay {
   bool showsVpls_ = false, showsHistogram_ = false;
   ToneMapper toneMapper_ = ToneMapper::filmic;
   std::optional<VplId> chosen_;
+  std::optional<NodeId> light_;
+  FalseColour falseColour_;
   Key key_;
   std::shared_ptr<const ViewPicture> picture_;
   // What the histogram is of; held, so that no other picture can have its address.

@@ -107,6 +107,10 @@ class Backend {
   virtual Image readNormals() = 0;
   virtual Image readAlbedo() = 0;
 
+  // By pixel of the last sum, row after row, whether its light was interpolated by the
+  // low-resolution pass (1) or summed (0); empty: there was no such pass. For views.
+  virtual std::vector<uint8_t> readInterpolated() { return {}; }
+
   // Waits until all submitted work is done, so that a clock around it measures it.
   virtual void finish() = 0;
 };

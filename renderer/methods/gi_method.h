@@ -10,6 +10,7 @@
 
 #include "renderer/backends/kernels.h"
 #include "renderer/methods/inspection.h"
+#include "renderer/methods/light_part.h"
 #include "renderer/parameters.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/render_scene.h"
@@ -38,6 +39,7 @@ struct FrameInputs {
   std::filesystem::path cacheFolder;  // for what is prepared; empty: it is not kept
   // Light samples by which a settled picture may be refined in this frame; 0: it stays as it is.
   int refineUpdates = 0;
+  LightPart part = LightPart::all;  // that the picture shows; parts are not refined
 };
 
 struct GiStats {

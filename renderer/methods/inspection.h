@@ -8,6 +8,7 @@
 namespace lamplighter {
 
 class LightMaps;
+class PrtLights;
 class VisibilityDatabase;
 
 // A light sample as it is shown, or waits to be.
@@ -25,6 +26,7 @@ struct Inspection {
   const VisibilityDatabase* visibility = nullptr;
   const LightMaps* lightMaps = nullptr;
   std::vector<InspectedLight> lights;  // in an order that edits leave alone
+  const PrtLights* prt = nullptr;
 };
 
 }  // namespace lamplighter

@@ -46,6 +46,8 @@ class PrtLights {
            patches.patches[static_cast<size_t>(leaf)].chart == kNone;
   }
   bool hasTransfer(uint32_t object) const { return objects_[object].transfer != nullptr; }
+  // Whether it is to have one, ready or not.
+  bool wantsTransfer(uint32_t object) const { return objects_[object].isWanted; }
   // Whether the normal is on the front of the object's triangle.
   bool isFront(uint32_t object, uint32_t triangle, const vec3& normal) const;
   // Whether irradiance here holds the light in each slot; pixels sum the others, which are too near

@@ -60,10 +60,14 @@ class Tracer {
     float pdfDirection = 0.0f;
     vec3 from(0.0f);
 
+    const int bounces = options.part == LightPart::direct ? 0 : options.bounces;
     for (int depth = 0;; ++depth) {
+      // What shines into the camera, and what does on what it sees, is direct.
+      const bool takesSeen = options.part != LightPart::indirect || depth > 1;
       ++raysTraced_;
       const Hit hit = rays_.intersect(ray, depth == 0 ? Surfaces::seen : Surfaces::all);
-      if (!hit) return radiance + throughput * skySeen(ray.direction, pdfDirection);
+      if (!hit)
+        return takesSeen ? radiance + throughput * skySeen(ray.direction, pdfDirection) : radiance;
       Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
       if (depth == 0 && options.lightOnly) surface.albedo = vec3(1.0f);
       LocalSurface at(surface, -ray.direction);
@@ -72,11 +76,13 @@ class Tracer {
         if (shared::isGlossy(gloss.metallic, gloss.roughness))
           at.gloss.emplace(surface.albedo, gloss, options.leastRoughness, at.ns, -ray.direction);
       }
-      radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
+      if (takesSeen)
+        radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
       // Direct light is reflected once on its way to the camera (depth 0), each bounce adds one.
-      if (depth > options.bounces) return radiance;
+      if (depth > bounces) return radiance;
 
-      radiance += throughput * directLight(at, sampler);
+      const vec3 direct = directLight(at, sampler);
+      if (options.part != LightPart::indirect || depth > 0) radiance += throughput * direct;
 
       // On to the next surface, by cosine about the shading normal: f · cos / pdf = ρ; or where the
       // surface has a lobe, by either.

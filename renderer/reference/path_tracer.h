@@ -2,6 +2,7 @@
 // it judges only the scene, the rays and the list of lights.
 #pragma once
 
+#include "renderer/methods/light_part.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/lights.h"
 #include "renderer/scene/render_scene.h"
@@ -17,6 +18,8 @@ struct PathTracerOptions {
   // this; what light bounces off on its way there is Lambert's.
   bool speculars = false;
   float leastRoughness = 0.1f;
+  // Both parts of a path are of the same random numbers, so that they add up to the whole.
+  LightPart part = LightPart::all;
 
   bool operator==(const PathTracerOptions&) const = default;
 };

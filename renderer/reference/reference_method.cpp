@@ -21,9 +21,12 @@ class ReferenceMethod final : public GiMethod {
     const Settings& s = in.settings;
     const bool sameScene = in.changes.none() && sum_.width != 0;
     if (!sameScene) lights_ = LightSet(in.scene);
-    const PathTracerOptions options{
-        s.integer(parameters::bounces()), static_cast<uint32_t>(s.integer(parameters::seed())),
-        in.lightOnly, s.boolean(parameters::speculars()), s.real(parameters::leastRoughness())};
+    const PathTracerOptions options{s.integer(parameters::bounces()),
+                                    static_cast<uint32_t>(s.integer(parameters::seed())),
+                                    in.lightOnly,
+                                    s.boolean(parameters::speculars()),
+                                    s.real(parameters::leastRoughness()),
+                                    in.part};
     const int wanted = s.integer(parameters::samplesPerPixel());
     const bool samePaths = options == options_;
     // Fewer paths than there are already: begin again too, so that the picture is that of the

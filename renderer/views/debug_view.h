@@ -11,15 +11,25 @@ namespace lamplighter {
 enum class DebugView {
   lit,
   lightOnly,
+  direct,
+  indirect,
+  falseColour,
   albedo,
   normals,
   flat,
   patches,
   patchLevels,
   occlusion,
+  lightOcclusion,
   partialLights,
+  lightsPerPatch,
   lightMaps,
-  mapAge
+  lightMapDensity,
+  mapAge,
+  pendingPatches,
+  shadowMap,
+  edgeMask,
+  prtObjects
 };
 
 struct DebugViewInfo {
@@ -39,7 +49,17 @@ const DebugViewInfo& findDebugView(std::string_view name);
 // Whether the picture is radiance, to be exposed and tone-mapped; the others are colours of the
 // display as they are.
 inline bool isRadiance(DebugView view) {
-  return view == DebugView::lit || view == DebugView::lightOnly;
+  return view == DebugView::lit || view == DebugView::lightOnly || view == DebugView::direct ||
+         view == DebugView::indirect;
+}
+
+// Whether it shows what the engine keeps; the others show the level and its light.
+inline bool isOfEngine(DebugView view) { return view > DebugView::flat; }
+
+// Whether it is about a light sample, or the light that one is on.
+inline bool needsLightSample(DebugView view) {
+  return view == DebugView::occlusion || view == DebugView::lightOcclusion ||
+         view == DebugView::shadowMap;
 }
 
 }  // namespace lamplighter

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include <tbb/parallel_for.h>
@@ -143,5 +144,18 @@ class Painter {
 
 // A little of a lamp at the camera, so that shapes are told apart; hues stay those of the legend.
 inline vec3 shaded(const vec3& colour, const Seen& s) { return colour * (0.6f + 0.4f * s.facing); }
+
+// Darker along the patch's border, as far as the patch is large enough in the picture for that: a
+// level seen from afar would be nothing but borders.
+inline vec3 outlined(const Painter& p, const ViewSubject& in, const Seen& s, size_t i,
+                     const vec3& colour) {
+  if (!p.isBorder(i)) return colour;
+  const uint32_t object = s.hit->object;
+  const Patch& patch = in.inspection.visibility->patches(object)
+                           .patches[static_cast<size_t>(p.lookup().wholeOf(object, p.leaf(i)))];
+  const vec2 size = patch.chart == kNone ? vec2(2.0f * patch.radius) : patch.max - patch.min;
+  const float pixels = std::min(size.x, size.y) * std::sqrt(s.facing) / s.footprint;
+  return colour * (1.0f - 0.55f * std::clamp((pixels - 4.0f) / 12.0f, 0.0f, 1.0f));
+}
 
 }  // namespace lamplighter

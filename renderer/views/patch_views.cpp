@@ -10,23 +10,6 @@ namespace lamplighter::views {
 
 namespace colours = view_colours;
 
-namespace {
-
-// Darker along the patch's border, as far as the patch is large enough in the picture for that: a
-// level seen from afar would be nothing but borders.
-vec3 outlined(const Painter& p, const ViewSubject& in, const Seen& s, size_t i,
-              const vec3& colour) {
-  if (!p.isBorder(i)) return colour;
-  const uint32_t object = s.hit->object;
-  const Patch& patch = in.inspection.visibility->patches(object)
-                           .patches[static_cast<size_t>(p.lookup().wholeOf(object, p.leaf(i)))];
-  const vec2 size = patch.chart == kNone ? vec2(2.0f * patch.radius) : patch.max - patch.min;
-  const float pixels = std::min(size.x, size.y) * std::sqrt(s.facing) / s.footprint;
-  return colour * (1.0f - 0.55f * std::clamp((pixels - 4.0f) / 12.0f, 0.0f, 1.0f));
-}
-
-}  // namespace
-
 ViewPicture patches(const ViewSubject& in) {
   Painter p(in);
   p.findPatches(*in.inspection.visibility);

@@ -29,26 +29,65 @@ ViewPicture flat(const ViewSubject& in) {
 
 }  // namespace
 
+NodeId nodeOfSample(const Inspection& inspection, int chosenLight) {
+  if (inspection.lights.empty()) return kNoNode;
+  const size_t last = inspection.lights.size() - 1;
+  return inspection.lights[std::min(static_cast<size_t>(std::max(chosenLight, 0)), last)].id.light;
+}
+
+namespace {
+
+// Of what the frame did besides.
+std::string problemOf(DebugView view, const ViewSubject& in) {
+  if (view == DebugView::shadowMap && in.shadowMap.empty())
+    return "the chosen light sample has no shadow map just now: none is looked up in this view";
+  if (view == DebugView::edgeMask && in.interpolated.empty())
+    return "it needs block over 1, and the technique visibility or light_maps of many_lights";
+  if (view == DebugView::falseColour && in.radiance == nullptr) return "nothing is rendered yet";
+  return "";
+}
+
+}  // namespace
+
 std::string problemOf(DebugView view, const Inspection& inspection) {
   switch (view) {
     case DebugView::patches:
     case DebugView::patchLevels:
     case DebugView::partialLights:
+    case DebugView::lightsPerPatch:
+    case DebugView::pendingPatches:
       return inspection.visibility == nullptr ? kNeedsVisibility : "";
     case DebugView::occlusion:
+    case DebugView::lightOcclusion:
       if (inspection.visibility == nullptr) return kNeedsVisibility;
       return inspection.lights.empty() ? "the level has no light sample" : "";
     case DebugView::lightMaps:
+    case DebugView::lightMapDensity:
       return inspection.lightMaps == nullptr ? kNeedsLightMaps : "";
+    case DebugView::prtObjects:
+      return inspection.prt == nullptr ? "it needs prt of many_lights, on the cpu backend" : "";
     case DebugView::mapAge:
+    case DebugView::shadowMap:
       return inspection.lights.empty() ? kNeedsLights : "";
     default:
       return "";
   }
 }
 
+void takeFromBackend(DebugView view, Backend& backend, RadianceImage& radiance, ViewSubject& in) {
+  if (view == DebugView::falseColour) in.radiance = &radiance.pixels();
+  if (view == DebugView::edgeMask) in.interpolated = backend.readInterpolated();
+  const auto& lights = in.inspection.lights;
+  if (view != DebugView::shadowMap || lights.empty()) return;
+  const auto chosen = static_cast<size_t>(std::max(in.chosenLight, 0));
+  const InspectedLight& light = lights[std::min(chosen, lights.size() - 1)];
+  if (light.isLive && light.slot >= 0) in.shadowMap = backend.readShadowMap(light.slot);
+}
+
 ViewPicture drawView(DebugView view, const ViewSubject& in) {
-  if (const std::string problem = problemOf(view, in.inspection); !problem.empty()) {
+  std::string problem = problemOf(view, in.inspection);
+  if (problem.empty()) problem = problemOf(view, in);
+  if (!problem.empty()) {
     ViewPicture out = flat(in);
     out.problem = problem;
     return out;
@@ -71,10 +110,28 @@ ViewPicture drawView(DebugView view, const ViewSubject& in) {
       return views::partialLights(in);
     case DebugView::lightMaps:
       return views::lightMaps(in);
+    case DebugView::falseColour:
+      return views::falseColour(in);
+    case DebugView::lightOcclusion:
+      return views::lightOcclusion(in);
+    case DebugView::lightsPerPatch:
+      return views::lightsPerPatch(in);
+    case DebugView::pendingPatches:
+      return views::pendingPatches(in);
+    case DebugView::lightMapDensity:
+      return views::lightMapDensity(in);
+    case DebugView::shadowMap:
+      return views::shadowMap(in);
+    case DebugView::edgeMask:
+      return views::edgeMask(in);
+    case DebugView::prtObjects:
+      return views::prtObjects(in);
     case DebugView::mapAge:
       return views::mapAge(in);
     case DebugView::lit:
     case DebugView::lightOnly:
+    case DebugView::direct:
+    case DebugView::indirect:
     case DebugView::flat:
       break;
   }

@@ -11,6 +11,14 @@ ViewPicture patchLevels(const ViewSubject& subject);
 ViewPicture occlusion(const ViewSubject& subject);
 ViewPicture partialLights(const ViewSubject& subject);
 ViewPicture lightMaps(const ViewSubject& subject);
+ViewPicture falseColour(const ViewSubject& subject);
+ViewPicture lightOcclusion(const ViewSubject& subject);
+ViewPicture lightsPerPatch(const ViewSubject& subject);
+ViewPicture pendingPatches(const ViewSubject& subject);
+ViewPicture lightMapDensity(const ViewSubject& subject);
+ViewPicture shadowMap(const ViewSubject& subject);
+ViewPicture edgeMask(const ViewSubject& subject);
+ViewPicture prtObjects(const ViewSubject& subject);
 ViewPicture mapAge(const ViewSubject& subject);
 
 }  // namespace lamplighter::views

@@ -52,14 +52,15 @@ TEST_F(RenderView, WritesEachAndTheyDiffer) {
   std::vector<std::vector<vec3>> pictures;
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
-    const ProcessResult r =
-        render("view.png", {"--view", info.name, "--set", "technique=light_maps"});
+    const ProcessResult r = render(
+        "view.png", {"--view", info.name, "--set", "technique=light_maps", "--set", "prt=true"});
     ASSERT_EQ(r.code, 0) << r.err;
     const Image image = readImage(folder_ / "view.png");
     for (const auto& other : pictures) EXPECT_NE(other, image.pixels);
     pictures.push_back(image.pixels);
   }
-  EXPECT_EQ(render("light.exr", {"--view", "light_only"}).code, 0);
+  for (const char* view : {"light_only", "direct", "indirect"})
+    EXPECT_EQ(render("light.exr", {"--view", view}).code, 0) << view;
 }
 
 TEST_F(RenderView, ALegendStandsBelowThePicture) {
@@ -109,6 +110,9 @@ TEST_F(RenderView, RefusesWhatItCannotShow) {
   fails("a.png", {"--view", "map_age", "--method", "reference"}, "needs the light samples");
   fails("a.png", {"--view", "occlusion", "--set", "technique=visibility", "--view-vpl", "1000"},
         "there is no light sample 1000; give one from 0 to ");
+  fails("a.png", {"--view", "prt_objects"}, "needs prt of many_lights");
+  fails("a.png", {"--view", "edge_mask", "--set", "block=1"}, "needs block over 1");
+  fails("a.exr", {"--view", "false_colour"}, "is no radiance");
   fails("a.exr", {"--marks"}, "marks are no radiance");
   fails("a.exr", {"--legend"}, "a legend is no radiance");
   fails("a.png", {"--marks", "--method", "reference"}, "there is no light sample");

@@ -28,6 +28,7 @@ class ViewDisplayTest : public test::SessionFixture {
 TEST_F(ViewDisplayTest, EveryViewIsAnActionThatIsRecordedByName) {
   const uint64_t before = hash();
   setTechnique("light_maps");
+  ASSERT_TRUE(session_.runAction("render.set prt=true"));
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
     InputEvent event{EventKind::action};
@@ -48,7 +49,8 @@ TEST_F(ViewDisplayTest, EveryViewIsAnActionThatIsRecordedByName) {
       EXPECT_EQ(picture.pixels, shown()->image.pixels);
     }
   }
-  session_.undo();  // the technique; views are no steps
+  session_.undo();  // transfer and the technique; views are no steps
+  session_.undo();
   EXPECT_EQ(hash(), before);
 }
 
@@ -199,6 +201,38 @@ TEST_F(ViewDisplayTest, AToneMapperIsASettingOfTheDisplay) {
   const float white = counted().white;
   ASSERT_TRUE(session_.runAction("render.exposure 10"));
   EXPECT_GT(counted().white, white);
+}
+
+TEST_F(ViewDisplayTest, FalseColourTakesUnitAndRange) {
+  ASSERT_TRUE(session_.runAction("view.false_colour"));
+  settle();
+  ASSERT_NE(shown(), nullptr);
+  EXPECT_EQ(shown()->legend.title, "Illuminance [lx]");
+  ASSERT_TRUE(session_.runAction("view.false_colour_unit nits"));
+  ASSERT_TRUE(session_.runAction("view.false_colour_range 0.1 100"));
+  settle();
+  EXPECT_NE(shown()->legend.title.find("Luminance"), std::string::npos);
+  EXPECT_EQ(shown()->legend.ticks.front().second, "0.1");
+  EXPECT_EQ(shown()->legend.ticks.back().second, "100");
+  EXPECT_FALSE(session_.runAction("view.false_colour_range 100 0.1"));
+  EXPECT_FALSE(session_.runAction("view.false_colour_range 1"));
+  EXPECT_FALSE(session_.runAction("view.false_colour_range 0 1"));
+  EXPECT_FALSE(session_.runAction("view.false_colour_unit candles"));
+  EXPECT_EQ(session_.display().falseColour(), (FalseColour{false, 0.1f, 100.0f}));
+  ASSERT_TRUE(session_.runAction("view.false_colour_range"));
+  EXPECT_EQ(session_.display().falseColour().high, 0.0f);
+}
+
+TEST_F(ViewDisplayTest, OcclusionOfALightFollowsWhatIsSelected) {
+  setTechnique("light_maps");
+  const Inspection inspection = session_.inspect();
+  EXPECT_EQ(session_.display().chosenLight(inspection), light_);  // of the first sample
+  ASSERT_TRUE(session_.runAction("view.choose_light box"));       // no light: as before
+  EXPECT_EQ(session_.display().chosenLight(inspection), light_);
+  session_.select({light_});
+  session_.renderFrame();
+  EXPECT_EQ(session_.display().chosenLight(session_.inspect()), light_);
+  EXPECT_FALSE(session_.runAction("view.choose_light nobody"));
 }
 
 }  // namespace

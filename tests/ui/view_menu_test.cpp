@@ -57,10 +57,13 @@ TEST_F(ViewMenu, ListsEveryViewAndSwitchesIt) {
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
     click("menu/View");
+    if (isOfEngine(info.view)) click("menu/Engine");
     click(std::string("menu/view.") + info.name);
     EXPECT_EQ(view(), info.view);
     EXPECT_EQ(app_.widgets().find("status/view") == nullptr, info.view == DebugView::lit);
   }
+  // A narrow window has no room for what the last view says it lacks, and for this.
+  app_.session().display().setView(DebugView::lit);
   click("menu/View");
   click("menu/view.vpls");
   frames(2);

@@ -8,18 +8,27 @@
 namespace lamplighter {
 namespace {
 
-// The order within menus; "-" is a line. Actions that are not listed follow at the end of the menu
-// of their group, so that none is out of reach.
+// The order within menus; "-" is a line, ">NAME" begins a menu within that "<" ends. Actions that
+// are not listed follow at the end of the menu of their group, so that none is out of reach.
 struct Menu {
   const char* title;
   std::vector<std::string> groups;  // first parts of action names
   std::vector<std::string> first;
 };
 
+constexpr const char* kEngineMenu = ">Engine";
+
 std::vector<std::string> viewActions() {
   std::vector<std::string> names;
-  for (const DebugViewInfo& info : debugViews()) names.push_back(std::string("view.") + info.name);
-  names.insert(names.end(), {"-", "view.vpls", "view.probe", "view.histogram"});
+  const auto add = [&](bool engine) {
+    for (const DebugViewInfo& info : debugViews())
+      if (isOfEngine(info.view) == engine) names.push_back(std::string("view.") + info.name);
+  };
+  add(false);
+  names.emplace_back(kEngineMenu);
+  add(true);
+  names.insert(names.end(), {"<", "-", "view.false_colour_unit", "view.false_colour_range", "-",
+                             "view.vpls", "view.probe", "view.histogram", "view.tone_mapper"});
   return names;
 }
 
@@ -32,7 +41,10 @@ const std::vector<Menu>& menus() {
       {"Light", {"light", "lights"}, {"light.add", "light.place", "-", "panel.lights"}},
       {"Object", {"object", "node", "place"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
-      {"View", {"view", "camera", "panel", "explain", "probe", "measure"}, viewActions()},
+      {"View", {"view", "camera", "panel"}, viewActions()},
+      {"Inspect",
+       {"explain", "probe", "measure"},
+       {"explain.pointer", "tool.explain", "explain.close", "-", "tool.measure", "measure.clear"}},
       {"Render", {"render"}, {}},
   };
   return kMenus;
@@ -106,7 +118,20 @@ void drawMenu(const PanelContext& ui, const Menu& menu, Requests& requests) {
   ui.name(menu.title);
   if (!open) return;
   bool line = false, any = false;
+  bool inner = false, innerOpen = false;
   for (const std::string& name : menu.first) {
+    if (name.front() == '>') {
+      inner = true;
+      innerOpen = ImGui::BeginMenu(name.c_str() + 1);
+      ui.name(name.substr(1));
+      continue;
+    }
+    if (name == "<") {
+      if (innerOpen) ImGui::EndMenu();
+      inner = innerOpen = false;
+      continue;
+    }
+    if (inner && !innerOpen) continue;
     if (name == "-") {
       line = any;
       continue;

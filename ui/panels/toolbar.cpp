@@ -46,8 +46,10 @@ void seeingButtons(const PanelContext& ui, Requests& requests) {
   for (const Item& item : kItems) {
     if (&item != &kItems.front()) ImGui::SameLine();
     const Action& action = *ui.session.actions().find(item.action);
-    if (button(ui, item.action, item.icon, item.label, action.checked(ui.session), true,
-               action.help + " (" + action.shortcut + ")"))
+    // Icons speak for themselves but for the first; a narrow window has room for no more.
+    const bool iconAlone = theme::hasIcons() && &item != &kItems.front();
+    if (button(ui, item.action, item.icon, iconAlone ? "" : item.label, action.checked(ui.session),
+               true, std::string(item.label) + ": " + action.help + " (" + action.shortcut + ")"))
       requests.actions.emplace_back(item.action);
   }
 }

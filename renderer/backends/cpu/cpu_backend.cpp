@@ -203,6 +203,21 @@ class CpuBackend final : public Backend {
     return makeImage([&](size_t i) { return g.hit[i] ? g.albedo(i) : vec3(0.0f); });
   }
 
+  std::vector<uint8_t> readInterpolated() override {
+    const cpu::GBuffer& g = shown_->gbuffer;
+    if (shown_->block <= 1) return {};
+    std::vector<uint8_t> interpolated;
+    interpolated.reserve(static_cast<size_t>(g.width) * static_cast<size_t>(g.height));
+    for (int y = 0; y < g.height; ++y) {
+      for (int x = 0; x < g.width; ++x) {
+        const size_t packet = g.index(x, y) / cpu::kLanes;
+        const uint32_t edges = shown_->low.edges()[packet / cpu::kPacketsPerTile];
+        interpolated.push_back((edges >> packet % cpu::kPacketsPerTile & 1) == 0 ? 1 : 0);
+      }
+    }
+    return interpolated;
+  }
+
   void finish() override {}
 
  private:

@@ -72,6 +72,7 @@ class GlBackend final : public Backend {
   std::vector<float> readShadowMap(int slot) override { return maps_.read(slot); }
   Image readNormals() override { return gbuffer_.readNormals(); }
   Image readAlbedo() override { return gbuffer_.readAlbedo(); }
+  std::vector<uint8_t> readInterpolated() override { return lighting_.readInterpolated(); }
   void finish() override { glFinish(); }
 
   void reload(const std::filesystem::path& shaders) {

@@ -29,6 +29,8 @@ class GlLighting {
   int passesSaved() const { return passesSaved_; }
   // No light at all, for a G-buffer that nothing was summed over yet.
   void clear(int width, int height);
+  // Of the last sum (Backend::readInterpolated()).
+  std::vector<uint8_t> readInterpolated() const { return low_.read(pixels_.width, pixels_.height); }
   std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const Sky& sky, bool white);
 
   GLuint irradiance() const { return pixels_.irradiance.name(); }

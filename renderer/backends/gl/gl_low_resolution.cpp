@@ -1,5 +1,7 @@
 #include "renderer/backends/gl/gl_low_resolution.h"
 
+#include <algorithm>
+
 #include "renderer/gl/pass_state.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/low_resolution.h"
@@ -56,6 +58,23 @@ void GlLowResolution::interpolate(SumTarget& pixels, const Buffer& hardPlaces, b
   interpolate_.use();
   interpolate_.set(0, block_);
   drawFullScreen(emptyVertexArray_.name());
+}
+
+std::vector<uint8_t> GlLowResolution::read(int width, int height) const {
+  if (!cells_) return {};
+  const int columns = samples_.width - 1, rows = samples_.height - 1;
+  std::vector<uint8_t> cells(static_cast<size_t>(columns) * static_cast<size_t>(rows));
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glGetTextureImage(cells_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE,
+                    static_cast<GLsizei>(cells.size()), cells.data());
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  std::vector<uint8_t> pixels;
+  pixels.reserve(static_cast<size_t>(width) * static_cast<size_t>(height));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      pixels.push_back(cells[static_cast<size_t>(std::min(y / block_, rows - 1) * columns +
+                                                 std::min(x / block_, columns - 1))]);
+  return pixels;
 }
 
 uint64_t GlLowResolution::bytes() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "renderer/backends/gl/sum_target.h"
 #include "renderer/gl/program.h"
@@ -25,6 +26,9 @@ class GlLowResolution {
   // stencil buffer of `pixels`. The others are left as they are. hardPlaces: a buffer with
   // LightLists::hardPlaces(), hasHard: whether it has any.
   void interpolate(SumTarget& pixels, const Buffer& hardPlaces, bool hasHard) const;
+
+  // By pixel of a picture of that size whether it is interpolated (1); empty: there are no cells.
+  std::vector<uint8_t> read(int width, int height) const;
 
   uint64_t bytes() const;
 

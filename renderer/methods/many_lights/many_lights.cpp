@@ -154,7 +154,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
       options.mergePasses != options_.mergePasses || options.block != options_.block ||
       options.speculars != options_.speculars ||
       options.leastRoughness != options_.leastRoughness || options.usePrt != options_.usePrt ||
-      !(options.prt == options_.prt) || in.lightOnly != lightOnly_;
+      !(options.prt == options_.prt) || in.lightOnly != lightOnly_ || in.part != part_;
   if (viewChanged) gbufferIsCurrent_ = false;
   if (view_ != in.view || shadingChanged || options.fillsCorners != options_.fillsCorners)
     corners_.forget();
@@ -171,6 +171,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
       options.refinement != options_.refinement || options.antialias != options_.antialias;
   options_ = options;
   lightOnly_ = in.lightOnly;
+  part_ = in.part;
   started_ = true;
 
   // 5. Its edges made smooth when nothing else is to be done, one sample a frame.
@@ -194,8 +195,9 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
   // 6. And then made better and better, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
-  if (out.settled && !shadedNow) refine(in, options, stages, out);
-  out.refined = out.settled && (options.refinement.vpls == 0 || refinement_.done());
+  const bool mayRefine = in.part == LightPart::all;
+  if (out.settled && !shadedNow && mayRefine) refine(in, options, stages, out);
+  out.refined = out.settled && (options.refinement.vpls == 0 || refinement_.done() || !mayRefine);
 
   out.stats.vpls = lights_.live();
   out.stats.vplsPending = pending;
@@ -381,10 +383,16 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
       vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f),
       speculars(options.speculars, options.leastRoughness)};
   const KernelCounts before = in.backend.counts();
+  const bool isWhole = in.part == LightPart::all;
+  if (isWhole)
+    partLights_.forget();
+  else
+    takePart(in, options, vpls, isMiddle);
   if (visibility_) {
-    vpls.insert(vpls.end(), standIns_.lights().begin(), standIns_.lights().end());
-    const PatchLights patches(*visibility_, lightMaps_.get(), options.mergePasses, prt_.get(),
-                              &standIns_);
+    const StandIns& standIns = isWhole ? standIns_ : partLights_.standIns();
+    vpls.insert(vpls.end(), standIns.lights().begin(), standIns.lights().end());
+    const PatchLights patches(*visibility_, isWhole ? lightMaps_.get() : partLights_.maps(),
+                              options.mergePasses, isWhole ? prt_.get() : nullptr, &standIns);
     in.backend.sumVpls(vpls, params, &patches);
   } else {
     in.backend.sumVpls(vpls, params, nullptr);
@@ -395,9 +403,24 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   interpolatedShare_ = static_cast<float>(after.pixelsInterpolated - before.pixelsInterpolated) /
                        static_cast<float>(in.view.width * in.view.height);
   stages.end("light sums");
-  auto image = in.backend.compose(in.lightOnly);
+  std::shared_ptr<RadianceImage> image = in.backend.compose(in.lightOnly);
+  if (in.part == LightPart::indirect) {
+    in.backend.sumVpls({}, params, nullptr);
+    image = without(*in.backend.compose(in.lightOnly), *image);
+  }
   stages.end("composition");
   return image;
+}
+
+// Of the VPLs those of the part that is shown; `isNew`: they may differ from those of the last
+// call.
+void ManyLights::takePart(const FrameInputs& in, const Options& options,
+                          std::vector<shared::Vpl>& vpls, bool isNew) {
+  vpls = PartLights::lightsOf(in.part, vpls, lights_.inspect());
+  if (!visibility_ || !isNew) return;
+  partLights_.update(in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
+                     {options.useLightMaps, {options.lightMapTexel, options.clampDistance}},
+                     lights_.hasMap(), wanted_, options.groupShare);
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
@@ -419,9 +442,10 @@ std::shared_ptr<RadianceImage> ManyLights::fillCorners(
     const VplCounts& counts = options.counts;
     corners_.goOn(
         in, lights_.inspect(),
-        {counts.directShare < 1.0f ? counts.bounces : 0,
-         counts.directShare > 0.0f || counts.bounces == 0, options.clampDistance, kCornerPaths,
-         counts.seed, 0, in.lightOnly, options.speculars, options.leastRoughness});
+        {counts.directShare < 1.0f && in.part != LightPart::direct ? counts.bounces : 0,
+         (counts.directShare > 0.0f || counts.bounces == 0) && in.part != LightPart::indirect,
+         options.clampDistance, kCornerPaths, counts.seed, 0, in.lightOnly, options.speculars,
+         options.leastRoughness});
     if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
     stages.end("corners");
   }

@@ -10,6 +10,7 @@
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/corner_light.h"
 #include "renderer/methods/many_lights/live_lights.h"
+#include "renderer/methods/many_lights/part_lights.h"
 #include "renderer/methods/many_lights/refinement.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/sampling/light_paths.h"
@@ -22,7 +23,7 @@ class ManyLights final : public GiMethod {
   GiOutput render(const FrameInputs& in) override;
   void reset() override { *this = ManyLights(); }
   Inspection inspect() const override {
-    return {visibility_.get(), lightMaps_.get(), lights_.inspect()};
+    return {visibility_.get(), lightMaps_.get(), lights_.inspect(), prt_.get()};
   }
 
  private:
@@ -60,6 +61,8 @@ class ManyLights final : public GiMethod {
   void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
+  void takePart(const FrameInputs& in, const Options& options, std::vector<shared::Vpl>& vpls,
+                bool isNew);
   int refreshLights(const FrameInputs& in, const Options& options);
   void updateVisibility(const FrameInputs& in, GiStats& stats);
   void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
@@ -73,7 +76,9 @@ class ManyLights final : public GiMethod {
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
   bool started_ = false, lightOnly_ = false;
-  Options options_;  // of the frame before
+  LightPart part_ = LightPart::all;
+  PartLights partLights_;  // while a part alone is shown
+  Options options_;        // of the frame before
   View view_;
   std::optional<View> chosenFor_;  // the view that VPLs were chosen for, if for any
   bool choiceIsCurrent_ = true;    // it is the present one, not one that the camera came from

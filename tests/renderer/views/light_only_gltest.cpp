@@ -39,5 +39,38 @@ TEST_F(LightOnly, IsTheSameOnBothBackends) {
   EXPECT_NEAR(lit.g / white.g, 0.1f, 0.002f);
 }
 
+// Direct and indirect light on the gl backend: what the cpu backend shows, and both add up.
+TEST_F(LightOnly, PartsAreTheSameOnBothBackends) {
+  Scene scene;
+  const int red = test::addMaterial(scene, vec3(0.8f, 0.3f, 0.2f));
+  test::addMesh(scene, test::roomMesh(vec3(4, 3, 4), red), vec3(0, 1.5f, 0));
+  test::addMesh(scene, test::boxMesh(vec3(0.8f), red), vec3(0.3f, 0.4f, 0));
+  test::addRectangleLight(scene, vec3(0, 2.5f, 0), vec2(1.0f), vec3(5.0f));
+  const View view = test::lookAt(vec3(0, 1.5f, 1.8f), vec3(0, 1, 0), 64, 48, 1.0f);
+  for (const char* technique : {"naive", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    Settings settings;
+    settings.set("technique", std::string(technique));
+    settings.set("vpls", 40);
+    settings.set("antialias", 1);
+    settings.set("corner_light", false);
+    Image pictures[2][3];
+    for (const int backend : {0, 1}) {
+      FrameRenderer renderer(backend == 0 ? makeGlBackend() : makeCpuBackend());
+      test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+      for (const LightPart part : {LightPart::all, LightPart::direct, LightPart::indirect})
+        pictures[backend][static_cast<int>(part)] =
+            renderer.render({scene, {}, view, "many_lights", settings, false, false, 0, part})
+                .radiance->pixels();
+    }
+    for (const int part : {0, 1, 2})
+      EXPECT_LT(compareImages(pictures[0][part], pictures[1][part]).relRmse, 0.03) << part;
+    Image sum = pictures[0][1];
+    for (size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += pictures[0][2].pixels[i];
+    EXPECT_LT(compareImages(sum, pictures[0][0]).relRmse, 0.02);
+    EXPECT_GT(luminance(test::meanOf(pictures[0][2])), 0.05f * luminance(test::meanOf(sum)));
+  }
+}
+
 }  // namespace
 }  // namespace lamplighter

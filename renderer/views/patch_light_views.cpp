@@ -1,0 +1,181 @@
+// What is kept of lights for each patch, counted: those that reach it, those that it waits for, and
+// how much of one light reaches it.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "renderer/light_maps/light_maps.h"
+#include "renderer/prt/prt_lights.h"
+#include "renderer/views/painter.h"
+#include "renderer/views/views.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter::views {
+
+namespace colours = view_colours;
+
+namespace {
+
+// A number for each pixel's patch, found once for those in a row that show the same one.
+std::vector<int> ofPatches(const Painter& p,
+                           const std::function<int(uint32_t object, int leaf)>& count) {
+  std::vector<int> counts(p.pixels(), 0);
+  p.forEachPixel([&](int x, int, size_t i) {
+    if (!p.hit(i)) return;
+    const uint32_t object = p.hit(i).object;
+    const bool same =
+        x > 0 && p.hit(i - 1) && p.hit(i - 1).object == object && p.leaf(i - 1) == p.leaf(i);
+    counts[i] = same ? counts[i - 1] : count(object, p.leaf(i));
+  });
+  return counts;
+}
+
+// From `zero`, where there is one, over the ramp's colours to the largest.
+ViewPicture paintCounts(const Painter& p, const ViewSubject& in, const std::vector<int>& counts,
+                        size_t of, const char* title, const char* noneLabel) {
+  const int most = std::min(colours::niceMaximum(p.largest([&](size_t i) { return counts[i]; })),
+                            std::max(static_cast<int>(of), 1));
+  constexpr float kFirst = 0.35f;  // the ramp's blue would be taken for none
+  ViewPicture out;
+  out.image = p.paint([&](const Seen& s, size_t i) {
+    const float t = static_cast<float>(counts[i]) / static_cast<float>(most);
+    const vec3 colour = noneLabel == nullptr ? colours::ramp(t)
+                        : counts[i] == 0     ? colours::kSettled
+                                             : colours::ramp(glm::mix(kFirst, 1.0f, t));
+    return outlined(p, in, s, i, shaded(colour, s));
+  });
+  out.legend.title = title;
+  out.legend.ramp = colours::rampSteps(noneLabel == nullptr ? 0.0f : kFirst);
+  out.legend.low = "0";
+  out.legend.high = std::to_string(most) + " of " + std::to_string(of);
+  if (noneLabel != nullptr) out.legend.swatches = {{colours::kSettled, noneLabel}};
+  return out;
+}
+
+}  // namespace
+
+ViewPicture lightsPerPatch(const ViewSubject& in) {
+  const VisibilityDatabase& visibility = *in.inspection.visibility;
+  std::vector<size_t> slots;
+  for (const InspectedLight& light : in.inspection.lights)
+    if (light.isLive) slots.push_back(static_cast<size_t>(light.slot));
+  Painter p(in);
+  p.findPatches(visibility);
+  const std::vector<int> counts = ofPatches(p, [&](uint32_t object, int leaf) {
+    const auto row = visibility.row(object, leaf);
+    return static_cast<int>(std::count_if(slots.begin(), slots.end(), [&](size_t slot) {
+      return row[slot] != static_cast<uint8_t>(Occlusion::full);
+    }));
+  });
+  return paintCounts(p, in, counts, slots.size(), "Light samples that reach the patch", nullptr);
+}
+
+ViewPicture pendingPatches(const ViewSubject& in) {
+  const VisibilityDatabase& visibility = *in.inspection.visibility;
+  std::vector<const InspectedLight*> waiting;
+  for (const InspectedLight& light : in.inspection.lights)
+    if (light.isStale) waiting.push_back(&light);
+  Painter p(in);
+  p.findPatches(visibility);
+  // What is not shown yet may reach all.
+  const std::vector<int> counts = ofPatches(p, [&](uint32_t object, int leaf) {
+    return static_cast<int>(
+        std::count_if(waiting.begin(), waiting.end(), [&](const InspectedLight* light) {
+          return !light->isLive || visibility.state(object, leaf, light->slot) != Occlusion::full;
+        }));
+  });
+  return paintCounts(p, in, counts, in.inspection.lights.size(), "Light samples waited for",
+                     "up to date");
+}
+
+ViewPicture lightOcclusion(const ViewSubject& in) {
+  const VisibilityDatabase& visibility = *in.inspection.visibility;
+  std::vector<const InspectedLight*> samples;
+  for (const InspectedLight& light : in.inspection.lights)
+    if (light.isLive && light.id.bounce == 0 && light.id.light == in.chosenNode)
+      samples.push_back(&light);
+  Painter p(in);
+  p.findPatches(visibility);
+  // Those that face the pixel, and twice as many as are not hidden: half for "something".
+  const auto shareAt = [&](const Seen& s, int leaf) {
+    int facing = 0, open = 0;
+    for (const InspectedLight* light : samples) {
+      if (shared::vplGeometry(light->vpl, s.surface.position, s.normal, s.geometricNormal, 0.0f) ==
+          0.0f)
+        continue;
+      ++facing;
+      const Occlusion state = visibility.state(s.hit->object, leaf, light->slot);
+      open += state == Occlusion::none ? 2 : state == Occlusion::partial ? 1 : 0;
+    }
+    return facing == 0 ? -1.0f : 0.5f * static_cast<float>(open) / static_cast<float>(facing);
+  };
+  const auto colourOf = [&](float share) {
+    if (share < 0.0f) return colours::kAway;
+    return share < 0.5f ? glm::mix(colours::kFull, colours::kPartial, 2.0f * share)
+                        : glm::mix(colours::kPartial, colours::kNone, 2.0f * share - 1.0f);
+  };
+  ViewPicture out;
+  out.image = p.paint([&](const Seen& s, size_t i) {
+    const vec3 colour = samples.empty() ? colours::kNoData : colourOf(shareAt(s, p.leaf(i)));
+    return outlined(p, in, s, i, shaded(colour, s));
+  });
+  out.legend.title = "Share of the light that nothing stands before";
+  for (int i = 0; i <= 32; ++i) out.legend.ramp.push_back(colourOf(static_cast<float>(i) / 32.0f));
+  out.legend.low = "none";
+  out.legend.high = "all";
+  out.legend.swatches = {{colours::kAway, "faces away"}};
+  if (samples.empty()) out.legend.swatches.push_back({colours::kNoData, "it has no samples"});
+  return out;
+}
+
+ViewPicture lightMapDensity(const ViewSubject& in) {
+  const LightMaps& maps = *in.inspection.lightMaps;
+  const VisibilityDatabase& visibility = *in.inspection.visibility;
+  Painter p(in);
+  p.findPatches(visibility);
+  // Along the side where texels are farther apart, in tenths of a millimetre.
+  const std::vector<int> apart = ofPatches(p, [&](uint32_t object, int leaf) {
+    const LightMapTile* tile = maps.tile(object, leaf);
+    if (tile == nullptr) return 0;
+    const Patch& patch = visibility.patches(object).patches[static_cast<size_t>(leaf)];
+    const vec2 size = (patch.max - patch.min) / vec2(static_cast<float>(tile->columns - 1),
+                                                     static_cast<float>(tile->rows - 1));
+    return std::max(1, static_cast<int>(std::lround(1e4f * std::max(size.x, size.y))));
+  });
+  const int most = colours::niceMaximum(p.largest([&](size_t i) { return apart[i]; }));
+  ViewPicture out;
+  out.image = p.paint([&](const Seen& s, size_t i) {
+    const float t = static_cast<float>(apart[i]) / static_cast<float>(most);
+    const bool has = apart[i] > 0 && s.front;
+    return outlined(p, in, s, i, shaded(has ? colours::ramp(t) : colours::kNoData, s));
+  });
+  out.legend.title = "Texels of light maps apart";
+  out.legend.ramp = colours::rampSteps();
+  out.legend.low = "0";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g cm", 0.01 * most);
+  out.legend.high = text;
+  out.legend.swatches = {{colours::kNoData, "no light map"}};
+  return out;
+}
+
+ViewPicture prtObjects(const ViewSubject& in) {
+  const PrtLights& prt = *in.inspection.prt;
+  const Painter p(in);
+  ViewPicture out;
+  out.image = p.paint([&](const Seen& s, size_t) {
+    const uint32_t object = s.hit->object;
+    const bool known = object < prt.objects();
+    return shaded(known && prt.hasTransfer(object)     ? colours::kNone
+                  : known && prt.wantsTransfer(object) ? colours::kPartial
+                                                       : colours::kNoData,
+                  s);
+  });
+  out.legend.title = "Lit by precomputed transfer";
+  out.legend.swatches = {
+      {colours::kNone, "yes"}, {colours::kPartial, "being prepared"}, {colours::kNoData, "no"}};
+  return out;
+}
+
+}  // namespace lamplighter::views
