@@ -19,7 +19,8 @@ struct Menu {
 std::vector<std::string> viewActions() {
   std::vector<std::string> names;
   for (const DebugViewInfo& info : debugViews()) names.push_back(std::string("view.") + info.name);
-  names.insert(names.end(), {"-", "view.vpls"});
+  names.insert(names.end(),
+               {"-", "view.vpls", "-", "split.on", "split.toggle", "split.heat", "split.off"});
   return names;
 }
 
@@ -32,8 +33,11 @@ const std::vector<Menu>& menus() {
       {"Light", {"light"}, {"light.add"}},
       {"Object", {"object", "node"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
-      {"View", {"view", "camera"}, viewActions()},
-      {"Render", {"render"}, {}},
+      {"View", {"view", "camera", "split"}, viewActions()},
+      {"Render",
+       {"render", "preset", "error", "timeline"},
+       {"render.reference", "render.auto_exposure", "-", "preset.draft", "preset.work",
+        "preset.final", "-", "error.meter", "error.block", "-"}},
   };
   return kMenus;
 }
