@@ -315,7 +315,7 @@ void Session::watchFrame(const SceneChanges& changes, double begin) {
   watch_.shown = std::move(shown);
   watch_.latency.frame({edited && !changes.everything, history_.undoLabel(), output_.settled, view_,
                         output_.radiance, begin, end});
-  watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_.radiance);
+  watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_);
   if (watch_.meter.measured()) status_ = watch_.meter.text();
   split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
   output_.settled = output_.settled && split_.settled();
