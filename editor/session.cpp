@@ -317,7 +317,12 @@ void Session::watchFrame(const SceneChanges& changes, double begin) {
                         output_.radiance, begin, end});
   watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_);
   if (watch_.meter.measured()) status_ = watch_.meter.text();
-  split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
+  try {
+    split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
+  } catch (const InputError& e) {
+    split_.turnOff();  // the first side was rendered and stays
+    status_ = std::string("Split view: ") + e.what();
+  }
   output_.settled = output_.settled && split_.settled();
 }
 

@@ -99,6 +99,20 @@ TEST_F(SplitViewTest, TheDividerIsDragged) {
   EXPECT_TRUE(session_.view() == view);
 }
 
+// A second side that cannot be made is given up with a word; the first stays as it is.
+TEST_F(SplitViewTest, ASecondSideThatFailsLeavesTheFirst) {
+  const Image8 alone = session_.picture();
+  session_.split().setRenderer([]() -> std::unique_ptr<FrameRenderer> {
+    throw InputError("no room for a second renderer");
+  });
+  ASSERT_TRUE(session_.runAction("split.on live many_lights,vpls=40"));
+  settle();
+  EXPECT_FALSE(session_.split().on());
+  EXPECT_EQ(session_.renderError(), "");
+  EXPECT_EQ(session_.status(), "Split view: no room for a second renderer");
+  EXPECT_EQ(session_.picture().pixels, alone.pixels);
+}
+
 TEST_F(SplitViewTest, BadSidesAreRefusedAndChangeNothing) {
   run("split.on live many_lights,vpls=40");
   for (const char* bad :
