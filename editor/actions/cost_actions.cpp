@@ -91,7 +91,9 @@ void addCostActions(ActionRegistry& r) {
            preset.help,
            "",
            [&preset](Session& s, const Arguments&) {
+             s.history().begin("Preset " + preset.label);
              s.setRender(withPreset(s.document().render, preset));
+             s.history().commit();
            },
            {},
            false,
