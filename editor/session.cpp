@@ -13,7 +13,6 @@
 #include "editor/tools/surface_search.h"
 #include "editor/views/vpl_overlay.h"
 #include "renderer/error.h"
-#include "renderer/image/tone_map.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/scene/gltf_io.h"
 
@@ -340,31 +339,6 @@ PointTools::Subject Session::pointSubject() const {
 
 std::optional<vec2> Session::pointer() const {
   return tools_->pointerKnown ? std::optional(tools_->pointer) : std::nullopt;
-}
-
-// Measured and compared once the frame is done; the second picture is no part of its time.
-void Session::watchFrame(const SceneChanges& changes, double begin) {
-  const double end = clock_ ? clock_() : 0.0;
-  watch_.timeline.add(frame_, begin, end, output_.stats);
-  RenderSettings shown = document_.render;
-  shown.exposureEv = watch_.shown.exposureEv;  // shows the same picture
-  const bool edited = !changes.none() || !(shown == watch_.shown);
-  watch_.shown = std::move(shown);
-  watch_.latency.frame({edited && !changes.everything, history_.undoLabel(), output_.settled, view_,
-                        output_.radiance, begin, end});
-  watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_.radiance);
-  if (watch_.meter.measured()) status_ = watch_.meter.text();
-  split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
-  output_.settled = output_.settled && split_.settled();
-}
-
-Image8 Session::picture() const {
-  const auto& view = display_.picture();
-  const float ev = document_.render.exposureEv;
-  if (split_.on() && split_.heat()) return split_.heat()->image;
-  const ToneMapper mapper = display_.toneMapper();
-  return split_.compose(view ? view->image : toneMap(output_.radiance->pixels(), ev, mapper), ev,
-                        mapper);
 }
 
 Overlay Session::overlay() const {

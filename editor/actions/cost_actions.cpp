@@ -63,11 +63,12 @@ void addCostActions(ActionRegistry& r) {
          {}});
   r.add({"timeline.export",
          "Export the timeline",
-         "FILE.json|FILE.csv",
-         "Writes what the last seconds' frames were spent on: as a Chrome trace or as a table.",
+         "FILE",
+         "Writes what the last seconds' frames were spent on: as a Chrome trace where the name "
+         "ends in .json, as a table where in .csv.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "timeline.export FILE.json|FILE.csv");
+           requireArguments(a, 1, 1, "timeline.export FILE");
            exportTimeline(s.watch().timeline, a[0]);
            s.setStatus("Wrote " + a[0]);
          },
@@ -90,7 +91,9 @@ void addCostActions(ActionRegistry& r) {
            preset.help,
            "",
            [&preset](Session& s, const Arguments&) {
+             s.history().begin("Preset " + preset.label);
              s.setRender(withPreset(s.document().render, preset));
+             s.history().commit();
            },
            {},
            false,

@@ -56,7 +56,7 @@ void addFileActions(ActionRegistry& r) {
          [](Session&, const Arguments&) {},  // the window opens it
          {},
          true});
-  r.add({"app.wait",
+  r.add({"script.wait",
          "Wait until settled",
          "",
          "Renders until another frame would change nothing; for scripts.",
@@ -65,7 +65,7 @@ void addFileActions(ActionRegistry& r) {
            constexpr int kPatience = 100000;  // frames
            for (int i = 0; i < kPatience; ++i)
              if (s.renderFrame().settled) return;
-           throw InputError("app.wait", "the picture does not settle", "set smaller counts");
+           throw InputError("script.wait", "the picture does not settle", "set smaller counts");
          },
          {}});
   r.add({"app.quit",

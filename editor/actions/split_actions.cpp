@@ -1,5 +1,5 @@
 // Two pictures beside each other, and how far they are apart.
-#include <algorithm>
+#include <map>
 
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
@@ -73,6 +73,29 @@ void addSplitActions(ActionRegistry& r) {
          "",
          [](Session& s, const Arguments&) { s.split().toggleWhole(); },
          isOn,
+         true,
+         {}});
+  r.add({"split.show",
+         "Compare",
+         "off|both|first|second|heat",
+         "What is shown: the picture alone, both sides, one of them, or how far they are apart.",
+         "",
+         [](Session& s, const Arguments& a) {
+           using Shown = SplitView::Shown;
+           requireArguments(a, 1, 1, "split.show off|both|first|second|heat");
+           static const std::map<std::string, Shown> kShown = {{"both", Shown::both},
+                                                               {"first", Shown::first},
+                                                               {"second", Shown::second},
+                                                               {"heat", Shown::heat}};
+           if (a[0] == "off") return s.split().turnOff();
+           const auto shown = kShown.find(a[0]);
+           if (shown == kShown.end())
+             throw InputError(a[0], "is nothing that a split view shows",
+                              "give off, both, first, second or heat");
+           makeSureOfSplit(s);
+           s.split().setShown(shown->second);
+         },
+         {},
          true,
          {}});
   r.add(

@@ -18,6 +18,13 @@ std::string brief(double count) {
   return count >= 10.0 ? fmt::format("{:.0f}", count) : fmt::format("{:.3g}", count);
 }
 
+// "4 ns", "120 µs", "1.5 ms".
+std::string briefTime(double seconds) {
+  if (seconds >= 1e-3) return fmt::format("{:.2g} ms", 1e3 * seconds);
+  if (seconds >= 1e-6) return fmt::format("{:.3g} \u00b5s", 1e6 * seconds);
+  return fmt::format("{:.2g} ns", 1e9 * seconds);
+}
+
 // What is drawn from a budget: counted by `count` and taking the time of `stages`.
 struct Budget {
   const char* parameter;
@@ -91,10 +98,8 @@ std::string measured(const Budget& budget, const Timeline& timeline, const Setti
     for (const char* stage : budget.stages) seconds += f.stageSeconds[indexOf(stage)];
   }
   if (frames == 0) return "idle";
-  const double each = 1e6 * seconds / counted;
-  return fmt::format("{} {}, {:.3g} ms ({:.3g} {} each)", brief(counted / frames), budget.unit,
-                     1e3 * seconds / frames, each >= 1000.0 ? each / 1000.0 : each,
-                     each >= 1000.0 ? "ms" : "\u00b5s");
+  return fmt::format("{} {}, {:.3g} ms ({} each)", brief(counted / frames), budget.unit,
+                     1e3 * seconds / frames, briefTime(seconds / counted));
 }
 
 BudgetCost frameTimeCost(const Timeline& timeline) {

@@ -20,7 +20,8 @@ PathTracerOptions pathsOf(const RenderSettings& render, bool lightOnly) {
 }  // namespace
 
 void ErrorMeter::frame(const Document& document, const View& view, bool lightOnly,
-                       const SceneChanges& changes, const std::shared_ptr<RadianceImage>& picture) {
+                       const SceneChanges& changes, const GiOutput& output) {
+  const std::shared_ptr<RadianceImage>& picture = output.radiance;
   measured_ = false;
   if (changes.everything) ++levels_;
   stale_ = stale_ || !changes.none();
@@ -45,10 +46,13 @@ void ErrorMeter::frame(const Document& document, const View& view, bool lightOnl
     isNews_ = true;
   }
   ++framesSince_;
-  const bool isDue = isNews_ || (picture != compared_ && framesSince_ >= kFramesBetween);
+  // The first settled one is not kept waiting: what was before it may be far off.
+  const bool hasWaited = framesSince_ >= kFramesBetween || (output.settled && !comparedSettled_);
+  const bool isDue = isNews_ || (picture != compared_ && hasWaited);
   if (halves_ && isDue && picture->width() == view.width && picture->height() == view.height) {
     compare(*picture);
     compared_ = picture;
+    comparedSettled_ = output.settled;
   }
 }
 
@@ -67,6 +71,15 @@ void ErrorMeter::compare(RadianceImage& picture) {
 std::string ErrorMeter::text() const {
   if (estimate_) return "error " + estimate_->text();
   return on_ ? "error \u2026" : "";
+}
+
+void ErrorMeter::pause() {
+  stale_ = true;
+  measured_ = false;
+  subject_.reset();
+  halves_.reset();
+  compared_.reset();
+  estimate_.reset();
 }
 
 }  // namespace lamplighter

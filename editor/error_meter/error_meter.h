@@ -9,7 +9,7 @@
 
 #include "editor/document/document.h"
 #include "editor/error_meter/error_estimate.h"
-#include "renderer/backends/kernels.h"
+#include "renderer/methods/gi_method.h"
 #include "renderer/scene/scene_changes.h"
 
 namespace lamplighter {
@@ -25,7 +25,10 @@ class ErrorMeter {
   // After each frame: its picture, and what the scene changed by since the last one. Whatever
   // changes what the reference would show makes it begin again.
   void frame(const Document& document, const View& view, bool lightOnly,
-             const SceneChanges& changes, const std::shared_ptr<RadianceImage>& picture);
+             const SceneChanges& changes, const GiOutput& output);
+
+  // Instead of frame(): what is shown is nothing that the reference makes.
+  void pause();
 
   // What a worker should trace now; null: nothing.
   std::shared_ptr<const MeterSubject> wanted() const { return on_ ? subject_ : nullptr; }
@@ -51,6 +54,7 @@ class ErrorMeter {
   std::shared_ptr<const MeterSubject> subject_;
   std::shared_ptr<const ReferenceHalves> halves_;
   std::shared_ptr<RadianceImage> compared_;  // the picture that the estimate is of
+  bool comparedSettled_ = false;             // and whether it was settled
   int framesSince_ = 0;                      // it was compared
   bool isNews_ = false;                      // halves that were not compared yet
   std::optional<ErrorEstimate> estimate_;

@@ -42,7 +42,7 @@ class Script : public testing::Test {
 TEST_F(Script, RunsActionsOneALine) {
   const ProcessResult r =
       run("# a comment\n\n  render.set vpls=40   # and another\n"
-          "select.name lamp\nlight.radiance 4 2 1\napp.wait\n"
+          "select.name lamp\nlight.radiance 4 2 1\nscript.wait\n"
           "app.screenshot \"" +
           file("a b.png").string() + "\"\nerror.measure 4\nfile.save_as " +
           file("lit.gltf").string() + "\napp.quit\nno.such.action\n");
@@ -53,7 +53,7 @@ TEST_F(Script, RunsActionsOneALine) {
 }
 
 TEST_F(Script, GivesTheSamePictureAtAnyNumberOfThreads) {
-  const std::string text = "render.set vpls=40\napp.wait\napp.screenshot ";
+  const std::string text = "render.set vpls=40\nscript.wait\napp.screenshot ";
   ASSERT_EQ(run(text + file("1.png").string(), "1").code, 0);
   ASSERT_EQ(run(text + file("2.png").string(), "2").code, 0);
   EXPECT_FALSE(contents(file("1.png")).empty());
@@ -61,7 +61,7 @@ TEST_F(Script, GivesTheSamePictureAtAnyNumberOfThreads) {
 }
 
 TEST_F(Script, ErrorsNameFileAndLine) {
-  const ProcessResult r = run("app.wait\n\nlight.radiance 1 2\n");
+  const ProcessResult r = run("script.wait\n\nlight.radiance 1 2\n");
   EXPECT_EQ(r.code, 2);
   EXPECT_NE(r.err.find("script.txt:3: "), std::string::npos) << r.err;
   EXPECT_EQ(run("render.set vpls=zero\n").code, 2);

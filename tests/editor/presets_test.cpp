@@ -19,6 +19,7 @@ TEST_F(Presets, AreOneStepEachThatCanBeUndoneAndRedone) {
     const Action* action = session_.actions().find("preset." + preset.name);
     EXPECT_TRUE(action->checked(session_));
     EXPECT_EQ(session_.history().position(), position + 1);
+    EXPECT_EQ(session_.history().undoLabel(), "Preset " + preset.label);
     const uint64_t after = hash();
     EXPECT_NE(after, before);
     EXPECT_EQ(std::get<int>(session_.document().render.values.values().at("seed")), 7);

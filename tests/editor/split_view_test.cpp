@@ -82,6 +82,32 @@ TEST_F(SplitViewTest, EitherSideMayBeTheReference) {
   EXPECT_FALSE(session_.split().heat());
 }
 
+// What a worker has traced for the error meter is shown, block by block, and not traced again.
+TEST_F(SplitViewTest, TheErrorMetersReferenceIsTaken) {
+  session_.runAction("error.meter");
+  session_.runAction("split.show heat");
+  session_.renderFrame();
+  EXPECT_FALSE(session_.split().secondPicture());
+  EXPECT_FALSE(session_.output().settled);  // it waits for the worker
+  const ErrorMeter& meter = session_.watch().meter;
+  ReferenceSampler sampler;
+  sampler.begin(*meter.wanted());
+  sampler.step();
+  const auto halves = std::make_shared<const ReferenceHalves>(sampler.halves());
+  session_.watch().meter.take(halves);
+  session_.renderFrame();
+  ASSERT_TRUE(session_.split().secondPicture());
+  const Image& second = session_.split().secondPicture()->pixels();
+  EXPECT_EQ(second.width, 320);
+  EXPECT_EQ(second.at(5, 2), halves->mean().at(1, 0));
+  EXPECT_EQ(second.at(319, 199), halves->mean().at(79, 49));
+  EXPECT_TRUE(session_.split().heat());
+  session_.runAction("split.show first");
+  EXPECT_FALSE(session_.runAction("split.show nothing"));
+  session_.runAction("split.show off");
+  EXPECT_FALSE(session_.split().on());
+}
+
 TEST_F(SplitViewTest, TheDividerIsDragged) {
   run("split.on live many_lights,vpls=40");
   const View view = session_.view();
@@ -97,6 +123,20 @@ TEST_F(SplitViewTest, TheDividerIsDragged) {
   EXPECT_FLOAT_EQ(session_.split().position(), 0.75f);
   EXPECT_TRUE(session_.document().selection.empty());  // it was no click on the level
   EXPECT_TRUE(session_.view() == view);
+}
+
+// A second side that cannot be made is given up with a word; the first stays as it is.
+TEST_F(SplitViewTest, ASecondSideThatFailsLeavesTheFirst) {
+  const Image8 alone = session_.picture();
+  session_.split().setRenderer([]() -> std::unique_ptr<FrameRenderer> {
+    throw InputError("no room for a second renderer");
+  });
+  ASSERT_TRUE(session_.runAction("split.on live many_lights,vpls=40"));
+  settle();
+  EXPECT_FALSE(session_.split().on());
+  EXPECT_EQ(session_.renderError(), "");
+  EXPECT_EQ(session_.status(), "Split view: no room for a second renderer");
+  EXPECT_EQ(session_.picture().pixels, alone.pixels);
 }
 
 TEST_F(SplitViewTest, BadSidesAreRefusedAndChangeNothing) {

@@ -18,11 +18,13 @@ constexpr int kMostSamples = 4096;
 // Of the processor's threads; frames take all of them where they can.
 int threadsBeside() { return std::max(1, tbb::this_task_arena::max_concurrency() / 4); }
 
-// The scheduler gives this thread what others leave. Linux counts priorities by thread.
+// The scheduler gives this thread little where others want the core: a tenth of it, so that there
+// is a figure after some seconds even while the picture is being refined. Linux counts priorities
+// by thread.
 void yieldToOthers() {
-  constexpr int kLowest = 19;
+  constexpr int kNice = 10;
   const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
-  ::setpriority(PRIO_PROCESS, thread, kLowest);  // at worst it stays as it is
+  ::setpriority(PRIO_PROCESS, thread, kNice);  // at worst it stays as it is
 }
 
 }  // namespace

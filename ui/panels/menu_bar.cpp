@@ -28,7 +28,8 @@ std::vector<std::string> viewActions() {
   names.emplace_back(kEngineMenu);
   add(true);
   names.insert(names.end(), {"<", "-", "view.false_colour_unit", "view.false_colour_range", "-",
-                             "view.vpls", "view.probe", "view.histogram", "view.tone_mapper"});
+                             "view.vpls", "view.probe", "view.histogram", "view.tone_mapper",
+                             "-", "split.on", "split.toggle", "split.heat", "split.off"});
   return names;
 }
 
@@ -41,11 +42,14 @@ const std::vector<Menu>& menus() {
       {"Light", {"light", "lights"}, {"light.add", "light.place", "-", "panel.lights"}},
       {"Object", {"object", "node", "place"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
-      {"View", {"view", "camera", "panel"}, viewActions()},
+      {"View", {"view", "camera", "panel", "split"}, viewActions()},
       {"Inspect",
        {"explain", "probe", "measure"},
        {"explain.pointer", "tool.explain", "explain.close", "-", "tool.measure", "measure.clear"}},
-      {"Render", {"render"}, {}},
+      {"Render",
+       {"render", "preset", "error", "timeline"},
+       {"render.reference", "render.auto_exposure", "-", "preset.draft", "preset.work",
+        "preset.final", "-", "error.meter", "error.block", "-"}},
   };
   return kMenus;
 }

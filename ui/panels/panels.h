@@ -52,6 +52,7 @@ struct TimelineState {
   std::optional<Timeline> held;  // what is pointed at
 };
 void renderPanel(PanelContext ui, TimelineState& state, Requests& requests);
+void compareSection(const PanelContext& ui, Requests& requests);
 void timelineSection(const PanelContext& ui, TimelineState& state, Requests& requests);
 // The method's parameters of a group under a header that opens; nothing where it has none of them.
 void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group);

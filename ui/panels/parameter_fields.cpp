@@ -83,7 +83,9 @@ void costLine(const PanelContext& ui, const ParameterSpec& spec, const Settings&
   const auto cost =
       costOf(spec.name, ui.session.watch().timeline, ui.session.output().stats, settings);
   if (!cost) return;
-  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + labelWidth(ui));
+  const float start = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
+  const float width = ImGui::CalcTextSize(cost->measured.c_str()).x;
+  ImGui::SetCursorPosX(start + std::clamp(room - width, 0.0f, labelWidth(ui)));
   // One line whatever it says, so that nothing below moves with what was measured.
   ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
   ImGui::TextUnformatted(cost->measured.c_str());

@@ -68,6 +68,7 @@ void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
   if (exposed) ui.session.setRender(render);
 
   for (const ParameterGroup group : kParameterGroups) parameterSection(ui, *found, group);
+  compareSection(ui, requests);
   timelineSection(ui, state, requests);
 }
 

@@ -101,6 +101,16 @@ void drawBars(const PanelContext& ui, const Timeline& timeline, const Graph& gra
   }
 }
 
+// Upon the bars, on a plate that leaves them to be seen.
+void label(const PanelContext& ui, ImDrawList& list, const ImVec2& at, unsigned colour,
+           const std::string& text) {
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+  const float pad = ui.px(2);
+  list.AddRectFilled(at, {at.x + size.x + 2 * pad, at.y + size.y},
+                     theme::colour(theme::kBackground, 190), pad);
+  list.AddText({at.x + pad, at.y}, theme::colour(colour), text.c_str());
+}
+
 void drawGraph(const PanelContext& ui, TimelineState& state) {
   const Timeline& live = ui.session.watch().timeline;
   const float width = std::max(ImGui::GetContentRegionAvail().x, ui.px(60));
@@ -125,11 +135,11 @@ void drawGraph(const PanelContext& ui, TimelineState& state) {
   if (budget > 0.0 && budget <= graph.range) {
     const float y = graph.yOf(budget);
     list.AddLine({graph.low.x, y}, {graph.high.x, y}, theme::colour(theme::kAccent, 160), ui.px(1));
-    list.AddText({graph.low.x + ui.px(5), y + ui.px(1)}, theme::colour(theme::kAccent),
-                 ("budget " + milliseconds(budget)).c_str());
+    label(ui, list, {graph.low.x + ui.px(3), y + ui.px(2)}, theme::kAccent,
+          "budget " + milliseconds(budget));
   }
-  list.AddText({graph.low.x + ui.px(5), graph.low.y + ui.px(1)}, theme::colour(theme::kTextDim),
-               milliseconds(graph.range).c_str());
+  label(ui, list, {graph.low.x + ui.px(3), graph.low.y + ui.px(1)}, theme::kTextDim,
+        milliseconds(graph.range));
   list.PopClipRect();
 }
 

@@ -1,0 +1,119 @@
+// How right the picture is: the error meter, and the split view with what its sides are.
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "renderer/methods/gi_method.h"
+#include "ui/panels/panels.h"
+#include "ui/theme.h"
+
+namespace lamplighter {
+namespace {
+
+// What a side may be without typing: live, each method, and each by its techniques.
+std::vector<std::string> sides() {
+  std::vector<std::string> all{"live"};
+  for (const MethodInfo& method : methods()) {
+    all.push_back(method.name);
+    for (const ParameterSpec& spec : method.parameters)
+      if (spec.name == "technique")
+        for (const std::string& choice : spec.choices)
+          all.push_back(method.name + "," + spec.name + "=" + choice);
+  }
+  return all;
+}
+
+// The chosen text, if another was chosen.
+std::optional<std::string> sideCombo(const PanelContext& ui, const char* label,
+                                     const std::string& widget, const std::string& current) {
+  labelledRow(ui, label,
+              "live: the picture as it is set here. Others can be had by the action split.on, with "
+              "parameters of their own.");
+  std::optional<std::string> chosen;
+  const bool open = ImGui::BeginCombo(("##" + widget).c_str(), current.c_str());
+  ui.name(widget);
+  if (!open) return chosen;
+  for (const std::string& side : sides()) {
+    if (ImGui::Selectable(side.c_str(), side == current) && side != current) chosen = side;
+    ui.name(widget + "/" + side);
+  }
+  ImGui::EndCombo();
+  return chosen;
+}
+
+void errorRow(const PanelContext& ui, Requests& requests) {
+  const ErrorMeter& meter = ui.session.watch().meter;
+  labelledRow(ui, "Error meter",
+              "Traces the reference beside the picture, on what the processor has left.");
+  bool on = meter.on();
+  if (ImGui::Checkbox("##meter", &on)) requests.actions.emplace_back("error.meter");
+  ui.name("meter");
+  ImGui::SameLine();
+  ImGui::TextUnformatted(meter.estimate() ? meter.estimate()->text().c_str()
+                         : on             ? "\u2026"
+                                          : "off");
+}
+
+void shownRow(const PanelContext& ui, Requests& requests) {
+  using Shown = SplitView::Shown;
+  const SplitView& split = ui.session.split();
+  struct Choice {
+    const char *label, *widget, *help;
+    std::optional<Shown> shown;  // none: off
+  };
+  static const std::array kChoices = {
+      Choice{"Off", "off", "The picture alone.", {}},
+      Choice{"A | B", "both", "Side by side, with a divider to drag.", Shown::both},
+      Choice{"A", "first", "A alone; Space shows the other.", Shown::first},
+      Choice{"B", "second", "B alone; Space shows the other.", Shown::second},
+      Choice{"Heat", "heat", "How far A is from B, in false colour.", Shown::heat},
+  };
+  labelledRow(ui, "Compare", "The picture with another of the same view.");
+  const float gap = ui.px(3);
+  const float width = std::floor((ImGui::GetContentRegionAvail().x - 4 * gap) / 5);
+  for (const Choice& choice : kChoices) {
+    if (&choice != &kChoices.front()) ImGui::SameLine(0, gap);
+    const bool holds = choice.shown ? split.on() && split.shown() == *choice.shown : !split.on();
+    if (holds) {
+      ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
+      ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
+    }
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(2), ui.px(4)});
+    const bool clicked = ImGui::Button(choice.label, {width, 0});
+    ImGui::PopStyleVar();
+    if (holds) ImGui::PopStyleColor(2);
+    ui.name(std::string("show/") + choice.widget);
+    tooltip(ui, choice.help);
+    if (clicked && !holds) requests.actions.push_back(std::string("split.show ") + choice.widget);
+  }
+}
+
+}  // namespace
+
+void compareSection(const PanelContext& ui, Requests& requests) {
+  if (!section(ui, "Compare", false)) return;
+  errorRow(ui, requests);
+  shownRow(ui, requests);
+  const SplitView& split = ui.session.split();
+  const std::string a = split.on() ? split.first().text : "live";
+  const std::string b = split.on() ? split.second().text : "reference";
+  const auto first = sideCombo(ui, "A, left", "side_a", a);
+  const auto second = sideCombo(ui, "B, right", "side_b", b);
+  if (first || second) {
+    const bool showsHeat = split.on() && split.shown() == SplitView::Shown::heat;
+    requests.actions.push_back("split.on " + first.value_or(a) + " " + second.value_or(b));
+    if (showsHeat) requests.actions.emplace_back("split.show heat");
+  }
+  labelledRow(ui, "Heat map to", "The difference at which the heat map's colours end.");
+  float percent = 100.0f * split.heatScale();
+  if (ImGui::SliderFloat("##heat", &percent, 1.0f, 200.0f, "%.3g %% of the mean",
+                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic)) {
+    char action[48];
+    std::snprintf(action, sizeof action, "split.heat_scale %.5f",
+                  static_cast<double>(percent) / 100.0);
+    requests.actions.emplace_back(action);
+  }
+  ui.name("heat_scale");
+}
+
+}  // namespace lamplighter
