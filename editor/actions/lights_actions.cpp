@@ -28,7 +28,10 @@ LightUnit unitOf(const std::string& name) {
 void edit(Session& s, const Arguments& a, LightOperation operation, const std::string& usage) {
   requireArguments(a, 2, operation == LightOperation::multiply ? 2 : 3, usage);
   const LightProperty property = propertyNamed(a[0]);
-  LightUnit unit = s.lighting().unit;
+  // Without a unit as it is shown: a sun in lux.
+  const LightUnit shown = s.lighting().unit;
+  LightUnit unit =
+      commonValue(s.document().scene, selectedLights(s.document()), property, shown).unitOr(shown);
   if (a.size() == 3) {
     if (property != LightProperty::intensity)
       throw InputError(a[2], "is not needed: " + a[0] + " has one unit alone", "leave it out");

@@ -33,6 +33,8 @@ struct CommonValue {
   double least = 0.0, most = 0.0;
   LightUnit unit = LightUnit::lumens;  // intensity: that of the first
   bool hasMixedUnits = false;          // intensity: some have another
+  // In which an intensity is to be typed: the one that all have, or the one that was asked for.
+  LightUnit unitOr(LightUnit wanted) const { return count > 0 && !hasMixedUnits ? unit : wanted; }
 };
 CommonValue commonValue(const Scene& scene, const std::vector<LightSource>& lights,
                         LightProperty property, LightUnit unit);

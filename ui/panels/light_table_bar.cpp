@@ -102,11 +102,12 @@ class Bar {
     tooltip(ui_, "Type a number, then set it, multiply by it, or add it. Enter sets.");
     if (isIntensity) {
       gap();
-      unitButton();
+      unitCombo(common.unitOr(ui_.session.lighting().unit));
     }
     gap();
     const std::string unit =
-        isIntensity ? std::string(" ") + unitSymbol(ui_.session.lighting().unit) : "";
+        isIntensity ? std::string(" ") + unitSymbol(common.unitOr(ui_.session.lighting().unit))
+                    : "";
     const std::string value = std::string(" ") + info.name + " " + state_.value;
     const bool set = button("set", "Set", "Gives all selected lights this value.");
     gap();
@@ -120,8 +121,7 @@ class Bar {
     if (set || typed || multiply || offset) state_.value.clear();
   }
 
-  void unitButton() {
-    const LightUnit unit = ui_.session.lighting().unit;
+  void unitCombo(LightUnit unit) {
     ImGui::SetNextItemWidth(ui_.px(54));
     const bool open = ImGui::BeginCombo("##unit", unitSymbol(unit));
     ui_.name("unit");
@@ -154,7 +154,8 @@ class Bar {
   void states() {
     const Scene& scene = ui_.session.document().scene;
     const auto all = [&](bool LightState::*flag) {
-      return std::all_of(lights_.begin(), lights_.end(),
+      return !lights_.empty() &&
+             std::all_of(lights_.begin(), lights_.end(),
                          [&](const LightSource& l) { return stateOf(scene, l).*flag; });
     };
     const auto any = [&](bool LightState::*flag) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <map>
 
 #include <imgui.h>
 
@@ -76,6 +77,7 @@ std::string textOf(const LightRow& r, LightColumn column) {
       return r.state.group;
     case LightColumn::share:
       if (f.share <= 0.0) return "\u2013";
+      if (f.share < 0.0005) return "< 0.1%";
       std::snprintf(text, sizeof text, f.share < 0.1 ? "%.1f%%" : "%.0f%%", 100.0 * f.share);
       return text;
     case LightColumn::samples:
@@ -99,6 +101,7 @@ class Table {
  public:
   explicit Table(const PanelContext& ui) : ui_(ui) {
     rows_ = ui.session.lighting().table.rows(ui.session, ui.session.lighting().unit);
+    for (const LightRow& r : rows_) ++named_[r.name];
   }
 
   void draw() {
@@ -183,7 +186,7 @@ class Table {
         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap;
     const std::string name = r.name.empty() ? "(unnamed)" : r.name;
     if (ImGui::Selectable(name.c_str(), r.selected, kFlags)) select(r.source.node);
-    ui_.name(name);
+    ui_.name(widgetOf(r));
     if (!r.visible) tooltip(ui_, "It is hidden: the eye in the outliner shows it.");
   }
 
@@ -193,7 +196,7 @@ class Table {
     const std::string id = std::string("##") + what;
     const bool clicked = ImGui::Checkbox(id.c_str(), &value);
     ImGui::PopStyleVar();
-    ui_.name(r.name + "/" + what);
+    ui_.name(widgetOf(r) + "/" + what);
     if (!clicked) return;
     const std::string label = std::string(value ? "Switch " : "End ") + what;
     const auto apply = [&](LightState& s) { change(s, value); };
@@ -203,6 +206,13 @@ class Table {
       editLightStates(ui_.session, label, apply);
     else
       editLightStates(ui_.session, {r.source.node}, label, apply);
+  }
+
+  // As in the outliner: with the id where others have the name, too.
+  std::string widgetOf(const LightRow& r) const {
+    const std::string name = r.name.empty() ? "(unnamed)" : r.name;
+    return named_.at(r.name) > 1 || r.name.empty() ? name + "#" + std::to_string(r.source.node)
+                                                   : name;
   }
 
   void select(NodeId id) {
@@ -221,6 +231,7 @@ class Table {
 
   const PanelContext& ui_;
   std::vector<LightRow> rows_;
+  std::map<std::string, int> named_;
 };
 
 }  // namespace

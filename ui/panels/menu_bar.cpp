@@ -83,7 +83,8 @@ void menuItem(const PanelContext& ui, const Action& action, Requests& requests) 
     if (!open) return;
     for (const std::string& choice : choices) {
       std::string label = choice;
-      label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+      if (label.size() > 2)  // lm and cd are no words
+        label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
       if (ImGui::MenuItem(label.c_str())) requests.actions.push_back(action.name + " " + choice);
       ui.name(action.name + " " + choice);
     }

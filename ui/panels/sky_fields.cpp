@@ -77,6 +77,18 @@ bool pictureFields(const PanelContext& ui, Sky& sky, InspectorState& state) {
   return changed;
 }
 
+void stateField(const PanelContext& ui) {
+  LightState state = ui.session.document().scene.skyLight;
+  labelledRow(ui, "Shines", "Off gives no light. While any light is solo, only those that are do.");
+  if (ImGui::Checkbox("On", &state.on))
+    ui.session.runAction(state.on ? "sky.on true" : "sky.on false");
+  ui.name("on");
+  ImGui::SameLine(0, ui.px(14));
+  if (ImGui::Checkbox("Solo", &state.solo))
+    ui.session.runAction(state.solo ? "sky.solo true" : "sky.solo false");
+  ui.name("solo");
+}
+
 }  // namespace
 
 void skyFields(PanelContext ui, InspectorState& state) {
@@ -84,6 +96,7 @@ void skyFields(PanelContext ui, InspectorState& state) {
   Sky sky = ui.session.document().scene.sky;
   kindField(ui, sky, state);
   if (!(sky == ui.session.document().scene.sky)) return;  // shown from the next frame on
+  if (!sky.isBlack()) stateField(ui);
   bool changed = false;
   switch (sky.kind) {
     case SkyKind::constant:

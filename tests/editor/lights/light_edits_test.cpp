@@ -91,6 +91,21 @@ TEST_F(LightEdits, TemperaturesKeepBrightness) {
   EXPECT_NEAR(value(point_, LightProperty::temperature), 3000.0, 10.0);
 }
 
+TEST_F(LightEdits, WithoutAUnitTheOneThatIsShown) {
+  session_.runAction("light.add sun");
+  const NodeId sun = session_.document().active();
+  expectOneStep("lights.set intensity 7");  // lux, whatever is shown of others
+  EXPECT_NEAR(value(sun, LightProperty::intensity, LightUnit::lux), 7.0, 1e-3);
+  session_.select({point_, spot_});
+  session_.runAction("lights.unit cd");
+  expectOneStep("lights.set intensity 8");
+  EXPECT_NEAR(value(spot_, LightProperty::intensity, LightUnit::candela), 8.0, 1e-3);
+  session_.select({point_, sun});  // of two units: the one that was chosen, and the sun stays
+  expectOneStep("lights.set intensity 9");
+  EXPECT_NEAR(value(point_, LightProperty::intensity, LightUnit::candela), 9.0, 1e-3);
+  EXPECT_NEAR(value(sun, LightProperty::intensity, LightUnit::lux), 7.0, 1e-3);
+}
+
 TEST_F(LightEdits, OtherProperties) {
   session_.select({light_, spot_});
   expectOneStep("lights.set width 0.5");
