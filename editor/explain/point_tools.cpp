@@ -81,6 +81,10 @@ bool PointTools::pointer(const Subject& s, const ViewportInput& input) {
 
 void PointTools::update(const Subject& s, bool pictureChanged, bool sceneChanged) {
   if (s.renderer.rays() == nullptr) return;
+  if (explainer_.answer() == nullptr && !probesPointer_) {
+    samples_.reset();
+    return;
+  }
   // Samples of the tools' own follow the level alone, not how far the picture is.
   const bool methodHasThem = !s.renderer.inspect().lights.empty();
   const bool outdated = methodHasThem ? pictureChanged || ownSamples_

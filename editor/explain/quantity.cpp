@@ -24,6 +24,7 @@ std::string offsetText(const vec3& d) {
 std::string percentText(float share) {
   const float percent = 100.0f * share;
   if (percent == 0.0f) return "0%";
+  if (percent < 0.05f) return "<0.1%";
   return percent < 0.95f ? fmt::format("{:.1g}%", percent) : fmt::format("{:.0f}%", percent);
 }
 

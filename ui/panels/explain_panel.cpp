@@ -11,7 +11,8 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kWidth = 540.0f, kMostRows = 9.0f;  // design pixels; rows without scrolling
+constexpr float kWidth = 540.0f, kLeastWidth = 430.0f,
+                kMostRows = 9.0f;  // design pixels; rows without scrolling
 
 unsigned colourOf(LightArrival state) {
   switch (state) {
@@ -143,11 +144,13 @@ void explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
   if (answer == nullptr) return;
   ui.prefix = "explain/";
   const float gap = ui.px(10);
-  const float width = std::min(ui.px(kWidth), view.size().x - 2.0f * gap);
+  // Rather over the panels beside a very narrow view than without room for its columns.
+  const float width =
+      std::max(std::min(ui.px(kWidth), view.size().x - 2.0f * gap), ui.px(kLeastWidth));
   const float rowHeight = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
   const float rows = std::min(static_cast<float>(answer->lights.size()), kMostRows) + 1.0f;
   const float tableHeight = std::ceil(rows * (rowHeight + ui.px(1)) + ui.px(4));
-  ImGui::SetNextWindowPos({view.max.x - gap - width, view.min.y + gap});
+  ImGui::SetNextWindowPos({std::max(view.max.x - gap - width, 0.0f), view.min.y + gap});
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);

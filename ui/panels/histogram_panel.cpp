@@ -11,7 +11,8 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kWidth = 330.0f, kHeight = 92.0f;  // design pixels; of the bars
+constexpr float kWidth = 330.0f, kLeastWidth = 280.0f,
+                kHeight = 92.0f;  // design pixels; of the bars
 
 float atStops(const Rect& area, float stops) {
   const float t = (stops - Histogram::kLowest) / (Histogram::kHighest - Histogram::kLowest);
@@ -96,7 +97,8 @@ void histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
   if (!session.display().showsHistogram() || !session.output().radiance) return;
   ui.prefix = "histogram/";
   const float gap = ui.px(10);
-  const float width = std::min(ui.px(kWidth), view.size().x - 2.0f * gap);
+  const float width =
+      std::max(std::min(ui.px(kWidth), view.size().x - 2.0f * gap), ui.px(kLeastWidth));
   ImGui::SetNextWindowPos({view.max.x - gap, view.max.y - gap}, ImGuiCond_Always, {1.0f, 1.0f});
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
