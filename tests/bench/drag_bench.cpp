@@ -1,5 +1,6 @@
 // Dragging: a light or an object moves by a few centimetres in every frame, as under a hand, with
-// the budgets that the editor's window has by default; then it is let go.
+// the budgets that the editor's window has by default, or with 100 updates a frame whatever they
+// cost; then it is let go.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -29,6 +30,8 @@ struct Case {
   const char* node;
   const char* technique;
   const char* backend;
+  int width = 640, height = 360;
+  bool byTime = true;  // else 100 updates a frame
 };
 
 std::unique_ptr<Backend> backendOf(const std::string& name) {
@@ -43,7 +46,7 @@ void drag(benchmark::State& state, const Case& c) {
   View view;
   Node* dragged = nullptr;
   for (Node& node : scene.nodes) {
-    if (node.camera != kNone) view = viewOfCamera(scene, node, 640, 360);
+    if (node.camera != kNone) view = viewOfCamera(scene, node, c.width, c.height);
     if (node.name == c.node) dragged = &node;
   }
   Settings settings;
@@ -55,8 +58,8 @@ void drag(benchmark::State& state, const Case& c) {
   const double milliseconds = settings.real(parameters::frameTime());
   const auto frame = [&](const SceneChanges& changes) {
     Settings now = settings;
-    now.set(parameters::updates().name, std::min(settings.integer(parameters::updates()),
-                                                 control.vplsWithin(1e-3 * milliseconds)));
+    const int fit = c.byTime ? control.vplsWithin(1e-3 * milliseconds) : 100;
+    now.set(parameters::updates().name, std::min(settings.integer(parameters::updates()), fit));
     GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
     control.measured(out.stats);
     return out;
@@ -101,6 +104,13 @@ void drag(benchmark::State& state, const Case& c) {
   }
 }
 
+void add(const std::string& name, const Case& c) {
+  benchmark::RegisterBenchmark(name.c_str(), drag, c)
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(40)
+      ->UseRealTime();
+}
+
 [[maybe_unused]] const bool kRegistered = [] {
   for (const char* backend : {"cpu", "gl"}) {
     for (const char* technique : {"naive", "visibility", "light_maps"}) {
@@ -109,12 +119,15 @@ void drag(benchmark::State& state, const Case& c) {
         const Case c{scene, node, technique, backend};
         const std::string name =
             std::string("drag/") + scene + "/" + node + "/" + technique + "/" + backend;
-        benchmark::RegisterBenchmark(name.c_str(), drag, c)
-            ->Unit(benchmark::kMillisecond)
-            ->Iterations(40)
-            ->UseRealTime();
+        add(name, c);
       }
     }
+  }
+  for (const auto& [width, height] : {std::pair(640, 360), std::pair(1024, 768)}) {
+    const Case c{"pillar_room", "ceiling light", "light_maps", "cpu", width, height, false};
+    add("drag_100/pillar_room/ceiling light/" + std::to_string(width) + "x" +
+            std::to_string(height) + "/cpu",
+        c);
   }
   return true;
 }();

@@ -28,8 +28,9 @@ std::vector<std::string> viewActions() {
   names.emplace_back(kEngineMenu);
   add(true);
   names.insert(names.end(), {"<", "-", "view.false_colour_unit", "view.false_colour_range", "-",
-                             "view.vpls", "view.probe", "view.histogram", "view.tone_mapper",
-                             "-", "split.on", "split.toggle", "split.heat", "split.off"});
+                             "view.vpls", "view.probe", "view.histogram", "view.tone_mapper", "-",
+                             ">Compare", "split.on", "split.toggle", "split.heat", "split.off",
+                             "<"});
   return names;
 }
 
@@ -73,6 +74,14 @@ bool standsAlone(const Action& action) {
   return action.usage.empty() || action.usage.front() == '[';
 }
 
+// The application asks for what some need; arguments of others are typed in the palette, unless
+// they are a choice, which is a menu.
+bool isTyped(const Action& action) {
+  const bool asks =
+      action.name == "file.open" || action.name == "file.save_as" || action.name == "edit.rename";
+  return !standsAlone(action) && !asks && choicesOf(action.usage).empty();
+}
+
 void menuItem(const PanelContext& ui, const Action& action, Requests& requests) {
   const bool enabled = !action.enabled || action.enabled(ui.session);
   const char* shortcut = action.shortcut.empty() ? nullptr : action.shortcut.c_str();
@@ -91,14 +100,10 @@ void menuItem(const PanelContext& ui, const Action& action, Requests& requests) 
     ImGui::EndMenu();
     return;
   }
-  // The application asks for what these need; arguments of others are typed in the palette.
-  const bool asks =
-      action.name == "file.open" || action.name == "file.save_as" || action.name == "edit.rename";
-  const bool isTyped = !standsAlone(action) && !asks;
   const bool checked = action.checked && action.checked(ui.session);
-  const std::string label = action.label + (isTyped ? "\u2026" : "");
+  const std::string label = action.label + (isTyped(action) ? "\u2026" : "");
   if (ImGui::MenuItem(label.c_str(), shortcut, checked, enabled)) {
-    if (isTyped)
+    if (isTyped(action))
       requests.palette = action.name + " ";
     else
       requests.actions.push_back(action.name);
@@ -148,8 +153,19 @@ void drawMenu(const PanelContext& ui, const Menu& menu, Requests& requests) {
     any = true;
     menuItem(ui, *action, requests);
   }
+  // Those whose arguments are typed have a menu of their own: no menu may be taller than a window.
+  const auto typed =
+      std::stable_partition(rest.begin(), rest.end(), [](const Action* a) { return !isTyped(*a); });
   if (any && !rest.empty()) ImGui::Separator();
-  for (const Action* action : rest) menuItem(ui, *action, requests);
+  for (auto a = rest.begin(); a != typed; ++a) menuItem(ui, **a, requests);
+  if (typed != rest.end()) {
+    const bool isOpen = ImGui::BeginMenu("More");
+    ui.name(std::string("More ") + menu.title);
+    if (isOpen) {
+      for (auto a = typed; a != rest.end(); ++a) menuItem(ui, **a, requests);
+      ImGui::EndMenu();
+    }
+  }
   ImGui::EndMenu();
 }
 
