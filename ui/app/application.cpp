@@ -204,8 +204,8 @@ void Application::drawPanels(PanelContext ui) {
     lightTable(ui, lightTableState_, requests_);
     ImGui::End();
   }
-  explainPanel(ui, layout_.view, requests_);
-  histogramPanel(ui, layout_.view, requests_);
+  viewport_.setCovered(
+      {explainPanel(ui, layout_.view, requests_), histogramPanel(ui, layout_.view, requests_)});
   layout_.splitters(ui);
   // At once, so that this frame shows what they do.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
@@ -363,9 +363,11 @@ void Application::answerRequests() {
     }
   }
   if (session_->quitRequested() || platform_.closeRequested()) {
+    // A replay asks as the editor did, but its window can always be closed.
+    const bool endsReplay = replaying_ && platform_.closeRequested();
     session_->requestQuit(false);
     platform_.refuseClose();
-    if (replaying_ || !session_->modified()) {
+    if (endsReplay || !session_->modified()) {
       finished_ = true;
     } else if (pending_ == Pending::none) {
       pending_ = Pending::quit;

@@ -16,6 +16,7 @@
 #include "ui/app/picture_check.h"
 #include "ui/app/run.h"
 #include "ui/platform/headless.h"
+#include "ui/platform/ui_scale.h"
 #include "ui/platform/window.h"
 
 namespace lamplighter {
@@ -195,8 +196,9 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   const auto renderer = [&] {
     return std::make_unique<FrameRenderer>(makeBackend(backend, stopwatch), stopwatch);
   };
+  const std::optional<float> scale = askedUiScale();
   if (!options.headless) {
-    Window window(header.width, header.height, "Lamplighter: replay", Window::Kind::fixed);
+    Window window(header.width, header.height, "Lamplighter: replay", Window::Kind::fixed, scale);
     return replay.run(window, renderer);
   }
   // OpenGL is needed only by the gl backend and for pictures of the panels.
@@ -207,7 +209,7 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   } catch (const InputError&) {
     if (backend == "gl") throw;
   }
-  Headless headless(header.width, header.height, context != nullptr);
+  Headless headless(header.width, header.height, context != nullptr, scale.value_or(1.0f));
   return replay.run(headless, renderer);
 }
 

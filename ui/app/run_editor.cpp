@@ -8,6 +8,7 @@
 #include "ui/app/backends.h"
 #include "ui/app/run.h"
 #include "ui/panels/panels.h"
+#include "ui/platform/ui_scale.h"
 #include "ui/platform/window.h"
 
 namespace lamplighter {
@@ -63,7 +64,8 @@ int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
   const bool recording = !options.record.empty();
   // A recording must mean the same in another window, so its window has one size and one scale.
   Window window(kWidth, kHeight, "Lamplighter",
-                recording ? Window::Kind::fixed : Window::Kind::resizable);
+                recording ? Window::Kind::fixed : Window::Kind::resizable,
+                recording ? std::nullopt : askedUiScale());
   showPreparing(window);
   const auto makeRenderer = [&] {
     return std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);

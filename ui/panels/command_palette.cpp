@@ -144,6 +144,7 @@ std::string CommandPalette::draw(PanelContext ui) {
       ImGui::CloseCurrentPopup();
     }
   }
+  if (pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   return out;
 }

@@ -5,6 +5,7 @@
 
 #include "renderer/methods/gi_method.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/value_slider.h"
 #include "ui/theme.h"
 
 namespace lamplighter {
@@ -106,8 +107,8 @@ void compareSection(const PanelContext& ui, Requests& requests) {
   }
   labelledRow(ui, "Heat map to", "The difference at which the heat map's colours end.");
   float percent = 100.0f * split.heatScale();
-  if (ImGui::SliderFloat("##heat", &percent, 1.0f, 200.0f, "%.3g %% of the mean",
-                         ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic)) {
+  if (valueSlider("##heat", percent, 1.0f, 200.0f, "%.3g %% of the mean",
+                  ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic)) {
     char action[48];
     std::snprintf(action, sizeof action, "split.heat_scale %.5f",
                   static_cast<double>(percent) / 100.0);

@@ -114,9 +114,11 @@ void lightRow(const PanelContext& ui, const Explanation& e, int row, bool chosen
   ImGui::TableNextColumn();
   coloured(stateText(l), colourOf(l.state));
   ImGui::TableNextColumn();
-  number(l.direct > 0.0f ? threeDigits(l.direct) : "-", gives ? theme::kText : theme::kTextDim);
+  number(l.direct > 0.0f ? threeDigits(l.direct) : "\u2013",
+         gives ? theme::kText : theme::kTextDim);
   ImGui::TableNextColumn();
-  number(l.bounced > 0.0f ? threeDigits(l.bounced) : "-", gives ? theme::kText : theme::kTextDim);
+  number(l.bounced > 0.0f ? threeDigits(l.bounced) : "\u2013",
+         gives ? theme::kText : theme::kTextDim);
   ImGui::TableNextColumn();
   number(percentText(e.shareOf(l)), gives ? theme::kText : theme::kTextDim);
   ImGui::TableNextColumn();
@@ -139,9 +141,9 @@ void columns(const PanelContext& ui) {
 
 }  // namespace
 
-void explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
+Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
   const Explanation* answer = ui.session.points().explainer().answer();
-  if (answer == nullptr) return;
+  if (answer == nullptr) return {};
   ui.prefix = "explain/";
   const float gap = ui.px(10);
   // Rather over the panels beside a very narrow view than without room for its columns.
@@ -171,7 +173,9 @@ void explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
       lightRow(ui, *answer, row, chosen == &answer->lights[static_cast<size_t>(row)], requests);
     ImGui::EndTable();
   }
+  const Rect covered = windowRect();
   ImGui::End();
+  return covered;
 }
 
 }  // namespace lamplighter

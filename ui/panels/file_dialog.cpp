@@ -85,7 +85,7 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
   std::optional<fs::path> chosen;
-  if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
+  if (!beginBorderedModal(title, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove))
     return chosen;
 
   if (ImGui::Button("Up")) {
@@ -95,7 +95,9 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   ui.name("up");
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted(folder_.string().c_str());
+  const std::string folder = folder_.string();
+  ImGui::TextUnformatted(endOf(folder, ImGui::GetContentRegionAvail().x).c_str());
+  tooltip(ui, folder);
   const float below = 2 * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
   ImGui::PushStyleColor(ImGuiCol_ChildBg, theme::colour(theme::kPanel));
   ImGui::BeginChild("entries", {0, -below}, true);

@@ -92,9 +92,9 @@ void mapperCombo(const PanelContext& ui, Requests& requests) {
 
 }  // namespace
 
-void histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
+Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
   Session& session = ui.session;
-  if (!session.display().showsHistogram() || !session.output().radiance) return;
+  if (!session.display().showsHistogram() || !session.output().radiance) return {};
   ui.prefix = "histogram/";
   const float gap = ui.px(10);
   const float width =
@@ -115,7 +115,9 @@ void histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
   ui.name("clipped");
   exposureField(ui, requests);
   mapperCombo(ui, requests);
+  const Rect covered = windowRect();
   ImGui::End();
+  return covered;
 }
 
 }  // namespace lamplighter

@@ -72,6 +72,7 @@ void inspector(PanelContext ui, InspectorState& state) {
   const Node* found = document.scene.find(document.active());
   if (!found) {
     note("Nothing is selected. Click an object in the view or in the list.");
+    ImGui::Spacing();
     if (section(ui, "Sky")) skyFields(ui, state);
     return;
   }

@@ -129,14 +129,37 @@ class Table {
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     for (size_t i = 0; i < kColumns.size(); ++i) {
       if (!ImGui::TableSetColumnIndex(static_cast<int>(i))) continue;
-      // ImGui would cut the label for the sake of an arrow that is not there yet.
-      ImGui::TableHeader((std::string("##") + kColumns[i].name).c_str());
-      const ImVec2 at = ImGui::GetItemRectMin();
-      ImGui::GetWindowDrawList()->AddText({at.x + ui_.px(4), at.y + ui_.px(2)},
-                                          ImGui::GetColorU32(ImGuiCol_Text), kColumns[i].label);
-      ui_.name(std::string("header/") + kColumns[i].name);
-      tooltip(ui_, kColumns[i].help);
+      heading(kColumns[i]);
     }
+  }
+
+  // ImGui would cut the label for the sake of its arrow, and stands it flush left over figures.
+  void heading(const ColumnInfo& c) {
+    const float room = ImGui::GetContentRegionAvail().x, left = ImGui::GetCursorScreenPos().x;
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(0, 0));
+    ImGui::TableHeader((std::string("##") + c.name).c_str());
+    ImGui::PopStyleColor();
+    ui_.name(std::string("header/") + c.name);
+    const std::string help = c.help;
+    tooltip(ui_, help + (help.empty() ? "" : " ") + "A click sorts by it.");
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const float width = ImGui::CalcTextSize(c.label).x;
+    const float x = c.isNumber && width < room ? left + room - width : left;
+    const bool isSorted = (ImGui::TableGetColumnFlags() & ImGuiTableColumnFlags_IsSorted) != 0;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddText({x, low.y + ui_.px(2)}, theme::colour(isSorted ? theme::kAccent : theme::kTextDim),
+                 c.label);
+    if (isSorted) sortMark(list, 0.5f * (low.x + high.x), low.y, high.y);
+  }
+
+  // At the edge that the largest stand at.
+  void sortMark(ImDrawList& list, float x, float top, float bottom) const {
+    const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
+    if (specs == nullptr || specs->SpecsCount == 0) return;
+    const bool rises = specs->Specs[0].SortDirection == ImGuiSortDirection_Ascending;
+    const float edge = rises ? bottom : top, tip = edge + (rises ? -1.0f : 1.0f) * ui_.px(4);
+    list.AddTriangleFilled({x - ui_.px(5), edge}, {x + ui_.px(5), edge}, {x, tip},
+                           theme::colour(theme::kAccent));
   }
 
   void sort() {

@@ -16,7 +16,7 @@ struct Menu {
   std::vector<std::string> first;
 };
 
-constexpr const char* kEngineMenu = ">Engine";
+constexpr const char *kEngineMenu = ">Engine", *kSplitMenu = ">Compare";
 
 std::vector<std::string> viewActions() {
   std::vector<std::string> names;
@@ -27,10 +27,32 @@ std::vector<std::string> viewActions() {
   add(false);
   names.emplace_back(kEngineMenu);
   add(true);
-  names.insert(names.end(), {"<", "-", "view.false_colour_unit", "view.false_colour_range", "-",
-                             "view.vpls", "view.probe", "view.histogram", "view.tone_mapper", "-",
-                             ">Compare", "split.on", "split.toggle", "split.heat", "split.off",
-                             "<"});
+  names.insert(names.end(), {"view.choose_light",
+                             "view.choose_vpl",
+                             "<",
+                             "-",
+                             "view.false_colour_unit",
+                             "view.false_colour_range",
+                             "-",
+                             "view.vpls",
+                             "view.probe",
+                             "view.histogram",
+                             "view.tone_mapper",
+                             "-",
+                             "split.on",
+                             kSplitMenu,
+                             "split.show",
+                             "split.toggle",
+                             "split.heat",
+                             "split.heat_scale",
+                             "split.position",
+                             "split.off",
+                             "<",
+                             "-",
+                             "view.frame_all",
+                             "view.frame_selection",
+                             "view.camera",
+                             "view.work_light"});
   return names;
 }
 
@@ -166,6 +188,7 @@ void drawMenu(const PanelContext& ui, const Menu& menu, Requests& requests) {
       ImGui::EndMenu();
     }
   }
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
   ImGui::EndMenu();
 }
 

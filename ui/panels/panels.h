@@ -58,12 +58,12 @@ void timelineSection(const PanelContext& ui, TimelineState& state, Requests& req
 void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group);
 
 // How often each brightness is in the picture, with exposure and tone mapper: a window in the lower
-// right corner of `view`, while it is asked for.
-void histogramPanel(PanelContext ui, const Rect& view, Requests& requests);
+// right corner of `view`, while it is asked for. What it covers.
+Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests);
 
 // Why the point that was clicked is as dark as it is; a window in the upper right corner of `view`,
-// while there is such a point.
-void explainPanel(PanelContext ui, const Rect& view, Requests& requests);
+// while there is such a point. What it covers.
+Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests);
 
 struct StatusInfo {
   double frameSeconds = 0.0;  // smoothed

@@ -3,6 +3,7 @@
 #include "editor/budgets/budget_costs.h"
 #include "renderer/methods/gi_method.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/value_slider.h"
 #include "ui/theme.h"
 
 namespace lamplighter {
@@ -38,8 +39,8 @@ std::optional<ParameterValue> parameterField(const PanelContext& ui, const Param
   if (std::holds_alternative<int>(spec.defaultValue)) {
     int value = settings.integer(spec);
     const auto low = static_cast<int>(spec.minimum), high = static_cast<int>(spec.maximum);
-    const bool changed = ImGui::SliderInt(id.c_str(), &value, low, high,
-                                          formatOf(spec, "%d").c_str(), sliderFlags(spec));
+    const bool changed =
+        valueSlider(id.c_str(), value, low, high, formatOf(spec, "%d").c_str(), sliderFlags(spec));
     ui.name(spec.name);
     trackEdit(ui, step);
     return changed ? std::optional<ParameterValue>(std::clamp(value, low, high)) : std::nullopt;
@@ -47,8 +48,8 @@ std::optional<ParameterValue> parameterField(const PanelContext& ui, const Param
   if (std::holds_alternative<float>(spec.defaultValue)) {
     float value = settings.real(spec);
     const auto low = static_cast<float>(spec.minimum), high = static_cast<float>(spec.maximum);
-    const bool changed = ImGui::SliderFloat(id.c_str(), &value, low, high,
-                                            formatOf(spec, "%.3g").c_str(), sliderFlags(spec));
+    const bool changed = valueSlider(id.c_str(), value, low, high, formatOf(spec, "%.3g").c_str(),
+                                     sliderFlags(spec));
     ui.name(spec.name);
     trackEdit(ui, step);
     return changed ? std::optional<ParameterValue>(std::clamp(value, low, high)) : std::nullopt;
@@ -85,7 +86,8 @@ void costLine(const PanelContext& ui, const ParameterSpec& spec, const Settings&
   if (!cost) return;
   const float start = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
   const float width = ImGui::CalcTextSize(cost->measured.c_str()).x;
-  ImGui::SetCursorPosX(start + std::clamp(room - width, 0.0f, labelWidth(ui)));
+  // Flush with the field: some are too long to begin where it does.
+  ImGui::SetCursorPosX(start + std::max(room - width, 0.0f));
   // One line whatever it says, so that nothing below moves with what was measured.
   ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
   ImGui::TextUnformatted(cost->measured.c_str());

@@ -3,6 +3,7 @@
 #include "editor/presets/presets.h"
 #include "renderer/methods/gi_method.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/value_slider.h"
 #include "ui/theme.h"
 
 namespace lamplighter {
@@ -61,8 +62,7 @@ void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
 
   labelledRow(ui, "Exposure", "Doubles the picture's brightness a step.");
   RenderSettings render = ui.session.document().render;
-  const bool exposed =
-      ImGui::SliderFloat("##exposure", &render.exposureEv, -16.0f, 16.0f, "%+.2f EV");
+  const bool exposed = valueSlider("##exposure", render.exposureEv, -16.0f, 16.0f, "%+.2f EV");
   ui.name("exposure");
   trackEdit(ui, "Change exposure");
   if (exposed) ui.session.setRender(render);

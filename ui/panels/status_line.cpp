@@ -1,5 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <string_view>
+#include <vector>
+
+// For text that ends in an ellipsis, which imgui.h of 1.86 does not have.
+#include <imgui_internal.h>
 
 #include "ui/icons.h"
 #include "ui/panels/panels.h"
@@ -8,14 +14,40 @@
 namespace lamplighter {
 namespace {
 
-void part(const PanelContext& ui, const char* widget, const std::string& text, unsigned colour,
-          const std::string& help) {
-  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(colour));
-  ImGui::TextUnformatted(text.c_str());
+struct Part {
+  const char* widget;
+  std::string text;
+  unsigned colour;
+  std::string help;
+};
+using Parts = std::vector<Part>;
+
+// What gives way first where there is no room for all; what is not named here stays.
+constexpr std::array kGiveWay = {"backend", "passes",  "interpolated", "transfers", "latency",
+                                 "samples", "pending", "error",        "vpls",      "time"};
+constexpr float kGap = 18.0f;  // design pixels between two parts
+
+float widthOf(const PanelContext& ui, const Parts& parts) {
+  float width = 0.0f;
+  for (const Part& p : parts) width += ImGui::CalcTextSize(p.text.c_str()).x + ui.px(kGap);
+  return width;
+}
+
+// Leaves out what there is no room for, the least important first.
+void fit(const PanelContext& ui, Parts& parts, float room) {
+  for (const std::string_view name : kGiveWay) {
+    if (widthOf(ui, parts) <= room) return;
+    std::erase_if(parts, [&](const Part& p) { return p.widget == name; });
+  }
+}
+
+void draw(const PanelContext& ui, const Part& p) {
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(p.colour));
+  ImGui::TextUnformatted(p.text.c_str());
   ImGui::PopStyleColor();
-  ui.name(widget);
-  tooltip(ui, help);
-  ImGui::SameLine(0, ui.px(18));
+  ui.name(p.widget);
+  tooltip(ui, p.help);
+  ImGui::SameLine(0, ui.px(kGap));
 }
 
 std::string frameTime(double seconds) {
@@ -50,103 +82,127 @@ std::string latencyShort(const LatencyResult& result) {
 
 std::string frames(int count) { return grouped(count) + (count == 1 ? " frame" : " frames"); }
 
-}  // namespace
-
-void statusLine(PanelContext ui, const StatusInfo& info) {
-  ui.prefix = "status/";
+// All that there is to tell of the picture, in the order in which it is shown.
+Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
+  Parts parts;
   const GiOutput& output = ui.session.output();
   const GiStats& stats = output.stats;
-  ImGui::AlignTextToFramePadding();
   if (output.settled && !output.refined) {
-    part(ui, "settled",
+    parts.push_back(
+        {"settled",
          withIcon(icon::kSettled, "refining, " + grouped(stats.vplsRefined) + " of " +
                                       grouped(stats.vplsToRefine) + " VPLs"),
          theme::kGood,
          "The picture is what the scene asks for. While nothing changes it becomes better: the "
-         "mean of more and more light samples.");
+         "mean of more and more light samples."});
   } else if (output.settled) {
-    part(ui, "settled", withIcon(icon::kSettled, "settled"), theme::kGood,
-         "The picture is what the scene asks for; another frame would change nothing.");
+    parts.push_back(
+        {"settled", withIcon(icon::kSettled, "settled"), theme::kGood,
+         "The picture is what the scene asks for; another frame would change nothing."});
   } else {
     const std::string text = stats.framesUntilSettled > 0
                                  ? "settled in " + frames(stats.framesUntilSettled)
                                  : "updating";
-    part(ui, "settled", withIcon(icon::kUpdating, text), theme::kAccent,
+    parts.push_back(
+        {"settled", withIcon(icon::kUpdating, text), theme::kAccent,
          "Frames until the picture is what the scene asks for, at the pace of this one: first all "
-         "light samples, then smooth edges.");
+         "light samples, then smooth edges."});
   }
-  part(ui, "time", frameTime(info.frameSeconds), theme::kText,
-       "Time a frame, averaged over the last ones.");
+  parts.push_back({"time", frameTime(info.frameSeconds), theme::kText,
+                   "Time a frame, averaged over the last ones."});
   if (stats.vpls > 0) {
-    part(ui, "vpls", grouped(stats.vpls) + " VPLs", theme::kText,
-         "Light samples (virtual point lights) that light the picture.");
+    parts.push_back({"vpls", grouped(stats.vpls) + " VPLs", theme::kText,
+                     "Light samples (virtual point lights) that light the picture."});
     std::string pending = grouped(stats.vplsPending) + " pending";
     if (stats.vplsPending > 0) pending += ", oldest " + frames(stats.oldestFrames);
-    part(ui, "pending", pending, stats.vplsPending > 0 ? theme::kAccent : theme::kTextDim,
-         "Light samples that wait to be brought up to date, and for how long the oldest has.");
+    parts.push_back(
+        {"pending", pending, stats.vplsPending > 0 ? theme::kAccent : theme::kTextDim,
+         "Light samples that wait to be brought up to date, and for how long the oldest has."});
   }
   if (stats.transfersPending > 0)
-    part(
-        ui, "transfers",
-        grouped(stats.transfersPending) +
-            (stats.transfersPending == 1 ? " transfer, " : " transfers, ") +
-            std::to_string(static_cast<int>(100.0f * stats.transferShare)) + "%",
-        theme::kAccent,
-        "Complex meshes whose light transfer is being computed, and how far that of the first is.");
+    parts.push_back({"transfers",
+                     grouped(stats.transfersPending) +
+                         (stats.transfersPending == 1 ? " transfer, " : " transfers, ") +
+                         std::to_string(static_cast<int>(100.0f * stats.transferShare)) + "%",
+                     theme::kAccent,
+                     "Complex meshes whose light transfer is being computed, and how far that of "
+                     "the first is."});
   if (stats.mergedPasses > 0)
-    part(ui, "passes",
+    parts.push_back(
+        {"passes",
          grouped(stats.mergedPasses) + (stats.mergedPasses == 1 ? " pass, " : " passes, ") +
              grouped(stats.passesSaved) + " saved",
          theme::kText,
          "Draws for light samples that need their shadow maps, and how many more they would be "
-         "object by object.");
+         "object by object."});
   if (stats.interpolatedShare > 0.0f)
-    part(ui, "interpolated",
+    parts.push_back(
+        {"interpolated",
          std::to_string(static_cast<int>(100.0f * stats.interpolatedShare)) + "% interpolated",
-         theme::kText, "Pixels whose light is taken from the samples about them.");
+         theme::kText, "Pixels whose light is taken from the samples about them."});
   if (stats.samplesPerPixel > 1)
-    part(ui, "samples", grouped(stats.samplesPerPixel) + " samples a pixel", theme::kText,
-         "Paths traced for each pixel so far.");
+    parts.push_back({"samples", grouped(stats.samplesPerPixel) + " samples a pixel", theme::kText,
+                     "Paths traced for each pixel so far."});
   const FrameWatch& watch = ui.session.watch();
   if (const std::string error = watch.meter.text(); !error.empty())
-    part(ui, "error", error,
+    parts.push_back(
+        {"error", error,
          watch.meter.estimate() && watch.meter.estimate()->isKnown ? theme::kText : theme::kTextDim,
-         errorHelp(watch.meter));
+         errorHelp(watch.meter)});
   if (!watch.latency.results().empty())
-    part(ui, "latency", latencyShort(watch.latency.results().back()), theme::kText,
+    parts.push_back(
+        {"latency", latencyShort(watch.latency.results().back()), theme::kText,
          "How soon the last edit was seen: " + watch.latency.results().back().what + ": " +
              latencyText(watch.latency.results().back(), true) +
-             ". So many percent of the way from the picture before it to the settled one.");
+             ". So many percent of the way from the picture before it to the settled one."});
   const BackendInfo& backend = ui.session.renderer().backend().info();
-  part(ui, "backend", backend.name, theme::kTextDim, backend.name + ": " + backend.device);
-  if (info.recording) part(ui, "recording", "recording", 0xe06a5a, "Input is being recorded.");
+  parts.push_back({"backend", backend.name, theme::kTextDim, backend.name + ": " + backend.device});
+  if (info.recording)
+    parts.push_back({"recording", "recording", 0xe06a5a, "Input is being recorded."});
   if (info.replaying)
-    part(ui, "replaying", "replaying", theme::kAccent, "Input is from a recording.");
+    parts.push_back({"replaying", "replaying", theme::kAccent, "Input is from a recording."});
 
   const ViewDisplay& display = ui.session.display();
   if (const std::string view = display.viewText(); !view.empty()) {
     const bool isProblem = display.picture() && !display.picture()->problem.empty();
-    part(ui, "view", view, isProblem ? theme::kWarning : theme::kText, infoOf(display.view()).help);
+    parts.push_back(
+        {"view", view, isProblem ? theme::kWarning : theme::kText, infoOf(display.view()).help});
   }
   const std::string vpl = display.vplText(ui.session.document().scene, ui.session.inspect());
-  if (!vpl.empty()) part(ui, "vpl", vpl, theme::kText, "The chosen light sample.");
+  if (!vpl.empty()) parts.push_back({"vpl", vpl, theme::kText, "The chosen light sample."});
 
   if (const auto& reading = ui.session.points().reading();
       reading && ui.session.points().probesPointer())
-    part(ui, "probe", readingText(*reading), theme::kText,
+    parts.push_back(
+        {"probe", readingText(*reading), theme::kText,
          "Under the pointer: the light that falls on the surface (lx), and what comes from it to "
-         "the camera (nt = cd/m\u00b2).");
+         "the camera (nt = cd/m\u00b2)."});
+  return parts;
+}
+
+}  // namespace
+
+void statusLine(PanelContext ui, const StatusInfo& info) {
+  ui.prefix = "status/";
+  ImGui::AlignTextToFramePadding();
+  const std::string& status = ui.session.status();
+  Parts parts = partsOf(ui, info);
+  // A message keeps a third of the line, or what it needs of that.
+  const float whole = ImGui::GetContentRegionAvail().x;
+  fit(ui, parts, whole - std::min(ImGui::CalcTextSize(status.c_str()).x, whole / 3.0f));
+  for (const Part& p : parts) draw(ui, p);
 
   // What there is to tell stands at the end, so that what stands before does not move.
-  const std::string& status = ui.session.status();
   if (status.empty()) return;
   const float room = ImGui::GetContentRegionAvail().x;
   const float width = ImGui::CalcTextSize(status.c_str()).x;
   if (width < room) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImGui::PushClipRect(at, {at.x + room, at.y + ImGui::GetFrameHeight()}, true);
-  ImGui::TextUnformatted(status.c_str());
-  ImGui::PopClipRect();
+  ImVec2 at = ImGui::GetCursorScreenPos();
+  at.y += ImGui::GetStyle().FramePadding.y;  // as the parts stand
+  const ImVec2 end{at.x + std::min(width, room), at.y + ImGui::GetTextLineHeight()};
+  ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, end, end.x, end.x, status.c_str(),
+                            status.c_str() + status.size(), nullptr);
+  ImGui::Dummy({end.x - at.x, end.y - at.y});
   ui.name("message");
   tooltip(ui, status);
 }

@@ -1,4 +1,7 @@
-#include <array>
+// The tools, as buttons in one row. Where there is no room for all labels, those of what is known
+// by its icon go first; what has no room even so is in a menu at the end.
+#include <functional>
+#include <vector>
 
 #include "ui/icons.h"
 #include "ui/panels/panels.h"
@@ -7,50 +10,138 @@
 namespace lamplighter {
 namespace {
 
-bool button(const PanelContext& ui, const char* widget, const char* icon, const char* label,
-            bool on, bool enabled, const std::string& help) {
-  if (on) {
-    ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
-    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
-  }
-  ImGui::BeginDisabled(!enabled);
-  const bool clicked = ImGui::Button(withIcon(icon, label).c_str());
-  ImGui::EndDisabled();
-  if (on) ImGui::PopStyleColor(2);
-  ui.name(widget);
-  tooltip(ui, help);
-  return clicked;
+constexpr float kSpacing = 4.0f, kGroupGap = 9.0f;  // design pixels
+
+struct Item {
+  std::string widget;
+  const char *icon, *label;
+  std::string help;
+  std::function<void()> run;
+  bool on = false, enabled = true;
+  bool beginsGroup = false;  // a line stands before it
+  int keepsLabel = 0;        // which of the steps below takes its label
+};
+using Items = std::vector<Item>;
+
+// How many labels are left out: none; of what tells of the picture; of lights and undo; all.
+constexpr int kSteps = 4;
+
+bool showsLabel(const Item& item, int step) {
+  return !theme::hasIcons() || step <= item.keepsLabel;
 }
 
-void gap(const PanelContext& ui) {
-  ImGui::SameLine(0, ui.px(9));
+std::string textOf(const Item& item, int step) {
+  return withIcon(item.icon, showsLabel(item, step) ? item.label : "");
+}
+
+float widthOf(const PanelContext& ui, const Item& item, int step) {
+  const float before = item.beginsGroup ? 2 * ui.px(kGroupGap) + ui.px(1) : ui.px(kSpacing);
+  return before + ImGui::CalcTextSize(textOf(item, step).c_str()).x +
+         2 * ImGui::GetStyle().FramePadding.x;
+}
+
+void line(const PanelContext& ui) {
+  ImGui::SameLine(0, ui.px(kGroupGap));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetFrameHeight();
   ImGui::GetWindowDrawList()->AddLine({at.x, at.y + ui.px(3)}, {at.x, at.y + height - ui.px(3)},
                                       theme::colour(theme::kLine));
-  ImGui::Dummy({1, height});
-  ImGui::SameLine(0, ui.px(9));
+  ImGui::Dummy({ui.px(1), height});
+  ImGui::SameLine(0, ui.px(kGroupGap));
 }
 
-// What tells of the picture. They stand for actions as they are.
-void seeingButtons(const PanelContext& ui, Requests& requests) {
-  struct Item {
-    const char *action, *icon, *label;
+void button(const PanelContext& ui, const Item& item, int step) {
+  if (item.on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
+  }
+  ImGui::BeginDisabled(!item.enabled);
+  const bool clicked = ImGui::Button((textOf(item, step) + "##" + item.widget).c_str());
+  ImGui::EndDisabled();
+  if (item.on) ImGui::PopStyleColor(2);
+  ui.name(item.widget);
+  tooltip(ui, showsLabel(item, step) ? item.help : std::string(item.label) + ": " + item.help);
+  if (clicked) item.run();
+}
+
+// What did not fit, from `first` on.
+void more(const PanelContext& ui, const Items& items, size_t first) {
+  ImGui::SameLine();
+  if (ImGui::Button("\u2026##more")) ImGui::OpenPopup("##rest");
+  ui.name("more");
+  tooltip(ui, "More tools");
+  if (!ImGui::BeginPopup("##rest")) return;
+  for (size_t i = first; i < items.size(); ++i) {
+    const Item& item = items[i];
+    if (item.beginsGroup && i > first) ImGui::Separator();
+    if (ImGui::MenuItem(withIcon(item.icon, item.label).c_str(), nullptr, item.on, item.enabled))
+      item.run();
+    ui.name(item.widget);
+    tooltip(ui, item.help);
+  }
+  ImGui::EndPopup();
+}
+
+void addTools(const PanelContext& ui, Items& items) {
+  struct Tool {
+    ToolMode mode;
+    const char *name, *icon, *label, *help;
   };
-  static constexpr std::array kItems = {
-      Item{"tool.explain", icon::kExplain, "Why dark?"},
-      Item{"view.probe", icon::kProbeLight, "Probe"},
-      Item{"tool.measure", icon::kMeasure, "Measure"},
-      Item{"view.histogram", icon::kHistogram, "Histogram"},
+  static constexpr Tool kTools[] = {
+      {ToolMode::select, "select", icon::kSelect, "Select", "Pick by clicking (Q)"},
+      {ToolMode::move, "move", icon::kMove, "Move", "Move the selection (W)"},
+      {ToolMode::rotate, "rotate", icon::kRotate, "Rotate", "Rotate the selection (E)"},
+      {ToolMode::scale, "scale", icon::kScale, "Scale", "Scale the selection (R)"},
   };
-  for (const Item& item : kItems) {
-    if (&item != &kItems.front()) ImGui::SameLine();
-    const Action& action = *ui.session.actions().find(item.action);
-    // Icons speak for themselves but for the first; a narrow window has room for no more.
-    const bool iconAlone = theme::hasIcons() && &item != &kItems.front();
-    if (button(ui, item.action, item.icon, iconAlone ? "" : item.label, action.checked(ui.session),
-               true, std::string(item.label) + ": " + action.help + " (" + action.shortcut + ")"))
-      requests.actions.emplace_back(item.action);
+  Session& session = ui.session;
+  for (const Tool& tool : kTools) {
+    Item item{tool.name, tool.icon, tool.label, tool.help,
+              [&session, mode = tool.mode] { session.setTool(mode); }};
+    item.on = session.tool() == tool.mode && session.points().tool() == PointTool::none;
+    item.keepsLabel = 2;
+    items.push_back(std::move(item));
+  }
+}
+
+void addActions(const PanelContext& ui, Items& items, Requests& requests) {
+  const auto add = [&](std::string widget, const char* icon, const char* label, std::string help,
+                       std::string action, int keepsLabel) -> Item& {
+    items.push_back({std::move(widget), icon, label, std::move(help),
+                     [&requests, action] { requests.actions.push_back(action); }});
+    items.back().keepsLabel = keepsLabel;
+    return items.back();
+  };
+  struct Named {
+    const char *name, *icon, *label;
+  };
+  for (const Named& shape :
+       {Named{"rectangle", icon::kRectangle, "Rectangle"}, Named{"disk", icon::kDisk, "Disk"},
+        Named{"sphere", icon::kSphere, "Sphere"}}) {
+    const std::string action = std::string("light.add ") + shape.name;
+    add(action, shape.icon, shape.label, std::string("Add an area light: a ") + shape.name, action,
+        1)
+        .beginsGroup = shape.icon == icon::kRectangle;
+  }
+  const History& history = ui.session.history();
+  Item& undo =
+      add("undo", icon::kUndo, "Undo",
+          history.canUndo() ? "Undo: " + history.undoLabel() : "Nothing to undo", "edit.undo", 1);
+  undo.enabled = history.canUndo();
+  undo.beginsGroup = true;
+  add("redo", icon::kRedo, "Redo",
+      history.canRedo() ? "Redo: " + history.redoLabel() : "Nothing to redo", "edit.redo", 1)
+      .enabled = history.canRedo();
+  // What tells of the picture. They stand for actions as they are.
+  for (const Named& seeing : {Named{"tool.explain", icon::kExplain, "Why dark?"},
+                              Named{"view.probe", icon::kProbeLight, "Probe"},
+                              Named{"tool.measure", icon::kMeasure, "Measure"},
+                              Named{"view.histogram", icon::kHistogram, "Histogram"}}) {
+    const Action& action = *ui.session.actions().find(seeing.name);
+    const bool isFirst = seeing.icon == icon::kExplain;
+    Item& item = add(seeing.name, seeing.icon, seeing.label,
+                     action.help + " (" + action.shortcut + ")", seeing.name, isFirst ? 2 : 0);
+    item.on = action.checked(ui.session);
+    item.beginsGroup = isFirst;
   }
 }
 
@@ -58,50 +149,33 @@ void seeingButtons(const PanelContext& ui, Requests& requests) {
 
 void toolbar(PanelContext ui, Requests& requests) {
   ui.prefix = "toolbar/";
-  struct Tool {
-    ToolMode mode;
-    const char *name, *icon, *label, *help;
+  Items items;
+  addTools(ui, items);
+  addActions(ui, items, requests);
+
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(kSpacing), ui.px(kSpacing)});
+  const float room = ImGui::GetContentRegionAvail().x;
+  const auto whole = [&](int step) {
+    float width = 0.0f;
+    for (const Item& item : items) width += widthOf(ui, item, step);
+    return width;
   };
-  static constexpr std::array kTools = {
-      Tool{ToolMode::select, "select", icon::kSelect, "Select", "Pick by clicking (Q)"},
-      Tool{ToolMode::move, "move", icon::kMove, "Move", "Move the selection (W)"},
-      Tool{ToolMode::rotate, "rotate", icon::kRotate, "Rotate", "Rotate the selection (E)"},
-      Tool{ToolMode::scale, "scale", icon::kScale, "Scale", "Scale the selection (R)"},
-  };
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(4), ui.px(4)});
-  for (const Tool& tool : kTools) {
-    if (tool.mode != ToolMode::select) ImGui::SameLine();
-    const bool on = ui.session.tool() == tool.mode && ui.session.points().tool() == PointTool::none;
-    if (button(ui, tool.name, tool.icon, tool.label, on, true, tool.help))
-      ui.session.setTool(tool.mode);
+  int step = 0;
+  while (step + 1 < kSteps && whole(step) > room) ++step;
+  const bool fits = whole(step) <= room;
+  float used = fits ? 0.0f : ImGui::GetFrameHeight() + ui.px(kSpacing);  // of "more"
+  size_t shown = 0;
+  for (; shown < items.size(); ++shown) {
+    const Item& item = items[shown];
+    used += widthOf(ui, item, step);
+    if (!fits && used > room) break;
+    if (item.beginsGroup)
+      line(ui);
+    else if (shown > 0)
+      ImGui::SameLine();
+    button(ui, item, step);
   }
-  gap(ui);
-  struct Shape {
-    const char *name, *icon, *label;
-  };
-  static constexpr std::array kShapes = {
-      Shape{"rectangle", icon::kRectangle, "Rectangle"},
-      Shape{"disk", icon::kDisk, "Disk"},
-      Shape{"sphere", icon::kSphere, "Sphere"},
-  };
-  for (const Shape& shape : kShapes) {
-    if (&shape != &kShapes.front()) ImGui::SameLine();
-    const std::string name = std::string("light.add ") + shape.name;
-    if (button(ui, name.c_str(), shape.icon, shape.label, false, true,
-               std::string("Add an area light: a ") + shape.name))
-      requests.actions.push_back(name);
-  }
-  gap(ui);
-  const History& history = ui.session.history();
-  if (button(ui, "undo", icon::kUndo, "Undo", false, history.canUndo(),
-             history.canUndo() ? "Undo: " + history.undoLabel() : "Nothing to undo"))
-    requests.actions.emplace_back("edit.undo");
-  ImGui::SameLine();
-  if (button(ui, "redo", icon::kRedo, "Redo", false, history.canRedo(),
-             history.canRedo() ? "Redo: " + history.redoLabel() : "Nothing to redo"))
-    requests.actions.emplace_back("edit.redo");
-  gap(ui);
-  seeingButtons(ui, requests);
+  if (shown < items.size()) more(ui, items, shown);
   ImGui::PopStyleVar();
 }
 

@@ -59,6 +59,32 @@ bool section(const PanelContext& ui, const char* label, bool openAtFirst) {
   return open;
 }
 
+Rect windowRect() {
+  const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  return {{at.x, at.y}, {at.x + size.x, at.y + size.y}};
+}
+
+bool beginBorderedModal(const char* title, ImGuiWindowFlags flags) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+  ImGui::PushStyleColor(ImGuiCol_Border, theme::colour(theme::kFrameActive));
+  const bool open = ImGui::BeginPopupModal(title, nullptr, flags);
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+  return open;
+}
+
+std::string endOf(const std::string& text, float room) {
+  if (ImGui::CalcTextSize(text.c_str()).x <= room) return text;
+  size_t first = 0;
+  std::string shown;
+  do {
+    ++first;
+    while (first < text.size() && (static_cast<unsigned char>(text[first]) & 0xc0) == 0x80) ++first;
+    shown = "\u2026" + text.substr(first);
+  } while (first < text.size() && ImGui::CalcTextSize(shown.c_str()).x > room);
+  return shown;
+}
+
 void note(const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
   ImGui::PushTextWrapPos(0.0f);

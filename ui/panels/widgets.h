@@ -31,6 +31,12 @@ float labelWidth(const PanelContext& ui);
 void tooltip(const PanelContext& ui, const std::string& text);
 // A section header that opens and closes; named "section LABEL".
 bool section(const PanelContext& ui, const char* label, bool openAtFirst = true);
+// Of the ImGui window that is being filled.
+Rect windowRect();
+// A modal popup with an edge, since it may lie upon panels of its own colour.
+bool beginBorderedModal(const char* title, ImGuiWindowFlags flags);
+// `text` without as much of its beginning as there is no room for: "\u2026/scenes/halls".
+std::string endOf(const std::string& text, float room);
 // Dim text, wrapped.
 void note(const std::string& text);
 // "icon  label", or the label alone where there is no icon font.

@@ -8,7 +8,8 @@
 
 namespace lamplighter {
 
-Headless::Headless(int width, int height, bool drawing) : size_(width, height) {
+Headless::Headless(int width, int height, bool drawing, float scale)
+    : size_(width, height), scale_(scale) {
   if (!drawing) return;
   glCreateTextures(GL_TEXTURE_2D, 1, &colour_);
   glTextureStorage2D(colour_, 1, GL_RGBA8, width, height);

@@ -8,14 +8,14 @@ namespace lamplighter {
 
 class Headless final : public Platform {
  public:
-  // `drawing`: an OpenGL context is current and stays so.
-  Headless(int width, int height, bool drawing);
+  // `drawing`: an OpenGL context is current and stays so. `scale`: pixels a design pixel.
+  Headless(int width, int height, bool drawing, float scale = 1.0f);
   ~Headless() override;
   Headless(const Headless&) = delete;
   Headless& operator=(const Headless&) = delete;
 
   glm::ivec2 size() const override { return size_; }
-  float contentScale() const override { return 1.0f; }
+  float contentScale() const override { return scale_; }
   void poll(std::vector<InputEvent>&, double) override {}
   bool closeRequested() const override { return false; }
   void refuseClose() override {}
@@ -31,6 +31,7 @@ class Headless final : public Platform {
 
  private:
   glm::ivec2 size_;
+  float scale_;
   std::string clipboard_;
   uint32_t framebuffer_ = 0, colour_ = 0;
 };

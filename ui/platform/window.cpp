@@ -11,6 +11,7 @@
 #include "renderer/error.h"
 #include "ui/platform/glfw_keys.h"
 #include "ui/platform/read_pixels.h"
+#include "ui/platform/ui_scale.h"
 
 namespace lamplighter {
 namespace {
@@ -101,7 +102,9 @@ struct Window::Callbacks {
   }
 };
 
-Window::Window(int width, int height, const std::string& title, Kind kind) : kind_(kind) {
+Window::Window(int width, int height, const std::string& title, Kind kind,
+               std::optional<float> scale)
+    : kind_(kind), scale_(scale) {
   if (!glfwInit())
     throw InputError("no display: " + glfwReason() + "; set DISPLAY or use 'lamplighter render'");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -152,10 +155,11 @@ glm::ivec2 Window::size() const {
 }
 
 float Window::contentScale() const {
+  if (scale_) return *scale_;
   if (kind_ == Kind::fixed) return 1.0f;
   float x = 1.0f;
   glfwGetWindowContentScale(window_, &x, nullptr);
-  return std::clamp(x, 0.5f, 4.0f);
+  return std::clamp(x, kLeastUiScale, kMostUiScale);
 }
 
 void Window::poll(std::vector<InputEvent>& events, double seconds) {

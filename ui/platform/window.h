@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "ui/platform/platform.h"
 
@@ -16,8 +17,10 @@ class Window final : public Platform {
   // fixed: the size is in pixels and cannot be changed, whatever the screen's scale; for
   // recordings.
   enum class Kind { resizable, fixed };
+  // `scale`: pixels a design pixel; none: as the screen says, or 1 where the size is fixed.
   // Throws InputError when there is no display or no OpenGL 4.5.
-  Window(int width, int height, const std::string& title, Kind kind);
+  Window(int width, int height, const std::string& title, Kind kind,
+         std::optional<float> scale = {});
   ~Window() override;
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -41,6 +44,7 @@ class Window final : public Platform {
   struct Callbacks;
   GLFWwindow* window_ = nullptr;
   Kind kind_;
+  std::optional<float> scale_;
   std::array<GLFWcursor*, 6> cursors_{};
   Cursor cursor_ = Cursor::arrow;
   std::vector<InputEvent> events_;

@@ -4,6 +4,7 @@
 
 #include "editor/views/legend.h"
 #include "ui/theme.h"
+#include "ui/viewport/label_place.h"
 #include "ui/viewport/split_sides.h"
 
 namespace lamplighter {
@@ -29,15 +30,23 @@ void drawShape(ImDrawList& list, const OverlayShape& shape, vec2 origin, float s
                      shape.thickness * scale);
 }
 
-void drawOverlay(ImDrawList& list, const Overlay& overlay, vec2 origin, float scale) {
+void drawShapes(ImDrawList& list, const Overlay& overlay, vec2 origin, float scale) {
   for (const OverlayShape& shape : overlay.shapes) drawShape(list, shape, origin, scale);
+}
+
+// Those on a plate keep within `area` and clear of what is `covered`.
+void drawTexts(ImDrawList& list, const Overlay& overlay, vec2 origin, float scale, const Rect& area,
+               const std::vector<Rect>& covered) {
   for (const OverlayText& text : overlay.texts) {
-    const ImVec2 at{text.position.x + origin.x, text.position.y + origin.y};
+    ImVec2 at{text.position.x + origin.x, text.position.y + origin.y};
     if (text.boxed) {
       const ImVec2 size = ImGui::CalcTextSize(text.text.c_str());
       const float pad = 5.0f * scale;
-      list.AddRectFilled({at.x - pad, at.y - pad}, {at.x + size.x + pad, at.y + size.y + pad},
+      const Rect plate = clearPlace(
+          {{at.x - pad, at.y - pad}, {at.x + size.x + pad, at.y + size.y + pad}}, area, covered);
+      list.AddRectFilled({plate.min.x, plate.min.y}, {plate.max.x, plate.max.y},
                          theme::colour(theme::kBackground, 200), 4.0f * scale);
+      at = {plate.min.x + pad, plate.min.y + pad};
     }
     list.AddText({at.x + 1, at.y + 1}, theme::colour(0, 160), text.text.c_str());
     list.AddText(at, packed(text.colour), text.text.c_str());
@@ -58,7 +67,8 @@ void drawLegend(const PanelContext& ui, ImDrawList& list, const Rect& area,
   list.AddRectFilled({low.x, low.y}, {high.x, high.y}, theme::colour(theme::kBackground, 240),
                      ui.px(5));
   list.AddRect({low.x, low.y}, {high.x, high.y}, theme::colour(theme::kLine), ui.px(5));
-  drawOverlay(list, legend.overlay, low + pad, ui.scale);
+  drawShapes(list, legend.overlay, low + pad, ui.scale);
+  drawTexts(list, legend.overlay, low + pad, ui.scale, area, {});
 }
 
 }  // namespace
@@ -115,7 +125,8 @@ void Viewport::draw(PanelContext ui, uint32_t texture, uint32_t second) const {
     list.AddRectFilled(low, high, theme::colour(0x000000));
   const SplitView& split = ui.session.split();
   if (split.on()) drawSecondSide(ui, list, area_, split, second);
-  drawOverlay(list, ui.session.overlay(), area_.min, ui.scale);
+  drawShapes(list, ui.session.overlay(), area_.min, ui.scale);
+  drawTexts(list, ui.session.overlay(), area_.min, ui.scale, area_, covered_);
   if (split.on()) drawSplitLabels(ui, list, area_, split);
   if (split.on() && split.heat())
     drawLegend(ui, list, area_, *split.heat());
