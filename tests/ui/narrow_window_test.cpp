@@ -15,7 +15,7 @@ namespace {
 
 class Editor {
  public:
-  Editor(int width, float scale) : platform_(width, 600, false, scale) {
+  Editor(int width, float scale, int height = 600) : platform_(width, height, false, scale) {
     Scene scene;
     test::addMesh(scene, test::squareMesh(4.0f));
     test::addRectangleLight(scene, vec3(0, 2, 0), vec2(1.0f), vec3(5.0f));
@@ -87,6 +87,29 @@ TEST(NarrowWindow, TheStatusLineKeepsWhatMattersMost) {
   ASSERT_TRUE(narrow.has("status/message"));
   EXPECT_LE(narrow.right("status/message"), 640.0f);
   EXPECT_LE(narrow.right("status/settled"), narrow.place("status/message")->rect.min.x);
+}
+
+TEST(NarrowWindow, TheLightTablesButtonsStayInThePanel) {
+  Editor editor(1280, 2.0f, 1000);
+  editor.app().session().runAction("panel.lights");
+  editor.frames(3);
+  const float edge = editor.place("splitter/bottom")->rect.max.x;
+  for (const char* name : {"lights/value", "lights/set", "lights/offset", "lights/colour",
+                           "lights/solo", "lights/set_group", "lights/ungroup"}) {
+    ASSERT_TRUE(editor.has(name)) << name;
+    EXPECT_LE(editor.right(name), edge) << name;
+  }
+}
+
+TEST(NarrowWindow, DialogsFitTheWindow) {
+  Editor editor(1280, 2.0f);
+  InputEvent open{EventKind::action};
+  open.text = "file.open";
+  editor.app().input().push(open);
+  editor.frames(4);
+  ASSERT_TRUE(editor.has("dialog/ok"));
+  EXPECT_LE(editor.place("dialog/ok")->rect.max.y, 600.0f);
+  EXPECT_GE(editor.place("dialog/up")->rect.min.y, 0.0f);
 }
 
 TEST(ValueSlider, IsFilledAsFarAsTheValueGoes) {

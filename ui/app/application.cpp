@@ -200,12 +200,14 @@ void Application::drawPanels(PanelContext ui) {
   renderPanel(ui, timelineState_, requests_);
   ImGui::End();
   if (!layout_.bottom.empty()) {
-    beginPanel("##lights", layout_.bottom, false);
+    beginPanel("##lights", layout_.bottom);
     lightTable(ui, lightTableState_, requests_);
     ImGui::End();
   }
-  viewport_.setCovered(
-      {explainPanel(ui, layout_.view, requests_), histogramPanel(ui, layout_.view, requests_)});
+  const Rect explained = explainPanel(ui, layout_.view, requests_);
+  Rect below = layout_.view;
+  if (!explained.empty()) below.min.y = explained.max.y;
+  viewport_.setCovered({explained, histogramPanel(ui, below, requests_)});
   layout_.splitters(ui);
   // At once, so that this frame shows what they do.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);

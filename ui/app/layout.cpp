@@ -18,7 +18,8 @@ void Layout::divide(vec2 window, float menuHeight, float scale, bool showsBottom
   const auto px = [&](float designPixels) { return std::round(designPixels * scale); };
   // The view keeps some room whatever the window's size.
   const float most = std::max(window.x / scale - kLeastView, 2 * kLeastPanel);
-  leftWidth_ = std::clamp(leftWidth_, kLeastPanel, most - kLeastPanel);
+  // Names can be cut and scrolled, fields cannot: the left column gives way first.
+  leftWidth_ = std::clamp(leftWidth_, kLeastPanel, std::max(most - rightWidth_, kLeastPanel));
   rightWidth_ = std::clamp(rightWidth_, kLeastPanel, most - leftWidth_);
   renderShare_ = std::clamp(renderShare_, 0.15f, 0.85f);
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "ui/panels/panels.h"
 
 namespace lamplighter {
@@ -5,7 +7,7 @@ namespace {
 
 bool beginModal(const PanelContext& ui, const char* title, float width) {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({ui.px(width), 0});
+  ImGui::SetNextWindowSize({std::min(ui.px(width), 0.96f * ImGui::GetMainViewport()->Size.x), 0});
   return beginBorderedModal(title, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                        ImGuiWindowFlags_NoSavedSettings);
 }

@@ -81,7 +81,9 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
                                                 : "Save as###file";
   if (opening_) ImGui::OpenPopup(title);
   opening_ = false;
-  ImGui::SetNextWindowSize({ui.px(620), ui.px(440)});
+  const ImVec2 window = ImGui::GetMainViewport()->Size;
+  ImGui::SetNextWindowSize(
+      {std::min(ui.px(620), 0.96f * window.x), std::min(ui.px(440), 0.92f * window.y)});
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
   std::optional<fs::path> chosen;

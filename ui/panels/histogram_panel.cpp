@@ -11,8 +11,8 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kWidth = 330.0f, kLeastWidth = 280.0f,
-                kHeight = 92.0f;  // design pixels; of the bars
+constexpr float kWidth = 330.0f, kLeastWidth = 280.0f, kHeight = 92.0f,
+                kLeastHeight = 30.0f;  // design pixels; of the bars
 
 float atStops(const Rect& area, float stops) {
   const float t = (stops - Histogram::kLowest) / (Histogram::kHighest - Histogram::kLowest);
@@ -20,9 +20,9 @@ float atStops(const Rect& area, float stops) {
 }
 
 // Bars, with lines at 1 and at middle grey and a tick a stop.
-void bars(const PanelContext& ui, const Histogram& h) {
+void bars(const PanelContext& ui, const Histogram& h, float height) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = ui.px(kHeight);
+  const float width = ImGui::GetContentRegionAvail().x;
   ImGui::InvisibleButton("bars", {width, height});
   ui.name("bars");
   const Rect area{{at.x, at.y}, {at.x + width, at.y + height}};
@@ -109,12 +109,20 @@ Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
   ImGui::PopStyleVar(2);
   const Histogram& h =
       session.display().histogram(session.output().radiance, session.document().render.exposureEv);
-  bars(ui, h);
+  // Where there is no room for all, the fields go, which the render panel and the menu have as
+  // well, and then height.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float room = view.size().y - 2.0f * gap - 2.0f * style.WindowPadding.y -
+                     ImGui::GetTextLineHeight() - style.ItemSpacing.y;
+  const bool hasFields = room >= ui.px(kHeight) + 2.0f * ImGui::GetFrameHeightWithSpacing();
+  bars(ui, h, std::clamp(room, ui.px(kLeastHeight), ui.px(kHeight)));
   note(fmt::format("{} white   {} black   median {}", percentText(h.white), percentText(h.black),
                    nitsText(h.median)));
   ui.name("clipped");
-  exposureField(ui, requests);
-  mapperCombo(ui, requests);
+  if (hasFields) {
+    exposureField(ui, requests);
+    mapperCombo(ui, requests);
+  }
   const Rect covered = windowRect();
   ImGui::End();
   return covered;

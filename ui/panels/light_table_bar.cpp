@@ -55,7 +55,7 @@ class Bar {
     ImGui::BeginDisabled(!any);
     propertyCombo();
     values();
-    ImGui::SameLine(0, ui_.px(14));
+    gap(14);
     colour();
     states();
     ImGui::EndDisabled();
@@ -63,7 +63,11 @@ class Bar {
   }
 
  private:
-  void gap(float width = 4) { ImGui::SameLine(0, ui_.px(width)); }
+  // To the right, or on a line of its own where what comes has less room than it needs.
+  void gap(float width = 4, float needs = 72) {
+    ImGui::SameLine(0, ui_.px(width));
+    if (ImGui::GetContentRegionAvail().x < ui_.px(needs)) ImGui::NewLine();
+  }
 
   bool button(const char* widget, const char* label, const char* help) {
     const bool clicked = ImGui::Button(label);
@@ -94,7 +98,7 @@ class Bar {
         commonValue(ui_.session.document().scene, lights_, property_, ui_.session.lighting().unit);
     const bool isIntensity = property_ == LightProperty::intensity;
     const LightPropertyInfo& info = lightPropertyInfo(property_);
-    ImGui::SetNextItemWidth(ui_.px(190));
+    ImGui::SetNextItemWidth(std::min(ui_.px(190), ImGui::GetContentRegionAvail().x));
     const bool typed = ImGui::InputTextWithHint(
         "##value", textOf(common, property_).c_str(), &state_.value,
         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CharsScientific);
@@ -209,7 +213,7 @@ class Bar {
 
   void group(const LightGroup& g) {
     ImGui::PushID(g.name.c_str());
-    gap(18);
+    gap(18, 120);
     if (button(("group/" + g.name).c_str(), g.name.c_str(), "Selects the lights of this group."))
       requests_.actions.push_back("lights.select_group " + quotedName(g.name));
     const auto flag = [&](const char* label, const char* action, const char* widget, bool value,

@@ -50,6 +50,9 @@ constexpr std::array kColumns = {
                "Frames that the oldest of them has waited."},
 };
 
+constexpr float kLeastHeight = 84.0f;  // design pixels
+constexpr float kMostSpare = 160.0f;   // design pixels that the names may take in a wide window
+
 void rightAligned(const std::string& text) {
   const float left = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
   if (left > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + left);
@@ -111,7 +114,12 @@ class Table {
         ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_SizingFixedFit |
         ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_PadOuterX;
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui_.px(4), ui_.px(2)});
-    if (ImGui::BeginTable("##table", static_cast<int>(kColumns.size()), kFlags)) {
+    spare_ = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
+    for (const ColumnInfo& c : kColumns) spare_ -= ui_.px(c.width) + 2 * ui_.px(4) + 1.0f;
+    spare_ = std::clamp(spare_, 0.0f, ui_.px(kMostSpare));
+    // Below a bar that takes many lines the panel scrolls.
+    const float height = std::max(ImGui::GetContentRegionAvail().y, ui_.px(kLeastHeight));
+    if (ImGui::BeginTable("##table", static_cast<int>(kColumns.size()), kFlags, {0.0f, height})) {
       headers();
       sort();
       for (const LightRow& r : rows_) row(r);
@@ -124,8 +132,11 @@ class Table {
  private:
   void headers() {
     ImGui::TableSetupScrollFreeze(1, 1);
-    for (const ColumnInfo& c : kColumns)
-      ImGui::TableSetupColumn(c.label, ImGuiTableColumnFlags_WidthFixed, ui_.px(c.width));
+    for (const ColumnInfo& c : kColumns) {
+      // A wide window has room for long names.
+      const float more = c.column == LightColumn::name ? spare_ : 0.0f;
+      ImGui::TableSetupColumn(c.label, ImGuiTableColumnFlags_WidthFixed, ui_.px(c.width) + more);
+    }
     ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
     for (size_t i = 0; i < kColumns.size(); ++i) {
       if (!ImGui::TableSetColumnIndex(static_cast<int>(i))) continue;
@@ -255,6 +266,7 @@ class Table {
   const PanelContext& ui_;
   std::vector<LightRow> rows_;
   std::map<std::string, int> named_;
+  float spare_ = 0.0f;  // pixels beyond what the columns need
 };
 
 }  // namespace
