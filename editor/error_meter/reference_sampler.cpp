@@ -51,7 +51,7 @@ void ReferenceSampler::begin(const MeterSubject& subject) {
     rays_ = std::make_unique<RayCaster>(world_);
   else if (!moved.none())
     rays_->update(moved);
-  if (!sameLevel || !moved.none()) lights_ = LightSet(world_);
+  if (!sameLevel || !moved.none()) lights_ = LightSet(world_, lights_);
   scene_ = *subject.scene;
   subject_ = subject;
   const View& view = subject_.view;

@@ -117,8 +117,9 @@ class Tracer {
     const int emitter = lights_.emitterOfObject(hit.object);
     if (emitter == kNone) return surface.emission;
     const vec3 d = surface.position - from;
-    const float pdfLight = lights_.surfaceProbability(emitter) / lights_.emitters()[emitter].area *
-                           glm::dot(d, d) / std::abs(cosine);
+    const float area = lights_.areaAt(emitter, hit.triangle, vec2(hit.u, hit.v));
+    const float pdfLight =
+        lights_.surfaceProbability(emitter) / area * glm::dot(d, d) / std::abs(cosine);
     return surface.emission * misWeight(pdfDirection, pdfLight);
   }
 

@@ -20,7 +20,7 @@ class ReferenceMethod final : public GiMethod {
     const double begin = in.stopwatch ? in.stopwatch() : 0.0;
     const Settings& s = in.settings;
     const bool sameScene = in.changes.none() && sum_.width != 0;
-    if (!sameScene) lights_ = LightSet(in.scene);
+    if (!sameScene) lights_ = LightSet(in.scene, lights_);
     const PathTracerOptions options{s.integer(parameters::bounces()),
                                     static_cast<uint32_t>(s.integer(parameters::seed())),
                                     in.lightOnly,

@@ -28,8 +28,10 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
       for (id.index = begin; id.index < end; ++id.index) {
         const EmitterSample p =
             sampleEmitter(scene_, lights_, numbers_, source, id.index, SampleNumbers::direct);
+        if (p.flux == vec3(0.0f)) continue;  // a dark place, which would cost a shadow map
         const vec3 intensity = scale * p.flux / (kPi * static_cast<float>(count));
         vpls.push_back(numbers_.makeVpl(id, shared::kVplCosine, p.position, p.normal, intensity));
+        vpls.back().area = p.area / static_cast<float>(count);
       }
       break;
     case EmitterKind::punctual:

@@ -72,7 +72,7 @@ bool LightPaths::update(const RenderScene& scene, const RayCaster& rays,
   counts_ = counts;
   started_ = true;
   edits_ += isEdited;
-  if (isAfresh || isEdited) takeLights(scene, LightSet(scene));
+  if (isAfresh || isEdited) takeLights(scene, LightSet(scene, lightSet_));
   const PathWalker walker(scene, rays, lightSet_, counts_);
   if (isEdited) findTouched(walker, changes, movers);
   const bool isResting = isAfresh || !isEdited;

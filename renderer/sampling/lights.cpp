@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <utility>
 
-#include "renderer/sampling/low_discrepancy.h"
 #include "renderer/scene/ies_profile.h"
 #include "renderer/scene/surface.h"
 
@@ -18,39 +19,21 @@ float triangleArea(const RenderScene& s, const RenderObject& o, uint32_t t) {
                                        s.positions[i[2]] - s.positions[i[0]]));
 }
 
-// Uniform over a triangle: the weights of its second and third corner (Turk 1990).
-vec2 sampleTriangle(vec2 u) {
-  const float root = std::sqrt(u.x);
-  return {u.y * root, 1.0f - root};
-}
-
-// What leaves the front at a point of an emitter: nothing where the alpha mask has a hole.
-Surface emittingSurface(const RenderScene& s, uint32_t object, uint32_t triangle, vec2 b) {
-  Surface at = surfaceAt(s, object, triangle, b.x, b.y);
-  const Material& m = s.materials[s.objects[object].material];
-  if (m.alphaMode == AlphaMode::mask && alphaAt(s, object, triangle, b.x, b.y) < m.alphaCutoff)
-    at.emission = vec3(0.0f);
-  return at;
-}
-
-// The mean radiance of an object whose emission varies, from points spread by area, at least four a
-// triangle. It steers the choice of lights and the share of VPLs, never how bright a light is.
-vec3 meanRadiance(const RenderScene& s, uint32_t object, std::span<const float> areas,
-                  double total) {
-  constexpr double kPoints = 4096.0;
-  glm::dvec3 sum(0.0);
-  for (uint32_t t = 0; t < areas.size(); ++t) {
-    const double share = static_cast<double>(areas[t]) / total;
-    const auto points = static_cast<uint32_t>(std::max(4.0, std::ceil(share * kPoints)));
-    glm::dvec3 here(0.0);
-    for (uint32_t i = 0; i < points; ++i)
-      here += glm::dvec3(emittingSurface(s, object, t, sampleTriangle(sobol2(i, t))).emission);
-    sum += here * (share / points);
+// Of the same mesh and texture among those that there are, or made.
+std::shared_ptr<const CellBrightness> brightnessOf(const RenderScene& s, uint32_t object,
+                                                   std::span<const Emitter> before,
+                                                   std::span<const Emitter> now) {
+  CellBrightness::Key key(s, object);
+  for (const std::span<const Emitter> known : {before, now}) {
+    for (const Emitter& e : known) {
+      if (!e.cells.empty() && e.cells.brightness()->key == key) return e.cells.brightness();
+    }
   }
-  return vec3(sum);
+  return std::make_shared<const CellBrightness>(s, object, std::move(key));
 }
 
-Emitter surfaceEmitter(const RenderScene& s, uint32_t object) {
+Emitter surfaceEmitter(const RenderScene& s, uint32_t object, std::span<const Emitter> before,
+                       std::span<const Emitter> now) {
   const RenderObject& o = s.objects[object];
   const Material& m = s.materials[o.material];
   Emitter e;
@@ -63,8 +46,14 @@ Emitter surfaceEmitter(const RenderScene& s, uint32_t object) {
   e.triangles = AliasTable(areas);
   if (e.triangles.empty()) return e;
   e.area = static_cast<float>(area);
-  const bool varies = m.emissiveTexture.texture != kNone || m.alphaMode == AlphaMode::mask;
-  const vec3 radiance = varies ? meanRadiance(s, object, areas, area) : m.emissive;
+  vec3 radiance = m.emissive;
+  if (m.emissiveTexture.texture != kNone || m.alphaMode == AlphaMode::mask) {
+    e.cells = EmitterCells(brightnessOf(s, object, before, now), areas);
+    glm::dvec3 sum(0.0);
+    for (uint32_t t = 0; t < areas.size() && !e.cells.empty(); ++t)
+      sum += static_cast<double>(areas[t]) * glm::dvec3(e.cells.brightness()->mean[t]);
+    radiance *= vec3(sum / area);
+  }
   e.flux = kPi * e.area * (e.bothSides ? 2.0f : 1.0f) * radiance;
   return e;
 }
@@ -91,14 +80,14 @@ vec3 punctualFlux(const PunctualLight& l, float sceneRadius) {
 
 }  // namespace
 
-LightSet::LightSet(const RenderScene& s) {
+LightSet::LightSet(const RenderScene& s, const LightSet& before) {
   centre_ = s.bounds.centre();
   radius_ = s.bounds.radius();
   emitterOfObject_.assign(s.objects.size(), kNone);
   for (uint32_t i = 0; i < s.objects.size(); ++i) {
     const Material& m = s.materials[s.objects[i].material];
     if (!m.emits() || m.isClear()) continue;
-    Emitter e = surfaceEmitter(s, i);
+    Emitter e = surfaceEmitter(s, i, before.emitters_, emitters_);
     if (e.triangles.empty() || luminance(e.flux) <= 0.0f) continue;  // no area, or all black
     emitterOfObject_[i] = static_cast<int>(emitters_.size());
     emitters_.push_back(std::move(e));
@@ -143,16 +132,32 @@ int LightSet::emitterOfObject(uint32_t object) const { return emitterOfObject_[o
 
 EmitterPoint LightSet::samplePoint(const RenderScene& s, int emitter, vec2 u) const {
   const Emitter& e = emitters_[static_cast<size_t>(emitter)];
-  float rest;
-  const auto triangle = static_cast<uint32_t>(e.triangles.sample(u.x, rest));
-  const Surface at = emittingSurface(s, e.object, triangle, sampleTriangle({rest, u.y}));
+  EmitterCells::Point at;
+  if (e.cells.empty()) {
+    float rest;
+    at.triangle = static_cast<uint32_t>(e.triangles.sample(u.x, rest));
+    at.weights = sampleTriangle({rest, u.y});
+    at.area = e.area;
+  } else {
+    at = e.cells.sample(u);
+  }
+  const Surface surface = surfaceAt(s, e.object, at.triangle, at.weights.x, at.weights.y);
   EmitterPoint p;
-  p.position = at.position;
-  p.normal = at.geometricNormal;
-  p.radiance = at.emission;
-  p.pdfArea = 1.0f / e.area;
+  p.position = surface.position;
+  p.normal = surface.geometricNormal;
+  p.radiance = surface.emission;
+  if (!e.cells.empty())
+    p.radiance = s.materials[s.objects[e.object].material].emissive *
+                 emissionShareAt(s, e.object, at.triangle, at.weights.x, at.weights.y);
+  p.area = at.area;
+  p.pdfArea = 1.0f / at.area;
   p.bothSides = e.bothSides;
   return p;
+}
+
+float LightSet::areaAt(int emitter, uint32_t triangle, vec2 weights) const {
+  const Emitter& e = emitters_[static_cast<size_t>(emitter)];
+  return e.cells.empty() ? e.area : e.cells.areaAt(triangle, weights);
 }
 
 }  // namespace lamplighter

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderer/sampling/alias_table.h"
+#include "renderer/sampling/emitter_cells.h"
 #include "renderer/sampling/sky_sampler.h"
 #include "renderer/scene/render_scene.h"
 
@@ -24,21 +25,25 @@ struct Emitter {
   float area = 0.0f;       // surface: m²
   bool bothSides = false;  // surface
   AliasTable triangles;    // surface: by area
+  EmitterCells cells;      // surface whose emission varies: by flux
 };
 
-// A point on an emitter's surface, chosen uniformly by area.
+// A point on an emitter's surface, chosen uniformly by area, or by brightness where that varies.
 struct EmitterPoint {
   vec3 position{0.0f};
   vec3 normal{0.0f, 0.0f, 1.0f};  // unit, the front side
   vec3 radiance{0.0f};            // W/(m² sr), texture included, 0 in a hole of the alpha mask
   float pdfArea = 0.0f;           // 1/m²
+  float area = 0.0f;              // 1 / pdfArea: what it stands for, were it the only one [m²]
   bool bothSides = false;
 };
 
 class LightSet {
  public:
   LightSet() = default;
-  explicit LightSet(const RenderScene& scene);
+  explicit LightSet(const RenderScene& scene) : LightSet(scene, LightSet()) {}
+  // The same, faster: what `before` knows of textures that are still there is not found again.
+  LightSet(const RenderScene& scene, const LightSet& before);
 
   const std::vector<Emitter>& emitters() const { return emitters_; }
   // Chooses among the emitters that are surfaces, in proportion to the luminance of their flux;
@@ -49,6 +54,9 @@ class LightSet {
   int emitterOfObject(uint32_t object) const;
   // u selects the triangle (u.x, reused within it) and the point on it.
   EmitterPoint samplePoint(const RenderScene& scene, int emitter, vec2 u) const;
+  // 1 / the density with which samplePoint() draws a point of its surface [m²]. weights: of the
+  // triangle's second and third corner.
+  float areaAt(int emitter, uint32_t triangle, vec2 weights) const;
   const SkySampler& sky() const { return sky_; }
   float sceneRadius() const { return radius_; }
   vec3 sceneCentre() const { return centre_; }

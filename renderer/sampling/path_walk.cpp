@@ -57,7 +57,8 @@ EmitterSample sampleEmitter(const RenderScene& scene, const LightSet& lights,
   EmitterSample p;
   p.normal = side * at.normal;
   p.position = at.position + rayEpsilon(at.position) * p.normal;
-  p.flux = kPi * e.area * static_cast<float>(parts) * at.radiance;
+  p.flux = kPi * at.area * static_cast<float>(parts) * at.radiance;
+  p.area = at.area * static_cast<float>(parts);
   return p;
 }
 

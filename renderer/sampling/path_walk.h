@@ -104,7 +104,8 @@ std::vector<VplId> emitterIds(const LightSet& lights);
 // A point on an emitter that is a surface, the `index`th of the sequence.
 struct EmitterSample {
   vec3 position, normal;
-  vec3 flux;  // of the whole emitter, were it as bright as here [W]
+  vec3 flux;   // that it stands for, were it the only one [W]
+  float area;  // the same [m²]
 };
 EmitterSample sampleEmitter(const RenderScene& scene, const LightSet& lights,
                             const SampleNumbers& numbers, const PathWalker::Source& source,

@@ -45,12 +45,11 @@ float sharedArea(const Sample& at, std::span<const Sample> others, float every, 
 }  // namespace
 
 void findFootprints(const LightSet& lights, std::span<SceneVpl> vpls) {
-  std::map<VplId, float> lightArea;  // by set; of the sky: its solid angle
+  std::map<VplId, float> skyAngle;  // by set: 4π sr
   std::map<NodeId, uint32_t> emittersOfNode;
   for (const Emitter& e : lights.emitters()) {
     const VplId id{e.node, emittersOfNode[e.node]++, 0, 0};
-    if (e.kind == EmitterKind::surface) lightArea[id] = e.area * (e.bothSides ? 2.0f : 1.0f);
-    if (e.kind == EmitterKind::sky) lightArea[id] = 4.0f * kPi;
+    if (e.kind == EmitterKind::sky) skyAngle[id] = 4.0f * kPi;
   }
   std::map<VplId, int> countOfSet;
   std::vector<Sample> bounced;
@@ -68,7 +67,9 @@ void findFootprints(const LightSet& lights, std::span<SceneVpl> vpls) {
     if (v.id.bounce > 0) {
       v.vpl.footprint.x =
           sharedArea(sampleOf(v.vpl), compared, static_cast<float>(every), lights.sceneRadius());
-    } else if (const auto it = lightArea.find(v.id.set()); it != lightArea.end()) {
+    } else if (v.area > 0.0f) {
+      v.vpl.footprint.x = v.area;
+    } else if (const auto it = skyAngle.find(v.id.set()); it != skyAngle.end()) {
       v.vpl.footprint.x = it->second / static_cast<float>(countOfSet.at(v.id.set()));
     }
   });

@@ -35,6 +35,7 @@ struct SceneVpl {
   VplId id;
   // False for the parts of a punctual light, of which each is all there is in its directions.
   bool isSample = true;
+  float area = 0.0f;  // of the surface of its light that it stands for [m²]; 0: no such
 };
 
 struct VplCounts {

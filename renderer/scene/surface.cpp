@@ -141,6 +141,14 @@ float alphaAt(const RenderScene& s, uint32_t object, uint32_t triangle, float u,
   return alpha;
 }
 
+vec3 emissionShareAt(const RenderScene& s, uint32_t object, uint32_t triangle, float u, float v) {
+  const Material& m = s.materials[s.objects[object].material];
+  if (m.alphaMode == AlphaMode::mask && alphaAt(s, object, triangle, u, v) < m.alphaCutoff)
+    return vec3(0.0f);
+  if (m.emissiveTexture.texture == kNone) return vec3(1.0f);
+  return vec3(look(s, m.emissiveTexture, corners(s, object, triangle, u, v), true));
+}
+
 Gloss glossAt(const RenderScene& s, uint32_t object, uint32_t triangle, float u, float v) {
   const Material& m = s.materials[s.objects[object].material];
   Gloss gloss{m.metallic, m.roughness};

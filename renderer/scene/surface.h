@@ -24,6 +24,11 @@ struct Gloss {
 // At the point, texture included. Only for surfaces that the eye sees: what bounces is Lambert.
 Gloss glossAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 
+// Of the material's emission what leaves the front face there: by its texture, and nothing where
+// the alpha mask has a hole.
+vec3 emissionShareAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u,
+                     float v);
+
 // Alpha of the base colour there, vertex colour included: what alpha masks are tested with.
 float alphaAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 

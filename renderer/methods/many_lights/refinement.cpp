@@ -71,7 +71,8 @@ int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImag
     if (counts_.directShare < 1.0f)
       counts_.directShare = std::min(counts_.directShare, kDirectShare);
     // How many paths leave about as many VPLs.
-    const VplSet set = generateVpls(in.scene, in.rays, LightSet(in.scene), counts_);
+    lights_ = LightSet(in.scene);
+    const VplSet set = generateVpls(in.scene, in.rays, lights_, counts_);
     counts_.paths = set.paths;
     sum_ = Image(live.width(), live.height());
     addScaled(sum_, live.pixels(), static_cast<float>(liveVpls));
@@ -103,9 +104,8 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   batch_ = std::make_unique<Batch>();
   Batch& batch = *batch_;
   // Those of each light and bounce are dealt out evenly among the shifts.
-  const LightSet lights(in.scene);
-  VplSet set = generateVpls(in.scene, in.rays, lights, counts_);
-  findFootprints(lights, set.vpls);
+  VplSet set = generateVpls(in.scene, in.rays, lights_, counts_);
+  findFootprints(lights_, set.vpls);
   // Highlights grow sharper from batch to batch, so that their mean converges to the true ones: by
   // the radii of Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011,
   // with α = 2/3, area ∝ batch^(α−1).

@@ -63,6 +63,7 @@ class Refinement {
 
   bool started_ = false, done_ = false;
   VplCounts counts_;
+  LightSet lights_;
   int vpls_ = 0;
   Image sum_;
   double weight_ = 0.0;
