@@ -355,7 +355,9 @@ void Application::answerRequests() {
   }
   if (const auto path = session_->takeOpenRequest()) {
     if (replaying_) {
-      openNow(*path);  // a frame count must not depend on how long a file takes to load
+      // At once: a frame count must not depend on how long a file takes to load. And from the
+      // level's own folder, so that a recording means the same wherever it is replayed.
+      openNow(session_->document().path.parent_path() / *path);
     } else if (session_->modified()) {
       pending_ = Pending::open;
       pendingOpen_ = *path;
