@@ -1,10 +1,11 @@
 // Which actions the palette lists for what is typed.
+#include "ui/panels/command_palette.h"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "editor/actions/register_actions.h"
-#include "ui/panels/command_palette.h"
 
 namespace lamplighter {
 namespace {
