@@ -21,6 +21,9 @@ constexpr float kLeastCone = 0.01f;       // rad
 
 const vec4 kColour{1.0f, 0.93f, 0.6f, 1.0f};
 const vec4 kHoverColour{1.0f, 0.85f, 0.3f, 1.0f};
+// About each handle, so that it shows on bright walls.
+const vec4 kEdgeColour{0.0f, 0.0f, 0.0f, 0.6f};
+constexpr float kEdge = 1.5f;  // px
 
 struct Place {
   vec3 origin, aim;  // aim: unit, where the light shines
@@ -58,6 +61,18 @@ std::optional<vec3> onPlane(const View& view, const vec2& pointer, const vec3& o
 }
 
 float snapped(float value, float step) { return std::max(step, std::round(value / step) * step); }
+
+// A circle or a square.
+std::vector<vec2> outlineOf(const vec2& centre, float r, bool isRound) {
+  if (!isRound)
+    return {centre + vec2(-r, -r), centre + vec2(r, -r), centre + vec2(r, r), centre + vec2(-r, r)};
+  std::vector<vec2> points;
+  for (int i = 0; i < 16; ++i) {
+    const float a = 2.0f * kPi * static_cast<float>(i) / 16.0f;
+    points.push_back(centre + r * vec2(std::cos(a), std::sin(a)));
+  }
+  return points;
+}
 
 bool isBall(const AreaLight& light) { return light.shape == AreaShape::sphere; }
 bool isTube(const AreaLight& light) { return light.shape == AreaShape::tube; }
@@ -250,23 +265,16 @@ void LightHandles::draw(Overlay& overlay, const View& view, const Document& docu
     if (!p) continue;
     const vec4 colour = handle.kind == lit ? kHoverColour : kColour;
     const float r = handle.kind == lit ? 5.5f : 4.0f;
-    if (handle.kind == Kind::aim || handle.kind == Kind::innerCone ||
-        handle.kind == Kind::outerCone) {
-      addLine(overlay, view, vec3(worldMatrix(document.scene, node->id)[3]), handle.place, colour);
-      OverlayShape dot{{}, true, handle.kind != Kind::innerCone, colour, 1.5f};
-      for (int i = 0; i < 16; ++i) {
-        const float a = 2.0f * kPi * static_cast<float>(i) / 16.0f;
-        dot.points.push_back(*p + r * vec2(std::cos(a), std::sin(a)));
-      }
-      overlay.shapes.push_back(std::move(dot));
-    } else {
-      overlay.shapes.push_back(
-          {{*p + vec2(-r, -r), *p + vec2(r, -r), *p + vec2(r, r), *p + vec2(-r, r)},
-           true,
-           true,
-           colour,
-           1.0f});
+    const bool isRound = handle.kind == Kind::aim || handle.kind == Kind::innerCone ||
+                         handle.kind == Kind::outerCone;
+    if (isRound) {
+      const vec3 origin(worldMatrix(document.scene, node->id)[3]);
+      addLine(overlay, view, origin, handle.place, kEdgeColour, 3.5f);
+      addLine(overlay, view, origin, handle.place, colour);
     }
+    overlay.shapes.push_back({outlineOf(*p, r + kEdge, isRound), true, true, kEdgeColour, 1.0f});
+    overlay.shapes.push_back(
+        {outlineOf(*p, r, isRound), true, handle.kind != Kind::innerCone, colour, 1.5f});
   }
 }
 
