@@ -19,10 +19,12 @@ void paste(Session& s) {
   Pasting pasting = pasteInto(s.document().scene, s.clipboard(), s.clipboardIsOfThisLevel());
   const std::string label =
       pasting.nodes.size() == 1 ? "Paste " + pasting.nodes[0].name : "Paste objects";
-  s.history().begin(label);
+  // Placing it by a click has begun a step already.
+  const bool isOwnStep = !s.history().inTransaction();
+  if (isOwnStep) s.history().begin(label);
   if (!pasting.assets->changesNothing()) s.history().run(std::move(pasting.assets));
   s.history().run(std::make_unique<AddNodes>(label, std::move(pasting.nodes)));
-  s.history().commit();
+  if (isOwnStep) s.history().commit();
   s.select(std::move(pasting.roots));
 }
 

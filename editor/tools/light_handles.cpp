@@ -90,7 +90,9 @@ std::vector<LightHandles::Handle> LightHandles::handlesOf(const View& view,
                                                           const Document& document) {
   std::vector<Handle> out;
   const Node* node = document.scene.find(document.active());
-  if (node == nullptr || !node->visible || (!node->area && !node->punctual)) return out;
+  if (node == nullptr || (!node->area && !node->punctual)) return out;
+  for (const Node* n = node; n != nullptr; n = document.scene.find(n->parent))
+    if (!n->visible) return out;
   const mat4 world = worldMatrix(document.scene, node->id);
   const auto place = placeOf(view, world);
   if (!place || !hasVolume(world)) return out;

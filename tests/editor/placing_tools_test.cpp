@@ -33,6 +33,20 @@ TEST_F(PlacingTools, AClickPutsALightOnTheSurfaceFacingOut) {
   EXPECT_EQ(hash(), placed);
 }
 
+TEST_F(PlacingTools, WhatWasCopiedIsPlacedInOneStepToo) {
+  session_.select({box_});
+  session_.actions().run(session_, "edit.copy");
+  const uint64_t before = hash();
+  session_.actions().run(session_, "place.start edit.paste");
+  press(pixelOf(vec3(2.0f, 0, 0)));
+  release();
+  ASSERT_EQ(session_.document().scene.nodes.size(), 4u);
+  EXPECT_NEAR(placeOf(session_.document().active()).x, 2.0f, 0.03f);
+  EXPECT_NEAR(placeOf(session_.document().active()).y, 0.5f, 1e-3f);
+  session_.undo();
+  EXPECT_EQ(hash(), before);
+}
+
 TEST_F(PlacingTools, WithShiftTheNextClickPlacesToo) {
   session_.actions().run(session_, "place.start light.add rectangle");
   Modifiers shift;
