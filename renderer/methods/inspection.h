@@ -19,6 +19,7 @@ struct InspectedLight {
   bool isLive = false;    // it is shown; else `vpl` is what it will be
   bool isStale = false;   // it waits to be brought up to date
   int framesWaiting = 0;  // for so long
+  bool isSample = true;   // SceneVpl::isSample
 };
 
 // Good until the method's next render() or reset(). What a method does not have is null or empty.

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "renderer/sampling/random.h"
-#include "renderer/sampling/sun_squares.h"
 #include "renderer/scene/ies_profile.h"
 
 namespace lamplighter {
@@ -12,8 +11,6 @@ namespace {
 constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
 // A square around the scene, with what lies on its very edge.
 constexpr float kWholeScene = 1.0001f;
-// Squares that one sun may take: an eighth of the level's width each way if it is even.
-constexpr int kMostSquares = 64;
 
 }  // namespace
 
@@ -35,12 +32,12 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
       }
       break;
     case EmitterKind::punctual:
-      addPunctual(scene_.punctuals[e.punctual], id, count, scale, vpls);
+      addPunctual(scene_.punctuals[e.punctual], id, scale, vpls);
       break;
     case EmitterKind::sky:
       if (e.skySun > 0) {
         const SkyMap::Light sun = skySun(e, id);
-        addSun(sun.towards, scale * sun.irradiance, id, std::min(count, kMostSquares), vpls);
+        addSun(sun.towards, scale * sun.irradiance, id, vpls);
         break;
       }
       for (id.index = begin; id.index < end; ++id.index) {
@@ -61,7 +58,7 @@ SkyMap::Light DirectVpls::skySun(const Emitter& e, const VplId& id) const {
                            numbers_.point(id, batch_ - 1, kPlaceDimension, SampleNumbers::direct));
 }
 
-void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, int count, float scale,
+void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, float scale,
                              std::vector<SceneVpl>& vpls) const {
   const vec3 intensity = scale * p.light.intensity;
   if (p.light.profile) {
@@ -93,25 +90,19 @@ void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, int count, float
       break;
     }
     case PunctualKind::directional:
-      addSun(-p.direction, intensity, id, std::min(count, kMostSquares), vpls);
+      addSun(-p.direction, intensity, id, vpls);
       break;
   }
 }
 
-void DirectVpls::addSun(const vec3& towards, const vec3& irradiance, VplId id, int count,
+// Whole, to be divided into the squares of its maps.
+void DirectVpls::addSun(const vec3& towards, const vec3& irradiance, VplId id,
                         std::vector<SceneVpl>& vpls) const {
-  const vec3 tangent = numbers_.turnedTangent(id, towards);  // the same for all its squares
-  const mat3 axes(tangent, glm::cross(towards, tangent), towards);
-  const vec3 middle = lights_.sceneCentre();
-  const float whole = kWholeScene * lights_.sceneRadius();
-  for (const SunSquare& square : sunSquares(scene_, axes, middle, whole, count)) {
-    id.index = square.code;
-    SceneVpl added = directional(id, towards, irradiance);
-    added.isSample = false;
-    added.vpl.position += vec4(axes * vec3(square.centre, 0.0f), 0.0f);
-    added.vpl.tangent = vec4(tangent, square.side);
-    vpls.push_back(added);
-  }
+  id.index = 1;
+  SceneVpl added = directional(id, towards, irradiance);
+  added.isSample = false;
+  added.vpl.tangent = vec4(numbers_.turnedTangent(id.set(), towards), added.vpl.tangent.w);
+  vpls.push_back(added);
 }
 
 SceneVpl DirectVpls::directional(const VplId& id, const vec3& towards,

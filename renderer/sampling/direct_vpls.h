@@ -18,9 +18,9 @@ class DirectVpls {
 
  private:
   SkyMap::Light skySun(const Emitter& e, const VplId& id) const;
-  void addPunctual(const RenderPunctual& p, VplId id, int count, float scale,
+  void addPunctual(const RenderPunctual& p, VplId id, float scale,
                    std::vector<SceneVpl>& vpls) const;
-  void addSun(const vec3& towards, const vec3& irradiance, VplId id, int count,
+  void addSun(const vec3& towards, const vec3& irradiance, VplId id,
               std::vector<SceneVpl>& vpls) const;
   SceneVpl directional(const VplId& id, const vec3& towards, const vec3& irradiance) const;
 

@@ -48,14 +48,15 @@ bool meetSame(const LightPath& a, const LightPath& b) {
 }
 
 // The samples that an emitter cannot do without: a two-sided one takes turns, a point light is two
-// hemispheres, one with a profile its lobes.
+// hemispheres, one with a profile its lobes. A sun is one, whatever squares it is divided into.
 SampleShare shareOf(const RenderScene& scene, const Emitter& e) {
   const float weight = luminance(e.flux);
+  if (e.kind == EmitterKind::sky && e.skySun > 0) return {weight, 1, true};
   if (e.kind != EmitterKind::punctual) return {weight, e.bothSides ? 2 : 1, false};
   const PunctualLight& light = scene.punctuals[e.punctual].light;
   if (light.profile) return {weight, static_cast<int>(light.profile->lobes.size()), true};
   const PunctualKind kind = light.kind;
-  return {weight, kind == PunctualKind::point ? 2 : 1, kind != PunctualKind::directional};
+  return {weight, kind == PunctualKind::point ? 2 : 1, true};
 }
 
 }  // namespace

@@ -39,19 +39,20 @@ class LightPaths {
   // Brings the paths up to date with the scene. `changes` and `movers` are those since the last
   // call. Where they say none, the scene is at rest and the set becomes generateVpls()'s, bit for
   // bit, whatever was before, a part a frame. Of a light
-  // of which too few paths can stay all are walked anew at once. Rays are traced for mostPaths paths at
-  // most (brightest × longest waiting first; 0: no limit), but after a change of the counts or of
-  // which objects there are all are walked at once. Returns whether the set may have changed.
+  // of which too few paths can stay all are walked anew at once. Rays are traced for mostPaths
+  // paths at most (brightest × longest waiting first; 0: no limit), but after a change of the
+  // counts or of which objects there are all are walked at once. Returns whether the set may have
+  // changed.
   bool update(const RenderScene& scene, const RayCaster& rays, const RenderSceneChanges& changes,
               std::span<const MoverFinder::Mover> movers, const VplCounts& counts,
               int mostPaths = 0);
 
-  // The set of a scene from nothing.
+  // The set of a scene from nothing; suns are whole.
   static VplSet generate(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                          const VplCounts& counts);
 
   const LightSet& lights() const { return lightSet_; }
-  // All VPLs, direct ones made anew: sorted by emitter, direct ones first.
+  // All VPLs, direct ones made anew: sorted by emitter, direct ones first. Suns are whole.
   VplSet set(const RenderScene& scene) const;
 
   // The set is generateVpls()'s.

@@ -3,10 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/sampling/view_importance.h"
+
 namespace lamplighter {
 namespace {
 
 constexpr float kLeastSide = 0.25f;  // metres; finer shadows are not worth a map
+// Places in the picture that are looked at, and what those in shadow count beside those in light:
+// edges of shadows lie among the latter, but a coarse map may leak into the former.
+constexpr int kSeenPoints = 1024;
+constexpr float kInShadow = 0.25f;
+// Share of the choice by what is seen; the rest is for where the camera may turn to.
+constexpr float kSeenShare = 0.8f;
 
 // What an object covers of the plane across the sun's direction.
 struct Footprint {
@@ -31,37 +39,74 @@ Footprint footprintOf(const RenderObject& object, const mat3& axes, const vec3& 
   return {at - reach, at + reach, std::sqrt(static_cast<float>(object.triangleCount()))};
 }
 
+// How much would be gained by halving the width of a square's texels.
+class Gain {
+ public:
+  Gain(const RenderScene& scene, const mat3& axes, const vec3& middle,
+       std::span<const SunPoint> points)
+      : points_(points) {
+    footprints_.reserve(scene.objects.size());
+    for (const RenderObject& o : scene.objects) footprints_.push_back(footprintOf(o, axes, middle));
+    float objects = 0.0f, seen = 0.0f;
+    for (const Footprint& f : footprints_) objects += f.weight;
+    for (const SunPoint& p : points) seen += p.weight;
+    const float seenShare = seen > 0.0f ? kSeenShare : 0.0f;
+    ofObjects_ = objects > 0.0f ? (1.0f - seenShare) / objects : 0.0f;
+    ofPoints_ = seen > 0.0f ? seenShare / seen : 0.0f;
+  }
+
+  float of(const SunSquare& s) const {
+    float objects = 0.0f, seen = 0.0f;
+    for (const Footprint& f : footprints_) objects += f.weight * f.shareWithin(s);
+    for (const SunPoint& p : points_) {
+      const vec2 from = glm::abs(p.at - s.centre);
+      if (std::max(from.x, from.y) <= s.side) seen += p.weight;
+    }
+    return (ofObjects_ * objects + ofPoints_ * seen) * s.side;
+  }
+
+ private:
+  std::vector<Footprint> footprints_;
+  std::span<const SunPoint> points_;
+  float ofObjects_ = 0.0f, ofPoints_ = 0.0f;
+};
+
+std::vector<SunPoint> pointsOf(std::span<const SeenPoint> seen, const mat3& axes,
+                               const vec3& middle, const RayCaster& rays) {
+  std::vector<SunPoint> points;
+  for (const SeenPoint& p : seen) {
+    if (glm::dot(p.normal, axes[2]) <= 0.0f) continue;
+    const vec3 from = p.position - middle;
+    points.push_back({vec2(glm::dot(from, axes[0]), glm::dot(from, axes[1])),
+                      rays.occluded({p.position, 0.0f, axes[2]}) ? kInShadow : 1.0f});
+  }
+  return points;
+}
+
 }  // namespace
 
 std::vector<SunSquare> sunSquares(const RenderScene& scene, const mat3& axes, const vec3& middle,
-                                  float whole, int count) {
-  std::vector<Footprint> footprints;
-  footprints.reserve(scene.objects.size());
-  for (const RenderObject& o : scene.objects) footprints.push_back(footprintOf(o, axes, middle));
-  const auto gain = [&](const SunSquare& s) {
-    float sum = 0.0f;
-    for (const Footprint& f : footprints) sum += f.weight * f.shareWithin(s);
-    return sum * s.side;
-  };
-
+                                  float whole, int count, std::span<const SunPoint> points) {
+  const Gain gain(scene, axes, middle, points);
   struct Leaf {
     SunSquare square;
     float gain;
   };
-  std::vector<Leaf> leaves{{{vec2(0.0f), whole, 1}, 0.0f}};
-  leaves[0].gain = gain(leaves[0].square);
+  const auto leafOf = [&](const SunSquare& s) {
+    return Leaf{s, 0.5f * s.side < kLeastSide ? 0.0f : gain.of(s)};
+  };
+  std::vector<Leaf> leaves{leafOf({vec2(0.0f), whole, 1})};
   while (static_cast<int>(leaves.size()) + 3 <= count) {
     const auto best = std::max_element(
         leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.gain < b.gain; });
+    if (!(best->gain > 0.0f)) break;
     const SunSquare s = best->square;
     const float half = 0.5f * s.side;
-    if (!(best->gain > 0.0f) || half < kLeastSide) break;
     leaves.erase(best);
     for (uint32_t quarter = 0; quarter < 4; ++quarter) {
       const vec2 corner((quarter & 1u) != 0 ? half : -half, (quarter & 2u) != 0 ? half : -half);
       const SunSquare part{s.centre + corner, half, 4 * s.code + quarter};
-      const float partGain = gain(part);
-      if (partGain > 0.0f) leaves.push_back({part, partGain});
+      if (gain.of(part) > 0.0f) leaves.push_back(leafOf(part));
     }
   }
   std::sort(leaves.begin(), leaves.end(),
@@ -69,6 +114,32 @@ std::vector<SunSquare> sunSquares(const RenderScene& scene, const mat3& axes, co
   std::vector<SunSquare> squares;
   for (const Leaf& leaf : leaves) squares.push_back(leaf.square);
   return squares;
+}
+
+void divideSuns(std::vector<SceneVpl>& vpls, const RenderScene& scene, const RayCaster& rays,
+                const View* view, int count) {
+  if (std::none_of(vpls.begin(), vpls.end(), [](const SceneVpl& v) { return v.isOfSun(); })) return;
+  std::vector<SeenPoint> seen;
+  if (view != nullptr) seen = seenPoints(scene, rays, *view, kSeenPoints);
+  std::vector<SceneVpl> divided;
+  divided.reserve(vpls.size());
+  for (const SceneVpl& v : vpls) {
+    if (!v.isOfSun()) {
+      divided.push_back(v);
+      continue;
+    }
+    const vec3 tangent(v.vpl.tangent), towards(v.vpl.normal), middle(v.vpl.position);
+    const mat3 axes(tangent, glm::cross(towards, tangent), towards);
+    const std::vector<SunPoint> points = pointsOf(seen, axes, middle, rays);
+    for (const SunSquare& s :
+         sunSquares(scene, axes, middle, v.vpl.tangent.w, count, std::span(points))) {
+      SceneVpl& part = divided.emplace_back(v);
+      part.id.index = s.code;
+      part.vpl.position += vec4(axes * vec3(s.centre, 0.0f), 0.0f);
+      part.vpl.tangent.w = s.side;
+    }
+  }
+  vpls = std::move(divided);
 }
 
 }  // namespace lamplighter

@@ -1,12 +1,23 @@
 #include "renderer/sampling/vpl_set.h"
 
 #include "renderer/sampling/light_paths.h"
+#include "renderer/sampling/sun_squares.h"
 
 namespace lamplighter {
 
 VplSet generateVpls(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
-                    const VplCounts& counts) {
-  return LightPaths::generate(scene, rays, lights, counts);
+                    const VplCounts& counts, const View* view) {
+  VplSet set = LightPaths::generate(scene, rays, lights, counts);
+  divideSuns(set.vpls, scene, rays, view, counts.sunMaps);
+  return set;
+}
+
+int sampleCount(std::span<const SceneVpl> vpls) {
+  int count = 0;
+  for (size_t i = 0; i < vpls.size(); ++i)
+    count += !vpls[i].isOfSun() || i == 0 || !vpls[i - 1].isOfSun() ||
+             vpls[i - 1].id.set() != vpls[i].id.set();
+  return count;
 }
 
 }  // namespace lamplighter

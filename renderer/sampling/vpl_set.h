@@ -4,11 +4,13 @@
 
 #include <compare>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/lights.h"
 #include "renderer/scene/render_scene.h"
+#include "renderer/view.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {
@@ -36,6 +38,9 @@ struct SceneVpl {
   // False for the parts of a punctual light, of which each is all there is in its directions.
   bool isSample = true;
   float area = 0.0f;  // of the surface of its light that it stands for [m²]; 0: no such
+
+  // A sun, or one of the squares into which it is divided.
+  bool isOfSun() const { return !isSample && vpl.position.w == shared::kVplDirectional; }
 };
 
 struct VplCounts {
@@ -54,6 +59,7 @@ struct VplCounts {
   // As many times as many samples of bounced light and of the sky, of which others choose some
   // (view_importance.h).
   int candidates = 1;
+  int sunMaps = 128;  // squares of each sun, which come on top of the total (sun_squares.h)
 
   bool operator==(const VplCounts&) const = default;
 };
@@ -65,6 +71,9 @@ struct VplSet {
   std::vector<VplId> pathIds;  // of these (VplId::path), those that left no VPL included
 };
 
+// How many samples they are: squares of one sun are one.
+int sampleCount(std::span<const SceneVpl> vpls);
+
 // Where a batch goes on in a sequence of which each takes `count` points.
 inline uint32_t firstIndex(uint32_t batch, int count) {
   return batch == 0 ? 0 : (batch - 1) * static_cast<uint32_t>(count);
@@ -72,10 +81,11 @@ inline uint32_t firstIndex(uint32_t batch, int count) {
 
 // Lights get samples in proportion to their flux, each at least one; when there are not enough for
 // that the brightest get them and stand for the flux of all. A point light is two VPLs
-// (hemispheres) and a spot or directional one is one, however many samples there are;
-// KHR_lights_punctual's range, which bends the inverse-square law, is ignored. May return fewer
-// than `total`.
+// (hemispheres) and a spot one, however many samples there are; a sun is one sample too, but is
+// divided into the squares of its maps, for the view if one is given; KHR_lights_punctual's range,
+// which bends the inverse-square law, is ignored. May return fewer than `total`, and more by the
+// squares.
 VplSet generateVpls(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
-                    const VplCounts& counts);
+                    const VplCounts& counts, const View* view = nullptr);
 
 }  // namespace lamplighter

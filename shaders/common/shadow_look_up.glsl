@@ -22,7 +22,7 @@ bool occluded(Vpl vpl, vec3 x, vec3 normal, vec4 clampAndBias) {
   vec2 centre = shadowTexelCentre(texel, resolution);
   float depth = texelFetch(uMaps, ivec3(texel, int(vpl.intensity.w)), 0).r;
 #ifdef DIRECTIONAL
-  return directionalOccluded(vpl, depth, q, n, centre, bias);
+  return directionalOccluded(vpl, depth, q, n, centre, bias, resolution);
 #else
   return hemisphereOccluded(depth * (1.0 / kShadowDepthUnit), q, n, centre, bias, resolution);
 #endif

@@ -13,8 +13,8 @@
 //     √3/resolution wide, and more where the wall is steep: kCornerTexels. In the Cornell box it
 //     takes the error of direct light with 64² maps from 4.1 to 2.2% (with 1: 2.4%, with 3: 2.2%),
 //     in the default scene from outside, against rays, from 6.2 (with 1) to 4.8%. It costs the
-//     shadows of what stands out by less than kCornerTexels/resolution of the distance to the light,
-//     about what a texel covers there.
+//     shadows of what stands out by less than kCornerTexels/resolution of the distance to the
+//     light, about what a texel covers there.
 // What is left of leaking and false shadow is one texel at silhouettes.
 #ifndef LAMPLIGHTER_SHARED_VPL_SHADING_H
 #define LAMPLIGHTER_SHARED_VPL_SHADING_H
@@ -25,6 +25,7 @@
 SHARED_BEGIN
 
 SHARED_CONST float kCornerTexels = 2.0f;
+SHARED_CONST float kSteepTexels = 4.0f;
 
 // Column and row (as whole numbers) of the texel that holds square coordinates s in [-1, 1]². Row 0
 // is at t = −1, and the texel lies at row · resolution + column.
@@ -63,15 +64,19 @@ SHARED_FUNCTION vec2 directionalEncode(Vpl vpl, vec3 q) {
 }
 
 // bias is a share of S here. Nothing is spared for corners: half a texel of a level's sky or sun is
-// more than its roofs are thick, and they would leak.
+// more than its roofs are thick, and they would leak. Nor is a plane spared for what stands higher
+// above the point than kSteepTexels texels are wide: within half a texel the plane itself
+// reaches that high only where light grazes it at less than 10°, and small steep faces below a roof
+// would be lit through it.
 SHARED_FUNCTION bool directionalOccluded(Vpl vpl, float stored, vec3 q, vec3 n, vec2 centre,
-                                         float bias) {
+                                         float bias, float resolution) {
   float side = vpl.tangent.w;
   // Of the occluder over the point, and over the receiver's plane at the centre (× n.z > 0).
   float above = (2.0f * stored - 1.0f) * vpl.normal.w - bias * side - q.z;
   float dx = centre.x * side - q.x;
   float dy = centre.y * side - q.y;
-  return above > 0.0f && above * n.z > -(n.x * dx + n.y * dy);
+  float steep = kSteepTexels * 2.0f / resolution * side;
+  return above > 0.0f && (above > steep || above * n.z > -(n.x * dx + n.y * dy));
 }
 
 // E / I: irradiance at the point x with shading normal ns and geometric normal ng, both on the side

@@ -115,6 +115,7 @@ struct WideConstants {
         lastTexel(hn::Set(hn::RebindToUnsigned<Tag>(),
                           static_cast<uint32_t>(c.resolution * c.resolution - 1))),
         step(all(2.0f / static_cast<float>(c.resolution))),
+        steep(all(shared::kSteepTexels * 2.0f / static_cast<float>(c.resolution))),
         first(all(1.0f / static_cast<float>(c.resolution) - 1.0f)),
         beforePlane(all(1.0f + c.bias)),
         beforePoint(all(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(c.resolution))),
@@ -122,7 +123,7 @@ struct WideConstants {
 
   Floats resolution, middle, half;
   hn::Vec<hn::RebindToUnsigned<Tag>> lastTexel;
-  Floats step, first;
+  Floats step, steep, first;
   Floats beforePlane, beforePoint;
   Floats clampDistance2;
 };
@@ -184,7 +185,8 @@ HWY_INLINE Mask directionalOccluded(const WideLight& light, const WideConstants&
   const Floats slope =
       hn::MulAdd(dot(geometric, light.tangent), dx, hn::Mul(dot(geometric, light.bitangent), dy));
   const Mask beforePoint = hn::Gt(above, hn::Zero(kTag));
-  const Mask beforePlane = hn::Gt(hn::MulAdd(above, facing, slope), hn::Zero(kTag));
+  const Mask beforePlane = hn::Or(hn::Gt(hn::MulAdd(above, facing, slope), hn::Zero(kTag)),
+                                  hn::Gt(above, hn::Mul(c.steep, light.side)));
   return hn::And(beforePoint, beforePlane);
 }
 

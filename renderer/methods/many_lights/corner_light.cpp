@@ -20,7 +20,7 @@ void CornerLight::goOn(const FrameInputs& in, const std::vector<InspectedLight>&
   const View& view = in.view;
   std::vector<SceneVpl> vpls;
   for (const InspectedLight& light : lights)
-    if (light.isLive) vpls.push_back({light.vpl, light.id, true});
+    if (light.isLive) vpls.push_back({light.vpl, light.id, light.isSample});
   const NearLight nearLight(in.scene, in.rays, vpls, options);
   pixels_.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
   const int end = std::min(view.height, rows_ + std::max(1, kPixelsAFrame / view.width));

@@ -408,7 +408,7 @@ std::vector<InspectedLight> LiveLights::inspect() const {
   lights.reserve(entries_.size());
   for (const Entry& e : entries_)
     lights.push_back({e.isLive ? e.current : e.wanted.vpl, e.wanted.id, e.slot, e.isLive,
-                      e.isPending(), e.framesWaiting});
+                      e.isPending(), e.framesWaiting, e.wanted.isSample});
   return lights;
 }
 
@@ -418,8 +418,10 @@ int LiveLights::pending() const {
 }
 
 int LiveLights::live() const {
-  return static_cast<int>(
-      std::count_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return isShown(e); }));
+  std::vector<SceneVpl> shown;
+  for (const Entry& e : entries_)
+    if (isShown(e)) shown.push_back(e.wanted);
+  return sampleCount(shown);
 }
 
 int LiveLights::oldestFrames() const {

@@ -6,6 +6,7 @@
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/lights.h"
+#include "renderer/sampling/sun_squares.h"
 #include "renderer/sampling/view_importance.h"
 #include "renderer/sampling/vpl_footprints.h"
 #include "renderer/visibility/seen_lights.h"
@@ -74,6 +75,7 @@ ManyLights::Options::Options(const Settings& settings, bool refines) {
   counts.bounces = settings.integer(parameters::bounces());
   counts.seed = static_cast<uint32_t>(settings.integer(parameters::seed()));
   counts.candidates = settings.integer(parameters::importance());
+  counts.sunMaps = settings.integer(parameters::sunMaps());
   mapResolution = settings.integer(parameters::mapResolution());
   const uint64_t mapBytes = uint64_t{sizeof(float)} * mapResolution * mapResolution;
   const auto memory = static_cast<uint64_t>(settings.integer(parameters::mapMemory())) << 20;
@@ -227,8 +229,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   if (sceneChanged) movers = movers_.update(in.scene, in.changes);
   // While the camera moves samples stay as they are; where it rests they are chosen for what it
   // sees.
-  std::optional<View> chosenFor;
-  if (options.counts.candidates > 1) chosenFor = steadyView(in.view, in.rays);
+  std::optional<View> chosenFor = steadyView(in.view, in.rays);
   choiceIsCurrent_ = !started_ || in.view == view_ || chosenFor == chosenFor_;
   if (!choiceIsCurrent_) chosenFor = chosenFor_;
   const bool choosesOtherwise =
@@ -240,6 +241,8 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
     if (chosenFor)
       set =
           chooseForView(set, options.counts, in.scene, in.rays, *chosenFor, options.clampDistance);
+    divideSuns(set.vpls, in.scene, in.rays, chosenFor ? &*chosenFor : nullptr,
+               options.counts.sunMaps);
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
   }
@@ -475,6 +478,7 @@ MethodInfo manyLightsInfo() {
            parameters::seed(),
            parameters::importance(),
            parameters::mapResolution(),
+           parameters::sunMaps(),
            parameters::mapMemory(),
            parameters::groupShare(),
            parameters::updates(),

@@ -29,12 +29,18 @@ float brightness(const shared::Vpl& vpl) {
 NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
                      std::span<const SceneVpl> vpls, const Options& options)
     : scene_(scene), rays_(rays), vpls_(vpls), options_(options) {
+  for (const SceneVpl& v : vpls) {
+    if (!v.isOfSun()) continue;
+    const auto isIt = [&](const Sun& sun) { return sun.set == v.id.set(); };
+    if (std::none_of(suns_.begin(), suns_.end(), isIt))
+      suns_.push_back({v.id.set(), vec3(v.vpl.normal), vec3(v.vpl.intensity)});
+  }
   choices_.resize(static_cast<size_t>(std::max(options.bounces, 0)));
   for (size_t bounce = 0; bounce < choices_.size(); ++bounce) {
     Choice& choice = choices_[bounce];
     float total = 0.0f;
     for (size_t i = 0; i < vpls.size(); ++i) {
-      if (vpls[i].id.bounce > bounce) continue;
+      if (vpls[i].id.bounce > bounce || vpls[i].isOfSun()) continue;
       choice.vpls.push_back(static_cast<uint32_t>(i));
       total += brightness(vpls[i].vpl);
     }
@@ -103,14 +109,24 @@ vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampl
     about = front ? s.geometricNormal : -s.geometricNormal;
     from = {s.position + rayEpsilon(s.position) * about, about};
     const Choice& choice = choices_[static_cast<size_t>(bounces - 1)];
-    sum += throughput * (1.0f / kPi) * irradiance(from, choice, u);
+    sum += throughput * (1.0f / kPi) * (irradianceOfSuns(from) + irradiance(from, choice, u));
   }
   return sum;
 }
 
-// An estimate of the VPLs' clamped irradiance: of those tried, rays go to some in proportion to
-// what they would give if nothing stood between (Talbot et al., "Importance Resampling for Global
-// Illumination", 2005).
+vec3 NearLight::irradianceOfSuns(const Place& at) const {
+  vec3 sum(0.0f);
+  for (const Sun& sun : suns_) {
+    const float cosine = glm::dot(at.normal, sun.towards);
+    if (cosine > 0.0f && !rays_.occluded({at.position, 0.0f, sun.towards}))
+      sum += cosine * sun.irradiance;
+  }
+  return sum;
+}
+
+// An estimate of the other VPLs' clamped irradiance: of those tried, rays go to some in proportion
+// to what they would give if nothing stood between (Talbot et al., "Importance Resampling for
+// Global Illumination", 2005).
 vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const {
   vec3 sum(0.0f);
   if (choice.vpls.empty()) return sum;

@@ -43,7 +43,12 @@ class NearLight {
   void findRows(const View& view, vec2 jitter, int first, int last, std::span<Pixel> pixels) const;
 
  private:
-  // VPLs that may still light a surface from which light bounces a given number of times on.
+  // A ray goes to each sun: its squares would be tried in vain where one of many covers a place.
+  struct Sun {
+    VplId set;
+    vec3 towards{0.0f}, irradiance{0.0f};
+  };
+  // Other VPLs that may still light a surface from which light bounces a given number of times on.
   struct Choice {
     std::vector<uint32_t> vpls;
     std::vector<float> upTo;  // sum of probabilities, this one's included
@@ -53,6 +58,7 @@ class NearLight {
   };
   Pixel pixel(const View& view, vec2 at, uint32_t index) const;
   vec3 gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const;
+  vec3 irradianceOfSuns(const Place& at) const;
   vec3 irradiance(const Place& at, const Choice& choice, vec2 u) const;
   bool sees(const Place& at, const shared::Vpl& vpl) const;
 
@@ -60,6 +66,7 @@ class NearLight {
   const RayCaster& rays_;
   std::span<const SceneVpl> vpls_;
   Options options_;
+  std::vector<Sun> suns_;
   std::vector<Choice> choices_;  // by the number of bounces that a VPL may have behind it
 };
 

@@ -55,6 +55,22 @@ const ParameterSpec& importance() {
   return spec;
 }
 
+const ParameterSpec& sunMaps() {
+  static const ParameterSpec spec{
+      "sun_maps",
+      "Maps of a sun",
+      "",
+      "Shadow maps among which each sun's light is divided, at most, small ones where the camera "
+      "sees what it may light. They come on top of the light samples.",
+      128,
+      1,
+      4096,
+      true,
+      {},
+      ParameterGroup::quality};
+  return spec;
+}
+
 const ParameterSpec& maxShadowMaps() {
   static const ParameterSpec spec =
       limitOf("max_shadow_maps", "Maps a frame", "Shadow maps rendered");

@@ -6,6 +6,7 @@
 namespace lamplighter::parameters {
 
 const ParameterSpec& technique();   // which of the paper's short cuts are taken
+const ParameterSpec& sunMaps();     // int, shadow maps of each sun
 const ParameterSpec& importance();  // int, candidates for each indirect VPL; 1: all are taken
 // int, the most work of each kind in a frame; 0: no limit
 const ParameterSpec& maxShadowMaps();

@@ -22,6 +22,9 @@ constexpr int kBatchVpls = 512;
 // what `antialias` did for edges.
 constexpr int kShifts = 4;
 
+// Squares of a sun (sun_squares.h): few, for each batch has them turned otherwise.
+constexpr int kSunMaps = 32;
+
 // Maps that are kept at a time: as many as fill a draw of the gl backend well, in so many bytes.
 constexpr int kMostSlots = 64;
 constexpr size_t kMostMapBytes = size_t{64} << 20;
@@ -70,6 +73,7 @@ int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImag
     counts_.total = kBatchVpls;
     if (counts_.directShare < 1.0f)
       counts_.directShare = std::min(counts_.directShare, kDirectShare);
+    counts_.sunMaps = std::min(counts_.sunMaps, kSunMaps);
     // How many paths leave about as many VPLs.
     lights_ = LightSet(in.scene);
     const VplSet set = generateVpls(in.scene, in.rays, lights_, counts_);
@@ -104,8 +108,9 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   batch_ = std::make_unique<Batch>();
   Batch& batch = *batch_;
   // Those of each light and bounce are dealt out evenly among the shifts.
-  VplSet set = generateVpls(in.scene, in.rays, lights_, counts_);
+  VplSet set = generateVpls(in.scene, in.rays, lights_, counts_, &in.view);
   findFootprints(lights_, set.vpls);
+  batch.samples = sampleCount(set.vpls);
   // Highlights grow sharper from batch to batch, so that their mean converges to the true ones: by
   // the radii of Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011,
   // with α = 2/3, area ∝ batch^(α−1).
@@ -171,7 +176,7 @@ void Refinement::finishBatch(int target) {
   // All batches count the same, however many VPLs their paths left.
   addScaled(sum_, batch_->image, static_cast<float>(kBatchVpls));
   weight_ += kBatchVpls;
-  vpls_ += std::max(static_cast<int>(batch_->vpls.size()), 1);
+  vpls_ += std::max(batch_->samples, 1);
   batch_.reset();
   Image mean(sum_.width, sum_.height);
   addScaled(mean, sum_, static_cast<float>(1.0 / weight_));

@@ -49,7 +49,8 @@ class Refinement {
   // One on its way: parts of it are summed, each as if it were all.
   struct Batch {
     std::vector<SceneVpl> vpls;
-    int shift = -1;  // of the pixels, the one that the G-buffer has
+    int samples = 0;  // that they are
+    int shift = -1;   // of the pixels, the one that the G-buffer has
     vec2 jitter{0.0f};
     std::optional<NearLight> nearLight;
     std::vector<NearLight::Pixel> nearPixels;

@@ -71,7 +71,7 @@ vec3 expectedRadiance(const LitScene& lit, Backend& backend, const View& view, i
     const size_t index = static_cast<size_t>(texel.y) * kResolution + static_cast<size_t>(texel.x);
     const float stored = backend.readShadowMap(static_cast<int>(i))[index];
     const bool occluded =
-        directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias)
+        directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias, kResolution)
                     : shared::hemisphereOccluded(stored, q, n, centre, kBias, kResolution);
     if (!occluded) e += g * vec3(vpl.intensity);
   }

@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LowResolutionPicture,
                                          Case{"cornell_style.gltf", 300, 0.3f},
                                          Case{"cornell-box/cornell-box.glb", 300, 0.1f},
                                          Case{"kenney-fps-level/kenney-fps-level.gltf", 100, 0.02f},
-                                         Case{"classroom/classroom.gltf", 100, 0.05f},
+                                         Case{"classroom/classroom.gltf", 300, 0.05f},
                                          Case{"modern-hall/modern-hall.glb", 100, 0.3f, 0.03}));
 
 // A floor with a wall on it that is thinner than a pixel, lit from one side only.

@@ -89,7 +89,7 @@ vec3 expectedRadiance(const LitScene& lit, Backend& backend, const View& view, i
     const float stored = backend.readShadowMap(
         static_cast<int>(vpl.intensity.w))[static_cast<size_t>(texel.y * kResolution + texel.x)];
     const bool occluded =
-        directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias)
+        directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias, kResolution)
                     : shared::hemisphereOccluded(stored, q, n, centre, kBias, kResolution);
     if (occluded) continue;
     e += g * vec3(vpl.intensity);

@@ -1,0 +1,78 @@
+// Where a sun's shadow maps lie.
+#include "renderer/sampling/sun_squares.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "shaders/shared/vpl_shading.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+struct Level {
+  Scene scene;
+  RenderScene render;
+  Level() {
+    const int white = test::addMaterial(scene, vec3(0.7f));
+    test::addMesh(scene, test::squareMesh(100.0f, white));
+    test::addMesh(scene, test::boxMesh(vec3(1), white), vec3(20, 0.5f, 20));
+    const NodeId sun = test::addNode(scene, "sun");
+    Node& node = *scene.find(sun);
+    node.punctual = PunctualLight{PunctualKind::directional, vec3(3)};
+    node.local.rotation = glm::angleAxis(-1.2f, vec3(1, 0, 0));
+    update(render, scene, SceneChanges::all());
+  }
+  std::vector<SceneVpl> squares(const View* view, int count) const {
+    const RayCaster rays(render);
+    VplCounts counts{64, 0.5f, 0, 1};
+    counts.sunMaps = count;
+    return generateVpls(render, rays, LightSet(render), counts, view).vpls;
+  }
+};
+
+// The half-width of the square that a place falls into.
+float sideAt(const std::vector<SceneVpl>& vpls, const vec3& place) {
+  float side = 0.0f;
+  int found = 0;
+  for (const SceneVpl& v : vpls) {
+    const vec3 q = shared::vplToLight(v.vpl, place - vec3(v.vpl.position));
+    if (std::max(std::abs(q.x), std::abs(q.y)) >= v.vpl.tangent.w) continue;
+    side = v.vpl.tangent.w;
+    ++found;
+  }
+  EXPECT_EQ(found, 1) << "squares lie side by side";
+  return side;
+}
+
+TEST(SunSquares, AreSmallWhereTheCameraLooks) {
+  const Level level;
+  const View near = test::lookAt(vec3(-28, 3, -28), vec3(-30, 0, -30), 64, 48);
+  const auto seen = level.squares(&near, 64);
+  EXPECT_LE(seen.size(), 64u);
+  EXPECT_GT(seen.size(), 32u);
+  EXPECT_EQ(sampleCount(seen), 1);
+  const float there = sideAt(seen, vec3(-30, 0, -30)), elsewhere = sideAt(seen, vec3(35, 0, -35));
+  EXPECT_LT(8.0f * there, elsewhere);
+  const auto unseen = level.squares(nullptr, 64);
+  EXPECT_LT(there, sideAt(unseen, vec3(-30, 0, -30)));
+}
+
+TEST(SunSquares, OneIsTheWhole) {
+  const Level level;
+  EXPECT_EQ(level.squares(nullptr, 1).size(), 1u);
+}
+
+// A place in the sun counts more than one in shadow: neither is left out.
+TEST(SunSquares, CoverEverything) {
+  const Level level;
+  const View view = test::lookAt(vec3(24, 4, 24), vec3(20, 0, 20), 64, 48);
+  const auto squares = level.squares(&view, 128);
+  for (const vec3 p : {vec3(20, 1, 20), vec3(21, 0, 19), vec3(-40, 0, 33), vec3(3, 0, -45)})
+    EXPECT_GT(sideAt(squares, p), 0.0f);
+}
+
+}  // namespace
+}  // namespace lamplighter
