@@ -1,6 +1,7 @@
 // The lamplighter program: checks the machine and hands the command line what needs a window or
 // OpenGL.
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 
 #include "editor/cli/cli.h"
@@ -21,6 +22,17 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+// Only ever set; a handler may do little more.
+volatile std::sig_atomic_t interrupted = 0;
+
+std::function<bool()> catchInterrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  return [] { return interrupted != 0; };
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -30,6 +42,7 @@ int main(int argc, char** argv) {
   }
   lamplighter::Frontend frontend;
   frontend.stopwatch = seconds;
+  frontend.catchInterrupts = catchInterrupts;
   frontend.makeBackend = [](const std::string& kind) {
     return lamplighter::makeHeadlessBackend(kind, seconds);
   };

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "editor/cli/manual.h"
 #include "editor/cli/subcommands.h"
 #include "editor/sky_text.h"
 #include "renderer/error.h"
@@ -44,6 +45,19 @@ void addInfo(CLI::App& app, Run& run) {
   sub->callback([=, &run] { run = [=] { return cli::info(*o); }; });
 }
 
+void addMethodFlags(CLI::App& sub, cli::MethodFlags& o, const char* samples) {
+  sub.add_option("--vpls", o.vpls, "Light samples in all")->type_name("N");
+  sub.add_option("--direct-share", o.directShare, "Share of them on the lights themselves, 0 to 1")
+      ->type_name("F");
+  sub.add_option("--bounces", o.bounces, "Indirect bounces; 0 is direct light only")
+      ->type_name("N");
+  sub.add_option("--seed", o.seed, "Another set of random numbers")->type_name("N");
+  sub.add_option("--spp", o.spp, samples)->type_name("N");
+  sub.add_option("--set", o.assignments, "name=value of any parameter of the method; repeatable")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);  // one value a flag: the next word may be the scene
+}
+
 void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
   auto* sub = app.add_subcommand("render", "Render a scene until it is settled");
   auto o = std::make_shared<cli::RenderOptions>();
@@ -57,20 +71,10 @@ void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
   sub->add_option("--camera", o->camera, "Name or number of a camera [the first, or a view of all]")
       ->type_name("NAME|INDEX");
   sub->add_option("--size", o->size, "WxH in pixels")->type_name("WxH")->capture_default_str();
-  sub->add_option("--vpls", o->vpls, "Light samples in all")->type_name("N");
-  sub->add_option("--direct-share", o->directShare,
-                  "Share of them on the lights themselves, 0 to 1")
-      ->type_name("F");
-  sub->add_option("--bounces", o->bounces, "Indirect bounces; 0 is direct light only")
-      ->type_name("N");
-  sub->add_option("--seed", o->seed, "Another set of random numbers")->type_name("N");
-  sub->add_option("--spp", o->spp, "Samples a pixel")->type_name("N");
+  addMethodFlags(*sub, *o, "Samples a pixel");
   sub->add_option("--backend", o->backend, "gl, cpu or auto")
       ->check(kBackends)
       ->capture_default_str();
-  sub->add_option("--set", o->assignments, "name=value of any parameter of the method; repeatable")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);  // one value a flag: the next word may be the scene
   sub->add_option("--sky", o->sky, "Another sky; radiance in W/(m2 sr), or a picture")
       ->type_name(kSkyUsage);
   sub->add_option("--sky-rotation", o->skyRotation, "Turns the sky's picture about the vertical")
@@ -170,6 +174,42 @@ void addScript(CLI::App& app, Run& run, const Frontend& frontend) {
       [=, &run, &frontend] { run = [=, &frontend] { return cli::script(*o, frontend); }; });
 }
 
+void addBake(CLI::App& app, Run& run, const Frontend& frontend) {
+  auto* sub =
+      app.add_subcommand("bake", "Light maps of a scene, and a copy that carries their UVs");
+  auto o = std::make_shared<cli::BakeOptions>();
+  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
+  sub->add_option("-o,--output", o->output, "Folder for the pages and the copy; made if need be")
+      ->type_name("FOLDER")
+      ->required();
+  sub->add_option("--method", o->method,
+                  "many_lights: its settled light samples, with exact shadows; or the reference")
+      ->check(CLI::IsMember({"many_lights", "reference"}))
+      ->capture_default_str();
+  sub->add_option("--density", o->atlas.texelsPerMetre, "Texels a metre")
+      ->type_name("X")
+      ->check(CLI::Range(0.01, 10000.0))
+      ->capture_default_str();
+  sub->add_option("--page", o->atlas.pageSize, "Texels along a side of a page")
+      ->type_name("N")
+      ->check(CLI::Range(64, 8192))
+      ->capture_default_str();
+  addMethodFlags(*sub, *o, "Paths a texel, of the reference");
+  sub->add_option("--shard", o->shard,
+                  "Find the i-th of n parts only; run all on machines that share the folder")
+      ->type_name("i/n");
+  sub->add_flag("--merge", o->merge, "Put the pages together from parts that are all there")
+      ->excludes("--shard");
+  sub->add_flag("--keep-parts", o->keepParts, "Leave the parts when the pages are there");
+  sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  sub->footer(
+      "Ctrl+C stops; the same command goes on from there.\n"
+      "Example: lamplighter bake level.glb -o baked --method reference --spp 256");
+  sub->callback([=, &run, &frontend] { run = [=, &frontend] { return cli::bake(*o, frontend); }; });
+}
+
 void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
   auto* sub = app.add_subcommand("replay", "Play a recording of input");
   auto o = std::make_shared<ReplayOptions>();
@@ -191,6 +231,21 @@ void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
       ->check(CLI::Range(0, 1024));
   sub->footer("Example: lamplighter replay tests/recordings/place_light.jsonl --headless --check");
   sub->callback([=, &run, &frontend] { run = [=, &frontend] { return frontend.runReplay(*o); }; });
+}
+
+void addManual(CLI::App& app, Run& run) {
+  auto* sub = app.add_subcommand("manual", "This command line, every flag of it");
+  auto asMan = std::make_shared<bool>(false);
+  sub->add_flag("--man", *asMan, "As a page for man");
+  auto asMarkdown = std::make_shared<bool>(true);
+  sub->add_flag("--markdown", *asMarkdown, "As the tables of docs/flags.md, which is the default");
+  sub->footer("Example: lamplighter manual --man | man -l -");
+  sub->callback([=, &app, &run] {
+    run = [asMan, asMarkdown, &app] {
+      std::cout << (*asMan ? cli::manPage(app) : cli::flagTables(app));
+      return 0;
+    };
+  });
 }
 
 }  // namespace
@@ -217,6 +272,8 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
   addTonemap(app, run);
   addReplay(app, run, frontend);
   addScript(app, run, frontend);
+  addBake(app, run, frontend);
+  addManual(app, run);
   app.require_subcommand(0, 1);
 
   try {

@@ -36,6 +36,9 @@ struct Frontend {
   std::function<int(const EditorOptions&)> runEditor;  // exit code
   std::function<int(const ReplayOptions&)> runReplay;  // exit code
   Stopwatch stopwatch;                                 // for the timings in --stats
+  // Called once by a command that can stop in good order; from then on Ctrl+C only makes what is
+  // returned answer true.
+  std::function<std::function<bool()>()> catchInterrupts;
 };
 
 // Exit code: 0 good, 1 a check failed, 2 bad use or bad input (one line on standard error).

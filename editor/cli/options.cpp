@@ -3,14 +3,63 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <iostream>
 #include <limits>
 
+#include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
 #include "renderer/error.h"
 #include "renderer/scene/render_scene.h"
 
 namespace lamplighter::cli {
+
+namespace {
+
+constexpr int kAllAtOnce = 65536;
+
+bool has(const MethodInfo& method, const std::string& name) {
+  for (const ParameterSpec& p : method.parameters) {
+    if (p.name == name) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Settings settingsOf(const MethodFlags& o, const MethodInfo& method) {
+  Settings settings;
+  // Nobody watches the frames in between: as much a frame as there is. The settled picture is the
+  // same.
+  if (has(method, "updates")) settings.set("updates", kAllAtOnce);
+  // What a settled picture is refined to must be asked for: it takes its time.
+  if (has(method, "refine")) settings.set("refine", 0);
+  if (has(method, "samples_per_frame")) settings.set("samples_per_frame", 16);
+
+  struct Shortcut {
+    const char* flag;
+    const std::string& value;
+    std::vector<std::string> names;  // the first of them that the method has
+  };
+  for (const Shortcut& s :
+       {Shortcut{"--vpls", o.vpls, {"vpls"}},
+        Shortcut{"--direct-share", o.directShare, {"direct_share"}},
+        Shortcut{"--bounces", o.bounces, {"bounces"}}, Shortcut{"--seed", o.seed, {"seed"}},
+        Shortcut{"--spp", o.spp, {"samples_per_pixel", "antialias"}}}) {
+    if (s.value.empty()) continue;
+    bool used = false;
+    for (const std::string& name : s.names) {
+      if (used || !has(method, name)) continue;
+      setParameter(settings, method, name, s.value);
+      used = true;
+    }
+    if (!used)
+      std::cerr << fmt::format("warning: {} means nothing to {}; it is left out\n", s.flag,
+                               method.name);
+  }
+  for (const std::string& a : o.assignments) setFromAssignment(settings, method, a);
+  return settings;
+}
 
 std::pair<int, int> parseSize(const std::string& text) {
   constexpr int kLargest = 16384;

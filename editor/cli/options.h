@@ -22,6 +22,15 @@ void setParameter(Settings& settings, const MethodInfo& method, const std::strin
 // "name=value".
 void setFromAssignment(Settings& settings, const MethodInfo& method, const std::string& assignment);
 
+// Flags of commands that run a method; empty where not given.
+struct MethodFlags {
+  std::string vpls, directShare, bounces, seed, spp;  // shortcuts
+  std::vector<std::string> assignments;               // "name=value"
+};
+// For a run that nobody watches. Throws InputError; a shortcut that the method has no parameter for
+// gives a warning on standard error.
+Settings settingsOf(const MethodFlags& flags, const MethodInfo& method);
+
 // The camera by name or index (""; the first one, or a view of everything when there is none).
 View chooseView(const Scene& scene, const std::string& camera, int width, int height);
 

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include "editor/cli/options.h"
+#include "editor/cli/progress_line.h"
 #include "editor/cli/subcommands.h"
 #include "editor/document/cache_folder.h"
 #include "editor/document/write_file.h"
@@ -31,70 +31,11 @@ namespace {
 
 constexpr int kAllAtOnce = 65536;
 
-bool has(const MethodInfo& method, const std::string& name) {
-  for (const ParameterSpec& p : method.parameters) {
-    if (p.name == name) return true;
-  }
-  return false;
-}
-
-Settings settingsOf(const RenderOptions& o, const MethodInfo& method) {
-  Settings settings;
-  // Nobody watches the frames in between: as much a frame as there is. The settled picture is the
-  // same.
-  if (has(method, "updates")) settings.set("updates", kAllAtOnce);
-  // What a settled picture is refined to must be asked for: it takes its time.
-  if (has(method, "refine")) settings.set("refine", 0);
-  if (has(method, "samples_per_frame")) settings.set("samples_per_frame", 16);
-
-  struct Shortcut {
-    const char* flag;
-    const std::string& value;
-    std::vector<std::string> names;  // the first of them that the method has
-  };
-  for (const Shortcut& s :
-       {Shortcut{"--vpls", o.vpls, {"vpls"}},
-        Shortcut{"--direct-share", o.directShare, {"direct_share"}},
-        Shortcut{"--bounces", o.bounces, {"bounces"}}, Shortcut{"--seed", o.seed, {"seed"}},
-        Shortcut{"--spp", o.spp, {"samples_per_pixel", "antialias"}}}) {
-    if (s.value.empty()) continue;
-    bool used = false;
-    for (const std::string& name : s.names) {
-      if (used || !has(method, name)) continue;
-      setParameter(settings, method, name, s.value);
-      used = true;
-    }
-    if (!used)
-      std::cerr << fmt::format("warning: {} means nothing to {}; it is left out\n", s.flag,
-                               method.name);
-  }
-  for (const std::string& a : o.assignments) setFromAssignment(settings, method, a);
-  return settings;
-}
-
 struct Totals {
   int frames = 0;
   uint64_t raysOfMethod = 0, visibilityTests = 0;
   std::map<std::string, double> stageSeconds;
   double loadSeconds = 0.0, renderSeconds = 0.0;
-};
-
-// One line on a terminal that is written over frame by frame and gone in the end, whichever way
-// that comes, so that an error has its line to itself. Nothing where standard error is no terminal.
-class ProgressLine {
- public:
-  ~ProgressLine() {
-    if (shown_) std::cerr << "\r\033[K" << std::flush;
-  }
-  void show(const std::string& text) {
-    if (!terminal_) return;
-    std::cerr << "\r\033[K" << text << std::flush;
-    shown_ = true;
-  }
-
- private:
-  bool terminal_ = ::isatty(STDERR_FILENO) == 1;
-  bool shown_ = false;
 };
 
 uint64_t peakMemoryBytes() {

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "editor/cli/cli.h"
+#include "editor/cli/options.h"
+#include "renderer/bake/atlas.h"
 
 namespace lamplighter::cli {
 
@@ -16,7 +18,7 @@ struct InfoOptions {
 };
 int info(const InfoOptions& options);
 
-struct RenderOptions {
+struct RenderOptions : MethodFlags {
   std::string scene, output;
   std::string method = "many_lights";
   std::string sky;                             // parseSky(); empty: the scene's own
@@ -27,9 +29,6 @@ struct RenderOptions {
   int viewVpl = 0;  // that the view is about
   bool legend = false, marks = false;
   int threads = 0;
-  // Shortcuts, empty where not given.
-  std::string vpls, directShare, bounces, seed, spp;
-  std::vector<std::string> assignments;
 };
 int render(const RenderOptions& options, const Frontend& frontend);
 
@@ -61,6 +60,16 @@ struct ScriptOptions {
   int threads = 0;
 };
 int script(const ScriptOptions& options, const Frontend& frontend);
+
+struct BakeOptions : MethodFlags {
+  std::string scene, output;
+  std::string method = "many_lights";
+  AtlasOptions atlas;
+  std::string shard;  // "i/n", or empty
+  bool merge = false, keepParts = false;
+  int threads = 0;
+};
+int bake(const BakeOptions& options, const Frontend& frontend);
 
 // "auto" or a number of EV; throws InputError.
 float exposureOf(const std::string& text, const Image& radiance);

@@ -53,15 +53,18 @@ class Tracer {
   Tracer(const RenderScene& scene, const RayCaster& rays, const LightSet& lights)
       : scene_(scene), rays_(rays), lights_(lights) {}
 
-  vec3 trace(Ray ray, PathSampler& sampler, const PathTracerOptions& options) {
+  // From the camera; or on from a surface: the direction's density by solid angle there, and the
+  // place.
+  vec3 trace(Ray ray, PathSampler& sampler, const PathTracerOptions& options, int firstDepth = 0,
+             float firstPdf = 0.0f, const vec3& firstPlace = vec3(0.0f)) {
     vec3 radiance(0.0f), throughput(1.0f);
     // The density by solid angle with which the last surface chose this direction; 0: the camera's,
     // which no light sampling competes with.
-    float pdfDirection = 0.0f;
-    vec3 from(0.0f);
+    float pdfDirection = firstPdf;
+    vec3 from = firstPlace;
 
     const int bounces = options.part == LightPart::direct ? 0 : options.bounces;
-    for (int depth = 0;; ++depth) {
+    for (int depth = firstDepth;; ++depth) {
       // What shines into the camera, and what does on what it sees, is direct.
       const bool takesSeen = options.part != LightPart::indirect || depth > 1;
       ++raysTraced_;
@@ -102,6 +105,17 @@ class Tracer {
       from = at.s.position;
       ray = {start(at), 0.0f, direction};
     }
+  }
+
+  // What a white Lambertian surface there would reflect, times π.
+  vec3 irradiance(const Surface& surface, PathSampler& sampler, const PathTracerOptions& options) {
+    const LocalSurface at(surface, surface.geometricNormal);
+    const vec3 direct = directLight(at, sampler);
+    const vec3 direction = Frame(at.ns).toWorld(sampleCosineHemisphere(sampler.next2()));
+    const float pdf = at.pdf(direction);
+    if (glm::dot(at.ng, direction) <= 0.0f || !(pdf > 0.0f)) return kPi * direct;
+    return kPi *
+           (direct + trace({start(at), 0.0f, direction}, sampler, options, 1, pdf, at.s.position));
   }
 
   uint64_t raysTraced() const { return raysTraced_; }
@@ -261,6 +275,18 @@ vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet
   const vec3 radiance = tracer.trace({view.eye, 0.0f, direction}, sampler, options);
   if (raysTraced != nullptr) *raysTraced += tracer.raysTraced();
   return radiance;
+}
+
+vec3 traceIrradiance(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
+                     const vec3& position, const vec3& normal, const vec3& shadingNormal,
+                     uint32_t pixel, uint32_t sample, const PathTracerOptions& options) {
+  PathSampler sampler(pixel, sample, options.seed);
+  Surface surface;
+  surface.position = position;
+  surface.geometricNormal = normal;
+  surface.normal = shadingNormal;
+  surface.albedo = vec3(1.0f);
+  return Tracer(scene, caster, lights).irradiance(surface, sampler, options);
 }
 
 }  // namespace lamplighter

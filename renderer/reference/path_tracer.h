@@ -31,4 +31,10 @@ vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet
                const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options,
                uint64_t* raysTraced = nullptr);
 
+// The same for the irradiance [W/m²] at a point of a surface, on the side of its unit normal; a
+// smooth surface has another `shadingNormal`. `bounces` counts what bounces before it arrives.
+vec3 traceIrradiance(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
+                     const vec3& position, const vec3& normal, const vec3& shadingNormal,
+                     uint32_t pixel, uint32_t sample, const PathTracerOptions& options);
+
 }  // namespace lamplighter

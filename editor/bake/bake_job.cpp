@@ -1,0 +1,193 @@
+#include "editor/bake/bake_job.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+#include <tbb/parallel_for.h>
+
+#include "editor/document/document.h"
+#include "editor/document/write_file.h"
+#include "renderer/bake/page_fill.h"
+#include "renderer/bake/second_uvs.h"
+#include "renderer/error.h"
+#include "renderer/image/image_io.h"
+#include "renderer/scene/gltf_io.h"
+
+namespace lamplighter {
+namespace {
+
+// To be raised whenever tiles come out otherwise.
+constexpr uint64_t kVersion = 1;
+
+// FNV-1a, by words.
+class Key {
+ public:
+  void add(uint64_t value) { hash_ = (hash_ ^ value) * 0x100000001b3ull; }
+  template <typename T>
+  void addAll(const std::vector<T>& values) {
+    add(values.size());
+    const auto bytes = std::as_bytes(std::span(values));
+    for (size_t at = 0; at < bytes.size(); at += 8) {
+      uint64_t word = 0;
+      std::memcpy(&word, &bytes[at], std::min<size_t>(8, bytes.size() - at));
+      add(word);
+    }
+  }
+  uint64_t value() const { return hash_; }
+
+ private:
+  uint64_t hash_ = 0xcbf29ce484222325ull;
+};
+
+// Of everything that the tiles depend on.
+uint64_t keyOf(const Scene& scene, const RenderScene& render, const BakeJobOptions& o) {
+  Key key;
+  key.add(sceneHash(scene));
+  key.addAll(render.positions), key.addAll(render.normals), key.addAll(render.indices);
+  key.addAll(render.uv0), key.addAll(render.uv1), key.addAll(render.colors);
+  for (const Texture& t : render.textures) key.addAll(t.image->pixels);
+  const auto add = [&](uint64_t value) { key.add(value); };
+  add(kVersion);
+  add(std::bit_cast<uint32_t>(o.atlas.texelsPerMetre));
+  add(static_cast<uint64_t>(o.atlas.pageSize));
+  add(o.light.reference);
+  if (o.light.reference) {
+    add(static_cast<uint64_t>(o.light.paths.bounces));
+    add(o.light.paths.seed);
+    add(static_cast<uint64_t>(o.light.samples));
+  } else {
+    add(static_cast<uint64_t>(o.light.counts.total));
+    add(std::bit_cast<uint32_t>(o.light.counts.directShare));
+    add(static_cast<uint64_t>(o.light.counts.bounces));
+    add(o.light.counts.seed);
+    add(std::bit_cast<uint32_t>(o.light.clampDistance));
+  }
+  return key.value();
+}
+
+std::vector<BakedTexel> find(const BakeTile& tile, const BakedLight& light, int pageSize) {
+  std::vector<std::span<const BakePoint>> texels;
+  for (size_t first = 0; first < tile.points.size();) {
+    size_t end = first + 1;
+    while (end < tile.points.size() && tile.points[end].x == tile.points[first].x &&
+           tile.points[end].y == tile.points[first].y)
+      ++end;
+    texels.push_back(std::span(tile.points).subspan(first, end - first));
+    first = end;
+  }
+  std::vector<BakedTexel> found(texels.size());
+  tbb::parallel_for(size_t{0}, texels.size(), [&](size_t i) {
+    const BakePoint& p = texels[i].front();
+    const auto side = static_cast<uint32_t>(pageSize);
+    const uint32_t texel = (static_cast<uint32_t>(tile.page) * side + p.y) * side + p.x;
+    found[i] = {p.x, p.y, light.irradiance(texels[i], texel)};
+  });
+  return found;
+}
+
+std::string pageName(const BakeJobOptions& o, int page) {
+  return fmt::format("{}-light-{}.exr", o.name, page);
+}
+
+// Throws InputError where tiles are missing.
+void writePages(const std::vector<BakeTile>& tiles, const BakeParts& parts, const BakeJobOptions& o,
+                BakeReport& report) {
+  std::vector<Image> pages(static_cast<size_t>(report.pages),
+                           Image(o.atlas.pageSize, o.atlas.pageSize, vec3(-1.0f)));
+  int missing = 0;
+  const BakeTile* first = nullptr;
+  for (const BakeTile& tile : tiles) {
+    const auto texels = parts.read(tile);
+    if (!texels) {
+      if (missing++ == 0) first = &tile;
+      continue;
+    }
+    for (const BakedTexel& t : *texels)
+      pages[static_cast<size_t>(tile.page)].at(t.x, t.y) = t.irradiance;
+  }
+  if (missing > 0)
+    throw InputError(o.output.string(),
+                     fmt::format("{} of {} tiles are missing, the first is number {}", missing,
+                                 tiles.size(), first->number),
+                     "bake all shards of the same scene and settings into this folder first");
+  for (int i = 0; i < report.pages; ++i) {
+    fillUnknown(pages[static_cast<size_t>(i)]);
+    report.files.push_back(o.output / pageName(o, i));
+    writeExr(pages[static_cast<size_t>(i)], report.files.back());
+  }
+}
+
+void writeScene(const Scene& scene, const RenderScene& render, const LightMapAtlas& atlas,
+                const BakeJobOptions& o, BakeReport& report) {
+  report.files.push_back(o.output / (o.name + ".gltf"));
+  saveGltf(withLightMapUvs(scene, render, atlas), report.files.back());
+
+  // Which page is whose: core glTF has no place for it.
+  nlohmann::ordered_json j;
+  j["scene"] = o.name + ".gltf";
+  j["texCoord"] = 1;
+  j["quantity"] = "irradiance, W/m2, linear Rec. 709; reflected radiance is albedo / pi times it";
+  for (int i = 0; i < report.pages; ++i) j["pages"].push_back(pageName(o, i));
+  NodeId last = kNoNode;
+  for (const PlacedChart& c : atlas.charts) {
+    const NodeId id = render.objects[c.chart.object].node;
+    if (id == last) continue;
+    last = id;
+    j["nodes"].push_back(
+        {{"name", scene.find(id)->name}, {"page", c.page}, {"texels_per_metre", c.texelsPerMetre}});
+  }
+  report.files.push_back(o.output / (o.name + "-light.json"));
+  writeFile(report.files.back(), j.dump(2) + "\n");
+}
+
+}  // namespace
+
+BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress& progress) {
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  const LightMapAtlas atlas = makeAtlas(render, o.atlas);
+  if (atlas.charts.empty())
+    throw InputError(o.name, "has no surface that light maps are for", "give a scene with meshes");
+  BakeReport report;
+  report.pages = atlas.pages;
+  for (const LightMapAtlas::Coarser& c : atlas.coarser)
+    report.warnings.push_back(
+        fmt::format("\"{}\" has {:.3g} texels a metre: a page holds no more of it",
+                    scene.find(c.node)->name, c.texelsPerMetre));
+  // Before the long work: what it would end with must be possible.
+  if (o.shard == 0) withLightMapUvs(scene, render, atlas);
+
+  const std::vector<BakeTile> tiles = bakeTiles(render, atlas);
+  const BakeParts parts(o.output, keyOf(scene, render, o));
+  report.tiles = static_cast<int>(tiles.size());
+  for (const BakeTile& tile : tiles) report.texels += tile.points.size();
+  if (!o.mergeOnly) {
+    std::vector<const BakeTile*> open;
+    for (const BakeTile& tile : tiles) {
+      if (o.shard > 0 && tile.number % o.shards != o.shard - 1) continue;
+      parts.has(tile) ? void(++report.taken) : open.push_back(&tile);
+    }
+    const RayCaster rays(render);
+    const BakedLight light(render, rays, o.light);
+    for (const BakeTile* tile : open) {
+      parts.write(*tile, find(*tile, light, o.atlas.pageSize));
+      ++report.found;
+      if (progress && !progress(report.found, static_cast<int>(open.size())) &&
+          report.found < static_cast<int>(open.size())) {
+        report.isCancelled = true;
+        return report;
+      }
+    }
+  }
+  if (o.shard > 0) return report;
+  writePages(tiles, parts, o, report);
+  writeScene(scene, render, atlas, o, report);
+  if (!o.keepParts) parts.remove();
+  report.isWhole = true;
+  return report;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,16 @@
+// The command line described by itself: a man page, and a table of every flag.
+#pragma once
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace lamplighter::cli {
+
+// roff for man(1), by the conventions of man-pages(7).
+std::string manPage(const CLI::App& app);
+std::string flagTables(const CLI::App& app);  // Markdown
+
+}  // namespace lamplighter::cli

@@ -1,0 +1,93 @@
+#include "renderer/bake/baked_light.h"
+
+#include <array>
+
+#include "renderer/sampling/light_paths.h"
+#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/random.h"
+#include "renderer/scene/surface.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter {
+namespace {
+
+// Rays that look whether a point lies inside of something: then most of them meet back faces.
+constexpr uint32_t kInsideRays = 16;
+constexpr uint32_t kInsideSet = 0x7d;
+
+}  // namespace
+
+BakedLight::BakedLight(const RenderScene& scene, const RayCaster& rays,
+                       const BakeLightOptions& options)
+    : scene_(scene), rays_(rays), options_(options), lights_(scene) {
+  // Suns stay whole: rays need no maps.
+  if (!options.reference) vpls_ = LightPaths::generate(scene, rays, lights_, options.counts).vpls;
+}
+
+vec3 BakedLight::irradiance(std::span<const BakePoint> points, uint32_t texel) const {
+  std::vector<Place> places;
+  for (const BakePoint& p : points) {
+    const Place at = placeOf(p);
+    if (!isBuried(at, texel)) places.push_back(at);
+  }
+  if (places.empty()) return vec3(-1.0f);
+  vec3 sum(0.0f);
+  if (!options_.reference) {
+    for (const Place& at : places) sum += ofSamples(at);
+    return sum / static_cast<float>(places.size());
+  }
+  // Paths take turns among the points.
+  for (uint32_t i = 0; i < static_cast<uint32_t>(options_.samples); ++i) {
+    const Place& at = places[i % places.size()];
+    sum += traceIrradiance(scene_, rays_, lights_, at.position, at.normal, at.shadingNormal, texel,
+                           i, options_.paths);
+  }
+  return sum / static_cast<float>(options_.samples);
+}
+
+BakedLight::Place BakedLight::placeOf(const BakePoint& point) const {
+  const Surface s = surfaceAt(scene_, point.object, point.triangle, point.u, point.v);
+  const uint32_t first = scene_.objects[point.object].firstIndex + 3 * point.triangle;
+  const auto normal = [&](uint32_t k) { return scene_.normals[scene_.indices[first + k]]; };
+  const vec3 smooth =
+      (1.0f - point.u - point.v) * normal(0) + point.u * normal(1) + point.v * normal(2);
+  const bool isSound = glm::dot(smooth, s.geometricNormal) > 0.0f;
+  return {s.position, s.geometricNormal, isSound ? glm::normalize(smooth) : s.geometricNormal};
+}
+
+bool BakedLight::isBuried(const Place& at, uint32_t texel) const {
+  const Frame frame(at.normal);
+  const vec3 from = at.position + rayEpsilon(at.position) * at.normal;
+  uint32_t inside = 0;
+  const uint32_t scramble = hash4(texel, 0, 0, kInsideSet);
+  for (uint32_t i = 0; i < kInsideRays; ++i) {
+    const vec3 direction = frame.toWorld(sampleCosineHemisphere(sobol2(i, scramble)));
+    const Hit hit = rays_.intersect({from, 0.0f, direction});
+    // What has two sides, such as a curtain, has no inside.
+    if (!hit || !scene_.backIsUnseen(hit.object)) continue;
+    const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
+    inside += glm::dot(s.geometricNormal, direction) > 0.0f;
+  }
+  return inside > kInsideRays / 2;
+}
+
+vec3 BakedLight::ofSamples(const Place& at) const {
+  const vec3 from = at.position + rayEpsilon(at.position) * at.normal;
+  vec3 sum(0.0f);
+  for (const SceneVpl& light : vpls_) {
+    const shared::Vpl& vpl = light.vpl;
+    const float geometry =
+        shared::vplGeometry(vpl, from, at.shadingNormal, at.normal, options_.clampDistance);
+    if (!(geometry > 0.0f)) continue;
+    Ray ray{from, 0.0f, vec3(vpl.normal)};
+    if (vpl.position.w != shared::kVplDirectional) {
+      const vec3 way = vec3(vpl.position) - from;
+      ray.tFar = glm::length(way);
+      ray.direction = way / ray.tFar;
+    }
+    if (!rays_.occluded(ray)) sum += geometry * vec3(vpl.intensity);
+  }
+  return sum;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,99 @@
+#include "renderer/bake/second_uvs.h"
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "renderer/error.h"
+
+namespace lamplighter {
+namespace {
+
+bool usesSecondUvs(const Material& m) {
+  for (const TextureRef* t :
+       {&m.baseColorTexture, &m.normalTexture, &m.emissiveTexture, &m.metallicRoughnessTexture})
+    if (t->texture != kNone && t->texCoord == 1) return true;
+  return false;
+}
+
+template <typename T>
+void copyVertex(std::vector<T>& to, const std::vector<T>& from, uint32_t vertex) {
+  if (!from.empty()) to.push_back(from[vertex]);
+}
+
+// `charts`: of this primitive, as object `o` of the rendered scene.
+Primitive withUvs(const Primitive& p, const RenderScene& render, const RenderObject& o,
+                  const std::vector<const PlacedChart*>& charts, int pageSize) {
+  std::vector<const PlacedChart*> chartOf(o.triangleCount(), nullptr);
+  for (const PlacedChart* c : charts)
+    for (const uint32_t t : c->chart.triangles) chartOf[t] = c;
+  Primitive out;
+  out.material = p.material;
+  std::map<std::pair<uint32_t, const PlacedChart*>, uint32_t> vertices;
+  std::vector<std::pair<uint32_t, const PlacedChart*>> order;
+  for (uint32_t i = 0; i < o.indexCount; ++i) {
+    const uint32_t vertex = p.indices[i];
+    const PlacedChart* chart = chartOf[i / 3];
+    const auto [it, isNew] =
+        vertices.emplace(std::pair(vertex, chart), static_cast<uint32_t>(vertices.size()));
+    if (isNew) order.emplace_back(vertex, chart);
+    out.indices.push_back(it->second);
+  }
+  for (const auto& [vertex, chart] : order) {
+    copyVertex(out.positions, p.positions, vertex);
+    copyVertex(out.normals, p.normals, vertex);
+    copyVertex(out.tangents, p.tangents, vertex);
+    copyVertex(out.uv0, p.uv0, vertex);
+    copyVertex(out.colors, p.colors, vertex);
+    const vec3& at = render.positions[o.firstVertex + vertex];
+    out.uv1.push_back(chart == nullptr ? vec2(0.0f)  // a triangle without area
+                                       : chart->texelsOf(at) / static_cast<float>(pageSize));
+  }
+  return out;
+}
+
+}  // namespace
+
+Scene withLightMapUvs(const Scene& scene, const RenderScene& render, const LightMapAtlas& atlas) {
+  std::map<uint32_t, std::vector<const PlacedChart*>> byObject;
+  for (const PlacedChart& c : atlas.charts) byObject[c.chart.object].push_back(&c);
+  Scene out = scene;
+  std::set<int> replaced;  // meshes of the scene whose place another has taken
+  uint32_t object = 0;
+  for (Node& node : out.nodes) {
+    std::shared_ptr<Mesh> mesh;
+    int page = 0;
+    size_t primitive = 0;
+    for (; object < render.objects.size() && render.objects[object].node == node.id; ++object) {
+      const RenderObject& o = render.objects[object];
+      if (o.isAreaLight) continue;
+      const Mesh& was = *scene.meshes[static_cast<size_t>(node.mesh)];
+      while (was.primitives[primitive].indices.empty()) ++primitive;
+      const auto charts = byObject.find(object);
+      if (charts != byObject.end()) {
+        const Primitive& p = was.primitives[primitive];
+        if (p.material != kNone && usesSecondUvs(scene.materials[static_cast<size_t>(p.material)]))
+          throw InputError(
+              "material \"" + scene.materials[static_cast<size_t>(p.material)].name + "\"",
+              "a texture of it uses the second UV set, which light maps need",
+              "put it on the first");
+        if (!mesh) mesh = std::make_shared<Mesh>(was);
+        page = charts->second.front()->page;
+        mesh->primitives[primitive] = withUvs(p, render, o, charts->second, atlas.pageSize);
+      }
+      ++primitive;
+    }
+    if (!mesh) continue;
+    mesh->name +=
+        (mesh->name.empty() ? "(light map " : " (light map ") + std::to_string(page) + ")";
+    if (replaced.insert(node.mesh).second) {
+      out.meshes[static_cast<size_t>(node.mesh)] = std::move(mesh);
+    } else {
+      node.mesh = static_cast<int>(out.meshes.size());
+      out.meshes.push_back(std::move(mesh));
+    }
+  }
+  return out;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,176 @@
+#include "renderer/bake/unwrap.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace lamplighter {
+namespace {
+
+// Cells a side at most of the grid that overlaps are looked for on.
+constexpr float kMostCells = 1024.0f;
+// Edges that are tried for the chart's axes.
+constexpr size_t kMostEdges = 24;
+// A cell's centre is within a triangle when it is so by this share of it: triangles that share an
+// edge do not overlap.
+constexpr float kInside = 1e-4f;
+
+struct Triangles {
+  std::vector<std::array<vec3, 3>> corners;
+  std::vector<vec3> normals;  // unit; zero where there is no area
+  std::vector<float> areas;
+  std::vector<std::vector<uint32_t>> neighbours;  // across an edge
+};
+
+Triangles trianglesOf(const RenderScene& scene, const RenderObject& object) {
+  Triangles t;
+  const uint32_t count = object.triangleCount();
+  // Vertices at one place are one, whatever else they carry.
+  const auto byPlace = [](const vec3& a, const vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  };
+  std::map<vec3, uint32_t, decltype(byPlace)> places(byPlace);
+  std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> edges;
+  t.neighbours.resize(count);
+  for (uint32_t i = 0; i < count; ++i) {
+    std::array<vec3, 3> corners;
+    std::array<uint32_t, 3> place;
+    for (uint32_t k = 0; k < 3; ++k) {
+      corners[k] = scene.positions[scene.indices[object.firstIndex + 3 * i + k]];
+      place[k] = places.emplace(corners[k], static_cast<uint32_t>(places.size())).first->second;
+    }
+    const vec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const float twice = glm::length(cross);
+    t.corners.push_back(corners);
+    t.normals.push_back(twice > 0.0f ? cross / twice : vec3(0.0f));
+    t.areas.push_back(0.5f * twice);
+    if (!(twice > 0.0f)) continue;
+    for (uint32_t k = 0; k < 3; ++k) edges[std::minmax(place[k], place[(k + 1) % 3])].push_back(i);
+  }
+  for (const auto& [edge, users] : edges)
+    for (const uint32_t a : users)
+      for (const uint32_t b : users)
+        if (a != b) t.neighbours[a].push_back(b);
+  return t;
+}
+
+// Which cells of a chart's plane are taken.
+class Grid {
+ public:
+  Grid(const BakeChart& chart, float cellsPerMetre) : chart_(chart), cells_(cellsPerMetre) {}
+
+  // Takes the cells whose centres the triangle covers, unless one of them is taken already.
+  bool take(const std::array<vec3, 3>& corners) {
+    std::array<vec2, 3> p;
+    for (size_t k = 0; k < 3; ++k) p[k] = cells_ * chart_.project(corners[k]);
+    const vec2 low = glm::floor(glm::min(p[0], glm::min(p[1], p[2])));
+    const vec2 high = glm::ceil(glm::max(p[0], glm::max(p[1], p[2])));
+    const float area = cross(p[1] - p[0], p[2] - p[0]);
+    if (area == 0.0f) return true;
+    std::vector<std::pair<int, int>> covered;
+    for (int y = static_cast<int>(low.y); y < static_cast<int>(high.y); ++y) {
+      for (int x = static_cast<int>(low.x); x < static_cast<int>(high.x); ++x) {
+        const vec2 c(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        const float u = cross(p[1] - p[0], c - p[0]) / area,
+                    v = cross(c - p[0], p[2] - p[0]) / area;
+        if (u <= kInside || v <= kInside || u + v >= 1.0f - kInside) continue;
+        if (taken_.contains({x, y})) return false;
+        covered.emplace_back(x, y);
+      }
+    }
+    taken_.insert(covered.begin(), covered.end());
+    return true;
+  }
+
+ private:
+  static float cross(const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; }
+  const BakeChart& chart_;
+  float cells_;
+  std::set<std::pair<int, int>> taken_;
+};
+
+// Turns the chart in its plane so that its first axis runs along `direction`, and finds its box.
+void turn(BakeChart& chart, const vec3& direction, const Triangles& t) {
+  const vec3 along = direction - glm::dot(direction, chart.normal) * chart.normal;
+  chart.tangent = glm::normalize(along);
+  chart.bitangent = glm::cross(chart.normal, chart.tangent);
+  chart.min = vec2(std::numeric_limits<float>::infinity());
+  chart.max = -chart.min;
+  for (const uint32_t i : chart.triangles) {
+    for (const vec3& p : t.corners[i]) {
+      chart.min = glm::min(chart.min, chart.project(p));
+      chart.max = glm::max(chart.max, chart.project(p));
+    }
+  }
+}
+
+// The smallest box about a polygon lies along one of its edges: the longest ones are tried.
+void turnToSmallestBox(BakeChart& chart, const Triangles& t) {
+  std::vector<vec3> edges;
+  for (const uint32_t i : chart.triangles)
+    for (size_t k = 0; k < 3; ++k) edges.push_back(t.corners[i][(k + 1) % 3] - t.corners[i][k]);
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const vec3& a, const vec3& b) { return glm::dot(a, a) > glm::dot(b, b); });
+  edges.resize(std::min(edges.size(), kMostEdges));
+  BakeChart best = chart;
+  float least = std::numeric_limits<float>::infinity();
+  for (const vec3& edge : edges) {
+    if (!(glm::length(glm::cross(edge, chart.normal)) > 0.0f)) continue;
+    turn(chart, edge, t);
+    const float area = chart.extent().x * chart.extent().y;
+    if (area >= least) continue;
+    least = area;
+    best = chart;
+  }
+  chart = std::move(best);
+}
+
+}  // namespace
+
+std::vector<BakeChart> unwrap(const RenderScene& scene, uint32_t object, float cellsPerMetre) {
+  const RenderObject& o = scene.objects[object];
+  const Triangles t = trianglesOf(scene, o);
+  std::vector<uint32_t> bySize(t.corners.size());
+  std::iota(bySize.begin(), bySize.end(), 0u);
+  std::stable_sort(bySize.begin(), bySize.end(),
+                   [&](uint32_t a, uint32_t b) { return t.areas[a] > t.areas[b]; });
+  const float extent = std::max(o.bounds.radius(), 1e-6f);
+  const float cells = std::min(cellsPerMetre, kMostCells / (2.0f * extent));
+  const float leastCosine = std::cos(kMostBend);
+
+  std::vector<uint8_t> isTaken(t.corners.size(), 0);
+  std::vector<BakeChart> charts;
+  for (const uint32_t seed : bySize) {
+    if (isTaken[seed] || t.normals[seed] == vec3(0.0f)) continue;
+    BakeChart& chart = charts.emplace_back();
+    chart.object = object;
+    chart.normal = t.normals[seed];
+    const Frame frame(chart.normal);
+    chart.tangent = frame.tangent;
+    chart.bitangent = frame.bitangent;
+    Grid grid(chart, cells);
+    // Neighbours in the order in which they are found; what overlaps is left for another chart.
+    std::deque<uint32_t> open{seed};
+    std::set<uint32_t> seen{seed};
+    while (!open.empty()) {
+      const uint32_t next = open.front();
+      open.pop_front();
+      if (!grid.take(t.corners[next]) && next != seed) continue;
+      isTaken[next] = 1;
+      chart.triangles.push_back(next);
+      for (const uint32_t n : t.neighbours[next]) {
+        if (isTaken[n] || glm::dot(t.normals[n], chart.normal) < leastCosine) continue;
+        if (seen.insert(n).second) open.push_back(n);
+      }
+    }
+    std::sort(chart.triangles.begin(), chart.triangles.end());
+    turnToSmallestBox(chart, t);
+  }
+  return charts;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,72 @@
+// `lamplighter bake` as its callers use it.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/process.h"
+
+namespace lamplighter::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kScene =
+    std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/scenes/cornell_style.gltf";
+
+class BakeCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / ("lamplighter_bake_cli_" + std::string(info->name()));
+    fs::remove_all(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  ProcessResult run(std::vector<std::string> more) const {
+    std::vector<std::string> all{"bake", kScene,   "-o",  folder_.string(), "--density",
+                                 "2",    "--page", "256", "--vpls",         "32"};
+    all.insert(all.end(), more.begin(), more.end());
+    return runLamplighter(all);
+  }
+  fs::path folder_;
+};
+
+TEST_F(BakeCommand, WritesPagesAndACopyAndSaysHowFarItIs) {
+  const ProcessResult r = run({});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(r.err.find("left"), std::string::npos) << r.err;
+  EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light-0.exr"));
+  EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light.json"));
+  EXPECT_EQ(runLamplighter({"info", (folder_ / "cornell_style.gltf").string()}).code, 0);
+}
+
+TEST_F(BakeCommand, AShardLeavesItsPartAlone) {
+  EXPECT_EQ(run({"--shard", "1/2"}).code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "cornell_style-light-0.exr"));
+  const ProcessResult early = run({"--merge"});
+  EXPECT_EQ(early.code, 2);
+  EXPECT_NE(early.err.find("tiles are missing"), std::string::npos) << early.err;
+  EXPECT_EQ(run({"--shard", "2/2"}).code, 0);
+  EXPECT_EQ(run({"--merge"}).code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light-0.exr"));
+}
+
+TEST_F(BakeCommand, RefusesInOneLine) {
+  for (const std::vector<std::string>& bad : {std::vector<std::string>{"--shard", "0/2"},
+                                              {"--shard", "3/2"},
+                                              {"--shard", "two"},
+                                              {"--density", "0"},
+                                              {"--page", "7"},
+                                              {"--method", "magic"},
+                                              {"--shard", "1/2", "--merge"}}) {
+    const ProcessResult r = run(bad);
+    EXPECT_EQ(r.code, 2) << bad[0];
+    EXPECT_EQ(lines(r.err), 1) << r.err;
+  }
+  const ProcessResult same = runLamplighter(
+      {"bake", kScene, "-o", std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/scenes"});
+  EXPECT_EQ(same.code, 2);
+  EXPECT_NE(same.err.find("folder of the scene itself"), std::string::npos) << same.err;
+}
+
+}  // namespace
+}  // namespace lamplighter::test

@@ -1,0 +1,213 @@
+// Charts, their places on pages, and the points of texels.
+#include "renderer/bake/atlas.h"
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "renderer/bake/bake_points.h"
+#include "renderer/bake/page_fill.h"
+#include "renderer/bake/second_uvs.h"
+#include "renderer/bake/skyline.h"
+#include "renderer/error.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+RenderScene rendered(const Scene& scene) {
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  return render;
+}
+
+Scene oneMesh(std::shared_ptr<const Mesh> mesh) {
+  Scene scene;
+  test::addMesh(scene, std::move(mesh));
+  return scene;
+}
+
+size_t trianglesIn(const std::vector<BakeChart>& charts) {
+  size_t count = 0;
+  for (const BakeChart& c : charts) count += c.triangles.size();
+  return count;
+}
+
+TEST(Skyline, PacksWithoutOverlapAndRefusesWhatDoesNotFit) {
+  Skyline page(64);
+  std::set<std::pair<int, int>> taken;
+  int placed = 0;
+  for (int i = 0; i < 40; ++i) {
+    const glm::ivec2 size(5 + i % 7, 4 + i % 5);
+    const auto at = page.place(size);
+    if (!at) continue;
+    ++placed;
+    for (int y = at->y; y < at->y + size.y; ++y)
+      for (int x = at->x; x < at->x + size.x; ++x) {
+        ASSERT_TRUE(x >= 0 && y >= 0 && x < 64 && y < 64);
+        EXPECT_TRUE(taken.emplace(x, y).second);
+      }
+  }
+  EXPECT_EQ(placed, 40);
+  EXPECT_FALSE(page.place({65, 1}));
+  EXPECT_FALSE(page.place({64, 64}));
+  EXPECT_FALSE(page.place({64, 64})) << "a refusal changes nothing";
+}
+
+TEST(Unwrap, ABoxHasItsSixSides) {
+  const RenderScene render = rendered(oneMesh(test::boxMesh(vec3(1, 2, 3))));
+  const std::vector<BakeChart> charts = unwrap(render, 0, 16.0f);
+  ASSERT_EQ(charts.size(), 6u);
+  EXPECT_EQ(trianglesIn(charts), 12u);
+  float area = 0.0f;
+  for (const BakeChart& c : charts) area += c.extent().x * c.extent().y;
+  EXPECT_NEAR(area, 2.0f * (2 + 3 + 6), 1e-3f) << "boxes as small as the sides";
+}
+
+TEST(Unwrap, ASphereIsCutWhereItBends) {
+  const RenderScene render = rendered(oneMesh(test::sphereMesh(1.0f, 24)));
+  const std::vector<BakeChart> charts = unwrap(render, 0, 16.0f);
+  EXPECT_EQ(trianglesIn(charts), render.objects[0].triangleCount());
+  EXPECT_GE(charts.size(), 5u);
+  EXPECT_LE(charts.size(), 40u);
+  for (const BakeChart& c : charts) {
+    for (const uint32_t t : c.triangles) {
+      const uint32_t* i = &render.indices[3 * t];
+      const vec3 n = glm::normalize(glm::cross(render.positions[i[1]] - render.positions[i[0]],
+                                               render.positions[i[2]] - render.positions[i[0]]));
+      EXPECT_GE(glm::dot(n, c.normal), std::cos(kMostBend) - 1e-4f);
+    }
+  }
+}
+
+// A strip that climbs round and round has all its triangles connected and nearly level, and lies
+// above itself.
+TEST(Unwrap, WhatLiesAboveItselfIsCut) {
+  constexpr int kSteps = 64;  // two turns
+  auto mesh = std::make_shared<Mesh>();
+  Primitive& p = mesh->primitives.emplace_back();
+  for (int i = 0; i <= kSteps; ++i) {
+    const float angle = 4.0f * kPi * static_cast<float>(i) / kSteps;
+    const float height = 0.02f * static_cast<float>(i);
+    for (const float r : {1.0f, 2.0f}) {
+      p.positions.emplace_back(r * std::cos(angle), height, r * std::sin(angle));
+      p.normals.emplace_back(0, 1, 0);
+    }
+  }
+  for (uint32_t i = 0; i < kSteps; ++i)
+    for (const uint32_t k : {0u, 2u, 1u, 1u, 2u, 3u}) p.indices.push_back(2 * i + k);
+  const RenderScene render = rendered(oneMesh(mesh));
+  const std::vector<BakeChart> charts = unwrap(render, 0, 16.0f);
+  EXPECT_EQ(trianglesIn(charts), 2u * kSteps);
+  EXPECT_GE(charts.size(), 2u);
+}
+
+TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelIsTwoCharts) {
+  Scene scene;
+  for (int i = 0; i < 12; ++i)
+    test::addMesh(scene, test::boxMesh(vec3(1, 2, 1.5f)), vec3(3 * i, 0, 0));
+  const RenderScene render = rendered(scene);
+  const LightMapAtlas atlas = makeAtlas(render, {16.0f, 128});
+  EXPECT_GT(atlas.pages, 1);
+  EXPECT_TRUE(atlas.coarser.empty());
+  std::map<uint32_t, int> pageOf;
+  for (const PlacedChart& c : atlas.charts) {
+    EXPECT_EQ(pageOf.emplace(c.chart.object, c.page).first->second, c.page);
+    EXPECT_FLOAT_EQ(c.texelsPerMetre, 16.0f);
+  }
+  for (int page = 0; page < atlas.pages; ++page) {
+    std::map<std::pair<int, int>, uint32_t> owner;
+    for (const BakePoint& p : bakePoints(render, atlas, page)) {
+      EXPECT_LT(p.x, 128);
+      EXPECT_LT(p.y, 128);
+      EXPECT_EQ(owner.emplace(std::pair(p.x, p.y), p.object).first->second, p.object);
+    }
+  }
+}
+
+TEST(Atlas, WhatIsTooLargeForAPageIsMadeCoarser) {
+  const Scene scene = oneMesh(test::squareMesh(100.0f));
+  const LightMapAtlas atlas = makeAtlas(rendered(scene), {8.0f, 256});
+  ASSERT_EQ(atlas.coarser.size(), 1u);
+  EXPECT_EQ(atlas.coarser[0].node, scene.nodes[0].id);
+  EXPECT_LT(atlas.charts[0].size.x, 257);
+  EXPECT_GT(atlas.charts[0].size.x, 128);
+}
+
+TEST(Atlas, AreaLightsAndPanesHaveNone) {
+  Scene scene;
+  const int glass = test::addMaterial(scene, vec3(1));
+  scene.materials[static_cast<size_t>(glass)].transmission = 1.0f;
+  test::addMesh(scene, test::squareMesh(1.0f, glass));
+  test::addRectangleLight(scene, vec3(0, 2, 0), vec2(1), vec3(1));
+  EXPECT_TRUE(makeAtlas(rendered(scene), {}).charts.empty());
+}
+
+TEST(BakePoints, LieOnTheSurfaceUnderTheirTexels) {
+  const RenderScene render = rendered(oneMesh(test::squareMesh(2.0f)));
+  const LightMapAtlas atlas = makeAtlas(render, {8.0f, 64});
+  ASSERT_EQ(atlas.charts.size(), 1u);
+  const PlacedChart& c = atlas.charts[0];
+  int on = 0;
+  for (const BakePoint& p : bakePoints(render, atlas, 0)) {
+    const uint32_t* i = &render.indices[3 * p.triangle];
+    const vec3 at = (1.0f - p.u - p.v) * render.positions[i[0]] + p.u * render.positions[i[1]] +
+                    p.v * render.positions[i[2]];
+    const vec2 texels = c.texelsOf(at);
+    const vec2 off = texels - vec2(p.x, p.y);
+    const bool isOn = std::abs(off.x - 0.5f) < 0.3f && std::abs(off.y - 0.5f) < 0.3f;
+    on += isOn;
+    // In the gutter: the nearest of the square, which is no further than that.
+    if (!isOn) {
+      EXPECT_LT(glm::length(off - 0.5f), 1.0f + kGutter * 1.5f);
+    }
+  }
+  EXPECT_EQ(on, 4 * 16 * 16) << "a point in each quarter of 16 x 16 texels";
+}
+
+TEST(PageFill, TakesTheMeanOfNeighbours) {
+  Image page(8, 8, vec3(-1.0f));
+  page.at(0, 0) = vec3(2.0f);
+  page.at(2, 0) = vec3(4.0f);
+  fillUnknown(page);
+  EXPECT_EQ(page.at(0, 0), vec3(2.0f));
+  EXPECT_EQ(page.at(1, 0), vec3(3.0f));
+  EXPECT_EQ(page.at(0, 1), vec3(2.0f));
+  for (const vec3& p : page.pixels) EXPECT_GE(p.r, 0.0f);
+}
+
+TEST(SecondUvs, InstancesGetMeshesOfTheirOwn) {
+  Scene scene;
+  const auto box = test::boxMesh(vec3(1));
+  test::addMesh(scene, box);
+  test::addMesh(scene, box, vec3(4, 0, 0));
+  scene.nodes[1].mesh = scene.nodes[0].mesh;
+  const RenderScene render = rendered(scene);
+  const LightMapAtlas atlas = makeAtlas(render, {8.0f, 128});
+  const Scene out = withLightMapUvs(scene, render, atlas);
+  ASSERT_NE(out.nodes[0].mesh, out.nodes[1].mesh);
+  const auto uvs = [&](size_t node) {
+    return out.meshes[static_cast<size_t>(out.nodes[node].mesh)]->primitives[0].uv1;
+  };
+  ASSERT_EQ(uvs(0).size(), 24u) << "corners of six sides";
+  EXPECT_NE(uvs(0), uvs(1));
+  for (const vec2& uv : uvs(0)) EXPECT_TRUE(uv.x > 0 && uv.y > 0 && uv.x < 1 && uv.y < 1);
+}
+
+TEST(SecondUvs, RefusesWhereATextureUsesThem) {
+  Scene scene;
+  const int brick = test::addMaterial(scene, vec3(1));
+  scene.materials[0].baseColorTexture.texture = 0;
+  scene.materials[0].baseColorTexture.texCoord = 1;
+  Texture texture;
+  texture.image = std::make_shared<Image8>(1, 1);
+  scene.textures.push_back(texture);
+  test::addMesh(scene, test::squareMesh(1.0f, brick));
+  const RenderScene render = rendered(scene);
+  EXPECT_THROW(withLightMapUvs(scene, render, makeAtlas(render, {})), InputError);
+}
+
+}  // namespace
+}  // namespace lamplighter

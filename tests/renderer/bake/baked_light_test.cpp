@@ -1,0 +1,118 @@
+// Irradiance as it is baked, against closed forms and the other way of finding it.
+#include "renderer/bake/baked_light.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+struct Baked {
+  RenderScene render;
+  LightMapAtlas atlas;
+  std::vector<BakePoint> points;
+
+  explicit Baked(const Scene& scene, float texelsPerMetre = 8.0f) {
+    update(render, scene, SceneChanges::all());
+    atlas = makeAtlas(render, {texelsPerMetre, 256});
+    points = bakePoints(render, atlas, 0);
+  }
+  // At the texel of object 0 that is nearest to a place.
+  vec3 at(const vec3& place, const BakeLightOptions& options) const {
+    const RayCaster rays(render);
+    const glm::ivec2 texel(atlas.charts[0].texelsOf(place));
+    std::vector<BakePoint> ofTexel;
+    for (const BakePoint& p : points)
+      if (p.x == texel.x && p.y == texel.y) ofTexel.push_back(p);
+    EXPECT_FALSE(ofTexel.empty());
+    return BakedLight(render, rays, options).irradiance(ofTexel, 7);
+  }
+};
+
+BakeLightOptions reference(int bounces) {
+  BakeLightOptions o;
+  o.reference = true;
+  o.paths.bounces = bounces;
+  o.samples = 1024;
+  return o;
+}
+
+BakeLightOptions settled(int bounces, int vpls = 4096) {
+  BakeLightOptions o;
+  o.counts = {vpls, 0.5f, bounces, 1};
+  return o;
+}
+
+// A point under the middle of a rectangle light: E = π L F.
+TEST(BakedLight, IsTheFormFactorUnderARectangle) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f, test::addMaterial(scene, vec3(0.5f))));
+  test::addRectangleLight(scene, vec3(0, 1.5f, 0), vec2(1, 2), vec3(3, 2, 1));
+  const Baked baked(scene);
+  const vec3 place(0.05f, 0, 0.05f);
+  const double factor = test::polygonFormFactor(
+      place, vec3(0, 1, 0),
+      {{-0.5f, 1.5f, -1}, {0.5f, 1.5f, -1}, {0.5f, 1.5f, 1}, {-0.5f, 1.5f, 1}});
+  const float expected = kPi * 3.0f * std::abs(static_cast<float>(factor));
+  EXPECT_NEAR(baked.at(place, reference(0)).r, expected, 0.02f * expected);
+  EXPECT_NEAR(baked.at(place, settled(0)).r, expected, 0.02f * expected);
+  EXPECT_NEAR(baked.at(place, settled(0)).b, expected / 3.0f, 0.01f * expected);
+}
+
+TEST(BakedLight, OfAnEvenSkyIsPiTimesItsRadiance) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f, test::addMaterial(scene, vec3(0.5f))));
+  scene.sky = vec3(2.0f);
+  const Baked baked(scene);
+  EXPECT_NEAR(baked.at(vec3(1, 0, 1), reference(2)).r, 2.0f * kPi, 0.05f);
+  EXPECT_NEAR(baked.at(vec3(1, 0, 1), settled(2)).r, 2.0f * kPi, 0.15f);
+}
+
+// A furnace: a closed room of one albedo ρ that emits L everywhere has E = π L (1 + ρ + … + ρ^n)
+// after n bounces.
+TEST(BakedLight, CountsItsBounces) {
+  Scene scene;
+  const int glowing = test::addMaterial(scene, vec3(0.5f), vec3(1.0f));
+  test::addMesh(scene, test::roomMesh(vec3(2), glowing));
+  const Baked baked(scene);
+  const RayCaster rays(baked.render);
+  for (const int bounces : {0, 1, 3}) {
+    const float expected = kPi * (2.0f - std::pow(0.5f, static_cast<float>(bounces)));
+    const vec3 e = BakedLight(baked.render, rays, reference(bounces))
+                       .irradiance(std::span(baked.points).subspan(200, 1), 3);
+    EXPECT_NEAR(e.g, expected, 0.01f * expected) << bounces;
+  }
+}
+
+TEST(BakedLight, BothWaysAgreeInAShadowedRoom) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(0.7f));
+  test::addMesh(scene, test::squareMesh(4.0f, white));
+  test::addMesh(scene, test::roomMesh(vec3(4), white), vec3(0, 2.001f, 0));
+  test::addMesh(scene, test::boxMesh(vec3(0.8f), white), vec3(0.5f, 0.41f, 0));
+  test::addRectangleLight(scene, vec3(-0.5f, 3.5f, 0), vec2(1), vec3(10));
+  Scene open = scene;  // the room's own floor lies over the square
+  open.nodes[1].local.translation.y = 1.99f;
+  const Baked baked(open);
+  for (const vec3 place : {vec3(-1.0f, 0, 0.3f), vec3(1.2f, 0, 0.1f)}) {
+    const float a = baked.at(place, reference(2)).g;
+    EXPECT_NEAR(baked.at(place, settled(2, 8192)).g, a, 0.08f * a);
+  }
+}
+
+// Below a box that stands on the floor nothing is known; beside it something is.
+TEST(BakedLight, KnowsWhatIsBuried) {
+  Scene scene;
+  const int white = test::addMaterial(scene, vec3(0.7f));
+  test::addMesh(scene, test::squareMesh(4.0f, white));
+  test::addMesh(scene, test::boxMesh(vec3(1), white), vec3(0, 0.49f, 0));
+  scene.sky = vec3(1.0f);
+  const Baked baked(scene);
+  EXPECT_LT(baked.at(vec3(0.1f, 0, 0.1f), settled(0, 64)).r, 0.0f);
+  EXPECT_GT(baked.at(vec3(1.5f, 0, 0.1f), settled(0, 64)).r, 1.0f);
+}
+
+}  // namespace
+}  // namespace lamplighter
