@@ -5,6 +5,8 @@
 #include <regex>
 #include <sstream>
 
+#include "renderer/data_folder.h"
+
 namespace lamplighter::gl {
 namespace {
 
@@ -57,7 +59,7 @@ class Loader {
 
 }  // namespace
 
-fs::path defaultShaderFolder() { return LAMPLIGHTER_SHADER_DIR; }
+fs::path defaultShaderFolder() { return dataFolder() / "shaders"; }
 
 ShaderSource loadShader(const fs::path& folder, const std::string& file,
                         const std::vector<std::string>& defines) {

@@ -193,6 +193,20 @@ TEST_F(CommandLine, EveryActionSaysWhatItDoesAndTheTableIsUpToDate) {
       << "run: lamplighter actions --markdown > docs/actions.md";
 }
 
+// What the manual says is what the program says.
+TEST_F(CommandLine, ManualIsUpToDate) {
+  const std::pair<const char*, const char*> kinds[] = {{"--markdown", "/docs/flags.md"},
+                                                       {"--man", "/docs/man/lamplighter.1"}};
+  for (const auto& [kind, path] : kinds) {
+    std::ifstream in(LAMPLIGHTER_SOURCE_DIR + std::string(path));
+    const std::string written{std::istreambuf_iterator<char>(in), {}};
+    const std::string now = runLamplighter({"manual", kind}).out;
+    EXPECT_EQ(now, written) << "run: lamplighter manual " << kind << " > " << path + 1;
+    for (const char* command : {"info", "render", "bake", "replay", "script"})
+      EXPECT_NE(now.find(command), std::string::npos) << command;
+  }
+}
+
 TEST_F(CommandLine, RendersEveryMethodToExrAndPng) {
   for (const char* method : {"many_lights", "reference"}) {
     for (const char* ending : {".exr", ".png"}) {

@@ -3,6 +3,7 @@
 
 #include "editor/document/cache_folder.h"
 #include "editor/input/recorder.h"
+#include "renderer/data_folder.h"
 #include "renderer/error.h"
 #include "ui/app/application.h"
 #include "ui/app/backends.h"
@@ -33,7 +34,7 @@ void showPreparing(Window& window) {
   }
 }
 
-fs::path defaultScene() { return fs::path(LAMPLIGHTER_ASSET_DIR) / "scenes" / "default.gltf"; }
+fs::path defaultScene() { return dataFolder() / "assets" / "scenes" / "default.gltf"; }
 
 RecordingHeader headerFor(const fs::path& scene, const fs::path& recording,
                           const RenderSettings& render) {
