@@ -8,6 +8,7 @@
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -26,8 +27,10 @@ struct LocalSurface {
   Surface s;
   vec3 ng, ns;
   std::optional<GlossySurface> gloss;
+  uint32_t leftOutBy;  // light_linking.h
 
-  LocalSurface(const Surface& surface, const vec3& toViewer) : s(surface) {
+  LocalSurface(const Surface& surface, const vec3& toViewer, uint32_t links)
+      : s(surface), leftOutBy(links) {
     const float side = glm::dot(s.geometricNormal, toViewer) < 0.0f ? -1.0f : 1.0f;
     ng = side * s.geometricNormal;
     ns = side * s.normal;
@@ -59,6 +62,7 @@ class Tracer {
     // which no light sampling competes with.
     float pdfDirection = 0.0f;
     vec3 from(0.0f);
+    uint32_t leftOutBy = 0;  // of where the ray begins; the eye sees all
 
     const int bounces = options.part == LightPart::direct ? 0 : options.bounces;
     for (int depth = 0;; ++depth) {
@@ -66,17 +70,20 @@ class Tracer {
       const bool takesSeen = options.part != LightPart::indirect || depth > 1;
       ++raysTraced_;
       const Hit hit = rays_.intersect(ray, depth == 0 ? Surfaces::seen : Surfaces::all);
-      if (!hit)
-        return takesSeen ? radiance + throughput * skySeen(ray.direction, pdfDirection) : radiance;
+      if (!hit) {
+        const bool seesSky = takesSeen && !isLeftOut(leftOutBy, scene_.skyLink);
+        return seesSky ? radiance + throughput * skySeen(ray.direction, pdfDirection) : radiance;
+      }
       Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
       if (depth == 0 && options.lightOnly) surface.albedo = vec3(1.0f);
-      LocalSurface at(surface, -ray.direction);
+      const RenderObject& object = scene_.objects[hit.object];
+      LocalSurface at(surface, -ray.direction, object.leftOutBy);
       if (depth == 0 && options.speculars && !options.lightOnly) {
         const Gloss gloss = glossAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
         if (shared::isGlossy(gloss.metallic, gloss.roughness))
           at.gloss.emplace(surface.albedo, gloss, options.leastRoughness, at.ns, -ray.direction);
       }
-      if (takesSeen)
+      if (takesSeen && !isLeftOut(leftOutBy, object.link))
         radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
       // Direct light is reflected once on its way to the camera (depth 0), each bounce adds one.
       if (depth > bounces) return radiance;
@@ -100,6 +107,7 @@ class Tracer {
       if (throughput == vec3(0.0f)) return radiance;
       pdfDirection = pdf;
       from = at.s.position;
+      leftOutBy = at.leftOutBy;
       ray = {start(at), 0.0f, direction};
     }
   }
@@ -138,13 +146,16 @@ class Tracer {
     const float choice = sampler.next1();
     const vec2 u = sampler.next2();
     const float punctualChoice = sampler.next1();
-    const bool samplesSky = !scene_.sky.isBlack() && !lights_.sky().isConstant();
+    const bool samplesSky = !scene_.sky.isBlack() && !lights_.sky().isConstant() &&
+                            !isLeftOut(at.leftOutBy, scene_.skyLink);
     const vec2 skyChoice = samplesSky ? sampler.next2() : vec2(0.0f);
     if (at.s.albedo == vec3(0.0f) && !at.gloss) return vec3(0.0f);
     float probability = 0.0f;
     const int emitter = lights_.chooseSurface(choice, probability);
     vec3 radiance = fromPunctuals(at, punctualChoice);
-    if (emitter != kNone) radiance += fromSurface(at, emitter, u) / probability;
+    if (emitter != kNone &&
+        !isLeftOut(at.leftOutBy, lights_.emitters()[static_cast<size_t>(emitter)].link))
+      radiance += fromSurface(at, emitter, u) / probability;
     if (samplesSky) radiance += fromSky(at, skyChoice);
     return radiance;
   }
@@ -196,12 +207,12 @@ class Tracer {
   // is seen is all the noise there is.
   vec3 fromPunctuals(const LocalSurface& at, float u) {
     float total = 0.0f;
-    for (const RenderPunctual& light : scene_.punctuals) total += luminance(unshadowed(at, light));
+    for (const RenderPunctual& light : scene_.punctuals) total += luminance(given(at, light));
     if (total <= 0.0f) return vec3(0.0f);
     const RenderPunctual* chosen = nullptr;
     float weight = 0.0f, below = 0.0f;
     for (const RenderPunctual& light : scene_.punctuals) {
-      const float w = luminance(unshadowed(at, light));
+      const float w = luminance(given(at, light));
       if (w <= 0.0f) continue;
       chosen = &light;
       weight = w;
@@ -220,6 +231,11 @@ class Tracer {
     const vec3 d = light.position - at.s.position;
     distance = glm::length(d);
     return d / std::max(distance, 1e-20f);
+  }
+
+  // unshadowed(), but of what is left out.
+  static vec3 given(const LocalSurface& at, const RenderPunctual& light) {
+    return isLeftOut(at.leftOutBy, light.link) ? vec3(0.0f) : unshadowed(at, light);
   }
 
   // Radiance that is reflected [W/(m² sr)] where nothing stands between.

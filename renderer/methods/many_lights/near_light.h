@@ -50,6 +50,7 @@ class NearLight {
   };
   struct Place {
     vec3 position, normal;  // off its surface, on the lit side
+    uint32_t leftOutBy;     // light_linking.h
   };
   Pixel pixel(const View& view, vec2 at, uint32_t index) const;
   vec3 gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const;
