@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_picture.h"
 #include "renderer/scene/light_shapes.h"
 
 namespace lamplighter {
@@ -30,12 +31,12 @@ double spotSolidAngle(const PunctualLight& l) {
 LightMeasure punctualMeasure(const PunctualLight& l) {
   const bool isSpot = l.kind == PunctualKind::spot;
   if (l.profile && l.kind != PunctualKind::directional)
-    return {isSpot ? LightKind::spot : LightKind::point, 0.0, 0.0, l.profile->solidAngle};
+    return {isSpot ? LightKind::spot : LightKind::point, 0.0, 0.0, 1.0, l.profile->solidAngle};
   switch (l.kind) {
     case PunctualKind::point:
-      return {LightKind::point, 0.0, 0.0, 4.0 * static_cast<double>(kPi)};
+      return {LightKind::point, 0.0, 0.0, 1.0, 4.0 * static_cast<double>(kPi)};
     case PunctualKind::spot:
-      return {LightKind::spot, 0.0, 0.0, spotSolidAngle(l)};
+      return {LightKind::spot, 0.0, 0.0, 1.0, spotSolidAngle(l)};
     case PunctualKind::directional:
       return {LightKind::sun};
   }
@@ -59,8 +60,13 @@ LightMeasure measureOf(const Scene& scene, const Node& node, const mat4& world) 
   if (node.area) {
     static constexpr LightKind kKinds[] = {LightKind::rectangle, LightKind::disk, LightKind::sphere,
                                            LightKind::tube};
-    return {kKinds[static_cast<size_t>(node.area->shape)], lamplighter::areaOf(*node.area, world),
-            projectedAreaOf(*node.area, world), 0.0};
+    LightMeasure m{kKinds[static_cast<size_t>(node.area->shape)],
+                   lamplighter::areaOf(*node.area, world), projectedAreaOf(*node.area, world)};
+    const vec3 factor = meanFactor(*node.area);
+    const float plain = luminance(node.area->radiance);
+    m.picture = static_cast<double>(
+        plain > 0.0f ? luminance(factor * node.area->radiance) / plain : luminance(factor));
+    return m;
   }
   if (node.punctual) return punctualMeasure(*node.punctual);
   LightMeasure m{LightKind::mesh};

@@ -26,7 +26,7 @@ double lumensPerRadiance(const LightMeasure& m) {
     case LightKind::sky:
       return 0.0;
     default:
-      return std::numbers::pi * m.area;
+      return std::numbers::pi * m.area * m.picture;
   }
 }
 
@@ -46,9 +46,9 @@ double unitsPerRadiance(const LightMeasure& m, LightUnit unit) {
     case LightUnit::watts:
       return lumensPerRadiance(m) / kLumensPerWatt;
     case LightUnit::candela:
-      return isPoint ? 1.0 : m.projected;
+      return isPoint ? 1.0 : m.projected * m.picture;
     case LightUnit::nits:
-      return isPoint || m.kind == LightKind::sun ? 0.0 : 1.0;
+      return isPoint || m.kind == LightKind::sun ? 0.0 : m.picture;
     case LightUnit::lux:
       return m.kind == LightKind::sun ? 1.0 : 0.0;
   }

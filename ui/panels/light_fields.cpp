@@ -128,7 +128,7 @@ void stateFields(const PanelContext& ui, const Node& node) {
 
 }  // namespace
 
-void areaLightFields(PanelContext ui, const Node& node, InspectorState&) {
+void areaLightFields(PanelContext ui, const Node& node, InspectorState& state) {
   AreaLight light = *node.area;
   const std::string step = "Change light " + node.name;
   stateFields(ui, node);
@@ -165,6 +165,8 @@ void areaLightFields(PanelContext ui, const Node& node, InspectorState&) {
   note(in(LightUnit::nits) + " \u00b7 " + in(LightUnit::lumens) + " \u00b7 " +
        short3(measure.area) + " m\u00b2");
   if (changed && light != *node.area) ui.session.setAreaLight(node.id, light);
+  if (light.shape == AreaShape::rectangle || light.shape == AreaShape::disk || light.picture)
+    pictureFields(ui, node, state);
 }
 
 void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state) {
