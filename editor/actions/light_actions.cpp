@@ -77,10 +77,12 @@ void addLightActions(ActionRegistry& r) {
            Node with = n;
            with.punctual = light;
            const auto lumens = [&](const Node& node) {
-             return unitsPerRadiance(measureOf(s.document().scene, node, mat4(1.0f)),
-                                     LightUnit::lumens);
+             const mat4 world = worldMatrix(s.document().scene, node.id);
+             return unitsPerRadiance(measureOf(s.document().scene, node, world), LightUnit::lumens);
            };
-           light.intensity *= static_cast<float>(lumens(n) / lumens(with));
+           // A lamp that gives none at this tilt keeps its intensity.
+           if (lumens(n) > 0.0 && lumens(with) > 0.0)
+             light.intensity *= static_cast<float>(lumens(n) / lumens(with));
            s.setPunctualLight(n.id, light);
          },
          {}});

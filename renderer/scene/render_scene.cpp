@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "renderer/scene/ies_profile.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/light_picture.h"
 #include "renderer/scene/light_shapes.h"
@@ -123,6 +124,7 @@ RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
   const vec3 aim = mat3(world) * vec3(0, 0, -1);
   const float length = glm::length(aim);
   if (length > 0.0f) r.direction = aim / length;
+  if (r.light.profile) r.light.intensity *= r.light.profile->atTilt(r.direction);
   // Scale, shear and mirroring change nothing of it but where X is.
   const vec3 z = -r.direction, x = vec3(world[0]) - glm::dot(vec3(world[0]), z) * z;
   const vec3 right = glm::length(x) > 0.0f ? glm::normalize(x) : Frame(z).tangent;

@@ -29,7 +29,7 @@ struct RenderObject {
 // A punctual light in world space.
 struct RenderPunctual {
   NodeId node = kNoNode;
-  PunctualLight light;
+  PunctualLight light;  // its intensity with the factor of its profile at its tilt
   vec3 position{0.0f};
   vec3 direction{0.0f, 0.0f, -1.0f};  // unit, where it aims
   mat3 axes{1.0f};                    // its X, Y and Z, orthonormal; Z is −direction

@@ -173,8 +173,9 @@ void punctualLightFields(PanelContext ui, const Node& node, InspectorState& stat
   PunctualLight light = *node.punctual;
   const std::string step = "Change light " + node.name;
   stateFields(ui, node);
-  bool changed = emissionFields(ui, step, measureOf(ui.session.document().scene, node, mat4(1.0f)),
-                                light.intensity);
+  const Scene& scene = ui.session.document().scene;
+  const LightMeasure measure = measureOf(scene, node, worldMatrix(scene, node.id));
+  bool changed = emissionFields(ui, step, measure, light.intensity);
   if (light.kind == PunctualKind::spot) {
     float inner = glm::degrees(light.innerCone), outer = glm::degrees(light.outerCone);
     labelledRow(ui, "Inner cone", "Half the angle within which the light is full.");
