@@ -1,6 +1,7 @@
 // What a session does with the pointer in the viewport, and what its tools draw there.
 #include <algorithm>
 
+#include "editor/document/tree.h"
 #include "editor/session_tools.h"
 #include "editor/tools/picker.h"
 #include "editor/tools/placement.h"
@@ -102,7 +103,8 @@ void Session::viewport(const ViewportInput& input) {
     if (vpl != kNone) return display_.choose(inspection, vpl);
   }
 
-  const NodeId id = pick(view_, renderer_->scene(), *renderer_->rays(), input.pointer);
+  const NodeId id = pick(view_, renderer_->scene(), *renderer_->rays(), input.pointer,
+                         [&](NodeId n) { return !isLocked(document_.scene, n); });
   std::vector<NodeId> selection;
   if (input.modifiers.ctrl || input.modifiers.shift) {
     selection = document_.selection;

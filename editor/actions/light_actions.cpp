@@ -9,6 +9,7 @@
 #include "editor/session.h"
 #include "renderer/error.h"
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_picture.h"
 
 namespace lamplighter {
 
@@ -76,11 +77,32 @@ void addLightActions(ActionRegistry& r) {
            Node with = n;
            with.punctual = light;
            const auto lumens = [&](const Node& node) {
-             return unitsPerRadiance(measureOf(s.document().scene, node, mat4(1.0f)),
-                                     LightUnit::lumens);
+             const mat4 world = worldMatrix(s.document().scene, node.id);
+             return unitsPerRadiance(measureOf(s.document().scene, node, world), LightUnit::lumens);
            };
-           light.intensity *= static_cast<float>(lumens(n) / lumens(with));
+           // A lamp that gives none at this tilt keeps its intensity.
+           if (lumens(n) > 0.0 && lumens(with) > 0.0)
+             light.intensity *= static_cast<float>(lumens(n) / lumens(with));
            s.setPunctualLight(n.id, light);
+         },
+         {}});
+  r.add({"light.picture",
+         "Set picture",
+         "FILE",
+         "Gives the active rectangle or disk light a picture to shine through, a PNG or JPEG file; "
+         "none takes it away. It keeps its lumens.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "light.picture FILE");
+           const Node& n = activeAreaLight(s);
+           if (n.area->shape != AreaShape::rectangle && n.area->shape != AreaShape::disk)
+             throw InputError(n.name, "is neither a rectangle nor a disk", "select one");
+           AreaLight light = *n.area;
+           light.picture = a[0] == "none" ? nullptr : readLightPicture(fileBeside(s.document(), a[0]));
+           const float was = luminance(meanFactor(*n.area) * light.radiance);
+           const float is = luminance(meanFactor(light) * light.radiance);
+           if (was > 0.0f && is > 0.0f) light.radiance *= was / is;
+           s.setAreaLight(n.id, light);
          },
          {}});
   r.add({"light.radiance",

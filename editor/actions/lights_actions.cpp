@@ -1,6 +1,7 @@
 // Edits of all selected lights at once.
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
+#include "editor/lights/light_cells.h"
 #include "editor/lights/light_edits.h"
 #include "editor/session.h"
 #include "renderer/error.h"
@@ -75,6 +76,23 @@ void addLightsActions(ActionRegistry& r) {
            colourLights(s, vectorOf(a, 0));
          },
          {}});
+  r.add({"lights.edit",
+         "Edit cells of lights",
+         "name|strength|temperature|size|group VALUE",
+         "What is typed in a cell of the light table, for all selected lights: a name, 800 lm, "
+         "2700 K, 1.2 x 0.6, a group.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 2, 2, "lights.edit name|strength|temperature|size|group VALUE");
+           for (const LightColumn column :
+                {LightColumn::name, LightColumn::strength, LightColumn::temperature,
+                 LightColumn::size, LightColumn::group}) {
+             if (a[0] == columnName(column)) return editLightCells(s, column, a[1]);
+           }
+           throw InputError(a[0], "is no column to type in",
+                            "give name, strength, temperature, size or group");
+         },
+         anySelected});
   r.add({"lights.unit",
          "Unit of light",
          "lm|cd|nits|W",

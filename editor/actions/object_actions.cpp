@@ -3,6 +3,7 @@
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
+#include "editor/document/tree.h"
 #include "editor/session.h"
 #include "editor/tools/placement.h"
 #include "renderer/error.h"
@@ -18,6 +19,7 @@ bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
 void drop(Session& s) {
   const Scene& scene = s.document().scene;
   const Node& active = activeNode(s.document());
+  if (isLocked(scene, active.id)) throw InputError(active.name, "is locked", "unlock it first");
   auto place = s.surfaceUnderPointer(s.document().selection);
   if (!place) place = s.surfaceAhead(s.document().selection);
   if (!place)
@@ -39,7 +41,7 @@ void drop(Session& s) {
       vec3(above * vec4(local->translation, 1.0f)) - vec3(worldMatrix(scene, leader)[3]);
   nodes[0].local = *local;
   for (const NodeId id : roots) {
-    if (id == leader) continue;
+    if (id == leader || isLocked(scene, id)) continue;
     Node n = *scene.find(id);
     const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, n.parent);
     if (!hasVolume(parent)) continue;

@@ -5,6 +5,7 @@
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
+#include "editor/document/tree.h"
 #include "editor/session.h"
 #include "editor/tools/placement.h"
 #include "renderer/error.h"
@@ -63,6 +64,8 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
 // surface under the pointer. Its place stays.
 void align(Session& s) {
   const Node& active = activeNode(s.document());
+  if (isLocked(s.document().scene, active.id))
+    throw InputError(active.name, "is locked", "unlock it first");
   auto place = s.surfaceUnderPointer({active.id});
   if (!place) place = s.surfaceAhead({active.id});
   if (!place)

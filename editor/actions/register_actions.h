@@ -12,6 +12,8 @@ void addPlaceActions(ActionRegistry& registry);
 void addLightActions(ActionRegistry& registry);
 void addLightsActions(ActionRegistry& registry);
 void addLightStateActions(ActionRegistry& registry);
+void addLinkActions(ActionRegistry& registry);
+void addTreeActions(ActionRegistry& registry);
 void addSkyActions(ActionRegistry& registry);
 void addViewActions(ActionRegistry& registry);
 void addRenderActions(ActionRegistry& registry);
@@ -27,6 +29,8 @@ inline void addAllActions(ActionRegistry& registry) {
   addPlaceActions(registry);  // after light.add, whose kinds it offers
   addLightsActions(registry);
   addLightStateActions(registry);
+  addLinkActions(registry);
+  addTreeActions(registry);
   addSkyActions(registry);
   addViewActions(registry);
   addRenderActions(registry);

@@ -25,6 +25,18 @@ int indexOf(const T& value, const std::vector<T>& present, std::vector<T>& added
   return static_cast<int>(present.size() + added.size()) - 1;
 }
 
+// What a copied light leaves out: copies too, and in the same level what it did.
+std::vector<NodeId> leftOutOf(const LightState& light, const std::map<NodeId, NodeId>& newId,
+                              bool isSameLevel) {
+  std::vector<NodeId> out;
+  for (const NodeId id : light.leftOut) {
+    if (isSameLevel) out.push_back(id);
+    if (const auto copy = newId.find(id); copy != newId.end()) out.push_back(copy->second);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 bool hasMaterials(const Mesh& mesh, const std::map<int, int>& newIndex) {
   return std::all_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& p) {
     return p.material == kNone || newIndex.at(p.material) == p.material;
@@ -95,9 +107,12 @@ Pasting pasteInto(Scene& scene, const Clipping& clipping, bool isSameLevel) {
   }
 
   std::map<NodeId, NodeId> newId;
+  NodeId nextId = scene.nextId;
+  for (const Node& n : clipping.nodes) newId[n.id] = nextId++;
   for (Node n : clipping.nodes) {
     const NodeId was = n.id;
-    newId[was] = n.id = scene.nextId++;
+    n.id = scene.nextId++;
+    n.light.leftOut = leftOutOf(n.light, newId, isSameLevel);
     if (n.mesh != kNone) n.mesh = meshes.at(n.mesh);
     if (const auto parent = newId.find(n.parent); parent != newId.end()) {
       n.parent = parent->second;

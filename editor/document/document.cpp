@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_picture.h"
 
 namespace lamplighter {
 
@@ -46,6 +47,7 @@ class Hasher {
 void addLightState(Hasher& h, const LightState& s) {
   if (s == LightState()) return;
   h.add(s.on), h.add(s.solo), h.add(s.group);
+  for (const NodeId id : s.leftOut) h.add(id);
 }
 
 void addNode(Hasher& h, const Node& n) {
@@ -54,6 +56,7 @@ void addNode(Hasher& h, const Node& n) {
   const quat& q = n.local.rotation;
   h.add(vec4(q.x, q.y, q.z, q.w));
   h.add(n.mesh), h.add(n.camera), h.add(n.visible);
+  if (n.locked) h.add(n.locked);
   if (n.meshKind != MeshKind::automatic) h.add(static_cast<int>(n.meshKind));
   h.add(n.punctual.has_value());
   if (n.punctual) {
@@ -63,7 +66,13 @@ void addNode(Hasher& h, const Node& n) {
     if (l.profile) h.add(l.profile->file), h.add(l.profile->text);
   }
   h.add(n.area.has_value());
-  if (n.area) h.add(static_cast<int>(n.area->shape)), h.add(n.area->radiance), h.add(n.area->size);
+  if (n.area) {
+    h.add(static_cast<int>(n.area->shape)), h.add(n.area->radiance), h.add(n.area->size);
+    if (const auto& picture = n.area->picture) {
+      h.add(picture->file);
+      h.add(static_cast<uint32_t>(picture->hash)), h.add(static_cast<uint32_t>(picture->hash >> 32));
+    }
+  }
   addLightState(h, n.light);
 }
 

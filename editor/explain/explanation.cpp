@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "renderer/sampling/lights.h"
+#include "renderer/scene/light_linking.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
@@ -12,6 +13,7 @@ namespace {
 
 // E of one sample if nothing stood between [lx].
 float unshadowed(const PickedPoint& p, const LightSamples::Sample& s, float clampDistance) {
+  if (isLeftOut(p.leftOutBy, static_cast<uint32_t>(s.vpl.footprint.y))) return 0.0f;
   return luminance(vec3(s.vpl.intensity)) *
          shared::vplGeometry(s.vpl, p.position, p.normal, p.geometricNormal, clampDistance);
 }
@@ -32,6 +34,7 @@ bool isMeantToLight(const Scene& scene, const Node& node) {
 }
 
 LightArrival stateOf(const LightShare& l) {
+  if (l.leavesOut) return LightArrival::leftOut;
   if (l.samples == 0) return LightArrival::unsampled;
   if (l.facing == 0) return LightArrival::away;
   if (l.seen == 0) return LightArrival::shadowed;
@@ -88,6 +91,8 @@ const char* nameOf(LightArrival state) {
       return "shadowed";
     case LightArrival::away:
       return "faces away";
+    case LightArrival::leftOut:
+      return "left out";
     case LightArrival::unsampled:
       return "no samples";
     case LightArrival::off:
@@ -118,12 +123,18 @@ Explanation explain(const Scene& scene, const RenderScene& world, const RayCaste
                     const PickedPoint& point, const LightSamples& samples) {
   Explanation out;
   out.point = point;
+  for (const RenderObject& o : world.objects)  // what is left out may have changed since
+    if (o.node == point.node) out.point.leftOutBy = o.leftOutBy;
   out.object = nameIn(scene, point.node);
   std::map<NodeId, LightShare> shares = allLights(scene, world);
   for (const LightSamples::Sample& s : samples.samples) {
     const auto found = shares.find(s.id.light);
     if (found == shares.end()) continue;  // of a light that has just gone
-    addSample(world, rays, point, s, unshadowed(point, s, samples.clampDistance), found->second);
+    if (s.id.bounce == 0)
+      found->second.leavesOut =
+          isLeftOut(out.point.leftOutBy, static_cast<uint32_t>(s.vpl.footprint.y));
+    addSample(world, rays, out.point, s, unshadowed(out.point, s, samples.clampDistance),
+              found->second);
   }
   for (auto& [id, l] : shares) {
     if (l.state != LightArrival::off) l.state = stateOf(l);

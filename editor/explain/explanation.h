@@ -15,6 +15,7 @@ enum class LightArrival {
   partly,     // by some of them
   shadowed,   // by none: all are hidden
   away,       // none faces the point: it is behind the light or outside its cone, or looks away
+  leftOut,    // the light leaves the object out (renderer/scene/light_linking.h)
   unsampled,  // the method has no sample on it: brighter lights took them all
   off         // hidden, or without strength
 };
@@ -32,6 +33,7 @@ struct LightShare {
   NodeId light = kNoNode;  // the sky: kNoNode
   std::string name;
   LightArrival state = LightArrival::off;
+  bool leavesOut = false;                 // the object that the point is on
   float direct = 0.0f, bounced = 0.0f;    // irradiance [lx]
   float withheld = 0.0f;                  // direct irradiance that does not arrive [lx]
   int samples = 0, facing = 0, seen = 0;  // on the light itself

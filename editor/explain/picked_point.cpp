@@ -14,7 +14,7 @@ std::optional<PickedPoint> surfaceAt(const RenderScene& scene, const RayCaster& 
   const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
   const float side = glm::dot(s.geometricNormal, direction) < 0.0f ? 1.0f : -1.0f;
   return PickedPoint{scene.objects[hit.object].node, s.position, side * s.normal,
-                     side * s.geometricNormal};
+                     side * s.geometricNormal, scene.objects[hit.object].leftOutBy};
 }
 
 namespace {
@@ -38,7 +38,8 @@ std::optional<PickedPoint> Anchor::placedIn(const Scene& scene) const {
   const mat4 toWorld = worldMatrix(scene, local_.node);
   const mat3 toLocal = glm::inverse(mat3(toWorld));
   return PickedPoint{local_.node, vec3(toWorld * vec4(local_.position, 1.0f)),
-                     turned(toLocal, local_.normal), turned(toLocal, local_.geometricNormal)};
+                     turned(toLocal, local_.normal), turned(toLocal, local_.geometricNormal),
+                     local_.leftOutBy};
 }
 
 }  // namespace lamplighter

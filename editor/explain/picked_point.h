@@ -15,6 +15,7 @@ struct PickedPoint {
   vec3 position{0.0f};
   vec3 normal{0.0f, 1.0f, 0.0f};           // that light is reflected about
   vec3 geometricNormal{0.0f, 1.0f, 0.0f};  // of the triangle
+  uint32_t leftOutBy = 0;                  // the object's, as of then (light_linking.h)
 };
 
 // What the ray through an image point (pixels) meets; nothing where it leaves the level.

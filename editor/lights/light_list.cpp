@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_picture.h"
 #include "renderer/scene/light_shapes.h"
 
 namespace lamplighter {
@@ -27,15 +28,22 @@ double spotSolidAngle(const PunctualLight& l) {
   return 2.0 * static_cast<double>(kPi) * ((1.0 - inner) + (inner - outer) / 3.0);
 }
 
-LightMeasure punctualMeasure(const PunctualLight& l) {
+// A lamp that gives less when it is tilted is measured as it hangs.
+LightMeasure punctualMeasure(const PunctualLight& l, const mat4& world) {
   const bool isSpot = l.kind == PunctualKind::spot;
-  if (l.profile && l.kind != PunctualKind::directional)
-    return {isSpot ? LightKind::spot : LightKind::point, 0.0, 0.0, l.profile->solidAngle};
+  if (l.profile && l.kind != PunctualKind::directional) {
+    const vec3 aim = mat3(world) * vec3(0, 0, -1);
+    const float length = glm::length(aim);
+    const float tilt = l.profile->atTilt(length > 0.0f ? aim / length : vec3(0, 0, -1));
+    constexpr double kLeast = 1e-3;  // one that gives nothing as it hangs can be set all the same
+    return {isSpot ? LightKind::spot : LightKind::point, 0.0, 0.0,
+            std::max(static_cast<double>(tilt), kLeast), l.profile->solidAngle};
+  }
   switch (l.kind) {
     case PunctualKind::point:
-      return {LightKind::point, 0.0, 0.0, 4.0 * static_cast<double>(kPi)};
+      return {LightKind::point, 0.0, 0.0, 1.0, 4.0 * static_cast<double>(kPi)};
     case PunctualKind::spot:
-      return {LightKind::spot, 0.0, 0.0, spotSolidAngle(l)};
+      return {LightKind::spot, 0.0, 0.0, 1.0, spotSolidAngle(l)};
     case PunctualKind::directional:
       return {LightKind::sun};
   }
@@ -59,10 +67,15 @@ LightMeasure measureOf(const Scene& scene, const Node& node, const mat4& world) 
   if (node.area) {
     static constexpr LightKind kKinds[] = {LightKind::rectangle, LightKind::disk, LightKind::sphere,
                                            LightKind::tube};
-    return {kKinds[static_cast<size_t>(node.area->shape)], lamplighter::areaOf(*node.area, world),
-            projectedAreaOf(*node.area, world), 0.0};
+    LightMeasure m{kKinds[static_cast<size_t>(node.area->shape)],
+                   lamplighter::areaOf(*node.area, world), projectedAreaOf(*node.area, world)};
+    const vec3 factor = meanFactor(*node.area);
+    const float plain = luminance(node.area->radiance);
+    m.left = static_cast<double>(
+        plain > 0.0f ? luminance(factor * node.area->radiance) / plain : luminance(factor));
+    return m;
   }
-  if (node.punctual) return punctualMeasure(*node.punctual);
+  if (node.punctual) return punctualMeasure(*node.punctual, world);
   LightMeasure m{LightKind::mesh};
   forEachEmissive(scene, node, [&](const Primitive& p, const Material& material) {
     m.area += areaOf(p, world) * (material.doubleSided ? 2.0 : 1.0);

@@ -21,12 +21,12 @@ double lumensPerRadiance(const LightMeasure& m) {
   switch (m.kind) {
     case LightKind::point:
     case LightKind::spot:
-      return m.solidAngle;
+      return m.solidAngle * m.left;
     case LightKind::sun:
     case LightKind::sky:
       return 0.0;
     default:
-      return std::numbers::pi * m.area;
+      return std::numbers::pi * m.area * m.left;
   }
 }
 
@@ -46,9 +46,9 @@ double unitsPerRadiance(const LightMeasure& m, LightUnit unit) {
     case LightUnit::watts:
       return lumensPerRadiance(m) / kLumensPerWatt;
     case LightUnit::candela:
-      return isPoint ? 1.0 : m.projected;
+      return isPoint ? m.left : m.projected * m.left;
     case LightUnit::nits:
-      return isPoint || m.kind == LightKind::sun ? 0.0 : 1.0;
+      return isPoint || m.kind == LightKind::sun ? 0.0 : m.left;
     case LightUnit::lux:
       return m.kind == LightKind::sun ? 1.0 : 0.0;
   }

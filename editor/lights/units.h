@@ -22,12 +22,15 @@ struct LightMeasure {
   LightKind kind = LightKind::rectangle;
   double area = 0.0;        // rectangle to mesh: that emits, both sides where it does [m²]
   double projected = 0.0;   // rectangle to tube: seen from where most of it is [m²]
+  // Of the luminance, what a picture on a rectangle or disk leaves, by its mean, or the tilt of a
+  // luminaire with a profile; 1: all of it.
+  double left = 1.0;
   double solidAngle = 0.0;  // point, spot: ∫ intensity over the brightest dω [sr]
 };
 
 // How much one unit of the renderer's (W/(m² sr), W/sr or W/m²) is; 0: the light has no such unit.
-//   surfaces: nits 1, lm πA, cd the projected area, W lm/683
-//   point and spot: cd 1, lm the solid angle, W lm/683
+//   surfaces: nits 1, lm πA, cd the projected area, W lm/683; all times what is left
+//   point and spot: cd 1, lm the solid angle, W lm/683; likewise
 //   sun: lux 1; sky: nits 1
 double unitsPerRadiance(const LightMeasure& measure, LightUnit unit);
 // The unit if the light has it, else the one it is best known by.

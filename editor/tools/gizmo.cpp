@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "editor/commands/edits.h"
+#include "editor/document/tree.h"
 #include "editor/tools/placement.h"
 #include "editor/tools/projection.h"
 
@@ -81,7 +82,9 @@ bool insideQuad(const vec2& p, const vec2 (&q)[4]) {
 }  // namespace
 
 std::optional<Gizmo::Axes> Gizmo::axesOf(const View& view, const Document& document) const {
-  if (mode == ToolMode::select || document.active() == kNoNode) return std::nullopt;
+  if (mode == ToolMode::select || document.active() == kNoNode ||
+      isLocked(document.scene, document.active()))
+    return std::nullopt;
   const mat4 world = worldMatrix(document.scene, document.active());
   Axes a;
   a.origin = vec3(world[3]);
@@ -191,6 +194,7 @@ void Gizmo::begin(const View& view, const Axes& axes, Handle handle, const vec2&
   Drag d{handle, axes, pointer, grip.value_or(vec3(0.0f)), pull, {}, {}};
   for (const NodeId id : topmost(document.scene, document.selection)) {
     const Node& n = *document.scene.find(id);
+    if (isLocked(document.scene, id)) continue;
     const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(document.scene, n.parent);
     if (!hasVolume(parent)) continue;
     d.nodes.push_back(n);

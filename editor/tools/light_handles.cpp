@@ -92,7 +92,7 @@ std::vector<LightHandles::Handle> LightHandles::handlesOf(const View& view,
   const Node* node = document.scene.find(document.active());
   if (node == nullptr || (!node->area && !node->punctual)) return out;
   for (const Node* n = node; n != nullptr; n = document.scene.find(n->parent))
-    if (!n->visible) return out;
+    if (!n->visible || n->locked) return out;
   const mat4 world = worldMatrix(document.scene, node->id);
   const auto place = placeOf(view, world);
   if (!place || !hasVolume(world)) return out;

@@ -4,16 +4,23 @@
 
 namespace lamplighter {
 
-NodeId pick(const View& view, const RenderScene& scene, const RayCaster& rays,
-            const vec2& pointer) {
-  const Hit hit =
-      rays.intersect({view.eye, 0.0f, view.rayDirection(pointer.x, pointer.y)}, Surfaces::seen);
+NodeId pick(const View& view, const RenderScene& scene, const RayCaster& rays, const vec2& pointer,
+            const std::function<bool(NodeId)>& mayPick) {
+  // Through what may not be picked.
+  constexpr int kMostPassed = 256;
+  Ray ray{view.eye, 0.0f, view.rayDirection(pointer.x, pointer.y)};
+  Hit hit = rays.intersect(ray, Surfaces::seen);
+  for (int i = 0; i < kMostPassed && hit && !mayPick(scene.objects[hit.object].node); ++i) {
+    ray.tNear = hit.t + rayEpsilon(ray.origin + hit.t * ray.direction);
+    hit = rays.intersect(ray, Surfaces::seen);
+  }
+  if (hit && !mayPick(scene.objects[hit.object].node)) hit = {};
   NodeId best = hit ? scene.objects[hit.object].node : kNoNode;
   float nearest = hit ? hit.t : std::numeric_limits<float>::infinity();
   for (const RenderPunctual& light : scene.punctuals) {
     const auto mark = projectPoint(view, light.position);
     const float distance = glm::length(light.position - view.eye);
-    if (mark && glm::length(*mark - pointer) <= kMarkRadius && distance < nearest) {
+    if (mark && mayPick(light.node) && glm::length(*mark - pointer) <= kMarkRadius && distance < nearest) {
       nearest = distance;
       best = light.node;
     }

@@ -1,6 +1,8 @@
 // What lies under the pointer.
 #pragma once
 
+#include <functional>
+
 #include "editor/document/document.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/render_scene.h"
@@ -12,7 +14,9 @@ namespace lamplighter {
 inline constexpr float kMarkRadius = 9.0f;
 
 // The node under a viewport pixel: a mark of a punctual light that nothing hides, else the surface
-// that the pixel's ray meets; kNoNode where there is neither.
-NodeId pick(const View& view, const RenderScene& scene, const RayCaster& rays, const vec2& pointer);
+// that the pixel's ray meets; kNoNode where there is neither. What may not be picked is seen
+// through.
+NodeId pick(const View& view, const RenderScene& scene, const RayCaster& rays, const vec2& pointer,
+            const std::function<bool(NodeId)>& mayPick);
 
 }  // namespace lamplighter

@@ -4,6 +4,7 @@
 
 #include "editor/tools/picker.h"
 #include "editor/tools/projection.h"
+#include "renderer/scene/light_linking.h"
 
 namespace lamplighter {
 
@@ -12,6 +13,7 @@ namespace {
 const vec4 kSelected{1.0f, 0.62f, 0.18f, 1.0f};
 const vec4 kActive{1.0f, 0.78f, 0.35f, 1.0f};
 const vec4 kLight{1.0f, 0.93f, 0.6f, 0.75f};
+const vec4 kLeftOut{0.93f, 0.36f, 0.5f, 0.9f};
 
 // The box that holds the node's mesh, in its own space, as twelve edges.
 void drawBox(Overlay& overlay, const View& view, const Mesh& mesh, const mat4& world,
@@ -99,6 +101,31 @@ void drawPunctual(Overlay& overlay, const View& view, const RenderPunctual& ligh
     addLine(overlay, view, light.position, rim[i], colour, 1.0f);
 }
 
+// Boxes around what the selected lights leave out, each with a line from the light.
+void drawLeftOut(Overlay& overlay, const View& view, const Document& document,
+                 const std::vector<mat4>& world, const std::vector<bool>& visible) {
+  const Scene& scene = document.scene;
+  const LightLinks links = lightLinks(scene);
+  if (links.count == 0) return;
+  for (size_t light = 0; light < scene.nodes.size(); ++light) {
+    if (!document.isSelected(scene.nodes[light].id) || links.ofLight[light] == 0) continue;
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+      const Node& n = scene.nodes[i];
+      if (n.mesh == kNone || !visible[i] ||
+          !isLeftOut(links.leftOutBy[i], links.ofLight[light]))
+        continue;
+      const Mesh& mesh = *scene.meshes[static_cast<size_t>(n.mesh)];
+      drawBox(overlay, view, mesh, world[i], kLeftOut);
+      Bounds b;
+      for (const Primitive& p : mesh.primitives)
+        for (const vec3& q : p.positions) b.add(q);
+      if (b.empty()) continue;
+      addLine(overlay, view, vec3(world[light][3]), vec3(world[i] * vec4(b.centre(), 1.0f)),
+              kLeftOut, 1.0f);
+    }
+  }
+}
+
 }  // namespace
 
 void drawScene(Overlay& overlay, const View& view, const Document& document,
@@ -116,6 +143,7 @@ void drawScene(Overlay& overlay, const View& view, const Document& document,
     if (n.mesh != kNone && selected)
       drawBox(overlay, view, *document.scene.meshes[n.mesh], world[i], colourOf(n.id, kLight));
   }
+  drawLeftOut(overlay, view, document, world, visible);
   for (const RenderPunctual& light : scene.punctuals)
     drawPunctual(overlay, view, light, colourOf(light.node, kLight));
 }

@@ -5,6 +5,7 @@
 #include "renderer/sampling/light_paths.h"
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
+#include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/vpl_shading.h"
 
@@ -25,37 +26,37 @@ BakedLight::BakedLight(const RenderScene& scene, const RayCaster& rays,
 }
 
 vec3 BakedLight::irradiance(std::span<const BakePoint> points, uint32_t texel) const {
-  std::vector<Place> places;
+  std::vector<ReceivingPlace> places;
   for (const BakePoint& p : points) {
-    const Place at = placeOf(p);
+    const ReceivingPlace at = placeOf(p);
     if (!isBuried(at, texel)) places.push_back(at);
   }
   if (places.empty()) return vec3(-1.0f);
   vec3 sum(0.0f);
   if (!options_.reference) {
-    for (const Place& at : places) sum += ofSamples(at);
+    for (const ReceivingPlace& at : places) sum += ofSamples(at);
     return sum / static_cast<float>(places.size());
   }
   // Paths take turns among the points.
   for (uint32_t i = 0; i < static_cast<uint32_t>(options_.samples); ++i) {
-    const Place& at = places[i % places.size()];
-    sum += traceIrradiance(scene_, rays_, lights_, at.position, at.normal, at.shadingNormal, texel,
-                           i, options_.paths);
+    sum += traceIrradiance(scene_, rays_, lights_, places[i % places.size()], texel, i,
+                           options_.paths);
   }
   return sum / static_cast<float>(options_.samples);
 }
 
-BakedLight::Place BakedLight::placeOf(const BakePoint& point) const {
+ReceivingPlace BakedLight::placeOf(const BakePoint& point) const {
   const Surface s = surfaceAt(scene_, point.object, point.triangle, point.u, point.v);
   const uint32_t first = scene_.objects[point.object].firstIndex + 3 * point.triangle;
   const auto normal = [&](uint32_t k) { return scene_.normals[scene_.indices[first + k]]; };
   const vec3 smooth =
       (1.0f - point.u - point.v) * normal(0) + point.u * normal(1) + point.v * normal(2);
   const bool isSound = glm::dot(smooth, s.geometricNormal) > 0.0f;
-  return {s.position, s.geometricNormal, isSound ? glm::normalize(smooth) : s.geometricNormal};
+  return {s.position, s.geometricNormal, isSound ? glm::normalize(smooth) : s.geometricNormal,
+          scene_.objects[point.object].leftOutBy};
 }
 
-bool BakedLight::isBuried(const Place& at, uint32_t texel) const {
+bool BakedLight::isBuried(const ReceivingPlace& at, uint32_t texel) const {
   const Frame frame(at.normal);
   const vec3 from = at.position + rayEpsilon(at.position) * at.normal;
   uint32_t inside = 0;
@@ -71,14 +72,15 @@ bool BakedLight::isBuried(const Place& at, uint32_t texel) const {
   return inside > kInsideRays / 2;
 }
 
-vec3 BakedLight::ofSamples(const Place& at) const {
+vec3 BakedLight::ofSamples(const ReceivingPlace& at) const {
   const vec3 from = at.position + rayEpsilon(at.position) * at.normal;
   vec3 sum(0.0f);
   for (const SceneVpl& light : vpls_) {
     const shared::Vpl& vpl = light.vpl;
     const float geometry =
         shared::vplGeometry(vpl, from, at.shadingNormal, at.normal, options_.clampDistance);
-    if (!(geometry > 0.0f)) continue;
+    if (!(geometry > 0.0f) || isLeftOut(at.leftOutBy, static_cast<uint32_t>(vpl.footprint.y)))
+      continue;
     Ray ray{from, 0.0f, vec3(vpl.normal)};
     if (vpl.position.w != shared::kVplDirectional) {
       const vec3 way = vec3(vpl.position) - from;

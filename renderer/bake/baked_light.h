@@ -30,12 +30,9 @@ class BakedLight {
   vec3 irradiance(std::span<const BakePoint> points, uint32_t texel) const;
 
  private:
-  struct Place {
-    vec3 position, normal, shadingNormal;  // on the front side
-  };
-  Place placeOf(const BakePoint& point) const;
-  bool isBuried(const Place& at, uint32_t texel) const;
-  vec3 ofSamples(const Place& at) const;
+  ReceivingPlace placeOf(const BakePoint& point) const;
+  bool isBuried(const ReceivingPlace& at, uint32_t texel) const;
+  vec3 ofSamples(const ReceivingPlace& at) const;
 
   const RenderScene& scene_;
   const RayCaster& rays_;

@@ -24,7 +24,7 @@ bool isLight(const shared::Vpl& vpl) {
 // But for the slot of its map.
 bool isSame(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
-         vec3(a.intensity) == vec3(b.intensity);
+         vec3(a.intensity) == vec3(b.intensity) && a.footprint.y == b.footprint.y;
 }
 
 // By area: what is beside the charts of a simple object is slivers, which have too few vertices to

@@ -8,6 +8,7 @@
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -26,8 +27,10 @@ struct LocalSurface {
   Surface s;
   vec3 ng, ns;
   std::optional<GlossySurface> gloss;
+  uint32_t leftOutBy;  // light_linking.h
 
-  LocalSurface(const Surface& surface, const vec3& toViewer) : s(surface) {
+  LocalSurface(const Surface& surface, const vec3& toViewer, uint32_t links)
+      : s(surface), leftOutBy(links) {
     const float side = glm::dot(s.geometricNormal, toViewer) < 0.0f ? -1.0f : 1.0f;
     ng = side * s.geometricNormal;
     ns = side * s.normal;
@@ -53,33 +56,41 @@ class Tracer {
   Tracer(const RenderScene& scene, const RayCaster& rays, const LightSet& lights)
       : scene_(scene), rays_(rays), lights_(lights) {}
 
-  // From the camera; or on from a surface: the direction's density by solid angle there, and the
-  // place.
-  vec3 trace(Ray ray, PathSampler& sampler, const PathTracerOptions& options, int firstDepth = 0,
-             float firstPdf = 0.0f, const vec3& firstPlace = vec3(0.0f)) {
+  // Where a ray begins: at the camera, or at a surface.
+  struct Start {
+    int depth = 0;
+    float pdf = 0.0f;  // with which the surface chose the direction, by solid angle
+    vec3 place{0.0f};
+    uint32_t leftOutBy = 0;
+  };
+  vec3 trace(Ray ray, PathSampler& sampler, const PathTracerOptions& options, const Start& start) {
     vec3 radiance(0.0f), throughput(1.0f);
     // The density by solid angle with which the last surface chose this direction; 0: the camera's,
     // which no light sampling competes with.
-    float pdfDirection = firstPdf;
-    vec3 from = firstPlace;
+    float pdfDirection = start.pdf;
+    vec3 from = start.place;
+    uint32_t leftOutBy = start.leftOutBy;  // of where the ray begins; the eye sees all
 
     const int bounces = options.part == LightPart::direct ? 0 : options.bounces;
-    for (int depth = firstDepth;; ++depth) {
+    for (int depth = start.depth;; ++depth) {
       // What shines into the camera, and what does on what it sees, is direct.
       const bool takesSeen = options.part != LightPart::indirect || depth > 1;
       ++raysTraced_;
       const Hit hit = rays_.intersect(ray, depth == 0 ? Surfaces::seen : Surfaces::all);
-      if (!hit)
-        return takesSeen ? radiance + throughput * skySeen(ray.direction, pdfDirection) : radiance;
+      if (!hit) {
+        const bool seesSky = takesSeen && !isLeftOut(leftOutBy, scene_.skyLink);
+        return seesSky ? radiance + throughput * skySeen(ray.direction, pdfDirection) : radiance;
+      }
       Surface surface = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
       if (depth == 0 && options.lightOnly) surface.albedo = vec3(1.0f);
-      LocalSurface at(surface, -ray.direction);
+      const RenderObject& object = scene_.objects[hit.object];
+      LocalSurface at(surface, -ray.direction, object.leftOutBy);
       if (depth == 0 && options.speculars && !options.lightOnly) {
         const Gloss gloss = glossAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
         if (shared::isGlossy(gloss.metallic, gloss.roughness))
           at.gloss.emplace(surface.albedo, gloss, options.leastRoughness, at.ns, -ray.direction);
       }
-      if (takesSeen)
+      if (takesSeen && !isLeftOut(leftOutBy, object.link))
         radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
       // Direct light is reflected once on its way to the camera (depth 0), each bounce adds one.
       if (depth > bounces) return radiance;
@@ -103,19 +114,26 @@ class Tracer {
       if (throughput == vec3(0.0f)) return radiance;
       pdfDirection = pdf;
       from = at.s.position;
-      ray = {start(at), 0.0f, direction};
+      leftOutBy = at.leftOutBy;
+      ray = {off(at), 0.0f, direction};
     }
   }
 
   // What a white Lambertian surface there would reflect, times π.
-  vec3 irradiance(const Surface& surface, PathSampler& sampler, const PathTracerOptions& options) {
-    const LocalSurface at(surface, surface.geometricNormal);
+  vec3 irradiance(const ReceivingPlace& place, PathSampler& sampler,
+                  const PathTracerOptions& options) {
+    Surface surface;
+    surface.position = place.position;
+    surface.geometricNormal = place.normal;
+    surface.normal = place.shadingNormal;
+    surface.albedo = vec3(1.0f);
+    const LocalSurface at(surface, place.normal, place.leftOutBy);
     const vec3 direct = directLight(at, sampler);
     const vec3 direction = Frame(at.ns).toWorld(sampleCosineHemisphere(sampler.next2()));
     const float pdf = at.pdf(direction);
     if (glm::dot(at.ng, direction) <= 0.0f || !(pdf > 0.0f)) return kPi * direct;
-    return kPi *
-           (direct + trace({start(at), 0.0f, direction}, sampler, options, 1, pdf, at.s.position));
+    return kPi * (direct + trace({off(at), 0.0f, direction}, sampler, options,
+                                 {1, pdf, place.position, place.leftOutBy}));
   }
 
   uint64_t raysTraced() const { return raysTraced_; }
@@ -152,32 +170,35 @@ class Tracer {
     const float choice = sampler.next1();
     const vec2 u = sampler.next2();
     const float punctualChoice = sampler.next1();
-    const bool samplesSky = !scene_.sky.isBlack() && !lights_.sky().isConstant();
+    const bool samplesSky = !scene_.sky.isBlack() && !lights_.sky().isConstant() &&
+                            !isLeftOut(at.leftOutBy, scene_.skyLink);
     const vec2 skyChoice = samplesSky ? sampler.next2() : vec2(0.0f);
     if (at.s.albedo == vec3(0.0f) && !at.gloss) return vec3(0.0f);
     float probability = 0.0f;
     const int emitter = lights_.chooseSurface(choice, probability);
     vec3 radiance = fromPunctuals(at, punctualChoice);
-    if (emitter != kNone) radiance += fromSurface(at, emitter, u) / probability;
+    if (emitter != kNone &&
+        !isLeftOut(at.leftOutBy, lights_.emitters()[static_cast<size_t>(emitter)].link))
+      radiance += fromSurface(at, emitter, u) / probability;
     if (samplesSky) radiance += fromSky(at, skyChoice);
     return radiance;
   }
 
   bool visible(const LocalSurface& at, const vec3& direction, float distance) {
     ++raysTraced_;
-    return !rays_.occluded({start(at), 0.0f, direction, distance});
+    return !rays_.occluded({off(at), 0.0f, direction, distance});
   }
 
   // Both ends stand off their surfaces. Only stopping short of the light would not do: a ray that
   // starts off its surface meets a light seen at a grazing angle well before its end.
   bool visible(const LocalSurface& at, const EmitterPoint& p, const vec3& toLight) {
     const float side = glm::dot(p.normal, toLight) > 0.0f ? -1.0f : 1.0f;
-    const vec3 way = p.position + side * rayEpsilon(p.position) * p.normal - start(at);
+    const vec3 way = p.position + side * rayEpsilon(p.position) * p.normal - off(at);
     const float distance = glm::length(way);
     return distance <= 0.0f || visible(at, way / distance, distance);
   }
 
-  static vec3 start(const LocalSurface& at) {
+  static vec3 off(const LocalSurface& at) {
     return at.s.position + rayEpsilon(at.s.position) * at.ng;
   }
 
@@ -210,12 +231,12 @@ class Tracer {
   // is seen is all the noise there is.
   vec3 fromPunctuals(const LocalSurface& at, float u) {
     float total = 0.0f;
-    for (const RenderPunctual& light : scene_.punctuals) total += luminance(unshadowed(at, light));
+    for (const RenderPunctual& light : scene_.punctuals) total += luminance(given(at, light));
     if (total <= 0.0f) return vec3(0.0f);
     const RenderPunctual* chosen = nullptr;
     float weight = 0.0f, below = 0.0f;
     for (const RenderPunctual& light : scene_.punctuals) {
-      const float w = luminance(unshadowed(at, light));
+      const float w = luminance(given(at, light));
       if (w <= 0.0f) continue;
       chosen = &light;
       weight = w;
@@ -234,6 +255,11 @@ class Tracer {
     const vec3 d = light.position - at.s.position;
     distance = glm::length(d);
     return d / std::max(distance, 1e-20f);
+  }
+
+  // unshadowed(), but of what is left out.
+  static vec3 given(const LocalSurface& at, const RenderPunctual& light) {
+    return isLeftOut(at.leftOutBy, light.link) ? vec3(0.0f) : unshadowed(at, light);
   }
 
   // Radiance that is reflected [W/(m² sr)] where nothing stands between.
@@ -272,21 +298,16 @@ vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet
   const vec3 direction =
       view.rayDirection(static_cast<float>(x) + inPixel.x, static_cast<float>(y) + inPixel.y);
   Tracer tracer(scene, caster, lights);
-  const vec3 radiance = tracer.trace({view.eye, 0.0f, direction}, sampler, options);
+  const vec3 radiance = tracer.trace({view.eye, 0.0f, direction}, sampler, options, {});
   if (raysTraced != nullptr) *raysTraced += tracer.raysTraced();
   return radiance;
 }
 
 vec3 traceIrradiance(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
-                     const vec3& position, const vec3& normal, const vec3& shadingNormal,
-                     uint32_t pixel, uint32_t sample, const PathTracerOptions& options) {
+                     const ReceivingPlace& place, uint32_t pixel, uint32_t sample,
+                     const PathTracerOptions& options) {
   PathSampler sampler(pixel, sample, options.seed);
-  Surface surface;
-  surface.position = position;
-  surface.geometricNormal = normal;
-  surface.normal = shadingNormal;
-  surface.albedo = vec3(1.0f);
-  return Tracer(scene, caster, lights).irradiance(surface, sampler, options);
+  return Tracer(scene, caster, lights).irradiance(place, sampler, options);
 }
 
 }  // namespace lamplighter

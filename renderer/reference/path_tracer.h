@@ -31,10 +31,16 @@ vec3 tracePath(const RenderScene& scene, const RayCaster& caster, const LightSet
                const View& view, int x, int y, uint32_t sample, const PathTracerOptions& options,
                uint64_t* raysTraced = nullptr);
 
-// The same for the irradiance [W/m²] at a point of a surface, on the side of its unit normal; a
-// smooth surface has another `shadingNormal`. `bounces` counts what bounces before it arrives.
+// A point of a surface, on the side of its unit normal; a smooth surface has another shading
+// normal.
+struct ReceivingPlace {
+  vec3 position{0.0f}, normal{0, 1, 0}, shadingNormal{0, 1, 0};
+  uint32_t leftOutBy = 0;  // RenderObject::leftOutBy
+};
+
+// The same for the irradiance [W/m²] there. `bounces` counts what bounces before it arrives.
 vec3 traceIrradiance(const RenderScene& scene, const RayCaster& caster, const LightSet& lights,
-                     const vec3& position, const vec3& normal, const vec3& shadingNormal,
-                     uint32_t pixel, uint32_t sample, const PathTracerOptions& options);
+                     const ReceivingPlace& place, uint32_t pixel, uint32_t sample,
+                     const PathTracerOptions& options);
 
 }  // namespace lamplighter

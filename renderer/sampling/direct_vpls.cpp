@@ -19,6 +19,7 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
   if (count <= 0) return;
   const Emitter& e = lights_.emitters()[static_cast<size_t>(source.emitter)];
   VplId id = source.id;
+  const size_t first = vpls.size();
   const uint32_t begin = firstIndex(batch_, count), end = begin + static_cast<uint32_t>(count);
   switch (e.kind) {
     case EmitterKind::surface:
@@ -48,6 +49,8 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
       }
       break;
   }
+  for (size_t i = first; i < vpls.size(); ++i)
+    vpls[i].vpl.footprint.y = static_cast<float>(e.link);
 }
 
 // Batches shine from places all over it, so that their mean has soft shadows.

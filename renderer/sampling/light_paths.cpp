@@ -137,7 +137,7 @@ void LightPaths::findTouched(const PathWalker& walker, const RenderSceneChanges&
       if (!p.hasMoved)
         p.path.flux =
             p.isOwn ? now.flux : walker.fluxAlong(light.source, now, p.path.steps[0].direction);
-      if (changes.materials) takeMaterials(walker, p);
+      if (changes.materials) takeMaterials(walker, light, p);
       for (size_t s = 0; s < p.path.steps.size(); ++s) {
         const PathStep& step = p.path.steps[s];
         if (s >= p.broken) break;
@@ -160,12 +160,13 @@ void LightPaths::findTouched(const PathWalker& walker, const RenderSceneChanges&
 }
 
 // What its vertices reflect now; they stay where they are.
-void LightPaths::takeMaterials(const PathWalker& walker, Path& p) {
+void LightPaths::takeMaterials(const PathWalker& walker, const Light& light, Path& p) {
   std::vector<PathStep>& steps = p.path.steps;
   for (size_t s = 0; s < steps.size() && steps[s].hit; ++s) {
     const bool ended = steps[s].ends();
     const Hit& h = steps[s].hit;
     steps[s].albedo = surfaceAt(walker.scene(), h.object, h.triangle, h.u, h.v).albedo;
+    if (s == 0) walker.receive(light.source, steps[s]);
     if (steps[s].ends()) {
       steps.resize(s + 1);
     } else if (ended && steps.size() < walker.bounces()) {

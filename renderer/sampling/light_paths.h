@@ -91,7 +91,7 @@ class LightPaths {
   void takeLights(const RenderScene& scene, LightSet lights);
   void findTouched(const PathWalker& walker, const RenderSceneChanges& changes,
                    std::span<const MoverFinder::Mover> movers);
-  static void takeMaterials(const PathWalker& walker, Path& p);
+  static void takeMaterials(const PathWalker& walker, const Light& light, Path& p);
   void lookAgain(const PathWalker& walker, bool isResting, int mostPaths);
   std::vector<Task> tasksOf(bool isResting, int mostPaths);
   void lookAgain(const PathWalker& walker, bool isResting, Task& task) const;

@@ -40,6 +40,7 @@ Emitter surfaceEmitter(const RenderScene& s, uint32_t object, std::span<const Em
   e.object = object;
   e.node = o.node;
   e.bothSides = m.doubleSided;
+  e.link = o.link;
   std::vector<float> areas(o.triangleCount());
   for (uint32_t t = 0; t < areas.size(); ++t) areas[t] = triangleArea(s, o, t);
   const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
@@ -97,6 +98,7 @@ LightSet::LightSet(const RenderScene& s, const LightSet& before) {
     e.kind = EmitterKind::punctual;
     e.node = s.punctuals[i].node;
     e.punctual = i;
+    e.link = s.punctuals[i].link;
     e.flux = punctualFlux(s.punctuals[i].light, radius_);
     if (luminance(e.flux) > 0.0f) emitters_.push_back(std::move(e));
   }
@@ -105,6 +107,7 @@ LightSet::LightSet(const RenderScene& s, const LightSet& before) {
     Emitter e;
     e.kind = EmitterKind::sky;
     e.skySun = sun;
+    e.link = s.skyLink;
     e.flux =
         kPi * radius_ * radius_ * (sun == 0 ? sky_.irradiance() : sky_.sun(sun - 1).irradiance);
     if (luminance(e.flux) > 0.0f) emitters_.push_back(std::move(e));

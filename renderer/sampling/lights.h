@@ -24,6 +24,7 @@ struct Emitter {
   vec3 flux{0.0f};
   float area = 0.0f;       // surface: m²
   bool bothSides = false;  // surface
+  uint32_t link = 0;       // light_linking.h
   AliasTable triangles;    // surface: by area
   EmitterCells cells;      // surface whose emission varies: by flux
 };

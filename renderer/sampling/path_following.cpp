@@ -84,6 +84,7 @@ int followStart(const PathWalker& walker, const PathWalker::Source& source, cons
                            !sees(walker, source.id.light, before.origin, tried, traced);
     if (!isLacking && i < kMostTries) continue;
     path.steps.assign(1, tried);
+    walker.receive(source, path.steps.front());
     return traced + walker.walkOn(source, path, 1);
   }
 }

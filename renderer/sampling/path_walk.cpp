@@ -6,6 +6,7 @@
 
 #include "renderer/sampling/random.h"
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -192,11 +193,18 @@ PathStep PathWalker::step(const vec3& origin, const vec3& direction) const {
   return s;
 }
 
+void PathWalker::receive(const Source& source, PathStep& first) const {
+  const uint32_t link = lights_.emitters()[static_cast<size_t>(source.emitter)].link;
+  if (first.hit && isLeftOut(scene_.objects[first.hit.object].leftOutBy, link))
+    first.albedo = vec3(0.0f);
+}
+
 int PathWalker::walk(const Source& source, const Departure& departure, LightPath& path) const {
   path.flux = departure.flux;
   path.steps.clear();
   if (bounces_ == 0) return 0;
   path.steps.push_back(step(departure.origin, departure.direction));
+  receive(source, path.steps.front());
   return 1 + walkOn(source, path, 1);
 }
 
@@ -205,6 +213,7 @@ int PathWalker::walkOn(const Source& source, LightPath& path, size_t from) const
   if (from < path.steps.size()) {
     path.steps.resize(from + 1);
     path.steps[from] = step(path.steps[from].origin, path.steps[from].direction);
+    if (from == 0) receive(source, path.steps[0]);
     ++rays;
   }
   for (; path.steps.size() < bounces_; ++rays) {

@@ -70,6 +70,8 @@ class PathWalker {
   int walkOn(const Source& source, LightPath& path, size_t from) const;
   // What one ray meets.
   PathStep step(const vec3& origin, const vec3& direction) const;
+  // Nothing goes on from what the light leaves out.
+  void receive(const Source& source, PathStep& first) const;
 
   size_t bounces() const { return bounces_; }
   const SampleNumbers& numbers() const { return numbers_; }

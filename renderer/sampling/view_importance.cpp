@@ -9,6 +9,7 @@
 
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
+#include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/vpl_shading.h"
 
@@ -38,6 +39,7 @@ bool isCandidate(const SceneVpl& v) {
 float irradianceAt(const SeenPoint& at, const SceneVpl& light, const RayCaster& rays,
                    float clampDistance) {
   const shared::Vpl& vpl = light.vpl;
+  if (isLeftOut(at.leftOutBy, static_cast<uint32_t>(vpl.footprint.y))) return 0.0f;
   const float geometry = shared::vplGeometry(vpl, at.position, at.normal, at.normal, clampDistance);
   const float irradiance = geometry * luminance(vec3(vpl.intensity));
   if (!(irradiance > 0.0f)) return 0.0f;
@@ -67,7 +69,8 @@ std::vector<SeenPoint> seenPoints(const RenderScene& scene, const RayCaster& ray
     const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
     const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
     const vec3 normal = side * s.geometricNormal;
-    points.push_back({s.position + rayEpsilon(s.position) * normal, normal});
+    points.push_back({s.position + rayEpsilon(s.position) * normal, normal,
+                      scene.objects[hit.object].leftOutBy});
   }
   return points;
 }

@@ -17,6 +17,7 @@ namespace lamplighter {
 // A place that the camera sees: off its surface, on the side that is seen. World space, metres.
 struct SeenPoint {
   vec3 position, normal;
+  uint32_t leftOutBy = 0;  // light_linking.h
 };
 
 // At most `count` of them, evenly over the picture and a little beyond its edges, in an order of

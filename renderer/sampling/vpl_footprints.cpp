@@ -63,7 +63,7 @@ void findFootprints(const LightSet& lights, std::span<SceneVpl> vpls) {
 
   tbb::parallel_for(size_t{0}, vpls.size(), [&](size_t i) {
     SceneVpl& v = vpls[i];
-    v.vpl.footprint = vec4(0.0f);
+    v.vpl.footprint.x = 0.0f;
     if (v.id.bounce > 0) {
       v.vpl.footprint.x =
           sharedArea(sampleOf(v.vpl), compared, static_cast<float>(every), lights.sceneRadius());

@@ -70,6 +70,7 @@ inline constexpr const char* kExtrasName = "lamplighter";
 inline constexpr const char* kSphereMark = "sphereLight";
 // A note on a node: how its mesh is lit, "simple" or "complex" (MeshKind).
 inline constexpr const char* kMeshKindNote = "mesh";
+inline constexpr const char* kLockedNote = "locked";
 // A note on a scene: what is around it.
 inline constexpr const char* kSkyNote = "sky";
 // object.extras.lamplighter.KEY, or null.

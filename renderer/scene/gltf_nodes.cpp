@@ -109,6 +109,7 @@ Node readNode(const GltfDocument& document, size_t node) {
     if (*kind == "simple") n.meshKind = MeshKind::simple;
     if (*kind == "complex") n.meshKind = MeshKind::complex;
   }
+  if (const Json* locked = noteOf(json, kLockedNote)) n.locked = *locked == true;
   if (const Json* visibility = extensionOf(json, "KHR_node_visibility")) {
     n.visible = boolMember(document, *visibility, "visible", true, at);
   }

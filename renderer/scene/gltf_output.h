@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -88,9 +89,12 @@ size_t appendIndices(GltfOutput& out, std::span<const uint32_t> indices, size_t 
 std::vector<size_t> saveNodes(GltfOutput& out);
 // gltf_save_lights.cpp
 void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes);
-// gltf_light_notes.cpp: what glTF has no place for, as notes: on and solo, groups, profiles.
-void saveLightNotes(GltfOutput& out, Json& json, const Node& now, const Node& was);
-void saveSceneLightNotes(GltfOutput& out);
+// gltf_light_notes.cpp: what glTF has no place for, as notes: on and solo, groups, what is left out,
+// profiles, pictures.
+using JsonOfNode = std::map<NodeId, size_t>;  // index in the file that is written
+void saveLightNotes(GltfOutput& out, Json& json, const Node& now, const Node& was,
+                    const JsonOfNode& jsonNodes);
+void saveSceneLightNotes(GltfOutput& out, const JsonOfNode& jsonNodes);
 // gltf_save_sky.cpp
 // The URI of a file beside the scene with these bytes: one that is there already, or a new one that
 // is added to the output under a name that no other file has.

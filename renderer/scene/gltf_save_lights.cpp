@@ -154,6 +154,9 @@ void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes) {
   for (size_t i = 0; i < loaded.nodes.size(); ++i) {
     bySource[static_cast<size_t>(loaded.nodes[i].sourceNode)] = i;
   }
+  JsonOfNode indices;
+  for (size_t i = 0; i < out.scene.nodes.size(); ++i)
+    indices[out.scene.nodes[i].id] = jsonNodes[i];
   const Node none;
   for (size_t i = 0; i < out.scene.nodes.size(); ++i) {
     const Node& now = out.scene.nodes[i];
@@ -164,12 +167,12 @@ void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes) {
     const mat4& before = known ? worldWas[bySource[source]] : worldNow[i];
     Json& json = out.json["nodes"][jsonNodes[i]];
     savePunctual(out, json, now, was);
-    saveLightNotes(out, json, now, was);
+    saveLightNotes(out, json, now, was, indices);
     saveArea(out, json, now, was, axisLengths(worldNow[i]), axisLengths(before));
   }
   dropOrphans(out, kPunctual);
   dropOrphans(out, kArea);
-  saveSceneLightNotes(out);
+  saveSceneLightNotes(out, indices);
 }
 
 }  // namespace lamplighter

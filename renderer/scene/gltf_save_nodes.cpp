@@ -56,6 +56,10 @@ void saveNode(GltfOutput& out, Json& json, const Node& now, const Node& was) {
     if (now.meshKind != MeshKind::automatic)
       noteFor(json)[kMeshKindNote] = now.meshKind == MeshKind::simple ? "simple" : "complex";
   }
+  if (now.locked != was.locked) {
+    eraseNote(json, kLockedNote);
+    if (now.locked) noteFor(json)[kLockedNote] = true;
+  }
   if (now.visible != was.visible) {
     eraseExtension(json, "KHR_node_visibility");
     if (!now.visible) {

@@ -22,8 +22,8 @@ class Parser {
 
   std::shared_ptr<const IesProfile> parse() {
     if (text_.size() > kMostBytes) fail("is larger than 16 MiB");
-    readTilt();
     auto out = std::make_shared<IesProfile>();
+    readTilt(*out);
     out->file = file_;
     out->text = text_;
     number("a number of lamps");
@@ -67,9 +67,11 @@ class Parser {
     throw InputError(file_, wrong, kRemedy);
   }
 
-  // Goes past the line TILT=, and past what is tilted: factors for lamps that are installed
-  // otherwise than they were measured. Ours hang as measured.
-  void readTilt() {
+  // Goes past the line TILT=, and takes what is tilted: the lamp's output over the angle of the
+  // luminaire from straight down. How the lamp lies in it (1: upright, 2: across, and staying level
+  // when the luminaire turns about its C0 axis, 3: across, and turning along) is what the factors
+  // were measured for; they are of the luminaire's angle in each case.
+  void readTilt(IesProfile& out) {
     for (;;) {
       const size_t end = text_.find('\n', at_);
       std::string_view line = text_.substr(at_, end == kEnd ? kEnd : end - at_);
@@ -81,9 +83,19 @@ class Parser {
         const std::string_view what = line.substr(5);
         if (what == "NONE") return;
         if (what != "INCLUDE") fail("has its tilt in another file");
-        number("a lamp's geometry");
+        const double geometry = number("a lamp's geometry");
+        if (geometry != 1.0 && geometry != 2.0 && geometry != 3.0)
+          fail("has a lamp's geometry that is neither 1, 2 nor 3");
         const size_t pairs = count("tilt angles");
-        for (size_t i = 0; i < 2 * pairs; ++i) number("tilt angles and factors");
+        if (pairs > (text_.size() - at_) / 4 + 1) fail("promises more numbers than it has");
+        out.tiltAngles = angles(pairs, "tilt angles");
+        for (size_t i = 0; i < pairs; ++i) {
+          const double factor = number("tilt factors");
+          if (!(factor >= 0.0 && factor <= 1000.0)) fail("has tilt factors that are none");
+          out.tiltFactors.push_back(static_cast<float>(factor));
+        }
+        if (*std::max_element(out.tiltFactors.begin(), out.tiltFactors.end()) <= 0.0f)
+          fail("gives no light at any tilt");
         return;
       }
       if (end == kEnd) fail("has no line TILT=");

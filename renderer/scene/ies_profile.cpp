@@ -36,6 +36,16 @@ float folded(const std::vector<float>& planes, float angle) {
 
 }  // namespace
 
+float IesProfile::atTilt(const vec3& aim) const {
+  if (tiltAngles.empty()) return 1.0f;
+  const float angle = std::acos(std::clamp(-aim.y, -1.0f, 1.0f)) * (180.0f / kPi);
+  size_t index;
+  float way;
+  locate(tiltAngles, std::clamp(angle, tiltAngles.front(), tiltAngles.back()), index, way);
+  const size_t next = std::min(index + 1, tiltFactors.size() - 1);
+  return glm::mix(tiltFactors[index], tiltFactors[next], way);
+}
+
 float IesProfile::at(const vec3& d) const {
   constexpr float kDegrees = 180.0f / kPi;
   float h, v;

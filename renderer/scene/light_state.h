@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/scene/node_id.h"
+
 namespace lamplighter {
 
 struct Scene;
@@ -13,6 +15,7 @@ struct LightState {
   bool on = true;
   bool solo = false;  // while anything is solo, nothing else shines
   std::string group;  // a LightGroup's name, or empty
+  std::vector<NodeId> leftOut = {};  // objects that get none of its light (light_linking.h); sorted
 
   bool operator==(const LightState&) const = default;
 };

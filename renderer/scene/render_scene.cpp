@@ -1,7 +1,11 @@
 #include "renderer/scene/render_scene.h"
 
 #include <algorithm>
+#include <map>
 
+#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_linking.h"
+#include "renderer/scene/light_picture.h"
 #include "renderer/scene/light_shapes.h"
 
 namespace lamplighter {
@@ -9,14 +13,37 @@ namespace lamplighter {
 namespace {
 
 // Black as long as the light does not shine: it is there all the same, dark, to be seen and chosen.
-Material emitterMaterial(const AreaLight& light, bool shines) {
+Material emitterMaterial(const AreaLight& light, bool shines, int picture) {
   Material m;
   m.name = "area light";
   m.baseColor = vec4(0.0f, 0.0f, 0.0f, 1.0f);
   m.metallic = 0.0f;
   m.emissive = shines ? light.radiance : vec3(0.0f);
+  m.emissiveTexture.texture = picture;
+  // The surface's u grows along the node's X, which points left to who sees its front.
+  m.emissiveTexture.offset = vec2(1.0f, 0.0f);
+  m.emissiveTexture.scale = vec2(-1.0f, 1.0f);
   return m;
 }
+
+// The textures of area lights' pictures, behind those of the scene: of each node its number, or
+// kNone. Lights with one picture share it.
+struct Pictures {
+  explicit Pictures(const Scene& scene) : ofNode(scene.nodes.size(), kNone) {
+    std::map<const LightPicture*, int> known;
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+      const Node& n = scene.nodes[i];
+      const LightPicture* picture = n.area ? shownPicture(*n.area) : nullptr;
+      if (picture == nullptr) continue;
+      const auto next = static_cast<int>(scene.textures.size() + shown.size());
+      const auto [it, isNew] = known.emplace(picture, next);
+      if (isNew) shown.push_back(picture);
+      ofNode[i] = it->second;
+    }
+  }
+  std::vector<const LightPicture*> shown;
+  std::vector<int> ofNode;
+};
 
 Material darkCopy(const Material& material) {
   Material m = material;
@@ -97,6 +124,7 @@ RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
   const vec3 aim = mat3(world) * vec3(0, 0, -1);
   const float length = glm::length(aim);
   if (length > 0.0f) r.direction = aim / length;
+  if (r.light.profile) r.light.intensity *= r.light.profile->atTilt(r.direction);
   // Scale, shear and mirroring change nothing of it but where X is.
   const vec3 z = -r.direction, x = vec3(world[0]) - glm::dot(vec3(world[0]), z) * z;
   const vec3 right = glm::length(x) > 0.0f ? glm::normalize(x) : Frame(z).tangent;
@@ -110,9 +138,15 @@ void rebuild(RenderScene& render, const Scene& scene) {
   const int defaultMaterial = static_cast<int>(render.materials.size());
   render.materials.emplace_back().metallic = 0.0f;
   render.textures = scene.textures;
+  const Pictures pictures(scene);
+  for (const LightPicture* p : pictures.shown)
+    render.textures.push_back({p->file, p->image, Wrap::clamp, Wrap::clamp, false, false});
   const std::vector<mat4> world = worldMatrices(scene);
   const std::vector<bool> visible = visibleNodes(scene);
   const std::vector<bool> shining = shiningLights(scene).nodes;
+  const LightLinks links = lightLinks(scene);
+  render.hasLinks = links.count > 0;
+  render.skyLink = links.ofSky;
   struct Dark {
     size_t object;
     int material;
@@ -120,8 +154,10 @@ void rebuild(RenderScene& render, const Scene& scene) {
   std::vector<Dark> dark;
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
-    if (node.area) render.materials.push_back(emitterMaterial(*node.area, shining[i]));
+    if (node.area)
+      render.materials.push_back(emitterMaterial(*node.area, shining[i], pictures.ofNode[i]));
     if (!visible[i]) continue;
+    const size_t firstObject = render.objects.size();
     if (node.mesh != kNone) {
       for (const Primitive& p : scene.meshes[node.mesh]->primitives) {
         if (p.indices.empty()) continue;
@@ -136,7 +172,14 @@ void rebuild(RenderScene& render, const Scene& scene) {
       append(render, node.id, tessellate(*node.area), world[i],
              static_cast<int>(render.materials.size()) - 1, true);
     }
-    if (node.punctual) render.punctuals.push_back(placed(node, world[i], shining[i]));
+    for (size_t o = firstObject; o < render.objects.size(); ++o) {
+      render.objects[o].link = links.ofLight[i];
+      render.objects[o].leftOutBy = links.leftOutBy[i];
+    }
+    if (node.punctual) {
+      render.punctuals.push_back(placed(node, world[i], shining[i]));
+      render.punctuals.back().link = links.ofLight[i];
+    }
   }
   const auto firstDark = static_cast<int>(render.materials.size());
   for (const Dark& d : dark) {
@@ -191,7 +234,9 @@ void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& ch
     const auto it = std::find_if(scene.nodes.begin(), scene.nodes.end(),
                                  [&](const Node& n) { return n.id == p.node; });
     const auto index = static_cast<size_t>(it - scene.nodes.begin());
+    const uint32_t link = p.link;  // another one would have been another structure
     p = placed(*it, world[index], shining[index]);
+    p.link = link;
     out.lights = true;
   }
 }
@@ -208,8 +253,10 @@ bool takeEmitters(RenderScene& render, const Scene& scene) {
     ++next;
   };
   const std::vector<bool> shining = shiningLights(scene).nodes;
+  const Pictures pictures(scene);
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
-    if (scene.nodes[i].area) take(emitterMaterial(*scene.nodes[i].area, shining[i]));
+    if (scene.nodes[i].area)
+      take(emitterMaterial(*scene.nodes[i].area, shining[i], pictures.ofNode[i]));
   }
   for (const int material : render.darkMaterials) take(darkCopy(scene.materials[material]));
   return changed;

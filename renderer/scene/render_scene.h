@@ -21,16 +21,19 @@ struct RenderObject {
   mat4 world{1.0f};                         // its node's, as of its vertices now
   MeshKind kind = MeshKind::automatic;      // its node's
   bool isAreaLight = false;                 // tessellated from Node::area
+  uint32_t link = 0;                        // of its own light, if it emits (light_linking.h)
+  uint32_t leftOutBy = 0;                   // a bit for each link that gives it no light
   uint32_t triangleCount() const { return indexCount / 3; }
 };
 
 // A punctual light in world space.
 struct RenderPunctual {
   NodeId node = kNoNode;
-  PunctualLight light;
+  PunctualLight light;  // its intensity with the factor of its profile at its tilt
   vec3 position{0.0f};
   vec3 direction{0.0f, 0.0f, -1.0f};  // unit, where it aims
   mat3 axes{1.0f};                    // its X, Y and Z, orthonormal; Z is −direction
+  uint32_t link = 0;                  // light_linking.h
 };
 
 struct RenderScene {
@@ -47,9 +50,11 @@ struct RenderScene {
   // copies that emit nothing, for emissive meshes that do not shine.
   std::vector<Material> materials;
   std::vector<int> darkMaterials;  // of which of Scene::materials those copies are
-  std::vector<Texture> textures;
+  std::vector<Texture> textures;   // Scene::textures, then those of area lights' pictures
   std::vector<RenderPunctual> punctuals;
   Sky sky;
+  uint32_t skyLink = 0;   // light_linking.h
+  bool hasLinks = false;  // some light leaves something out
   Bounds bounds;  // of all objects
 
   size_t triangleCount() const { return indices.size() / 3; }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_picture.h"
 
 namespace lamplighter {
 
@@ -62,6 +63,11 @@ bool PunctualLight::operator==(const PunctualLight& o) const {
   return kind == o.kind && intensity == o.intensity && range == o.range &&
          innerCone == o.innerCone && outerCone == o.outerCone &&
          (profile == o.profile || (profile && o.profile && *profile == *o.profile));
+}
+
+bool AreaLight::operator==(const AreaLight& o) const {
+  return shape == o.shape && radiance == o.radiance && size == o.size &&
+         (picture == o.picture || (picture && o.picture && *picture == *o.picture));
 }
 
 bool emitsLight(const Scene& scene, const Node& n) {

@@ -12,16 +12,15 @@
 #include "renderer/image/image.h"
 #include "renderer/math.h"
 #include "renderer/scene/light_state.h"
+#include "renderer/scene/node_id.h"
 #include "renderer/scene/sky.h"
 #include "renderer/scene/transform.h"
 
 namespace lamplighter {
 
-struct IesProfile;  // ies_profile.h
+struct IesProfile;    // ies_profile.h
+struct LightPicture;  // light_picture.h
 
-// Stable for the life of a document; never given twice. 0 is no node.
-using NodeId = uint32_t;
-inline constexpr NodeId kNoNode = 0;
 inline constexpr int kNone = -1;
 
 struct TextureRef {
@@ -122,7 +121,10 @@ struct AreaLight {
   vec3 radiance{10.0f};  // W/(m² sr)
   // Rectangle: width (X), height (Y); disk and sphere: diameter in x; tube: length (X), diameter.
   vec2 size{1.0f, 1.0f};
-  bool operator==(const AreaLight&) const = default;
+  // Rectangle and disk: radiance is times this over the surface, seen upright from the front with
+  // the node's Y up; the other shapes shine without. Null: none.
+  std::shared_ptr<const LightPicture> picture = nullptr;
+  bool operator==(const AreaLight& other) const;  // pictures by what is in them
 };
 
 // How a node's mesh is lit. Planar parts are cut into patches with light maps; complex ones, curved
@@ -143,6 +145,7 @@ struct Node {
   std::optional<PunctualLight> punctual;
   std::optional<AreaLight> area;
   bool visible = true;
+  bool locked = false;  // not to be picked or moved in the viewport
   LightState light;  // of what it emits, if it emits
   MeshKind meshKind = MeshKind::automatic;
   int sourceNode = kNone;  // index in the file it came from; kNone for one made here

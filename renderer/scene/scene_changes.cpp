@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "renderer/scene/light_linking.h"
+#include "renderer/scene/light_picture.h"
+
 namespace lamplighter {
 
 namespace {
@@ -39,6 +42,8 @@ bool sameStructure(const Scene& a, const Scene& b) {
     }
     // Another shape has another count of triangles.
     if (m.area && m.area->shape != n.area->shape) return false;
+    // And another picture is another texture.
+    if (m.area && shownPicture(*m.area) != shownPicture(*n.area)) return false;
   }
   return true;
 }
@@ -66,7 +71,7 @@ SceneChanges compare(const Scene& before, const Scene& after) {
     if (before.materials[i].emits() != after.materials[i].emits() && anyLightDark(after))
       changes.structure = true;
   }
-  if (!sameStructure(before, after)) {
+  if (!sameStructure(before, after) || lightLinks(before) != lightLinks(after)) {
     changes.structure = true;
     return changes;  // everything of the nodes is looked at again anyhow
   }

@@ -35,6 +35,7 @@ ObjectIdentity identify(const RenderScene& s, uint32_t index) {
   ObjectIdentity id;
   id.node = o.node;
   id.kind = o.kind;
+  id.leftOutBy = o.leftOutBy;
   id.isClear = m.isClear();
   id.isMasked = m.alphaMode == AlphaMode::mask;
   id.backIsUnseen = s.backIsUnseen(index);

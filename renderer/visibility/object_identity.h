@@ -13,6 +13,7 @@ struct ObjectIdentity {
   NodeId node = kNoNode;
   uint64_t geometry = 0;  // hash of its vertices in the world and of its indices
   MeshKind kind = MeshKind::automatic;
+  uint32_t leftOutBy = 0;  // light_linking.h
   bool isClear = false, isMasked = false, backIsUnseen = false, hasNormalTexture = false;
   bool operator==(const ObjectIdentity&) const = default;
 };

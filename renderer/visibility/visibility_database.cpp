@@ -5,6 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/scene/light_linking.h"
+
 namespace lamplighter {
 namespace {
 
@@ -13,7 +15,8 @@ constexpr size_t kMostMovers = 16;
 
 // All but the slot and the brightness, which change nothing here.
 bool sameLight(const shared::Vpl& a, const shared::Vpl& b) {
-  return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent;
+  return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
+         a.footprint.y == b.footprint.y;
 }
 
 bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
@@ -73,6 +76,12 @@ void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) 
   withoutMovers_[object].assign(patches * stride_, kUnknown);
   divided_[object].assign(patches, 0);
   changed_[object].assign(patches, 1);
+  // What a light leaves out it does not light for a while either.
+  for (size_t slot = 0; slot < lights_.size(); ++slot) {
+    if (!isLeftOut(o.leftOutBy, static_cast<uint32_t>(lights_[slot].footprint.y))) continue;
+    for (size_t patch = 0; patch < patches; ++patch)
+      rows_[object][patch * stride_ + slot] = static_cast<uint8_t>(Occlusion::full);
+  }
 }
 
 // Objects are numbered anew, or their materials changed: those that are the same keep all that is

@@ -1,5 +1,6 @@
 // For each patch and light sample whether anything can stand between (paper 1, 4.3.1 and 4.5.1):
-// kept from edit to edit, and brought up to date where something changed.
+// kept from edit to edit, and brought up to date where something changed. What a light leaves out
+// (light_linking.h) is as if all of it were hidden from the light.
 //
 // Columns, one a light, are the unit of update (design.md 4): what moves is taken in at once, but a
 // column that it may touch waits until it is refreshed, with its light's shadow map.

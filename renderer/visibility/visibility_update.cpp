@@ -13,6 +13,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/scene/light_linking.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -169,6 +170,7 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
                                        [](const Task& t) { return t.work == Work::inherit; });
   const PatchRegion region =
       isInherited ? PatchRegion(Bounds()) : PatchRegion(scene_, object, patches, p);
+  const uint32_t leftOutBy = scene_.objects[object].leftOutBy;
   const auto computeSome = [&](size_t first, size_t last) {
     Blocker met, metMover;  // by the light before
     uint64_t tests = 0;
@@ -180,7 +182,10 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
       const auto slot = static_cast<size_t>(t.slot);
       t.was = static_cast<Occlusion>(states[slot]);
       if (t.isNew) others[slot] = kUnknown;
-      if (t.work != Work::inherit) {
+      if (isLeftOut(leftOutBy, static_cast<uint32_t>(db_.lights_[slot].footprint.y))) {
+        t.state = Occlusion::full;
+        others[slot] = static_cast<uint8_t>(Occlusion::full);
+      } else if (t.work != Work::inherit) {
         if (t.met.object == kNone) t.met = met;
         if (t.metMover.object == kNone) t.metMover = metMover;
         t.state = check(p, region, t, {some, i, shaft}, t.isSieved, others[slot], t.met, t.metMover,

@@ -1,6 +1,7 @@
 // Which cells of the low-resolution pass take their light from their corners
 // (shared/low_resolution.h): 1, else 0.
 #include "common/cells.glsl"
+#include "common/left_out.glsl"
 #include "common/normal_packing.glsl"
 #include "shared/bindings.h"
 #include "shared/low_resolution.h"
@@ -12,6 +13,7 @@ layout(binding = kPlaces) uniform usampler2D uPlaces;  // of samples
 layout(std430, binding = kHardPlaceBuffer) readonly buffer HardPlaces { uint hardPlaces[]; };
 layout(location = 0) uniform int uBlock;
 layout(location = 1) uniform int uHasHard;  // 0: no place is
+layout(location = 2) uniform int uHasLinks;  // 0: no light leaves anything out
 
 layout(location = 0) out uint outIsSmooth;
 
@@ -48,10 +50,12 @@ bool isFlat(ivec2 first, ivec2 end) {
   if (origin.w == 0.0) return false;
   vec4 normals = texelFetch(uNormals, first, 0);
   vec3 shading = unpackNormal(normals.xy), geometric = unpackNormal(normals.zw);
+  uint leftOutBy = uHasLinks != 0 ? leftOutAt(origin.w) : 0u;
   for (int y = first.y; y <= end.y; ++y) {
     for (int x = first.x; x <= end.x; ++x) {
       vec4 position = texelFetch(uPosition, ivec2(x, y), 0);
       if (position.w == 0.0) return false;
+      if (uHasLinks != 0 && leftOutAt(position.w) != leftOutBy) return false;
       vec3 normal = unpackNormal(texelFetch(uNormals, ivec2(x, y), 0).xy);
       if (!isOnSurface(origin.xyz, geometric, shading, position.xyz, normal)) return false;
     }

@@ -2,6 +2,7 @@
 // pixel of the G-buffer. It is read and written instead of blended, so that the order of additions,
 // and with it each bit, does not depend on how many VPLs one draw takes.
 //   without PATCHES: the same VPLs at every pixel, with their maps;
+//   with LINKS besides: but those that leave it out;
 //   with PATCHES: those that its place's list names, as it says (paper 1, 4.3.4);
 //   with MERGED besides: of these, the part that uPass says (paper 1, 4.3.5).
 // At all pixels, or at one of each block.
@@ -11,6 +12,9 @@
 #include "common/vpls.glsl"
 #include "shared/patches.h"
 #include "shared/vpl_shading.h"
+#ifdef LINKS
+#include "common/left_out.glsl"
+#endif
 
 layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGNormals) uniform sampler2D uNormals;
@@ -39,6 +43,9 @@ layout(location = 0) out vec4 outIrradiance;
 
 struct Point {
   vec3 position, shading, geometric;
+#ifdef LINKS
+  uint leftOutBy;
+#endif
 };
 
 Vpl vplAt(int i) {
@@ -115,6 +122,9 @@ vec3 withAll(Point x, vec3 sum) {
   for (int i = uFirst; i < uEnd; ++i) {
     Vpl vpl = vplAt(i);
     float g = geometryOf(vpl, x);
+#ifdef LINKS
+    if (isLeftOut(x.leftOutBy, vpl.footprint.y)) g = 0.0;
+#endif
     if (g > 0.0 && !(vpl.intensity.w >= 0.0 && occluded(vpl, x.position, x.geometric, uClampAndBias))) {
       sum += g * vpl.intensity.rgb;
     }
@@ -134,7 +144,11 @@ void main() {
   vec4 position = texelFetch(uPosition, pixel, 0);
   if (position.w == 0.0) discard;
   vec4 normals = texelFetch(uNormals, pixel, 0);
-  Point x = Point(position.xyz, unpackNormal(normals.xy), unpackNormal(normals.zw));
+  Point x = Point(position.xyz, unpackNormal(normals.xy), unpackNormal(normals.zw)
+#ifdef LINKS
+                  , leftOutAt(position.w)
+#endif
+  );
   vec3 sum = texelFetch(uIrradiance, at, 0).rgb;
 #ifdef PATCHES
   outIrradiance = vec4(withPart(part, x, sum), 0.0);

@@ -29,6 +29,8 @@ SHARED_CONST int kListRangeBuffer = 5;
 SHARED_CONST int kListBuffer = 6;
 // with this in the pass over cells of the low-resolution pass.
 SHARED_CONST int kHardPlaceBuffer = 0;  // by place, 1: a hard shadow may lie there
+// with this where all lights are summed everywhere, and in that pass.
+SHARED_CONST int kLeftOutBuffer = 1;  // by triangle of the scene: a bit for each link (light_linking.h)
 
 SHARED_CONST int kPositionAttribute = 0;
 SHARED_CONST int kNormalAttribute = 1;

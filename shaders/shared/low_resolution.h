@@ -6,6 +6,7 @@
 //   - all pixels from corner to corner, the far rows among them, hit a surface, and lie in the plane
 //     of the first corner with about its shading normal. The whole cell is asked, so that no light
 //     leaks past what is thinner than a block;
+//   - the same lights leave out what all of these pixels show (renderer/scene/light_linking.h);
 //   - the irradiance at its corners differs little: the borders of shadows stay where they are;
 //   - it does not differ much in any of the eight cells about it, whatever is there: the border of
 //     a hard shadow may come into this cell without reaching a corner;

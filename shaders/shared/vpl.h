@@ -22,7 +22,9 @@ struct Vpl {
   vec4 intensity;  // rgb: on-axis intensity [W/sr], directional: irradiance [W/m²];
                    // w: slot of its shadow map, < 0: casts no shadow
   // x: what it stands for, for speculars: cosine: area of surface [m²], directional: solid angle
-  // [sr]; 0: nothing but its point or direction. yzw: 0. No map or irradiance depends on it.
+  // [sr]; 0: nothing but its point or direction. No map or irradiance depends on it.
+  // y: its light's link, whose objects it does not light (renderer/scene/light_linking.h), 0: it
+  // lights all. zw: 0.
   vec4 footprint SHARED_ZERO;
 };
 

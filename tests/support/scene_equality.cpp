@@ -62,6 +62,7 @@ std::string difference(const Scene& a, const Scene& b) {
     if (m.punctual != n.punctual) return "punctual light" + at;
     if (m.area != n.area) return "area light" + at;
     if (m.visible != n.visible) return "visibility" + at;
+    if (m.locked != n.locked) return "lock" + at;
     if (m.light != n.light) return "state of the light" + at;
   }
   if (a.meshes.size() != b.meshes.size()) return "count of meshes";

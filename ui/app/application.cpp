@@ -243,6 +243,8 @@ void Application::drawDialogs(PanelContext ui) {
       session_->requestOpen(*path);
     else if (fileDialog_.kind() == FileDialog::Kind::picture)
       runAction("sky.image " + quoted(path->string()));
+    else if (fileDialog_.kind() == FileDialog::Kind::lightPicture)
+      runAction("light.picture " + quoted(path->string()));
     else if (fileDialog_.kind() == FileDialog::Kind::profile)
       runAction("light.ies " + quoted(path->string()));
     else if (fileDialog_.kind() == FileDialog::Kind::timeline)
@@ -328,6 +330,8 @@ void Application::answerRequests() {
 
   if (std::exchange(inspectorState_.choosesProfile, false))
     fileDialog_.open(FileDialog::Kind::profile, session_->document().path);
+  if (std::exchange(inspectorState_.choosesPicture, false))
+    fileDialog_.open(FileDialog::Kind::lightPicture, session_->document().path);
   if (std::exchange(inspectorState_.choosesSky, false))
     fileDialog_.open(FileDialog::Kind::picture, session_->document().path);
 

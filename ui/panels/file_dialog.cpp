@@ -34,7 +34,8 @@ bool isTimeline(const fs::path& path) {
 }
 
 bool fits(FileDialog::Kind kind, const fs::path& path) {
-  if (kind == FileDialog::Kind::picture) return isPicture(path);
+  if (kind == FileDialog::Kind::picture || kind == FileDialog::Kind::lightPicture)
+    return isPicture(path);
   if (kind == FileDialog::Kind::profile) return endingOf(path) == ".ies";
   return kind == FileDialog::Kind::timeline ? isTimeline(path) : isScene(path);
 }
@@ -77,6 +78,8 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   const char* title = kind_ == Kind::open       ? "Open a scene###file"
                       : kind_ == Kind::picture  ? "Open a picture of the sky###file"
                       : kind_ == Kind::profile  ? "Open a profile of a light###file"
+                      : kind_ == Kind::lightPicture
+                          ? "Open a picture of a light###file"
                       : kind_ == Kind::timeline ? "Export the timeline###file"
                                                 : "Save as###file";
   if (opening_) ImGui::OpenPopup(title);

@@ -84,13 +84,14 @@ void inspector(PanelContext ui, InspectorState& state) {
     state.name = node.name;
     state.rotation = quat(0, 0, 0, 0);  // no rotation: the angles are found anew
   }
-  if (document.selection.size() > 1)
-    note(std::to_string(document.selection.size()) + " selected; this is the last one.");
+  if (document.selection.size() > 1) return multiInspector(ui, state);
   ImGui::PushID(static_cast<int>(node.id));
   nameField(ui, node, state);
   if (section(ui, "Transform")) transformFields(ui, node, state);
   if (node.area && section(ui, "Area light")) areaLightFields(ui, node, state);
   if (node.punctual && section(ui, "Light")) punctualLightFields(ui, node, state);
+  if (emitsLight(document.scene, node) && section(ui, "Light linking"))
+    linkFields(ui, node.id, state);
   if (node.mesh != kNone && section(ui, "Mesh")) meshKindField(ui, node);
   if (node.mesh != kNone && section(ui, "Material")) materialFields(ui, node, state);
   ImGui::PopID();

@@ -128,7 +128,7 @@ void stateFields(const PanelContext& ui, const Node& node) {
 
 }  // namespace
 
-void areaLightFields(PanelContext ui, const Node& node, InspectorState&) {
+void areaLightFields(PanelContext ui, const Node& node, InspectorState& state) {
   AreaLight light = *node.area;
   const std::string step = "Change light " + node.name;
   stateFields(ui, node);
@@ -165,14 +165,17 @@ void areaLightFields(PanelContext ui, const Node& node, InspectorState&) {
   note(in(LightUnit::nits) + " \u00b7 " + in(LightUnit::lumens) + " \u00b7 " +
        short3(measure.area) + " m\u00b2");
   if (changed && light != *node.area) ui.session.setAreaLight(node.id, light);
+  if (light.shape == AreaShape::rectangle || light.shape == AreaShape::disk || light.picture)
+    pictureFields(ui, node, state);
 }
 
 void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state) {
   PunctualLight light = *node.punctual;
   const std::string step = "Change light " + node.name;
   stateFields(ui, node);
-  bool changed = emissionFields(ui, step, measureOf(ui.session.document().scene, node, mat4(1.0f)),
-                                light.intensity);
+  const Scene& scene = ui.session.document().scene;
+  const LightMeasure measure = measureOf(scene, node, worldMatrix(scene, node.id));
+  bool changed = emissionFields(ui, step, measure, light.intensity);
   if (light.kind == PunctualKind::spot) {
     float inner = glm::degrees(light.innerCone), outer = glm::degrees(light.outerCone);
     labelledRow(ui, "Inner cone", "Half the angle within which the light is full.");

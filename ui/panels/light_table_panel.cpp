@@ -61,7 +61,9 @@ void rightAligned(const std::string& text) {
 
 std::string countOf(int value) { return value == 0 ? "\u2013" : grouped(value); }
 
-std::string textOf(const LightRow& r, LightColumn column) {
+}  // namespace
+
+std::string cellText(const LightRow& r, LightColumn column) {
   const LightFigures& f = r.figures;
   char text[64] = "";
   switch (column) {
@@ -100,11 +102,16 @@ std::string textOf(const LightRow& r, LightColumn column) {
   }
 }
 
+namespace {
+
 class Table {
  public:
-  explicit Table(const PanelContext& ui) : ui_(ui) {
+  Table(const PanelContext& ui, LightTableState& state)
+      : ui_(ui), state_(state), cells_{ui, state} {
     rows_ = ui.session.lighting().table.rows(ui.session, ui.session.lighting().unit);
     for (const LightRow& r : rows_) ++named_[r.name];
+    const auto isOf = [&](const LightRow& r) { return r.source.node == state.row; };
+    if (std::none_of(rows_.begin(), rows_.end(), isOf)) state.row = kNoNode;
   }
 
   void draw() {
@@ -123,6 +130,7 @@ class Table {
       headers();
       sort();
       for (const LightRow& r : rows_) row(r);
+      cells_.byKeyboard(rows_);
       ImGui::EndTable();
     }
     ImGui::PopStyleVar();
@@ -187,13 +195,17 @@ class Table {
     const bool isDim = !r.visible || !r.shines;
     if (isDim) ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
     for (size_t i = 0; i < kColumns.size(); ++i) {
-      if (ImGui::TableSetColumnIndex(static_cast<int>(i))) cell(r, kColumns[i]);
+      if (!ImGui::TableSetColumnIndex(static_cast<int>(i))) continue;
+      cell(r, kColumns[i]);
+      cells_.cell(r, kColumns[i].column, widgetOf(r));
     }
     if (isDim) ImGui::PopStyleColor();
     ImGui::PopID();
   }
 
   void cell(const LightRow& r, const ColumnInfo& c) {
+    if (cells_.isEdited(r, c.column) && c.column != LightColumn::name)
+      return cells_.field(r, c.column);
     switch (c.column) {
       case LightColumn::name:
         nameCell(r);
@@ -209,9 +221,9 @@ class Table {
         return;
       default:
         if (c.isNumber)
-          rightAligned(textOf(r, c.column));
+          rightAligned(cellText(r, c.column));
         else
-          ImGui::TextUnformatted(textOf(r, c.column).c_str());
+          ImGui::TextUnformatted(cellText(r, c.column).c_str());
     }
   }
 
@@ -219,8 +231,16 @@ class Table {
     constexpr ImGuiSelectableFlags kFlags =
         ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap;
     const std::string name = r.name.empty() ? "(unnamed)" : r.name;
-    if (ImGui::Selectable(name.c_str(), r.selected, kFlags)) select(r.source.node);
+    const ImVec2 at = ImGui::GetCursorPos();
+    const bool isEditedHere = cells_.isEdited(r, LightColumn::name);
+    const std::string shown = isEditedHere ? "##row" : name + "##row";
+    if (ImGui::Selectable(shown.c_str(), r.selected, kFlags) && state_.row != r.source.node)
+      select(r.source.node);
     ui_.name(widgetOf(r));
+    if (isEditedHere) {
+      ImGui::SetCursorPos(at);
+      cells_.field(r, LightColumn::name);
+    }
     if (!r.visible) tooltip(ui_, "It is hidden: the eye in the outliner shows it.");
   }
 
@@ -251,6 +271,7 @@ class Table {
 
   void select(NodeId id) {
     Session& s = ui_.session;
+    state_.before = s.document().selection;
     if (id == kNoNode) return s.select({});  // the inspector shows the sky then
     if (ImGui::GetIO().KeyShift) {
       s.select(rowsBetween(rows_, s.document().active(), id));
@@ -264,6 +285,8 @@ class Table {
   }
 
   const PanelContext& ui_;
+  LightTableState& state_;
+  LightCells cells_;
   std::vector<LightRow> rows_;
   std::map<std::string, int> named_;
   float spare_ = 0.0f;  // pixels beyond what the columns need
@@ -274,7 +297,7 @@ class Table {
 void lightTable(PanelContext ui, LightTableState& state, Requests& requests) {
   ui.prefix = "lights/";
   lightTableBar(ui, state, requests);
-  Table(ui).draw();
+  Table(ui, state).draw();
 }
 
 }  // namespace lamplighter

@@ -63,7 +63,7 @@ const std::vector<Menu>& menus() {
        {"edit", "selection", "select"},
        {"edit.undo", "edit.redo", "-", "edit.duplicate", "edit.delete", "edit.rename"}},
       {"Light", {"light", "lights"}, {"light.add", "light.place", "-", "panel.lights"}},
-      {"Object", {"object", "node", "place"}, {}},
+      {"Object", {"object", "objects", "materials", "node", "place"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
       {"View", {"view", "camera", "panel", "split"}, viewActions()},
       {"Inspect",

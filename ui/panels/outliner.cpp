@@ -5,6 +5,8 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "editor/document/tree.h"
+#include "renderer/error.h"
 #include "ui/icons.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
@@ -29,6 +31,8 @@ const char* iconOf(const Node& node) {
   return icon::kGroup;
 }
 
+constexpr const char* kDragged = "nodes";
+
 class Tree {
  public:
   Tree(const PanelContext& ui, OutlinerState& state) : ui_(ui), state_(state) {
@@ -48,6 +52,26 @@ class Tree {
     state.scrolledTo = active;
     for (const Node* at = scene.find(reveal_); at; at = scene.find(at->parent))
       if (at->parent != kNoNode) open_.insert(at->parent);
+  }
+
+  // Makes the last item a place to let go what is dragged; kNoNode: the top of the tree.
+  void dropOn(NodeId parent) {
+    if (!ImGui::BeginDragDropTarget()) return;
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(kDragged)) {
+      const auto* ids = static_cast<const NodeId*>(payload->Data);
+      dropped_.assign(ids, ids + static_cast<size_t>(payload->DataSize) / sizeof(NodeId));
+      droppedOn_ = parent;
+    }
+    ImGui::EndDragDropTarget();
+  }
+  // The tree that was drawn is another one afterwards.
+  void takeDropped() {
+    if (dropped_.empty()) return;
+    try {
+      reparent(ui_.session, dropped_, droppedOn_);
+    } catch (const InputError& e) {
+      ui_.session.setStatus(e.what());
+    }
   }
 
   void draw() {
@@ -80,9 +104,10 @@ class Tree {
     const std::string widget =
         named_[node.name] > 1 || node.name.empty() ? name + "#" + std::to_string(node.id) : name;
     ui_.name(widget);
-    if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) select(node.id);
+    press(node);
+    drag(node, name);
     if (node.id == reveal_ && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
-    eye(node, widget);
+    marks(node, widget);
     ImGui::PopID();
 
     if (leaf || !open) return;
@@ -92,28 +117,72 @@ class Tree {
     ImGui::TreePop();
   }
 
-  void eye(const Node& node, const std::string& widget) {
+  // One of several that are selected is chosen when it is let go, so that all can be dragged.
+  void press(const Node& node) {
+    const bool adds = ImGui::GetIO().KeyCtrl || ImGui::GetIO().KeyShift;
+    if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
+      const bool isOneOfMany = ui_.session.document().selection.size() > 1 &&
+                               ui_.session.document().isSelected(node.id);
+      if (isOneOfMany && !adds)
+        state_.pressed = node.id;
+      else
+        select(node.id);
+    }
+    if (state_.pressed != node.id || ImGui::IsMouseDown(0)) return;
+    state_.pressed = kNoNode;
+    if (ImGui::IsItemHovered()) select(node.id);
+  }
+
+  // What is dragged, the selection or what was not in it, hangs below what it is let go on.
+  void drag(const Node& node, const std::string& name) {
+    if (ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceAllowNullID)) {
+      state_.pressed = kNoNode;
+      const std::vector<NodeId>& selection = ui_.session.document().selection;
+      const bool isIn = ui_.session.document().isSelected(node.id);
+      const std::vector<NodeId> ids = isIn ? selection : std::vector<NodeId>{node.id};
+      ImGui::SetDragDropPayload(kDragged, ids.data(), ids.size() * sizeof(NodeId));
+      ImGui::TextUnformatted(ids.size() == 1 ? name.c_str()
+                                             : (std::to_string(ids.size()) + " objects").c_str());
+      ImGui::EndDragDropSource();
+    }
+    dropOn(node.id);
+  }
+
+  // The eye and the lock, at the right; dim unless they say something or are pointed at.
+  void marks(const Node& node, const std::string& widget) {
     const bool hovered = ImGui::IsItemHovered();
     const float width = ImGui::GetFrameHeight();
-    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    if (ImGui::InvisibleButton("eye", {width, width}))
+    const float right = ImGui::GetWindowContentRegionMax().x;
+    ImGui::SameLine(right - 2 * width);
+    if (mark("lock", widget, node.locked ? "Unlock" : "Lock: not to be picked or moved in the view",
+             node.locked ? icon::kLock : icon::kUnlock, node.locked, hovered || node.locked))
+      setLocked(ui_.session, {node.id}, !node.locked);
+    ImGui::SameLine(right - width);
+    if (mark("eye", widget, node.visible ? "Hide" : "Show",
+             node.visible ? icon::kEye : icon::kEyeSlash, node.visible, hovered || !node.visible))
       ui_.session.setVisible(node.id, !node.visible);
-    ui_.name(widget + "/eye");
-    tooltip(ui_, node.visible ? "Hide" : "Show");
-    if (node.visible && !hovered && !ImGui::IsItemHovered()) return;
-    const unsigned colour = ImGui::IsItemHovered() ? theme::kText : theme::kTextDim;
-    if (theme::hasIcons()) {
-      ImGui::GetWindowDrawList()->AddText({at.x + ui_.px(2), at.y + ui_.px(4)},
-                                          theme::colour(colour),
-                                          node.visible ? icon::kEye : icon::kEyeSlash);
-    } else {
-      const ImVec2 middle{at.x + width / 2, at.y + width / 2};
-      if (node.visible)
-        ImGui::GetWindowDrawList()->AddCircleFilled(middle, ui_.px(4), theme::colour(colour));
-      else
-        ImGui::GetWindowDrawList()->AddCircle(middle, ui_.px(4), theme::colour(colour));
-    }
+  }
+
+  // True when it was clicked.
+  bool mark(const char* what, const std::string& widget, const char* help, const char* symbol,
+            bool isFilled, bool isShown) {
+    const float width = ImGui::GetFrameHeight();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const bool clicked = ImGui::InvisibleButton(what, {width, width});
+    ui_.name(widget + "/" + what);
+    tooltip(ui_, help);
+    if (!isShown && !ImGui::IsItemHovered()) return clicked;
+    const ImU32 colour =
+        theme::colour(ImGui::IsItemHovered() ? theme::kText : theme::kTextDim);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 middle{at.x + width / 2, at.y + width / 2};
+    if (theme::hasIcons())
+      draw.AddText({at.x + ui_.px(2), at.y + ui_.px(4)}, colour, symbol);
+    else if (isFilled)
+      draw.AddCircleFilled(middle, ui_.px(4), colour);
+    else
+      draw.AddCircle(middle, ui_.px(4), colour);
+    return clicked;
   }
 
   void select(NodeId id) {
@@ -134,6 +203,8 @@ class Tree {
   std::map<std::string, int> named_;
   std::set<NodeId> matches_, open_;
   NodeId reveal_ = kNoNode;
+  std::vector<NodeId> dropped_;  // let go in this frame
+  NodeId droppedOn_ = kNoNode;
   int depth_ = 0;
 };
 
@@ -147,10 +218,18 @@ void outliner(PanelContext ui, OutlinerState& state) {
   ImGui::BeginChild("tree");
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(6), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(3), ui.px(3)});
-  Tree(ui, state).draw();
+  Tree tree(ui, state);
+  tree.draw();
   ImGui::PopStyleVar(2);
-  if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(0) && !ImGui::IsAnyItemHovered())
-    ui.session.select({});
+  // What is left of the panel: a click there selects nothing, and it stands for the top.
+  const ImVec2 rest = ImGui::GetContentRegionAvail();
+  if (rest.x > 0.0f) {
+    if (ImGui::InvisibleButton("top", {rest.x, std::max(rest.y, ui.px(24))}))
+      ui.session.select({});
+    ui.name("top");
+    tree.dropOn(kNoNode);
+  }
+  tree.takeDropped();
   ImGui::EndChild();
 }
 

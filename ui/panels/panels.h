@@ -25,6 +25,7 @@ void toolbar(PanelContext ui, Requests& requests);
 struct OutlinerState {
   std::string search;
   NodeId scrolledTo = kNoNode;
+  NodeId pressed = kNoNode;  // one of several that are selected, until it is let go or dragged
 };
 void outliner(PanelContext ui, OutlinerState& state);
 
@@ -37,6 +38,8 @@ struct InspectorState {
   bool focusName = false;       // give the name field the keyboard
   bool choosesSky = false;      // a file dialog for the sky's picture is wanted
   bool choosesProfile = false;  // one for the light's profile
+  bool choosesPicture = false;  // one for its picture
+  std::string linkSearch;       // among what it may leave out
 };
 void inspector(PanelContext ui, InspectorState& state);
 // Parts of the inspector.
@@ -46,7 +49,13 @@ void areaLightFields(PanelContext ui, const Node& node, InspectorState& state);
 void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state);
 void profileFields(const PanelContext& ui, const Node& node,
                    InspectorState& state);  // of an IES file
+void pictureFields(const PanelContext& ui, const Node& node, InspectorState& state);
+// What a light, or the sky (kNoNode), leaves out; and the same of the selected lights.
+void linkFields(const PanelContext& ui, NodeId light, InspectorState& state);
+void selectedLinkFields(const PanelContext& ui);
 void skyFields(PanelContext ui, InspectorState& state);
+// Instead of all these while several objects are selected: what they have in common.
+void multiInspector(PanelContext ui, InspectorState& state);
 
 struct TimelineState {
   std::optional<Timeline> held;  // what is pointed at
@@ -75,7 +84,7 @@ void statusLine(PanelContext ui, const StatusInfo& info);
 // Modal dialogs. They are opened by open() and draw themselves each frame.
 class FileDialog {
  public:
-  enum class Kind { open, save, picture, profile, timeline };
+  enum class Kind { open, save, picture, profile, lightPicture, timeline };
   void open(Kind kind, const std::filesystem::path& start);
   // The chosen file, once.
   std::optional<std::filesystem::path> draw(PanelContext ui);

@@ -80,6 +80,13 @@ void profileFields(const PanelContext& ui, const Node& node, InspectorState& sta
   note(std::string(profile->isTypeB ? "Type B" : "Type C") + " \u00b7 " +
        short3(static_cast<double>(profile->peak)) + " cd \u00b7 " +
        short3(static_cast<double>(measured)) + " lm as measured");
+  if (profile->tiltAngles.empty()) return;
+  const mat4 world = worldMatrix(ui.session.document().scene, node.id);
+  const vec3 aim = mat3(world) * vec3(0, 0, -1);
+  const float length = glm::length(aim);
+  if (length > 0.0f)
+    note("Tilted as it is the lamp gives " +
+         short3(100.0 * static_cast<double>(profile->atTilt(aim / length))) + "% of its light.");
 }
 
 }  // namespace lamplighter

@@ -114,6 +114,7 @@ void skyFields(PanelContext ui, InspectorState& state) {
       break;
   }
   if (changed) ui.session.setSky(sky);
+  if (!sky.isBlack()) linkFields(ui, kNoNode, state);
   if (ui.session.document().scene.skyIsDefault)
     note("There because the level has no light. It is not saved until it is changed.");
 }

@@ -20,6 +20,12 @@ struct Item {
   bool on = false, enabled = true;
   bool beginsGroup = false;  // a line stands before it
   int keepsLabel = 0;        // which of the steps below takes its label
+  struct Choice {
+    std::string widget;
+    const char *icon, *label;
+    std::function<void()> run;
+  };
+  std::vector<Choice> choices = {};  // of a menu that it opens, instead of running anything
 };
 using Items = std::vector<Item>;
 
@@ -50,6 +56,13 @@ void line(const PanelContext& ui) {
   ImGui::SameLine(0, ui.px(kGroupGap));
 }
 
+void choices(const PanelContext& ui, const Item& item) {
+  for (const Item::Choice& choice : item.choices) {
+    if (ImGui::MenuItem(withIcon(choice.icon, choice.label).c_str())) choice.run();
+    ui.name(choice.widget);
+  }
+}
+
 void button(const PanelContext& ui, const Item& item, int step) {
   if (item.on) {
     ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
@@ -61,7 +74,17 @@ void button(const PanelContext& ui, const Item& item, int step) {
   if (item.on) ImGui::PopStyleColor(2);
   ui.name(item.widget);
   tooltip(ui, showsLabel(item, step) ? item.help : std::string(item.label) + ": " + item.help);
-  if (clicked) item.run();
+  if (item.choices.empty()) {
+    if (clicked) item.run();
+    return;
+  }
+  const std::string popup = "##menu " + item.widget;
+  if (clicked) ImGui::OpenPopup(popup.c_str());
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  ImGui::SetNextWindowPos({low.x, high.y + ui.px(2)}, ImGuiCond_Appearing);
+  if (!ImGui::BeginPopup(popup.c_str())) return;
+  choices(ui, item);
+  ImGui::EndPopup();
 }
 
 // What did not fit, from `first` on.
@@ -74,6 +97,14 @@ void more(const PanelContext& ui, const Items& items, size_t first) {
   for (size_t i = first; i < items.size(); ++i) {
     const Item& item = items[i];
     if (item.beginsGroup && i > first) ImGui::Separator();
+    if (!item.choices.empty()) {
+      const bool open = ImGui::BeginMenu(withIcon(item.icon, item.label).c_str());
+      ui.name(item.widget);
+      if (!open) continue;
+      choices(ui, item);
+      ImGui::EndMenu();
+      continue;
+    }
     if (ImGui::MenuItem(withIcon(item.icon, item.label).c_str(), nullptr, item.on, item.enabled))
       item.run();
     ui.name(item.widget);
@@ -114,14 +145,20 @@ void addActions(const PanelContext& ui, Items& items, Requests& requests) {
   struct Named {
     const char *name, *icon, *label;
   };
-  for (const Named& shape :
+  Item& light = add("add_light", icon::kLight, "Add light",
+                    "Puts a new light ahead of the camera, or with a click where it is to be.", "",
+                    2);
+  light.beginsGroup = true;
+  const auto offer = [&](const std::string& action, const char* icon, const char* label) {
+    light.choices.push_back(
+        {action, icon, label, [&requests, action] { requests.actions.push_back(action); }});
+  };
+  for (const Named& kind :
        {Named{"rectangle", icon::kRectangle, "Rectangle"}, Named{"disk", icon::kDisk, "Disk"},
-        Named{"sphere", icon::kSphere, "Sphere"}}) {
-    const std::string action = std::string("light.add ") + shape.name;
-    add(action, shape.icon, shape.label, std::string("Add an area light: a ") + shape.name, action,
-        1)
-        .beginsGroup = shape.icon == icon::kRectangle;
-  }
+        Named{"sphere", icon::kSphere, "Sphere"}, Named{"tube", icon::kTube, "Tube"},
+        Named{"spot", icon::kSpot, "Spot"}, Named{"point", icon::kPoint, "Point"},
+        Named{"sun", icon::kSun, "Sun"}})
+    offer(std::string("light.add ") + kind.name, kind.icon, kind.label);
   const History& history = ui.session.history();
   Item& undo =
       add("undo", icon::kUndo, "Undo",

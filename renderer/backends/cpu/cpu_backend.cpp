@@ -58,8 +58,14 @@ class CpuBackend final : public Backend {
 
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes,
                 const RayCaster& rays) override {
+    const bool isOther = changes.rebuilt || scene_ != &scene;
     scene_ = &scene;
     rays_ = &rays;
+    if (isOther) {
+      leftOutBy_.clear();
+      for (const RenderObject& o : scene.objects)
+        if (scene.hasLinks) leftOutBy_.push_back(o.leftOutBy);
+    }
     if (changes.rebuilt || changes.materials) {
       stillIsKnown_ = false;
       for (Picture* p : {&still_, &shifted_}) {
@@ -154,7 +160,8 @@ class CpuBackend final : public Backend {
     const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_, 1.0f};
     const auto update = [&](cpu::LightSums& sums, const cpu::GBuffer& gbuffer,
                             std::span<const uint32_t> wanted) {
-      const cpu::SumCounts counts = sums.update(gbuffer, lights, constants, patches, wanted);
+      const cpu::SumCounts counts = 
+          sums.update(gbuffer, lights, constants, patches, wanted, leftOutBy_);
       counts_.lookUps += counts.lookUps;
       counts_.lightPixels += counts.lightPixels;
     };
@@ -174,7 +181,7 @@ class CpuBackend final : public Backend {
       update(p.sums, p.gbuffer, {});
       return;
     }
-    p.low.update(p.gbuffer, p.block);
+    p.low.update(p.gbuffer, p.block, leftOutBy_);
     update(p.sampleSums, p.low.samples(), {});
     p.low.findEdges(p.gbuffer, p.sampleSums);
     counts_.pixelsInterpolated += p.low.pixelsInterpolated();
@@ -269,6 +276,7 @@ class CpuBackend final : public Backend {
   Picture* shown_ = &still_;   // the one that was rendered last
   bool stillIsKnown_ = false;  // still_ shows stillView_, but for what moved
   View stillView_;
+  std::vector<uint32_t> leftOutBy_;  // by object, where the scene has any; else empty
   std::vector<Bounds> moves_;  // where something was or is that moved since
 };
 

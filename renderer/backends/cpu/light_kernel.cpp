@@ -119,6 +119,7 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
   light.intensity = vec3(vpl.intensity);
   light.coneScale = light.radius = vpl.normal.w;
   light.coneOffset = light.side = vpl.tangent.w;
+  light.link = static_cast<uint32_t>(vpl.footprint.y);
   return light;
 }
 

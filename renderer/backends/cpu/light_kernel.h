@@ -26,6 +26,7 @@ struct LightRecord {
   vec3 position, normal, tangent, bitangent, intensity;
   float coneScale = 0.0f, coneOffset = 1.0f;
   float radius = 0.0f, side = 1.0f;  // directional: R and S
+  uint32_t link = 0;                 // renderer/scene/light_linking.h
   bool operator==(const LightRecord&) const = default;
 };
 

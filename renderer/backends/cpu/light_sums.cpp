@@ -8,6 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/light_maps/hard_lights.h"
+#include "renderer/scene/light_linking.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -45,9 +46,14 @@ bool revised(std::vector<Revision>& last, const Source* source) {
 // Adds lights to packets of some tiles, or takes them away.
 class Adder {
  public:
-  Adder(const GBuffer& gbuffer, const PlaceTable* table, const SumConstants& constants,
-        FixedSums& sums, SumCounts& counts)
-      : gbuffer_(gbuffer), table_(table), constants_(constants), sums_(sums), counts_(counts) {}
+  Adder(const GBuffer& gbuffer, const PlaceTable* table, std::span<const uint32_t> leftOutBy,
+        const SumConstants& constants, FixedSums& sums, SumCounts& counts)
+      : gbuffer_(gbuffer),
+        table_(table),
+        leftOutBy_(leftOutBy),
+        constants_(constants),
+        sums_(sums),
+        counts_(counts) {}
 
   bool hasRoomFor(uint32_t packets) const {
     return listed_ + static_cast<size_t>(std::popcount(packets)) <= PacketList::kMost;
@@ -73,6 +79,7 @@ class Adder {
     listedUses_ = 0;
     lists_[0].clear();
     for (const Part& part : parts_) part.places->listAll(part.packets, lists_[0]);
+    if (light.link != 0 && !leftOutBy_.empty()) leaveOut(light.link);
     sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
   }
 
@@ -93,6 +100,19 @@ class Adder {
     uint32_t packets;
     const TilePlaces* places;
   };
+
+  // Takes lanes out of the first list that show what gets no light of the link.
+  void leaveOut(uint32_t link) {
+    const PacketList all = lists_[0];
+    lists_[0].clear();
+    for (size_t k = 0; k < all.count(); ++k) {
+      uint8_t lanes = *all.lanes(k);
+      for (size_t i = all.first(k); i < all.first(k) + kLanes; ++i)
+        if (gbuffer_.hit[i] != 0 && isLeftOut(leftOutBy_[gbuffer_.object[i]], link))
+          lanes &= static_cast<uint8_t>(~(1u << (i - all.first(k))));
+      if (lanes != 0) lists_[0].add(all.first(k), lanes);
+    }
+  }
 
   // How the light is used in each of the rows, in two bits; and a bit that is always set.
   static constexpr size_t kMostRows = 31;
@@ -125,6 +145,7 @@ class Adder {
 
   const GBuffer& gbuffer_;
   const PlaceTable* table_;
+  std::span<const uint32_t> leftOutBy_;
   const SumConstants& constants_;
   FixedSums& sums_;
   SumCounts& counts_;
@@ -145,6 +166,7 @@ struct LightSums::Frame {
   std::vector<const LightRecord*> slots;
   const PatchLights* patches;
   std::span<const uint32_t> wanted;  // by tile; empty: all
+  std::span<const uint32_t> leftOutBy;
   std::vector<Change> changes;       // of lights and their maps
   std::vector<bool> isChanged;       // by slot
 };
@@ -236,9 +258,10 @@ void LightSums::findPlaces(const Frame& frame) {
 
 SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
                             SumConstants constants, const PatchLights* patches,
-                            std::span<const uint32_t> wanted) {
+                            std::span<const uint32_t> wanted,
+                            std::span<const uint32_t> leftOutBy) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
-  Frame frame{gbuffer, lights, bySlot(lights), patches, wanted, {}, {}};
+  Frame frame{gbuffer, lights, bySlot(lights), patches, wanted, leftOutBy, {}, {}};
   const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
   // Lights that cast no shadow have no slot to tell them by.
   if (constants != constants_ || !std::all_of(lights.begin(), lights.end(), hasSlot) ||
@@ -296,7 +319,9 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   SumCounts counts;
   std::vector<Adder> kept, begun;
   const PlaceTable* table = hasPatches_ ? &table_ : nullptr;
-  const auto newAdder = [&] { return Adder(frame.gbuffer, table, constants_, sums_, counts); };
+  const auto newAdder = [&] { 
+    return Adder(frame.gbuffer, table, frame.leftOutBy, constants_, sums_, counts);
+  };
   const auto addPackets = [&](std::vector<Adder>& adders, int tile, uint32_t packets) {
     const TilePlaces& places = tiles_[static_cast<size_t>(tile)].places;
     if ((packets & places.hit()) == 0) return false;

@@ -22,10 +22,11 @@ class LightSums {
  public:
   // Brings E up to date. `patches`: how each patch comes by each light; null: with a look-up, or
   // without where the light has no map. `wanted`: by tile, the packets where E is wanted, a bit
-  // each; empty: at all pixels. The unit in `constants` is chosen here.
+  // each; empty: at all pixels. The unit in `constants` is chosen here. `leftOutBy`: by object, the
+  // links of lights that do not light it; empty: none does. Where they change, forgetPlaces().
   SumCounts update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
                    SumConstants constants, const PatchLights* patches,
-                   std::span<const uint32_t> wanted = {});
+                   std::span<const uint32_t> wanted = {}, std::span<const uint32_t> leftOutBy = {});
 
   // To be called before a shadow map changes, with what it holds: its light may have to be taken
   // away with it.

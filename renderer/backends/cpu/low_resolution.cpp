@@ -92,6 +92,16 @@ bool isOnOneSurface(const GBuffer& g, int x0, int y0, int x1, int y1) {
   return true;
 }
 
+// Whether the same lights leave out all that these pixels show.
+bool isLitAlike(const GBuffer& g, std::span<const uint32_t> leftOutBy, int x0, int y0, int x1,
+                int y1) {
+  const uint32_t first = leftOutBy[g.object[g.index(x0, y0)]];
+  for (int y = y0; y <= y1; ++y)
+    for (int x = x0; x <= x1; ++x)
+      if (leftOutBy[g.object[g.index(x, y)]] != first) return false;
+  return true;
+}
+
 }  // namespace
 
 void LowResolution::takeSamples(const GBuffer& g) {
@@ -132,7 +142,7 @@ void LowResolution::takeSamples(const GBuffer& g) {
   });
 }
 
-void LowResolution::findPlanes(const GBuffer& g, int tile) {
+void LowResolution::findPlanes(const GBuffer& g, int tile, std::span<const uint32_t> leftOutBy) {
   const int x0 = tile % tilesX_ * kTileSize, y0 = tile / tilesX_ * kTileSize;
   // Mostly all is one triangle.
   uint64_t only = g.onlyTriangle[static_cast<size_t>(tile)];
@@ -144,13 +154,15 @@ void LowResolution::findPlanes(const GBuffer& g, int tile) {
     for (int x = x0; x < std::min(x0 + kTileSize, width_); x += block_) {
       const int right = std::min(x + block_, width_ - 1),
                 bottom = std::min(y + block_, height_ - 1);
-      planes_[cellAt(x / block_, y / block_)] =
-          isOnly || isOnOneSurface(g, x, y, right, bottom) ? 0 : kNoPlane;
+      const bool isOne = isOnly || (isOnOneSurface(g, x, y, right, bottom) &&
+                                    (leftOutBy.empty() ||
+                                     isLitAlike(g, leftOutBy, x, y, right, bottom)));
+      planes_[cellAt(x / block_, y / block_)] = isOne ? 0 : kNoPlane;
     }
   }
 }
 
-void LowResolution::update(const GBuffer& g, int block) {
+void LowResolution::update(const GBuffer& g, int block, std::span<const uint32_t> leftOutBy) {
   const auto tiles = static_cast<size_t>(g.tiles());
   if (g.width != width_ || g.height != height_ || block != block_) {
     width_ = g.width;
@@ -184,7 +196,7 @@ void LowResolution::update(const GBuffer& g, int block) {
       const auto t = static_cast<size_t>(tile);
       if (planeRevisions_[t] == revision) continue;
       planeRevisions_[t] = revision;
-      findPlanes(g, tile);
+      findPlanes(g, tile, leftOutBy);
     }
   });
 }

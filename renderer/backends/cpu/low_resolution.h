@@ -20,8 +20,8 @@ namespace lamplighter::cpu {
 class LowResolution {
  public:
   // Takes the samples and looks where cells lie on one surface, in tiles that were traced since the
-  // last call. block: 2, 4 or 8 pixels.
-  void update(const GBuffer& picture, int block);
+  // last call. block: 2, 4 or 8 pixels. leftOutBy: of LightSums::update().
+  void update(const GBuffer& picture, int block, std::span<const uint32_t> leftOutBy);
   const GBuffer& samples() const { return samples_; }
 
   // Says which packets are to be summed pixel by pixel, given the light at the samples.
@@ -43,7 +43,7 @@ class LowResolution {
   static constexpr uint8_t kNoPlane = 1, kContrast = 2, kMuchContrast = 4;
 
   void takeSamples(const GBuffer& picture);
-  void findPlanes(const GBuffer& picture, int tile);
+  void findPlanes(const GBuffer& picture, int tile, std::span<const uint32_t> leftOutBy);
   void takeLight(const LightSums& light, std::span<const uint8_t> isHard, int row);
   void findContrast(int row);
   uint32_t edgesOf(int tile) const;

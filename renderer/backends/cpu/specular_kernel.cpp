@@ -1,6 +1,7 @@
 #include "renderer/backends/cpu/specular_kernel.h"
 
 #include "renderer/backends/cpu/wide_light.h"
+#include "renderer/scene/light_linking.h"
 #include "shaders/shared/vpl_speculars.h"
 
 namespace lamplighter::cpu {
@@ -142,8 +143,8 @@ HWY_INLINE void addSpecular(const Points& p, const SpecularLight& record, bool l
 
 void specularRadiance(const GBuffer& gbuffer, const vec3& eye, size_t first, uint8_t lanes,
                       std::span<const Gloss, kLanes> gloss, std::span<const SpecularLight> lights,
-                      const LightUse* uses, const SumConstants& constants, float leastRoughness,
-                      std::span<vec3, kLanes> out) {
+                      const LightUse* uses, uint32_t leftOutBy, const SumConstants& constants,
+                      float leastRoughness, std::span<vec3, kLanes> out) {
   using Kind = LightRecord::Kind;
   const Points points = pointsAt(gbuffer, eye, first, lanes, gloss, leastRoughness);
   SumConstants ofLight = constants;
@@ -152,6 +153,7 @@ void specularRadiance(const GBuffer& gbuffer, const vec3& eye, size_t first, uin
   Vector3 sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
   for (const SpecularLight& light : lights) {
     const LightRecord& record = light.record;
+    if (isLeftOut(leftOutBy, record.link)) continue;
     bool looksUp = record.map != nullptr;
     if (uses != nullptr && record.slot >= 0) {
       const LightUse use = uses[record.slot];

@@ -19,10 +19,11 @@ struct SpecularLight {
 // The radiance [W/(m² sr)] that all lights together give by the lobes of some pixels of a packet;
 // those of the other lanes stay as they are.
 //   uses: by slot, skip, add or addShadowed; null: with a look-up, or without where a light has no
-//   map. first: the packet's first pixel; gloss, out: of the same packet.
+//   map. first: the packet's first pixel; gloss, out: of the same packet. leftOutBy: the links of
+//   lights that do not light these pixels.
 void specularRadiance(const GBuffer& gbuffer, const vec3& eye, size_t first, uint8_t lanes,
                       std::span<const Gloss, kLanes> gloss, std::span<const SpecularLight> lights,
-                      const LightUse* uses, const SumConstants& constants, float leastRoughness,
-                      std::span<vec3, kLanes> out);
+                      const LightUse* uses, uint32_t leftOutBy, const SumConstants& constants,
+                      float leastRoughness, std::span<vec3, kLanes> out);
 
 }  // namespace lamplighter::cpu

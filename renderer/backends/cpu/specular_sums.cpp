@@ -46,7 +46,7 @@ void SpecularSums::findParts(const RenderScene& scene, const GBuffer& g, size_t 
     if (tile.gloss.empty()) tile.gloss.resize(kTilePixels);
     tile.gloss[in] = gloss;
     const auto packet = static_cast<uint8_t>(in / kLanes);
-    Patch patch{0, 0};
+    Patch patch{scene.hasLinks ? g.object[i] : 0, 0};
     if (patches != nullptr)
       patch = {
           g.object[i],
@@ -122,7 +122,8 @@ uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const 
       const LightUse* uses = hasPatches ? &uses_[part.row * slots_] : nullptr;
       specularRadiance(g, eye, stale[k] * kTilePixels + inTile, part.lanes,
                        std::span<const Gloss, kLanes>(&tile.gloss[inTile], kLanes), lights, uses,
-                       constants, leastRoughness,
+                       scene.hasLinks ? scene.objects[part.patch.first].leftOutBy : 0, constants,
+                       leastRoughness,
                        std::span<vec3, kLanes>(&tile.radiance[inTile], kLanes));
       here += static_cast<uint64_t>(std::popcount(part.lanes));
     }

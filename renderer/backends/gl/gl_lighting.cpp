@@ -53,6 +53,8 @@ void GlLighting::reload(const std::filesystem::path& shaders, const VplBuffer& v
     std::vector<std::string> defines = {n, kinds[i]};
     if (i == 2) defines.push_back("DIRECTIONAL");
     naive[i] = Program(shaders, {vertex, sum, defines});
+    linkedFiles_[i] = {vertex, sum, defines};
+    linkedFiles_[i].defines.push_back("LINKS");
     defines.push_back("PATCHES");
     listed[i] = Program(shaders, {vertex, sum, defines});
     defines.push_back("MERGED");
@@ -66,6 +68,8 @@ void GlLighting::reload(const std::filesystem::path& shaders, const VplBuffer& v
   }
   low_.reload(shaders);
   std::move(std::begin(naive), std::end(naive), naive_);
+  for (Program& program : linked_) program = Program();
+  shaders_ = shaders;
   std::move(std::begin(listed), std::end(listed), listed_);
   std::move(std::begin(merged), std::end(merged), merged_);
   findPatches_ = std::move(findPatches);
@@ -142,17 +146,17 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
   const int block = static_cast<int>(params.block.x);
   if (patches == nullptr) {
     zero();
-    add(sum, pixels_, 1, false);
+    add(scene, sum, pixels_, 1, false);
   } else if (low_.resize(pixels_.width, pixels_.height, block)) {
     begin(scene, low_.samples(), block, false);
-    add(sum, low_.samples(), block, false);
-    low_.interpolate(pixels_, patches_->hardPlaces, !patches_->lists.hardPlaces().empty());
+    add(scene, sum, low_.samples(), block, false);
+    low_.interpolate(pixels_, scene, patches_->hardPlaces, !patches_->lists.hardPlaces().empty());
     begin(scene, pixels_, 1, true);
-    add(sum, pixels_, 1, true);
+    add(scene, sum, pixels_, 1, true);
   } else {
     pixels_.dropStencil();
     begin(scene, pixels_, 1, false);
-    add(sum, pixels_, 1, false);
+    add(scene, sum, pixels_, 1, false);
   }
   isEmpty_ = false;
 }
@@ -189,7 +193,14 @@ void GlLighting::begin(const GlScene& scene, const SumTarget& target, int block,
   drawFullScreen(emptyVertexArray_.name());
 }
 
-void GlLighting::add(const Sum& sum, const SumTarget& target, int block, bool unmarked) {
+const Program& GlLighting::naive(int kind, bool hasLinks) {
+  if (!hasLinks) return naive_[kind];
+  if (!linked_[kind]) linked_[kind] = Program(shaders_, linkedFiles_[kind]);
+  return linked_[kind];
+}
+
+void GlLighting::add(const GlScene& scene, const Sum& sum, const SumTarget& target, int block,
+                     bool unmarked) {
   PassState state(target.sums.name(), target.width, target.height);
   if (unmarked) state.onlyWhere(false);
   glBindTextureUnit(shared::kIrradiance, target.irradiance.name());
@@ -198,6 +209,8 @@ void GlLighting::add(const Sum& sum, const SumTarget& target, int block, bool un
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListRangeBuffer, patches_->ranges.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListBuffer, patches_->entries.name());
   }
+  const bool hasLinks = scene.scene().hasLinks && !patches_;
+  if (hasLinks) scene.bindLeftOut();
   const int most = mostLights(sum.clampAndBias);
   const auto draw = [&] {
     glTextureBarrier();  // the irradiance is read where it is written
@@ -211,7 +224,9 @@ void GlLighting::add(const Sum& sum, const SumTarget& target, int block, bool un
       sum.buffer.upload(std::span(sum.vpls).subspan(
           blockStart, std::min(blockSize, sum.vpls.size() - blockStart)));
     }
-    const Program& program = (sum.merges ? merged_ : patches_ ? listed_ : naive_)[batch.kind];
+    const Program& program = sum.merges ? merged_[batch.kind]
+                             : patches_ ? listed_[batch.kind]
+                                        : naive(batch.kind, hasLinks);
     program.use();
     program.set(2, sum.clampAndBias);
     program.set(6, block);

@@ -71,12 +71,18 @@ class GlLighting {
   // where the stencil buffer has no mark.
   void begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked);
   // Adds all VPLs there.
-  void add(const Sum& sum, const SumTarget& target, int block, bool unmarked);
+  void add(const GlScene& scene, const Sum& sum, const SumTarget& target, int block, bool unmarked);
   // Of the program that composes with that kind, which it returns.
   const Program& setSky(const GlGBuffer& gbuffer, const Sky& sky);
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
 
+  const Program& naive(int kind, bool hasLinks);
+
   Program naive_[3], listed_[3], merged_[3];  // by Vpl.position.w
+  // The same where lights leave something out; compiled when it is first so.
+  Program linked_[3];
+  ProgramFiles linkedFiles_[3];
+  std::filesystem::path shaders_;
   Program findPatches_;
   Program compose_[3];  // by kind of sky (shaders/shared/sky.h)
   VertexArray emptyVertexArray_;

@@ -39,7 +39,8 @@ void GlLowResolution::release() {
   cellsFramebuffer_ = {};
 }
 
-void GlLowResolution::interpolate(SumTarget& pixels, const Buffer& hardPlaces, bool hasHard) const {
+void GlLowResolution::interpolate(SumTarget& pixels, const GlScene& scene, const Buffer& hardPlaces,
+                                  bool hasHard) const {
   glBindTextureUnit(shared::kPlaces, samples_.places.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kHardPlaceBuffer, hardPlaces.name());
   glBindTextureUnit(shared::kSamples, samples_.irradiance.name());
@@ -48,6 +49,8 @@ void GlLowResolution::interpolate(SumTarget& pixels, const Buffer& hardPlaces, b
     findCells_.use();
     findCells_.set(0, block_);
     findCells_.set(1, hasHard ? 1 : 0);
+    findCells_.set(2, scene.scene().hasLinks ? 1 : 0);
+    scene.bindLeftOut();
     drawFullScreen(emptyVertexArray_.name());
   }
   glBindTextureUnit(shared::kCells, cells_.name());

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "renderer/backends/gl/gl_scene.h"
 #include "renderer/backends/gl/sum_target.h"
 #include "renderer/gl/program.h"
 
@@ -25,7 +26,8 @@ class GlLowResolution {
   // Once the samples are summed, with the G-buffer bound: the cells that may be, marked in the
   // stencil buffer of `pixels`. The others are left as they are. hardPlaces: a buffer with
   // LightLists::hardPlaces(), hasHard: whether it has any.
-  void interpolate(SumTarget& pixels, const Buffer& hardPlaces, bool hasHard) const;
+  void interpolate(SumTarget& pixels, const GlScene& scene, const Buffer& hardPlaces,
+                   bool hasHard) const;
 
   // By pixel of a picture of that size whether it is interpolated (1); empty: there are no cells.
   std::vector<uint8_t> read(int width, int height) const;

@@ -111,6 +111,10 @@ void GlScene::uploadGeometry() {
   std::vector<uint32_t> firstIndices;
   for (const RenderObject& o : s.objects) firstIndices.push_back(o.firstIndex);
   firstIndices_ = upload(firstIndices, bytes_);
+  std::vector<uint32_t> leftOut;
+  for (const RenderObject& o : s.objects)
+    if (s.hasLinks) leftOut.insert(leftOut.end(), o.triangleCount(), o.leftOutBy);
+  leftOut_ = upload(leftOut, bytes_);
 
   const auto bind = [&](int binding, const Buffer& buffer, size_t stride) {
     glVertexArrayVertexBuffer(vertexArray_.name(), static_cast<GLuint>(binding), buffer.name(), 0,
@@ -186,6 +190,10 @@ void GlScene::bindStorage() const {
 void GlScene::bindCorners() const {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kCornerBuffer, indices_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kPlaceBuffer, positions_.name());
+}
+
+void GlScene::bindLeftOut() const {
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kLeftOutBuffer, leftOut_.name());
 }
 
 void GlScene::bindMaterial(int material) const {

@@ -35,6 +35,8 @@ class GlScene {
   void bindStorage() const;
   // The same for shaders/passes/find_patches.frag.glsl.
   void bindCorners() const;
+  // For shaders/common/left_out.glsl.
+  void bindLeftOut() const;
   // The material's block and textures.
   void bindMaterial(int material) const;
 
@@ -48,6 +50,7 @@ class GlScene {
   const RenderScene* scene_ = nullptr;
   VertexArray vertexArray_;
   Buffer positions_, normals_, tangents_, uv0_, uv1_, colors_, indices_, firstIndices_;
+  Buffer leftOut_;  // by triangle, where any light leaves something out
   Buffer materials_;  // one SurfaceMaterial every materialStride_ bytes
   GLintptr materialStride_ = 0;
   struct MaterialTextures {

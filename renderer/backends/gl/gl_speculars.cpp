@@ -36,9 +36,13 @@ void GlSpeculars::reload(const std::filesystem::path& shaders, const VplBuffer& 
     std::vector<std::string> defines = {vpls.define(), kinds[i]};
     if (i == 2) defines.push_back("DIRECTIONAL");
     sums[i] = Program(shaders, {vertex, "passes/sum_speculars.frag.glsl", defines});
+    linkedFiles_[i] = {vertex, "passes/sum_speculars.frag.glsl", defines};
+    linkedFiles_[i].defines.push_back("LINKS");
   }
   Program add(shaders, {vertex, "passes/add_speculars.frag.glsl"});
   std::move(std::begin(sums), std::end(sums), sums_);
+  for (Program& program : linked_) program = Program();
+  shaders_ = shaders;
   add_ = std::move(add);
 }
 
@@ -83,6 +87,8 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const auto& a, const auto& b) { return batchOf(a) < batchOf(b); });
+  const bool hasLinks = scene.scene().hasLinks;
+  if (hasLinks) scene.bindLeftOut();
   const int aDraw = std::max(static_cast<int>(params.clampAndBias.w), 1);
   const size_t most = static_cast<size_t>(std::min(buffer.capacity(), aDraw));
   for (size_t first = 0; first < sorted.size();) {
@@ -97,7 +103,8 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
       if (vpl.intensity.w >= 0.0f) vpl.intensity.w -= static_cast<float>(array * inArray);
     buffer.upload(batch);
     glBindTextureUnit(shared::kShadowMaps, maps.hasArray(array) ? maps.array(array) : 0);
-    const Program& program = sums_[kind];
+    if (hasLinks && !linked_[kind]) linked_[kind] = Program(shaders_, linkedFiles_[kind]);
+    const Program& program = hasLinks ? linked_[kind] : sums_[kind];
     program.use();
     program.set(0, gbuffer.eye());
     program.set(1, leastRoughness_);

@@ -34,6 +34,10 @@ class GlSpeculars {
 
  private:
   Program sums_[3];  // by Vpl.position.w
+  // The same where lights leave something out; compiled when it is first so.
+  Program linked_[3];
+  ProgramFiles linkedFiles_[3];
+  std::filesystem::path shaders_;
   Program add_;
   VertexArray emptyVertexArray_;
   Framebuffer sumFramebuffer_, pictureFramebuffer_;

@@ -86,6 +86,11 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
     e.isWanted = true;
     e.lacksMap = false;  // until updateMaps() says so
     const bool stays = !e.moves();
+    // The links of lights are numbered anew when one of them changes.
+    if (e.current.footprint.y != e.wanted.vpl.footprint.y) {
+      e.current.footprint.y = e.wanted.vpl.footprint.y;
+      changed_ = changed_ || e.isLive;
+    }
     // What it stands for hangs on its neighbours, and no map or kept sum hangs on that.
     if (stays && e.current.footprint != e.wanted.vpl.footprint) {
       e.current.footprint = e.wanted.vpl.footprint;

@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/sampling/random.h"
+#include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/brdf.h"
 #include "shaders/shared/vpl_shading.h"
@@ -33,7 +34,8 @@ NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
     if (!v.isOfSun()) continue;
     const auto isIt = [&](const Sun& sun) { return sun.set == v.id.set(); };
     if (std::none_of(suns_.begin(), suns_.end(), isIt))
-      suns_.push_back({v.id.set(), vec3(v.vpl.normal), vec3(v.vpl.intensity)});
+      suns_.push_back({v.id.set(), vec3(v.vpl.normal), vec3(v.vpl.intensity),
+                       static_cast<uint32_t>(v.vpl.footprint.y)});
   }
   choices_.resize(static_cast<size_t>(std::max(options.bounces, 0)));
   for (size_t bounce = 0; bounce < choices_.size(); ++bounce) {
@@ -71,7 +73,8 @@ NearLight::Pixel NearLight::pixel(const View& view, vec2 at, uint32_t index) con
   const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
   const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
   const vec3 normal = side * s.geometricNormal;
-  const Place from{s.position + rayEpsilon(s.position) * normal, normal};
+  const Place from{s.position + rayEpsilon(s.position) * normal, normal,
+                   scene_.objects[hit.object].leftOutBy};
   vec3 albedo = options_.white ? vec3(1.0f) : s.albedo;
   if (options_.speculars && !options_.white) {
     const Gloss gloss = glossAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
@@ -101,13 +104,15 @@ vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampl
     const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
     const bool front = glm::dot(direction, s.geometricNormal) < 0.0f;
     throughput *= std::max(0.0f, 1.0f - hit.t * hit.t / (reach * reach));
-    if (options_.emission && (front || s.emitsBothSides)) sum += throughput * s.emission;
+    const RenderObject& there = scene_.objects[hit.object];
+    if (options_.emission && (front || s.emitsBothSides) && !isLeftOut(from.leftOutBy, there.link))
+      sum += throughput * s.emission;
     if (bounces == 0) break;
     throughput *= s.albedo;
     if (throughput == vec3(0.0f)) break;
     // The geometric normal, as VPLs have it: they are what must be made whole.
     about = front ? s.geometricNormal : -s.geometricNormal;
-    from = {s.position + rayEpsilon(s.position) * about, about};
+    from = {s.position + rayEpsilon(s.position) * about, about, there.leftOutBy};
     const Choice& choice = choices_[static_cast<size_t>(bounces - 1)];
     sum += throughput * (1.0f / kPi) * (irradianceOfSuns(from) + irradiance(from, choice, u));
   }
@@ -117,6 +122,7 @@ vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampl
 vec3 NearLight::irradianceOfSuns(const Place& at) const {
   vec3 sum(0.0f);
   for (const Sun& sun : suns_) {
+    if (isLeftOut(at.leftOutBy, sun.link)) continue;
     const float cosine = glm::dot(at.normal, sun.towards);
     if (cosine > 0.0f && !rays_.occluded({at.position, 0.0f, sun.towards}))
       sum += cosine * sun.irradiance;
@@ -143,7 +149,9 @@ vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const 
     const float probability = *it - (it == choice.upTo.begin() ? 0.0f : *(it - 1));
     const shared::Vpl& vpl = vpls_[choice.vpls[static_cast<size_t>(it - choice.upTo.begin())]].vpl;
     const float geometry =
-        shared::vplGeometry(vpl, at.position, at.normal, at.normal, options_.clampDistance);
+        isLeftOut(at.leftOutBy, static_cast<uint32_t>(vpl.footprint.y))
+            ? 0.0f
+            : shared::vplGeometry(vpl, at.position, at.normal, at.normal, options_.clampDistance);
     const float weight = probability > 0.0f ? choice.upTo.back() / probability : 0.0f;
     total += geometry * weight * brightness(vpl);
     tried[static_cast<size_t>(k)] = {&vpl, geometry * weight * vec3(vpl.intensity), total};

@@ -47,6 +47,7 @@ class NearLight {
   struct Sun {
     VplId set;
     vec3 towards{0.0f}, irradiance{0.0f};
+    uint32_t link = 0;
   };
   // Other VPLs that may still light a surface from which light bounces a given number of times on.
   struct Choice {
@@ -55,6 +56,7 @@ class NearLight {
   };
   struct Place {
     vec3 position, normal;  // off its surface, on the lit side
+    uint32_t leftOutBy;     // light_linking.h
   };
   Pixel pixel(const View& view, vec2 at, uint32_t index) const;
   vec3 gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const;

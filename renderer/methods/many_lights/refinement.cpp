@@ -115,7 +115,7 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   // the radii of Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011,
   // with α = 2/3, area ∝ batch^(α−1).
   const float sharper = std::pow(static_cast<float>(counts_.batch), -1.0f / 3.0f);
-  for (SceneVpl& v : set.vpls) v.vpl.footprint *= sharper;
+  for (SceneVpl& v : set.vpls) v.vpl.footprint.x *= sharper;
   batch.vpls.reserve(set.vpls.size());
   for (size_t shift = 0; shift < kShifts; ++shift)
     for (size_t i = shift; i < set.vpls.size(); i += kShifts) batch.vpls.push_back(set.vpls[i]);

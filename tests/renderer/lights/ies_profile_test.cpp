@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "renderer/error.h"
+#include "renderer/scene/render_scene.h"
 #include "renderer/scene/gltf_io.h"
 #include "tests/support/gltf_files.h"
 #include "tests/support/scenes.h"
@@ -101,6 +102,41 @@ TEST(IesProfile, TakesEveryEdition) {
   EXPECT_NEAR(p->at(typeC(90, 0)), 5.0f / 7.0f, 1e-5f);
 }
 
+// Factors over the angle from straight down, linear between the angles.
+TEST(IesProfile, TiltFactorsFollowTheAimsAngle) {
+  const std::string head = "IESNA:LM-63-2002\nTILT=INCLUDE\n3\n3\n0 45 90\n1 0.8 0.5\n";
+  const auto p = parseIes(ies(1, "0 90", "0", "7 7", 2, 1, "1", head), "tilted.ies");
+  const auto aimed = [](float degrees, float about = 0.0f) {
+    const float a = glm::radians(degrees), b = glm::radians(about);
+    return vec3(std::sin(a) * std::cos(b), -std::cos(a), std::sin(a) * std::sin(b));
+  };
+  EXPECT_FLOAT_EQ(p->atTilt(aimed(0)), 1.0f);
+  EXPECT_NEAR(p->atTilt(aimed(22.5f, 33)), 0.9f, 1e-4f);
+  EXPECT_NEAR(p->atTilt(aimed(45, 200)), 0.8f, 1e-4f);
+  EXPECT_NEAR(p->atTilt(aimed(90)), 0.5f, 1e-4f);
+  EXPECT_FLOAT_EQ(p->atTilt(aimed(180)), 0.5f);  // beyond its angles
+  const auto plain = parseIes(ies(1, "0 90", "0", "7 7", 2, 1), "plain.ies");
+  EXPECT_EQ(plain->atTilt(aimed(70)), 1.0f);
+}
+
+// Turned live it is as bright as opened so, by the factor.
+TEST(IesProfile, TheRendererTakesTheTilt) {
+  const std::string head = "TILT=INCLUDE\n1\n2\n0 90\n1 0.5\n";
+  Scene scene;
+  const NodeId id = test::addNode(scene, "lamp");
+  PunctualLight light{PunctualKind::point, vec3(8.0f)};
+  light.profile = parseIes(ies(1, "0 90", "0", "7 7", 2, 1, "1", head), "tilted.ies");
+  scene.find(id)->punctual = light;
+  scene.find(id)->local.rotation = glm::angleAxis(-0.5f * kPi, vec3(1, 0, 0));  // straight down
+  RenderScene live;
+  update(live, scene, SceneChanges::all());
+  EXPECT_NEAR(live.punctuals[0].light.intensity.g, 8.0f, 1e-4f);
+  const Scene before = scene;
+  scene.find(id)->local.rotation = quat(1, 0, 0, 0);
+  update(live, scene, compare(before, scene));
+  EXPECT_NEAR(live.punctuals[0].light.intensity.g, 4.0f, 1e-4f);
+}
+
 // What the virtual point lights make of some kinds of luminaires: how far it is off, over all
 // directions, and that no light is lost.
 TEST(IesProfile, LobesComeNear) {
@@ -172,7 +208,8 @@ TEST(IesProfile, BadFilesAreOneClearLine) {
       ies(1, "0 90", "0", "7 1e300", 2, 1), ies(1, "0 90", "0", "7 0", 2, 1, "-1"),
       ies(1, "0 90", "0", "7 0", -2, 1), ies(1, "0 90", "0", "7 0", 2, 0),
       // A billion values promised by a hundred bytes.
-      ies(1, "0 90", "0", "7 0", 100000, 100000), "TILT=INCLUDE\n1 99999 0 1 2",
+      ies(1, "0 90", "0", "7 0", 100000, 100000), "TILT=INCLUDE\n1 99999 0 1 2", "TILT=INCLUDE\n4 1 0 1\n",
+      "TILT=INCLUDE\n1 2 90 0 1 1\n", "TILT=INCLUDE\n1 1 0 -1\n", "TILT=INCLUDE\n1 1 0 0\n",
       std::string(100, '\0')};
   for (size_t i = 0; i + 12 < good.size(); ++i) bad.push_back(good.substr(0, i));
   for (const std::string& text : bad) {

@@ -8,10 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_picture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -50,6 +52,18 @@ void addTextured(Scene& scene) {
   scene.materials[static_cast<size_t>(glow)].emissiveTexture.texture = 0;
   const NodeId id = test::addMesh(scene, test::squareMesh(2.0f, glow), vec3(0.5f, 3, 0));
   scene.find(id)->local.rotation = glm::angleAxis(kPi, vec3(0, 0, 1));
+}
+
+// The same as the picture of an area light, of which the bright corner is the far left one.
+void addPictured(Scene& scene) {
+  Image8 image(4, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x)
+      for (int c = 0; c < 3; ++c) image.at(x, y)[c] = uint8_t(x < 2 && y < 2 ? 255 - 40 * c : 70);
+  const NodeId id = test::addRectangleLight(scene, vec3(0.5f, 3, 0), vec2(2, 1.5f), vec3(12));
+  std::string why;
+  scene.find(id)->area->picture = decodeLightPicture(
+      std::make_shared<const std::vector<uint8_t>>(encodePng(image)), "corner.png", why);
 }
 
 void addGlowingBall(Scene& scene) {
@@ -99,6 +113,7 @@ const Kind kKinds[] = {
      [](Scene& s) { test::addRectangleLight(s, vec3(0.5f, 3, 0), vec2(1, 0.6f), vec3(20)); }},
     {"mesh", addGlowingBall},
     {"textured", addTextured},
+    {"picture", addPictured},
     {"constant_sky", [](Scene& s) { s.sky = vec3(0.6f, 0.7f, 0.9f); }},
     {"gradient_sky", [](Scene& s) { s.sky = test::gradientSky(); }},
     {"image_sky", [](Scene& s) { s.sky = test::cloudySky(); }},

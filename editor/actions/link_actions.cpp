@@ -1,0 +1,72 @@
+// Which objects lights leave out.
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/lights/light_links.h"
+#include "editor/lights/light_list.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr const char* kObjects = "[OBJECT]\u2026";
+
+std::vector<NodeId> lightsOfSelection(const Session& s) {
+  std::vector<NodeId> ids;
+  for (const LightSource& light : selectedLights(s.document())) ids.push_back(light.node);
+  return ids;
+}
+
+// Those that are named, else those that are selected, else `otherwise`.
+std::vector<NodeId> objectsOf(const Session& s, const Arguments& a,
+                              const std::vector<NodeId>& otherwise) {
+  std::vector<NodeId> ids;
+  for (const std::string& name : a) ids.push_back(nodeNamed(s.document(), name).id);
+  if (ids.empty()) ids = selectedObjects(s.document());
+  return ids.empty() ? otherwise : ids;
+}
+
+}  // namespace
+
+void addLinkActions(ActionRegistry& r) {
+  const auto hasLights = [](const Session& s) { return !selectedLights(s.document()).empty(); };
+  const auto hasLeftOut = [](const Session& s) {
+    return !leftOutBySelection(s.document()).empty();
+  };
+  r.add({"light.exclude", "Leave objects out", kObjects,
+         "The selected lights give the selected objects, or those named, and all below them no "
+         "light.",
+         "",
+         [](Session& s, const Arguments& a) {
+           leaveOut(s, lightsOfSelection(s), objectsOf(s, a, {}), true);
+         },
+         hasLights});
+  r.add({"light.include", "Light objects again", kObjects,
+         "The selected lights light the selected objects, or those named, again; with neither, all "
+         "that they left out.",
+         "",
+         [](Session& s, const Arguments& a) {
+           leaveOut(s, lightsOfSelection(s), objectsOf(s, a, leftOutBySelection(s.document())),
+                    false);
+         },
+         hasLeftOut});
+  r.add({"light.select_excluded", "Select what is left out", "",
+         "Selects the objects that the selected lights leave out.", "",
+         [](Session& s, const Arguments&) { s.select(leftOutBySelection(s.document())); },
+         hasLeftOut});
+  r.add({"sky.exclude", "Leave objects out of the sky", kObjects,
+         "The sky gives the selected objects, or those named, and all below them no light.", "",
+         [](Session& s, const Arguments& a) {
+           leaveOut(s, {kNoNode}, objectsOf(s, a, {}), true);
+         },
+         {}});
+  r.add({"sky.include", "Light objects by the sky again", kObjects,
+         "The sky lights the selected objects, or those named, again; with neither, all.", "",
+         [](Session& s, const Arguments& a) {
+           leaveOut(s, {kNoNode}, objectsOf(s, a, s.document().scene.skyLight.leftOut), false);
+         },
+         [](const Session& s) { return !s.document().scene.skyLight.leftOut.empty(); }});
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,111 @@
+// The tree of objects, and edits of many of them at once.
+#include <algorithm>
+#include <cmath>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/document/object_edits.h"
+#include "editor/document/tree.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
+
+std::vector<NodeId> lockedNodes(const Session& s) {
+  std::vector<NodeId> ids;
+  for (const Node& n : s.document().scene.nodes)
+    if (n.locked) ids.push_back(n.id);
+  return ids;
+}
+
+float shareOf(const std::string& text) {
+  const float value = numberOf(text);
+  if (!(value >= 0.0f && value <= 1.0f))
+    throw InputError(text, "is not from 0 to 1", "give such a number");
+  return value;
+}
+
+}  // namespace
+
+void addTreeActions(ActionRegistry& r) {
+  r.add({"object.reparent", "Hang below", "PARENT|none",
+         "Hangs the selection below the object of that name, or at the top of the tree; it stays "
+         "where it is.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "object.reparent PARENT|none");
+           activeNode(s.document());
+           reparent(s, s.document().selection,
+                    a[0] == "none" ? kNoNode : nodeNamed(s.document(), a[0]).id);
+         },
+         hasSelection});
+  r.add({"object.lock", "Lock or unlock", "",
+         "Locks what is selected, so that it is neither picked nor moved in the view, or unlocks "
+         "it.",
+         "Shift+H",
+         [](Session& s, const Arguments&) {
+           setLocked(s, s.document().selection, !activeNode(s.document()).locked);
+         },
+         hasSelection});
+  r.add({"object.unlock_all", "Unlock all", "", "Unlocks every object.", "",
+         [](Session& s, const Arguments&) { setLocked(s, lockedNodes(s), false); },
+         [](const Session& s) { return !lockedNodes(s).empty(); }});
+  r.add({"objects.set", "Set of objects", "PROPERTY VALUE",
+         "Gives all selected objects the same position, rotation (degrees) or scale along an axis, "
+         "as in position.y 2, relative to their parents.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 2, 2, "objects.set PROPERTY VALUE");
+           const ObjectProperty& property = objectProperty(a[0]);
+           const float value = numberOf(a[1]);
+           if (!(std::abs(value) <= 1e6f))
+             throw InputError(a[1], "is beyond a million", "give a smaller number");
+           setNumber(s, property, value);
+         },
+         hasSelection});
+  r.add({"objects.lit_as", "Light objects as", "automatic|simple|complex",
+         "How all selected meshes are lit: by light maps, or pixel by pixel.", "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "objects.lit_as automatic|simple|complex");
+           const MeshKind kind = a[0] == "simple"    ? MeshKind::simple
+                                 : a[0] == "complex" ? MeshKind::complex
+                                                     : MeshKind::automatic;
+           if (kind == MeshKind::automatic && a[0] != "automatic")
+             throw InputError(a[0], "is no way to light a mesh", "give automatic, simple or complex");
+           editSelected(
+               s, "Light", [](const Node& n) { return n.mesh != kNone; },
+               [&](Node& n) { n.meshKind = kind; });
+         },
+         hasSelection});
+  r.add({"materials.roughness", "Roughness of objects", "VALUE",
+         "Gives all materials of the selected objects the same roughness, from 0 to 1.", "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "materials.roughness VALUE");
+           const float value = shareOf(a[0]);
+           editMaterials(s, "Change roughness", [&](Material& m) { m.roughness = value; });
+         },
+         hasSelection});
+  r.add({"materials.metallic", "Metallic of objects", "VALUE",
+         "Makes all materials of the selected objects as metallic, from 0 to 1.", "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "materials.metallic VALUE");
+           const float value = shareOf(a[0]);
+           editMaterials(s, "Change metallic", [&](Material& m) { m.metallic = value; });
+         },
+         hasSelection});
+  r.add({"materials.colour", "Colour of objects", "R G B",
+         "Gives all materials of the selected objects the same linear base colour.", "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 3, 3, "materials.colour R G B");
+           const vec3 colour = glm::clamp(vectorOf(a, 0), 0.0f, 1.0f);
+           editMaterials(s, "Change colour",
+                         [&](Material& m) { m.baseColor = vec4(colour, m.baseColor.a); });
+         },
+         hasSelection});
+}
+
+}  // namespace lamplighter

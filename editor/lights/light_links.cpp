@@ -1,0 +1,88 @@
+#include "editor/lights/light_links.h"
+
+#include <algorithm>
+
+#include "editor/commands/edits.h"
+#include "editor/lights/light_commands.h"
+#include "editor/lights/light_list.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+#include "renderer/scene/light_linking.h"
+
+namespace lamplighter {
+
+namespace {
+
+void change(std::vector<NodeId>& list, const std::vector<NodeId>& objects, bool out) {
+  for (const NodeId id : objects) {
+    std::erase(list, id);
+    if (out) list.push_back(id);
+  }
+  std::sort(list.begin(), list.end());
+}
+
+}  // namespace
+
+std::vector<NodeId> selectedObjects(const Document& document) {
+  std::vector<NodeId> out;
+  for (const NodeId id : document.selection) {
+    const Node* n = document.scene.find(id);
+    if (n != nullptr && !emitsLight(document.scene, *n)) out.push_back(id);
+  }
+  return out;
+}
+
+std::vector<NodeId> leftOutBySelection(const Document& document) {
+  std::vector<NodeId> out;
+  for (const LightSource& light : selectedLights(document)) {
+    for (const NodeId id : stateOf(document.scene, light).leftOut)
+      if (document.scene.find(id) != nullptr) out.push_back(id);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+void leaveOut(Session& s, const std::vector<NodeId>& lights, const std::vector<NodeId>& objects,
+              bool out) {
+  const std::string what = out ? "light.exclude" : "light.include";
+  if (lights.empty()) throw InputError(what, "no light is selected", "select one or more");
+  if (objects.empty())
+    throw InputError(what, "no object is given", "select some besides the lights, or name them");
+  Scene after = s.document().scene;
+  std::vector<Node> nodes;
+  bool isOfSky = false;
+  for (const NodeId id : lights) {
+    if (id == kNoNode) {
+      change(after.skyLight.leftOut, objects, out);
+      isOfSky = true;
+      continue;
+    }
+    Node* n = after.find(id);
+    if (n == nullptr) throw InputError(what, "the light is not there any more", "select another");
+    change(n->light.leftOut, objects, out);
+    nodes.push_back(*n);
+  }
+  if (countLinks(after) > kMostLinks) {
+    throw InputError(what,
+                     "more than " + std::to_string(kMostLinks) +
+                         " lists of objects that differ are too many for one scene",
+                     "let lights leave out the same objects");
+  }
+  const std::string label = std::string(out ? "Leave out " : "Light again ") +
+                            (objects.size() == 1 ? after.find(objects[0]) != nullptr
+                                                       ? after.find(objects[0])->name
+                                                       : "an object"
+                                                 : std::to_string(objects.size()) + " objects");
+  const bool isOwnStep = !s.history().inTransaction();
+  if (isOwnStep) s.history().begin(label);
+  if (!nodes.empty())
+    s.history().run(std::make_unique<EditNodes>(label, s.document(), std::move(nodes)));
+  if (isOfSky) {
+    s.history().run(std::make_unique<EditLightStates>(s.document(), after.skyLight,
+                                                      s.document().scene.lightGroups));
+  }
+  if (isOwnStep) s.history().commit();
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,18 @@
+// Which lights leave a pixel out (renderer/scene/light_linking.h).
+#ifndef LAMPLIGHTER_LEFT_OUT_GLSL
+#define LAMPLIGHTER_LEFT_OUT_GLSL
+#include "shared/bindings.h"
+
+layout(std430, binding = kLeftOutBuffer) readonly buffer LeftOut { uint leftOut[]; };
+
+// The links that give the triangle no light; w: of kGPosition, where something was hit.
+uint leftOutAt(float w) {
+  return leftOut[floatBitsToUint(w) - uint(kTriangleBits)];
+}
+
+// link: Vpl.footprint.y
+bool isLeftOut(uint leftOutBy, float link) {
+  return link > 0.5 && (leftOutBy >> (uint(link + 0.5) - 1u) & 1u) != 0u;
+}
+
+#endif
