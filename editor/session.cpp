@@ -30,6 +30,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   savedHash_ = sceneHash(document_.scene);
   tools_->pointerKnown = false;
   points_.forget();
+  keeper_.opened(document_);
 
   RenderScene world;
   update(world, document_.scene, SceneChanges::all());
@@ -50,10 +51,12 @@ void Session::open(Scene scene, std::filesystem::path path,
 void Session::save(const std::filesystem::path& path) {
   finishDrag();
   history_.commit();
+  std::string problem = keeper_.saving();
   saveGltf(document_.scene, path);
   document_.path = path;
   savedHash_ = sceneHash(document_.scene);
-  status_ = "Saved " + path.string();
+  if (std::string after = keeper_.saved(document_); problem.empty()) problem = std::move(after);
+  status_ = problem.empty() ? "Saved " + path.string() : "Saved. " + problem;
 }
 
 bool Session::modified() const { return sceneHash(document_.scene) != savedHash_; }

@@ -19,6 +19,7 @@
 #include "editor/frame_watch.h"
 #include "editor/lights/lighting_state.h"
 #include "editor/lights/work_light.h"
+#include "editor/recovery/keeper.h"
 #include "editor/split/split_view.h"
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
@@ -142,6 +143,14 @@ class Session {
   // The reference, and from it back to the method that was shown before.
   void toggleReference();
 
+  // Every committed edit is kept on the disk in `root` from now on (editor/recovery).
+  void keepJournal(const std::filesystem::path& root, int process, Journal::Clock clock);
+  Keeper& keeper() { return keeper_; }
+  const Keeper& keeper() const { return keeper_; }
+  void recoverWork(size_t number);  // one of keeper().found(); throws InputError
+  void discardWork(size_t number);
+  void autosave();
+
   bool quitRequested() const { return quit_; }
   void requestQuit(bool quit = true) { quit_ = quit; }
 
@@ -187,6 +196,7 @@ class Session {
   bool quit_ = false, shadersRequested_ = false;
   std::string methodBeforeReference_ = "many_lights";
   Clipping clipboard_;
+  Keeper keeper_;
   int level_ = 0, clipboardLevel_ = 0;  // counts what was opened
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 

@@ -18,6 +18,7 @@ void addRenderActions(ActionRegistry& registry);
 void addSeeingActions(ActionRegistry& registry);
 void addCostActions(ActionRegistry& registry);
 void addSplitActions(ActionRegistry& registry);
+void addRecoveryActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -33,6 +34,7 @@ inline void addAllActions(ActionRegistry& registry) {
   addSeeingActions(registry);
   addCostActions(registry);
   addSplitActions(registry);
+  addRecoveryActions(registry);
 }
 
 }  // namespace lamplighter

@@ -2,6 +2,7 @@
 // by main, since this layer links neither.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@ struct EditorOptions {
   std::string scene;   // "": the default scene
   std::string record;  // file to record to, "": none
   std::string backend = "auto";
+  std::string journal;  // folder; "": in the user's state folder
 };
 
 struct ReplayOptions {
@@ -36,6 +38,8 @@ struct Frontend {
   std::function<int(const EditorOptions&)> runEditor;  // exit code
   std::function<int(const ReplayOptions&)> runReplay;  // exit code
   Stopwatch stopwatch;                                 // for the timings in --stats
+  std::function<int64_t()> unixTime;                   // seconds since 1970, for journals
+  int process = 0;                                     // its number
 };
 
 // Exit code: 0 good, 1 a check failed, 2 bad use or bad input (one line on standard error).

@@ -23,6 +23,7 @@ void History::push(Step step) {
   steps_.resize(done_);  // what was undone cannot be redone any more
   steps_.push_back(std::move(step));
   done_ = steps_.size();
+  tell(steps_.back().label);
 }
 
 void History::begin(std::string label) {
@@ -59,6 +60,7 @@ void History::undo() {
   Step& step = steps_[--done_];
   for (auto c = step.commands.rbegin(); c != step.commands.rend(); ++c) (*c)->revert(document_);
   dirty_ = true;
+  tell("Undo: " + step.label);
 }
 
 void History::redo() {
@@ -66,6 +68,7 @@ void History::redo() {
   if (done_ == steps_.size()) return;
   for (const auto& c : steps_[done_++].commands) c->apply(document_);
   dirty_ = true;
+  tell("Redo: " + steps_[done_ - 1].label);
 }
 
 void History::clear() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +34,9 @@ class History {
   void redo();
   void clear();
   size_t position() const;  // steps done; for "is it saved?"
+  // Told of every step done, undone or redone, once the document is so; never within a transaction.
+  using Listener = std::function<void(const std::string& label)>;
+  void setListener(Listener listener) { listener_ = std::move(listener); }
 
   // What changed since the last call, found by comparing scenes; the frame's SceneChanges.
   SceneChanges takeChanges();
@@ -45,11 +49,15 @@ class History {
     std::vector<std::unique_ptr<Command>> commands;
   };
   void push(Step step);
+  void tell(const std::string& label) const {
+    if (listener_) listener_(label);
+  }
 
   Document& document_;
   std::vector<Step> steps_;
   size_t done_ = 0;
   std::unique_ptr<Step> open_;
+  Listener listener_;
   Scene shown_;         // the scene as of the last takeChanges()
   bool first_ = true;   // nothing was shown yet: everything is new
   bool dirty_ = false;  // something was done since the last takeChanges()

@@ -89,6 +89,12 @@ void Application::frame() {
   answerRequests();
   platform_.present();
   updateTitle();
+  autosave_.frame(*session_, now);
+}
+
+void Application::close() {
+  autosave_.finish();
+  session_->keeper().close();
 }
 
 // Each edit once, when its picture has settled. A replay has a report for that.
@@ -251,6 +257,11 @@ void Application::drawDialogs(PanelContext ui) {
       openSave(*path);
   }
   if (const std::string action = palette_.draw(ui); !action.empty()) runAction(action);
+  if (!loader_.running()) {
+    const std::string action = recoveryDialog_.draw(ui);
+    if (!action.empty() && !session_->runAction(action)) showError(session_->status());
+    if (action == "recovery.recover") framesToExposure_ = 0;  // it has its own
+  }
   switch (saveQuestion_.draw(ui)) {
     case SaveQuestion::Answer::none:
       break;
