@@ -19,6 +19,7 @@ void addSeeingActions(ActionRegistry& registry);
 void addCostActions(ActionRegistry& registry);
 void addSplitActions(ActionRegistry& registry);
 void addRecoveryActions(ActionRegistry& registry);
+void addHistoryActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -35,6 +36,7 @@ inline void addAllActions(ActionRegistry& registry) {
   addCostActions(registry);
   addSplitActions(registry);
   addRecoveryActions(registry);
+  addHistoryActions(registry);
 }
 
 }  // namespace lamplighter

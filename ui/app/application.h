@@ -76,7 +76,7 @@ class Application {
   void logLatency();
   void takeLoaded();
   void answerRequests();
-  void openSave(const std::filesystem::path& path);
+  void openSave(const std::filesystem::path& path, bool forced = false);
   void closeIfSaved();
   void updateTitle();
   bool dialogOpen() const;
@@ -102,6 +102,8 @@ class Application {
   FileDialog fileDialog_;
   MessageBox messageBox_;
   SaveQuestion saveQuestion_;
+  OverwriteQuestion overwriteQuestion_;
+  std::filesystem::path savesTo_;  // once that is answered
   ProgressBox progressBox_;
   CommandPalette palette_;
   RecoveryDialog recoveryDialog_;

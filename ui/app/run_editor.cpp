@@ -93,7 +93,15 @@ int runEditor(const EditorOptions& options, const Frontend& frontend) {
     app.exposeAutomatically();
     recorder.emplace(options.record,
                      headerFor(scene, options.record, app.session().document().render));
-    app.setListener([&](const std::vector<InputEvent>& events) { recorder->frame(events); });
+    app.setListener([&](const std::vector<InputEvent>& events) {
+      if (!recorder) return;
+      try {
+        recorder->frame(events);
+      } catch (const InputError& e) {
+        recorder.reset();
+        app.showError(e.what());
+      }
+    });
   }
   while (!app.finished()) {
     pump(window, app);
