@@ -86,6 +86,19 @@ std::string RandomEdits::panel() {
   }
 }
 
+std::string RandomEdits::copy(const std::string& action) {
+  session_.history().begin("Copy");
+  act(action);
+  const std::vector<NodeId> copies = session_.document().selection;
+  for (const NodeId id : copies) {
+    Transform t = session_.document().scene.find(id)->local;
+    t.translation += vec3(between(0.01f, 0.5f), between(0.01f, 0.2f), between(0.01f, 0.5f));
+    session_.setNodeTransform(id, t);
+  }
+  session_.history().commit();
+  return action + ", moved";
+}
+
 std::string RandomEdits::place() {
   if (session_.document().scene.nodes.size() > limits_.mostNodes) {
     chooseNode();
@@ -126,7 +139,7 @@ std::string RandomEdits::step() {
       // A level of nothing is not worth more than a while.
       return act(nodes > 3 ? "edit.delete" : "edit.undo");
     case 5:
-      return act(nodes < limits_.mostNodes ? "edit.duplicate" : "edit.delete");
+      return nodes < limits_.mostNodes ? copy("edit.duplicate") : act("edit.delete");
     case 6:
     case 7:
       return act("edit.undo");
@@ -151,7 +164,7 @@ std::string RandomEdits::step() {
     }
     default:
       act("edit.copy");
-      return act(nodes < limits_.mostNodes ? "edit.paste" : "object.hide");
+      return nodes < limits_.mostNodes ? copy("edit.paste") : act("object.hide");
   }
 }
 

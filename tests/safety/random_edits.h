@@ -30,6 +30,9 @@ class RandomEdits {
   std::string chooseNode();
   std::string drag();   // a transaction of many small changes, one step
   std::string panel();  // what panels do without an action
+  // Adds copies and moves them off what they are copies of, as one step: of surfaces at the very
+  // same place which one a ray meets is left to the ray caster's tree, edited or fresh.
+  std::string copy(const std::string& action);
   std::string place();
   std::string parameter();
 

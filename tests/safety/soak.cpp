@@ -1,6 +1,7 @@
 // Edits at random, but seeded, for as long as is asked for, and looks that memory does not grow,
 // that OpenGL has nothing to complain of, and that the light is that of a fresh start:
-//   lamplighter_soak [--backend cpu|gl] [--minutes N | --steps N] [--seed S]
+//   lamplighter_soak [--backend cpu|gl] [--minutes N | --steps N] [--seed S] [--every STEPS]
+//                    [--trace STEP]
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -29,6 +30,8 @@ struct Options {
   double minutes = 0.0;
   long steps = 300;
   uint64_t seed = 1;
+  long every = 50;   // steps between comparisons with a fresh start
+  long traced = -1;  // from which step on every step is named
 };
 
 double residentMebibytes() {
@@ -93,6 +96,7 @@ void Soak::open() {
 
 void Soak::step() {
   const uint32_t kind = edits_->below(100);
+  std::string what = "file";
   if (kind == 0) {
     open();
   } else if (kind < 3) {
@@ -101,8 +105,10 @@ void Soak::step() {
   } else if (kind == 3) {
     session_->autosave();
   } else {
-    edits_->step();
+    what = edits_->step();
   }
+  if (options_.traced >= 0 && step_ >= options_.traced)
+    std::printf("step %ld: %s (%s)\n", step_, what.c_str(), session_->status().c_str());
   session_->renderFrame();
   if (!session_->renderError().empty()) fail("a frame failed: " + session_->renderError());
   if (context_)
@@ -155,7 +161,7 @@ int Soak::run() {
   };
   for (; goesOn() && failures_ < 10; ++step_) {
     step();
-    if (step_ % 50 == 49) compareWithFreshStart();
+    if (step_ % options_.every == options_.every - 1) compareWithFreshStart();
     if (step_ % 10 == 9) memory.push_back(residentMebibytes());
   }
   session_->keeper().close();
@@ -189,6 +195,10 @@ int main(int argc, char** argv) {
       options.minutes = std::atof(value.c_str());
     else if (name == "--steps")
       options.steps = std::atol(value.c_str());
+    else if (name == "--every")
+      options.every = std::max(1L, std::atol(value.c_str()));
+    else if (name == "--trace")
+      options.traced = std::atol(value.c_str());
     else if (name == "--seed")
       options.seed = std::strtoull(value.c_str(), nullptr, 10);
     else {
