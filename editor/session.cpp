@@ -5,7 +5,6 @@
 #include "editor/session_tools.h"
 #include "renderer/error.h"
 #include "renderer/methods/common_parameters.h"
-#include "renderer/scene/gltf_io.h"
 
 namespace lamplighter {
 
@@ -30,6 +29,8 @@ void Session::open(Scene scene, std::filesystem::path path,
   savedHash_ = sceneHash(document_.scene);
   tools_->pointerKnown = false;
   points_.forget();
+  disk_ = filesOf(document_.scene);
+  keeper_.opened(document_);
 
   RenderScene world;
   update(world, document_.scene, SceneChanges::all());
@@ -46,17 +47,6 @@ void Session::open(Scene scene, std::filesystem::path path,
   if (warnings.size() > 1)
     status_ += " (and " + std::to_string(warnings.size() - 1) + " more warnings)";
 }
-
-void Session::save(const std::filesystem::path& path) {
-  finishDrag();
-  history_.commit();
-  saveGltf(document_.scene, path);
-  document_.path = path;
-  savedHash_ = sceneHash(document_.scene);
-  status_ = "Saved " + path.string();
-}
-
-bool Session::modified() const { return sceneHash(document_.scene) != savedHash_; }
 
 bool Session::runAction(std::string_view text) {
   try {
@@ -148,6 +138,12 @@ void Session::undo() {
 void Session::redo() {
   finishDrag();
   history_.redo();
+  pruneSelection();
+}
+
+void Session::goToStep(size_t position) {
+  finishDrag();
+  history_.goTo(position);
   pruneSelection();
 }
 

@@ -19,6 +19,7 @@
 #include "editor/frame_watch.h"
 #include "editor/lights/lighting_state.h"
 #include "editor/lights/work_light.h"
+#include "editor/recovery/keeper.h"
 #include "editor/split/split_view.h"
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
@@ -38,8 +39,11 @@ class Session {
   // Replaces the document by a loaded scene (an empty history; the view of its first camera, or one
   // that shows it all). The status says what the loader warned of.
   void open(Scene scene, std::filesystem::path path, const std::vector<std::string>& warnings);
-  // Saves as glTF; throws InputError with the document untouched when that fails.
-  void save(const std::filesystem::path& path);
+  // Saves as glTF; throws InputError with the document untouched when that fails, and when it would
+  // overwrite what others have changed since it was opened or saved, unless that is `forced`.
+  void save(const std::filesystem::path& path, bool forced = false);
+  // The files that others have changed, of those that saving there would overwrite or refer to.
+  std::vector<std::filesystem::path> changedOnDisk(const std::filesystem::path& path) const;
   bool modified() const;  // since opened or saved; render settings are not saved and do not count
 
   Document& document() { return document_; }
@@ -65,6 +69,7 @@ class Session {
   void select(std::vector<NodeId> ids);  // those that are there; the last one is active
   void undo();
   void redo();
+  void goToStep(size_t position);  // undoes or redoes until so many are done; throws InputError
 
   // The camera and the tools.
   const View& view() const { return view_; }
@@ -142,6 +147,14 @@ class Session {
   // The reference, and from it back to the method that was shown before.
   void toggleReference();
 
+  // Every committed edit is kept on the disk in `root` from now on (editor/recovery).
+  void keepJournal(const std::filesystem::path& root, int process, Journal::Clock clock);
+  Keeper& keeper() { return keeper_; }
+  const Keeper& keeper() const { return keeper_; }
+  void recoverWork(size_t number);  // one of keeper().found(); throws InputError
+  void discardWork(size_t number);
+  void autosave();
+
   bool quitRequested() const { return quit_; }
   void requestQuit(bool quit = true) { quit_ = quit; }
 
@@ -184,9 +197,11 @@ class Session {
   LightingState lighting_;
   WorkLight workLight_;
   uint64_t savedHash_ = 0;
+  std::vector<FileStamp> disk_;  // the level's files as opened or saved
   bool quit_ = false, shadersRequested_ = false;
   std::string methodBeforeReference_ = "many_lights";
   Clipping clipboard_;
+  Keeper keeper_;
   int level_ = 0, clipboardLevel_ = 0;  // counts what was opened
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 

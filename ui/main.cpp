@@ -4,6 +4,8 @@
 #include <csignal>
 #include <cstdio>
 
+#include <unistd.h>
+
 #include "editor/cli/cli.h"
 #include "ui/app/backends.h"
 #include "ui/app/run.h"
@@ -33,6 +35,11 @@ std::function<bool()> catchInterrupts() {
   return [] { return interrupted != 0; };
 }
 
+int64_t unixTime() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::seconds>(now).count();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -43,11 +50,13 @@ int main(int argc, char** argv) {
   lamplighter::Frontend frontend;
   frontend.stopwatch = seconds;
   frontend.catchInterrupts = catchInterrupts;
+  frontend.unixTime = unixTime;
+  frontend.process = ::getpid();
   frontend.makeBackend = [](const std::string& kind) {
     return lamplighter::makeHeadlessBackend(kind, seconds);
   };
-  frontend.runEditor = [](const lamplighter::EditorOptions& options) {
-    return lamplighter::runEditor(options, seconds);
+  frontend.runEditor = [&](const lamplighter::EditorOptions& options) {
+    return lamplighter::runEditor(options, frontend);
   };
   frontend.runReplay = [](const lamplighter::ReplayOptions& options) {
     return lamplighter::runReplay(options, seconds);

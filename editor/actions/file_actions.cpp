@@ -18,14 +18,17 @@ void addFileActions(ActionRegistry& r) {
          {}});
   r.add({"file.save",
          "Save",
-         "",
-         "Saves the level where it came from.",
+         "[force]",
+         "Saves the level where it came from; force overwrites what other programs have changed "
+         "there since.",
          "Ctrl+S",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 0, 0, "file.save");
+           requireArguments(a, 0, 1, "file.save [force]");
+           if (!a.empty() && a[0] != "force")
+             throw InputError(a[0], "is no way to save", "give force or nothing");
            if (s.document().path.empty())
              throw InputError("file.save", "the level has no file yet", "use file.save_as FILE");
-           s.save(s.document().path);
+           s.save(s.document().path, !a.empty());
          },
          {}});
   r.add({"file.save_as",

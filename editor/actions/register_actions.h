@@ -20,6 +20,8 @@ void addRenderActions(ActionRegistry& registry);
 void addSeeingActions(ActionRegistry& registry);
 void addCostActions(ActionRegistry& registry);
 void addSplitActions(ActionRegistry& registry);
+void addRecoveryActions(ActionRegistry& registry);
+void addHistoryActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -37,6 +39,8 @@ inline void addAllActions(ActionRegistry& registry) {
   addSeeingActions(registry);
   addCostActions(registry);
   addSplitActions(registry);
+  addRecoveryActions(registry);
+  addHistoryActions(registry);
 }
 
 }  // namespace lamplighter

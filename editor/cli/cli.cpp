@@ -169,6 +169,8 @@ void addScript(CLI::App& app, Run& run, const Frontend& frontend) {
   sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));
+  sub->add_option("--journal", o->journal, "Keep every edit in this folder until the script ends")
+      ->type_name("FOLDER");
   sub->footer("Example: lamplighter script relight.txt level.glb");
   sub->callback(
       [=, &run, &frontend] { run = [=, &frontend] { return cli::script(*o, frontend); }; });
@@ -264,6 +266,9 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
   app.add_option("--backend", editor.backend, "gl, cpu or auto")
       ->check(kBackends)
       ->capture_default_str();
+  app.add_option("--journal", editor.journal,
+                 "Keep every edit in this folder until it is saved [the user's state folder]")
+      ->type_name("FOLDER");
   addInfo(app, run);
   addRender(app, run, frontend);
   addMethods(app, run);

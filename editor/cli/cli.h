@@ -2,6 +2,7 @@
 // by main, since this layer links neither.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@ struct EditorOptions {
   std::string scene;   // "": the default scene
   std::string record;  // file to record to, "": none
   std::string backend = "auto";
+  std::string journal;  // folder; "": in the user's state folder
 };
 
 struct ReplayOptions {
@@ -39,6 +41,8 @@ struct Frontend {
   // Called once by a command that can stop in good order; from then on Ctrl+C only makes what is
   // returned answer true.
   std::function<std::function<bool()>()> catchInterrupts;
+  std::function<int64_t()> unixTime;                   // seconds since 1970, for journals
+  int process = 0;                                     // its number
 };
 
 // Exit code: 0 good, 1 a check failed, 2 bad use or bad input (one line on standard error).

@@ -83,6 +83,8 @@ int script(const ScriptOptions& options, const Frontend& frontend) {
   session.setClock(frontend.stopwatch);
   session.split().setRenderer(makeRenderer);
   session.resizeViewport(width, height);
+  if (!options.journal.empty())
+    session.keepJournal(options.journal, frontend.process, frontend.unixTime);
   if (!options.scene.empty()) open(session, options.scene);
   session.renderFrame();
   for (const Line& line : lines) {
@@ -93,6 +95,7 @@ int script(const ScriptOptions& options, const Frontend& frontend) {
     }
     if (session.quitRequested()) break;
   }
+  session.keeper().close();
   return 0;
 }
 

@@ -57,6 +57,7 @@ int tonemap(const TonemapOptions& options);
 struct ScriptOptions {
   std::string script, scene;  // scene "": the actions open one
   std::string size = "1280x720", backend = "auto";
+  std::string journal;  // folder; "": none
   int threads = 0;
 };
 int script(const ScriptOptions& options, const Frontend& frontend);

@@ -2,6 +2,7 @@
 // so that doing and undoing are the same code.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -19,6 +20,9 @@ class Command {
   virtual bool absorb(const Command& later) = 0;
   // Before and after are equal: not worth a step.
   virtual bool changesNothing() const { return false; }
+  // What it keeps, about, for the history's budget. What it brought in or took out counts though
+  // the document may share it, since an undo may leave the command the only owner.
+  virtual size_t bytes() const = 0;
 };
 
 }  // namespace lamplighter

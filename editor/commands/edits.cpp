@@ -3,7 +3,49 @@
 #include <algorithm>
 #include <map>
 
+#include "renderer/scene/ies_profile.h"
+
 namespace lamplighter {
+
+namespace {
+
+size_t bytesOf(const Node& n) {
+  return sizeof n + n.name.size() + n.light.group.size() +
+         (n.punctual && n.punctual->profile ? n.punctual->profile->text.size() : 0);
+}
+
+size_t bytesOf(const std::vector<Node>& nodes) {
+  size_t sum = 0;
+  for (const Node& n : nodes) sum += bytesOf(n);
+  return sum;
+}
+
+size_t bytesOf(const RenderSettings& r) {
+  constexpr size_t kEntry = 160;  // of a map of names, about
+  return sizeof r + kEntry * r.values.values().size();
+}
+
+size_t pictureBytes(const Sky& sky) {
+  if (!sky.image) return 0;
+  // Besides the pixels, the map for sampling them is of about their size.
+  return 2 * sizeof(vec3) * sky.image->pixels.pixels.size() +
+         (sky.image->file ? sky.image->file->size() : 0);
+}
+
+}  // namespace
+
+size_t EditNodes::bytes() const { return sizeof *this + bytesOf(before_) + bytesOf(after_); }
+size_t EditRender::bytes() const { return sizeof *this + bytesOf(before_) + bytesOf(after_); }
+size_t EditSky::bytes() const {
+  const bool isSamePicture = before_.image == after_.image;
+  return sizeof *this + (isSamePicture ? 0 : pictureBytes(before_) + pictureBytes(after_));
+}
+size_t AddNodes::bytes() const { return sizeof *this + bytesOf(nodes_); }
+size_t DeleteNodes::bytes() const {
+  size_t sum = sizeof *this;
+  for (const auto& [index, node] : removed_) sum += sizeof index + bytesOf(node);
+  return sum;
+}
 
 EditNodes::EditNodes(std::string label, const Document& document, std::vector<Node> after)
     : label_(std::move(label)) {

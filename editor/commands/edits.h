@@ -18,6 +18,7 @@ class EditNodes final : public Command {
   void revert(Document& document) override { put(document, before_); }
   bool absorb(const Command& later) override;
   bool changesNothing() const override { return before_ == after_; }
+  size_t bytes() const override;
 
  private:
   static void put(Document& document, const std::vector<Node>& nodes);
@@ -37,6 +38,7 @@ class EditMaterial final : public Command {
   }
   bool absorb(const Command& later) override;
   bool changesNothing() const override { return before_ == after_; }
+  size_t bytes() const override { return sizeof *this; }
 
  private:
   int index_;
@@ -51,6 +53,7 @@ class EditRender final : public Command {
   void revert(Document& document) override { document.render = before_; }
   bool absorb(const Command& later) override;
   bool changesNothing() const override { return before_ == after_; }
+  size_t bytes() const override;
 
  private:
   RenderSettings before_, after_;
@@ -68,6 +71,7 @@ class EditSky final : public Command {
   void revert(Document& document) override { put(document, before_, wasDefault_); }
   bool absorb(const Command& later) override;
   bool changesNothing() const override { return before_ == after_; }
+  size_t bytes() const override;
 
  private:
   static void put(Document& document, const Sky& sky, bool isDefault) {
@@ -87,6 +91,7 @@ class AddNodes final : public Command {
   void apply(Document& document) override;
   void revert(Document& document) override;
   bool absorb(const Command&) override { return false; }
+  size_t bytes() const override;
 
  private:
   std::string label_;
@@ -103,6 +108,7 @@ class DeleteNodes final : public Command {
   void revert(Document& document) override;
   bool absorb(const Command&) override { return false; }
   bool changesNothing() const override { return removed_.empty(); }
+  size_t bytes() const override;
 
  private:
   std::string verb_;

@@ -83,6 +83,19 @@ void AddAssets::revert(Document& document) {
   s.textures.resize(s.textures.size() - textures.size());
 }
 
+size_t AddAssets::bytes() const {
+  size_t sum = sizeof *this + materials.size() * sizeof(Material);
+  for (const Texture& t : textures) sum += sizeof t + t.image->pixels.size();
+  for (const auto& mesh : meshes) {
+    for (const Primitive& p : mesh->primitives) {
+      sum += sizeof(vec3) * (p.positions.size() + p.normals.size()) +
+             sizeof(vec4) * (p.tangents.size() + p.colors.size()) +
+             sizeof(vec2) * (p.uv0.size() + p.uv1.size()) + sizeof(uint32_t) * p.indices.size();
+    }
+  }
+  return sum;
+}
+
 Pasting pasteInto(Scene& scene, const Clipping& clipping, bool isSameLevel) {
   Pasting out;
   out.assets = std::make_unique<AddAssets>();

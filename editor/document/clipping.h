@@ -36,6 +36,7 @@ class AddAssets final : public Command {
   bool changesNothing() const override {
     return meshes.empty() && materials.empty() && textures.empty();
   }
+  size_t bytes() const override;
 
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Material> materials;

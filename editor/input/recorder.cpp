@@ -19,6 +19,9 @@ void Recorder::frame(const std::vector<InputEvent>& events) {
   }
   if (!events.empty()) out_ << std::flush;
   ++frame_;
+  if (!out_)
+    throw InputError(path_.string(), "cannot be written any more",
+                     "check the space left; recording has ended");
 }
 
 void Recorder::checkpoint(const Checkpoint& checkpoint) {

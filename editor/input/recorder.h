@@ -16,7 +16,7 @@ class Recorder {
   Recorder(std::filesystem::path path, const RecordingHeader& header);
 
   // The events of one frame, with their targets named. Of pointer events in a row the last one
-  // counts.
+  // counts. Throws InputError when they cannot be written.
   void frame(const std::vector<InputEvent>& events);
   void checkpoint(const Checkpoint& checkpoint);
 

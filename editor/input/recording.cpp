@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "editor/document/write_file.h"
 #include "renderer/error.h"
 #include "renderer/methods/gi_method.h"
 
@@ -288,18 +289,9 @@ std::string lineText(const RecordingLine& line) {
 }
 
 void writeRecording(const Recording& recording) {
-  const std::filesystem::path temporary = recording.path.string() + ".part";
-  std::ofstream out(temporary, std::ios::binary);
-  out << headerText(recording.header) << '\n';
-  for (const RecordingLine& l : recording.lines) out << lineText(l) << '\n';
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, recording.path, error);
-  if (out && !error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw InputError(recording.path.string(), "cannot be written",
-                   "check the folder and the space left");
+  std::string text = headerText(recording.header) + '\n';
+  for (const RecordingLine& l : recording.lines) text += lineText(l) + '\n';
+  writeFile(recording.path, text);
 }
 
 std::string hashText(uint64_t hash) { return fmt::format("{:016x}", hash); }

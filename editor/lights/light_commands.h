@@ -23,6 +23,9 @@ class EditLightStates final : public Command {
     return true;
   }
   bool changesNothing() const override { return before_ == after_; }
+  size_t bytes() const override {
+    return sizeof *this + sizeof(LightGroup) * (before_.groups.size() + after_.groups.size());
+  }
 
  private:
   struct States {

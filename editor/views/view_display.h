@@ -28,6 +28,8 @@ class ViewDisplay {
   void setToneMapper(ToneMapper mapper) { toneMapper_ = mapper; }
   bool showsHistogram() const { return showsHistogram_; }
   void showHistogram(bool on) { showsHistogram_ = on; }
+  bool showsHistory() const { return showsHistory_; }
+  void showHistory(bool on) { showsHistory_ = on; }
   // Of the picture as it is exposed and mapped; counted once for each.
   const Histogram& histogram(const std::shared_ptr<RadianceImage>& radiance, float exposureEv);
 
@@ -69,7 +71,7 @@ class ViewDisplay {
   };
 
   DebugView view_ = DebugView::lit;
-  bool showsVpls_ = false, showsHistogram_ = false;
+  bool showsVpls_ = false, showsHistogram_ = false, showsHistory_ = false;
   ToneMapper toneMapper_ = ToneMapper::filmic;
   std::optional<VplId> chosen_;
   std::optional<NodeId> light_;

@@ -4,9 +4,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
+#include "renderer/atomic_file.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -24,33 +25,24 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-// Writes through a temporary file beside the target, so that what is there stays whole until the
-// new one is.
-void writeAtomically(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
-                     OIIO::TypeDesc type, const void* pixels) {
-  namespace fs = std::filesystem;
+// Encoded in memory, so that what is there stays whole until the new one is, and so that a full
+// disk is found by us: the encoders do not all look.
+void writeEncoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                  OIIO::TypeDesc type, const void* pixels) {
   const auto fail = [&](const std::string& why) {
     throw InputError(path.string(), "cannot be written: " + oneLine(why),
-                     "check the folder and the space left");
+                     "name a file that ends in .png or .exr");
   };
-  // The format is told by the name's end; two processes that write the same picture do not meet.
-  fs::path temporary = path;
-  temporary.replace_filename("." + path.stem().string() + "." + std::to_string(::getpid()) +
-                             path.extension().string());
-  const auto out = OIIO::ImageOutput::create(temporary.string());
+  std::vector<unsigned char> bytes;
+  OIIO::Filesystem::IOVecOutput memory(bytes);
+  // The format is told by the name's end.
+  const auto out = OIIO::ImageOutput::create(path.filename().string());
   if (!out) fail(OIIO::geterror());
-  std::error_code ignored;
-  if (!out->open(temporary.string(), spec) || !out->write_image(type, pixels) || !out->close()) {
-    const std::string why = out->geterror();
-    fs::remove(temporary, ignored);
-    fail(why);
-  }
-  std::error_code error;
-  fs::rename(temporary, path, error);
-  if (error) {
-    fs::remove(temporary, ignored);
-    fail(error.message());
-  }
+  if (!out->supports("ioproxy") || !out->set_ioproxy(&memory) ||
+      !out->open(path.filename().string(), spec) || !out->write_image(type, pixels) ||
+      !out->close())
+    fail(out->geterror());
+  writeWhole(path, bytes);
 }
 
 }  // namespace
@@ -91,7 +83,7 @@ void writeExr(const Image& image, const std::filesystem::path& path) {
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
   spec.attribute("DateTime", kNoDate);  // else the time of day would be in it
-  writeAtomically(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+  writeEncoded(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
 }
 
 void writePng(const Image8& image, const std::filesystem::path& path) {
@@ -101,7 +93,7 @@ void writePng(const Image8& image, const std::filesystem::path& path) {
     rgb.insert(rgb.end(), {image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
-  writeAtomically(path, spec, OIIO::TypeDesc::UINT8, rgb.data());
+  writeEncoded(path, spec, OIIO::TypeDesc::UINT8, rgb.data());
 }
 
 }  // namespace lamplighter

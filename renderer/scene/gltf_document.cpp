@@ -225,6 +225,7 @@ GltfDocument readGltfJson(const std::filesystem::path& path) {
   GltfDocument document;
   document.path = path;
   std::string why;
+  document.files->push_back(stampOf(path));
   const Bytes bytes = readWholeFile(path, why);
   if (bytes == nullptr) document.fail(why, "name a .gltf or .glb file that can be read");
   if (bytes->empty()) document.fail("is empty", "copy or export it again");

@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/math.h"
+#include "renderer/scene/scene_files.h"
 
 namespace lamplighter {
 
@@ -38,6 +39,8 @@ struct GltfDocument {
   std::vector<Bytes> buffers;     // one for each of json["buffers"], at least byteLength long
   std::vector<Bytes> imageFiles;  // encoded bytes of images with a file of their own, else null
   size_t bytesRead = 0;           // of the file and its buffers
+  // Every file that was read, as it was just before.
+  std::shared_ptr<std::vector<FileStamp>> files = std::make_shared<std::vector<FileStamp>>();
   std::vector<std::string> warnings;
 
   [[noreturn]] void fail(const std::string& wrong, const std::string& remedy) const;

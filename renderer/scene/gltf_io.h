@@ -28,7 +28,10 @@ LoadedScene loadGltf(const std::filesystem::path& path, const LoadProgress& prog
 
 // Writes .gltf (with a .bin beside it) or .glb, by the ending, atomically: to a temporary file
 // first, then renamed. What the source file held that Scene does not know is written again. Throws
-// InputError when it cannot be written; then nothing has changed on disk.
-void saveGltf(const Scene& scene, const std::filesystem::path& path);
+// InputError when it cannot be written; then nothing has changed on disk. Returns the files that
+// were written. Not `besideSource`: refers to none of the source's files, though they lie beside
+// it; somebody may have changed them.
+std::vector<std::filesystem::path> saveGltf(const Scene& scene, const std::filesystem::path& path,
+                                            bool besideSource = true);
 
 }  // namespace lamplighter

@@ -113,8 +113,10 @@ void eraseNote(Json& object, const char* key) {
 
 namespace {
 
-void save(const Scene& scene, const std::filesystem::path& path) {
+std::vector<std::filesystem::path> save(const Scene& scene, const std::filesystem::path& path,
+                                        bool besideSource) {
   GltfOutput out(scene, path);
+  out.besideSource = besideSource;
   out.startBuffers();
   out.carryImages();
   saveTextures(out);
@@ -124,14 +126,19 @@ void save(const Scene& scene, const std::filesystem::path& path) {
   saveLights(out, jsonNodes);
   saveSky(out);
   saveSphereMeshes(out, jsonNodes);
-  writeFilesAtomically(out.finish());
+  const std::vector<GltfOutput::File> files = out.finish();
+  writeFilesAtomically(files);
+  std::vector<std::filesystem::path> written;
+  for (const GltfOutput::File& file : files) written.push_back(file.path);
+  return written;
 }
 
 }  // namespace
 
-void saveGltf(const Scene& scene, const std::filesystem::path& path) {
+std::vector<std::filesystem::path> saveGltf(const Scene& scene, const std::filesystem::path& path,
+                                            bool besideSource) {
   try {
-    save(scene, path);
+    return save(scene, path, besideSource);
   } catch (const Json::exception& e) {
     throw InputError(
         path.string(),

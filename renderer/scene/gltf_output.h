@@ -22,7 +22,8 @@ class GltfOutput {
   const Scene& scene;
   const SceneSource& source;  // an empty one for a scene that came from no file
   std::filesystem::path path;
-  bool isBinary = false;  // .glb
+  bool isBinary = false;     // .glb
+  bool besideSource = true;  // may refer to the source's files
   Json json;
 
   void useExtension(const char* name);
@@ -43,7 +44,7 @@ class GltfOutput {
   // One of them, or null.
   const File* addedFile(const std::filesystem::path& target) const;
   std::vector<File> finish();
-  bool isSameFolder() const;  // as the source's
+  bool isSameFolder() const;  // as the source's, whose files are there to be referred to
 
  private:
   std::filesystem::path freeBufferName();

@@ -70,7 +70,8 @@ bool GltfOutput::isSameFolder() const {
     std::error_code error;
     return fs::weakly_canonical(fs::absolute(file, error).parent_path(), error);
   };
-  return !source.document.path.empty() && folder(path) == folder(source.document.path);
+  return besideSource && !source.document.path.empty() &&
+         folder(path) == folder(source.document.path);
 }
 
 // A name for the buffer that no other file's buffer has, and no buffer that is kept: those are not

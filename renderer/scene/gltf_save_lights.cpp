@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "renderer/scene/gltf_content.h"
@@ -97,6 +98,16 @@ void saveArea(GltfOutput& out, Json& json, const Node& now, const Node& was, con
   }
 }
 
+// The light of the list that a node refers to. Nodes that no scene shows are not checked when a
+// file is read, and may refer to anything.
+std::optional<size_t> lightOf(const Json& node, const char* extension, size_t count) {
+  const Json* reference = extensionOf(node, extension);
+  const Json* light = reference == nullptr ? nullptr : member(*reference, "light");
+  if (light == nullptr || !light->is_number_unsigned()) return std::nullopt;
+  const size_t index = light->get<size_t>();
+  return index < count ? std::optional(index) : std::nullopt;
+}
+
 std::vector<bool> lightsInUse(const Json& root, const char* extension) {
   const Json* list = extensionOf(root, extension);
   list = list == nullptr ? nullptr : member(*list, "lights");
@@ -104,9 +115,7 @@ std::vector<bool> lightsInUse(const Json& root, const char* extension) {
   const Json* nodes = member(root, "nodes");
   if (nodes == nullptr) return used;
   for (const Json& node : *nodes) {
-    const Json* reference = extensionOf(node, extension);
-    const Json* light = reference == nullptr ? nullptr : member(*reference, "light");
-    if (light != nullptr) used[light->get<size_t>()] = true;
+    if (const auto light = lightOf(node, extension, used.size())) used[*light] = true;
   }
   return used;
 }
@@ -128,9 +137,8 @@ void dropOrphans(GltfOutput& out, const char* extension) {
   }
   if (kept.size() == list.size()) return;
   for (Json& node : out.json["nodes"]) {
-    if (extensionOf(node, extension) == nullptr) continue;
-    Json& light = node["extensions"][extension]["light"];
-    light = map[light.get<size_t>()];
+    if (const auto light = lightOf(node, extension, map.size()))
+      node["extensions"][extension]["light"] = map[*light];
   }
   list = std::move(kept);
   if (!list.empty()) return;

@@ -156,7 +156,11 @@ Bytes readUri(const GltfDocument& document, const std::string& uri, std::string&
       why = "leads outside of the file's folder, which is not read";
       return nullptr;
     }
-    if (Bytes bytes = readWholeFile(target, why)) return bytes;
+    const FileStamp stamp = stampOf(target);
+    if (Bytes bytes = readWholeFile(target, why)) {
+      document.files->push_back(stamp);
+      return bytes;
+    }
     if (first.empty()) first = why;
   }
   why = first;

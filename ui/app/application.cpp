@@ -89,6 +89,12 @@ void Application::frame() {
   answerRequests();
   platform_.present();
   updateTitle();
+  autosave_.frame(*session_, now);
+}
+
+void Application::close() {
+  autosave_.finish();
+  session_->keeper().close();
 }
 
 // Each edit once, when its picture has settled. A replay has a report for that.
@@ -142,6 +148,8 @@ void Application::runAction(const std::string& text) {
     requests_.openDialog = true;
   } else if (text == "file.save_as" || (text == "file.save" && session_->document().path.empty())) {
     requests_.saveDialog = true;
+  } else if (text == "file.save" && !replaying_) {
+    openSave(session_->document().path);
   } else if (text == "sky.image") {
     inspectorState_.choosesSky = true;
   } else if (text == "app.palette") {
@@ -207,7 +215,8 @@ void Application::drawPanels(PanelContext ui) {
   const Rect explained = explainPanel(ui, layout_.view, requests_);
   Rect below = layout_.view;
   if (!explained.empty()) below.min.y = explained.max.y;
-  viewport_.setCovered({explained, histogramPanel(ui, below, requests_)});
+  viewport_.setCovered(
+      {explained, histogramPanel(ui, below, requests_), historyPanel(ui, layout_.view, requests_)});
   layout_.splitters(ui);
   // At once, so that this frame shows what they do.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
@@ -253,6 +262,11 @@ void Application::drawDialogs(PanelContext ui) {
       openSave(*path);
   }
   if (const std::string action = palette_.draw(ui); !action.empty()) runAction(action);
+  if (!loader_.running()) {
+    const std::string action = recoveryDialog_.draw(ui);
+    if (!action.empty() && !session_->runAction(action)) showError(session_->status());
+    if (action == "recovery.recover") framesToExposure_ = 0;  // it has its own
+  }
   switch (saveQuestion_.draw(ui)) {
     case SaveQuestion::Answer::none:
       break;
@@ -269,12 +283,31 @@ void Application::drawDialogs(PanelContext ui) {
         openSave(session_->document().path);
       break;
   }
+  switch (overwriteQuestion_.draw(ui)) {
+    case OverwriteQuestion::Answer::none:
+      break;
+    case OverwriteQuestion::Answer::cancel:
+      pending_ = Pending::none;
+      break;
+    case OverwriteQuestion::Answer::saveAs:
+      requests_.saveDialog = true;
+      break;
+    case OverwriteQuestion::Answer::overwrite:
+      openSave(savesTo_, true);
+      break;
+  }
   messageBox_.draw(ui);
 }
 
-void Application::openSave(const std::filesystem::path& path) {
+void Application::openSave(const std::filesystem::path& path, bool forced) {
   try {
-    session_->save(path);
+    const std::vector<std::filesystem::path> changed = session_->changedOnDisk(path);
+    if (!changed.empty() && !forced) {
+      savesTo_ = path;
+      overwriteQuestion_.ask(changed.front().filename().string());
+      return;
+    }
+    session_->save(path, forced);
     closeIfSaved();
   } catch (const InputError& e) {
     pending_ = Pending::none;

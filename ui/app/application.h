@@ -10,6 +10,7 @@
 
 #include "editor/session.h"
 #include "renderer/shadow_maps/frame_time_control.h"
+#include "ui/app/autosave_worker.h"
 #include "ui/app/imgui_layer.h"
 #include "ui/app/input_queue.h"
 #include "ui/app/input_router.h"
@@ -20,6 +21,7 @@
 #include "ui/panels/command_palette.h"
 #include "ui/panels/light_table_panel.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/recovery_dialog.h"
 #include "ui/platform/platform.h"
 #include "ui/viewport/picture.h"
 #include "ui/viewport/viewport.h"
@@ -53,6 +55,8 @@ class Application {
 
   void frame();
   bool finished() const { return finished_; }
+  // Nothing is left to be saved: the journal goes away.
+  void close();
   // Frames since the last input.
   int quietFrames() const { return quietFrames_; }
   // Nothing will change without input.
@@ -72,7 +76,7 @@ class Application {
   void logLatency();
   void takeLoaded();
   void answerRequests();
-  void openSave(const std::filesystem::path& path);
+  void openSave(const std::filesystem::path& path, bool forced = false);
   void closeIfSaved();
   void updateTitle();
   bool dialogOpen() const;
@@ -98,8 +102,12 @@ class Application {
   FileDialog fileDialog_;
   MessageBox messageBox_;
   SaveQuestion saveQuestion_;
+  OverwriteQuestion overwriteQuestion_;
+  std::filesystem::path savesTo_;  // once that is answered
   ProgressBox progressBox_;
   CommandPalette palette_;
+  RecoveryDialog recoveryDialog_;
+  AutosaveWorker autosave_;
 
   // What to do once the question of unsaved changes is answered.
   enum class Pending { none, quit, open };

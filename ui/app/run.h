@@ -6,7 +6,7 @@
 namespace lamplighter {
 
 // Both return an exit code, or throw InputError.
-int runEditor(const EditorOptions& options, const Stopwatch& stopwatch);
+int runEditor(const EditorOptions& options, const Frontend& frontend);
 int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch);
 
 }  // namespace lamplighter

@@ -60,7 +60,8 @@ void pump(Platform& platform, Application& app) {
 
 }  // namespace
 
-int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
+int runEditor(const EditorOptions& options, const Frontend& frontend) {
+  const Stopwatch& stopwatch = frontend.stopwatch;
   const fs::path scene = options.scene.empty() ? defaultScene() : fs::path(options.scene);
   const bool recording = !options.record.empty();
   // A recording must mean the same in another window, so its window has one size and one scale.
@@ -76,6 +77,10 @@ int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
   if (!recording) renderer->setCacheFolder(transferFolder());
   Application app(window, std::make_unique<Session>(std::move(renderer)));
   app.session().split().setRenderer(makeRenderer);
+  const fs::path journal = options.journal.empty() ? recoveryFolder() : fs::path(options.journal);
+  // What is left from before must not stand in a recording either.
+  if (!recording && !journal.empty())
+    app.session().keepJournal(journal, frontend.process, frontend.unixTime);
   std::optional<Recorder> recorder;
   // What is recorded must not hang on a thread's pace; there it is measured by an action.
   app.session().watch().meter.setOn(!recording);
@@ -89,12 +94,21 @@ int runEditor(const EditorOptions& options, const Stopwatch& stopwatch) {
     app.exposeAutomatically();
     recorder.emplace(options.record,
                      headerFor(scene, options.record, app.session().document().render));
-    app.setListener([&](const std::vector<InputEvent>& events) { recorder->frame(events); });
+    app.setListener([&](const std::vector<InputEvent>& events) {
+      if (!recorder) return;
+      try {
+        recorder->frame(events);
+      } catch (const InputError& e) {
+        recorder.reset();
+        app.showError(e.what());
+      }
+    });
   }
   while (!app.finished()) {
     pump(window, app);
     app.frame();
   }
+  app.close();
   return 0;
 }
 

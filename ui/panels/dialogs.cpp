@@ -68,6 +68,36 @@ SaveQuestion::Answer SaveQuestion::draw(PanelContext ui) {
   return answer;
 }
 
+OverwriteQuestion::Answer OverwriteQuestion::draw(PanelContext ui) {
+  constexpr const char* kTitle = "Changed on disk";
+  ui.prefix = "dialog/";
+  if (!changed_.empty() && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
+  if (!beginModal(ui, kTitle, 460)) return Answer::none;
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted((changed_ + " was changed or removed by another program since it was "
+                                     "opened. Overwriting it loses those changes.")
+                             .c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Dummy({0, ui.px(6)});
+  Answer answer = Answer::none;
+  const float width = ui.px(96);
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 3 * width - 2 * ui.px(7));
+  if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) answer = Answer::cancel;
+  ui.name("cancel");
+  ImGui::SameLine(0, ui.px(7));
+  if (ImGui::Button("Overwrite", {width, 0})) answer = Answer::overwrite;
+  ui.name("overwrite");
+  ImGui::SameLine(0, ui.px(7));
+  if (ImGui::Button("Save as\u2026", {width, 0})) answer = Answer::saveAs;
+  ui.name("save_as");
+  if (answer != Answer::none) {
+    changed_.clear();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+  return answer;
+}
+
 void centredNotice(float scale, const char* text) {
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {24 * scale, 16 * scale});

@@ -58,10 +58,13 @@ std::vector<std::string> viewActions() {
 
 const std::vector<Menu>& menus() {
   static const std::vector<Menu> kMenus = {
-      {"File", {"file", "app"}, {"file.new", "file.open", "-", "file.save", "file.save_as"}},
+      {"File",
+       {"file", "app", "recovery"},
+       {"file.new", "file.open", "-", "file.save", "file.save_as", "-"}},
       {"Edit",
-       {"edit", "selection", "select"},
-       {"edit.undo", "edit.redo", "-", "edit.duplicate", "edit.delete", "edit.rename"}},
+       {"edit", "selection", "select", "history"},
+       {"edit.undo", "edit.redo", "panel.history", "-", "edit.duplicate", "edit.delete",
+        "edit.rename"}},
       {"Light", {"light", "lights"}, {"light.add", "light.place", "-", "panel.lights"}},
       {"Object", {"object", "objects", "materials", "node", "place"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},

@@ -74,6 +74,10 @@ Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests);
 // while there is such a point. What it covers.
 Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests);
 
+// The steps of the history, a click on one goes there; a window in the lower left corner of `view`,
+// while it is asked for. What it covers.
+Rect historyPanel(PanelContext ui, const Rect& view, Requests& requests);
+
 struct StatusInfo {
   double frameSeconds = 0.0;  // smoothed
   bool recording = false;
@@ -125,6 +129,17 @@ class SaveQuestion {
 
  private:
   bool opening_ = false;
+};
+
+// "It was changed by others. Overwrite?"
+class OverwriteQuestion {
+ public:
+  enum class Answer { none, overwrite, saveAs, cancel };
+  void ask(const std::string& changed) { changed_ = changed; }
+  Answer draw(PanelContext ui);
+
+ private:
+  std::string changed_;  // the file; empty: nothing is asked
 };
 
 // A line of text in the middle of the window.

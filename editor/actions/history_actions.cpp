@@ -1,0 +1,67 @@
+// The steps that were made, and how many are kept.
+#include <cmath>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/commands/history_budget.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+const ParameterSpec& undoMemory() {
+  static const ParameterSpec kSpec = [] {
+    ParameterSpec s;
+    s.name = "undo_memory";
+    s.label = "Undo memory";
+    s.unit = "MiB";
+    s.help =
+        "What the steps that can be undone may keep in memory; beyond it the oldest are forgotten.";
+    s.defaultValue = 256;
+    s.minimum = 1;
+    s.maximum = 65536;
+    s.logarithmic = true;
+    return s;
+  }();
+  return kSpec;
+}
+
+void addHistoryActions(ActionRegistry& r) {
+  r.add({"history.go",
+         "Go to step",
+         "STEP",
+         "Undoes or redoes until this step of the history is the newest that is done; 0 is the "
+         "level as it was opened.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "history.go STEP");
+           const float step = numberOf(a[0]);
+           if (!(step >= 0.0f && step < 1e7f) || step != std::floor(step))
+             throw InputError(a[0], "is no step", "give a whole number from 0");
+           s.goToStep(static_cast<size_t>(step));
+         },
+         {}});
+  r.add({"history.memory",
+         "Undo memory",
+         "MIB",
+         "Sets how many MiB the steps that can be undone may keep, 256 at first; beyond it the "
+         "oldest are forgotten.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "history.memory MIB");
+           const ParameterValue mebibytes = Settings::parse(undoMemory(), a[0]);
+           s.history().setBudget(static_cast<size_t>(std::get<int>(mebibytes)) * kMebibyte);
+         },
+         {}});
+  r.add({"panel.history",
+         "History",
+         "",
+         "Lists the steps that were made, over the view; a click on one goes there.",
+         "U",
+         [](Session& s, const Arguments&) { s.display().showHistory(!s.display().showsHistory()); },
+         {},
+         false,
+         [](const Session& s) { return s.display().showsHistory(); }});
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,43 @@
+// What a process that was killed has left, and the journal of this one.
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+// From 0; the newest where none is given.
+size_t numberFrom(const Session& s, const Arguments& a, const std::string& usage) {
+  requireArguments(a, 0, 1, usage);
+  const size_t count = s.keeper().found().size();
+  const float n = a.empty() ? 1.0f : numberOf(a[0]);
+  if (n >= 1.0f && n <= static_cast<float>(count)) return static_cast<size_t>(n) - 1;
+  throw InputError(usage, "there are " + std::to_string(count) + " levels to recover",
+                   "give a number from 1");
+}
+
+}  // namespace
+
+void addRecoveryActions(ActionRegistry& r) {
+  const auto hasFound = [](const Session& s) { return !s.keeper().found().empty(); };
+  r.add({"recovery.recover", "Recover", "[NUMBER]",
+         "Takes up the work that a killed process has left; the newest is number 1.", "",
+         [](Session& s, const Arguments& a) {
+           s.recoverWork(numberFrom(s, a, "recovery.recover [NUMBER]"));
+         },
+         hasFound});
+  r.add({"recovery.discard", "Discard recoverable work", "[NUMBER]",
+         "Deletes the work that a killed process has left; the newest is number 1.", "",
+         [](Session& s, const Arguments& a) {
+           s.discardWork(numberFrom(s, a, "recovery.discard [NUMBER]"));
+         },
+         hasFound});
+  r.add({"recovery.autosave", "Autosave now", "",
+         "Writes the level to a side file in the user's state folder, never over its own file.", "",
+         [](Session& s, const Arguments&) { s.autosave(); },
+         [](const Session& s) { return s.keeper().isOn(); }});
+}
+
+}  // namespace lamplighter

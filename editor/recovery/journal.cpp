@@ -1,0 +1,151 @@
+#include "editor/recovery/journal.h"
+
+#include "editor/input/recording.h"
+#include "editor/recovery/document_delta.h"
+#include "editor/recovery/recovery.h"
+#include "renderer/error.h"
+#include "renderer/scene/gltf_io.h"
+
+namespace lamplighter {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string lineOf(const Json& json) {
+  // Names may hold bytes that are no UTF-8; better a name with a mark than no line.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Json entry(const Document& document, const std::string& label, int64_t time, Json delta) {
+  return {{"label", label},
+          {"time", time},
+          {"hash", hashText(documentHash(document))},
+          {"delta", std::move(delta)}};
+}
+
+}  // namespace
+
+Journal::Journal(fs::path root, int process, Clock clock)
+    : root_(std::move(root)), process_(process), clock_(std::move(clock)) {}
+
+void Journal::begin(const Document& document) {
+  close();
+  files_ = filesOf(document.scene);
+  // Of a level that came from no file there is nothing to refer to.
+  base_ = files_.empty() ? Scene() : document.scene;
+  last_ = document;
+  savedHash_ = sceneHash(document.scene);
+  isReplaced_ = false;
+}
+
+void Journal::adopt(Recovered recovered) {
+  close();
+  folder_ = std::move(recovered.folder);
+  lock_ = std::move(recovered.lock);
+  base_ = std::move(recovered.base);
+  files_ = std::move(recovered.files);
+  hasLevel_ = recovered.hasLevel;
+  isReplaced_ = false;
+  savedHash_ = recovered.savedHash;
+  edits_ = recovered.edits;
+  last_ = recovered.document;
+  restart(recovered.document, hasLevel_);
+}
+
+void Journal::start(const Document& document) {
+  const std::string name = std::to_string(clock_()) + "-" + std::to_string(process_);
+  std::error_code error;
+  fs::create_directories(root_, error);
+  for (int i = 0;; ++i) {
+    folder_ = root_ / (i == 0 ? name : name + "-" + std::to_string(i));
+    if (fs::create_directory(folder_, error)) break;
+    if (error || i == 1000) {
+      const std::string why = error ? error.message() : "its name is taken";
+      throw InputError(std::exchange(folder_, {}).string(), "cannot be made (" + why + ")",
+                       "until it can, save often: edits are not kept in a journal");
+    }
+  }
+  lock_ = FileLock(folder_ / "lock");
+  if (isReplaced_) writeLevel();
+  restart(document, hasLevel_);
+}
+
+void Journal::restart(const Document& document, bool hasLevel) {
+  hasLevel_ = hasLevel_ || hasLevel;
+  Json files = Json::array();
+  for (const FileStamp& f : files_) files.push_back({f.path.string(), f.size, f.modified});
+  std::error_code error;
+  const Json header = {{"lamplighter_journal", 1},
+                       {"scene", fs::absolute(document.path, error).string()},
+                       {"level", hasLevel_},
+                       {"files", std::move(files)},
+                       {"saved", hashText(savedHash_)},
+                       {"edits", edits_}};
+  Blobs blobs(folder_);
+  const Json whole = entry(document, "", clock_(), deltaBetween(base_, {}, document, blobs, true));
+  AppendFile anew(folder_ / "journal.new");
+  anew.append(lineOf(header) + lineOf(whole));
+  fs::rename(folder_ / "journal.new", folder_ / "journal.jsonl", error);
+  if (error)
+    throw InputError((folder_ / "journal.jsonl").string(),
+                     "cannot be written (" + error.message() + ")",
+                     "free some space, or save your work now");
+  syncFolder(folder_);
+  file_ = std::move(anew);
+  last_ = document;
+}
+
+void Journal::record(const Document& document, const std::string& label) {
+  if (folder_.empty()) start(last_);
+  if (!file_.isOpen()) restart(last_, hasLevel_);
+  Blobs blobs(folder_);
+  file_.append(
+      lineOf(entry(document, label, clock_(), deltaBetween(base_, last_, document, blobs))));
+  last_ = document;
+  ++edits_;
+}
+
+void Journal::writeLevel() {
+  if (hasLevel_ || files_.empty()) return;
+  saveSource(base_, folder_ / "level.glb");
+  hasLevel_ = true;
+}
+
+void Journal::saving() {
+  if (!folder_.empty() && !hasLevel_) {
+    writeLevel();
+    if (file_.isOpen()) restart(last_, hasLevel_);
+  }
+  isReplaced_ = true;
+}
+
+void Journal::saved(const Document& document) {
+  savedHash_ = sceneHash(document.scene);
+  edits_ = 0;
+  if (!folder_.empty()) restart(document, hasLevel_);
+}
+
+void Journal::close() {
+  if (!folder_.empty()) {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  folder_.clear();
+  file_ = {};
+  lock_ = {};
+  hasLevel_ = false;
+  edits_ = 0;
+}
+
+std::optional<Journal::Autosave> Journal::autosave(const Document& document) const {
+  if (folder_.empty() || edits_ == 0) return std::nullopt;
+  return Autosave{folder_, base_, document.scene, !hasLevel_ && !files_.empty()};
+}
+
+void Journal::Autosave::write() const {
+  if (needsLevel) saveSource(base, folder / "level.glb");
+  saveGltf(scene, folder / "autosave.glb");
+}
+
+}  // namespace lamplighter

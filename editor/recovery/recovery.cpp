@@ -1,0 +1,156 @@
+#include "editor/recovery/recovery.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+
+#include "editor/input/recording.h"
+#include "editor/recovery/document_delta.h"
+#include "renderer/error.h"
+#include "renderer/scene/gltf_io.h"
+
+namespace lamplighter {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Whole lines only: without its end the last one is torn.
+std::vector<std::string> linesOf(const fs::path& journal) {
+  std::ifstream in(journal, std::ios::binary);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);)
+    if (!in.eof()) lines.push_back(line);
+  return lines;
+}
+
+Json parsed(const std::string& line) { return Json::parse(line, nullptr, false); }
+
+uint64_t hashOf(const Json& text) {
+  const std::string hex = text.get<std::string>();
+  uint64_t hash = 0;
+  std::from_chars(hex.data(), hex.data() + hex.size(), hash, 16);
+  return hash;
+}
+
+[[noreturn]] void cannot(const fs::path& folder, const std::string& why) {
+  std::error_code error;
+  const fs::path autosave = folder / "autosave.glb";
+  throw InputError(
+      folder.string(), "cannot be recovered: " + why,
+      fs::exists(autosave, error) ? "open " + autosave.string() + " instead" : "discard it");
+}
+
+bool isJournal(const Json& header) {
+  return header.is_object() && header.contains("lamplighter_journal") &&
+         header["lamplighter_journal"] == 1;
+}
+
+std::vector<FileStamp> stampsOf(const Json& files) {
+  std::vector<FileStamp> out;
+  for (const Json& f : files)
+    out.push_back({f.at(0).get<std::string>(), f.at(1).get<uint64_t>(), f.at(2).get<int64_t>()});
+  return out;
+}
+
+// The meshes and textures that the lines refer to.
+Scene baseOf(const Recovered& r) {
+  if (r.hasLevel) return loadGltf(r.folder / "level.glb").scene;
+  if (r.files.empty()) return {};
+  for (const FileStamp& stamp : r.files)
+    if (stampOf(stamp.path) != stamp)
+      cannot(r.folder, stamp.path.string() + " has been changed since");
+  return loadGltf(r.files.front().path).scene;
+}
+
+Recovered read(const fs::path& folder) {
+  Recovered out;
+  out.folder = folder;
+  const std::vector<std::string> lines = linesOf(folder / "journal.jsonl");
+  const Json header = lines.empty() ? Json() : parsed(lines.front());
+  if (!isJournal(header) || lines.size() < 2) cannot(folder, "there is no journal in it");
+  out.files = stampsOf(header.at("files"));
+  out.hasLevel = header.at("level").get<bool>();
+  out.savedHash = hashOf(header.at("saved"));
+  out.edits = header.at("edits").get<int>() - 1;  // the first line is none
+  out.base = baseOf(out);
+  out.document.scene = out.base;
+  out.document.path = header.at("scene").get<std::string>();
+  Blobs blobs(folder);
+  uint64_t hash = 0;
+  for (size_t i = 1; i < lines.size(); ++i) {
+    const Json line = parsed(lines[i]);
+    if (line.is_discarded()) break;
+    applyDelta(out.base, out.document, line.at("delta"), blobs);
+    hash = hashOf(line.at("hash"));
+    if (i > 1) out.labels.push_back(line.at("label").get<std::string>());
+    ++out.edits;
+  }
+  if (documentHash(out.document) != hash)
+    out.warning = folder.string() + ": not all of it is as it was; look it over before you save it";
+  return out;
+}
+
+}  // namespace
+
+std::vector<Recoverable> findRecoverable(const fs::path& root) {
+  std::vector<Recoverable> out;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(root, error)) {
+    const fs::path journal = entry.path() / "journal.jsonl";
+    if (!fs::exists(journal, error) || !FileLock(entry.path() / "lock")) continue;
+    const std::vector<std::string> lines = linesOf(journal);
+    if (lines.size() < 2) continue;
+    const Json header = parsed(lines.front()), last = parsed(lines.back());
+    if (!isJournal(header)) continue;
+    Recoverable r{entry.path(), header.value("scene", std::string()), 0,
+                  header.value("edits", 0) + static_cast<int>(lines.size()) - 2};
+    if (last.is_object()) r.time = last.value("time", int64_t{0});
+    if (r.edits > 0) out.push_back(std::move(r));
+  }
+  std::sort(out.begin(), out.end(), [](const Recoverable& a, const Recoverable& b) {
+    return std::pair(b.time, b.folder) < std::pair(a.time, a.folder);
+  });
+  return out;
+}
+
+Recovered recover(const fs::path& folder) {
+  FileLock lock(folder / "lock");
+  if (!lock) cannot(folder, "another process is working with it");
+  try {
+    Recovered out = read(folder);
+    out.lock = std::move(lock);
+    return out;
+  } catch (const Json::exception&) {
+    cannot(folder, "its journal is damaged");
+  }
+}
+
+void discard(const fs::path& folder) {
+  const FileLock lock(folder / "lock");
+  std::error_code error;
+  if (lock) fs::remove_all(folder, error);
+  if (!lock || error)
+    throw InputError(folder.string(), "cannot be discarded",
+                     lock ? "check the folder" : "another process is working with it");
+}
+
+fs::path recoveryFolder() {
+  // Relative paths are invalid by the specification, and are ignored.
+  const auto absolute = [](const char* variable) {
+    const char* value = std::getenv(variable);
+    const fs::path path(value != nullptr ? value : "");
+    return path.is_absolute() ? path : fs::path();
+  };
+  fs::path base = absolute("XDG_STATE_HOME");
+  if (base.empty()) {
+    base = absolute("HOME");
+    if (base.empty()) return {};
+    base /= ".local/state";
+  }
+  return base / "lamplighter" / "recovery";
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,295 @@
+#include "editor/recovery/value_json.h"
+
+#include <limits>
+#include <type_traits>
+
+#include "editor/recovery/mesh_bytes.h"
+#include "renderer/error.h"
+#include "renderer/scene/ies_profile.h"
+
+namespace lamplighter {
+
+namespace {
+
+[[noreturn]] void damaged(const std::string& what) {
+  throw InputError("journal", what, "it is damaged; use the autosave beside it");
+}
+
+template <typename T>
+inline constexpr bool kIsVector = false;
+template <glm::length_t N>
+inline constexpr bool kIsVector<glm::vec<N, float>> = true;
+
+struct Writer {
+  Json& json;
+  Blobs& blobs;
+
+  template <typename T>
+  void operator()(const char* key, const T& value) {
+    json[key] = put(value);
+  }
+
+  template <typename T>
+  Json put(const T& v) {
+    if constexpr (std::is_enum_v<T>) {
+      return static_cast<int>(v);
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
+      return v;
+    } else if constexpr (std::is_same_v<T, quat>) {
+      return {v.x, v.y, v.z, v.w};
+    } else if constexpr (kIsVector<T>) {
+      Json out = Json::array();
+      for (glm::length_t i = 0; i < T::length(); ++i) out.push_back(v[i]);
+      return out;
+    } else {
+      Json out = Json::object();
+      Writer inner{out, blobs};
+      fields(inner, v);
+      return out;
+    }
+  }
+  template <typename T>
+  Json put(const std::optional<T>& v) {
+    return v ? put(*v) : Json();
+  }
+  Json put(const std::shared_ptr<const IesProfile>& v) {
+    if (!v) return {};
+    // Not as text: files of before Unicode hold any bytes.
+    const std::span bytes(reinterpret_cast<const uint8_t*>(v->text.data()), v->text.size());
+    return {{"file", v->file}, {"text", blobs.put(bytes)}};
+  }
+  Json put(const std::shared_ptr<const SkyImage>& v) {
+    if (!v) return {};
+    if (!v->file) damaged("the sky's picture came from no file");
+    return {{"name", v->name}, {"file", blobs.put(*v->file)}};
+  }
+  Json put(const std::shared_ptr<const Image8>& v) {
+    return {{"width", v->width}, {"height", v->height}, {"pixels", blobs.put(v->pixels)}};
+  }
+  Json put(const std::vector<Primitive>& v) { return blobs.put(bytesOf(v)); }
+};
+
+struct Reader {
+  const Json& json;
+  Blobs& blobs;
+
+  template <typename T>
+  void operator()(const char* key, T& value) {
+    get(json.at(key), value);
+  }
+
+  template <typename T>
+  void get(const Json& j, T& v) {
+    if constexpr (std::is_enum_v<T>) {
+      const int i = j.get<int>();
+      if (i < 0 || i > 16) damaged("a kind is none");
+      v = static_cast<T>(i);
+    } else if constexpr (std::is_floating_point_v<T>) {
+      // What is no number is written as null.
+      v = j.is_null() ? std::numeric_limits<T>::quiet_NaN() : j.get<T>();
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
+      v = j.get<T>();
+    } else if constexpr (std::is_same_v<T, quat>) {
+      get(j.at(0), v.x), get(j.at(1), v.y), get(j.at(2), v.z), get(j.at(3), v.w);
+    } else if constexpr (kIsVector<T>) {
+      for (glm::length_t i = 0; i < T::length(); ++i) get(j.at(static_cast<size_t>(i)), v[i]);
+    } else {
+      Reader inner{j, blobs};
+      fields(inner, v);
+    }
+  }
+  template <typename T>
+  void get(const Json& j, std::optional<T>& v) {
+    v.reset();
+    if (!j.is_null()) get(j, v.emplace());
+  }
+  void get(const Json& j, std::shared_ptr<const IesProfile>& v) {
+    v.reset();
+    if (j.is_null()) return;
+    const std::vector<uint8_t> text = blobs.get(j.at("text").get<std::string>());
+    v = parseIes({reinterpret_cast<const char*>(text.data()), text.size()},
+                 j.at("file").get<std::string>());
+  }
+  void get(const Json& j, std::shared_ptr<const SkyImage>& v) {
+    v.reset();
+    if (j.is_null()) return;
+    std::string why;
+    auto bytes =
+        std::make_shared<const std::vector<uint8_t>>(blobs.get(j.at("file").get<std::string>()));
+    v = decodeSkyImage(bytes, j.at("name").get<std::string>(), why);
+    if (!v) damaged("the sky's picture " + why);
+  }
+  void get(const Json& j, std::shared_ptr<const Image8>& v) {
+    auto image = std::make_shared<Image8>();
+    image->width = j.at("width").get<int>();
+    image->height = j.at("height").get<int>();
+    image->pixels = blobs.get(j.at("pixels").get<std::string>());
+    const bool fits = image->width > 0 && image->height > 0 &&
+                      image->pixels.size() == 4ull * static_cast<size_t>(image->width) *
+                                                  static_cast<size_t>(image->height);
+    if (!fits) damaged("a picture has another size");
+    v = std::move(image);
+  }
+  void get(const Json& j, std::vector<Primitive>& v) {
+    v = primitivesOf(blobs.get(j.get<std::string>()));
+  }
+};
+
+// The members of each type, by structured bindings: a member that is added does not compile until
+// it is written here too, so that no edit can be missing from the journal. `A` writes or reads.
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, Transform>
+void fields(A& a, T& v) {
+  auto& [translation, rotation, scale, shear] = v;
+  a("t", translation), a("r", rotation), a("s", scale), a("h", shear);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, PunctualLight>
+void fields(A& a, T& v) {
+  auto& [kind, intensity, range, innerCone, outerCone, profile] = v;
+  a("kind", kind), a("intensity", intensity), a("range", range), a("inner", innerCone);
+  a("outer", outerCone), a("profile", profile);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, AreaLight>
+void fields(A& a, T& v) {
+  auto& [shape, radiance, size] = v;
+  a("shape", shape), a("radiance", radiance), a("size", size);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, LightState>
+void fields(A& a, T& v) {
+  auto& [on, solo, group] = v;
+  a("on", on), a("solo", solo), a("group", group);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, LightGroup>
+void fields(A& a, T& v) {
+  auto& [name, muted, solo] = v;
+  a("name", name), a("muted", muted), a("solo", solo);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, Node>
+void fields(A& a, T& v) {
+  auto& [id, name, parent, local, mesh, camera, punctual, area, visible, light, meshKind,
+         sourceNode] = v;
+  a("id", id), a("name", name), a("parent", parent), a("local", local), a("mesh", mesh);
+  a("camera", camera), a("punctual", punctual), a("area", area), a("visible", visible);
+  a("light", light), a("meshKind", meshKind), a("sourceNode", sourceNode);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, TextureRef>
+void fields(A& a, T& v) {
+  auto& [texture, texCoord, offset, rotation, scale] = v;
+  a("texture", texture), a("texCoord", texCoord), a("offset", offset), a("rotation", rotation);
+  a("scale", scale);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, Material>
+void fields(A& a, T& v) {
+  auto& [name, baseColor, baseColorTexture, normalTexture, normalScale, emissive, emissiveTexture,
+         metallic, roughness, metallicRoughnessTexture, transmission, alphaMode, alphaCutoff,
+         doubleSided] = v;
+  a("name", name), a("baseColor", baseColor), a("baseColorTexture", baseColorTexture);
+  a("normalTexture", normalTexture), a("normalScale", normalScale), a("emissive", emissive);
+  a("emissiveTexture", emissiveTexture), a("metallic", metallic), a("roughness", roughness);
+  a("metallicRoughnessTexture", metallicRoughnessTexture), a("transmission", transmission);
+  a("alphaMode", alphaMode), a("alphaCutoff", alphaCutoff), a("doubleSided", doubleSided);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, Texture>
+void fields(A& a, T& v) {
+  auto& [name, image, wrapS, wrapT, nearest, placeholder] = v;
+  a("name", name), a("image", image), a("wrapS", wrapS), a("wrapT", wrapT);
+  a("nearest", nearest), a("placeholder", placeholder);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, Mesh>
+void fields(A& a, T& v) {
+  auto& [name, primitives] = v;
+  a("name", name), a("primitives", primitives);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, Camera>
+void fields(A& a, T& v) {
+  auto& [name, yfov, aspect, znear, zfar] = v;
+  a("name", name), a("yfov", yfov), a("aspect", aspect), a("znear", znear), a("zfar", zfar);
+}
+
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, Sky>
+void fields(A& a, T& v) {
+  auto& [kind, radiance, zenith, horizon, ground, image, rotation, scale] = v;
+  a("kind", kind), a("radiance", radiance), a("zenith", zenith), a("horizon", horizon);
+  a("ground", ground), a("image", image), a("rotation", rotation), a("scale", scale);
+}
+
+template <typename T>
+Json written(const T& value, Blobs& blobs) {
+  Json json = Json::object();
+  return Writer{json, blobs}.put(value);
+}
+
+}  // namespace
+
+Json toJson(const Node& v, Blobs& b) { return written(v, b); }
+Json toJson(const Material& v, Blobs& b) { return written(v, b); }
+Json toJson(const Texture& v, Blobs& b) { return written(v, b); }
+Json toJson(const Mesh& v, Blobs& b) { return written(v, b); }
+Json toJson(const Camera& v, Blobs& b) { return written(v, b); }
+Json toJson(const Sky& v, Blobs& b) { return written(v, b); }
+Json toJson(const LightState& v, Blobs& b) { return written(v, b); }
+Json toJson(const LightGroup& v, Blobs& b) { return written(v, b); }
+
+void fromJson(const Json& j, Blobs& b, Node& v) { Reader{j, b}.get(j, v); }
+void fromJson(const Json& j, Blobs& b, Material& v) { Reader{j, b}.get(j, v); }
+void fromJson(const Json& j, Blobs& b, Texture& v) { Reader{j, b}.get(j, v); }
+void fromJson(const Json& j, Blobs& b, Mesh& v) { Reader{j, b}.get(j, v); }
+void fromJson(const Json& j, Blobs& b, Camera& v) { Reader{j, b}.get(j, v); }
+void fromJson(const Json& j, Blobs& b, Sky& v) { Reader{j, b}.get(j, v); }
+void fromJson(const Json& j, Blobs& b, LightState& v) { Reader{j, b}.get(j, v); }
+void fromJson(const Json& j, Blobs& b, LightGroup& v) { Reader{j, b}.get(j, v); }
+
+// Each value with the letter of its type, which JSON would lose: 1 and 1.0 are the same there.
+Json toJson(const RenderSettings& render, Blobs&) {
+  Json values = Json::object();
+  for (const auto& [name, value] : render.values.values()) {
+    values[name] = std::visit(
+        [&](const auto& v) -> Json {
+          return {std::string(1, "bifs"[value.index()]), v};
+        },
+        value);
+  }
+  return {{"method", render.method}, {"exposure", render.exposureEv}, {"values", values}};
+}
+
+void fromJson(const Json& json, Blobs&, RenderSettings& render) {
+  render = {};
+  render.method = json.at("method").get<std::string>();
+  render.exposureEv = json.at("exposure").get<float>();
+  for (const auto& [name, value] : json.at("values").items()) {
+    const std::string type = value.at(0).get<std::string>();
+    const Json& v = value.at(1);
+    if (type == "b")
+      render.values.set(name, v.get<bool>());
+    else if (type == "i")
+      render.values.set(name, v.get<int>());
+    else if (type == "f")
+      render.values.set(name, v.get<float>());
+    else
+      render.values.set(name, v.get<std::string>());
+  }
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,34 @@
+// Every value that an edit can change as JSON and back, to the last bit: what a journal's lines are
+// made of. Readers throw InputError or nlohmann's exceptions for what is no such value.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "editor/document/document.h"
+#include "editor/recovery/blobs.h"
+
+namespace lamplighter {
+
+using Json = nlohmann::ordered_json;
+
+Json toJson(const Node& node, Blobs& blobs);
+Json toJson(const Material& material, Blobs& blobs);
+Json toJson(const Texture& texture, Blobs& blobs);
+Json toJson(const Mesh& mesh, Blobs& blobs);
+Json toJson(const Camera& camera, Blobs& blobs);
+Json toJson(const Sky& sky, Blobs& blobs);
+Json toJson(const LightState& state, Blobs& blobs);
+Json toJson(const LightGroup& group, Blobs& blobs);
+Json toJson(const RenderSettings& render, Blobs& blobs);
+
+void fromJson(const Json& json, Blobs& blobs, Node& node);
+void fromJson(const Json& json, Blobs& blobs, Material& material);
+void fromJson(const Json& json, Blobs& blobs, Texture& texture);
+void fromJson(const Json& json, Blobs& blobs, Mesh& mesh);
+void fromJson(const Json& json, Blobs& blobs, Camera& camera);
+void fromJson(const Json& json, Blobs& blobs, Sky& sky);
+void fromJson(const Json& json, Blobs& blobs, LightState& state);
+void fromJson(const Json& json, Blobs& blobs, LightGroup& group);
+void fromJson(const Json& json, Blobs& blobs, RenderSettings& render);
+
+}  // namespace lamplighter

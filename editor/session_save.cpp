@@ -1,0 +1,65 @@
+// Saving, and what others have done to the level's files meanwhile.
+#include <algorithm>
+
+#include "editor/session.h"
+#include "renderer/error.h"
+#include "renderer/scene/gltf_io.h"
+
+namespace lamplighter {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool isSameFile(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const auto place = [&](const fs::path& p) {
+    return fs::weakly_canonical(fs::absolute(p, error), error);
+  };
+  return place(a) == place(b);
+}
+
+}  // namespace
+
+std::vector<fs::path> Session::changedOnDisk(const fs::path& path) const {
+  std::vector<fs::path> changed;
+  for (size_t i = 0; i < disk_.size(); ++i) {
+    // Saved to another place, only files beside it are referred to.
+    const bool counts =
+        i == 0 ? isSameFile(path, disk_[i].path)
+               : path.extension() != ".glb" &&
+                     isSameFile(path.parent_path() / "x", disk_[i].path.parent_path() / "x");
+    if (counts && stampOf(disk_[i].path) != disk_[i]) changed.push_back(disk_[i].path);
+  }
+  return changed;
+}
+
+void Session::save(const fs::path& path, bool forced) {
+  finishDrag();
+  history_.commit();
+  const std::vector<fs::path> changed = changedOnDisk(path);
+  if (!changed.empty() && !forced)
+    throw InputError(changed.front().string(),
+                     "another program has changed or removed it since it was opened",
+                     "save under another name (file.save_as), or over it (file.save force)");
+  std::string problem = keeper_.saving();
+  const std::vector<fs::path> written = saveGltf(document_.scene, path, changed.empty());
+  std::vector<FileStamp> now{stampOf(path)};
+  const auto add = [&](const fs::path& file) {
+    const bool isKnown = std::any_of(now.begin(), now.end(),
+                                     [&](const FileStamp& s) { return isSameFile(s.path, file); });
+    if (!isKnown) now.push_back(stampOf(file));
+  };
+  for (const fs::path& file : written) add(file);
+  // What was beside it stays in use, unless all was written anew.
+  for (size_t i = 1; i < disk_.size() && changed.empty(); ++i) add(disk_[i].path);
+  disk_ = std::move(now);
+  document_.path = path;
+  savedHash_ = sceneHash(document_.scene);
+  if (std::string after = keeper_.saved(document_); problem.empty()) problem = std::move(after);
+  status_ = problem.empty() ? "Saved " + path.string() : "Saved. " + problem;
+}
+
+bool Session::modified() const { return sceneHash(document_.scene) != savedHash_; }
+
+}  // namespace lamplighter

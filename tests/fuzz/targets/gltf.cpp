@@ -1,0 +1,50 @@
+// .gltf and .glb: either an InputError of one line or a scene that is sound, can be drawn, saved
+// and loaded again.
+#include "renderer/error.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/render_scene.h"
+#include "tests/fuzz/targets/scratch.h"
+
+using namespace lamplighter;
+
+namespace {
+
+void checkSound(const Scene& s) {
+  const auto within = [](int i, size_t n) { return i == kNone || (i >= 0 && size_t(i) < n); };
+  for (const Node& n : s.nodes)
+    if (!within(n.mesh, s.meshes.size()) || !within(n.camera, s.cameras.size()))
+      fuzz::broken("a node's index");
+  for (const auto& mesh : s.meshes) {
+    for (const Primitive& p : mesh->primitives) {
+      if (p.normals.size() != p.positions.size()) fuzz::broken("a normal for each position");
+      for (const uint32_t i : p.indices)
+        if (i >= p.positions.size()) fuzz::broken("a vertex index");
+    }
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const auto file = fuzz::scratch().write("scene.gltf", fuzz::textOf(data, size));
+  LoadedScene loaded;
+  try {
+    loaded = loadGltf(file);
+  } catch (const InputError& e) {
+    if (std::string_view(e.what()).find('\n') != std::string_view::npos)
+      fuzz::broken("a message of one line");
+    return 0;
+  }
+  checkSound(loaded.scene);
+  RenderScene world;
+  update(world, loaded.scene, SceneChanges::all());
+  const auto again = fuzz::scratch().path() / "again.glb";
+  try {
+    saveGltf(loaded.scene, again);
+  } catch (const InputError&) {
+    return 0;  // an odd source may be refused; what is there stays
+  }
+  const LoadedScene second = loadGltf(again);  // an error is a crash here
+  if (second.scene.nodes.size() != loaded.scene.nodes.size()) fuzz::broken("as many nodes again");
+  return 0;
+}

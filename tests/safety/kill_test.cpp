@@ -1,0 +1,181 @@
+// Kills a process that edits, with SIGKILL at random moments, and recovers its work: nothing that
+// was confirmed before the kill is lost. LAMPLIGHTER_KILLS says how many times.
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "editor/input/recording.h"
+#include "editor/recovery/recovery.h"
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/safety/random_edits.h"
+
+namespace lamplighter::test {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path levelFile() { return fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf"; }
+
+std::unique_ptr<Session> editing(const fs::path& journal, const fs::path& level) {
+  auto session = std::make_unique<Session>(std::make_unique<FrameRenderer>(makeCpuBackend()));
+  session->keepJournal(journal, ::getpid(), [] { return int64_t{1'000'000'000}; });
+  session->open(loadGltf(level).scene, level, {});
+  return session;
+}
+
+// The process that is killed: tells each confirmed document's hash, and now and then saves, saves
+// itself aside or opens the level anew.
+int editForEver(uint64_t seed, const fs::path& journal, const fs::path& level) {
+  const auto session = editing(journal, level);
+  RandomEdits edits(*session, seed, {60, false});
+  for (uint64_t i = 0;; ++i) {
+    edits.step();
+    if (edits.below(40) == 0) session->autosave();
+    if (edits.below(60) == 0) session->save(level);
+    if (!session->keeper().journal()) return 1;
+    const std::string line = hashText(documentHash(session->document())) + "\n";
+    if (::write(STDOUT_FILENO, line.data(), line.size()) < 0) return 1;
+  }
+}
+
+class Child {
+ public:
+  Child(uint64_t seed, const fs::path& journal, const fs::path& level) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+    // By another start of this program: a fork would inherit the threads' locks, not the threads.
+    std::string number = std::to_string(seed), folder = journal.string(), file = level.string();
+    std::string self = "/proc/self/exe", mode = "--edit-for-ever";
+    char* arguments[] = {self.data(),   mode.data(), number.data(),
+                         folder.data(), file.data(), nullptr};
+    process_ = ::fork();
+    if (process_ == 0) {
+      ::dup2(ends[1], STDOUT_FILENO);
+      ::execv(self.c_str(), arguments);
+      ::_exit(127);
+    }
+    ::close(ends[1]);
+    pipe_ = ends[0];
+  }
+  ~Child() { ::close(pipe_); }
+
+  // Reads until so many lines have come, then waits so many microseconds, kills, reads the rest.
+  std::vector<std::string> killAfter(size_t lines, int microseconds) {
+    std::string text;
+    const auto read = [&] {
+      std::array<char, 4096> block;
+      const ssize_t n = ::read(pipe_, block.data(), block.size());
+      if (n > 0) text.append(block.data(), static_cast<size_t>(n));
+      return n > 0;
+    };
+    while (static_cast<size_t>(std::count(text.begin(), text.end(), '\n')) < lines && read()) {
+    }
+    ::usleep(static_cast<useconds_t>(microseconds));
+    ::kill(process_, SIGKILL);
+    while (read()) {
+    }
+    int status = 0;
+    ::waitpid(process_, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status)) << "it ended by itself with " << WEXITSTATUS(status);
+    std::vector<std::string> out;
+    for (size_t at = 0, end = text.find('\n'); end != std::string::npos;
+         at = end + 1, end = text.find('\n', at))
+      out.push_back(text.substr(at, end - at));
+    return out;
+  }
+
+ private:
+  pid_t process_ = 0;
+  int pipe_ = -1;
+};
+
+struct Expected {
+  std::string hash;
+  bool isModified = false;  // since it was saved
+};
+
+// The documents that the same steps go through, to the one after those that were confirmed.
+std::vector<Expected> expectedWith(uint64_t seed, const fs::path& level, size_t confirmed) {
+  saveGltf(loadGltf(levelFile()).scene, level);
+  Session session(std::make_unique<FrameRenderer>(makeCpuBackend()));
+  session.open(loadGltf(level).scene, level, {});
+  RandomEdits edits(session, seed, {60, false});
+  std::vector<Expected> out;
+  for (size_t i = 0; i < confirmed + 1; ++i) {
+    edits.step();
+    if (edits.below(40) == 0) session.autosave();
+    if (edits.below(60) == 0) session.save(level);
+    out.push_back({hashText(documentHash(session.document())), session.modified()});
+  }
+  return out;
+}
+
+TEST(Kill, NothingConfirmedIsLost) {
+  const char* count = std::getenv("LAMPLIGHTER_KILLS");
+  const int kills = count != nullptr ? std::atoi(count) : 20;
+  const fs::path root = fs::path(testing::TempDir()) / ("kill-" + std::to_string(::getpid()));
+  uint64_t random = 1;
+  size_t confirmed = 0, ahead = 0, recoveries = 0;
+  for (int k = 0; k < kills && !HasFailure(); ++k) {
+    const fs::path folder = root / std::to_string(k);
+    fs::create_directories(folder / "check");
+    const fs::path level = folder / "level.glb";
+    saveGltf(loadGltf(levelFile()).scene, level);
+    random = random * 6364136223846793005ull + 1442695040888963407ull;
+    const uint64_t seed = 1000 + static_cast<uint64_t>(k);
+    Child child(seed, folder / "journal", level);
+    const std::vector<std::string> told =
+        child.killAfter(1 + (random >> 33) % 80, static_cast<int>((random >> 20) % 3000));
+    ASSERT_FALSE(told.empty());
+    confirmed += told.size();
+    const std::vector<Expected> expected =
+        expectedWith(seed, folder / "check" / "level.glb", told.size());
+    for (size_t i = 0; i < told.size(); ++i) ASSERT_EQ(told[i], expected[i].hash) << "step " << i;
+    const Expected& next = expected.back();
+
+    const std::vector<Recoverable> found = findRecoverable(folder / "journal");
+    if (found.empty()) {
+      // The level's file is the work.
+      EXPECT_FALSE(expected[told.size() - 1].isModified && next.isModified) << "kill " << k;
+      continue;
+    }
+    ASSERT_EQ(found.size(), 1u);
+    const Recovered recovered = recover(found.front().folder);
+    EXPECT_EQ(recovered.warning, "");
+    const std::string now = hashText(documentHash(recovered.document));
+    // The confirmed one, or the one that was under way.
+    EXPECT_TRUE(now == told.back() || now == next.hash)
+        << "kill " << k << " after " << told.size() << " steps: recovered " << now << ", confirmed "
+        << told.back() << ", next " << next.hash;
+    ahead += now != told.back();
+    ++recoveries;
+    fs::remove_all(folder);
+  }
+  fs::remove_all(root);
+  std::cout << kills << " kills, " << confirmed << " confirmed steps, " << recoveries
+            << " recoveries, " << ahead << " of them with the step that was under way\n";
+}
+
+}  // namespace
+
+}  // namespace lamplighter::test
+
+int main(int argc, char** argv) {
+  if (argc == 5 && std::string(argv[1]) == "--edit-for-ever")
+    return lamplighter::test::editForEver(std::strtoull(argv[2], nullptr, 10), argv[3], argv[4]);
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

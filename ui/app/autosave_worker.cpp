@@ -1,0 +1,59 @@
+#include "ui/app/autosave_worker.h"
+
+#include <spdlog/spdlog.h>
+
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+// The journal has every edit anyway: this is for the level's own file being lost as well, and for
+// opening the work in another program.
+constexpr double kSecondsBetween = 120.0;
+
+}  // namespace
+
+void AutosaveWorker::finish() {
+  if (thread_.joinable()) thread_.join();
+}
+
+void AutosaveWorker::frame(Session& session, double seconds) {
+  Journal* journal = session.keeper().journal();
+  if (journal == nullptr) return;
+  if (work_ && written_) {
+    finish();
+    // Another level may have been opened meanwhile; its journal is another folder.
+    if (!error_.empty()) {
+      session.setStatus("Autosave: " + error_);
+    } else if (journal->folder() == work_->folder) {
+      try {
+        journal->restart(session.document(), work_->needsLevel);
+        spdlog::info("autosaved to {}", (work_->folder / "autosave.glb").string());
+      } catch (const InputError& e) {
+        session.setStatus(std::string("Autosave: ") + e.what());
+      }
+    }
+    work_.reset();
+  }
+  if (last_ < 0.0) last_ = seconds;
+  // Not in the middle of a drag: what it has done so far is not in the journal either.
+  if (work_ || seconds - last_ < kSecondsBetween || session.history().inTransaction()) return;
+  last_ = seconds;
+  if (journal->edits() == editsThen_) return;
+  work_ = journal->autosave(session.document());
+  if (!work_) return;
+  editsThen_ = journal->edits();
+  written_ = false;
+  error_.clear();
+  thread_ = std::thread([this] {
+    try {
+      work_->write();
+    } catch (const std::exception& e) {
+      error_ = e.what();
+    }
+    written_ = true;
+  });
+}
+
+}  // namespace lamplighter
