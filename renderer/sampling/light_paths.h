@@ -39,9 +39,10 @@ class LightPaths {
   // Brings the paths up to date with the scene. `changes` and `movers` are those since the last
   // call. Where they say none, the scene is at rest and the set becomes generateVpls()'s, bit for
   // bit, whatever was before, a part a frame. Of a light
-  // of which too few paths can stay all are walked anew at once. Rays are traced for mostPaths paths at
-  // most (brightest × longest waiting first; 0: no limit), but after a change of the counts or of
-  // which objects there are all are walked at once. Returns whether the set may have changed.
+  // of which too few paths can stay all are walked anew at once. Rays are traced for mostPaths
+  // paths at most (brightest × longest waiting first; 0: no limit), but after a change of the
+  // counts or of which objects there are all are walked at once. Returns whether the set may have
+  // changed.
   bool update(const RenderScene& scene, const RayCaster& rays, const RenderSceneChanges& changes,
               std::span<const MoverFinder::Mover> movers, const VplCounts& counts,
               int mostPaths = 0);

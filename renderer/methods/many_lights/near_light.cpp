@@ -98,8 +98,7 @@ vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampl
     const bool front = glm::dot(direction, s.geometricNormal) < 0.0f;
     throughput *= std::max(0.0f, 1.0f - hit.t * hit.t / (reach * reach));
     const RenderObject& there = scene_.objects[hit.object];
-    if (options_.emission && (front || s.emitsBothSides) &&
-        !isLeftOut(from.leftOutBy, there.link))
+    if (options_.emission && (front || s.emitsBothSides) && !isLeftOut(from.leftOutBy, there.link))
       sum += throughput * s.emission;
     if (bounces == 0) break;
     throughput *= s.albedo;
