@@ -98,7 +98,8 @@ void addLightActions(ActionRegistry& r) {
            if (n.area->shape != AreaShape::rectangle && n.area->shape != AreaShape::disk)
              throw InputError(n.name, "is neither a rectangle nor a disk", "select one");
            AreaLight light = *n.area;
-           light.picture = a[0] == "none" ? nullptr : readLightPicture(fileBeside(s.document(), a[0]));
+           light.picture =
+               a[0] == "none" ? nullptr : readLightPicture(fileBeside(s.document(), a[0]));
            const float was = luminance(meanFactor(*n.area) * light.radiance);
            const float is = luminance(meanFactor(light) * light.radiance);
            if (was > 0.0f && is > 0.0f) light.radiance *= was / is;

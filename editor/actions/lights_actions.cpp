@@ -76,9 +76,7 @@ void addLightsActions(ActionRegistry& r) {
            colourLights(s, vectorOf(a, 0));
          },
          {}});
-  r.add({"lights.edit",
-         "Edit cells of lights",
-         "name|strength|temperature|size|group VALUE",
+  r.add({"lights.edit", "Edit cells of lights", "name|strength|temperature|size|group VALUE",
          "What is typed in a cell of the light table, for all selected lights: a name, 800 lm, "
          "2700 K, 1.2 x 0.6, a group.",
          "",

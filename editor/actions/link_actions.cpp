@@ -55,11 +55,12 @@ void addLinkActions(ActionRegistry& r) {
          "Selects the objects that the selected lights leave out.", "",
          [](Session& s, const Arguments&) { s.select(leftOutBySelection(s.document())); },
          hasLeftOut});
-  r.add({"sky.exclude", "Leave objects out of the sky", kObjects,
-         "The sky gives the selected objects, or those named, and all below them no light.", "",
-         [](Session& s, const Arguments& a) {
-           leaveOut(s, {kNoNode}, objectsOf(s, a, {}), true);
-         },
+  r.add({"sky.exclude",
+         "Leave objects out of the sky",
+         kObjects,
+         "The sky gives the selected objects, or those named, and all below them no light.",
+         "",
+         [](Session& s, const Arguments& a) { leaveOut(s, {kNoNode}, objectsOf(s, a, {}), true); },
          {}});
   r.add({"sky.include", "Light objects by the sky again", kObjects,
          "The sky lights the selected objects, or those named, again; with neither, all.", "",

@@ -75,7 +75,8 @@ void addTreeActions(ActionRegistry& r) {
                                  : a[0] == "complex" ? MeshKind::complex
                                                      : MeshKind::automatic;
            if (kind == MeshKind::automatic && a[0] != "automatic")
-             throw InputError(a[0], "is no way to light a mesh", "give automatic, simple or complex");
+             throw InputError(a[0], "is no way to light a mesh",
+                              "give automatic, simple or complex");
            editSelected(
                s, "Light", [](const Node& n) { return n.mesh != kNone; },
                [&](Node& n) { n.meshKind = kind; });

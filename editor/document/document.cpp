@@ -70,7 +70,8 @@ void addNode(Hasher& h, const Node& n) {
     h.add(static_cast<int>(n.area->shape)), h.add(n.area->radiance), h.add(n.area->size);
     if (const auto& picture = n.area->picture) {
       h.add(picture->file);
-      h.add(static_cast<uint32_t>(picture->hash)), h.add(static_cast<uint32_t>(picture->hash >> 32));
+      h.add(static_cast<uint32_t>(picture->hash)),
+          h.add(static_cast<uint32_t>(picture->hash >> 32));
     }
   }
   addLightState(h, n.light);

@@ -107,7 +107,8 @@ void editSelected(Session& s, const std::string& label,
     nodes.push_back(n);
     change(nodes.back());
   }
-  if (nodes.empty()) throw InputError("objects", "nothing that is selected has it", "select others");
+  if (nodes.empty())
+    throw InputError("objects", "nothing that is selected has it", "select others");
   const std::string what =
       nodes.size() == 1 ? nodes[0].name : std::to_string(nodes.size()) + " objects";
   s.history().run(

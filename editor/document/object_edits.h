@@ -1,5 +1,5 @@
-// What many selected objects have in common, and edits of all of them at once: each one step, or part
-// of the open transaction.
+// What many selected objects have in common, and edits of all of them at once: each one step, or
+// part of the open transaction.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@ namespace lamplighter {
 
 class Session;
 
-// A number that a node has, as the inspector shows it. Rotation about X, then Y, then Z, in degrees;
-// rotating one axis keeps the others.
+// A number that a node has, as the inspector shows it. Rotation about X, then Y, then Z, in
+// degrees; rotating one axis keeps the others.
 struct ObjectProperty {
   const char* name;  // "position.x"
   float (*of)(const Node&);

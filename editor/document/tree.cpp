@@ -62,9 +62,8 @@ void Reparent::put(Document& document, const std::vector<Node>& nodes,
   }
   std::unordered_map<NodeId, size_t> place;
   for (size_t i = 0; i < order.size(); ++i) place[order[i]] = i;
-  std::stable_sort(all.begin(), all.end(), [&](const Node& a, const Node& b) {
-    return place.at(a.id) < place.at(b.id);
-  });
+  std::stable_sort(all.begin(), all.end(),
+                   [&](const Node& a, const Node& b) { return place.at(a.id) < place.at(b.id); });
 }
 
 void reparent(Session& s, const std::vector<NodeId>& ids, NodeId parent) {

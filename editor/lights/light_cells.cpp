@@ -49,8 +49,7 @@ void rename(Session& s, const std::string& name) {
   std::vector<Node> nodes;
   for (const LightSource& light : selectedLights(s.document())) {
     nodes.push_back(s.document().scene.nodes[light.index]);
-    nodes.back().name =
-        nodes.size() == 1 ? name : name + " " + std::to_string(nodes.size());
+    nodes.back().name = nodes.size() == 1 ? name : name + " " + std::to_string(nodes.size());
   }
   s.history().run(std::make_unique<EditNodes>("Rename lights", s.document(), std::move(nodes)));
 }
@@ -123,8 +122,7 @@ void editLightCells(Session& s, LightColumn column, const std::string& text) {
           commonValue(s.document().scene, lights, LightProperty::intensity, shown).unitOr(shown);
       if (!value.rest.empty()) {
         const auto named = unitNamed(value.rest);
-        if (!named)
-          throw InputError(value.rest, "is no unit of light", "give lm, cd, nt, W or lx");
+        if (!named) throw InputError(value.rest, "is no unit of light", "give lm, cd, nt, W or lx");
         unit = *named;
       }
       return editLights(s, LightOperation::set, LightProperty::intensity, value.value, unit);

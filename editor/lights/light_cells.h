@@ -13,9 +13,9 @@ class Session;
 bool isTyped(LightColumn column);
 // "strength" and so on, in actions and names of widgets.
 const char* columnName(LightColumn column);
-// The selected lights with the text for the cell, one step: "lamp", "800 lm", "2700 K", "1.2 x 0.6",
-// "kitchen". Where many are selected names are numbered. Throws InputError for what is no such
-// value.
+// The selected lights with the text for the cell, one step: "lamp", "800 lm", "2700 K", "1.2 x
+// 0.6", "kitchen". Where many are selected names are numbered. Throws InputError for what is no
+// such value.
 void editLightCells(Session& session, LightColumn column, const std::string& text);
 
 }  // namespace lamplighter

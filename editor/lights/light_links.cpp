@@ -69,11 +69,11 @@ void leaveOut(Session& s, const std::vector<NodeId>& lights, const std::vector<N
                          " lists of objects that differ are too many for one scene",
                      "let lights leave out the same objects");
   }
-  const std::string label = std::string(out ? "Leave out " : "Light again ") +
-                            (objects.size() == 1 ? after.find(objects[0]) != nullptr
-                                                       ? after.find(objects[0])->name
-                                                       : "an object"
-                                                 : std::to_string(objects.size()) + " objects");
+  const std::string label =
+      std::string(out ? "Leave out " : "Light again ") +
+      (objects.size() == 1
+           ? after.find(objects[0]) != nullptr ? after.find(objects[0])->name : "an object"
+           : std::to_string(objects.size()) + " objects");
   const bool isOwnStep = !s.history().inTransaction();
   if (isOwnStep) s.history().begin(label);
   if (!nodes.empty())

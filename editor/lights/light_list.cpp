@@ -71,8 +71,8 @@ LightMeasure measureOf(const Scene& scene, const Node& node, const mat4& world) 
                    lamplighter::areaOf(*node.area, world), projectedAreaOf(*node.area, world)};
     const vec3 factor = meanFactor(*node.area);
     const float plain = luminance(node.area->radiance);
-    m.left = static_cast<double>(
-        plain > 0.0f ? luminance(factor * node.area->radiance) / plain : luminance(factor));
+    m.left = static_cast<double>(plain > 0.0f ? luminance(factor * node.area->radiance) / plain
+                                              : luminance(factor));
     return m;
   }
   if (node.punctual) return punctualMeasure(*node.punctual, world);

@@ -20,8 +20,8 @@ const char* kindLabel(LightKind kind);
 // What a light's luminance is multiplied by to be a flux or an intensity.
 struct LightMeasure {
   LightKind kind = LightKind::rectangle;
-  double area = 0.0;        // rectangle to mesh: that emits, both sides where it does [m²]
-  double projected = 0.0;   // rectangle to tube: seen from where most of it is [m²]
+  double area = 0.0;       // rectangle to mesh: that emits, both sides where it does [m²]
+  double projected = 0.0;  // rectangle to tube: seen from where most of it is [m²]
   // Of the luminance, what a picture on a rectangle or disk leaves, by its mean, or the tilt of a
   // luminaire with a profile; 1: all of it.
   double left = 1.0;

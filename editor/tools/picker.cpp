@@ -20,7 +20,8 @@ NodeId pick(const View& view, const RenderScene& scene, const RayCaster& rays, c
   for (const RenderPunctual& light : scene.punctuals) {
     const auto mark = projectPoint(view, light.position);
     const float distance = glm::length(light.position - view.eye);
-    if (mark && mayPick(light.node) && glm::length(*mark - pointer) <= kMarkRadius && distance < nearest) {
+    if (mark && mayPick(light.node) && glm::length(*mark - pointer) <= kMarkRadius &&
+        distance < nearest) {
       nearest = distance;
       best = light.node;
     }

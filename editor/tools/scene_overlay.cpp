@@ -111,8 +111,7 @@ void drawLeftOut(Overlay& overlay, const View& view, const Document& document,
     if (!document.isSelected(scene.nodes[light].id) || links.ofLight[light] == 0) continue;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
       const Node& n = scene.nodes[i];
-      if (n.mesh == kNone || !visible[i] ||
-          !isLeftOut(links.leftOutBy[i], links.ofLight[light]))
+      if (n.mesh == kNone || !visible[i] || !isLeftOut(links.leftOutBy[i], links.ofLight[light]))
         continue;
       const Mesh& mesh = *scene.meshes[static_cast<size_t>(n.mesh)];
       drawBox(overlay, view, mesh, world[i], kLeftOut);

@@ -49,8 +49,7 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
       }
       break;
   }
-  for (size_t i = first; i < vpls.size(); ++i)
-    vpls[i].vpl.footprint.y = static_cast<float>(e.link);
+  for (size_t i = first; i < vpls.size(); ++i) vpls[i].vpl.footprint.y = static_cast<float>(e.link);
 }
 
 // Batches shine from places all over it, so that their mean has soft shadows.

@@ -1,6 +1,6 @@
-// What glTF has no place for about lights: extras.lamplighter.light of a node (on, solo, group, what
-// it leaves out, and the file of its profile or picture) and extras.lamplighter.lights of the scene
-// (groups, the sky's state).
+// What glTF has no place for about lights: extras.lamplighter.light of a node (on, solo, group,
+// what it leaves out, and the file of its profile or picture) and extras.lamplighter.lights of the
+// scene (groups, the sky's state).
 #include <algorithm>
 #include <map>
 
@@ -47,8 +47,7 @@ std::vector<NodeId> readLeftOut(const GltfDocument& document, const Json& note, 
   return out;
 }
 
-LightState readState(const GltfDocument& document, const Json& note, At at,
-                     const NodeOfJson& ids) {
+LightState readState(const GltfDocument& document, const Json& note, At at, const NodeOfJson& ids) {
   LightState state;
   state.leftOut = readLeftOut(document, note, at, ids);
   state.on = boolMember(document, note, "on", true, at);

@@ -90,8 +90,8 @@ size_t appendIndices(GltfOutput& out, std::span<const uint32_t> indices, size_t 
 std::vector<size_t> saveNodes(GltfOutput& out);
 // gltf_save_lights.cpp
 void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes);
-// gltf_light_notes.cpp: what glTF has no place for, as notes: on and solo, groups, what is left out,
-// profiles, pictures.
+// gltf_light_notes.cpp: what glTF has no place for, as notes: on and solo, groups, what is left
+// out, profiles, pictures.
 using JsonOfNode = std::map<NodeId, size_t>;  // index in the file that is written
 void saveLightNotes(GltfOutput& out, Json& json, const Node& now, const Node& was,
                     const JsonOfNode& jsonNodes);

@@ -163,8 +163,7 @@ void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes) {
     bySource[static_cast<size_t>(loaded.nodes[i].sourceNode)] = i;
   }
   JsonOfNode indices;
-  for (size_t i = 0; i < out.scene.nodes.size(); ++i)
-    indices[out.scene.nodes[i].id] = jsonNodes[i];
+  for (size_t i = 0; i < out.scene.nodes.size(); ++i) indices[out.scene.nodes[i].id] = jsonNodes[i];
   const Node none;
   for (size_t i = 0; i < out.scene.nodes.size(); ++i) {
     const Node& now = out.scene.nodes[i];

@@ -28,13 +28,13 @@ struct IesProfile {
   bool isTypeB = false;
   std::vector<float> vertical, horizontal;
   std::vector<float> values;
-  // TILT=INCLUDE: how much of its light a lamp gives when the luminaire is turned away from straight
-  // down, the attitude in which LM-63 tells how the lamp lies in it: by angle in degrees, growing.
-  // Empty: all of it.
+  // TILT=INCLUDE: how much of its light a lamp gives when the luminaire is turned away from
+  // straight down, the attitude in which LM-63 tells how the lamp lies in it: by angle in degrees,
+  // growing. Empty: all of it.
   std::vector<float> tiltAngles, tiltFactors;
 
-  // The factor for a luminaire that aims there, a unit direction in the world whose up is +Y. Linear
-  // between the angles; beyond them, that of the nearest.
+  // The factor for a luminaire that aims there, a unit direction in the world whose up is +Y.
+  // Linear between the angles; beyond them, that of the nearest.
   float atTilt(const vec3& aim) const;
 
   // Of a unit direction in the light's space: nadir and aim are −Z, the plane C0 is towards +X, C90

@@ -55,8 +55,8 @@ LightLinks lightLinks(const Scene& scene) {
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& n = scene.nodes[i];
     const auto own = bits.find(n.id), above = bits.find(n.parent);
-    const uint32_t all = (own == bits.end() ? 0 : own->second) |
-                         (above == bits.end() ? 0 : above->second);
+    const uint32_t all =
+        (own == bits.end() ? 0 : own->second) | (above == bits.end() ? 0 : above->second);
     if (all != 0) bits[n.id] = all;
     links.leftOutBy[i] = all;
   }

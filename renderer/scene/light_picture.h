@@ -1,4 +1,5 @@
-// A picture on an area light: what a screen, a window or a lantern shows, as a factor of its radiance.
+// A picture on an area light: what a screen, a window or a lantern shows, as a factor of its
+// radiance.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@ struct Scene;
 
 struct LightState {
   bool on = true;
-  bool solo = false;  // while anything is solo, nothing else shines
-  std::string group;  // a LightGroup's name, or empty
+  bool solo = false;                 // while anything is solo, nothing else shines
+  std::string group;                 // a LightGroup's name, or empty
   std::vector<NodeId> leftOut = {};  // objects that get none of its light (light_linking.h); sorted
 
   bool operator==(const LightState&) const = default;

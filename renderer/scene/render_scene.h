@@ -55,7 +55,7 @@ struct RenderScene {
   Sky sky;
   uint32_t skyLink = 0;   // light_linking.h
   bool hasLinks = false;  // some light leaves something out
-  Bounds bounds;  // of all objects
+  Bounds bounds;          // of all objects
 
   size_t triangleCount() const { return indices.size() / 3; }
 

@@ -146,7 +146,7 @@ struct Node {
   std::optional<AreaLight> area;
   bool visible = true;
   bool locked = false;  // not to be picked or moved in the viewport
-  LightState light;  // of what it emits, if it emits
+  LightState light;     // of what it emits, if it emits
   MeshKind meshKind = MeshKind::automatic;
   int sourceNode = kNone;  // index in the file it came from; kNone for one made here
 

@@ -196,9 +196,9 @@ TEST_F(Tree, CellsOfTheLightTable) {
   expectOneStep("lights.edit size 0.5");
   EXPECT_EQ(node(light_).area->size, vec2(0.5f));
   const uint64_t before = hash();
-  for (const char* bad : {"lights.edit strength bright", "lights.edit strength \"5 miles\"",
-                          "lights.edit size \"1 x wide\"", "lights.edit name \"\"",
-                          "lights.edit samples 5"})
+  for (const char* bad :
+       {"lights.edit strength bright", "lights.edit strength \"5 miles\"",
+        "lights.edit size \"1 x wide\"", "lights.edit name \"\"", "lights.edit samples 5"})
     EXPECT_FALSE(session_.runAction(bad)) << bad;
   session_.select({bulb_});
   EXPECT_FALSE(session_.runAction("lights.edit size 2"));  // it has none

@@ -75,13 +75,12 @@ void FileDialog::list() {
 
 std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   ui.prefix = "dialog/";
-  const char* title = kind_ == Kind::open       ? "Open a scene###file"
-                      : kind_ == Kind::picture  ? "Open a picture of the sky###file"
-                      : kind_ == Kind::profile  ? "Open a profile of a light###file"
-                      : kind_ == Kind::lightPicture
-                          ? "Open a picture of a light###file"
-                      : kind_ == Kind::timeline ? "Export the timeline###file"
-                                                : "Save as###file";
+  const char* title = kind_ == Kind::open           ? "Open a scene###file"
+                      : kind_ == Kind::picture      ? "Open a picture of the sky###file"
+                      : kind_ == Kind::profile      ? "Open a profile of a light###file"
+                      : kind_ == Kind::lightPicture ? "Open a picture of a light###file"
+                      : kind_ == Kind::timeline     ? "Export the timeline###file"
+                                                    : "Save as###file";
   if (opening_) ImGui::OpenPopup(title);
   opening_ = false;
   const ImVec2 window = ImGui::GetMainViewport()->Size;

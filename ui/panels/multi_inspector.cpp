@@ -75,14 +75,16 @@ void objectFields(const PanelContext& ui) {
   vectorRow(ui, "Scale", "scale", 0.01f, "%.3f", "");
   labelledRow(ui, "In the view", "Locked objects are neither picked nor moved in the view.");
   bool value = false;
-  if (mixedCheckbox(ui, "Shown", "visible", [](const Node& n) { return n.visible; }, value))
+  if (mixedCheckbox(
+          ui, "Shown", "visible", [](const Node& n) { return n.visible; }, value))
     attempt(ui, [&] {
       editSelected(
           ui.session, value ? "Show" : "Hide", [](const Node&) { return true; },
           [&](Node& n) { n.visible = value; });
     });
   ImGui::SameLine(0, ui.px(14));
-  if (mixedCheckbox(ui, "Locked", "locked", [](const Node& n) { return n.locked; }, value))
+  if (mixedCheckbox(
+          ui, "Locked", "locked", [](const Node& n) { return n.locked; }, value))
     setLocked(ui.session, std::vector<NodeId>(ui.session.document().selection), value);
 }
 
@@ -113,9 +115,8 @@ void lightFields(const PanelContext& ui, const std::vector<LightSource>& lights)
     attempt(ui, [&] { colourLights(ui.session, colour); });
   for (const LightPropertyInfo& info : lightProperties()) {
     const LightUnit shown = ui.session.lighting().unit;
-    const CommonValue common =
-        commonValue(ui.session.document().scene, selectedLights(ui.session.document()),
-                    info.property, shown);
+    const CommonValue common = commonValue(
+        ui.session.document().scene, selectedLights(ui.session.document()), info.property, shown);
     if (common.count == 0) continue;
     const bool isIntensity = info.property == LightProperty::intensity;
     const LightUnit unit = common.unitOr(shown);
@@ -126,14 +127,14 @@ void lightFields(const PanelContext& ui, const std::vector<LightSource>& lights)
     labelledRow(ui, info.label);
     const bool isMixed = common.isMixed || common.hasMixedUnits;
     float value = static_cast<float>(common.most);
-    const bool changed =
-        mixedField(ui, std::string("lights.") + info.name, isMixed, value,
-                   std::max(0.01f, 0.01f * value), format.c_str(), static_cast<float>(info.least),
-                   static_cast<float>(info.most));
+    const bool changed = mixedField(ui, std::string("lights.") + info.name, isMixed, value,
+                                    std::max(0.01f, 0.01f * value), format.c_str(),
+                                    static_cast<float>(info.least), static_cast<float>(info.most));
     trackEdit(ui, std::string("Change ") + info.name + " of lights");
     if (changed)
       attempt(ui, [&] {
-        editLights(ui.session, LightOperation::set, info.property, static_cast<double>(value), unit);
+        editLights(ui.session, LightOperation::set, info.property, static_cast<double>(value),
+                   unit);
       });
   }
 }
@@ -145,9 +146,8 @@ void materialFields(const PanelContext& ui, const std::vector<int>& materials) {
   labelledRow(ui, "Base colour", "What share of the light the surfaces reflect.");
   vec3 base(materialAt(materials.back()).baseColor);
   if (colourField(ui, "materials.colour", "Change colour of objects", base))
-    editMaterials(ui.session, "Change colour", [&](Material& m) {
-      m.baseColor = vec4(base, m.baseColor.a);
-    });
+    editMaterials(ui.session, "Change colour",
+                  [&](Material& m) { m.baseColor = vec4(base, m.baseColor.a); });
   const auto number = [&](const char* label, const char* widget, float Material::*of) {
     const float first = materialAt(materials.front()).*of;
     const bool isMixed = std::any_of(materials.begin(), materials.end(),

@@ -121,8 +121,8 @@ class Tree {
   void press(const Node& node) {
     const bool adds = ImGui::GetIO().KeyCtrl || ImGui::GetIO().KeyShift;
     if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
-      const bool isOneOfMany = ui_.session.document().selection.size() > 1 &&
-                               ui_.session.document().isSelected(node.id);
+      const bool isOneOfMany =
+          ui_.session.document().selection.size() > 1 && ui_.session.document().isSelected(node.id);
       if (isOneOfMany && !adds)
         state_.pressed = node.id;
       else
@@ -172,8 +172,7 @@ class Tree {
     ui_.name(widget + "/" + what);
     tooltip(ui_, help);
     if (!isShown && !ImGui::IsItemHovered()) return clicked;
-    const ImU32 colour =
-        theme::colour(ImGui::IsItemHovered() ? theme::kText : theme::kTextDim);
+    const ImU32 colour = theme::colour(ImGui::IsItemHovered() ? theme::kText : theme::kTextDim);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 middle{at.x + width / 2, at.y + width / 2};
     if (theme::hasIcons())
@@ -224,8 +223,7 @@ void outliner(PanelContext ui, OutlinerState& state) {
   // What is left of the panel: a click there selects nothing, and it stands for the top.
   const ImVec2 rest = ImGui::GetContentRegionAvail();
   if (rest.x > 0.0f) {
-    if (ImGui::InvisibleButton("top", {rest.x, std::max(rest.y, ui.px(24))}))
-      ui.session.select({});
+    if (ImGui::InvisibleButton("top", {rest.x, std::max(rest.y, ui.px(24))})) ui.session.select({});
     ui.name("top");
     tree.dropOn(kNoNode);
   }

@@ -36,9 +36,10 @@ void preview(const PanelContext& ui, const LightPicture& picture, bool isDisk) {
       const auto edge = [](float from, float size, int i, int n) {
         return std::round(from + size * static_cast<float>(i) / static_cast<float>(n));
       };
-      draw.AddRectFilled({edge(at.x, width, column, columns), edge(at.y, height, row, rows)},
-                         {edge(at.x, width, column + 1, columns), edge(at.y, height, row + 1, rows)},
-                         IM_COL32(p[0], p[1], p[2], 255));
+      draw.AddRectFilled(
+          {edge(at.x, width, column, columns), edge(at.y, height, row, rows)},
+          {edge(at.x, width, column + 1, columns), edge(at.y, height, row + 1, rows)},
+          IM_COL32(p[0], p[1], p[2], 255));
     }
   }
 }

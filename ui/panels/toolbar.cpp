@@ -26,6 +26,8 @@ struct Item {
     std::function<void()> run;
   };
   std::vector<Choice> choices = {};  // of a menu that it opens, instead of running anything
+  const char* moreLabel = "";        // of a menu within that
+  std::vector<Choice> moreChoices = {};
 };
 using Items = std::vector<Item>;
 
@@ -57,10 +59,20 @@ void line(const PanelContext& ui) {
 }
 
 void choices(const PanelContext& ui, const Item& item) {
-  for (const Item::Choice& choice : item.choices) {
-    if (ImGui::MenuItem(withIcon(choice.icon, choice.label).c_str())) choice.run();
-    ui.name(choice.widget);
-  }
+  const auto offer = [&](const std::vector<Item::Choice>& choices) {
+    for (const Item::Choice& choice : choices) {
+      if (ImGui::MenuItem(withIcon(choice.icon, choice.label).c_str())) choice.run();
+      ui.name(choice.widget);
+    }
+  };
+  offer(item.choices);
+  if (item.moreChoices.empty()) return;
+  ImGui::Separator();
+  const bool open = ImGui::BeginMenu(item.moreLabel);
+  ui.name(item.moreLabel);
+  if (!open) return;
+  offer(item.moreChoices);
+  ImGui::EndMenu();
 }
 
 void button(const PanelContext& ui, const Item& item, int step) {
@@ -145,20 +157,24 @@ void addActions(const PanelContext& ui, Items& items, Requests& requests) {
   struct Named {
     const char *name, *icon, *label;
   };
-  Item& light = add("add_light", icon::kLight, "Add light",
-                    "Puts a new light ahead of the camera, or with a click where it is to be.", "",
-                    2);
+  Item& light =
+      add("add_light", icon::kLight, "Add light",
+          "Puts a new light ahead of the camera, or with a click where it is to be.", "", 2);
   light.beginsGroup = true;
-  const auto offer = [&](const std::string& action, const char* icon, const char* label) {
-    light.choices.push_back(
+  light.moreLabel = "Click to place";
+  const auto offer = [&](std::vector<Item::Choice>& to, const std::string& action, const char* icon,
+                         const char* label) {
+    to.push_back(
         {action, icon, label, [&requests, action] { requests.actions.push_back(action); }});
   };
   for (const Named& kind :
        {Named{"rectangle", icon::kRectangle, "Rectangle"}, Named{"disk", icon::kDisk, "Disk"},
         Named{"sphere", icon::kSphere, "Sphere"}, Named{"tube", icon::kTube, "Tube"},
         Named{"spot", icon::kSpot, "Spot"}, Named{"point", icon::kPoint, "Point"},
-        Named{"sun", icon::kSun, "Sun"}})
-    offer(std::string("light.add ") + kind.name, kind.icon, kind.label);
+        Named{"sun", icon::kSun, "Sun"}}) {
+    offer(light.choices, std::string("light.add ") + kind.name, kind.icon, kind.label);
+    offer(light.moreChoices, std::string("light.place ") + kind.name, kind.icon, kind.label);
+  }
   const History& history = ui.session.history();
   Item& undo =
       add("undo", icon::kUndo, "Undo",

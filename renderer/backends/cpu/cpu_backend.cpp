@@ -160,7 +160,7 @@ class CpuBackend final : public Backend {
     const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_, 1.0f};
     const auto update = [&](cpu::LightSums& sums, const cpu::GBuffer& gbuffer,
                             std::span<const uint32_t> wanted) {
-      const cpu::SumCounts counts = 
+      const cpu::SumCounts counts =
           sums.update(gbuffer, lights, constants, patches, wanted, leftOutBy_);
       counts_.lookUps += counts.lookUps;
       counts_.lightPixels += counts.lightPixels;
@@ -277,7 +277,7 @@ class CpuBackend final : public Backend {
   bool stillIsKnown_ = false;  // still_ shows stillView_, but for what moved
   View stillView_;
   std::vector<uint32_t> leftOutBy_;  // by object, where the scene has any; else empty
-  std::vector<Bounds> moves_;  // where something was or is that moved since
+  std::vector<Bounds> moves_;        // where something was or is that moved since
 };
 
 }  // namespace

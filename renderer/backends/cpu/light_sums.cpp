@@ -167,8 +167,8 @@ struct LightSums::Frame {
   const PatchLights* patches;
   std::span<const uint32_t> wanted;  // by tile; empty: all
   std::span<const uint32_t> leftOutBy;
-  std::vector<Change> changes;       // of lights and their maps
-  std::vector<bool> isChanged;       // by slot
+  std::vector<Change> changes;  // of lights and their maps
+  std::vector<bool> isChanged;  // by slot
 };
 
 void LightSums::mapChanges(int slot, std::span<const float> map) {
@@ -258,8 +258,7 @@ void LightSums::findPlaces(const Frame& frame) {
 
 SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
                             SumConstants constants, const PatchLights* patches,
-                            std::span<const uint32_t> wanted,
-                            std::span<const uint32_t> leftOutBy) {
+                            std::span<const uint32_t> wanted, std::span<const uint32_t> leftOutBy) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
   Frame frame{gbuffer, lights, bySlot(lights), patches, wanted, leftOutBy, {}, {}};
   const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
@@ -319,7 +318,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   SumCounts counts;
   std::vector<Adder> kept, begun;
   const PlaceTable* table = hasPatches_ ? &table_ : nullptr;
-  const auto newAdder = [&] { 
+  const auto newAdder = [&] {
     return Adder(frame.gbuffer, table, frame.leftOutBy, constants_, sums_, counts);
   };
   const auto addPackets = [&](std::vector<Adder>& adders, int tile, uint32_t packets) {

@@ -154,9 +154,9 @@ void LowResolution::findPlanes(const GBuffer& g, int tile, std::span<const uint3
     for (int x = x0; x < std::min(x0 + kTileSize, width_); x += block_) {
       const int right = std::min(x + block_, width_ - 1),
                 bottom = std::min(y + block_, height_ - 1);
-      const bool isOne = isOnly || (isOnOneSurface(g, x, y, right, bottom) &&
-                                    (leftOutBy.empty() ||
-                                     isLitAlike(g, leftOutBy, x, y, right, bottom)));
+      const bool isOne =
+          isOnly || (isOnOneSurface(g, x, y, right, bottom) &&
+                     (leftOutBy.empty() || isLitAlike(g, leftOutBy, x, y, right, bottom)));
       planes_[cellAt(x / block_, y / block_)] = isOne ? 0 : kNoPlane;
     }
   }

@@ -123,8 +123,7 @@ uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const 
       specularRadiance(g, eye, stale[k] * kTilePixels + inTile, part.lanes,
                        std::span<const Gloss, kLanes>(&tile.gloss[inTile], kLanes), lights, uses,
                        scene.hasLinks ? scene.objects[part.patch.first].leftOutBy : 0, constants,
-                       leastRoughness,
-                       std::span<vec3, kLanes>(&tile.radiance[inTile], kLanes));
+                       leastRoughness, std::span<vec3, kLanes>(&tile.radiance[inTile], kLanes));
       here += static_cast<uint64_t>(std::popcount(part.lanes));
     }
     pixels += here;

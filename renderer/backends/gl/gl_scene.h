@@ -50,7 +50,7 @@ class GlScene {
   const RenderScene* scene_ = nullptr;
   VertexArray vertexArray_;
   Buffer positions_, normals_, tangents_, uv0_, uv1_, colors_, indices_, firstIndices_;
-  Buffer leftOut_;  // by triangle, where any light leaves something out
+  Buffer leftOut_;    // by triangle, where any light leaves something out
   Buffer materials_;  // one SurfaceMaterial every materialStride_ bytes
   GLintptr materialStride_ = 0;
   struct MaterialTextures {

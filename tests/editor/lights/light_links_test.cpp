@@ -115,10 +115,10 @@ TEST_F(LightLinks_, TheReasonForTheDarkIsTold) {
                                pixelOf(vec3(1.5f, 0, 1)));
   ASSERT_TRUE(point);
   ASSERT_EQ(point->node, floor_);
-  const Explanation e =
-      explain(session_.document().scene, session_.renderScene(), *session_.renderer().rays(), *point,
-              lightSamples(session_.inspect(), session_.renderScene(), *session_.renderer().rays(),
-                           session_.document().render.values));
+  const Explanation e = explain(
+      session_.document().scene, session_.renderScene(), *session_.renderer().rays(), *point,
+      lightSamples(session_.inspect(), session_.renderScene(), *session_.renderer().rays(),
+                   session_.document().render.values));
   bool isTold = false;
   for (const LightShare& l : e.lights) {
     if (l.light != light_) continue;

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "renderer/error.h"
-#include "renderer/scene/render_scene.h"
 #include "renderer/scene/gltf_io.h"
+#include "renderer/scene/render_scene.h"
 #include "tests/support/gltf_files.h"
 #include "tests/support/scenes.h"
 
@@ -208,9 +208,9 @@ TEST(IesProfile, BadFilesAreOneClearLine) {
       ies(1, "0 90", "0", "7 1e300", 2, 1), ies(1, "0 90", "0", "7 0", 2, 1, "-1"),
       ies(1, "0 90", "0", "7 0", -2, 1), ies(1, "0 90", "0", "7 0", 2, 0),
       // A billion values promised by a hundred bytes.
-      ies(1, "0 90", "0", "7 0", 100000, 100000), "TILT=INCLUDE\n1 99999 0 1 2", "TILT=INCLUDE\n4 1 0 1\n",
-      "TILT=INCLUDE\n1 2 90 0 1 1\n", "TILT=INCLUDE\n1 1 0 -1\n", "TILT=INCLUDE\n1 1 0 0\n",
-      std::string(100, '\0')};
+      ies(1, "0 90", "0", "7 0", 100000, 100000), "TILT=INCLUDE\n1 99999 0 1 2",
+      "TILT=INCLUDE\n4 1 0 1\n", "TILT=INCLUDE\n1 2 90 0 1 1\n", "TILT=INCLUDE\n1 1 0 -1\n",
+      "TILT=INCLUDE\n1 1 0 0\n", std::string(100, '\0')};
   for (size_t i = 0; i + 12 < good.size(); ++i) bad.push_back(good.substr(0, i));
   for (const std::string& text : bad) {
     try {

@@ -80,10 +80,11 @@ TEST(LightLinking, DirectLightIsThatOfTheOtherLights) {
     const vec3 way = vec3(1, 2, 1) - p;
     const vec3 bulb = vec3(3, 4, 5) * (way.y / std::pow(glm::length(way), 3.0f));
     const float h = 0.3f;
-    const vec3 lamp = vec3(20, 18, 16) * kPi *
-                      static_cast<float>(std::abs(test::polygonFormFactor(
-                          p, vec3(0, 1, 0),
-                          {{0.3f - h, 3, -h}, {0.3f - h, 3, h}, {0.3f + h, 3, h}, {0.3f + h, 3, -h}})));
+    const vec3 lamp =
+        vec3(20, 18, 16) * kPi *
+        static_cast<float>(std::abs(test::polygonFormFactor(
+            p, vec3(0, 1, 0),
+            {{0.3f - h, 3, -h}, {0.3f - h, 3, h}, {0.3f + h, 3, h}, {0.3f + h, 3, -h}})));
     const bool isLeft = p.x < 0.0f;
     const vec3 expected = 0.7f / kPi * (isLeft ? bulb : bulb + lamp);
     for (int c = 0; c < 3; ++c) {
@@ -128,7 +129,8 @@ TEST_P(LiveLinking, IsTheRebuiltPicture) {
   Tiles t;
   const int gloss = test::addMaterial(t.scene, vec3(0.6f));
   t.scene.materials[static_cast<size_t>(gloss)].roughness = 0.3f;
-  const NodeId ball = test::addMesh(t.scene, test::sphereMesh(0.5f, 10, 0.0f, gloss), vec3(1, 0.7f, 0));
+  const NodeId ball =
+      test::addMesh(t.scene, test::sphereMesh(0.5f, 10, 0.0f, gloss), vec3(1, 0.7f, 0));
   t.scene.sky = test::gradientSky();
   Settings settings = manyLights(GetParam().technique, GetParam().prt);
   settings.set(parameters::block().name, std::string(GetParam().block));
@@ -156,14 +158,13 @@ TEST_P(LiveLinking, IsTheRebuiltPicture) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, LiveLinking,
-    testing::Values(Way{"naive", "naive", false, "1", true},
-                    Way{"visibility", "visibility", false, "1", false},
-                    Way{"light_maps", "light_maps", false, "1", true},
-                    Way{"low_resolution", "light_maps", false, "4", false},
-                    Way{"transfer", "light_maps", true, "1", false}),
-    [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, LiveLinking,
+                         testing::Values(Way{"naive", "naive", false, "1", true},
+                                         Way{"visibility", "visibility", false, "1", false},
+                                         Way{"light_maps", "light_maps", false, "1", true},
+                                         Way{"low_resolution", "light_maps", false, "4", false},
+                                         Way{"transfer", "light_maps", true, "1", false}),
+                         [](const auto& i) { return std::string(i.param.name); });
 
 // All techniques give nearly one picture, and it is the path tracer's.
 TEST(LightLinking, MethodsAgree) {
@@ -194,8 +195,8 @@ TEST(LightLinking, MethodsAgree) {
   // It matters: without links the picture is another.
   Tiles plain;
   plain.scene.sky = t.scene.sky;
-  const Metrics other =
-      compareImages(inBlocks(test::renderReference(plain.scene, t.view, 64, 2)), inBlocks(reference));
+  const Metrics other = compareImages(inBlocks(test::renderReference(plain.scene, t.view, 64, 2)),
+                                      inBlocks(reference));
   EXPECT_GT(other.relRmse, 0.3);
 }
 
@@ -213,8 +214,8 @@ TEST(LightLinking, WhatIsLeftOutReflectsNoneOfIt) {
     EXPECT_EQ(v.id.bounce, 0u);
     EXPECT_EQ(v.vpl.footprint.y, 1.0f);
   }
-  EXPECT_EQ(test::meanOf(test::renderReference(t.scene, test::lookAt(vec3(0, 2, 3), vec3(0), 16, 8),
-                                               8, 2)),
+  EXPECT_EQ(test::meanOf(
+                test::renderReference(t.scene, test::lookAt(vec3(0, 2, 3), vec3(0), 16, 8), 8, 2)),
             vec3(0.0f));
 }
 

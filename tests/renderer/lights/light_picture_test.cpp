@@ -1,5 +1,5 @@
-// Pictures on area lights: how much light they leave, which way up they are, and files. That the live
-// picture is the path tracer's: methods/light_kinds_test.cpp.
+// Pictures on area lights: how much light they leave, which way up they are, and files. That the
+// live picture is the path tracer's: methods/light_kinds_test.cpp.
 #include "renderer/scene/light_picture.h"
 
 #include <fstream>
@@ -84,7 +84,8 @@ TEST(LightPictures, AreUprightFromTheFront) {
     lit.scene.nodes.erase(lit.scene.nodes.begin());
     const Image seen =
         test::renderReference(lit.scene, test::lookAt(vec3(0, 0, -2), vec3(0), 32, 32, 0.6f), 4, 0);
-    const vec3 aboveLeft = seen.at(12, 12), aboveRight = seen.at(19, 12), belowLeft = seen.at(12, 19);
+    const vec3 aboveLeft = seen.at(12, 12), aboveRight = seen.at(19, 12),
+               belowLeft = seen.at(12, 19);
     EXPECT_GT(aboveLeft.r, 10.0f);
     EXPECT_LT(aboveLeft.g, 0.5f);
     EXPECT_GT(aboveRight.g, 10.0f);
