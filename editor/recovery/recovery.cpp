@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <fstream>
-#include <map>
+#include <optional>
 
 #include "editor/input/recording.h"
 #include "editor/recovery/document_delta.h"
@@ -95,20 +95,34 @@ Recovered read(const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+// Nothing where there is nothing to lose, or no journal that can be read.
+std::optional<Recoverable> recoverableIn(const fs::path& folder) {
+  const std::vector<std::string> lines = linesOf(folder / "journal.jsonl");
+  if (lines.size() < 2) return std::nullopt;
+  const Json header = parsed(lines.front()), last = parsed(lines.back());
+  if (!isJournal(header)) return std::nullopt;
+  try {
+    Recoverable r{folder, header.at("scene").get<std::string>(), 0,
+                  header.at("edits").get<int>() + static_cast<int>(lines.size()) - 2};
+    if (last.is_object()) r.time = last.value("time", int64_t{0});
+    if (r.edits > 0) return r;
+  } catch (const Json::exception&) {
+    // Damaged: it must not keep the program from starting.
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::vector<Recoverable> findRecoverable(const fs::path& root) {
   std::vector<Recoverable> out;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(root, error)) {
-    const fs::path journal = entry.path() / "journal.jsonl";
-    if (!fs::exists(journal, error) || !FileLock(entry.path() / "lock")) continue;
-    const std::vector<std::string> lines = linesOf(journal);
-    if (lines.size() < 2) continue;
-    const Json header = parsed(lines.front()), last = parsed(lines.back());
-    if (!isJournal(header)) continue;
-    Recoverable r{entry.path(), header.value("scene", std::string()), 0,
-                  header.value("edits", 0) + static_cast<int>(lines.size()) - 2};
-    if (last.is_object()) r.time = last.value("time", int64_t{0});
-    if (r.edits > 0) out.push_back(std::move(r));
+    if (!fs::exists(entry.path() / "journal.jsonl", error) || !FileLock(entry.path() / "lock"))
+      continue;
+    if (auto r = recoverableIn(entry.path())) out.push_back(std::move(*r));
   }
   std::sort(out.begin(), out.end(), [](const Recoverable& a, const Recoverable& b) {
     return std::pair(b.time, b.folder) < std::pair(a.time, a.folder);
