@@ -5,6 +5,7 @@
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
 #include "editor/lights/light_list.h"
+#include "editor/lights/light_profile.h"
 #include "editor/lights/new_light.h"
 #include "editor/session.h"
 #include "renderer/error.h"
@@ -68,19 +69,10 @@ void addLightActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.ies FILE");
            const Node& n = activeNode(s.document());
-           if (!n.punctual || n.punctual->kind == PunctualKind::directional)
+           if (!takesProfile(n))
              throw InputError(n.name, "is neither a point nor a spot light", "select one");
-           PunctualLight light = *n.punctual;
-           light.profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
-           // As much light as before, in other directions.
-           Node with = n;
-           with.punctual = light;
-           const auto lumens = [&](const Node& node) {
-             return unitsPerRadiance(measureOf(s.document().scene, node, mat4(1.0f)),
-                                     LightUnit::lumens);
-           };
-           light.intensity *= static_cast<float>(lumens(n) / lumens(with));
-           s.setPunctualLight(n.id, light);
+           auto profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
+           s.setPunctualLight(n.id, withProfile(s.document().scene, n, std::move(profile)));
          },
          {}});
   r.add({"light.radiance",

@@ -18,6 +18,10 @@ void addRenderActions(ActionRegistry& registry);
 void addSeeingActions(ActionRegistry& registry);
 void addCostActions(ActionRegistry& registry);
 void addSplitActions(ActionRegistry& registry);
+void addPreferenceActions(ActionRegistry& registry);
+void addCameraActions(ActionRegistry& registry);
+void addDropActions(ActionRegistry& registry);
+void addAssetActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -33,6 +37,10 @@ inline void addAllActions(ActionRegistry& registry) {
   addSeeingActions(registry);
   addCostActions(registry);
   addSplitActions(registry);
+  addPreferenceActions(registry);
+  addCameraActions(registry);
+  addDropActions(registry);
+  addAssetActions(registry);
 }
 
 }  // namespace lamplighter

@@ -123,6 +123,7 @@ void save(const Scene& scene, const std::filesystem::path& path) {
   const std::vector<size_t> jsonNodes = saveNodes(out);
   saveLights(out, jsonNodes);
   saveSky(out);
+  saveBookmarks(out);
   saveSphereMeshes(out, jsonNodes);
   writeFilesAtomically(out.finish());
 }

@@ -19,9 +19,9 @@ void Layout::divide(vec2 window, float menuHeight, float scale, bool showsBottom
   // The view keeps some room whatever the window's size.
   const float most = std::max(window.x / scale - kLeastView, 2 * kLeastPanel);
   // Names can be cut and scrolled, fields cannot: the left column gives way first.
-  leftWidth_ = std::clamp(leftWidth_, kLeastPanel, std::max(most - rightWidth_, kLeastPanel));
-  rightWidth_ = std::clamp(rightWidth_, kLeastPanel, most - leftWidth_);
-  renderShare_ = std::clamp(renderShare_, 0.15f, 0.85f);
+  sizes_.left = std::clamp(sizes_.left, kLeastPanel, std::max(most - sizes_.right, kLeastPanel));
+  sizes_.right = std::clamp(sizes_.right, kLeastPanel, most - sizes_.left);
+  sizes_.renderShare = std::clamp(sizes_.renderShare, 0.15f, 0.85f);
 
   const float top = menuHeight + px(kToolbarHeight);
   const float lowest = window.y - px(kStatusHeight);
@@ -29,18 +29,18 @@ void Layout::divide(vec2 window, float menuHeight, float scale, bool showsBottom
   toolbar = {{0, menuHeight}, {window.x, top}};
   status = {{0, lowest}, window};
   float viewBottom = lowest;
-  left = {{0, top}, {px(leftWidth_), viewBottom}};
-  const float rightEdge = window.x - px(rightWidth_);
+  left = {{0, top}, {px(sizes_.left), viewBottom}};
+  const float rightEdge = window.x - px(sizes_.right);
   bottom = {};
   if (showsBottom) {
-    bottomHeight_ = std::clamp(bottomHeight_, kLeastBottom,
+    sizes_.bottom = std::clamp(sizes_.bottom, kLeastBottom,
                                std::max((viewBottom - top) / scale - kLeastView, kLeastBottom));
-    bottom = {{0, viewBottom - px(bottomHeight_)}, {rightEdge - border, viewBottom}};
+    bottom = {{0, viewBottom - px(sizes_.bottom)}, {rightEdge - border, viewBottom}};
     viewBottom = bottom.min.y - border;
     left.max.y = viewBottom;
   }
   view = {{left.max.x + border, top}, {rightEdge - border, viewBottom}};
-  const float middle = std::round(lowest - renderShare_ * (lowest - top));
+  const float middle = std::round(lowest - sizes_.renderShare * (lowest - top));
   inspector = {{rightEdge, top}, {window.x, middle - border / 2}};
   render = {{rightEdge, middle + border / 2}, {window.x, lowest}};
 }
@@ -49,15 +49,15 @@ void Layout::splitters(PanelContext ui) {
   ui.prefix = "splitter/";
   const float height = render.max.y - inspector.min.y;
   splitter(ui, "left", {{left.max.x, left.min.y}, {view.min.x, left.max.y}}, true, 1.0f / scale_,
-           leftWidth_);
+           sizes_.left);
   splitter(ui, "right", {{view.max.x, view.min.y}, {render.min.x, view.max.y}}, true,
-           -1.0f / scale_, rightWidth_);
+           -1.0f / scale_, sizes_.right);
   if (!bottom.empty()) {
     splitter(ui, "bottom", {{0, view.max.y}, {bottom.max.x, bottom.min.y}}, false, -1.0f / scale_,
-             bottomHeight_);
+             sizes_.bottom);
   }
   splitter(ui, "render", {{render.min.x, inspector.max.y}, {render.max.x, render.min.y}}, false,
-           -1.0f / std::max(height, 1.0f), renderShare_);
+           -1.0f / std::max(height, 1.0f), sizes_.renderShare);
 }
 
 void Layout::splitter(const PanelContext& ui, const char* name, const Rect& handle, bool vertical,
@@ -69,7 +69,8 @@ void Layout::splitter(const PanelContext& ui, const char* name, const Rect& hand
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::colour(theme::kBackground));
   ImGui::Begin((std::string("##splitter ") + name).c_str(), nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoNavFocus);
   ImGui::InvisibleButton(name, {handle.size().x, handle.size().y});
   ui.name(name);
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
