@@ -55,7 +55,10 @@ void Application::openNow(const std::filesystem::path& path) {
   session_->open(std::move(loaded.scene), path, loaded.warnings);
 }
 
-void Application::showError(const std::string& text) { messageBox_.show("Error", text); }
+void Application::showError(const std::string& text) {
+  session_->home().notices.add(NoticeKind::error, text);  // for the log
+  messageBox_.show("Error", text);
+}
 
 void Application::frame() {
   widgets_.flip();

@@ -28,9 +28,10 @@ class Layout {
 
  private:
   void splitter(const PanelContext& ui, const char* name, const Rect& handle, bool vertical,
-                float direction, float& value);
+                float direction, float LayoutSizes::*size);
 
-  LayoutSizes sizes_;
+  // As asked for, and as the window has room: one that was small for a while forgets nothing.
+  LayoutSizes sizes_, shown_;
   float scale_ = 1.0f;
 };
 

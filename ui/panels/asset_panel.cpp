@@ -20,9 +20,19 @@ std::string actionOf(const AssetFile& file) {
   return "place.start asset.place " + quoted(file.path.string());
 }
 
-// As much of the end of a name as there is room for.
+// The name without its folder, as much of it as there is room for.
 void caption(const std::string& name, const ImVec2& low, float width) {
-  const std::string text = endOf(name, width);
+  const auto widthOf = [](const std::string& t) { return ImGui::CalcTextSize(t.c_str()).x; };
+  std::string text = name.substr(name.rfind('/') + 1), whole = text;
+  while (widthOf(text) > width && !whole.empty()) {
+    // Whole characters: all but the first byte of one are 10xxxxxx in UTF-8.
+    unsigned char last = 0;
+    do {
+      last = static_cast<unsigned char>(whole.back());
+      whole.pop_back();
+    } while (!whole.empty() && (last & 0xc0) == 0x80);
+    text = whole + "\u2026";
+  }
   const float indent = std::max(0.0f, 0.5f * (width - ImGui::CalcTextSize(text.c_str()).x));
   ImGui::GetWindowDrawList()->AddText({std::round(low.x + indent), low.y},
                                       theme::colour(theme::kText), text.c_str());
