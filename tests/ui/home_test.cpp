@@ -147,6 +147,45 @@ TEST_F(Home, KeysLeadThroughPanelsAndMenus) {
   EXPECT_FALSE(has("menu/file.save"));
 }
 
+TEST_F(Home, AnObjectIsSelectedByKeysInTheOutliner) {
+  session().select({});
+  tap(Key::f6);
+  tap(Key::f6);  // past the toolbar
+  for (int i = 0; i < 3; ++i) tap(Key::down);
+  tap(Key::enter);
+  EXPECT_EQ(session().document().selection.size(), 1u);
+}
+
+TEST_F(Home, EnterRunsWhatIsMarkedInAMenu) {
+  tap(Key::f10);
+  for (int i = 0; i < 2; ++i) tap(Key::right);  // the menu Light
+  tap(Key::down);
+  for (int i = 0; i < 2; ++i) tap(Key::down);  // the light table
+  tap(Key::enter);
+  EXPECT_TRUE(session().lighting().showsTable);
+}
+
+TEST_F(Home, SettingsAreKeptWhereThereIsAUser) {
+  std::ofstream(folder_ / "keys.json") << R"({"tool.move": "P", "no.such": "Q"})";
+  auto files = std::make_unique<UserFiles>(folder_);
+  Preferences read = files->readPreferences();
+  read.setText("thumbnail_size", "60");
+  app_.setUser(std::move(files), std::move(read));
+  EXPECT_EQ(session().actions().textForKey(Key::p, {}), "tool.move");
+  ASSERT_FALSE(session().home().notices.all().empty());
+  EXPECT_EQ(session().home().notices.all().back().kind, NoticeKind::warning);
+  EXPECT_NE(session().home().notices.all().back().text.find("no.such"), std::string::npos);
+  session().runAction("lights.unit cd");
+  session().home().preferences.addRecent("/levels/attic.gltf");
+  frames(60);
+  UserFiles again(folder_);
+  const Preferences kept = again.readPreferences();
+  EXPECT_EQ(kept.choice("light_unit"), "cd");
+  EXPECT_EQ(kept.integer("thumbnail_size"), 60);
+  ASSERT_EQ(kept.recentFiles.size(), 1u);
+  EXPECT_EQ(kept.recentFiles[0], "/levels/attic.gltf");
+}
+
 TEST_F(Home, ShortcutsWithArgumentsRun) {
   tap(Key::n4, {Key::ctrl});
   ASSERT_EQ(session().document().scene.bookmarks.size(), 1u);

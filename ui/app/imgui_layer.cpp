@@ -4,6 +4,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "renderer/error.h"
 #include "ui/theme.h"
@@ -51,6 +52,14 @@ void mapKeys(ImGuiIO& io) {
   map(ImGuiKey_X, Key::x);
   map(ImGuiKey_Y, Key::y);
   map(ImGuiKey_Z, Key::z);
+}
+
+// In menus and dialogs Enter presses what is marked, as Space does; elsewhere it types into a
+// field.
+bool enterPresses() {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (g.NavWindow == nullptr || !g.IO.NavVisible || g.IO.WantTextInput) return false;
+  return (g.NavWindow->Flags & ImGuiWindowFlags_Popup) != 0 || g.NavLayer == ImGuiNavLayer_Menu;
 }
 
 }  // namespace
@@ -113,6 +122,10 @@ void ImGuiLayer::beginFrame(const PointerKeys& input, float seconds, float scale
   io.MouseWheel = input.wheel.y;
   io.MouseWheelH = input.wheel.x;
   for (size_t i = 0; i < input.keys.size(); ++i) io.KeysDown[i] = input.keys[i];
+  if (input.held(Key::enter) && enterPresses()) {
+    io.KeysDown[static_cast<size_t>(Key::enter)] = false;
+    io.KeysDown[static_cast<size_t>(Key::space)] = true;
+  }
   // With Ctrl or Alt these keys are shortcuts, and no way through a panel; within a text they are
   // its own. Panels change by F6.
   if ((input.held(Key::ctrl) || input.held(Key::alt)) && !io.WantTextInput) {

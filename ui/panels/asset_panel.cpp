@@ -117,7 +117,7 @@ void assetPanel(PanelContext ui, AssetPanelState& state, Thumbnails* thumbnails,
     requests.actions.push_back("asset.folder " + quoted(folder.string()));
   state.listed = true;  // once; a folder that is gone is told once
   bar(ui, state, requests);
-  ImGui::BeginChild("grid");
+  ImGui::BeginChild("grid", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
   const std::vector<AssetFile> files = matchingAssets(home.assetFiles, state.search);
   if (folder.empty())
     note("Choose a folder of glTF files; each is placed by a click on it and one into the view.");

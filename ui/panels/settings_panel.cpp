@@ -128,7 +128,8 @@ void settingsDialog(PanelContext ui, SettingsState& state, Requests& requests) {
       {std::min(ui.px(560), 0.96f * window.x), std::min(ui.px(620), 0.92f * window.y)});
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
   if (!beginBorderedModal(kTitle, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
-  ImGui::BeginChild("values", {0, -ImGui::GetFrameHeightWithSpacing() - ui.px(4)});
+  ImGui::BeginChild("values", {0, -ImGui::GetFrameHeightWithSpacing() - ui.px(4)}, false,
+                    ImGuiWindowFlags_NavFlattened);
   values(ui, requests);
   keyTable(ui, state);
   ImGui::EndChild();
