@@ -54,6 +54,8 @@ void Application::exchangePreferences() {
     keep("render_share", sizes.renderShare);
   }
   takePreferences(*session_);
+  // Shown or not: a program that waits for them is not idle.
+  if (platform_.hasGl()) thumbnails_.update();
   appliedPreferences_ = p.values;
   if (!userFiles_) return;
   const glm::ivec2 size = platform_.windowSize();
@@ -76,7 +78,6 @@ void Application::drawBottom(const PanelContext& ui) {
     case BottomPanel::assets:
       break;
   }
-  if (platform_.hasGl()) thumbnails_.update();
   assetPanel(ui, assetState_, platform_.hasGl() ? &thumbnails_ : nullptr, requests_);
 }
 

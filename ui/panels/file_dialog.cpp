@@ -30,6 +30,8 @@ const char* titleOf(FileDialog::Kind kind) {
       return "Open a picture of the sky###file";
     case FileDialog::Kind::profile:
       return "Open a profile of a light###file";
+    case FileDialog::Kind::lightPicture:
+      return "Open a picture of a light###file";
     case FileDialog::Kind::timeline:
       return "Export the timeline###file";
     case FileDialog::Kind::folder:
@@ -48,6 +50,7 @@ FileKind FileDialog::fileKind() const {
     case Kind::save:
       return FileKind::scene;
     case Kind::picture:
+    case Kind::lightPicture:
       return FileKind::picture;
     case Kind::profile:
       return FileKind::profile;

@@ -15,7 +15,7 @@ namespace lamplighter {
 
 class FileDialog {
  public:
-  enum class Kind { open, save, picture, profile, timeline, folder };
+  enum class Kind { open, save, picture, profile, lightPicture, timeline, folder };
   void open(Kind kind, const std::filesystem::path& start);
   // The chosen file or folder, once.
   std::optional<std::filesystem::path> draw(PanelContext ui);
