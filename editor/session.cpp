@@ -2,6 +2,7 @@
 
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
+#include "editor/home_state.h"
 #include "editor/session_tools.h"
 #include "renderer/error.h"
 #include "renderer/methods/common_parameters.h"
@@ -9,7 +10,9 @@
 namespace lamplighter {
 
 Session::Session(std::unique_ptr<FrameRenderer> renderer)
-    : renderer_(std::move(renderer)), tools_(std::make_unique<Tools>()) {
+    : home_(std::make_unique<HomeState>()),
+      renderer_(std::move(renderer)),
+      tools_(std::make_unique<Tools>()) {
   addAllActions(actions_);
   savedHash_ = sceneHash(document_.scene);
 }
@@ -43,9 +46,24 @@ void Session::open(Scene scene, std::filesystem::path path,
   const RayCaster rays(world);
   const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()}, Surfaces::seen);
   tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
-  status_ = warnings.empty() ? "Opened " + document_.path.filename().string() : warnings.front();
+  setStatus("Opened " + document_.path.filename().string());
+  for (const std::string& warning : warnings) setStatus(warning, NoticeKind::warning);
+  if (!warnings.empty()) status_ = warnings.front();
   if (warnings.size() > 1)
     status_ += " (and " + std::to_string(warnings.size() - 1) + " more warnings)";
+  if (!document_.path.empty()) home_->preferences.addRecent(document_.path);
+}
+
+void Session::setStatus(std::string text, NoticeKind kind) {
+  home_->notices.add(kind, text);
+  status_ = std::move(text);
+}
+
+std::filesystem::path Session::writablePath(const std::filesystem::path& wanted) const {
+  if (home_->writeFolder.empty()) return wanted;
+  std::error_code ignored;
+  std::filesystem::create_directories(home_->writeFolder, ignored);
+  return home_->writeFolder / wanted.filename();
 }
 
 bool Session::runAction(std::string_view text) {
@@ -53,7 +71,7 @@ bool Session::runAction(std::string_view text) {
     actions_.run(*this, text);
     return true;
   } catch (const InputError& e) {
-    status_ = e.what();
+    setStatus(e.what(), NoticeKind::error);
     return false;
   }
 }
@@ -131,14 +149,18 @@ void Session::select(std::vector<NodeId> ids) {
 
 void Session::undo() {
   if (dragging()) return cancelDrag();  // what is under way is the last change
+  const std::string label = history_.undoLabel();
   history_.undo();
   pruneSelection();
+  if (!label.empty()) setStatus("Undid: " + label);
 }
 
 void Session::redo() {
   finishDrag();
+  const std::string label = history_.redoLabel();
   history_.redo();
   pruneSelection();
+  if (!label.empty()) setStatus("Did again: " + label);
 }
 
 void Session::goToStep(size_t position) {
@@ -174,7 +196,8 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
     watchFrame(changes, begin);
   } catch (const InputError& e) {
     history_.showAll();  // part of it may have arrived: the next frame begins anew
-    renderError_ = status_ = e.what();
+    renderError_ = e.what();
+    setStatus(renderError_, NoticeKind::error);
     if (!output_.radiance)
       output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
     output_.settled = output_.refined = true;  // trying the same again changes nothing

@@ -19,6 +19,7 @@
 #include "editor/frame_watch.h"
 #include "editor/lights/lighting_state.h"
 #include "editor/lights/work_light.h"
+#include "editor/notices/notices.h"
 #include "editor/recovery/keeper.h"
 #include "editor/split/split_view.h"
 #include "editor/tools/gizmo.h"
@@ -30,6 +31,8 @@
 #include "renderer/view.h"
 
 namespace lamplighter {
+
+struct HomeState;
 
 class Session {
  public:
@@ -92,7 +95,8 @@ class Session {
   void cancelDrag();
   // The right mouse button flies: letters steer then and are no shortcuts.
   bool flying() const;
-  void frameSelection();  // everything when nothing is selected
+  float cameraSpeed() const;  // of flight [m/s]
+  void frameSelection();      // everything when nothing is selected
   void frameAll();
   void viewport(const ViewportInput& input);  // camera, pick, gizmo
 
@@ -135,7 +139,11 @@ class Session {
   Overlay overlay() const;
 
   const std::string& status() const { return status_; }
-  void setStatus(std::string text) { status_ = std::move(text); }
+  void setStatus(std::string text, NoticeKind kind = NoticeKind::info);
+  // Settings, keys, notices: what is the user's and not the level's.
+  HomeState& home() { return *home_; }
+  const HomeState& home() const { return *home_; }
+  void setKeys(KeyMap keys) { actions_.setKeys(std::move(keys)); }
   // What edit.copy has put by; opening another level leaves it.
   const Clipping& clipboard() const { return clipboard_; }
   void setClipboard(Clipping clipping) {
@@ -168,6 +176,10 @@ class Session {
     return std::exchange(screenshotRequest_, std::nullopt);
   }
 
+  // Where an action may write a file: there, or where input is replayed in a folder of the
+  // replay's.
+  std::filesystem::path writablePath(const std::filesystem::path& wanted) const;
+
   void requestShaders() { shadersRequested_ = true; }
   bool takeShadersRequest() { return std::exchange(shadersRequested_, false); }
 
@@ -182,6 +194,7 @@ class Session {
   Document document_;
   History history_{document_};
   ActionRegistry actions_;
+  std::unique_ptr<HomeState> home_;
   std::unique_ptr<FrameRenderer> renderer_;
   std::unique_ptr<Tools> tools_;
   View view_;
@@ -206,6 +219,8 @@ class Session {
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 
   void pruneSelection();
+  void takeWritten(const std::filesystem::path& path,
+                   const std::vector<std::filesystem::path>& written, bool keepsOthers);
   std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;
   void watchFrame(const SceneChanges& changes, double begin);
   std::optional<Place> surfaceAlong(const vec3& direction,

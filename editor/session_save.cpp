@@ -34,16 +34,33 @@ std::vector<fs::path> Session::changedOnDisk(const fs::path& path) const {
   return changed;
 }
 
-void Session::save(const fs::path& path, bool forced) {
+void Session::save(const fs::path& wanted, bool forced) {
   finishDrag();
   history_.commit();
-  const std::vector<fs::path> changed = changedOnDisk(path);
+  const fs::path path = writablePath(wanted);
+  // A replay writes into a folder of its own; the level stays what it was opened from.
+  const bool isElsewhere = path != wanted;
+  const std::vector<fs::path> changed =
+      isElsewhere ? std::vector<fs::path>() : changedOnDisk(path);
   if (!changed.empty() && !forced)
     throw InputError(changed.front().string(),
                      "another program has changed or removed it since it was opened",
                      "save under another name (file.save_as), or over it (file.save force)");
   std::string problem = keeper_.saving();
   const std::vector<fs::path> written = saveGltf(document_.scene, path, changed.empty());
+  if (!isElsewhere) {
+    takeWritten(path, written, changed.empty());
+    document_.path = path;
+  }
+  savedHash_ = sceneHash(document_.scene);
+  if (std::string after = keeper_.saved(document_); problem.empty()) problem = std::move(after);
+  home_->preferences.addRecent(path);
+  setStatus(problem.empty() ? "Saved " + wanted.lexically_normal().string() : "Saved. " + problem);
+}
+
+// What the level consists of on disk from now on.
+void Session::takeWritten(const fs::path& path, const std::vector<fs::path>& written,
+                          bool keepsOthers) {
   std::vector<FileStamp> now{stampOf(path)};
   const auto add = [&](const fs::path& file) {
     const bool isKnown = std::any_of(now.begin(), now.end(),
@@ -52,12 +69,8 @@ void Session::save(const fs::path& path, bool forced) {
   };
   for (const fs::path& file : written) add(file);
   // What was beside it stays in use, unless all was written anew.
-  for (size_t i = 1; i < disk_.size() && changed.empty(); ++i) add(disk_[i].path);
+  for (size_t i = 1; i < disk_.size() && keepsOthers; ++i) add(disk_[i].path);
   disk_ = std::move(now);
-  document_.path = path;
-  savedHash_ = sceneHash(document_.scene);
-  if (std::string after = keeper_.saved(document_); problem.empty()) problem = std::move(after);
-  status_ = problem.empty() ? "Saved " + path.string() : "Saved. " + problem;
 }
 
 bool Session::modified() const { return sceneHash(document_.scene) != savedHash_; }

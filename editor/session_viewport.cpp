@@ -40,6 +40,7 @@ SnapTo Session::snapTo() const { return tools_->gizmo.snapTo; }
 void Session::setSnapTo(SnapTo target) { tools_->gizmo.snapTo = target; }
 bool Session::snapping() const { return tools_->gizmo.snap; }
 void Session::setSnapping(bool on) { tools_->gizmo.snap = on; }
+float Session::cameraSpeed() const { return tools_->camera.speed(); }
 bool Session::flying() const { return tools_->camera.flying(); }
 
 void Session::frameSelection() {

@@ -20,12 +20,12 @@ void Session::watchFrame(const SceneChanges& changes, double begin) {
     watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_);
   else
     watch_.meter.pause();
-  if (watch_.meter.measured()) status_ = watch_.meter.text();
+  if (watch_.meter.measured()) setStatus(watch_.meter.text());
   try {
     split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
   } catch (const InputError& e) {
     split_.turnOff();  // the first side was rendered and stays
-    status_ = std::string("Split view: ") + e.what();
+    setStatus(std::string("Split view: ") + e.what(), NoticeKind::error);
   }
   output_.settled = output_.settled && split_.settled();
 }

@@ -1,9 +1,9 @@
 #include "editor/actions/action.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
+#include "editor/home_state.h"
 #include "editor/session.h"
 #include "renderer/error.h"
 
@@ -35,26 +35,18 @@ std::vector<std::string> split(std::string_view text) {
   return words;
 }
 
-// "Ctrl+Shift+Z" → the key and what is held with it.
-std::pair<Key, Modifiers> parseShortcut(const std::string& text) {
-  Modifiers m;
-  size_t from = 0;
-  for (size_t plus = text.find('+'); plus != std::string::npos; plus = text.find('+', from)) {
-    const std::string part = text.substr(from, plus - from);
-    (part == "Ctrl" ? m.ctrl : part == "Shift" ? m.shift : m.alt) = true;
-    from = plus + 1;
-  }
-  std::string key = text.substr(from);
-  std::transform(key.begin(), key.end(), key.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return {keyOf(key), m};
-}
-
 }  // namespace
 
 void ActionRegistry::add(Action action) {
   const std::string name = action.name;
+  addKey(name, action.shortcut);
   actions_.emplace(name, std::move(action));
+}
+
+void ActionRegistry::addKey(const std::string& text, const std::string& shortcut) {
+  if (shortcut.empty()) return;
+  defaultKeys_[text] = parseChords(shortcut).value();
+  keys_[text] = defaultKeys_[text];
 }
 
 const Action* ActionRegistry::find(const std::string& name) const {
@@ -74,21 +66,30 @@ void ActionRegistry::run(Session& session, std::string_view text) const {
   if (!action->duringDrag) session.finishDrag();
   if (action->enabled && !action->enabled(session)) return;
   action->run(session, words);
+  session.home().ran.insert(action->name);
+}
+
+void ActionRegistry::setKeys(KeyMap keys) {
+  keys_ = std::move(keys);
+  for (auto& [name, action] : actions_) action.shortcut = keysOf(name);
+}
+
+std::string ActionRegistry::keysOf(const std::string& text) const {
+  const auto it = keys_.find(text);
+  return it == keys_.end() ? "" : chordsText(it->second);
+}
+
+std::string ActionRegistry::textForKey(Key key, Modifiers modifiers) const {
+  const Chord pressed{key, modifiers};
+  for (const auto& [text, chords] : keys_) {
+    if (std::find(chords.begin(), chords.end(), pressed) != chords.end()) return text;
+  }
+  return "";
 }
 
 const Action* ActionRegistry::forKey(Key key, Modifiers modifiers) const {
-  if (key == Key::none) return nullptr;
-  for (const auto& [name, action] : actions_) {
-    // Several ways to press it: "Ctrl+Y, Ctrl+Shift+Z".
-    for (size_t from = 0; from < action.shortcut.size();) {
-      size_t end = action.shortcut.find(", ", from);
-      if (end == std::string::npos) end = action.shortcut.size();
-      const auto [k, m] = parseShortcut(action.shortcut.substr(from, end - from));
-      if (k == key && m == modifiers) return &action;
-      from = end + 2;
-    }
-  }
-  return nullptr;
+  const std::string text = textForKey(key, modifiers);
+  return text.empty() ? nullptr : find(text.substr(0, text.find(' ')));
 }
 
 }  // namespace lamplighter

@@ -15,6 +15,15 @@ void requireArguments(const Arguments& arguments, size_t least, size_t most,
                    "give them as shown");
 }
 
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
 float numberOf(const std::string& text) {
   float v = 0.0f;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);

@@ -14,6 +14,8 @@ using Arguments = std::vector<std::string>;
 // Throws InputError unless there are `least` to `most` arguments.
 void requireArguments(const Arguments& arguments, size_t least, size_t most,
                       const std::string& usage);
+// A text as one argument, whatever is in it.
+std::string quoted(const std::string& text);
 float numberOf(const std::string& text);
 // Three numbers from `from` on.
 vec3 vectorOf(const Arguments& arguments, size_t from);

@@ -69,8 +69,9 @@ void addCostActions(ActionRegistry& r) {
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "timeline.export FILE");
-           exportTimeline(s.watch().timeline, a[0]);
-           s.setStatus("Wrote " + a[0]);
+           const std::string file = s.writablePath(a[0]).string();
+           exportTimeline(s.watch().timeline, file);
+           s.setStatus("Wrote " + file);
          },
          {},
          true,

@@ -48,7 +48,7 @@ void addFileActions(ActionRegistry& r) {
          "F12",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 0, 1, "app.screenshot [FILE]");
-           s.requestScreenshot(a.empty() ? "screenshot.png" : a[0]);
+           s.requestScreenshot(s.writablePath(a.empty() ? "screenshot.png" : a[0]));
          },
          {}});
   r.add({"app.palette",

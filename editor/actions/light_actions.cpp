@@ -5,6 +5,7 @@
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
 #include "editor/lights/light_list.h"
+#include "editor/lights/light_profile.h"
 #include "editor/lights/new_light.h"
 #include "editor/session.h"
 #include "renderer/error.h"
@@ -69,21 +70,11 @@ void addLightActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.ies FILE");
            const Node& n = activeNode(s.document());
-           if (!n.punctual || n.punctual->kind == PunctualKind::directional)
+           if (!takesProfile(n))
              throw InputError(n.name, "is neither a point nor a spot light", "select one");
-           PunctualLight light = *n.punctual;
-           light.profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
-           // As much light as before, in other directions.
-           Node with = n;
-           with.punctual = light;
-           const auto lumens = [&](const Node& node) {
-             const mat4 world = worldMatrix(s.document().scene, node.id);
-             return unitsPerRadiance(measureOf(s.document().scene, node, world), LightUnit::lumens);
-           };
-           // A lamp that gives none at this tilt keeps its intensity.
-           if (lumens(n) > 0.0 && lumens(with) > 0.0)
-             light.intensity *= static_cast<float>(lumens(n) / lumens(with));
-           s.setPunctualLight(n.id, light);
+           const auto profile =
+               a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
+           s.setPunctualLight(n.id, withProfile(s.document().scene, n, profile));
          },
          {}});
   r.add({"light.picture",

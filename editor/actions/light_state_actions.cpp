@@ -1,6 +1,7 @@
 // Which lights shine: on, solo, groups; the light table, and the work light.
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
+#include "editor/home_state.h"
 #include "editor/lights/light_edits.h"
 #include "editor/session.h"
 #include "renderer/error.h"
@@ -127,7 +128,10 @@ void addLightStateActions(ActionRegistry& r) {
          "",
          "A table of all lights, below the view.",
          "L",
-         [](Session& s, const Arguments&) { s.lighting().showsTable = !s.lighting().showsTable; },
+         [](Session& s, const Arguments&) {
+           s.lighting().showsTable = !s.lighting().showsTable;
+           s.home().bottom = BottomPanel::none;
+         },
          {},
          true,
          [](const Session& s) { return s.lighting().showsTable; }});

@@ -99,9 +99,10 @@ void addPlaceActions(ActionRegistry& r) {
          if (s.actions().find(a[0]) == nullptr)
            throw InputError(a[0], "there is no such action", "give one such as light.add disk");
          std::string text;
-         for (const std::string& word : a)
-           text +=
-               (text.empty() ? "" : " ") + (word.find(' ') == word.npos ? word : '"' + word + '"');
+         for (const std::string& word : a) {
+           const bool isPlain = word.find_first_of(" \"\\") == word.npos;
+           text += (text.empty() ? "" : " ") + (isPlain ? word : quoted(word));
+         }
          s.startPlacing(text);
          s.setStatus("Click where it is to be; Esc leaves it");
        },

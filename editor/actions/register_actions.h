@@ -22,6 +22,10 @@ void addCostActions(ActionRegistry& registry);
 void addSplitActions(ActionRegistry& registry);
 void addRecoveryActions(ActionRegistry& registry);
 void addHistoryActions(ActionRegistry& registry);
+void addPreferenceActions(ActionRegistry& registry);
+void addCameraActions(ActionRegistry& registry);
+void addDropActions(ActionRegistry& registry);
+void addAssetActions(ActionRegistry& registry);
 
 inline void addAllActions(ActionRegistry& registry) {
   addFileActions(registry);
@@ -41,6 +45,10 @@ inline void addAllActions(ActionRegistry& registry) {
   addSplitActions(registry);
   addRecoveryActions(registry);
   addHistoryActions(registry);
+  addPreferenceActions(registry);
+  addCameraActions(registry);
+  addDropActions(registry);
+  addAssetActions(registry);
 }
 
 }  // namespace lamplighter

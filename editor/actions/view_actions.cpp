@@ -155,18 +155,6 @@ void addViewActions(ActionRegistry& r) {
          {},
          true,
          [](const Session& s) { return s.display().showsHistogram(); }});
-  r.add({"view.camera",
-         "Look through camera",
-         "NAME",
-         "Looks through one of the level's cameras.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "view.camera NAME");
-           const Node& n = nodeNamed(s.document(), a[0]);
-           if (n.camera == kNone) throw InputError(a[0], "is no camera", "give the name of one");
-           s.setView(viewOfCamera(s.document().scene, n, s.view().width, s.view().height));
-         },
-         {}});
 }
 
 }  // namespace lamplighter

@@ -19,6 +19,17 @@ std::string cellOf(const std::string& text) {
   return out;
 }
 
+// Of the action itself and with arguments: "Alt+Left, Alt+Right", or from the first to the last of
+// many.
+std::string keysOf(const ActionRegistry& registry, const Action& action) {
+  std::vector<std::string> keys;
+  if (!action.shortcut.empty()) keys.push_back(action.shortcut);
+  for (const auto& [text, chords] : registry.defaultKeys())
+    if (text.starts_with(action.name + " ")) keys.push_back(chordsText(chords));
+  if (keys.size() > 6) return keys.front() + " \u2026 " + keys.back();
+  return fmt::format("{}", fmt::join(keys, ", "));
+}
+
 void printJson(const ActionRegistry& registry) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const auto& [name, a] : registry.all())
@@ -26,7 +37,7 @@ void printJson(const ActionRegistry& registry) {
                    {"label", a.label},
                    {"arguments", a.usage},
                    {"help", a.help},
-                   {"shortcut", a.shortcut}});
+                   {"shortcut", keysOf(registry, a)}});
   std::cout << all.dump(2) << '\n';
 }
 
@@ -40,14 +51,16 @@ void printMarkdown(const ActionRegistry& registry) {
       std::cout << fmt::format("\n## {}\n\n| action | key | |\n| --- | --- | --- |\n", group);
     }
     const std::string usage = a.usage.empty() ? name : name + " " + a.usage;
-    std::cout << fmt::format("| `{}` | {} | {} |\n", cellOf(usage), a.shortcut, cellOf(a.help));
+    std::cout << fmt::format("| `{}` | {} | {} |\n", cellOf(usage), keysOf(registry, a),
+                             cellOf(a.help));
   }
 }
 
 void printText(const ActionRegistry& registry) {
   for (const auto& [name, a] : registry.all())
     std::cout << fmt::format("{}{}{}{}\n    {}\n", name, a.usage.empty() ? "" : " ", a.usage,
-                             a.shortcut.empty() ? "" : "  (" + a.shortcut + ")", a.help);
+                             keysOf(registry, a).empty() ? "" : "  (" + keysOf(registry, a) + ")",
+                             a.help);
 }
 
 }  // namespace

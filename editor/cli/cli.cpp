@@ -123,6 +123,15 @@ void addActions(CLI::App& app, Run& run) {
   sub->callback([=, &run] { run = [=] { return cli::actions(*o); }; });
 }
 
+void addSettings(CLI::App& app, Run& run) {
+  auto* sub = app.add_subcommand("settings", "Every setting of the editor, its range and default");
+  auto o = std::make_shared<cli::SettingsOptions>();
+  sub->add_flag("--json", o->json, "As JSON");
+  sub->add_flag("--markdown", o->markdown, "As the tables of docs/settings.md");
+  sub->footer("Example: lamplighter settings --json");
+  sub->callback([=, &run] { run = [=] { return cli::settings(*o); }; });
+}
+
 void addCompare(CLI::App& app, Run& run) {
   auto* sub = app.add_subcommand("compare", "How far picture A is from the reference B");
   auto o = std::make_shared<cli::CompareOptions>();
@@ -273,6 +282,7 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
   addRender(app, run, frontend);
   addMethods(app, run);
   addActions(app, run);
+  addSettings(app, run);
   addCompare(app, run);
   addTonemap(app, run);
   addReplay(app, run, frontend);

@@ -42,6 +42,11 @@ struct ActionsOptions {
 };
 int actions(const ActionsOptions& options);
 
+struct SettingsOptions {
+  bool json = false, markdown = false;
+};
+int settings(const SettingsOptions& options);
+
 struct CompareOptions {
   std::string a, b, mask, heatmap;
   double maxRelRmse = -1.0;  // < 0: not checked

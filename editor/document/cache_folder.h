@@ -1,12 +1,17 @@
-// Where the program keeps what it can compute again.
+// Where the program keeps what is its user's, by the XDG Base Directory Specification. These make
+// nothing.
 #pragma once
 
 #include <filesystem>
 
 namespace lamplighter {
 
-// Precomputed transfer: $XDG_CACHE_HOME/lamplighter/transfer, or ~/.cache for the first part (XDG
-// Base Directory Specification). Empty where there is neither. Makes nothing.
+// Settings and keys: $XDG_CONFIG_HOME/lamplighter, or ~/.config for the first part. Empty where
+// there is neither.
+std::filesystem::path configFolder();
+// What can be computed again, in $XDG_CACHE_HOME/lamplighter, or ~/.cache for the first part:
+// precomputed transfer, and thumbnails of the asset browser. Empty where there is neither.
 std::filesystem::path transferFolder();
+std::filesystem::path thumbnailFolder();
 
 }  // namespace lamplighter

@@ -14,12 +14,40 @@ void eachTexture(Material& m, F f) {
     if (ref->texture != kNone) f(ref->texture);
 }
 
+// What was read from two files can be the same.
+bool isLike(const Material& a, const Material& b) { return a == b; }
+
+bool isLike(const Texture& a, const Texture& b) {
+  if (a == b) return true;
+  const Image8 &p = *a.image, &q = *b.image;
+  if (p.width != q.width || p.height != q.height || p.pixels != q.pixels) return false;
+  Texture other = b;
+  other.image = a.image;
+  other.name = a.name;
+  return a == other;
+}
+
+bool isLike(const Primitive& p, const Primitive& q) {
+  return p.material == q.material && p.positions == q.positions && p.indices == q.indices &&
+         p.normals == q.normals && p.tangents == q.tangents && p.uv0 == q.uv0 && p.uv1 == q.uv1 &&
+         p.colors == q.colors;
+}
+
+bool isLike(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b) {
+  return a == b || (a->name == b->name &&
+                    std::equal(a->primitives.begin(), a->primitives.end(), b->primitives.begin(),
+                               b->primitives.end(), [](const Primitive& p, const Primitive& q) {
+                                 return isLike(p, q);
+                               }));
+}
+
 // Finds its like in a list of the scene's and of what is added to it, or adds it.
 template <typename T>
 int indexOf(const T& value, const std::vector<T>& present, std::vector<T>& added) {
-  if (const auto it = std::find(present.begin(), present.end(), value); it != present.end())
+  const auto isIt = [&](const T& other) { return isLike(value, other); };
+  if (const auto it = std::find_if(present.begin(), present.end(), isIt); it != present.end())
     return static_cast<int>(it - present.begin());
-  if (const auto it = std::find(added.begin(), added.end(), value); it != added.end())
+  if (const auto it = std::find_if(added.begin(), added.end(), isIt); it != added.end())
     return static_cast<int>(present.size()) + static_cast<int>(it - added.begin());
   added.push_back(value);
   return static_cast<int>(present.size() + added.size()) - 1;

@@ -103,6 +103,10 @@ void addScene(Hasher& h, const Scene& scene) {
   addSky(h, scene.sky);
   addLightState(h, scene.skyLight);
   for (const LightGroup& g : scene.lightGroups) h.add(g.name), h.add(g.muted), h.add(g.solo);
+  for (const CameraBookmark& b : scene.bookmarks) {
+    const quat& q = b.orientation;
+    h.add(b.slot), h.add(b.eye), h.add(vec4(q.x, q.y, q.z, q.w)), h.add(b.yfov);
+  }
 }
 
 }  // namespace

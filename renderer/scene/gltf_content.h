@@ -39,6 +39,8 @@ void warnOfUnknownLights(GltfDocument& document);
 // state.
 void readLightNotes(GltfDocument& document, std::vector<Node>& nodes);
 void readSceneLightNotes(GltfDocument& document, Scene& scene);
+// gltf_bookmarks.cpp: places to look from, by slot; malformed ones are left out with a warning.
+std::vector<CameraBookmark> readBookmarks(GltfDocument& document);
 // gltf_sphere_meshes.cpp: takes out what saveGltf() put in to show sphere lights to other programs.
 void stripSphereMeshes(GltfDocument& document);
 

@@ -52,6 +52,7 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
   scene.nodes = readNodes(document);
   readLightNotes(document, scene.nodes);
   readSceneLightNotes(document, scene);
+  scene.bookmarks = readBookmarks(document);
   scene.nextId = static_cast<NodeId>(scene.nodes.size() + 1);
   checkSize(document, scene);
   scene.name = sceneName(document);
@@ -73,6 +74,7 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
   source->skyIsDefault = scene.skyIsDefault;
   source->skyLight = scene.skyLight;
   source->lightGroups = scene.lightGroups;
+  source->bookmarks = scene.bookmarks;
   for (const Json& name : listOf(document, "extensionsUsed")) {
     if (name.is_string()) loaded.extensions.push_back(printable(name.get<std::string>()));
   }

@@ -125,6 +125,7 @@ std::vector<std::filesystem::path> save(const Scene& scene, const std::filesyste
   const std::vector<size_t> jsonNodes = saveNodes(out);
   saveLights(out, jsonNodes);
   saveSky(out);
+  saveBookmarks(out);
   saveSphereMeshes(out, jsonNodes);
   const std::vector<GltfOutput::File> files = out.finish();
   writeFilesAtomically(files);

@@ -102,6 +102,8 @@ void saveSceneLightNotes(GltfOutput& out, const JsonOfNode& jsonNodes);
 std::string uriOfFile(GltfOutput& out, const std::filesystem::path& name,
                       std::span<const uint8_t> bytes);
 void saveSky(GltfOutput& out);
+// gltf_bookmarks.cpp
+void saveBookmarks(GltfOutput& out);
 // gltf_save_spheres.cpp. Last of all: see gltf_sphere_meshes.cpp.
 void saveSphereMeshes(GltfOutput& out, const std::vector<size_t>& jsonNodes);
 

@@ -20,6 +20,7 @@ class SceneSource {
   bool skyIsDefault = false;
   LightState skyLight;
   std::vector<LightGroup> lightGroups;
+  std::vector<CameraBookmark> bookmarks;
 };
 
 }  // namespace lamplighter

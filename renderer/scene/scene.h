@@ -11,6 +11,7 @@
 
 #include "renderer/image/image.h"
 #include "renderer/math.h"
+#include "renderer/scene/camera_bookmark.h"
 #include "renderer/scene/light_state.h"
 #include "renderer/scene/node_id.h"
 #include "renderer/scene/sky.h"
@@ -166,7 +167,8 @@ struct Scene {
   NodeId nextId = 1;
   Sky sky;  // around everything
   LightState skyLight;
-  std::vector<LightGroup> lightGroups;  // by name, each once
+  std::vector<LightGroup> lightGroups;    // by name, each once
+  std::vector<CameraBookmark> bookmarks;  // by slot, each once
   bool skyIsDefault =
       false;  // it was put there because the file has no light; then it is not saved
   std::shared_ptr<const SceneSource> source;

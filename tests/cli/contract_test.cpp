@@ -128,7 +128,8 @@ TEST_F(CommandLine, AnErrorNamesTheHelpOfItsSubcommand) {
 TEST_F(CommandLine, EveryFlagIsInTheDocs) {
   std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/cli.md");
   const std::string docs{std::istreambuf_iterator<char>(in), {}};
-  for (const char* sub : {"info", "render", "methods", "actions", "compare", "tonemap", "replay"}) {
+  for (const char* sub :
+       {"info", "render", "methods", "actions", "settings", "compare", "tonemap", "replay"}) {
     const std::string help = runLamplighter({sub, "--help"}).out;
     EXPECT_NE(help.find("Example: lamplighter " + std::string(sub)), std::string::npos) << sub;
     const size_t from = docs.find("\n## " + std::string(sub) + "\n");

@@ -242,7 +242,7 @@ TEST_F(SessionTest, WhatDoesNotFitChangesNothingAndSaysSo) {
   const uint64_t before = documentHash(session_.document());
   for (const char* action :
        {"light.add cube", "light.add", "no.such", "object.move 1 2", "object.move 1 2 x",
-        "render.set vpls=0", "render.set colour=1", "render.method magic", "view.camera nobody",
+        "render.set vpls=0", "render.set colour=1", "render.method magic", "camera.go nobody",
         "select.name nobody", "light.size -1", "\"unclosed", ""}) {
     session_.select({box_});
     EXPECT_FALSE(session_.runAction(action)) << action;

@@ -31,5 +31,18 @@ TEST(Layout, TheLightTableTakesFromOutlinerAndView) {
   }
 }
 
+TEST(Layout, AWindowThatWasSmallForgetsNothing) {
+  Layout layout;
+  layout.divide({1280, 720}, 24.0f, 1.0f, true);
+  const Rect left = layout.left, inspector = layout.inspector, bottom = layout.bottom;
+  layout.divide({640, 400}, 48.0f, 2.0f, true);
+  EXPECT_LT(layout.left.size().x, 2.0f * left.size().x);
+  layout.divide({1280, 720}, 24.0f, 1.0f, true);
+  EXPECT_EQ(layout.left.size(), left.size());
+  EXPECT_EQ(layout.inspector.size(), inspector.size());
+  EXPECT_EQ(layout.bottom.size(), bottom.size());
+  EXPECT_EQ(layout.sizes(), LayoutSizes());
+}
+
 }  // namespace
 }  // namespace lamplighter

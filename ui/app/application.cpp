@@ -6,6 +6,8 @@
 #include <imgui.h>
 #include <spdlog/spdlog.h>
 
+#include "editor/actions/arguments.h"
+#include "editor/home_state.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/error.h"
 #include "renderer/image/exposure.h"
@@ -53,7 +55,10 @@ void Application::openNow(const std::filesystem::path& path) {
   session_->open(std::move(loaded.scene), path, loaded.warnings);
 }
 
-void Application::showError(const std::string& text) { messageBox_.show("Error", text); }
+void Application::showError(const std::string& text) {
+  session_->home().notices.add(NoticeKind::error, text);  // for the log
+  messageBox_.show("Error", text);
+}
 
 void Application::frame() {
   widgets_.flip();
@@ -66,8 +71,9 @@ void Application::frame() {
                          : std::clamp(static_cast<float>(now - lastSeconds_), 1e-4f, 0.25f);
   lastSeconds_ = now;
 
-  gui_.beginFrame(router_.state(), dt_);
-  const PanelContext ui{*session_, widgets_, platform_.contentScale(), ""};
+  exchangePreferences();
+  gui_.beginFrame(router_.state(), dt_, uiScale());
+  const PanelContext ui{*session_, widgets_, uiScale(), ""};
   drawPanels(ui);
   viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
   // A replay must not depend on how far a thread has come.
@@ -84,6 +90,7 @@ void Application::frame() {
   const bool isSplit = session_->split().on() && session_->split().secondPicture();
   viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0);
   drawStatusLine(ui);
+  toasts(ui, toastState_, layout_.view, dt_);
   drawDialogs(ui);
   gui_.endFrame();
   answerRequests();
@@ -129,13 +136,26 @@ void Application::handle(const InputEvent& event) {
   if (event.kind == EventKind::key && event.down) pressKey(event.key);
 }
 
+namespace {
+
+// Keys that lead through a panel while something in it is marked for the keyboard.
+bool isOfNavigation(Key key, const Modifiers& modifiers) {
+  const bool leads = key == Key::space || key == Key::enter || key == Key::escape ||
+                     key == Key::tab || (key >= Key::left && key <= Key::end);
+  return ImGui::GetIO().NavVisible && leads && !modifiers.ctrl && !modifiers.alt;
+}
+
+}  // namespace
+
 void Application::pressKey(Key key) {
   // Keys belong to a text field, a dialog or the flying camera before they are shortcuts.
   const Modifiers modifiers = router_.state().modifiers();
   if (ImGui::GetIO().WantTextInput || dialogOpen()) return;
+  if (isOfNavigation(key, modifiers)) return;
   if (session_->flying() && !modifiers.ctrl) return;
   if (session_->dragging() && key == Key::escape) return;  // it takes back the drag
-  if (const Action* action = session_->actions().forKey(key, modifiers)) runAction(action->name);
+  if (const std::string text = session_->actions().textForKey(key, modifiers); !text.empty())
+    runAction(text);
 }
 
 bool Application::dialogOpen() const {
@@ -154,8 +174,11 @@ void Application::runAction(const std::string& text) {
     inspectorState_.choosesSky = true;
   } else if (text == "app.palette") {
     palette_.open();
+    session_->runAction(text);
   } else if (text == "edit.rename") {
     inspectorState_.focusName = true;
+  } else if (focusByKey(text)) {
+    session_->runAction(text);
   } else if (!session_->runAction(text) && replaying_) {
     throw InputError(text + ": " + session_->status());
   }
@@ -190,10 +213,11 @@ void Application::drawStatusLine(const PanelContext& ui) {
 }
 
 void Application::drawPanels(PanelContext ui) {
+  focusAsAsked();
   menuBar(ui, requests_);
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   layout_.divide({window.x, window.y}, ImGui::GetFrameHeight(), ui.scale,
-                 session_->lighting().showsTable);
+                 session_->lighting().showsTable || session_->home().bottom != BottomPanel::none);
 
   beginPanel("##toolbar", layout_.toolbar, false);
   toolbar(ui, requests_);
@@ -209,7 +233,7 @@ void Application::drawPanels(PanelContext ui) {
   ImGui::End();
   if (!layout_.bottom.empty()) {
     beginPanel("##lights", layout_.bottom);
-    lightTable(ui, lightTableState_, requests_);
+    drawBottom(ui);
     ImGui::End();
   }
   const Rect explained = explainPanel(ui, layout_.view, requests_);
@@ -225,20 +249,6 @@ void Application::drawPanels(PanelContext ui) {
   if (session_->history().inTransaction() && !ImGui::IsAnyItemActive() && !session_->dragging())
     session_->history().commit();
 }
-
-namespace {
-
-// As one argument of an action.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
-
-}  // namespace
 
 void Application::drawDialogs(PanelContext ui) {
   if (loader_.running()) {
@@ -258,6 +268,8 @@ void Application::drawDialogs(PanelContext ui) {
       runAction("light.ies " + quoted(path->string()));
     else if (fileDialog_.kind() == FileDialog::Kind::timeline)
       runAction("timeline.export " + quoted(path->string()));
+    else if (fileDialog_.kind() == FileDialog::Kind::folder)
+      runAction("asset.folder " + quoted(path->string()));
     else
       openSave(*path);
   }
@@ -267,6 +279,7 @@ void Application::drawDialogs(PanelContext ui) {
     if (!action.empty() && !session_->runAction(action)) showError(session_->status());
     if (action == "recovery.recover") framesToExposure_ = 0;  // it has its own
   }
+  settingsDialog(ui, settingsState_, requests_);
   switch (saveQuestion_.draw(ui)) {
     case SaveQuestion::Answer::none:
       break;
@@ -359,6 +372,8 @@ void Application::answerRequests() {
   if (!requests.palette.empty()) palette_.open(requests.palette);
   if (requests.timelineDialog)
     fileDialog_.open(FileDialog::Kind::timeline, session_->document().path);
+  if (requests.folderDialog)
+    fileDialog_.open(FileDialog::Kind::folder, session_->home().preferences.assetFolder);
   if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
 
   if (std::exchange(inspectorState_.choosesProfile, false))
@@ -430,8 +445,8 @@ void Application::updateTitle() {
 bool Application::idle() const {
   // A few frames more, for what reacts a frame late: hover colours, layouts, popups.
   constexpr int kAfterglow = 4;
-  return quietFrames_ > kAfterglow && input_.empty() && session_->output().settled &&
-         session_->output().refined && !loader_.running();
+  return quietFrames_ > kAfterglow && !toastState_.any() && !thumbnails_.busy() && input_.empty() &&
+         session_->output().settled && session_->output().refined && !loader_.running();
 }
 
 }  // namespace lamplighter

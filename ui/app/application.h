@@ -17,8 +17,13 @@
 #include "ui/app/layout.h"
 #include "ui/app/meter_worker.h"
 #include "ui/app/scene_loader.h"
+#include "ui/app/thumbnails.h"
+#include "ui/app/user_files.h"
 #include "ui/app/widget_map.h"
+#include "ui/panels/asset_panel.h"
 #include "ui/panels/command_palette.h"
+#include "ui/panels/file_dialog.h"
+#include "ui/panels/home_panels.h"
 #include "ui/panels/light_table_panel.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/recovery_dialog.h"
@@ -31,6 +36,7 @@ namespace lamplighter {
 class Application {
  public:
   Application(Platform& platform, std::unique_ptr<Session> session);
+  ~Application();
 
   Session& session() { return *session_; }
   InputQueue& input() { return input_; }
@@ -43,6 +49,9 @@ class Application {
   using Listener = std::function<void(const std::vector<InputEvent>&)>;
   void setListener(Listener listener) { listener_ = std::move(listener); }
   void setReplaying(bool replaying) { replaying_ = replaying; }
+  // Takes the user's settings and keys, and keeps what changes. Not where input is replayed or
+  // recorded. `preferences` are those that were read from the files.
+  void setUser(std::unique_ptr<UserFiles> files, Preferences preferences);
 
   // Loads on another thread; the frames go on meanwhile.
   void openInBackground(const std::filesystem::path& path) { loader_.start(path); }
@@ -80,6 +89,14 @@ class Application {
   void closeIfSaved();
   void updateTitle();
   bool dialogOpen() const;
+  // ui/app/application_user.cpp
+  float uiScale() const;  // pixels a design pixel
+  void exchangePreferences();
+  void drawBottom(const PanelContext& ui);
+  bool focusByKey(const std::string& action);
+  void focusPanel(int step);
+  void focusAsAsked();
+  void flushPreferences();
 
   Platform& platform_;
   std::unique_ptr<Session> session_;
@@ -108,6 +125,13 @@ class Application {
   CommandPalette palette_;
   RecoveryDialog recoveryDialog_;
   AutosaveWorker autosave_;
+  SettingsState settingsState_;
+  LogState logState_;
+  AssetPanelState assetState_;
+  Thumbnails thumbnails_;
+  ToastState toastState_;
+  std::unique_ptr<UserFiles> userFiles_;  // null: nothing is read or kept
+  Settings appliedPreferences_;           // that the layout goes by
 
   // What to do once the question of unsaved changes is answered.
   enum class Pending { none, quit, open };
@@ -124,6 +148,7 @@ class Application {
   int framesToExposure_ = 0;
   size_t latenciesLogged_ = 0;
   int quietFrames_ = 0;
+  std::optional<int> focusStep_;       // to another panel; 0: to the menus
   size_t titlePosition_ = ~size_t{0};  // of the history, when the title was made
   std::string title_;
 };

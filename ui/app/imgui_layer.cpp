@@ -4,6 +4,7 @@
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "renderer/error.h"
 #include "ui/theme.h"
@@ -53,6 +54,14 @@ void mapKeys(ImGuiIO& io) {
   map(ImGuiKey_Z, Key::z);
 }
 
+// In menus and dialogs Enter presses what is marked, as Space does; elsewhere it types into a
+// field.
+bool enterPresses() {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (g.NavWindow == nullptr || !g.IO.NavVisible || g.IO.WantTextInput) return false;
+  return (g.NavWindow->Flags & ImGuiWindowFlags_Popup) != 0 || g.NavLayer == ImGuiNavLayer_Menu;
+}
+
 }  // namespace
 
 ImGuiLayer::ImGuiLayer(Platform& platform) : platform_(platform), context_(ImGui::CreateContext()) {
@@ -61,6 +70,7 @@ ImGuiLayer::ImGuiLayer(Platform& platform) : platform_(platform), context_(ImGui
   io.IniFilename = nullptr;  // the layout is fixed, and a replay must not depend on a file
   io.LogFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+  io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   // The same rules on every system, so that a recording replays anywhere.
   io.ConfigMacOSXBehaviors = false;
   io.MouseDrawCursor = false;
@@ -100,9 +110,9 @@ void ImGuiLayer::rescale(float scale) {
   }
 }
 
-void ImGuiLayer::beginFrame(const PointerKeys& input, float seconds) {
+void ImGuiLayer::beginFrame(const PointerKeys& input, float seconds, float scale) {
   ImGui::SetCurrentContext(context_);
-  rescale(platform_.contentScale());
+  rescale(scale);
   ImGuiIO& io = ImGui::GetIO();
   const glm::ivec2 size = platform_.size();
   io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
@@ -112,9 +122,21 @@ void ImGuiLayer::beginFrame(const PointerKeys& input, float seconds) {
   io.MouseWheel = input.wheel.y;
   io.MouseWheelH = input.wheel.x;
   for (size_t i = 0; i < input.keys.size(); ++i) io.KeysDown[i] = input.keys[i];
+  if (input.held(Key::enter) && enterPresses()) {
+    io.KeysDown[static_cast<size_t>(Key::enter)] = false;
+    io.KeysDown[static_cast<size_t>(Key::space)] = true;
+  }
+  // With Ctrl or Alt these keys are shortcuts, and no way through a panel; within a text they are
+  // its own. Panels change by F6.
+  if ((input.held(Key::ctrl) || input.held(Key::alt)) && !io.WantTextInput) {
+    for (const Key key : {Key::left, Key::right, Key::up, Key::down, Key::pageUp, Key::pageDown})
+      io.KeysDown[static_cast<size_t>(key)] = false;
+  }
+  if (input.held(Key::ctrl)) io.KeysDown[static_cast<size_t>(Key::tab)] = false;
   io.KeyCtrl = input.held(Key::ctrl);
   io.KeyShift = input.held(Key::shift);
-  io.KeyAlt = input.held(Key::alt);
+  // Alone, Alt would lead into a menu; the camera orbits by it. It slows dragged values.
+  io.KeyAlt = input.held(Key::alt) && (io.WantTextInput || io.MouseDown[0]);
   io.KeySuper = input.held(Key::super);
   io.AddInputCharactersUTF8(input.text.c_str());
   if (platform_.hasGl()) ImGui_ImplOpenGL3_NewFrame();

@@ -16,7 +16,8 @@ class ImGuiLayer {
   ImGuiLayer(const ImGuiLayer&) = delete;
   ImGuiLayer& operator=(const ImGuiLayer&) = delete;
 
-  void beginFrame(const PointerKeys& input, float seconds);
+  // `scale`: pixels a design pixel.
+  void beginFrame(const PointerKeys& input, float seconds, float scale);
   // Lays out what was drawn and, where there is OpenGL, draws it into the platform's framebuffer.
   void endFrame();
 

@@ -18,10 +18,11 @@ void Layout::divide(vec2 window, float menuHeight, float scale, bool showsBottom
   const auto px = [&](float designPixels) { return std::round(designPixels * scale); };
   // The view keeps some room whatever the window's size.
   const float most = std::max(window.x / scale - kLeastView, 2 * kLeastPanel);
+  shown_ = sizes_;
   // Names can be cut and scrolled, fields cannot: the left column gives way first.
-  leftWidth_ = std::clamp(leftWidth_, kLeastPanel, std::max(most - rightWidth_, kLeastPanel));
-  rightWidth_ = std::clamp(rightWidth_, kLeastPanel, most - leftWidth_);
-  renderShare_ = std::clamp(renderShare_, 0.15f, 0.85f);
+  shown_.left = std::clamp(sizes_.left, kLeastPanel, std::max(most - sizes_.right, kLeastPanel));
+  shown_.right = std::clamp(sizes_.right, kLeastPanel, most - shown_.left);
+  shown_.renderShare = std::clamp(sizes_.renderShare, 0.15f, 0.85f);
 
   const float top = menuHeight + px(kToolbarHeight);
   const float lowest = window.y - px(kStatusHeight);
@@ -29,18 +30,18 @@ void Layout::divide(vec2 window, float menuHeight, float scale, bool showsBottom
   toolbar = {{0, menuHeight}, {window.x, top}};
   status = {{0, lowest}, window};
   float viewBottom = lowest;
-  left = {{0, top}, {px(leftWidth_), viewBottom}};
-  const float rightEdge = window.x - px(rightWidth_);
+  left = {{0, top}, {px(shown_.left), viewBottom}};
+  const float rightEdge = window.x - px(shown_.right);
   bottom = {};
   if (showsBottom) {
-    bottomHeight_ = std::clamp(bottomHeight_, kLeastBottom,
+    shown_.bottom = std::clamp(sizes_.bottom, kLeastBottom,
                                std::max((viewBottom - top) / scale - kLeastView, kLeastBottom));
-    bottom = {{0, viewBottom - px(bottomHeight_)}, {rightEdge - border, viewBottom}};
+    bottom = {{0, viewBottom - px(shown_.bottom)}, {rightEdge - border, viewBottom}};
     viewBottom = bottom.min.y - border;
     left.max.y = viewBottom;
   }
   view = {{left.max.x + border, top}, {rightEdge - border, viewBottom}};
-  const float middle = std::round(lowest - renderShare_ * (lowest - top));
+  const float middle = std::round(lowest - shown_.renderShare * (lowest - top));
   inspector = {{rightEdge, top}, {window.x, middle - border / 2}};
   render = {{rightEdge, middle + border / 2}, {window.x, lowest}};
 }
@@ -49,19 +50,19 @@ void Layout::splitters(PanelContext ui) {
   ui.prefix = "splitter/";
   const float height = render.max.y - inspector.min.y;
   splitter(ui, "left", {{left.max.x, left.min.y}, {view.min.x, left.max.y}}, true, 1.0f / scale_,
-           leftWidth_);
+           &LayoutSizes::left);
   splitter(ui, "right", {{view.max.x, view.min.y}, {render.min.x, view.max.y}}, true,
-           -1.0f / scale_, rightWidth_);
+           -1.0f / scale_, &LayoutSizes::right);
   if (!bottom.empty()) {
     splitter(ui, "bottom", {{0, view.max.y}, {bottom.max.x, bottom.min.y}}, false, -1.0f / scale_,
-             bottomHeight_);
+             &LayoutSizes::bottom);
   }
   splitter(ui, "render", {{render.min.x, inspector.max.y}, {render.max.x, render.min.y}}, false,
-           -1.0f / std::max(height, 1.0f), renderShare_);
+           -1.0f / std::max(height, 1.0f), &LayoutSizes::renderShare);
 }
 
 void Layout::splitter(const PanelContext& ui, const char* name, const Rect& handle, bool vertical,
-                      float direction, float& value) {
+                      float direction, float LayoutSizes::*size) {
   if (handle.empty()) return;
   ImGui::SetNextWindowPos({handle.min.x, handle.min.y});
   ImGui::SetNextWindowSize({handle.size().x, handle.size().y});
@@ -69,7 +70,8 @@ void Layout::splitter(const PanelContext& ui, const char* name, const Rect& hand
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::colour(theme::kBackground));
   ImGui::Begin((std::string("##splitter ") + name).c_str(), nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove);
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoNavFocus);
   ImGui::InvisibleButton(name, {handle.size().x, handle.size().y});
   ui.name(name);
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
@@ -80,7 +82,8 @@ void Layout::splitter(const PanelContext& ui, const char* name, const Rect& hand
   }
   if (ImGui::IsItemActive()) {
     const ImVec2 delta = ImGui::GetIO().MouseDelta;
-    value += (vertical ? delta.x : delta.y) * direction;
+    const float moved = vertical ? delta.x : delta.y;
+    if (moved != 0.0f) sizes_.*size = shown_.*size + moved * direction;
   }
   ImGui::End();
   ImGui::PopStyleColor();

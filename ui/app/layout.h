@@ -7,6 +7,13 @@
 
 namespace lamplighter {
 
+// What can be dragged, in design pixels, so that it survives a move to a screen of another scale.
+struct LayoutSizes {
+  float left = 232.0f, right = 330.0f, bottom = 220.0f;
+  float renderShare = 0.5f;  // of the right column's height
+  bool operator==(const LayoutSizes&) const = default;
+};
+
 class Layout {
  public:
   Rect toolbar, left, view, inspector, render, status;
@@ -16,16 +23,15 @@ class Layout {
   void divide(vec2 window, float menuHeight, float scale, bool showsBottom);
   // Draws the borders and lets them be dragged. They take effect next frame.
   void splitters(PanelContext ui);
+  const LayoutSizes& sizes() const { return sizes_; }
+  void setSizes(const LayoutSizes& sizes) { sizes_ = sizes; }
 
  private:
   void splitter(const PanelContext& ui, const char* name, const Rect& handle, bool vertical,
-                float direction, float& value);
+                float direction, float LayoutSizes::*size);
 
-  // In design pixels, so that they survive a move to a screen of another scale.
-  float leftWidth_ = 232.0f;
-  float rightWidth_ = 330.0f;
-  float bottomHeight_ = 220.0f;
-  float renderShare_ = 0.5f;  // of the right column's height
+  // As asked for, and as the window has room: one that was small for a while forgets nothing.
+  LayoutSizes sizes_, shown_;
   float scale_ = 1.0f;
 };
 

@@ -3,8 +3,10 @@
 #include <optional>
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "editor/document/write_file.h"
+#include "editor/home_state.h"
 #include "editor/input/player.h"
 #include "editor/latency/latency_report.h"
 #include "renderer/error.h"
@@ -29,10 +31,37 @@ constexpr int kPatience = 5000;
 // Frames without input before a checkpoint counts: some widgets act a frame after the input.
 constexpr int kQuietFrames = 2;
 
+// Where actions of a recording save: in the folder for its pictures, or else where it is gone
+// after.
+class WriteFolder {
+ public:
+  explicit WriteFolder(const fs::path& asked) : path_(asked), isOurs_(asked.empty()) {
+    if (!isOurs_) return;
+    std::string name = (fs::temp_directory_path() / "lamplighter-replay-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw InputError(name, "cannot be made", "check the folder and the space left");
+    path_ = name;
+  }
+  ~WriteFolder() {
+    std::error_code ignored;
+    if (isOurs_) fs::remove_all(path_, ignored);
+  }
+  WriteFolder(const WriteFolder&) = delete;
+  WriteFolder& operator=(const WriteFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+  bool isOurs_;
+};
+
 class Replay {
  public:
   Replay(const ReplayOptions& options, Recording recording)
-      : options_(options), updated_(recording), player_(std::move(recording), kPatience) {}
+      : options_(options),
+        updated_(recording),
+        player_(std::move(recording), kPatience),
+        writeFolder_(options.outputFolder) {}
 
   using MakeRenderer = SplitView::MakeRenderer;
   int run(Platform& platform, const MakeRenderer& makeRenderer);
@@ -50,6 +79,7 @@ class Replay {
   const ReplayOptions& options_;
   Recording updated_;  // with the hashes of this run
   Player player_;
+  WriteFolder writeFolder_;
   int passed_ = 0, failed_ = 0;
   nlohmann::ordered_json checks_ = nlohmann::ordered_json::array();
 };
@@ -58,6 +88,7 @@ void Replay::start(Application& app) {
   app.setReplaying(true);
   app.setTimeStep(1.0f / static_cast<float>(std::max(header().framesPerSecond, 1)));
   Session& session = app.session();
+  session.home().writeFolder = writeFolder_.path();
   session.document().render = header().render;
   if (!options_.method.empty()) session.document().render.method = options_.method;
   for (int i = 0; i < 2; ++i) app.frame();  // the layout's sizes are known after these
@@ -106,6 +137,7 @@ void Replay::writeReport(Session& session) const {
                                       {"device", backend.device},
                                       {"frames", session.frame()},
                                       {"checks", checks_},
+                                      {"actions", session.home().ran},
                                       {"edits", latencyJson(session.watch().latency)}};
   writeFile(options_.report, report.dump(2) + '\n');
 }

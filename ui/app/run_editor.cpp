@@ -21,14 +21,14 @@ constexpr int kWidth = 1280, kHeight = 720;
 constexpr int kFramesPerSecond = 60;  // of recordings
 
 // What the user sees while OpenGL compiles: the only work that must be done on this thread.
-void showPreparing(Window& window) {
+void showPreparing(Window& window, float scale) {
   ImGuiLayer gui(window);
   WidgetMap widgets;
   for (int i = 0; i < 2; ++i) {  // the first frame only measures
     std::vector<InputEvent> ignored;
     window.poll(ignored, 0.0);
-    gui.beginFrame({}, 1.0f / 60.0f);
-    centredNotice(window.contentScale(), "Preparing shaders\u2026");
+    gui.beginFrame({}, 1.0f / 60.0f, scale);
+    centredNotice(scale, "Preparing shaders\u2026");
     gui.endFrame();
     window.present();
   }
@@ -64,11 +64,14 @@ int runEditor(const EditorOptions& options, const Frontend& frontend) {
   const Stopwatch& stopwatch = frontend.stopwatch;
   const fs::path scene = options.scene.empty() ? defaultScene() : fs::path(options.scene);
   const bool recording = !options.record.empty();
-  // A recording must mean the same in another window, so its window has one size and one scale.
-  Window window(kWidth, kHeight, "Lamplighter",
-                recording ? Window::Kind::fixed : Window::Kind::resizable,
+  // A recording must mean the same in another window, so its window has one size and one scale, and
+  // it knows nothing of the user's settings.
+  auto files = std::make_unique<UserFiles>(recording ? fs::path() : configFolder());
+  Preferences preferences = files->readPreferences();
+  Window window(preferences.integer("window_width"), preferences.integer("window_height"),
+                "Lamplighter", recording ? Window::Kind::fixed : Window::Kind::resizable,
                 recording ? std::nullopt : askedUiScale());
-  showPreparing(window);
+  showPreparing(window, window.contentScale() * preferences.real("ui_scale"));
   const auto makeRenderer = [&] {
     return std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
   };
@@ -77,6 +80,7 @@ int runEditor(const EditorOptions& options, const Frontend& frontend) {
   if (!recording) renderer->setCacheFolder(transferFolder());
   Application app(window, std::make_unique<Session>(std::move(renderer)));
   app.session().split().setRenderer(makeRenderer);
+  if (!recording) app.setUser(std::move(files), std::move(preferences));
   const fs::path journal = options.journal.empty() ? recoveryFolder() : fs::path(options.journal);
   // What is left from before must not stand in a recording either.
   if (!recording && !journal.empty())

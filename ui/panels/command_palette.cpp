@@ -84,7 +84,8 @@ std::string CommandPalette::draw(PanelContext ui) {
   ImGui::SetNextWindowPos({window.GetCenter().x, window.Pos.y + 0.16f * window.Size.y},
                           ImGuiCond_Always, {0.5f, 0.0f});
   ImGui::SetNextWindowSize({std::min(ui.px(kWidth), 0.9f * window.Size.x), 0});
-  if (!ImGui::BeginPopup("##palette", ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings))
+  if (!ImGui::BeginPopup("##palette", ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                          ImGuiWindowFlags_NoNavInputs))
     return "";
   const auto pressed = [](ImGuiKey key) {
     return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), true);

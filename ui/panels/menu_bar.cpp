@@ -3,6 +3,7 @@
 #include <set>
 #include <sstream>
 
+#include "editor/actions/arguments.h"
 #include "ui/panels/panels.h"
 
 namespace lamplighter {
@@ -49,9 +50,22 @@ std::vector<std::string> viewActions() {
                              "split.off",
                              "<",
                              "-",
+                             ">Camera",
                              "view.frame_all",
                              "view.frame_selection",
-                             "view.camera",
+                             "-",
+                             "camera.go",
+                             "bookmark.go",
+                             "bookmark.store",
+                             "bookmark.clear",
+                             "<",
+                             ">Window",
+                             "panel.assets",
+                             "panel.log",
+                             "panel.next",
+                             "panel.previous",
+                             "view.ui_scale",
+                             "<",
                              "view.work_light"});
   return names;
 }
@@ -60,15 +74,15 @@ const std::vector<Menu>& menus() {
   static const std::vector<Menu> kMenus = {
       {"File",
        {"file", "app", "recovery"},
-       {"file.new", "file.open", "-", "file.save", "file.save_as", "-"}},
+       {"file.new", "file.open", "file.open_recent", "-", "file.save", "file.save_as", "-"}},
       {"Edit",
-       {"edit", "selection", "select", "history"},
+       {"edit", "selection", "select", "history", "settings"},
        {"edit.undo", "edit.redo", "panel.history", "-", "edit.duplicate", "edit.delete",
         "edit.rename"}},
       {"Light", {"light", "lights"}, {"light.add", "light.place", "-", "panel.lights"}},
-      {"Object", {"object", "objects", "materials", "node", "place"}, {}},
+      {"Object", {"object", "objects", "materials", "node", "place", "asset"}, {}},
       {"Tool", {"tool"}, {"tool.select", "tool.move", "tool.rotate", "tool.scale"}},
-      {"View", {"view", "camera", "panel", "split"}, viewActions()},
+      {"View", {"view", "camera", "bookmark", "panel", "split"}, viewActions()},
       {"Inspect",
        {"explain", "probe", "measure"},
        {"explain.pointer", "tool.explain", "explain.close", "-", "tool.measure", "measure.clear"}},
@@ -94,6 +108,18 @@ std::vector<std::string> choicesOf(const std::string& usage) {
   return choices;
 }
 
+std::vector<ActionChoice> choicesNow(const Session& session, const Action& action) {
+  if (action.choices) return action.choices(session);
+  std::vector<ActionChoice> out;
+  for (const std::string& choice : choicesOf(action.usage)) {
+    std::string label = choice;
+    if (label.size() > 2)  // lm and cd are no words
+      label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+    out.push_back({choice, label});
+  }
+  return out;
+}
+
 // Whether it can be run without arguments.
 bool standsAlone(const Action& action) {
   return action.usage.empty() || action.usage.front() == '[';
@@ -104,23 +130,26 @@ bool standsAlone(const Action& action) {
 bool isTyped(const Action& action) {
   const bool asks =
       action.name == "file.open" || action.name == "file.save_as" || action.name == "edit.rename";
-  return !standsAlone(action) && !asks && choicesOf(action.usage).empty();
+  return !standsAlone(action) && !asks && !action.choices && choicesOf(action.usage).empty();
 }
 
 void menuItem(const PanelContext& ui, const Action& action, Requests& requests) {
   const bool enabled = !action.enabled || action.enabled(ui.session);
   const char* shortcut = action.shortcut.empty() ? nullptr : action.shortcut.c_str();
-  const std::vector<std::string> choices = choicesOf(action.usage);
-  if (!choices.empty()) {
-    const bool open = ImGui::BeginMenu(action.label.c_str(), enabled);
+  if (action.choices || !choicesOf(action.usage).empty()) {
+    const std::vector<ActionChoice> choices = choicesNow(ui.session, action);
+    const bool open = ImGui::BeginMenu(action.label.c_str(), enabled && !choices.empty());
     ui.name(action.name);
     if (!open) return;
-    for (const std::string& choice : choices) {
-      std::string label = choice;
-      if (label.size() > 2)  // lm and cd are no words
-        label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-      if (ImGui::MenuItem(label.c_str())) requests.actions.push_back(action.name + " " + choice);
-      ui.name(action.name + " " + choice);
+    for (const ActionChoice& choice : choices) {
+      const bool isWord = choice.argument.find_first_of(" \"\\") == std::string::npos;
+      const std::string text =
+          action.name + " " + (isWord ? choice.argument : quoted(choice.argument));
+      const std::string keys = ui.session.actions().keysOf(text);
+      const std::string label = choice.label + "##" + choice.argument;
+      if (ImGui::MenuItem(label.c_str(), keys.empty() ? nullptr : keys.c_str()))
+        requests.actions.push_back(text);
+      ui.name(text);
     }
     ImGui::EndMenu();
     return;

@@ -8,6 +8,7 @@
 #include "editor/document/tree.h"
 #include "renderer/error.h"
 #include "ui/icons.h"
+#include "ui/panels/keyboard.h"
 #include "ui/panels/panels.h"
 #include "ui/theme.h"
 
@@ -101,6 +102,7 @@ class Tree {
     const bool open =
         ImGui::TreeNodeEx("##node", flags, "%s", withIcon(iconOf(node), name).c_str());
     if (!node.visible) ImGui::PopStyleColor();
+    if (pressedByKey()) select(node.id);
     const std::string widget =
         named_[node.name] > 1 || node.name.empty() ? name + "#" + std::to_string(node.id) : name;
     ui_.name(widget);
@@ -214,7 +216,7 @@ void outliner(PanelContext ui, OutlinerState& state) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::InputTextWithHint("##search", withIcon(icon::kSearch, "Search").c_str(), &state.search);
   ui.name("search");
-  ImGui::BeginChild("tree");
+  ImGui::BeginChild("tree", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.px(6), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(3), ui.px(3)});
   Tree tree(ui, state);

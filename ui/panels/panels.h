@@ -15,6 +15,7 @@ struct Requests {
   bool openDialog = false;
   bool saveDialog = false;
   bool timelineDialog = false;
+  bool folderDialog = false;         // of assets
   std::vector<std::string> actions;  // to run, as text
   std::string palette;               // open the command palette with this in it
 };
@@ -85,29 +86,7 @@ struct StatusInfo {
 };
 void statusLine(PanelContext ui, const StatusInfo& info);
 
-// Modal dialogs. They are opened by open() and draw themselves each frame.
-class FileDialog {
- public:
-  enum class Kind { open, save, picture, profile, lightPicture, timeline };
-  void open(Kind kind, const std::filesystem::path& start);
-  // The chosen file, once.
-  std::optional<std::filesystem::path> draw(PanelContext ui);
-  Kind kind() const { return kind_; }
-
- private:
-  struct Entry {
-    std::string name;
-    bool folder;
-  };
-  void list();
-
-  Kind kind_ = Kind::open;
-  bool opening_ = false;
-  std::filesystem::path folder_;
-  std::string file_;
-  std::vector<Entry> entries_;
-  std::string error_;
-};
+// Modal dialogs. They are opened by a call and draw themselves each frame.
 
 // A message with an OK button.
 class MessageBox {

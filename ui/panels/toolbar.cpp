@@ -131,14 +131,16 @@ void addTools(const PanelContext& ui, Items& items) {
     const char *name, *icon, *label, *help;
   };
   static constexpr Tool kTools[] = {
-      {ToolMode::select, "select", icon::kSelect, "Select", "Pick by clicking (Q)"},
-      {ToolMode::move, "move", icon::kMove, "Move", "Move the selection (W)"},
-      {ToolMode::rotate, "rotate", icon::kRotate, "Rotate", "Rotate the selection (E)"},
-      {ToolMode::scale, "scale", icon::kScale, "Scale", "Scale the selection (R)"},
+      {ToolMode::select, "select", icon::kSelect, "Select", "Pick by clicking"},
+      {ToolMode::move, "move", icon::kMove, "Move", "Move the selection"},
+      {ToolMode::rotate, "rotate", icon::kRotate, "Rotate", "Rotate the selection"},
+      {ToolMode::scale, "scale", icon::kScale, "Scale", "Scale the selection"},
   };
   Session& session = ui.session;
   for (const Tool& tool : kTools) {
-    Item item{tool.name, tool.icon, tool.label, tool.help,
+    const std::string keys = session.actions().keysOf(std::string("tool.") + tool.name);
+    Item item{tool.name, tool.icon, tool.label,
+              keys.empty() ? tool.help : std::string(tool.help) + " (" + keys + ")",
               [&session, mode = tool.mode] { session.setTool(mode); }};
     item.on = session.tool() == tool.mode && session.points().tool() == PointTool::none;
     item.keepsLabel = 2;
@@ -192,7 +194,8 @@ void addActions(const PanelContext& ui, Items& items, Requests& requests) {
     const Action& action = *ui.session.actions().find(seeing.name);
     const bool isFirst = seeing.icon == icon::kExplain;
     Item& item = add(seeing.name, seeing.icon, seeing.label,
-                     action.help + " (" + action.shortcut + ")", seeing.name, isFirst ? 2 : 0);
+                     action.help + (action.shortcut.empty() ? "" : " (" + action.shortcut + ")"),
+                     seeing.name, isFirst ? 2 : 0);
     item.on = action.checked(ui.session);
     item.beginsGroup = isFirst;
   }

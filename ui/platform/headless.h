@@ -16,6 +16,7 @@ class Headless final : public Platform {
 
   glm::ivec2 size() const override { return size_; }
   float contentScale() const override { return scale_; }
+  glm::ivec2 windowSize() const override { return size_; }
   void poll(std::vector<InputEvent>&, double) override {}
   bool closeRequested() const override { return false; }
   void refuseClose() override {}

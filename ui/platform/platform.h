@@ -16,8 +16,9 @@ class Platform {
  public:
   virtual ~Platform() = default;
 
-  virtual glm::ivec2 size() const = 0;     // framebuffer pixels
-  virtual float contentScale() const = 0;  // pixels a design pixel
+  virtual glm::ivec2 size() const = 0;        // framebuffer pixels
+  virtual float contentScale() const = 0;     // pixels a design pixel
+  virtual glm::ivec2 windowSize() const = 0;  // as a window is asked for: before the screen's scale
   // Appends what happened since the last call; waits up to `seconds` for something to happen.
   virtual void poll(std::vector<InputEvent>& events, double seconds) = 0;
   virtual bool closeRequested() const = 0;

@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 #include <spdlog/spdlog.h>
 
+#include "editor/actions/arguments.h"
 #include "renderer/error.h"
 #include "ui/platform/glfw_keys.h"
 #include "ui/platform/read_pixels.h"
@@ -100,6 +101,14 @@ struct Window::Callbacks {
     e.text = utf8(codepoint);
     self(window).events_.push_back(e);
   }
+  // As the action that takes files in, behind the place where they were dropped.
+  static void drop(GLFWwindow* window, int count, const char** paths) {
+    InputEvent e;
+    e.kind = EventKind::action;
+    e.text = "file.drop";
+    for (int i = 0; i < count; ++i) e.text += " " + quoted(paths[i]);
+    self(window).events_.push_back(e);
+  }
 };
 
 Window::Window(int width, int height, const std::string& title, Kind kind,
@@ -137,6 +146,7 @@ Window::Window(int width, int height, const std::string& title, Kind kind,
   glfwSetScrollCallback(window_, Callbacks::wheel);
   glfwSetKeyCallback(window_, Callbacks::key);
   glfwSetCharCallback(window_, Callbacks::text);
+  glfwSetDropCallback(window_, Callbacks::drop);
   if (kind == Kind::resizable)
     glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
 }
@@ -160,6 +170,14 @@ float Window::contentScale() const {
   float x = 1.0f;
   glfwGetWindowContentScale(window_, &x, nullptr);
   return std::clamp(x, kLeastUiScale, kMostUiScale);
+}
+
+glm::ivec2 Window::windowSize() const {
+  glm::ivec2 size(0);
+  glfwGetWindowSize(window_, &size.x, &size.y);
+  float x = 1.0f, y = 1.0f;
+  if (kind_ == Kind::resizable) glfwGetWindowContentScale(window_, &x, &y);
+  return glm::ivec2(glm::round(vec2(size) / glm::max(vec2(x, y), vec2(0.1f))));
 }
 
 void Window::poll(std::vector<InputEvent>& events, double seconds) {

@@ -27,6 +27,7 @@ class Window final : public Platform {
 
   glm::ivec2 size() const override;
   float contentScale() const override;
+  glm::ivec2 windowSize() const override;
   void poll(std::vector<InputEvent>& events, double seconds) override;
   bool closeRequested() const override;
   void refuseClose() override;

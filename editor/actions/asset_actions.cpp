@@ -1,0 +1,66 @@
+// Props from a folder of glTF files.
+#include <filesystem>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/assets/asset_folder.h"
+#include "editor/assets/place_asset.h"
+#include "editor/home_state.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// As it is named from the folder of assets, from the level's, or from where the program runs.
+fs::path found(const Session& s, const std::string& name) {
+  std::error_code error;
+  for (const fs::path& folder :
+       {s.home().preferences.assetFolder, s.document().path.parent_path()}) {
+    if (!folder.empty() && fs::exists(folder / name, error)) return folder / name;
+  }
+  return name;
+}
+
+}  // namespace
+
+void addAssetActions(ActionRegistry& r) {
+  r.add({"asset.folder",
+         "Folder of assets",
+         "FOLDER",
+         "Shows the glTF files of a folder in the asset browser.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "asset.folder FOLDER");
+           std::error_code error;
+           const fs::path beside = s.document().path.parent_path() / a[0];
+           const fs::path folder =
+               fs::absolute(fs::is_directory(beside, error) ? beside : fs::path(a[0]), error)
+                   .lexically_normal();
+           s.home().assetFiles = listAssets(folder);
+           s.home().preferences.assetFolder = folder;
+           s.home().assetsListed = folder;
+           s.home().bottom = BottomPanel::assets;
+           s.lighting().showsTable = false;
+           s.setStatus(std::to_string(s.home().assetFiles.size()) + " files to place in " +
+                       folder.filename().string());
+         },
+         {},
+         true});
+  r.add({"asset.place",
+         "Place an asset",
+         "FILE",
+         "Puts all of a glTF file into the level, on the surface in the middle of the view. Copies "
+         "share their meshes. With place.start, on the surface that is clicked.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "asset.place FILE");
+           placeAsset(s, found(s, a[0]));
+         },
+         {}});
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,189 @@
+// Where the level is looked at from: bookmarks, the level's own cameras, steps by keys.
+#include <algorithm>
+#include <cmath>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/commands/edit_bookmarks.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr float kStepSeconds = 0.25f;  // of flight: how far a step goes
+
+int slotOf(const std::string& text) {
+  const float number = numberOf(text);
+  if (number != std::floor(number) || number < 1.0f || number > kCameraBookmarks)
+    throw InputError(text, "is no number of a bookmark", "give one from 1 to 9");
+  return static_cast<int>(number);
+}
+
+const CameraBookmark* find(const Session& s, int slot) {
+  for (const CameraBookmark& b : s.document().scene.bookmarks)
+    if (b.slot == slot) return &b;
+  return nullptr;
+}
+
+void store(Session& s, int slot) {
+  std::vector<CameraBookmark> all = s.document().scene.bookmarks;
+  std::erase_if(all, [&](const CameraBookmark& b) { return b.slot == slot; });
+  const View& view = s.view();
+  all.push_back({slot, view.eye, view.orientation, view.yfov});
+  std::sort(all.begin(), all.end(),
+            [](const CameraBookmark& a, const CameraBookmark& b) { return a.slot < b.slot; });
+  const std::string number = std::to_string(slot);
+  s.history().run(
+      std::make_unique<EditBookmarks>("Bookmark " + number, s.document(), std::move(all)));
+  s.setStatus("Bookmark " + number + " is this view; " + number + " goes there");
+}
+
+void go(Session& s, int slot) {
+  const CameraBookmark* b = find(s, slot);
+  if (b == nullptr) {
+    const std::string number = std::to_string(slot);
+    throw InputError("bookmark " + number, "nothing is put by there",
+                     "Ctrl+" + number + " puts this view there");
+  }
+  View view = s.view();
+  view.eye = b->eye;
+  view.orientation = b->orientation;
+  view.yfov = b->yfov;
+  s.setView(view);
+  s.setStatus("Bookmark " + std::to_string(slot));
+}
+
+void clear(Session& s, int slot) {
+  std::vector<CameraBookmark> all = s.document().scene.bookmarks;
+  if (std::erase_if(all, [&](const CameraBookmark& b) { return b.slot == slot; }) == 0)
+    throw InputError("bookmark " + std::to_string(slot), "nothing is put by there",
+                     "give the number of another");
+  s.history().run(std::make_unique<EditBookmarks>("Clear bookmark " + std::to_string(slot),
+                                                  s.document(), std::move(all)));
+}
+
+std::vector<ActionChoice> bookmarks(const Session& s) {
+  std::vector<ActionChoice> out;
+  for (const CameraBookmark& b : s.document().scene.bookmarks)
+    out.push_back({std::to_string(b.slot), "Bookmark " + std::to_string(b.slot)});
+  return out;
+}
+
+std::vector<ActionChoice> slots(const Session& s) {
+  std::vector<ActionChoice> out;
+  for (int slot = 1; slot <= kCameraBookmarks; ++slot) {
+    const std::string number = std::to_string(slot);
+    out.push_back({number, "Bookmark " + number + (find(s, slot) != nullptr ? " (anew)" : "")});
+  }
+  return out;
+}
+
+std::vector<ActionChoice> cameras(const Session& s) {
+  std::vector<ActionChoice> out;
+  for (const Node& n : s.document().scene.nodes)
+    if (n.camera != kNone) out.push_back({n.name, n.name});
+  return out;
+}
+
+void addBookmarkActions(ActionRegistry& r) {
+  const auto add = [&](const char* name, const char* label, const char* help,
+                       void (*run)(Session&, int), const char* keys,
+                       std::vector<ActionChoice> (*choices)(const Session&)) {
+    Action action{name,
+                  label,
+                  "1…9",
+                  help,
+                  "",
+                  [run, name](Session& s, const Arguments& a) {
+                    requireArguments(a, 1, 1, std::string(name) + " 1…9");
+                    run(s, slotOf(a[0]));
+                  },
+                  {},
+                  true};
+    action.choices = choices;
+    r.add(std::move(action));
+    for (int slot = 1; keys != nullptr && slot <= kCameraBookmarks; ++slot) {
+      const std::string number = std::to_string(slot);
+      r.addKey(std::string(name) + " " + number, keys + number);
+    }
+  };
+  add("bookmark.store", "Store bookmark", "Puts the view by under a number, saved with the level.",
+      store, "Ctrl+", slots);
+  add("bookmark.go", "Go to bookmark", "Looks from where bookmark.store put the view by.", go, "",
+      bookmarks);
+  add("bookmark.clear", "Clear bookmark", "Forgets a view that was put by.", clear, nullptr,
+      bookmarks);
+}
+
+}  // namespace
+
+void addCameraActions(ActionRegistry& r) {
+  addBookmarkActions(r);
+  Action camera{"camera.go",
+                "Camera of the level",
+                "NAME",
+                "Looks through one of the level's cameras.",
+                "",
+                [](Session& s, const Arguments& a) {
+                  requireArguments(a, 1, 1, "camera.go NAME");
+                  const Node& n = nodeNamed(s.document(), a[0]);
+                  if (n.camera == kNone)
+                    throw InputError(a[0], "is no camera", "give the name of one");
+                  const View& view = s.view();
+                  s.setView(viewOfCamera(s.document().scene, n, view.width, view.height));
+                  s.setStatus("Camera " + n.name);
+                },
+                {},
+                true};
+  camera.choices = cameras;
+  r.add(std::move(camera));
+  r.add({"camera.move",
+         "Move the camera",
+         "RIGHT UP FORWARD",
+         "Moves the camera by steps of a quarter second's flight.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 3, 3, "camera.move RIGHT UP FORWARD");
+           const vec3 way = glm::clamp(vectorOf(a, 0), vec3(-1e4f), vec3(1e4f));
+           View view = s.view();
+           view.eye += kStepSeconds * s.cameraSpeed() *
+                       (way.x * view.right() + way.y * vec3(0, 1, 0) + way.z * view.forward());
+           s.setView(view);
+         },
+         {},
+         true});
+  r.add({"camera.turn",
+         "Turn the camera",
+         "LEFT UP",
+         "Turns the camera by angles in degrees.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 2, 2, "camera.turn LEFT UP");
+           View view = s.view();
+           const float pitch = std::asin(std::clamp(view.forward().y, -1.0f, 1.0f));
+           const float limit = glm::radians(89.0f);  // beyond it up would be down
+           const float up =
+               std::clamp(pitch + glm::radians(std::fmod(numberOf(a[1]), 360.0f)), -limit, limit) -
+               pitch;
+           const float left = glm::radians(std::fmod(numberOf(a[0]), 360.0f));
+           view.orientation = glm::normalize(glm::angleAxis(left, vec3(0, 1, 0)) *
+                                             glm::angleAxis(up, view.right()) * view.orientation);
+           s.setView(view);
+         },
+         {},
+         true});
+  r.addKey("camera.turn 10 0", "Alt+Left");
+  r.addKey("camera.turn -10 0", "Alt+Right");
+  r.addKey("camera.turn 0 10", "Alt+Up");
+  r.addKey("camera.turn 0 -10", "Alt+Down");
+  r.addKey("camera.move -1 0 0", "Ctrl+Left");
+  r.addKey("camera.move 1 0 0", "Ctrl+Right");
+  r.addKey("camera.move 0 0 1", "Ctrl+Up");
+  r.addKey("camera.move 0 0 -1", "Ctrl+Down");
+  r.addKey("camera.move 0 1 0", "Ctrl+Page_up");
+  r.addKey("camera.move 0 -1 0", "Ctrl+Page_down");
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,136 @@
+// Files that come from outside: dropped on the window, or opened before.
+#include <algorithm>
+#include <filesystem>
+
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/commands/edits.h"
+#include "editor/home_state.h"
+#include "editor/lights/light_profile.h"
+#include "editor/lights/new_light.h"
+#include "editor/session.h"
+#include "editor/sky_text.h"
+#include "renderer/error.h"
+#include "renderer/scene/ies_profile.h"
+
+namespace lamplighter {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string endingOf(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+// As it is named from where the program runs, or else from the level's folder.
+fs::path found(const Session& s, const std::string& name) {
+  const fs::path beside = s.document().path.parent_path() / name;
+  std::error_code error;
+  return fs::exists(name, error) || !fs::exists(beside, error) ? fs::path(name) : beside;
+}
+
+// On the selected point and spot lights; where none are selected on a new light, on the surface
+// under the pointer. One step either way.
+void dropProfile(Session& s, const fs::path& file) {
+  const auto profile = readIes(found(s, file.string()).string());
+  const Scene& scene = s.document().scene;
+  std::vector<Node> lights;
+  for (const NodeId id : s.document().selection) {
+    Node n = *scene.find(id);
+    if (!takesProfile(n)) continue;
+    n.punctual = withProfile(scene, n, profile);
+    lights.push_back(std::move(n));
+  }
+  const std::string name = file.filename().string();
+  if (!lights.empty()) {
+    const std::string whose =
+        lights.size() == 1 ? lights[0].name : std::to_string(lights.size()) + " lights";
+    s.history().run(
+        std::make_unique<EditNodes>("Profile " + name, s.document(), std::move(lights)));
+    return s.setStatus(whose + " shines by " + name);
+  }
+  auto place = s.surfaceUnderPointer({});
+  if (!place) place = s.surfaceAhead();
+  if (!place) throw InputError(name, "there is no surface to put its light on", "point at one");
+  Node n = newLight("point", glm::length(place->position - s.view().eye),
+                    s.document().render.exposureEv);
+  n.id = s.document().scene.nextId++;
+  n.name = file.stem().string() + " " + std::to_string(n.id);
+  n.punctual = withProfile(scene, n, profile);
+  // Its axis, along which downlights shine, is its −Z: away from the surface.
+  Scene with = scene;
+  with.nodes.push_back(n);
+  if (const auto local = placedOn(with, n.id, *place)) n.local = *local;
+  s.history().run(std::make_unique<AddNodes>("Add " + n.name, std::vector<Node>{n}));
+  s.select({n.id});
+  s.setStatus("A light that shines by " + name);
+}
+
+void drop(Session& s, const Arguments& files) {
+  for (const std::string& file : files) {
+    const fs::path path(file);
+    const std::string ending = endingOf(path);
+    if (ending == ".gltf" || ending == ".glb") {
+      s.requestOpen(path);
+      return;  // what else was dropped would go into the level that is left
+    }
+    if (ending == ".ies") {
+      dropProfile(s, path);
+    } else if (ending == ".hdr" || ending == ".exr") {
+      const Sky& before = s.document().scene.sky;
+      s.setSky(Sky::picture(findSkyImage(file, s.document().path.parent_path()), before.rotation,
+                            before.scale));
+      s.setStatus(path.filename().string() + " is the sky");
+    } else {
+      throw InputError(path.filename().string(), "cannot be dropped here",
+                       "drop a level (.gltf, .glb), a sky (.hdr, .exr) or a profile (.ies)");
+    }
+  }
+}
+
+std::vector<ActionChoice> recent(const Session& s) {
+  std::vector<ActionChoice> out;
+  for (const fs::path& file : s.home().preferences.recentFiles)
+    out.push_back({std::to_string(out.size() + 1), file.string()});
+  return out;
+}
+
+}  // namespace
+
+void addDropActions(ActionRegistry& r) {
+  r.add(
+      {"file.drop",
+       "Take a file in",
+       "FILE [FILE]…",
+       "What dropping files on the window does: opens a level, takes .hdr or .exr as the sky, and "
+       ".ies as the profile of the selected lights or of a new one under the pointer.",
+       "",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 1, 1000, "file.drop FILE [FILE]…");
+         drop(s, a);
+       },
+       {}});
+  Action again{"file.open_recent",
+               "Open recent",
+               "N",
+               "Opens one of the levels that were open before, 1 the last.",
+               "",
+               [](Session& s, const Arguments& a) {
+                 requireArguments(a, 1, 1, "file.open_recent N");
+                 const auto& files = s.home().preferences.recentFiles;
+                 const float n = numberOf(a[0]);
+                 for (size_t i = 0; i < files.size(); ++i)
+                   if (n == static_cast<float>(i + 1)) return s.requestOpen(files[i]);
+                 throw InputError(a[0], "is no number of a recent file",
+                                  "there are " + std::to_string(files.size()));
+               },
+               {}};
+  again.choices = recent;
+  r.add(std::move(again));
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,107 @@
+// The user's settings, and the panels that belong to no level.
+#include "editor/actions/arguments.h"
+#include "editor/actions/register_actions.h"
+#include "editor/home_state.h"
+#include "editor/preferences/apply.h"
+#include "editor/session.h"
+#include "renderer/error.h"
+
+namespace lamplighter {
+
+namespace {
+
+void apply(Session& s) {
+  std::vector<std::string> problems;
+  applyPreferences(s, problems);
+  for (const std::string& problem : problems)
+    s.setStatus("keys.json: " + problem, NoticeKind::warning);
+}
+
+void addPanel(ActionRegistry& r, const char* name, const char* label, const char* help,
+              const char* shortcut, BottomPanel panel) {
+  r.add({name,
+         label,
+         "",
+         help,
+         shortcut,
+         [panel](Session& s, const Arguments&) {
+           BottomPanel& shown = s.home().bottom;
+           shown = shown == panel ? BottomPanel::none : panel;
+           if (shown != BottomPanel::none) s.lighting().showsTable = false;  // one has room there
+         },
+         {},
+         true,
+         [panel](const Session& s) { return s.home().bottom == panel; }});
+}
+
+}  // namespace
+
+void addPreferenceActions(ActionRegistry& r) {
+  r.add({"settings.set",
+         "Change setting",
+         "NAME=VALUE",
+         "Changes one of the user's settings (docs/settings.md).",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "settings.set NAME=VALUE");
+           const size_t equals = a[0].find('=');
+           if (equals == std::string::npos)
+             throw InputError(a[0], "changes no setting", "give NAME=VALUE");
+           takePreferences(s);
+           s.home().preferences.setText(a[0].substr(0, equals), a[0].substr(equals + 1));
+           apply(s);
+         },
+         {},
+         true});
+  r.add({"settings.reset",
+         "Reset settings",
+         "[NAME]",
+         "Puts a setting, or all of them, back to its default.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 0, 1, "settings.reset [NAME]");
+           takePreferences(s);
+           Preferences& p = s.home().preferences;
+           if (a.empty())
+             p.values = {};
+           else
+             p.values.reset(preferenceNamed(a[0]).name);
+           apply(s);
+         },
+         {},
+         true});
+  r.add({"settings.show",
+         "Settings\u2026",
+         "",
+         "Shows the user's settings.",
+         "Ctrl+Comma",
+         [](Session& s, const Arguments&) { s.home().showsSettings = true; },
+         {},
+         true});
+  r.add({"view.ui_scale",
+         "UI scale",
+         "0.75|1|1.25|1.5|2|3",
+         "How large the user interface is, times what the screen asks for; from 0.5 to 4.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "view.ui_scale FACTOR");
+           s.home().preferences.setText("ui_scale", a[0]);
+         },
+         {},
+         true});
+  const auto addFocus = [&](const char* name, const char* label, const char* help,
+                            const char* shortcut) {
+    r.add({name, label, "", help, shortcut, [](Session&, const Arguments&) {}, {}, true});
+  };
+  addFocus("panel.next", "Next panel",
+           "Gives the keyboard to the next panel; arrows lead through it.", "F6, Ctrl+Tab");
+  addFocus("panel.previous", "Previous panel", "Gives the keyboard to the panel before.",
+           "Shift+F6, Ctrl+Shift+Tab");
+  addFocus("app.menu", "Menu bar", "Gives the keyboard to the menus.", "F10");
+  addPanel(r, "panel.assets", "Assets", "Props of a folder to place, below the view.", "B",
+           BottomPanel::assets);
+  addPanel(r, "panel.log", "Log", "All that happened since the program started, below the view.",
+           "Shift+N", BottomPanel::log);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,41 @@
+#include "editor/assets/asset_library.h"
+
+#include <algorithm>
+
+#include "renderer/error.h"
+#include "renderer/scene/gltf_io.h"
+
+namespace lamplighter {
+
+namespace fs = std::filesystem;
+
+std::shared_ptr<const Clipping> AssetLibrary::load(const fs::path& file) {
+  std::error_code error;
+  const fs::path path = fs::absolute(file, error).lexically_normal();
+  const fs::file_time_type time = fs::last_write_time(path, error);
+  const uintmax_t size = error ? 0 : fs::file_size(path, error);
+  const auto it = std::find_if(entries_.begin(), entries_.end(),
+                               [&](const Entry& e) { return e.file == path; });
+  if (it != entries_.end()) {
+    if (!error && it->time == time && it->size == size) {
+      entries_.splice(entries_.begin(), entries_, it);
+      return entries_.front().clipping;
+    }
+    entries_.erase(it);
+  }
+  const LoadedScene loaded = loadGltf(path);
+  std::vector<NodeId> roots;
+  for (const Node& n : loaded.scene.nodes)
+    if (n.parent == kNoNode) roots.push_back(n.id);
+  auto clipping = std::make_shared<const Clipping>(clip(loaded.scene, roots));
+  if (clipping->meshes.empty() &&
+      std::none_of(clipping->nodes.begin(), clipping->nodes.end(),
+                   [](const Node& n) { return n.area || n.punctual; })) {
+    throw InputError(file.string(), "holds nothing to place", "give a file with a mesh or a light");
+  }
+  entries_.push_front({path, time, size, clipping});
+  if (entries_.size() > kMost) entries_.pop_back();
+  return clipping;
+}
+
+}  // namespace lamplighter

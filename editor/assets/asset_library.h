@@ -1,0 +1,30 @@
+// Props that were read, to be placed again without reading them: their meshes and pixels are shared
+// with the levels they were placed in.
+#pragma once
+
+#include <filesystem>
+#include <list>
+#include <memory>
+
+#include "editor/document/clipping.h"
+
+namespace lamplighter {
+
+class AssetLibrary {
+ public:
+  // The whole of the file's scene. Read anew where the file is another than it was. Throws
+  // InputError.
+  std::shared_ptr<const Clipping> load(const std::filesystem::path& file);
+
+ private:
+  static constexpr size_t kMost = 32;  // the last used
+  struct Entry {
+    std::filesystem::path file;
+    std::filesystem::file_time_type time;
+    uintmax_t size = 0;
+    std::shared_ptr<const Clipping> clipping;
+  };
+  std::list<Entry> entries_;  // the last used first
+};
+
+}  // namespace lamplighter

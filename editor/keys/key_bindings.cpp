@@ -1,0 +1,94 @@
+#include "editor/keys/key_bindings.h"
+
+#include <algorithm>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+namespace lamplighter {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr size_t kLongest = 200;
+
+std::string quoted(const std::string& text) {
+  std::string out = Json(text).dump(-1, ' ', true, Json::error_handler_t::replace);
+  return out.size() > 60 ? out.substr(0, 57) + "..." : out;
+}
+
+// Whose keys some of these are, other than `text`; "" where none are taken.
+std::string ownerOf(const KeyMap& keys, const Chord& chord, const std::string& text) {
+  for (const auto& [owner, chords] : keys) {
+    if (owner != text && std::find(chords.begin(), chords.end(), chord) != chords.end())
+      return owner;
+  }
+  return "";
+}
+
+}  // namespace
+
+KeyList parseKeys(std::string_view text, std::vector<std::string>& problems) {
+  KeyList out;
+  const Json j = Json::parse(text, nullptr, false);
+  if (!j.is_object()) {
+    problems.emplace_back("is no JSON object of actions and keys; the default keys are taken");
+    return out;
+  }
+  for (const auto& [action, chord] : j.items()) {
+    if (!chord.is_string() || action.size() > kLongest) {
+      problems.push_back(quoted(action) + ": its key is no text; it is left out");
+    } else if (!parseChords(chord.get<std::string>())) {
+      problems.push_back(quoted(action) + ": " + quoted(chord.get<std::string>()) +
+                         " is no key; write it as Ctrl+Shift+Z or F6");
+    } else {
+      out.emplace_back(action, chord.get<std::string>());
+    }
+  }
+  return out;
+}
+
+KeyMap resolveKeys(const ActionRegistry& registry, const KeyList& preset, const KeyList& file,
+                   std::vector<std::string>& problems) {
+  KeyMap keys = registry.defaultKeys();
+  const auto bind = [&](const std::string& text, const std::vector<Chord>& chords) {
+    for (auto& [owner, theirs] : keys) {
+      std::erase_if(theirs, [&](const Chord& c) {
+        return std::find(chords.begin(), chords.end(), c) != chords.end();
+      });
+    }
+    keys[text] = chords;
+  };
+  for (const auto& [text, chord] : preset)
+    if (const auto chords = parseChords(chord)) bind(text, *chords);
+
+  std::set<std::string> ofFile;
+  for (const auto& [text, chord] : file) ofFile.insert(text);
+  std::vector<std::string> bound;  // by the file so far
+  for (const auto& [text, chord] : file) {
+    if (registry.find(text.substr(0, text.find(' '))) == nullptr) {
+      problems.push_back(quoted(text) + ": there is no such action; docs/actions.md lists them");
+      continue;
+    }
+    std::vector<Chord> chords = parseChords(chord).value_or(std::vector<Chord>());
+    std::erase_if(chords, [&](const Chord& c) {
+      const std::string owner = ownerOf(keys, c, text);
+      if (owner.empty()) return false;
+      if (std::find(bound.begin(), bound.end(), owner) != bound.end()) {
+        problems.push_back(quoted(text) + ": " + chordText(c) + " is the key of " + quoted(owner) +
+                           " already; give one of them another");
+        return true;
+      }
+      if (!ofFile.contains(owner) && keys.at(owner).size() == 1)
+        problems.push_back(quoted(text) + ": takes " + chordText(c) + " from " + quoted(owner) +
+                           ", which has no key now");
+      return false;
+    });
+    bind(text, chords);
+    bound.push_back(text);
+  }
+  return keys;
+}
+
+}  // namespace lamplighter

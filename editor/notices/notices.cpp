@@ -1,0 +1,21 @@
+#include "editor/notices/notices.h"
+
+#include <algorithm>
+
+namespace lamplighter {
+
+void Notices::add(NoticeKind kind, const std::string& text) {
+  if (text.empty()) return;
+  ++last_;
+  if (!all_.empty() && all_.back().text == text && all_.back().kind == kind) {
+    all_.back().id = last_;
+    ++all_.back().count;
+    return;
+  }
+  Notice notice{last_, kind, text, 1};
+  std::replace(notice.text.begin(), notice.text.end(), '\n', ' ');
+  all_.push_back(std::move(notice));
+  if (all_.size() > kMost) all_.pop_front();
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,71 @@
+// Every action is run by some recording, whatever starts it there: a menu, a key, the palette or
+// its own text. The recordings' tests leave reports of what they ran (tests/CMakeLists.txt), and
+// this one runs after them, as the test recording-coverage.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/process.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path kRecordings = fs::path(LAMPLIGHTER_SOURCE_DIR) / "tests/recordings";
+
+std::set<std::string> allActions() {
+  std::set<std::string> names;
+  for (const json& action : json::parse(test::runLamplighter({"actions", "--json"}).out))
+    names.insert(action["name"].get<std::string>());
+  return names;
+}
+
+// NAME: reason, of uncovered.txt.
+std::map<std::string, std::string> excused() {
+  std::map<std::string, std::string> out;
+  std::ifstream in(kRecordings / "uncovered.txt");
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    const size_t colon = line.find(": ");
+    out[line.substr(0, colon)] = colon == std::string::npos ? "" : line.substr(colon + 2);
+  }
+  return out;
+}
+
+TEST(RecordingCoverage, EveryActionIsInARecording) {
+  const char* folder = std::getenv("LAMPLIGHTER_RECORDING_REPORTS");
+  if (folder == nullptr) GTEST_SKIP() << "run it as the test recording-coverage";
+  std::set<std::string> covered;
+  for (const auto& entry : fs::directory_iterator(kRecordings)) {
+    if (entry.path().extension() != ".jsonl") continue;
+    const fs::path report = fs::path(folder) / (entry.path().stem().string() + ".json");
+    // Those of scenes that are not here have none.
+    if (!fs::exists(report)) continue;
+    std::ifstream in(report);
+    const json content = json::parse(in);
+    for (const json& name : content["actions"]) covered.insert(name.get<std::string>());
+  }
+  ASSERT_FALSE(covered.empty()) << "there are no reports in " << folder;
+  if (!fs::exists(fs::path(LAMPLIGHTER_SHARED_DIR) / "scenes"))
+    GTEST_SKIP() << "without ../shared/scenes not all recordings are played";
+  const std::set<std::string> actions = allActions();
+  const std::map<std::string, std::string> without = excused();
+  for (const std::string& name : actions)
+    EXPECT_TRUE(covered.contains(name) || without.contains(name))
+        << name << ": no recording in tests/recordings runs it";
+  for (const auto& [name, reason] : without) {
+    EXPECT_FALSE(reason.empty()) << name << " is excused without a reason";
+    EXPECT_TRUE(actions.contains(name)) << name << " is excused and no action";
+    EXPECT_FALSE(covered.contains(name)) << name << " is excused and covered";
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter

@@ -1,0 +1,55 @@
+// The user's files do nothing to replays and the other subcommands; and the page about them is up
+// to date.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/process.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProcessResult;
+using test::runLamplighter;
+
+std::string contents(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(UserSettings, AHostileFileDoesNotChangeAReplay) {
+  const fs::path folder = fs::path(testing::TempDir()) / "lamplighter_hostile_settings";
+  fs::remove_all(folder);
+  fs::create_directories(folder / "lamplighter");
+  // One that would change all it could, and one that is broken.
+  const std::string hostile = R"({"lamplighter_settings":1,"settings":{"ui_scale":3,"keys":"grs",
+    "tone_mapper":"linear","light_unit":"cd","preset":"draft","left_width":900,"right_width":900}})";
+  const std::string keys = R"({"tool.move":"P","app.palette":"","edit.undo":"W"})";
+  ASSERT_EQ(::setenv("XDG_CONFIG_HOME", folder.c_str(), 1), 0);
+  for (const std::string& settings : {hostile, std::string("{\"")}) {
+    std::ofstream(folder / "lamplighter/settings.json") << settings;
+    std::ofstream(folder / "lamplighter/keys.json") << keys;
+    const ProcessResult r = runLamplighter(
+        {"replay", std::string(LAMPLIGHTER_SOURCE_DIR) + "/tests/recordings/place_light.jsonl",
+         "--headless", "--check", "-o", (folder / "out").string()});
+    EXPECT_EQ(r.code, 0) << r.out << r.err;
+    EXPECT_EQ(contents(folder / "lamplighter/settings.json"), settings);
+    EXPECT_EQ(contents(folder / "lamplighter/keys.json"), keys);
+    EXPECT_EQ(
+        std::distance(fs::directory_iterator(folder / "lamplighter"), fs::directory_iterator()), 2);
+  }
+  ::unsetenv("XDG_CONFIG_HOME");
+  fs::remove_all(folder);
+}
+
+TEST(UserSettings, ThePageIsUpToDate) {
+  EXPECT_EQ(runLamplighter({"settings", "--markdown"}).out,
+            contents(fs::path(LAMPLIGHTER_SOURCE_DIR) / "docs/settings.md"))
+      << "run: lamplighter settings --markdown > docs/settings.md";
+}
+
+}  // namespace
+}  // namespace lamplighter

@@ -1,0 +1,152 @@
+// The user's settings, made from their declarations, and the keys that are bound.
+#include <algorithm>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "editor/home_state.h"
+#include "ui/panels/home_panels.h"
+#include "ui/panels/panels.h"
+#include "ui/panels/value_slider.h"
+#include "ui/theme.h"
+
+namespace lamplighter {
+namespace {
+
+std::string withUnit(const char* number, const ParameterSpec& spec) {
+  return spec.unit.empty() ? number : std::string(number) + " " + spec.unit;
+}
+
+// The new value as text, if it changed.
+std::optional<std::string> field(const PanelContext& ui, const ParameterSpec& spec,
+                                 const Settings& settings) {
+  const std::string id = "##" + spec.name;
+  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
+  if (std::holds_alternative<bool>(spec.defaultValue)) {
+    bool value = settings.boolean(spec);
+    const bool changed = ImGui::Checkbox(id.c_str(), &value);
+    ui.name(spec.name);
+    return changed ? std::optional<std::string>(value ? "true" : "false") : std::nullopt;
+  }
+  if (std::holds_alternative<int>(spec.defaultValue)) {
+    int value = settings.integer(spec);
+    const auto low = static_cast<int>(spec.minimum), high = static_cast<int>(spec.maximum);
+    const bool changed =
+        valueSlider(id.c_str(), value, low, high, withUnit("%d", spec).c_str(), flags);
+    ui.name(spec.name);
+    return changed ? std::optional(Settings::format(std::clamp(value, low, high))) : std::nullopt;
+  }
+  if (std::holds_alternative<float>(spec.defaultValue)) {
+    float value = settings.real(spec);
+    const auto low = static_cast<float>(spec.minimum), high = static_cast<float>(spec.maximum);
+    const bool changed =
+        valueSlider(id.c_str(), value, low, high, withUnit("%.3g", spec).c_str(), flags);
+    ui.name(spec.name);
+    return changed ? std::optional(Settings::format(std::clamp(value, low, high))) : std::nullopt;
+  }
+  const std::string value = settings.choice(spec);
+  std::optional<std::string> chosen;
+  const bool open = ImGui::BeginCombo(id.c_str(), value.c_str());
+  ui.name(spec.name);
+  if (!open) return chosen;
+  for (const std::string& choice : spec.choices) {
+    if (ImGui::Selectable(choice.c_str(), choice == value)) chosen = choice;
+    ui.name(spec.name + "/" + choice);
+  }
+  ImGui::EndCombo();
+  return chosen;
+}
+
+// A slider that changed the scale under the hand that drags it would run away.
+bool waitsForRelease(const ParameterSpec& spec) { return spec.name == "ui_scale"; }
+
+void uiScaleRow(const PanelContext& ui, const ParameterSpec& spec, Requests& requests) {
+  static constexpr const char* kScales[] = {"0.75", "1", "1.25", "1.5", "2", "3"};
+  const std::string now = Settings::format(ui.session.home().preferences.values.real(spec));
+  const bool open = ImGui::BeginCombo("##ui_scale", now.c_str());
+  ui.name(spec.name);
+  if (!open) return;
+  for (const char* scale : kScales) {
+    if (ImGui::Selectable(scale, now == scale))
+      requests.actions.push_back(std::string("view.ui_scale ") + scale);
+    ui.name(spec.name + "/" + scale);
+  }
+  ImGui::EndCombo();
+}
+
+void values(const PanelContext& ui, Requests& requests) {
+  const Settings& settings = ui.session.home().preferences.values;
+  for (const PreferenceSection& part : preferenceSections()) {
+    if (!section(ui, part.label.c_str(), part.label != "Window")) continue;
+    for (const ParameterSpec& spec : part.specs) {
+      labelledRow(ui, spec.label.c_str(), spec.help.c_str());
+      if (waitsForRelease(spec)) {
+        uiScaleRow(ui, spec, requests);
+      } else if (const auto value = field(ui, spec, settings)) {
+        requests.actions.push_back("settings.set " + spec.name + "=" + *value);
+      }
+      tooltip(ui, spec.help);
+    }
+  }
+}
+
+void keyTable(const PanelContext& ui, SettingsState& state) {
+  if (!section(ui, "Keys")) return;
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::InputTextWithHint("##search", "Search actions and keys", &state.search);
+  ui.name("key_search");
+  const auto lower = [](std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+  };
+  const std::string wanted = lower(state.search);
+  ImGui::BeginChild("keys", {0, ui.px(150)}, true);
+  for (const auto& [name, action] : ui.session.actions().all()) {
+    if (action.shortcut.empty()) continue;
+    if (lower(name + " " + action.label + " " + action.shortcut).find(wanted) == std::string::npos)
+      continue;
+    ImGui::TextUnformatted(action.shortcut.c_str());
+    ImGui::SameLine(ui.px(170));
+    ImGui::TextUnformatted(action.label.c_str());
+    ImGui::SameLine(ui.px(360));
+    ImGui::TextColored(ImGui::GetStyle().Colors[ImGuiCol_TextDisabled], "%s", name.c_str());
+  }
+  ImGui::EndChild();
+  note("Single actions are bound in keys.json beside the settings file: docs/settings.md.");
+}
+
+}  // namespace
+
+void settingsDialog(PanelContext ui, SettingsState& state, Requests& requests) {
+  ui.prefix = "settings/";
+  bool& shows = ui.session.home().showsSettings;
+  constexpr const char* kTitle = "Settings###settings";
+  if (shows && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
+  const ImVec2 window = ImGui::GetMainViewport()->Size;
+  ImGui::SetNextWindowSize(
+      {std::min(ui.px(560), 0.96f * window.x), std::min(ui.px(620), 0.92f * window.y)});
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
+  if (!beginBorderedModal(kTitle, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove)) return;
+  ImGui::BeginChild("values", {0, -ImGui::GetFrameHeightWithSpacing() - ui.px(4)}, false,
+                    ImGuiWindowFlags_NavFlattened);
+  values(ui, requests);
+  keyTable(ui, state);
+  ImGui::EndChild();
+  if (ImGui::Button("Reset all")) requests.actions.push_back("settings.reset");
+  ui.name("reset");
+  const float width = ui.px(96);
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+  const bool isPopupOpen = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId) &&
+                           !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
+  const bool escapes = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false) &&
+                       !ImGui::IsAnyItemActive() && !isPopupOpen;
+  if (ImGui::Button("Close", {width, 0}) || escapes) {
+    shows = false;
+    ImGui::CloseCurrentPopup();
+  }
+  ui.name("close");
+  ImGui::EndPopup();
+}
+
+}  // namespace lamplighter
