@@ -1,5 +1,6 @@
 // Bookmarks, cameras of the level, and steps of the camera by keys.
 #include <filesystem>
+#include <fstream>
 
 #include "editor/home_state.h"
 #include "renderer/scene/gltf_io.h"
@@ -60,6 +61,34 @@ TEST_F(CameraActions, BookmarksAreSavedWithTheLevel) {
     EXPECT_TRUE(loadGltf(folder / file).scene.bookmarks.empty());
   }
   fs::remove_all(folder);
+}
+
+TEST_F(CameraActions, MalformedBookmarksAreLeftOutWithAWarning) {
+  const fs::path file = fs::path(testing::TempDir()) / "lamplighter_bad_bookmarks.gltf";
+  const std::string good = R"({"slot":2,"eye":[1,2,3],"rotation":[0,0,0,1],"yfov":0.9})";
+  const auto load = [&](const std::string& bookmarks) {
+    std::ofstream(file) << R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"extras":)"
+                        << R"({"lamplighter":{"bookmarks":)" << bookmarks << "}}}]}";
+    return loadGltf(file);
+  };
+  EXPECT_EQ(load("[" + good + "]").scene.bookmarks.size(), 1u);
+  for (const std::string& bad :
+       {std::string(R"({"slot":0,"eye":[1,2,3],"rotation":[0,0,0,1],"yfov":0.9})"),
+        std::string(R"({"slot":10,"eye":[1,2,3],"rotation":[0,0,0,1],"yfov":0.9})"),
+        std::string(R"({"slot":1,"eye":[1,2],"rotation":[0,0,0,1],"yfov":0.9})"),
+        std::string(R"({"slot":1,"eye":[1,2,1e300],"rotation":[0,0,0,1],"yfov":0.9})"),
+        std::string(R"({"slot":1,"eye":[1,2,3],"rotation":[0,0,0,0],"yfov":0.9})"),
+        std::string(R"({"slot":1,"eye":[1,2,3],"rotation":"up","yfov":0.9})"),
+        std::string(R"({"slot":1,"eye":[1,2,3],"rotation":[0,0,0,1],"yfov":-1})"), good,
+        std::string("7"), std::string("null")}) {
+    const LoadedScene loaded = load("[" + good + "," + bad + "]");
+    EXPECT_EQ(loaded.scene.bookmarks.size(), 1u) << bad;
+    EXPECT_GE(loaded.warnings.size(), 1u) << bad;
+    EXPECT_NE(loaded.warnings[0].find("bookmark"), std::string::npos) << loaded.warnings[0];
+  }
+  EXPECT_TRUE(load("{}").scene.bookmarks.empty());
+  EXPECT_TRUE(load("\"many\"").scene.bookmarks.empty());
+  fs::remove(file);
 }
 
 TEST_F(CameraActions, NumbersOutOfRangeAreRefused) {

@@ -1,6 +1,9 @@
 // Keys bound anew: presets, the user's file, and what is told of conflicts.
 #include "editor/keys/key_bindings.h"
 
+#include <map>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "editor/actions/register_actions.h"

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -71,7 +72,8 @@ int runEditor(const EditorOptions& options, const Frontend& frontend) {
   Window window(preferences.integer("window_width"), preferences.integer("window_height"),
                 "Lamplighter", recording ? Window::Kind::fixed : Window::Kind::resizable,
                 recording ? std::nullopt : askedUiScale());
-  showPreparing(window, window.contentScale() * preferences.real("ui_scale"));
+  showPreparing(window, std::clamp(window.contentScale() * preferences.real("ui_scale"),
+                                   kLeastUiScale, kMostUiScale));
   const auto makeRenderer = [&] {
     return std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
   };

@@ -126,6 +126,15 @@ Window::Window(int width, int height, const std::string& title, Kind kind,
 #ifdef LAMPLIGHTER_DEBUG
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
 #endif
+  // A size that was kept from a larger screen, or written by hand, is no reason to have no window.
+  if (GLFWmonitor* monitor = kind == Kind::resizable ? glfwGetPrimaryMonitor() : nullptr) {
+    int x = 0, y = 0, w = 0, h = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &w, &h);
+    if (w > 0 && h > 0) {
+      width = std::min(width, w);
+      height = std::min(height, h);
+    }
+  }
   window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (!window_) {
     const std::string reason = glfwReason();
