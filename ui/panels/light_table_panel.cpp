@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 
 #include <imgui.h>
@@ -58,51 +57,6 @@ void rightAligned(const std::string& text) {
   if (left > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + left);
   ImGui::TextUnformatted(text.c_str());
 }
-
-std::string countOf(int value) { return value == 0 ? "\u2013" : grouped(value); }
-
-}  // namespace
-
-std::string cellText(const LightRow& r, LightColumn column) {
-  const LightFigures& f = r.figures;
-  char text[64] = "";
-  switch (column) {
-    case LightColumn::kind:
-      return kindLabel(r.source.measure.kind);
-    case LightColumn::temperature:
-      return r.kelvin ? grouped(std::lround(*r.kelvin)) + " K" : "\u2013";
-    case LightColumn::strength:
-      return short3(r.strength) + " " + unitSymbol(r.unit);
-    case LightColumn::size:
-      if (r.size.x <= 0.0f) return "\u2013";
-      return r.size.x == r.size.y ? short3(static_cast<double>(r.size.x))
-                                  : short3(static_cast<double>(r.size.x)) + " \u00d7 " +
-                                        short3(static_cast<double>(r.size.y));
-    case LightColumn::group:
-      return r.state.group;
-    case LightColumn::share:
-      if (f.share <= 0.0) return "\u2013";
-      if (f.share < 0.0005) return "< 0.1%";
-      std::snprintf(text, sizeof text, f.share < 0.1 ? "%.1f%%" : "%.0f%%", 100.0 * f.share);
-      return text;
-    case LightColumn::samples:
-      return countOf(f.samples);
-    case LightColumn::patches:
-      return countOf(f.patches);
-    case LightColumn::milliseconds:
-      if (f.milliseconds <= 0.0) return "\u2013";
-      std::snprintf(text, sizeof text, "%.2f", f.milliseconds);
-      return text;
-    case LightColumn::pending:
-      return countOf(f.mapsPending);
-    case LightColumn::age:
-      return countOf(f.age);
-    default:
-      return r.name;
-  }
-}
-
-namespace {
 
 class Table {
  public:
