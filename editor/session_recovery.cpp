@@ -30,6 +30,7 @@ void Session::recoverWork(size_t number) {
 
 void Session::autosave() {
   if (keeper_.journal() == nullptr) return;
+  history_.commit();
   const auto work = keeper_.journal()->autosave(document_);
   if (!work) return;
   work->write();

@@ -21,12 +21,15 @@ void AutosaveWorker::finish() {
 void AutosaveWorker::frame(Session& session, double seconds) {
   Journal* journal = session.keeper().journal();
   if (journal == nullptr) return;
+  // Not in the middle of a drag: what it has done so far may be taken back.
+  if (session.history().inTransaction()) return;
   if (work_ && written_) {
     finish();
-    // Another level may have been opened meanwhile; its journal is another folder.
-    if (!error_.empty()) {
+    if (journal->folder() != work_->folder) {
+      // Another level was opened meanwhile: nobody needs this one.
+    } else if (!error_.empty()) {
       session.setStatus("Autosave: " + error_);
-    } else if (journal->folder() == work_->folder) {
+    } else {
       try {
         journal->restart(session.document(), work_->needsLevel);
         spdlog::info("autosaved to {}", (work_->folder / "autosave.glb").string());
@@ -37,8 +40,7 @@ void AutosaveWorker::frame(Session& session, double seconds) {
     work_.reset();
   }
   if (last_ < 0.0) last_ = seconds;
-  // Not in the middle of a drag: what it has done so far is not in the journal either.
-  if (work_ || seconds - last_ < kSecondsBetween || session.history().inTransaction()) return;
+  if (work_ || seconds - last_ < kSecondsBetween) return;
   last_ = seconds;
   if (journal->edits() == editsThen_) return;
   work_ = journal->autosave(session.document());
