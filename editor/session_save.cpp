@@ -1,6 +1,7 @@
 // Saving, and what others have done to the level's files meanwhile.
 #include <algorithm>
 
+#include "editor/home_state.h"
 #include "editor/session.h"
 #include "renderer/error.h"
 #include "renderer/scene/gltf_io.h"

@@ -17,6 +17,9 @@ class EditBookmarks final : public Command {
   void revert(Document& document) override { document.scene.bookmarks = before_; }
   bool absorb(const Command&) override { return false; }
   bool changesNothing() const override { return before_ == after_; }
+  size_t bytes() const override {
+    return sizeof *this + sizeof(CameraBookmark) * (before_.size() + after_.size());
+  }
 
  private:
   std::string label_;

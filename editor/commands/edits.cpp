@@ -4,6 +4,7 @@
 #include <map>
 
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_picture.h"
 
 namespace lamplighter {
 
@@ -11,14 +12,22 @@ namespace {
 
 size_t bytesOf(const Node& n) {
   return sizeof n + n.name.size() + n.light.group.size() +
-         (n.punctual && n.punctual->profile ? n.punctual->profile->text.size() : 0);
+         sizeof(NodeId) * n.light.leftOut.size() +
+         (n.punctual && n.punctual->profile ? n.punctual->profile->text.size() : 0) +
+         (n.area && n.area->picture
+              ? n.area->picture->bytes->size() + n.area->picture->image->pixels.size()
+              : 0);
 }
+
+}  // namespace
 
 size_t bytesOf(const std::vector<Node>& nodes) {
   size_t sum = 0;
   for (const Node& n : nodes) sum += bytesOf(n);
   return sum;
 }
+
+namespace {
 
 size_t bytesOf(const RenderSettings& r) {
   constexpr size_t kEntry = 160;  // of a map of names, about

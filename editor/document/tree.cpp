@@ -54,6 +54,11 @@ Reparent::Reparent(const Document& document, const std::vector<NodeId>& ids, Nod
   orderAfter_.insert(orderAfter_.end(), goes.begin(), goes.end());
 }
 
+size_t Reparent::bytes() const {
+  return sizeof *this + bytesOf(before_) + bytesOf(after_) +
+         sizeof(NodeId) * (orderBefore_.size() + orderAfter_.size());
+}
+
 void Reparent::put(Document& document, const std::vector<Node>& nodes,
                    const std::vector<NodeId>& order) {
   std::vector<Node>& all = document.scene.nodes;

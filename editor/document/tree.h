@@ -26,6 +26,7 @@ class Reparent final : public Command {
   void revert(Document& document) override { put(document, before_, orderBefore_); }
   bool absorb(const Command&) override { return false; }
   bool changesNothing() const override { return before_ == after_; }
+  size_t bytes() const override;
 
  private:
   static void put(Document& document, const std::vector<Node>& nodes,

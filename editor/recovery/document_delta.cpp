@@ -145,7 +145,7 @@ Json deltaBetween(const Scene& base, const Document& before, const Document& aft
                   bool whole) {
   // By structured bindings: a member that is added does not compile until it is written here too.
   const auto& [name, nodes, meshes, materials, textures, cameras, nextId, sky, skyLight,
-               lightGroups, skyIsDefault, source] = after.scene;
+               lightGroups, bookmarks, skyIsDefault, source] = after.scene;
   const Scene& was = before.scene;
   Json out = Json::object();
   if (whole)
@@ -175,6 +175,7 @@ Json deltaBetween(const Scene& base, const Document& before, const Document& aft
   }
   if (whole || !(skyLight == was.skyLight)) out["skyLight"] = toJson(skyLight, blobs);
   if (whole || lightGroups != was.lightGroups) out["lightGroups"] = listOf(lightGroups, blobs);
+  if (whole || bookmarks != was.bookmarks) out["bookmarks"] = listOf(bookmarks, blobs);
   if (whole || !(after.render == before.render)) out["render"] = toJson(after.render, blobs);
   return out;
 }
@@ -219,6 +220,7 @@ void applyDelta(const Scene& base, Document& document, const Json& delta, Blobs&
   }
   if (has("skyLight")) fromJson(delta["skyLight"], blobs, scene.skyLight);
   if (has("lightGroups")) scene.lightGroups = valuesOf<LightGroup>(delta["lightGroups"], blobs);
+  if (has("bookmarks")) scene.bookmarks = valuesOf<CameraBookmark>(delta["bookmarks"], blobs);
   if (has("render")) fromJson(delta["render"], blobs, render);
   checkIndices(scene);
   document.scene = std::move(scene);

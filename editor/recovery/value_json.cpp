@@ -6,6 +6,7 @@
 #include "editor/recovery/mesh_bytes.h"
 #include "renderer/error.h"
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/light_picture.h"
 
 namespace lamplighter {
 
@@ -57,6 +58,15 @@ struct Writer {
     // Not as text: files of before Unicode hold any bytes.
     const std::span bytes(reinterpret_cast<const uint8_t*>(v->text.data()), v->text.size());
     return {{"file", v->file}, {"text", blobs.put(bytes)}};
+  }
+  Json put(const std::shared_ptr<const LightPicture>& v) {
+    if (!v) return {};
+    return {{"file", v->file}, {"bytes", blobs.put(*v->bytes)}};
+  }
+  Json put(const std::vector<NodeId>& v) {
+    Json out = Json::array();
+    for (const NodeId id : v) out.push_back(id);
+    return out;
   }
   Json put(const std::shared_ptr<const SkyImage>& v) {
     if (!v) return {};
@@ -110,6 +120,19 @@ struct Reader {
     v = parseIes({reinterpret_cast<const char*>(text.data()), text.size()},
                  j.at("file").get<std::string>());
   }
+  void get(const Json& j, std::shared_ptr<const LightPicture>& v) {
+    v.reset();
+    if (j.is_null()) return;
+    std::string why;
+    auto bytes =
+        std::make_shared<const std::vector<uint8_t>>(blobs.get(j.at("bytes").get<std::string>()));
+    v = decodeLightPicture(bytes, j.at("file").get<std::string>(), why);
+    if (!v) damaged("a light's picture " + why);
+  }
+  void get(const Json& j, std::vector<NodeId>& v) {
+    v.clear();
+    for (const Json& id : j) v.push_back(id.get<NodeId>());
+  }
   void get(const Json& j, std::shared_ptr<const SkyImage>& v) {
     v.reset();
     if (j.is_null()) return;
@@ -156,15 +179,15 @@ void fields(A& a, T& v) {
 template <typename A, typename T>
 requires std::is_same_v<std::remove_const_t<T>, AreaLight>
 void fields(A& a, T& v) {
-  auto& [shape, radiance, size] = v;
-  a("shape", shape), a("radiance", radiance), a("size", size);
+  auto& [shape, radiance, size, picture] = v;
+  a("shape", shape), a("radiance", radiance), a("size", size), a("picture", picture);
 }
 
 template <typename A, typename T>
 requires std::is_same_v<std::remove_const_t<T>, LightState>
 void fields(A& a, T& v) {
-  auto& [on, solo, group] = v;
-  a("on", on), a("solo", solo), a("group", group);
+  auto& [on, solo, group, leftOut] = v;
+  a("on", on), a("solo", solo), a("group", group), a("leftOut", leftOut);
 }
 
 template <typename A, typename T>
@@ -177,10 +200,10 @@ void fields(A& a, T& v) {
 template <typename A, typename T>
 requires std::is_same_v<std::remove_const_t<T>, Node>
 void fields(A& a, T& v) {
-  auto& [id, name, parent, local, mesh, camera, punctual, area, visible, light, meshKind,
+  auto& [id, name, parent, local, mesh, camera, punctual, area, visible, locked, light, meshKind,
          sourceNode] = v;
   a("id", id), a("name", name), a("parent", parent), a("local", local), a("mesh", mesh);
-  a("camera", camera), a("punctual", punctual), a("area", area), a("visible", visible);
+  a("camera", camera), a("punctual", punctual), a("area", area), a("visible", visible), a("locked", locked);
   a("light", light), a("meshKind", meshKind), a("sourceNode", sourceNode);
 }
 
@@ -235,6 +258,13 @@ void fields(A& a, T& v) {
   a("ground", ground), a("image", image), a("rotation", rotation), a("scale", scale);
 }
 
+template <typename A, typename T>
+requires std::is_same_v<std::remove_const_t<T>, CameraBookmark>
+void fields(A& a, T& v) {
+  auto& [slot, eye, orientation, yfov] = v;
+  a("slot", slot), a("eye", eye), a("orientation", orientation), a("yfov", yfov);
+}
+
 template <typename T>
 Json written(const T& value, Blobs& blobs) {
   Json json = Json::object();
@@ -251,12 +281,14 @@ Json toJson(const Camera& v, Blobs& b) { return written(v, b); }
 Json toJson(const Sky& v, Blobs& b) { return written(v, b); }
 Json toJson(const LightState& v, Blobs& b) { return written(v, b); }
 Json toJson(const LightGroup& v, Blobs& b) { return written(v, b); }
+Json toJson(const CameraBookmark& v, Blobs& b) { return written(v, b); }
 
 void fromJson(const Json& j, Blobs& b, Node& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, Material& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, Texture& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, Mesh& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, Camera& v) { Reader{j, b}.get(j, v); }
+void fromJson(const Json& j, Blobs& b, CameraBookmark& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, Sky& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, LightState& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, LightGroup& v) { Reader{j, b}.get(j, v); }

@@ -19,6 +19,7 @@ Json toJson(const Camera& camera, Blobs& blobs);
 Json toJson(const Sky& sky, Blobs& blobs);
 Json toJson(const LightState& state, Blobs& blobs);
 Json toJson(const LightGroup& group, Blobs& blobs);
+Json toJson(const CameraBookmark& bookmark, Blobs& blobs);
 Json toJson(const RenderSettings& render, Blobs& blobs);
 
 void fromJson(const Json& json, Blobs& blobs, Node& node);
@@ -29,6 +30,7 @@ void fromJson(const Json& json, Blobs& blobs, Camera& camera);
 void fromJson(const Json& json, Blobs& blobs, Sky& sky);
 void fromJson(const Json& json, Blobs& blobs, LightState& state);
 void fromJson(const Json& json, Blobs& blobs, LightGroup& group);
+void fromJson(const Json& json, Blobs& blobs, CameraBookmark& bookmark);
 void fromJson(const Json& json, Blobs& blobs, RenderSettings& render);
 
 }  // namespace lamplighter
