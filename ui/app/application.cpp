@@ -82,10 +82,7 @@ void Application::frame() {
   frameTime_.measured(session_->output().stats);
   refineTime_.measured(refinementOf(session_->output().stats));
   logLatency();
-  if (framesToExposure_ > 0 && (--framesToExposure_ == 0 || session_->output().settled)) {
-    framesToExposure_ = 0;
-    exposeAutomatically();
-  }
+  followExposure();
   present();
   const bool isSplit = session_->split().on() && session_->split().secondPicture();
   viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0);
@@ -356,8 +353,25 @@ void Application::takeLoaded() {
   if (result->loaded) {
     session_->open(std::move(result->loaded->scene), result->path, result->loaded->warnings);
     framesToExposure_ = kFramesToExposure;
+    firstExposure_.reset();
   } else if (!result->error.empty()) {
     showError(result->error);
+  }
+}
+
+// A level that was opened is exposed after a few frames, and once more when it is settled: on a
+// slow machine most of its light comes later. Not when the user has begun to work by then.
+void Application::followExposure() {
+  const bool isSettled = session_->output().settled;
+  if (framesToExposure_ > 0 && (--framesToExposure_ == 0 || isSettled)) {
+    framesToExposure_ = 0;
+    exposeAutomatically();
+    if (session_->output().stats.vplsPending > 0)
+      firstExposure_ = session_->document().render.exposureEv;
+  } else if (firstExposure_ && isSettled) {
+    if (session_->document().render.exposureEv == *firstExposure_ && !session_->history().canUndo())
+      exposeAutomatically();
+    firstExposure_.reset();
   }
 }
 

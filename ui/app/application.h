@@ -59,6 +59,7 @@ class Application {
   void openNow(const std::filesystem::path& path);
   bool loading() const { return loader_.running(); }
   // An exposure that suits the picture; no step of the history, since nobody chose it.
+  void followExposure();
   void exposeAutomatically();
   void showError(const std::string& text);
 
@@ -146,6 +147,7 @@ class Application {
   bool replaying_ = false;
   bool finished_ = false;
   int framesToExposure_ = 0;
+  std::optional<float> firstExposure_;  // [EV], of a level that was not settled then
   size_t latenciesLogged_ = 0;
   int quietFrames_ = 0;
   std::optional<int> focusStep_;       // to another panel; 0: to the menus

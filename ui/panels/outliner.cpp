@@ -225,7 +225,9 @@ void outliner(PanelContext ui, OutlinerState& state) {
   // What is left of the panel: a click there selects nothing, and it stands for the top.
   const ImVec2 rest = ImGui::GetContentRegionAvail();
   if (rest.x > 0.0f) {
-    if (ImGui::InvisibleButton("top", {rest.x, std::max(rest.y, ui.px(24))})) ui.session.select({});
+    // No button: keys would stop at it.
+    ImGui::Dummy({rest.x, std::max(rest.y, ui.px(24))});
+    if (ImGui::IsItemClicked()) ui.session.select({});
     ui.name("top");
     tree.dropOn(kNoNode);
   }
