@@ -353,26 +353,23 @@ void Application::takeLoaded() {
   if (result->loaded) {
     session_->open(std::move(result->loaded->scene), result->path, result->loaded->warnings);
     framesToExposure_ = kFramesToExposure;
-    firstExposure_.reset();
+    lastExposure_.reset();
   } else if (!result->error.empty()) {
     showError(result->error);
   }
 }
 
-// A level that was opened is exposed after a few frames, and once more when it is settled: on a
-// slow machine most of its light comes later. Not when the user has begun to work by then.
+// A level that was opened is exposed after a few frames, and again as long as light is still to
+// come: on a slow machine most of it comes later. Not when the user has begun to work by then.
 void Application::followExposure() {
-  const bool isSettled = session_->output().settled;
-  if (framesToExposure_ > 0 && (--framesToExposure_ == 0 || isSettled)) {
-    framesToExposure_ = 0;
-    exposeAutomatically();
-    if (session_->output().stats.vplsPending > 0)
-      firstExposure_ = session_->document().render.exposureEv;
-  } else if (firstExposure_ && isSettled) {
-    if (session_->document().render.exposureEv == *firstExposure_ && !session_->history().canUndo())
-      exposeAutomatically();
-    firstExposure_.reset();
-  }
+  const GiOutput& output = session_->output();
+  if (framesToExposure_ == 0 || (--framesToExposure_ > 0 && !output.settled)) return;
+  const float& ev = session_->document().render.exposureEv;
+  const bool isOurs = !lastExposure_ || (ev == *lastExposure_ && !session_->history().canUndo());
+  if (isOurs) exposeAutomatically();
+  const bool goesOn = isOurs && output.stats.vplsPending > 0;
+  framesToExposure_ = goesOn ? kFramesToExposure : 0;
+  lastExposure_ = goesOn ? std::optional(ev) : std::nullopt;
 }
 
 void Application::exposeAutomatically() {

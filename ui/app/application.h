@@ -147,7 +147,7 @@ class Application {
   bool replaying_ = false;
   bool finished_ = false;
   int framesToExposure_ = 0;
-  std::optional<float> firstExposure_;  // [EV], of a level that was not settled then
+  std::optional<float> lastExposure_;  // [EV], of a level whose light is still to come
   size_t latenciesLogged_ = 0;
   int quietFrames_ = 0;
   std::optional<int> focusStep_;       // to another panel; 0: to the menus
