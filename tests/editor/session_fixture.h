@@ -63,6 +63,20 @@ class SessionFixture : public testing::Test {
   vec3 placeOf(NodeId id) const { return vec3(worldMatrix(session_.document().scene, id)[3]); }
   uint64_t hash() const { return documentHash(session_.document()); }
 
+  // The action is one step that can be taken back and made again.
+  void expectOneStep(const std::string& action) {
+    const uint64_t before = hash();
+    const size_t steps = session_.history().position();
+    ASSERT_TRUE(session_.runAction(action)) << action << ": " << session_.status();
+    const uint64_t after = hash();
+    EXPECT_NE(after, before) << action;
+    EXPECT_EQ(session_.history().position(), steps + 1) << action;
+    session_.undo();
+    EXPECT_EQ(hash(), before) << action;
+    session_.redo();
+    EXPECT_EQ(hash(), after) << action;
+  }
+
   // Frames of a drag with a mouse button, one call each.
   void press(const vec2& at, int button = 0, Modifiers modifiers = {}) {
     input_.pointer = at;

@@ -27,18 +27,6 @@ class Tree : public test::SessionFixture {
     scene.find(light_)->name = "lamp";
   }
   const Scene& scene() const { return session_.document().scene; }
-  void expectOneStep(const std::string& action) {
-    const uint64_t before = hash();
-    const size_t steps = session_.history().position();
-    ASSERT_TRUE(session_.runAction(action)) << action << ": " << session_.status();
-    const uint64_t after = hash();
-    EXPECT_NE(after, before) << action;
-    EXPECT_EQ(session_.history().position(), steps + 1) << action;
-    session_.undo();
-    EXPECT_EQ(hash(), before) << action;
-    session_.redo();
-    EXPECT_EQ(hash(), after) << action;
-  }
   void expectParentsFirst() const {
     std::vector<NodeId> seen{kNoNode};
     for (const Node& n : scene().nodes) {

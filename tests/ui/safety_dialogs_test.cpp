@@ -1,46 +1,28 @@
 // The dialogs that stand between the user and lost work, driven as a hand would, without a window.
 #include <fstream>
 
-#include <gtest/gtest.h>
-
-#include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/scene/gltf_io.h"
 #include "tests/support/gltf_files.h"
-#include "tests/support/scenes.h"
-#include "ui/app/application.h"
-#include "ui/platform/headless.h"
+#include "tests/ui/driven_window.h"
 
 namespace lamplighter {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::unique_ptr<Session> newSession() {
-  return std::make_unique<Session>(std::make_unique<FrameRenderer>(makeCpuBackend()));
-}
-
-class SafetyDialogs : public testing::Test {
+class SafetyDialogs : public testing::Test, protected test::DrivenWindow {
  protected:
   test::TemporaryFolder folder_;
   fs::path level_ = folder_.path() / "level.gltf", state_ = folder_.path() / "state";
-  Headless platform_{960, 600, false};
-  Application app_{platform_, newSession()};
 
   void SetUp() override {
-    Scene scene;
-    test::addMesh(scene, test::squareMesh(4.0f));
-    test::addRectangleLight(scene, vec3(0, 2, 0), vec2(1.0f), vec3(5.0f));
-    saveGltf(scene, level_);
-    app_.setTimeStep(1.0f / 60.0f);
-    session().document().render.values.set("vpls", 8);
-    session().document().render.values.set("map_resolution", 16);
-    app_.openNow(level_);
+    saveGltf(test::litFloor(), level_);
+    app().openNow(level_);
     frames(3);
   }
-  Session& session() { return app_.session(); }
   // What a process leaves that is killed after two edits.
   void leaveWork() const {
-    const auto killed = newSession();
+    const auto killed = test::newSession();
     killed->keepJournal(state_, 1, [] { return int64_t{1'000'000'000}; });
     killed->open(loadGltf(level_).scene, level_, {});
     killed->runAction("light.add sphere");
@@ -48,31 +30,6 @@ class SafetyDialogs : public testing::Test {
   }
   void start() {
     session().keepJournal(state_, 2, [] { return int64_t{1'000'000'001}; });
-    frames(3);
-  }
-  void frames(int count) {
-    for (int i = 0; i < count; ++i) app_.frame();
-  }
-  bool shows(const std::string& widget) const { return app_.widgets().find(widget) != nullptr; }
-  void click(const std::string& widget) {
-    ASSERT_TRUE(shows(widget)) << widget;
-    InputEvent move{EventKind::pointer};
-    move.target = widget;
-    move.position = vec2(0.5f);
-    app_.input().push(move);
-    frames(2);
-    for (const bool down : {true, false}) {
-      InputEvent button{EventKind::button};
-      button.down = down;
-      app_.input().push(button);
-      frames(2);
-    }
-    frames(2);  // what is shown is known a frame later
-  }
-  void act(const std::string& text) {
-    InputEvent event{EventKind::action};
-    event.text = text;
-    app_.input().push(event);
     frames(3);
   }
 };

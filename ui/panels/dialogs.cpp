@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "ui/panels/panels.h"
 
@@ -14,6 +15,37 @@ bool beginModal(const PanelContext& ui, const char* title, float width) {
 
 bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); }
 
+void paragraph(const PanelContext& ui, const std::string& text) {
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::Dummy({0, ui.px(6)});
+}
+
+struct Choice {
+  const char* label;
+  const char* name;  // of the widget
+};
+
+// The text, below it buttons in a row at the right; closes the box and returns the index of the one
+// that was chosen, else kNone. Escape chooses the first.
+int choose(const PanelContext& ui, const std::string& text, std::span<const Choice> choices) {
+  paragraph(ui, text);
+  const float width = ui.px(96), gap = ui.px(7);
+  const auto count = static_cast<float>(choices.size());
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - count * width - (count - 1) * gap);
+  int chosen = kNone;
+  for (size_t i = 0; i < choices.size(); ++i) {
+    if (i > 0) ImGui::SameLine(0, gap);
+    if (ImGui::Button(choices[i].label, {width, 0})) chosen = static_cast<int>(i);
+    ui.name(choices[i].name);
+  }
+  if (chosen == kNone && pressed(ImGuiKey_Escape)) chosen = 0;
+  if (chosen != kNone) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  return chosen;
+}
+
 }  // namespace
 
 void MessageBox::show(std::string title, std::string text) {
@@ -26,10 +58,7 @@ void MessageBox::draw(PanelContext ui) {
   const std::string id = title_ + "###message";
   if (visible() && !ImGui::IsPopupOpen(id.c_str())) ImGui::OpenPopup(id.c_str());
   if (!beginModal(ui, id.c_str(), 460)) return;
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text_.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::Dummy({0, ui.px(6)});
+  paragraph(ui, text_);
   const float width = ui.px(96);
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - width);
   if (ImGui::Button("OK", {width, 0}) || pressed(ImGuiKey_Enter) || pressed(ImGuiKey_Escape)) {
@@ -46,26 +75,14 @@ SaveQuestion::Answer SaveQuestion::draw(PanelContext ui) {
   opening_ = false;
   if (!beginModal(ui, "Unsaved changes", 420)) return Answer::none;
   const std::string file = ui.session.document().path.filename().string();
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(
-      ("Save the changes to " + (file.empty() ? "the scene" : file) + "? They are lost otherwise.")
-          .c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::Dummy({0, ui.px(6)});
-  Answer answer = Answer::none;
-  const float width = ui.px(96);
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 3 * width - 2 * ui.px(7));
-  if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) answer = Answer::cancel;
-  ui.name("cancel");
-  ImGui::SameLine(0, ui.px(7));
-  if (ImGui::Button("Don't save", {width, 0})) answer = Answer::discard;
-  ui.name("discard");
-  ImGui::SameLine(0, ui.px(7));
-  if (ImGui::Button("Save", {width, 0})) answer = Answer::save;
-  ui.name("save");
-  if (answer != Answer::none) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
-  return answer;
+  static constexpr Choice kChoices[] = {
+      {"Cancel", "cancel"}, {"Don't save", "discard"}, {"Save", "save"}};
+  static constexpr Answer kAnswers[] = {Answer::cancel, Answer::discard, Answer::save};
+  const int chosen = choose(
+      ui,
+      "Save the changes to " + (file.empty() ? "the scene" : file) + "? They are lost otherwise.",
+      kChoices);
+  return chosen == kNone ? Answer::none : kAnswers[chosen];
 }
 
 OverwriteQuestion::Answer OverwriteQuestion::draw(PanelContext ui) {
@@ -73,29 +90,17 @@ OverwriteQuestion::Answer OverwriteQuestion::draw(PanelContext ui) {
   ui.prefix = "dialog/";
   if (!changed_.empty() && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
   if (!beginModal(ui, kTitle, 460)) return Answer::none;
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted((changed_ + " was changed or removed by another program since it was "
-                                     "opened. Overwriting it loses those changes.")
-                             .c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::Dummy({0, ui.px(6)});
-  Answer answer = Answer::none;
-  const float width = ui.px(96);
-  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 3 * width - 2 * ui.px(7));
-  if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) answer = Answer::cancel;
-  ui.name("cancel");
-  ImGui::SameLine(0, ui.px(7));
-  if (ImGui::Button("Overwrite", {width, 0})) answer = Answer::overwrite;
-  ui.name("overwrite");
-  ImGui::SameLine(0, ui.px(7));
-  if (ImGui::Button("Save as\u2026", {width, 0})) answer = Answer::saveAs;
-  ui.name("save_as");
-  if (answer != Answer::none) {
-    changed_.clear();
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::EndPopup();
-  return answer;
+  static constexpr Choice kChoices[] = {
+      {"Cancel", "cancel"}, {"Overwrite", "overwrite"}, {"Save as\u2026", "save_as"}};
+  static constexpr Answer kAnswers[] = {Answer::cancel, Answer::overwrite, Answer::saveAs};
+  const int chosen = choose(ui,
+                            changed_ +
+                                " was changed or removed by another program since it was "
+                                "opened. Overwriting it loses those changes.",
+                            kChoices);
+  if (chosen == kNone) return Answer::none;
+  changed_.clear();
+  return kAnswers[chosen];
 }
 
 void centredNotice(float scale, const char* text) {

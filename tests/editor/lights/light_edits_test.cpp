@@ -32,19 +32,6 @@ class LightEdits : public test::SessionFixture {
   CommonValue common(LightProperty property, LightUnit unit = LightUnit::lumens) const {
     return commonValue(scene(), selectedLights(session_.document()), property, unit);
   }
-  // One step that can be taken back and made again.
-  void expectOneStep(const std::string& action) {
-    const uint64_t before = hash();
-    const size_t steps = session_.history().position();
-    ASSERT_TRUE(session_.runAction(action)) << action << ": " << session_.status();
-    const uint64_t after = hash();
-    EXPECT_NE(after, before) << action;
-    EXPECT_EQ(session_.history().position(), steps + 1) << action;
-    session_.undo();
-    EXPECT_EQ(hash(), before) << action;
-    session_.redo();
-    EXPECT_EQ(hash(), after) << action;
-  }
 };
 
 TEST_F(LightEdits, SetsManyKindsAtOnce) {

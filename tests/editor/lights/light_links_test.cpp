@@ -28,18 +28,6 @@ class LightLinks_ : public test::SessionFixture {
     scene.find(light_)->name = "lamp";
   }
   const std::vector<NodeId>& leftOut(NodeId id) const { return node(id).light.leftOut; }
-  void expectOneStep(const std::string& action) {
-    const uint64_t before = hash();
-    const size_t steps = session_.history().position();
-    ASSERT_TRUE(session_.runAction(action)) << action << ": " << session_.status();
-    const uint64_t after = hash();
-    EXPECT_NE(after, before) << action;
-    EXPECT_EQ(session_.history().position(), steps + 1) << action;
-    session_.undo();
-    EXPECT_EQ(hash(), before) << action;
-    session_.redo();
-    EXPECT_EQ(hash(), after) << action;
-  }
 };
 
 TEST_F(LightLinks_, ObjectsAreLeftOutAndLitAgain) {
