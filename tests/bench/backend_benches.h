@@ -15,6 +15,8 @@ using MakeBackend = std::function<std::unique_ptr<Backend>()>;
 void addNaiveBenchmarks(const std::string& backend, const MakeBackend& make);
 // Adds frames of each technique on one backend.
 void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make);
+// Adds frames of glossy levels on one backend.
+void addSpecularBenchmarks(const std::string& backend, const MakeBackend& make);
 // Adds what paper 1 shows in its figures 5-3 to 5-6, on one backend.
 void addFigureBenchmarks(const std::string& backend, const MakeBackend& make);
 

@@ -32,6 +32,7 @@ struct Case {
   const char* backend;
   int width = 640, height = 360;
   bool byTime = true;  // else 100 updates a frame
+  bool prt = false;    // the mover, which is complex, has its transfer
 };
 
 std::unique_ptr<Backend> backendOf(const std::string& name) {
@@ -53,6 +54,7 @@ void drag(benchmark::State& state, const Case& c) {
   settings.set(parameters::vpls().name, 300);
   settings.set(parameters::technique().name, std::string(c.technique));
   settings.set(parameters::antialias().name, 1);
+  settings.set(parameters::prt().name, c.prt);
   FrameRenderer renderer(backendOf(c.backend), seconds);
   FrameTimeControl control;
   const double milliseconds = settings.real(parameters::frameTime());
@@ -121,6 +123,10 @@ void add(const std::string& name, const Case& c) {
             std::string("drag/") + scene + "/" + node + "/" + technique + "/" + backend;
         add(name, c);
       }
+    }
+    for (const char* node : {"ceiling light", "mover"}) {
+      const Case c{"pillar_room", node, "light_maps", backend, 640, 360, true, true};
+      add(std::string("drag/pillar_room/") + node + "/light_maps+prt/" + backend, c);
     }
   }
   for (const auto& [width, height] : {std::pair(640, 360), std::pair(1024, 768)}) {

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   addNaiveBenchmarks("cpu", makeCpuBackend);
   addTechniqueBenchmarks("cpu", makeCpuBackend);
+  addSpecularBenchmarks("cpu", makeCpuBackend);
   addFigureBenchmarks("cpu", makeCpuBackend);
   std::unique_ptr<gl::HeadlessContext> context;
   try {
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
     benchmark::AddCustomContext("OpenGL", context->renderer());
     addNaiveBenchmarks("gl", [] { return makeGlBackend(); });
     addTechniqueBenchmarks("gl", [] { return makeGlBackend(); });
+    addSpecularBenchmarks("gl", [] { return makeGlBackend(); });
     addFigureBenchmarks("gl", [] { return makeGlBackend(); });
   } catch (const InputError& error) {
     std::cerr << "without the gl backend: " << error.what() << "\n";

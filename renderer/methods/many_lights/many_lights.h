@@ -10,6 +10,7 @@
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/corner_light.h"
 #include "renderer/methods/many_lights/live_lights.h"
+#include "renderer/methods/many_lights/options.h"
 #include "renderer/methods/many_lights/part_lights.h"
 #include "renderer/methods/many_lights/refinement.h"
 #include "renderer/prt/prt_lights.h"
@@ -29,33 +30,7 @@ class ManyLights final : public GiMethod {
  private:
   class Stages;
 
-  // Everything that the settings say, read once a frame.
-  struct Options {
-    Options(const Settings& settings, bool refines);
-    Options() = default;
-
-    VplCounts counts;
-    int mapResolution = 0;
-    float groupShare = 0.0f;
-    int mostMaps = 0;      // held at a time, those of refinement included
-    RefreshBudget budget;  // a frame
-    int mostPaths = 0;     // likewise; 0: no limit
-    float clampDistance = 0.0f;
-    float shadowBias = 0.0f;
-    int antialias = 1;
-    bool fillsCorners = false;  // with what the clamp takes away
-    bool useVisibility = false;
-    bool useLightMaps = false;  // besides
-    float lightMapTexel = 0.1f;
-    int lightsPerPass = 0;  // changes no picture
-    bool mergePasses = false;
-    int block = 1;  // pixels
-    bool speculars = false;
-    float leastRoughness = 0.1f;
-    bool usePrt = false;  // besides
-    PrtLights::Options prt;
-    Refinement::Options refinement;
-  };
+  using Options = ManyLightsOptions;
 
   void takeScene(const FrameInputs& in, const Options& options);
   void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);

@@ -1,0 +1,71 @@
+#include "renderer/methods/many_lights/options.h"
+
+#include <algorithm>
+
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+
+namespace lamplighter {
+namespace {
+
+// Of all shadow maps, what refinement may have.
+constexpr int kRefinementShare = 4;
+
+// What is left of light after as many bounces within one object is next to nothing.
+constexpr int kMostTransferBounces = 4;
+
+}  // namespace
+
+ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
+  counts.total = settings.integer(parameters::vpls());
+  counts.directShare = settings.real(parameters::directShare());
+  counts.bounces = settings.integer(parameters::bounces());
+  counts.seed = static_cast<uint32_t>(settings.integer(parameters::seed()));
+  counts.candidates = settings.integer(parameters::importance());
+  counts.sunMaps = settings.integer(parameters::sunMaps());
+  mapResolution = settings.integer(parameters::mapResolution());
+  const uint64_t mapBytes = uint64_t{sizeof(float)} * mapResolution * mapResolution;
+  const auto memory = static_cast<uint64_t>(settings.integer(parameters::mapMemory())) << 20;
+  mostMaps = static_cast<int>(std::clamp<uint64_t>(memory / mapBytes, 2, 1 << 20));
+  budget.vpls = settings.integer(parameters::updates());
+  const auto limit = [&](const ParameterSpec& spec) {
+    const int value = settings.integer(spec);
+    return value == 0 ? kNoLimit : static_cast<uint64_t>(value);
+  };
+  budget.work = {limit(parameters::maxShadowMaps()), limit(parameters::maxVisibilityTests()),
+                 limit(parameters::maxLightMapTexels()), limit(parameters::maxRays())};
+  mostPaths = settings.integer(parameters::maxPaths());
+  clampDistance = settings.real(parameters::clampDistance());
+  shadowBias = settings.real(parameters::shadowBias());
+  antialias = settings.integer(parameters::antialias());
+  const std::string technique = settings.choice(parameters::technique());
+  useLightMaps = technique == "light_maps";
+  useVisibility = useLightMaps || technique == "visibility";
+  groupShare = 0.01f * settings.real(parameters::groupShare());
+  lightMapTexel = settings.real(parameters::lightMapTexel());
+  lightsPerPass = settings.integer(parameters::lightsPerPass());
+  mergePasses = settings.boolean(parameters::mergePasses());
+  block = useVisibility ? std::stoi(settings.choice(parameters::block())) : 1;
+  speculars = settings.boolean(parameters::speculars());
+  leastRoughness = settings.real(parameters::leastRoughness());
+  usePrt = useVisibility && settings.boolean(parameters::prt());
+  // What parts of an object reflect onto each other is in its transfer.
+  fillsCorners = settings.boolean(parameters::cornerLight()) && clampDistance > 0.0f && !usePrt;
+  // Light between parts of an object is one bounce more each time, as VPLs of later bounces are.
+  prt.transfer.bounces = std::min(counts.bounces, kMostTransferBounces);
+  prt.mostPoints = settings.integer(parameters::prtPoints());
+  prt.clampDistance = clampDistance;
+  VplCounts refined = counts;
+  refined.candidates = 1;
+  refinement = {refines ? settings.integer(parameters::refine()) : 0,
+                refined,
+                mapResolution,
+                clampDistance,
+                shadowBias,
+                lightsPerPass,
+                speculars,
+                leastRoughness,
+                std::max(mostMaps / kRefinementShare, 1)};
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,39 @@
+// What the method's settings say, as its stages take it.
+#pragma once
+
+#include "renderer/methods/many_lights/live_lights.h"
+#include "renderer/methods/many_lights/refinement.h"
+#include "renderer/parameters.h"
+#include "renderer/prt/prt_lights.h"
+
+namespace lamplighter {
+
+// Read once a frame. `refines`: the caller has time for it.
+struct ManyLightsOptions {
+  ManyLightsOptions(const Settings& settings, bool refines);
+  ManyLightsOptions() = default;
+
+  VplCounts counts;
+  int mapResolution = 0;
+  float groupShare = 0.0f;
+  int mostMaps = 0;      // held at a time, those of refinement included
+  RefreshBudget budget;  // a frame
+  int mostPaths = 0;     // likewise; 0: no limit
+  float clampDistance = 0.0f;
+  float shadowBias = 0.0f;
+  int antialias = 1;
+  bool fillsCorners = false;  // with what the clamp takes away
+  bool useVisibility = false;
+  bool useLightMaps = false;  // besides
+  float lightMapTexel = 0.1f;
+  int lightsPerPass = 0;  // changes no picture
+  bool mergePasses = false;
+  int block = 1;  // pixels
+  bool speculars = false;
+  float leastRoughness = 0.1f;
+  bool usePrt = false;  // besides
+  PrtLights::Options prt;
+  Refinement::Options refinement;
+};
+
+}  // namespace lamplighter
