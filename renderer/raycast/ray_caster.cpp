@@ -288,6 +288,23 @@ void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
   }
 }
 
+bool mayTouch(const Ray& ray, const Bounds& box) {
+  if (box.empty()) return false;
+  float from = 0.0f, to = ray.tFar;
+  const float slack = rayEpsilon(ray.origin);
+  for (int i = 0; i < 3; ++i) {
+    const float low = box.min[i] - slack - ray.origin[i], high = box.max[i] + slack - ray.origin[i];
+    if (ray.direction[i] == 0.0f) {
+      if (low > 0.0f || high < 0.0f) return false;
+      continue;
+    }
+    const float a = low / ray.direction[i], b = high / ray.direction[i];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b) * 1.0001f);
+  }
+  return from <= to * 1.0001f + slack;
+}
+
 float rayEpsilon(const vec3& p) {
   // Coordinates carry a relative error of 2⁻²⁴; transforms, barycentrics and the intersection add
   // some tens of such. A floor of a hundredth of a millimetre for points near the origin.

@@ -50,6 +50,9 @@ class RayCaster {
   std::unique_ptr<Impl> impl_;
 };
 
+// Whether the ray up to its end touches the box, or nearly.
+bool mayTouch(const Ray& ray, const Bounds& box);
+
 // A distance to leave a surface by, so that a ray does not hit it again: proportional to the
 // magnitude of the coordinates (float spacing), in metres.
 float rayEpsilon(const vec3& position);

@@ -21,22 +21,8 @@ bool sameHit(const Hit& a, const Hit& b) {
   return a.object == b.object && a.triangle == b.triangle && a.t == b.t && a.u == b.u && a.v == b.v;
 }
 
-// Whether the ray's part up to where it ends touches the box.
 bool touches(const PathStep& s, const Bounds& box) {
-  if (box.empty()) return false;
-  float from = 0.0f, to = s.hit.t;
-  const float slack = rayEpsilon(s.origin);
-  for (int i = 0; i < 3; ++i) {
-    const float low = box.min[i] - slack - s.origin[i], high = box.max[i] + slack - s.origin[i];
-    if (s.direction[i] == 0.0f) {
-      if (low > 0.0f || high < 0.0f) return false;
-      continue;
-    }
-    const float a = low / s.direction[i], b = high / s.direction[i];
-    from = std::max(from, std::min(a, b));
-    to = std::min(to, std::max(a, b) * 1.0001f);
-  }
-  return from <= to * 1.0001f + slack;
+  return mayTouch({s.origin, 0.0f, s.direction, s.hit.t}, box);
 }
 
 bool meetSame(const LightPath& a, const LightPath& b) {

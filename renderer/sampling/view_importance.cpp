@@ -17,7 +17,7 @@ namespace lamplighter {
 namespace {
 
 // Points that are looked at; with many candidates fewer, so that there are at most so many rays.
-constexpr int kMostPoints = 128, kFewestPoints = 32;
+constexpr int kMostPoints = PointVisibility::kMostPoints, kFewestPoints = 32;
 constexpr size_t kMostRays = size_t{1} << 19;
 // How far beyond the picture's edges they may lie, as a share of its size.
 constexpr float kMargin = 0.1f;
@@ -35,21 +35,11 @@ bool isCandidate(const SceneVpl& v) {
   return v.id.bounce > 0 || (v.isSample && v.vpl.position.w == shared::kVplDirectional);
 }
 
-// Irradiance, or 0 where something stands between.
-float irradianceAt(const SeenPoint& at, const SceneVpl& light, const RayCaster& rays,
-                   float clampDistance) {
-  const shared::Vpl& vpl = light.vpl;
+// Irradiance if nothing stands between.
+float irradianceAt(const SeenPoint& at, const shared::Vpl& vpl, float clampDistance) {
   if (isLeftOut(at.leftOutBy, static_cast<uint32_t>(vpl.footprint.y))) return 0.0f;
-  const float geometry = shared::vplGeometry(vpl, at.position, at.normal, at.normal, clampDistance);
-  const float irradiance = geometry * luminance(vec3(vpl.intensity));
-  if (!(irradiance > 0.0f)) return 0.0f;
-  Ray ray{at.position, 0.0f, vec3(vpl.normal)};
-  if (vpl.position.w != shared::kVplDirectional) {
-    const vec3 way = vec3(vpl.position) - at.position;
-    ray.tFar = glm::length(way);
-    ray.direction = way / ray.tFar;
-  }
-  return rays.occluded(ray) ? 0.0f : irradiance;
+  return luminance(vec3(vpl.intensity)) *
+         shared::vplGeometry(vpl, at.position, at.normal, at.normal, clampDistance);
 }
 
 }  // namespace
@@ -95,18 +85,20 @@ View steadyView(const View& view, const RayCaster& rays) {
 
 std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
                                 std::span<const SceneVpl> others, std::span<const SeenPoint> points,
-                                const RayCaster& rays, float clampDistance) {
+                                const RayCaster& rays, float clampDistance, PointVisibility& kept) {
   std::vector<float> importance(candidates.size(), 0.0f);
   if (points.empty()) return importance;
   // One row a light, a column a point.
   const size_t columns = points.size();
   std::vector<float> irradiance((candidates.size() + others.size()) * columns);
-  const auto light = [&](size_t i) -> const SceneVpl& {
-    return i < candidates.size() ? candidates[i] : others[i - candidates.size()];
-  };
-  tbb::parallel_for(size_t{0}, candidates.size() + others.size(), [&](size_t i) {
-    for (size_t j = 0; j < columns; ++j)
-      irradiance[i * columns + j] = irradianceAt(points[j], light(i), rays, clampDistance);
+  std::vector<SceneVpl> lights(candidates.begin(), candidates.end());
+  lights.insert(lights.end(), others.begin(), others.end());
+  const std::vector<PointVisibility::Row*> rows = kept.rows(lights, points);
+  tbb::parallel_for(size_t{0}, lights.size(), [&](size_t i) {
+    for (size_t j = 0; j < columns; ++j) {
+      const float bare = irradianceAt(points[j], lights[i].vpl, clampDistance);
+      irradiance[i * columns + j] = bare > 0.0f && rows[i]->sees(points[j], j, rays) ? bare : 0.0f;
+    }
   });
   std::vector<double> sums(columns, 0.0);
   for (size_t i = 0; i < candidates.size() + others.size(); ++i)
@@ -173,7 +165,8 @@ std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
 }
 
 VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderScene& scene,
-                     const RayCaster& rays, const View& view, float clampDistance) {
+                     const RayCaster& rays, const View& view, float clampDistance,
+                     PointVisibility& kept) {
   if (counts.candidates <= 1) return set;
   std::vector<SceneVpl> candidates;
   VplSet chosen;
@@ -192,7 +185,7 @@ VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderSce
   const std::vector<SeenPoint> points = seenPoints(
       scene, rays, view, std::clamp(static_cast<int>(mostPoints), kFewestPoints, kMostPoints));
   const std::vector<float> importance =
-      importanceOf(candidates, chosen.vpls, points, rays, clampDistance);
+      importanceOf(candidates, chosen.vpls, points, rays, clampDistance, kept);
   for (SceneVpl& v : chooseByImportance(candidates, importance, wanted))
     chosen.vpls.push_back(std::move(v));
   return chosen;

@@ -8,21 +8,16 @@
 #include <vector>
 
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/sampling/point_visibility.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/render_scene.h"
 #include "renderer/view.h"
 
 namespace lamplighter {
 
-// A place that the camera sees: off its surface, on the side that is seen. World space, metres.
-struct SeenPoint {
-  vec3 position, normal;
-  uint32_t leftOutBy = 0;  // light_linking.h
-};
-
-// At most `count` of them, evenly over the picture and a little beyond its edges, in an order of
-// which any part is even too. A function of scene, view and count alone; the view's size counts
-// only by its ratio.
+// At most `count` places that the camera sees, evenly over the picture and a little beyond its
+// edges, in an order of which any part is even too. A function of scene, view and count alone; the
+// view's size counts only by its ratio.
 std::vector<SeenPoint> seenPoints(const RenderScene& scene, const RayCaster& rays, const View& view,
                                   int count);
 
@@ -38,7 +33,7 @@ View steadyView(const View& view, const RayCaster& rays);
 // samples in proportion to it. Unit 1, relative to each other only.
 std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
                                 std::span<const SceneVpl> others, std::span<const SeenPoint> points,
-                                const RayCaster& rays, float clampDistance);
+                                const RayCaster& rays, float clampDistance, PointVisibility& kept);
 
 // `count` of the candidates, in their order, each brighter by what it stands for. The candidates
 // are the first points of sequences, one an emitter; of these each place in the scene takes as many
@@ -51,8 +46,10 @@ std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
                                          std::span<const float> importance, int count);
 
 // The set with as many of its candidates (VplCounts::candidates) chosen for the view as were
-// wanted. Lights' own samples are as ever; they stand first.
+// wanted. Lights' own samples are as ever; they stand first. `kept` spares rays and changes
+// nothing.
 VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderScene& scene,
-                     const RayCaster& rays, const View& view, float clampDistance);
+                     const RayCaster& rays, const View& view, float clampDistance,
+                     PointVisibility& kept);
 
 }  // namespace lamplighter

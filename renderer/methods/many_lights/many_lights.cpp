@@ -168,7 +168,10 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiStats& stats) {
   const bool sceneChanged = !started_ || !in.changes.none();
   std::vector<MoverFinder::Mover> movers;
-  if (sceneChanged) movers = movers_.update(in.scene, in.changes);
+  if (sceneChanged) {
+    movers = movers_.update(in.scene, in.changes);
+    pointVisibility_.outdate(in.changes, movers);
+  }
   // While the camera moves samples stay as they are; where it rests they are chosen for what it
   // sees.
   View chosenFor = steadyView(in.view, in.rays);
@@ -180,7 +183,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   if (paths_.update(in.scene, in.rays, in.changes, movers, options.counts, options.mostPaths) ||
       choosesOtherwise) {
     VplSet set = chooseForView(paths_.set(in.scene), options.counts, in.scene, in.rays, chosenFor,
-                               options.clampDistance);
+                               options.clampDistance, pointVisibility_);
     divideSuns(set.vpls, in.scene, in.rays, &chosenFor, options.counts.sunMaps);
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);

@@ -15,6 +15,7 @@
 #include "renderer/methods/many_lights/refinement.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/sampling/light_paths.h"
+#include "renderer/sampling/point_visibility.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -59,6 +60,7 @@ class ManyLights final : public GiMethod {
   bool choiceIsCurrent_ = true;    // it is the present one, not one that the camera came from
   MoverFinder movers_;
   LightPaths paths_;
+  PointVisibility pointVisibility_;  // of what VPLs are chosen for
   LiveLights lights_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
   std::vector<uint8_t> wanted_;                     // by slot: its map is looked up

@@ -59,7 +59,9 @@ TEST(ViewImportance, LessensTheErrorBehindANarrowGap) {
     more.candidates = kFactor;
     const VplSet candidates = generateVpls(lit.render, *lit.rays, lights, more);
     const auto of = [&](const VplSet& set) { return lightInTheDark(lit, points, set.vpls); };
-    const VplSet some = chooseForView(candidates, more, lit.render, *lit.rays, kInTheDark, 0.5f);
+    PointVisibility nothing;
+    const VplSet some =
+        chooseForView(candidates, more, lit.render, *lit.rays, kInTheDark, 0.5f, nothing);
     EXPECT_LE(some.vpls.size(), 300u);
     EXPECT_GE(some.vpls.size(), 295u);
     const double all = of(candidates);
@@ -72,6 +74,38 @@ TEST(ViewImportance, LessensTheErrorBehindANarrowGap) {
   EXPECT_LT(std::sqrt(chosen), 0.05);
   EXPECT_LT(std::sqrt(chosen), std::sqrt(first) / 3.0);
   EXPECT_NEAR(mean, 1.0, 0.02);
+}
+
+// While a box and a light are dragged through the room: what is kept changes no sample.
+TEST(ViewImportance, IsTheSameWithWhatWasFoundBefore) {
+  Scene scene = narrowGap();
+  const NodeId box = test::addMesh(scene, test::boxMesh(vec3(0.4f), 0), vec3(-3, 1, -1));
+  const NodeId light = scene.nodes[scene.nodes.size() - 2].id;
+  RenderScene render;
+  MoverFinder finder;
+  finder.update(render, update(render, scene, SceneChanges::all()));
+  RayCaster rays(render);
+  VplCounts counts{200, 0.3f, 2, 1};
+  counts.candidates = 8;
+  PointVisibility kept;
+  for (int step = 0; step < 12; ++step) {
+    const Scene before = scene;
+    scene.find(step % 3 == 0 ? light : box)->local.translation += vec3(0.5f, 0.0f, 0.1f);
+    if (step == 6) scene.find(box)->visible = false;
+    if (step == 8) scene.find(box)->visible = true;
+    const RenderSceneChanges changes = update(render, scene, compare(before, scene));
+    rays.update(changes);
+    kept.outdate(changes, finder.update(render, changes));
+    const VplSet candidates = generateVpls(render, rays, LightSet(render), counts);
+    PointVisibility nothing;
+    const VplSet as = chooseForView(candidates, counts, render, rays, kInTheDark, 0.5f, kept);
+    const VplSet anew = chooseForView(candidates, counts, render, rays, kInTheDark, 0.5f, nothing);
+    ASSERT_EQ(as.vpls.size(), anew.vpls.size()) << step;
+    for (size_t i = 0; i < as.vpls.size(); ++i) {
+      ASSERT_EQ(as.vpls[i].id, anew.vpls[i].id) << step;
+      ASSERT_EQ(as.vpls[i].vpl.intensity, anew.vpls[i].vpl.intensity) << step;
+    }
+  }
 }
 
 std::vector<SceneVpl> candidatesOf(uint32_t paths) {

@@ -1,0 +1,75 @@
+#include "renderer/sampling/point_visibility.h"
+
+#include <algorithm>
+
+#include <tbb/parallel_for.h>
+
+namespace lamplighter {
+namespace {
+
+Ray rayFrom(const SeenPoint& point, const vec4& position, const vec4& normal) {
+  Ray ray{point.position, 0.0f, vec3(normal)};
+  if (position.w != shared::kVplDirectional) {
+    const vec3 way = vec3(position) - point.position;
+    ray.tFar = glm::length(way);
+    ray.direction = way / ray.tFar;
+  }
+  return ray;
+}
+
+}  // namespace
+
+bool PointVisibility::Row::sees(const SeenPoint& point, size_t index, const RayCaster& rays) {
+  if (!known_[index]) {
+    known_[index] = true;
+    seen_[index] = !rays.occluded(rayFrom(point, position_, normal_));
+  }
+  return seen_[index];
+}
+
+void PointVisibility::outdate(const RenderSceneChanges& changes,
+                              std::span<const MoverFinder::Mover> movers) {
+  if (changes.rebuilt || changes.materials) {
+    rows_.clear();
+    return;
+  }
+  if (movers.empty()) return;
+  std::vector<Row*> rows;
+  for (auto& [id, row] : rows_) rows.push_back(&row);
+  tbb::parallel_for(size_t{0}, rows.size(), [&](size_t r) {
+    Row& row = *rows[r];
+    for (size_t i = 0; i < points_.size(); ++i) {
+      if (!row.known_[i]) continue;
+      const Ray ray = rayFrom(points_[i], row.position_, row.normal_);
+      row.known_[i] = std::none_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
+        return mayTouch(ray, m.before) || mayTouch(ray, m.after);
+      });
+    }
+  });
+}
+
+std::vector<PointVisibility::Row*> PointVisibility::rows(std::span<const SceneVpl> lights,
+                                                         std::span<const SeenPoint> points) {
+  Points same;
+  for (size_t i = 0; i < std::min(points.size(), points_.size()); ++i)
+    same[i] = points[i] == points_[i];
+  points_.assign(points.begin(), points.end());
+  std::map<VplId, Row> kept;
+  std::vector<Row*> out;
+  out.reserve(lights.size());
+  for (const SceneVpl& light : lights) {
+    auto node = rows_.extract(light.id);
+    const auto it =
+        node.empty() ? kept.try_emplace(light.id).first : kept.insert(std::move(node)).position;
+    Row& row = it->second;
+    if (row.position_ != light.vpl.position || row.normal_ != light.vpl.normal) row = Row();
+    row.position_ = light.vpl.position;
+    row.normal_ = light.vpl.normal;
+    row.known_ &= same;
+    out.push_back(&row);
+  }
+  rows_ = std::move(kept);
+  return out;
+}
+
+}  // namespace lamplighter
