@@ -49,6 +49,9 @@ class Application {
   using Listener = std::function<void(const std::vector<InputEvent>&)>;
   void setListener(Listener listener) { listener_ = std::move(listener); }
   void setReplaying(bool replaying) { replaying_ = replaying; }
+  // Time goes on by the time step with each frame, so that what is shown of it is the same each
+  // time. After setTimeStep().
+  void useFrameClock();
   // Takes the user's settings and keys, and keeps what changes. Not where input is replayed or
   // recorded. `preferences` are those that were read from the files.
   void setUser(std::unique_ptr<UserFiles> files, Preferences preferences);
@@ -73,6 +76,7 @@ class Application {
   bool idle() const;
 
  private:
+  double seconds() const;  // since some moment
   void takeInput();
   void handle(const InputEvent& event);
   void pressKey(Key key);
@@ -144,6 +148,8 @@ class Application {
   double frameSeconds_ = 0.0;
   FrameTimeControl frameTime_, refineTime_;
   float dt_ = 1.0f / 60.0f;
+  bool frameClock_ = false;
+  uint64_t frames_ = 0;
   bool replaying_ = false;
   bool finished_ = false;
   int framesToExposure_ = 0;
