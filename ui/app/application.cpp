@@ -51,7 +51,8 @@ Application::Application(Platform& platform, std::unique_ptr<Session> session)
 }
 
 double Application::seconds() const {
-  return frameClock_ ? static_cast<double>(frames_) * static_cast<double>(timeStep_) : platform_.seconds();
+  return frameClock_ ? static_cast<double>(frames_) * static_cast<double>(timeStep_)
+                     : platform_.seconds();
 }
 
 void Application::useFrameClock() {
@@ -88,22 +89,33 @@ void Application::frame() {
   viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
   // A replay must not depend on how far a thread has come.
   if (!replaying_) meterWorker_.exchange(session_->watch().meter);
-  session_->renderFrame(updatesWithinTime(), refineUpdates());
-  frameTime_.measured(session_->output().stats);
-  refineTime_.measured(refinementOf(session_->output().stats));
-  logLatency();
-  followExposure();
-  present();
+  const bool renders = rendersFrame();
+  if (renders) {
+    session_->renderFrame(updatesWithinTime(), refineUpdates());
+    frameTime_.measured(session_->output().stats);
+    refineTime_.measured(refinementOf(session_->output().stats));
+    logLatency();
+    followExposure();
+    present();
+  }
   const bool isSplit = session_->split().on() && session_->split().secondPicture();
   viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0);
   drawStatusLine(ui);
   toasts(ui, toastState_, layout_.view, dt_);
   drawDialogs(ui);
-  gui_.endFrame();
+  gui_.endFrame(renders);
   answerRequests();
   platform_.present();
   updateTitle();
   autosave_.frame(*session_, now);
+}
+
+// What is clicked is looked up in what was rendered, so each edit is.
+bool Application::rendersFrame() {
+  const size_t position = session_->history().position();
+  const bool renders = !skipsPictures_ || position != renderedPosition_;
+  renderedPosition_ = position;
+  return renders;
 }
 
 void Application::close() {

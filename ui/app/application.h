@@ -52,6 +52,8 @@ class Application {
   // Time goes on by the time step with each frame, so that what is shown of it is the same each
   // time. After setTimeStep().
   void useFrameClock();
+  // Frames in which nothing was edited are laid out and take input, but are not rendered or drawn.
+  void skipPictures(bool skips) { skipsPictures_ = skips; }
   // Takes the user's settings and keys, and keeps what changes. Not where input is replayed or
   // recorded. `preferences` are those that were read from the files.
   void setUser(std::unique_ptr<UserFiles> files, Preferences preferences);
@@ -82,6 +84,7 @@ class Application {
   void pressKey(Key key);
   void runAction(const std::string& text);
   void drawPanels(PanelContext ui);
+  bool rendersFrame();
   void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
   std::optional<int> updatesWithinTime();
@@ -150,6 +153,8 @@ class Application {
   float dt_ = 1.0f / 60.0f;
   bool frameClock_ = false;
   uint64_t frames_ = 0;
+  bool skipsPictures_ = false;
+  size_t renderedPosition_ = ~size_t{0};  // of the history, when a frame was rendered last
   bool replaying_ = false;
   bool finished_ = false;
   int framesToExposure_ = 0;

@@ -113,6 +113,8 @@ int Replay::run(Platform& platform, const MakeRenderer& makeRenderer) {
     std::vector<InputEvent> ignored;
     platform.poll(ignored, 0.0);
     for (InputEvent& event : player_.beginFrame()) app.input().push(std::move(event));
+    // Only what is looked at need be rendered.
+    app.skipPictures(options_.frameClock && !player_.waits());
     try {
       app.frame();
     } catch (const InputError& e) {
