@@ -107,7 +107,8 @@ TEST_P(GuidePictures, AreWhatTheProgramShows) {
   if (page_.name() == "tutorial") runCommands();
 }
 
-INSTANTIATE_TEST_SUITE_P(Pages, GuidePictures, testing::Values("tutorial", "guide"));
+INSTANTIATE_TEST_SUITE_P(Pages, GuidePictures, testing::Values("tutorial", "guide"),
+                         [](const auto& page) { return std::string(page.param); });
 
 }  // namespace
 }  // namespace lamplighter::test
