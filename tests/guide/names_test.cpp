@@ -176,6 +176,31 @@ TEST(GuideNames, CommandsHaveTheFlagsThatTheyAreGiven) {
   EXPECT_GT(count, 8u);
 }
 
+// "*Light / Add light / Sun*": each part is the label of an action, one of its choices, or a menu.
+TEST(GuideNames, WaysThroughMenusLeadToActions) {
+  std::set<std::string> known{"File",    "Edit",   "Light",  "Object",         "Tool",  "View",
+                              "Inspect", "Render", "Camera", "Click to place", "Engine"};
+  for (const json& a : json::parse(runLamplighter({"actions", "--json"}).out)) {
+    known.insert(a["label"]);
+    for (std::string choice : matches(a["arguments"].get<std::string>(), "([a-z]+)")) {
+      choice[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(choice[0])));
+      known.insert(choice);
+    }
+  }
+  size_t count = 0;
+  for (const Page& page : allPages()) {
+    for (const Section& section : page.sections) {
+      for (const std::string& way : matches(section.text, R"(\*([^*\n]+ / [^*\n]+)\*)")) {
+        for (const std::string& part : matches(way + " / ", "(.+?) / ")) {
+          ++count;
+          EXPECT_TRUE(known.contains(part)) << page.at(section.line) << ": *" << way << "*";
+        }
+      }
+    }
+  }
+  EXPECT_GT(count, 20u);
+}
+
 // A heading's name in links: "How this page is made" is #how-this-page-is-made.
 std::string anchorOf(const std::string& heading) {
   std::string out;
