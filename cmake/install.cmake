@@ -5,7 +5,7 @@ install(TARGETS lamplighter RUNTIME)
 # Found by renderer/data_folder.cpp, relative to the program.
 install(DIRECTORY shaders DESTINATION ${CMAKE_INSTALL_DATADIR}/lamplighter
   FILES_MATCHING PATTERN "*.glsl" PATTERN "*.h")
-install(DIRECTORY assets/scenes assets/profiles
+install(DIRECTORY assets/scenes assets/profiles assets/tutorial
   DESTINATION ${CMAKE_INSTALL_DATADIR}/lamplighter/assets PATTERN "*.py" EXCLUDE)
 install(FILES assets/desktop/lamplighter.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES assets/desktop/lamplighter.svg

@@ -46,9 +46,15 @@ void Session::open(Scene scene, std::filesystem::path path,
   const RayCaster rays(world);
   const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()}, Surfaces::seen);
   tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
-  setStatus("Opened " + document_.path.filename().string());
-  for (const std::string& warning : warnings) setStatus(warning, NoticeKind::warning);
-  if (!warnings.empty()) status_ = warnings.front();
+  const std::string whole = document_.path.string(), name = document_.path.filename().string();
+  setStatus("Opened " + name);
+  std::vector<std::string> told = warnings;
+  for (std::string& warning : told) {
+    // Its name will do: where it lies was just chosen, and takes the room of what is wrong.
+    if (!whole.empty() && warning.starts_with(whole)) warning.replace(0, whole.size(), name);
+    setStatus(warning, NoticeKind::warning);
+  }
+  if (!told.empty()) status_ = told.front();
   if (warnings.size() > 1)
     status_ += " (and " + std::to_string(warnings.size() - 1) + " more warnings)";
   if (!document_.path.empty()) home_->preferences.addRecent(document_.path);

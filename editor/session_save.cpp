@@ -56,7 +56,7 @@ void Session::save(const fs::path& wanted, bool forced) {
   savedHash_ = sceneHash(document_.scene);
   if (std::string after = keeper_.saved(document_); problem.empty()) problem = std::move(after);
   home_->preferences.addRecent(path);
-  setStatus(problem.empty() ? "Saved " + wanted.lexically_normal().string() : "Saved. " + problem);
+  setStatus(problem.empty() ? "Saved " + wanted.filename().string() : "Saved. " + problem);
 }
 
 // What the level consists of on disk from now on.

@@ -105,7 +105,7 @@ class Scene:
         self.cameras.append({"name": name, "type": "perspective", "perspective": {"yfov": yfov, "znear": 0.05}})
         self.node(name, camera=len(self.cameras) - 1, translation=list(eye), rotation=quaternion(r, u, b))
 
-    def write(self, name):
+    def write(self, name, folder=HERE):
         extensions = {}
         if self.lights:
             extensions["EXT_lights_area"] = {"lights": self.lights}
@@ -118,7 +118,7 @@ class Scene:
                "accessors": self.accessors, "bufferViews": self.views,
                "buffers": [{"byteLength": len(self.buffer), "uri": "data:application/octet-stream;base64,"
                             + base64.b64encode(bytes(self.buffer)).decode()}]}
-        with open(os.path.join(HERE, name + ".gltf"), "w") as f:
+        with open(os.path.join(folder, name + ".gltf"), "w") as f:
             json.dump(rounded(doc), f, indent=1)
             f.write("\n")
 
@@ -324,5 +324,6 @@ def close_light():
     s.write("close_light")
 
 
-for make in (area_light_room, table_room, pillar_room, cornell_style, default, narrow_gap, close_light):
-    make()
+if __name__ == "__main__":
+    for make in (area_light_room, table_room, pillar_room, cornell_style, default, narrow_gap, close_light):
+        make()

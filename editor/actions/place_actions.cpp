@@ -104,7 +104,7 @@ void addPlaceActions(ActionRegistry& r) {
            text += (text.empty() ? "" : " ") + (isPlain ? word : quoted(word));
          }
          s.startPlacing(text);
-         s.setStatus("Click where it is to be; Esc leaves it");
+         s.setStatus("Click where it is to be; Esc leaves it", NoticeKind::hint);
        },
        {}});
   const std::string kinds = r.find("light.add")->usage;

@@ -1,10 +1,14 @@
 #include <iostream>
+#include <map>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/actions/register_actions.h"
 #include "editor/cli/subcommands.h"
+#include "editor/keys/key_bindings.h"
+#include "editor/keys/key_presets.h"
 
 namespace lamplighter::cli {
 
@@ -41,6 +45,58 @@ void printJson(const ActionRegistry& registry) {
   std::cout << all.dump(2) << '\n';
 }
 
+// By key: letters and digits first, then what has a longer name; each with less held before more.
+struct ByKey {
+  static auto rank(const Chord& c) {
+    const std::string key = keyName(c.key);
+    const int held =
+        (c.modifiers.ctrl ? 4 : 0) + (c.modifiers.alt ? 2 : 0) + (c.modifiers.shift ? 1 : 0);
+    return std::tuple(key.size() > 1, static_cast<int>(c.key), held);
+  }
+  bool operator()(const Chord& a, const Chord& b) const { return rank(a) < rank(b); }
+};
+
+using ActionOfKey = std::map<Chord, std::string, ByKey>;
+
+ActionOfKey actionOfKey(const ActionRegistry& registry, const std::string& preset) {
+  ActionOfKey out;
+  std::vector<std::string> problems;  // a preset has none
+  for (const auto& [text, chords] : resolveKeys(registry, keysOfPreset(preset), {}, problems))
+    for (const Chord& chord : chords) out[chord] = text;
+  return out;
+}
+
+// What each key runs, and what it runs with the other presets where that is something else.
+void printKeys(const ActionRegistry& registry) {
+  const std::vector<std::string> presets = keyPresetNames();
+  std::vector<ActionOfKey> columns;
+  ActionOfKey all;
+  for (const std::string& preset : presets) {
+    columns.push_back(actionOfKey(registry, preset));
+    all.insert(columns.back().begin(), columns.back().end());
+  }
+  std::cout << "\n## Keys\n\nBy the presets of the setting `keys`; where a column is empty the key "
+               "does the "
+               "same as in the first, and a dash is a key that does nothing.\n\n| key |";
+  for (const std::string& preset : presets) std::cout << " `" << preset << "` |";
+  std::cout << "\n| --- |";
+  for (size_t i = 0; i < presets.size(); ++i) std::cout << " --- |";
+  std::cout << '\n';
+  const auto textOf = [](const ActionOfKey& column, const Chord& chord) {
+    const auto it = column.find(chord);
+    return it == column.end() ? std::string("\u2013") : "`" + cellOf(it->second) + "`";
+  };
+  for (const auto& [chord, ignored] : all) {
+    const std::string first = textOf(columns.front(), chord);
+    std::cout << "| " << chordText(chord) << " | " << first << " |";
+    for (size_t i = 1; i < columns.size(); ++i) {
+      const std::string here = textOf(columns[i], chord);
+      std::cout << (here == first ? "" : " " + here) << " |";
+    }
+    std::cout << '\n';
+  }
+}
+
 void printMarkdown(const ActionRegistry& registry) {
   std::cout << "# Actions\n\nWritten by `lamplighter actions --markdown`. Menus, keys, the command "
                "palette (Ctrl+P), recordings and `lamplighter script` all run these.\n";
@@ -54,6 +110,7 @@ void printMarkdown(const ActionRegistry& registry) {
     std::cout << fmt::format("| `{}` | {} | {} |\n", cellOf(usage), keysOf(registry, a),
                              cellOf(a.help));
   }
+  printKeys(registry);
 }
 
 void printText(const ActionRegistry& registry) {

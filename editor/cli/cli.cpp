@@ -231,6 +231,9 @@ void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
   sub->add_flag("--check", o->check,
                 "Compare with the baselines; exit code 1 when something differs");
   sub->add_flag("--update-baselines", o->updateBaselines, "Write the baselines anew");
+  sub->add_flag("--frame-clock", o->frameClock,
+                "Times count frames, so that pictures of the window are the same each time; frames "
+                "between checkpoints are not rendered");
   sub->add_option("--report", o->report, "JSON file for its checks and edit latencies")
       ->type_name("FILE");
   sub->add_option("--method", o->method, "Another method than the recorded one")->type_name("NAME");

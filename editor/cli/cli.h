@@ -26,6 +26,7 @@ struct ReplayOptions {
   std::string report;        // JSON file, "": none
   bool check = false;
   bool updateBaselines = false;
+  bool frameClock = false;  // times count frames, and what a frame was spent on is not measured
   std::string method;  // "": as recorded
   std::string backend = "auto";
   int threads = 0;  // 0: all cores

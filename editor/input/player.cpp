@@ -23,6 +23,10 @@ std::vector<InputEvent> Player::beginFrame() {
   return events;
 }
 
+bool Player::waits() const {
+  return isDue(next_) && std::holds_alternative<Checkpoint>(recording_.lines[next_].what);
+}
+
 std::vector<Checkpoint> Player::endFrame(bool settled) {
   std::vector<Checkpoint> reached;
   while (isDue(next_)) {

@@ -16,6 +16,8 @@ class Player {
 
   // Before a frame: its events. None while a checkpoint waits.
   std::vector<InputEvent> beginFrame();
+  // Whether a checkpoint waits for this frame's picture.
+  bool waits() const;
   // After it: the checkpoints that are reached now, once each; the clock goes on when none waits.
   // Throws InputError when one has waited too long.
   std::vector<Checkpoint> endFrame(bool settled);

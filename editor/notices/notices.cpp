@@ -7,9 +7,11 @@ namespace lamplighter {
 void Notices::add(NoticeKind kind, const std::string& text) {
   if (text.empty()) return;
   ++last_;
-  if (!all_.empty() && all_.back().text == text && all_.back().kind == kind) {
+  const bool isAgain = !all_.empty() && all_.back().text == text && all_.back().kind == kind;
+  if (!all_.empty() && all_.back().kind == NoticeKind::hint && !isAgain) all_.pop_back();
+  if (isAgain) {
     all_.back().id = last_;
-    ++all_.back().count;
+    if (kind != NoticeKind::hint) ++all_.back().count;
     return;
   }
   Notice notice{last_, kind, text, 1};

@@ -8,7 +8,8 @@
 
 namespace lamplighter {
 
-enum class NoticeKind : uint8_t { info, warning, error };
+// A hint says what to do next; it goes as soon as anything else is told.
+enum class NoticeKind : uint8_t { info, hint, warning, error };
 
 struct Notice {
   uint64_t id = 0;  // grows; another number once it happened again

@@ -1,6 +1,7 @@
 #include "editor/views/vpl_overlay.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "editor/tools/projection.h"
 #include "renderer/image/tone_map.h"
@@ -23,6 +24,18 @@ bool isSeen(const View& view, const RayCaster& rays, const vec3& p) {
 }
 
 float brightest(const vec3& c) { return std::max({c.r, c.g, c.b}); }
+
+// The light's own hue, as bright as it is against the brightest, `most`, down to a ten-thousandth:
+// the one sample of a narrow spot outshines each of a panel's hundred by that much.
+vec3 colourOf(const vec3& intensity, float most) {
+  constexpr float kDecades = 4.0f, kDarkest = 0.5f;
+  const float own = std::max(brightest(intensity), 1e-20f);
+  const float share = 1.0f + std::log10(own / std::max(most, 1e-20f)) / kDecades;
+  const float value = glm::mix(kDarkest, 1.0f, std::clamp(share, 0.0f, 1.0f));
+  vec3 colour;
+  for (int c = 0; c < 3; ++c) colour[c] = value * encodeSrgb(intensity[c] / own);
+  return colour;
+}
 
 // Parallel light has no place: its mark lies where the middle of its square first meets the level.
 vec3 placeOf(const shared::Vpl& vpl, const RayCaster& rays) {
@@ -62,9 +75,7 @@ void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
     const bool isDirect = light.id.bounce == 0;
     const bool isChosen = static_cast<int>(i) == chosen;
     const float alpha = isChosen || isSeen(view, rays, position) ? 1.0f : 0.22f;
-    const vec3 relative = vec3(light.vpl.intensity) / std::max(most[isDirect ? 0 : 1], 1e-20f);
-    vec3 colour;
-    for (int c = 0; c < 3; ++c) colour[c] = 0.25f + 0.75f * encodeSrgb(relative[c]);
+    const vec3 colour = colourOf(vec3(light.vpl.intensity), most[isDirect ? 0 : 1]);
 
     // Dark under bright, so that it shows on any picture.
     const vec3 tip = position + kNormal * metresPerPixel(view, position) * normal;

@@ -89,6 +89,28 @@ TEST_F(Replay, GivesTheSameHashesAndBitsTwiceAndAtAnyNumberOfThreads) {
   }
 }
 
+// With the clock of frames what the window tells of times is the same, too.
+TEST_F(Replay, GivesTheSamePicturesOfTheWindowTwiceByTheClockOfFrames) {
+  std::map<std::string, std::string> first;
+  for (const char* threads : {"1", "2"}) {
+    const ProcessResult r = replay({"--frame-clock", "--threads", threads});
+    ASSERT_EQ(r.code, 0) << r.err;
+    std::map<std::string, std::string> seen = pictures();
+    std::erase_if(seen,
+                  [](const auto& p) { return p.first.find(".window.") == std::string::npos; });
+    if (seen.empty()) GTEST_SKIP() << "without OpenGL there are no pictures of the window";
+    EXPECT_EQ(seen.size(), 6u);
+    if (first.empty()) first = seen;
+    EXPECT_TRUE(seen == first);
+  }
+}
+
+// Which frames are left out on the way makes no difference to where it leads.
+TEST_F(Replay, ComesToTheSamePicturesWithoutTheFramesBetween) {
+  const ProcessResult r = replay({"--frame-clock", "--check"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+}
+
 TEST_F(Replay, FailsACheckWhereTheDocumentDiffers) {
   std::string text = contents(recording());
   const size_t at = text.find("\"document\":\"") + 12;

@@ -18,6 +18,21 @@ TEST(Notices, TheSameAgainIsCounted) {
   EXPECT_LT(notices.all()[0].id, notices.all()[1].id);
 }
 
+TEST(Notices, AHintGoesOnceAnythingElseIsTold) {
+  Notices notices;
+  notices.add(NoticeKind::info, "Opened");
+  notices.add(NoticeKind::hint, "Click there");
+  const uint64_t first = notices.all().back().id;
+  notices.add(NoticeKind::hint, "Click there");
+  ASSERT_EQ(notices.all().size(), 2u);
+  EXPECT_EQ(notices.all().back().count, 1) << "nobody needs to know how often";
+  EXPECT_GT(notices.all().back().id, first) << "but it is shown anew";
+  notices.add(NoticeKind::info, "Placed");
+  ASSERT_EQ(notices.all().size(), 2u);
+  EXPECT_EQ(notices.all().front().text, "Opened");
+  EXPECT_EQ(notices.all().back().text, "Placed");
+}
+
 TEST(Notices, AreOneLineAndNotWithoutEnd) {
   Notices notices;
   for (int i = 0; i < 3000; ++i) notices.add(NoticeKind::info, std::to_string(i) + "\nmore");

@@ -36,6 +36,21 @@ TEST(PictureCheck, LeavesOnePixelInAThousandOut) {
   EXPECT_EQ(comparePictures(a, grey(40, 50)).largest, 100);
 }
 
+// A small thing that is not there: nothing in the mean, and less than a pixel in a thousand.
+TEST(PictureCheck, FindsTheTileThatDiffersMost) {
+  Image8 a = grey(640, 360);
+  for (int y = 176; y < 192; ++y)
+    for (int x = 320; x < 328; ++x) a.at(x, y)[0] = a.at(x, y)[1] = a.at(x, y)[2] = 160;
+  const PictureDifference d = comparePictures(a, grey(640, 360));
+  EXPECT_NEAR(d.tile, 30.0, 1e-9);
+  EXPECT_LT(d.mean, 0.05);
+  EXPECT_EQ(d.largest, 0);
+  // The last tile of 40 x 50 pixels is 8 x 2.
+  Image8 b = grey(40, 50);
+  b.at(39, 49)[1] = 148;
+  EXPECT_NEAR(comparePictures(b, grey(40, 50)).tile, 1.0, 1e-9);
+}
+
 TEST(PictureCheck, PicturesOfAnotherSizeDiffer) {
   const PictureDifference d = comparePictures(grey(4, 5), grey(5, 4));
   EXPECT_FALSE(d.none());

@@ -46,8 +46,18 @@ GiStats refinementOf(GiStats stats) {
 
 Application::Application(Platform& platform, std::unique_ptr<Session> session)
     : platform_(platform), session_(std::move(session)), gui_(platform) {
-  lastSeconds_ = platform_.seconds();
-  session_->setClock([this] { return platform_.seconds(); });
+  lastSeconds_ = seconds();
+  session_->setClock([this] { return seconds(); });
+}
+
+double Application::seconds() const {
+  return frameClock_ ? static_cast<double>(frames_) * static_cast<double>(timeStep_)
+                     : platform_.seconds();
+}
+
+void Application::useFrameClock() {
+  frameClock_ = true;
+  lastSeconds_ = seconds();
 }
 
 void Application::openNow(const std::filesystem::path& path) {
@@ -65,7 +75,8 @@ void Application::frame() {
   takeInput();
   takeLoaded();
 
-  const double now = platform_.seconds();
+  ++frames_;
+  const double now = seconds();
   frameSeconds_ += 0.15 * (now - lastSeconds_ - frameSeconds_);
   dt_ = timeStep_ > 0.0f ? timeStep_
                          : std::clamp(static_cast<float>(now - lastSeconds_), 1e-4f, 0.25f);
@@ -78,22 +89,33 @@ void Application::frame() {
   viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
   // A replay must not depend on how far a thread has come.
   if (!replaying_) meterWorker_.exchange(session_->watch().meter);
-  session_->renderFrame(updatesWithinTime(), refineUpdates());
-  frameTime_.measured(session_->output().stats);
-  refineTime_.measured(refinementOf(session_->output().stats));
-  logLatency();
-  followExposure();
-  present();
+  const bool renders = rendersFrame();
+  if (renders) {
+    session_->renderFrame(updatesWithinTime(), refineUpdates());
+    frameTime_.measured(session_->output().stats);
+    refineTime_.measured(refinementOf(session_->output().stats));
+    logLatency();
+    followExposure();
+    present();
+  }
   const bool isSplit = session_->split().on() && session_->split().secondPicture();
   viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0);
   drawStatusLine(ui);
   toasts(ui, toastState_, layout_.view, dt_);
   drawDialogs(ui);
-  gui_.endFrame();
+  gui_.endFrame(renders);
   answerRequests();
   platform_.present();
   updateTitle();
   autosave_.frame(*session_, now);
+}
+
+// What is clicked is looked up in what was rendered, so each edit is.
+bool Application::rendersFrame() {
+  const size_t position = session_->history().position();
+  const bool renders = !skipsPictures_ || position != renderedPosition_;
+  renderedPosition_ = position;
+  return renders;
 }
 
 void Application::close() {
@@ -383,8 +405,11 @@ void Application::answerRequests() {
   if (!requests.palette.empty()) palette_.open(requests.palette);
   if (requests.timelineDialog)
     fileDialog_.open(FileDialog::Kind::timeline, session_->document().path);
-  if (requests.folderDialog)
-    fileDialog_.open(FileDialog::Kind::folder, session_->home().preferences.assetFolder);
+  if (requests.folderDialog) {
+    const std::filesystem::path& last = session_->home().preferences.assetFolder;
+    fileDialog_.open(FileDialog::Kind::folder,
+                     last.empty() ? session_->document().path.parent_path() : last);
+  }
   if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
 
   if (std::exchange(inspectorState_.choosesProfile, false))

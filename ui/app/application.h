@@ -49,6 +49,11 @@ class Application {
   using Listener = std::function<void(const std::vector<InputEvent>&)>;
   void setListener(Listener listener) { listener_ = std::move(listener); }
   void setReplaying(bool replaying) { replaying_ = replaying; }
+  // Time goes on by the time step with each frame, so that what is shown of it is the same each
+  // time. After setTimeStep().
+  void useFrameClock();
+  // Frames in which nothing was edited are laid out and take input, but are not rendered or drawn.
+  void skipPictures(bool skips) { skipsPictures_ = skips; }
   // Takes the user's settings and keys, and keeps what changes. Not where input is replayed or
   // recorded. `preferences` are those that were read from the files.
   void setUser(std::unique_ptr<UserFiles> files, Preferences preferences);
@@ -73,11 +78,13 @@ class Application {
   bool idle() const;
 
  private:
+  double seconds() const;  // since some moment
   void takeInput();
   void handle(const InputEvent& event);
   void pressKey(Key key);
   void runAction(const std::string& text);
   void drawPanels(PanelContext ui);
+  bool rendersFrame();
   void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
   std::optional<int> updatesWithinTime();
@@ -144,6 +151,10 @@ class Application {
   double frameSeconds_ = 0.0;
   FrameTimeControl frameTime_, refineTime_;
   float dt_ = 1.0f / 60.0f;
+  bool frameClock_ = false;
+  uint64_t frames_ = 0;
+  bool skipsPictures_ = false;
+  size_t renderedPosition_ = ~size_t{0};  // of the history, when a frame was rendered last
   bool replaying_ = false;
   bool finished_ = false;
   int framesToExposure_ = 0;

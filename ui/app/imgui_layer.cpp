@@ -143,10 +143,10 @@ void ImGuiLayer::beginFrame(const PointerKeys& input, float seconds, float scale
   ImGui::NewFrame();
 }
 
-void ImGuiLayer::endFrame() {
+void ImGuiLayer::endFrame(bool draws) {
   ImGui::Render();
   platform_.setCursor(cursorOf(ImGui::GetMouseCursor()));
-  if (!platform_.hasGl()) return;
+  if (!platform_.hasGl() || !draws) return;
   platform_.beginDrawing();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

@@ -19,7 +19,7 @@ class ImGuiLayer {
   // `scale`: pixels a design pixel.
   void beginFrame(const PointerKeys& input, float seconds, float scale);
   // Lays out what was drawn and, where there is OpenGL, draws it into the platform's framebuffer.
-  void endFrame();
+  void endFrame(bool draws = true);
 
  private:
   void rescale(float scale);

@@ -20,6 +20,24 @@ int largestDifference(const uint8_t* a, const uint8_t* b) {
   return largest;
 }
 
+constexpr int kTile = 16;
+
+// The mean difference of each tile's pixels and channels; those at the border may be smaller.
+double largestTile(const Image8& a, const Image8& b) {
+  double largest = 0.0;
+  for (int y0 = 0; y0 < a.height; y0 += kTile) {
+    for (int x0 = 0; x0 < a.width; x0 += kTile) {
+      const int x1 = std::min(x0 + kTile, a.width), y1 = std::min(y0 + kTile, a.height);
+      int sum = 0;
+      for (int y = y0; y < y1; ++y)
+        for (int x = x0; x < x1; ++x)
+          for (int c = 0; c < 3; ++c) sum += std::abs(a.at(x, y)[c] - b.at(x, y)[c]);
+      largest = std::max(largest, sum / (3.0 * (x1 - x0) * (y1 - y0)));
+    }
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::string PictureDifference::text() const {
@@ -53,6 +71,7 @@ PictureDifference comparePictures(const Image8& a, const Image8& b) {
     --d.largest;
     over += counts[static_cast<size_t>(d.largest)];
   }
+  d.tile = largestTile(a, b);
   if (count > 0) d.mean = static_cast<double>(sum) / (3.0 * static_cast<double>(count));
   return d;
 }

@@ -14,6 +14,8 @@ struct PictureDifference {
   int largest = 0;    // the same with one pixel in a thousand left out: silhouettes, which differ
                       // between a rasterizer and rays, and between rasterizers
   double mean = 0.0;  // over pixels and channels, of 255
+  double tile = 0.0;  // the largest mean of a tile of 16 x 16 pixels: a word or an icon that is not
+                      // there, which would be lost in the mean
   size_t pixels = 0;  // that differ at all
 
   bool none() const { return sameSize && max == 0; }

@@ -87,6 +87,7 @@ class Replay {
 void Replay::start(Application& app) {
   app.setReplaying(true);
   app.setTimeStep(1.0f / static_cast<float>(std::max(header().framesPerSecond, 1)));
+  if (options_.frameClock) app.useFrameClock();
   Session& session = app.session();
   session.home().writeFolder = writeFolder_.path();
   session.document().render = header().render;
@@ -112,6 +113,8 @@ int Replay::run(Platform& platform, const MakeRenderer& makeRenderer) {
     std::vector<InputEvent> ignored;
     platform.poll(ignored, 0.0);
     for (InputEvent& event : player_.beginFrame()) app.input().push(std::move(event));
+    // Only what is looked at need be rendered.
+    app.skipPictures(options_.frameClock && !player_.waits());
     try {
       app.frame();
     } catch (const InputError& e) {
@@ -225,8 +228,10 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   Replay replay(options, std::move(recording));
   // The cpu backend gives the same bits everywhere, so that is what a replay takes unless told.
   const std::string backend = options.backend == "auto" ? "cpu" : options.backend;
+  // Without a stopwatch no stage of a frame is timed.
   const auto renderer = [&] {
-    return std::make_unique<FrameRenderer>(makeBackend(backend, stopwatch), stopwatch);
+    return std::make_unique<FrameRenderer>(makeBackend(backend, stopwatch),
+                                           options.frameClock ? Stopwatch() : stopwatch);
   };
   const std::optional<float> scale = askedUiScale();
   if (!options.headless) {

@@ -66,11 +66,13 @@ void bar(const PanelContext& ui, AssetPanelState& state, Requests& requests) {
   tooltip(ui, "Choose the folder whose .gltf and .glb files are shown");
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  const std::string folder = home.preferences.assetFolder.string();
+  const std::filesystem::path& folder = home.preferences.assetFolder;
   ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
-  ImGui::TextUnformatted(endOf(folder, ImGui::GetContentRegionAvail().x).c_str());
+  // The whole path is longer than the bar, as a rule; the tooltip has it.
+  const std::string end = (folder.parent_path().filename() / folder.filename()).string();
+  ImGui::TextUnformatted(endOf(end, ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopStyleColor();
-  tooltip(ui, folder);
+  tooltip(ui, folder.string());
 }
 
 void grid(const PanelContext& ui, const std::vector<AssetFile>& files, Thumbnails* thumbnails,

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <utility>
 
 #include <imgui.h>
@@ -100,7 +101,10 @@ void inspector(PanelContext ui, InspectorState& state) {
 void transformFields(PanelContext ui, const Node& node, InspectorState& state) {
   if (state.rotation != node.local.rotation) {
     state.rotation = node.local.rotation;
-    state.degrees = glm::degrees(glm::eulerAngles(state.rotation)) + vec3(0.0f);  // no "-0.0"
+    state.degrees = glm::degrees(glm::eulerAngles(state.rotation));
+    // No "-0.0" for what is nothing but rounding.
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(state.degrees[i]) < 0.005f) state.degrees[i] = 0.0f;
   }
   Transform local = node.local;
   labelledRow(ui, "Position", "In metres, relative to the parent.");

@@ -14,6 +14,7 @@ constexpr size_t kMostToasts = 4;
 unsigned colourOf(NoticeKind kind) {
   switch (kind) {
     case NoticeKind::info:
+    case NoticeKind::hint:
       return theme::kText;
     case NoticeKind::warning:
       return theme::kWarning;
@@ -23,10 +24,13 @@ unsigned colourOf(NoticeKind kind) {
   return 0xe06a5a;
 }
 
+bool isBad(const Notice& notice) {
+  return notice.kind == NoticeKind::warning || notice.kind == NoticeKind::error;
+}
+
 std::string textOf(const Notice& notice) {
   const std::string times = notice.count > 1 ? "  \u00d7" + std::to_string(notice.count) : "";
-  const bool isBad = notice.kind != NoticeKind::info;
-  return (isBad ? withIcon(icon::kWarning, notice.text) : notice.text) + times;
+  return (isBad(notice) ? withIcon(icon::kWarning, notice.text) : notice.text) + times;
 }
 
 // Which notices are toasts now: the new ones, for their time.
@@ -42,7 +46,7 @@ void advance(const PanelContext& ui, ToastState& state, float dt) {
     const auto notice =
         std::find_if(all.begin(), all.end(), [&](const Notice& n) { return n.id == it->first; });
     it->second += dt;
-    const float most = notice != all.end() && notice->kind != NoticeKind::info ? 2 * stays : stays;
+    const float most = notice != all.end() && isBad(*notice) ? 2 * stays : stays;
     it = notice == all.end() || it->second > most ? state.seconds.erase(it) : std::next(it);
   }
   while (state.seconds.size() > kMostToasts) state.seconds.erase(state.seconds.begin());
@@ -76,7 +80,7 @@ void toasts(PanelContext ui, ToastState& state, const Rect& view, float dt) {
                        theme::colour(theme::kPanel, 240), ui.px(4));
     list.AddRect(
         {rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
-        theme::colour(notice->kind == NoticeKind::info ? theme::kLine : colourOf(notice->kind)),
+        theme::colour(isBad(*notice) ? colourOf(notice->kind) : theme::kLine),
         ui.px(4));
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {rect.min.x + pad.x, rect.min.y + pad.y},
                  theme::colour(colourOf(notice->kind)), text.c_str(), nullptr, width - 2 * pad.x);

@@ -1,0 +1,71 @@
+// A page of the guide: text for a reader, and in its comments the steps by which the pictures in it
+// are made, so that neither can change without the other being beside it.
+//
+//   <!-- play assets/tutorial/empty_room.gltf vpls=300 exposure=1.5 -->      once, at the head
+//
+//   Press `Ctrl+P`, type `light.add spot` and press `Enter`.
+//   <!-- steps
+//   key Ctrl+P
+//   type light.add spot
+//   key Enter
+//   picture spot
+//   -->
+//   ![A spot ahead of the camera](images/guide/tutorial.spot.jpg)
+//
+// steps.h lists the steps.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace lamplighter::test {
+
+struct Step {
+  int line = 0;  // of the page, from 1
+  std::string verb;
+  std::vector<std::string> words;  // behind the verb; what is in double quotes is one word
+  std::string rest;                // the same as it stands there
+};
+
+// What a heading is over.
+struct Section {
+  int line = 0;
+  std::string heading;
+  std::string text;  // what a reader sees, without code blocks
+  std::vector<Step> steps;
+};
+
+struct CodeBlock {
+  int line = 0;
+  std::string language, text;
+};
+
+struct Link {
+  int line = 0;
+  std::string target;
+  bool isPicture = false;
+};
+
+struct Page {
+  std::filesystem::path path;
+  std::string scene;                          // "": nothing is played
+  std::map<std::string, std::string> values;  // of the play comment
+  std::vector<Section> sections;
+  std::vector<CodeBlock> blocks;
+  std::vector<Link> links;
+
+  std::string name() const { return path.stem().string(); }
+  std::string at(int line) const { return path.filename().string() + ":" + std::to_string(line); }
+  // Of a picture's step, in the page's folder.
+  std::string pictureFile(const std::string& picture) const;
+};
+
+// Throws InputError "PAGE:LINE: …".
+Page readPage(const std::filesystem::path& path);
+// docs/tutorial.md and docs/guide.md.
+std::vector<Page> allPages();
+std::filesystem::path docsFolder();
+
+}  // namespace lamplighter::test
