@@ -163,7 +163,6 @@ BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress&
   const std::vector<BakeTile> tiles = bakeTiles(render, atlas);
   const BakeParts parts(o.output, keyOf(scene, render, o));
   report.tiles = static_cast<int>(tiles.size());
-  for (const BakeTile& tile : tiles) report.texels += tile.points.size();
   if (!o.mergeOnly) {
     std::vector<const BakeTile*> open;
     for (const BakeTile& tile : tiles) {

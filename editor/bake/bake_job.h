@@ -25,7 +25,6 @@ struct BakeJobOptions {
 
 struct BakeReport {
   int pages = 0, tiles = 0, found = 0, taken = 0;  // tiles: found now; there from before
-  size_t texels = 0;
   bool isCancelled = false, isWhole = false;  // whole: pages and scene are written
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> files;

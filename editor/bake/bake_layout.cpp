@@ -44,11 +44,7 @@ std::vector<BakeTile> bakeTiles(const RenderScene& scene, const LightMapAtlas& a
 }
 
 BakeParts::BakeParts(const std::filesystem::path& output, uint64_t key)
-    : folder_(output / "parts" / fmt::format("{:016x}", key)) {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  if (error) throw InputError(folder_.string(), "cannot be made", error.message());
-}
+    : folder_(output / "parts" / fmt::format("{:016x}", key)) {}
 
 std::filesystem::path BakeParts::pathOf(const BakeTile& tile) const {
   return folder_ / fmt::format("tile-{:05}.bin", tile.number);
@@ -57,6 +53,9 @@ std::filesystem::path BakeParts::pathOf(const BakeTile& tile) const {
 bool BakeParts::has(const BakeTile& tile) const { return read(tile).has_value(); }
 
 void BakeParts::write(const BakeTile& tile, std::span<const BakedTexel> texels) const {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw InputError(folder_.string(), "cannot be made", error.message());
   std::string bytes(kMagic, sizeof(kMagic));
   for (const BakedTexel& t : texels) {
     char texel[kTexelBytes];

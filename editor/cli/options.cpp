@@ -16,8 +16,6 @@ namespace lamplighter::cli {
 
 namespace {
 
-constexpr int kAllAtOnce = 65536;
-
 bool has(const MethodInfo& method, const std::string& name) {
   for (const ParameterSpec& p : method.parameters) {
     if (p.name == name) return true;

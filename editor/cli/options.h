@@ -22,6 +22,9 @@ void setParameter(Settings& settings, const MethodInfo& method, const std::strin
 // "name=value".
 void setFromAssignment(Settings& settings, const MethodInfo& method, const std::string& assignment);
 
+// What a frame may change at once in a run that nobody watches.
+inline constexpr int kAllAtOnce = 65536;
+
 // Flags of commands that run a method; empty where not given.
 struct MethodFlags {
   std::string vpls, directShare, bounces, seed, spp;  // shortcuts

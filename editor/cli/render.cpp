@@ -29,8 +29,6 @@ namespace lamplighter::cli {
 
 namespace {
 
-constexpr int kAllAtOnce = 65536;
-
 struct Totals {
   int frames = 0;
   uint64_t raysOfMethod = 0, visibilityTests = 0;

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <unordered_set>
 #include <utility>
 
 namespace lamplighter {
@@ -51,10 +52,13 @@ Triangles trianglesOf(const RenderScene& scene, const RenderObject& object) {
     if (!(twice > 0.0f)) continue;
     for (uint32_t k = 0; k < 3; ++k) edges[std::minmax(place[k], place[(k + 1) % 3])].push_back(i);
   }
-  for (const auto& [edge, users] : edges)
-    for (const uint32_t a : users)
-      for (const uint32_t b : users)
-        if (a != b) t.neighbours[a].push_back(b);
+  // Where more than two meet, each is the neighbour of the next: a file may let thousands meet.
+  for (const auto& [edge, users] : edges) {
+    for (size_t i = 1; i < users.size(); ++i) {
+      t.neighbours[users[i - 1]].push_back(users[i]);
+      t.neighbours[users[i]].push_back(users[i - 1]);
+    }
+  }
   return t;
 }
 
@@ -71,15 +75,17 @@ class Grid {
     const vec2 high = glm::ceil(glm::max(p[0], glm::max(p[1], p[2])));
     const float area = cross(p[1] - p[0], p[2] - p[0]);
     if (area == 0.0f) return true;
-    std::vector<std::pair<int, int>> covered;
+    std::vector<uint64_t> covered;
     for (int y = static_cast<int>(low.y); y < static_cast<int>(high.y); ++y) {
       for (int x = static_cast<int>(low.x); x < static_cast<int>(high.x); ++x) {
         const vec2 c(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
         const float u = cross(p[1] - p[0], c - p[0]) / area,
                     v = cross(c - p[0], p[2] - p[0]) / area;
         if (u <= kInside || v <= kInside || u + v >= 1.0f - kInside) continue;
-        if (taken_.contains({x, y})) return false;
-        covered.emplace_back(x, y);
+        const uint64_t cell =
+            static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32 | static_cast<uint32_t>(x);
+        if (taken_.contains(cell)) return false;
+        covered.push_back(cell);
       }
     }
     taken_.insert(covered.begin(), covered.end());
@@ -90,7 +96,7 @@ class Grid {
   static float cross(const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; }
   const BakeChart& chart_;
   float cells_;
-  std::set<std::pair<int, int>> taken_;
+  std::unordered_set<uint64_t> taken_;  // y, x of each
 };
 
 // Turns the chart in its plane so that its first axis runs along `direction`, and finds its box.

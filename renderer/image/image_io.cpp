@@ -76,13 +76,11 @@ Image readImage(const std::filesystem::path& path) {
   return image;
 }
 
-// The same picture is the same file.
-constexpr const char* kNoDate = "1970:01:01 00:00:00";
-
 void writeExr(const Image& image, const std::filesystem::path& path) {
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
-  spec.attribute("DateTime", kNoDate);  // else the time of day would be in it
+  // Else the time of day would be in it: the same picture is the same file.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   writeEncoded(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
 }
 

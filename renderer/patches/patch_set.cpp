@@ -9,6 +9,8 @@ namespace {
 
 constexpr int kMostSplits = 7;
 constexpr float kSmallest = 0.4f;  // m
+// By which a sphere is larger than those that it holds: more than sums are rounded.
+constexpr float kNested = 1.0001f;
 
 void splitRectangle(ObjectPatches& out, int index, int splits) {
   const Patch whole = out.patches[static_cast<size_t>(index)];
@@ -36,16 +38,22 @@ Bounds boundsOf(const RenderScene& s, const RenderObject& o, std::span<const uin
   return b;
 }
 
-// Spheres around patches, and a tree over those of the roots.
+// Spheres around patches, and a tree over those of the roots. A sphere holds those of all patches
+// below it: what cannot reach the one cannot reach the others, by more than rounding.
 void surround(ObjectPatches& out) {
-  for (Patch& p : out.patches) {
-    if (p.chart == kNone) {
-      p.centre = p.box.centre();
-      p.radius = p.box.radius();
+  for (auto p = out.patches.rbegin(); p != out.patches.rend(); ++p) {
+    if (p->chart == kNone) {
+      p->centre = p->box.centre();
+      p->radius = p->box.radius();
     } else {
-      const Chart& chart = out.charts[static_cast<size_t>(p.chart)];
-      p.centre = chart.at(0.5f * (p.min + p.max));
-      p.radius = 0.5f * glm::length(p.max - p.min) + chart.thickness;
+      const Chart& chart = out.charts[static_cast<size_t>(p->chart)];
+      p->centre = chart.at(0.5f * (p->min + p->max));
+      p->radius = 0.5f * glm::length(p->max - p->min) + chart.thickness;
+    }
+    if (p->isLeaf()) continue;
+    for (int child = p->firstChild; child < p->firstChild + 2; ++child) {
+      const Patch& c = out.patches[static_cast<size_t>(child)];
+      p->radius = std::max(p->radius, kNested * (glm::distance(p->centre, c.centre) + c.radius));
     }
   }
   std::vector<Bounds> boxes;

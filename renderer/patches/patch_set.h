@@ -14,7 +14,7 @@ struct Patch {
   int chart = kNone;          // of the object's charts; kNone: a cluster of triangles, with a box
   vec2 min{0.0f}, max{0.0f};  // chart: its rectangle, in the chart's frame
   Bounds box;                 // cluster: world space
-  vec3 centre{0.0f};          // of a sphere around it
+  vec3 centre{0.0f};          // of a sphere around it, and around those of its children
   float radius = 0.0f;        // of that sphere [m]
   int firstChild = kNone;     // its two children stand one after the other
   int axis = 0;               // chart: 0: split across tangent, 1: across bitangent, in the middle

@@ -9,6 +9,8 @@ namespace lamplighter {
 namespace {
 
 constexpr float kLeastSide = 0.25f;  // metres; finer shadows are not worth a map
+constexpr uint32_t kLastCode =
+    1u << 28;  // of those that are quartered: what follows has a code too
 // Places in the picture that are looked at, and what those in shadow count beside those in light:
 // edges of shadows lie among the latter, but a coarse map may leak into the former.
 constexpr int kSeenPoints = 1024;
@@ -92,10 +94,11 @@ std::vector<SunSquare> sunSquares(const RenderScene& scene, const mat3& axes, co
     SunSquare square;
     float gain;
   };
-  const auto leafOf = [&](const SunSquare& s) {
-    return Leaf{s, 0.5f * s.side < kLeastSide ? 0.0f : gain.of(s)};
+  const auto isLast = [](const SunSquare& s) {
+    return 0.5f * s.side < kLeastSide || s.code >= kLastCode;
   };
-  std::vector<Leaf> leaves{leafOf({vec2(0.0f), whole, 1})};
+  const SunSquare all{vec2(0.0f), whole, 1};
+  std::vector<Leaf> leaves{{all, isLast(all) ? 0.0f : gain.of(all)}};
   while (static_cast<int>(leaves.size()) + 3 <= count) {
     const auto best = std::max_element(
         leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.gain < b.gain; });
@@ -106,7 +109,8 @@ std::vector<SunSquare> sunSquares(const RenderScene& scene, const mat3& axes, co
     for (uint32_t quarter = 0; quarter < 4; ++quarter) {
       const vec2 corner((quarter & 1u) != 0 ? half : -half, (quarter & 2u) != 0 ? half : -half);
       const SunSquare part{s.centre + corner, half, 4 * s.code + quarter};
-      if (gain.of(part) > 0.0f) leaves.push_back(leafOf(part));
+      const float more = gain.of(part);
+      if (more > 0.0f) leaves.push_back({part, isLast(part) ? 0.0f : more});
     }
   }
   std::sort(leaves.begin(), leaves.end(),

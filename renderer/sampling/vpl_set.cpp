@@ -12,11 +12,13 @@ VplSet generateVpls(const RenderScene& scene, const RayCaster& rays, const Light
   return set;
 }
 
+bool isSameSun(const SceneVpl& a, const SceneVpl& b) {
+  return a.isOfSun() && b.isOfSun() && a.id.set() == b.id.set();
+}
+
 int sampleCount(std::span<const SceneVpl> vpls) {
   int count = 0;
-  for (size_t i = 0; i < vpls.size(); ++i)
-    count += !vpls[i].isOfSun() || i == 0 || !vpls[i - 1].isOfSun() ||
-             vpls[i - 1].id.set() != vpls[i].id.set();
+  for (size_t i = 0; i < vpls.size(); ++i) count += i == 0 || !isSameSun(vpls[i - 1], vpls[i]);
   return count;
 }
 

@@ -71,7 +71,9 @@ struct VplSet {
   std::vector<VplId> pathIds;  // of these (VplId::path), those that left no VPL included
 };
 
-// How many samples they are: squares of one sun are one.
+// Whether both are of one sun, which is one sample.
+bool isSameSun(const SceneVpl& a, const SceneVpl& b);
+// How many samples they are, in the order of a set.
 int sampleCount(std::span<const SceneVpl> vpls);
 
 // Where a batch goes on in a sequence of which each takes `count` points.

@@ -153,7 +153,7 @@ inline vec3 outlined(const Painter& p, const ViewSubject& in, const Seen& s, siz
   const uint32_t object = s.hit->object;
   const Patch& patch = in.inspection.visibility->patches(object)
                            .patches[static_cast<size_t>(p.lookup().wholeOf(object, p.leaf(i)))];
-  const vec2 size = patch.chart == kNone ? vec2(2.0f * patch.radius) : patch.max - patch.min;
+  const vec2 size = patch.chart == kNone ? vec2(2.0f * patch.box.radius()) : patch.max - patch.min;
   const float pixels = std::min(size.x, size.y) * std::sqrt(s.facing) / s.footprint;
   return colour * (1.0f - 0.55f * std::clamp((pixels - 4.0f) / 12.0f, 0.0f, 1.0f));
 }

@@ -26,7 +26,9 @@ class ShadowReach {
   ShadowReach(const shared::Vpl& vpl, const Caster& caster);
 
   bool isEmpty() const { return kind_ == Kind::none; }
-  // Whether the shadow may fall on some of a sphere. Conservative.
+  // Whether the shadow may fall on some of a sphere: one no nearer than the caster's near side, and
+  // no farther from the cone or cylinder than its radius. Conservative; and where it may, it may on
+  // a sphere around that sphere, and that of a caster around this one may.
   bool mayFallOn(const vec3& centre, float radius) const {
     switch (kind_) {
       case Kind::none:
@@ -35,11 +37,16 @@ class ShadowReach {
         return true;
       case Kind::cone: {
         const vec3 v = centre - apex_;
+        const float distance2 = glm::dot(v, v), gap = nearest_ - radius;
+        if (gap > 0.0f && distance2 < gap * gap) return false;
         const float along = glm::dot(v, axis_);
-        if (along + radius < nearest_) return false;
-        const float across2 = std::max(glm::dot(v, v) - along * along, 0.0f);
+        const float across2 = std::max(distance2 - along * along, 0.0f);
+        const float cosine2 = cosine_ * cosine_;
+        // Behind the light, where no place of the cone is nearer than its apex.
+        if (along < 0.0f && across2 * sine_ * sine_ <= along * along * cosine2)
+          return distance2 <= radius * radius;
         const float reach = radius + along * sine_;
-        return reach >= 0.0f && across2 * cosine_ * cosine_ <= reach * reach;
+        return reach >= 0.0f && across2 * cosine2 <= reach * reach;
       }
       case Kind::cylinder: {
         const vec3 v = centre - apex_;
@@ -56,7 +63,7 @@ class ShadowReach {
   enum class Kind : uint8_t { none, everywhere, cone, cylinder };
   Kind kind_ = Kind::none;
   vec3 apex_{0.0f}, axis_{0.0f};  // a cylinder's apex is the middle of the caster
-  float nearest_ = 0.0f;          // along the axis, of the caster's near side [m]
+  float nearest_ = 0.0f;          // of the caster: from the apex; a cylinder: along the axis [m]
   float sine_ = 0.0f, cosine_ = 1.0f;
   float radius_ = 0.0f;
 };

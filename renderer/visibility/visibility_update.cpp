@@ -80,8 +80,9 @@ struct VisibilityDatabase::Task {
   Work work = Work::anew;
   bool isNew = false;
   bool isOfMover = false;  // the column waits for the object
+  // The entry before was not found by its own pyramid, which is not quite in that of the parent.
   bool parentWasNone = false;
-  bool isSieved = false;                 // nothing that moved can be between
+  bool isSieved = false;                 // nothing that moved can be between: it stays
   Occlusion was = Occlusion::partial;    // the entry before
   Occlusion state = Occlusion::partial;  // inherit: the parent's; afterwards the entry
   Blocker met, metMover;                 // at the parent, then here
@@ -245,24 +246,19 @@ Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegio
   const shared::Vpl& vpl = db_.lights_[static_cast<size_t>(task.slot)];
   isSieved = false;
   if (others == static_cast<uint8_t>(Occlusion::full)) return Occlusion::full;
-  const bool onlyMoversMatter = task.work == Work::check && !task.isOfMover;
-  isSieved = onlyMoversMatter && !task.column->mayFallOn(patch.centre, patch.radius);
-  if (isSieved) {
-    // Dark patches are none too where all of their parent was; it no longer is.
-    if (task.parentWasNone && OcclusionPyramid(vpl, region).isDark()) return Occlusion::full;
-    return task.was;
-  }
+  const bool wasFound = task.work == Work::check && !task.isOfMover && !task.parentWasNone;
+  isSieved = wasFound && !task.column->mayFallOn(patch.centre, patch.radius);
+  if (isSieved) return task.was;
   // What all hid, and the movers did not, the others hide.
-  if (onlyMoversMatter && others == kUnknown && task.was == Occlusion::full &&
-      task.column->moversAreAll && task.column->moversHidNothing) {
+  if (wasFound && others == kUnknown && task.was == Occlusion::full && task.column->moversAreAll &&
+      task.column->moversHidNothing) {
     others = static_cast<uint8_t>(Occlusion::full);
     return Occlusion::full;
   }
   if (isDecided(others)) return static_cast<Occlusion>(others);
   const OcclusionPyramid pyramid(vpl, region);
   // Where nothing stood between, only the movers can.
-  if (onlyMoversMatter && task.column->moversAreAll && task.was == Occlusion::none &&
-      !pyramid.isDark())
+  if (wasFound && task.column->moversAreAll && task.was == Occlusion::none)
     others = static_cast<uint8_t>(Occlusion::none);
   if (others == kUnknown) {
     if (!pyramid.isDark()) ++tests;

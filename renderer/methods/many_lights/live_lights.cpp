@@ -423,10 +423,14 @@ int LiveLights::pending() const {
 }
 
 int LiveLights::live() const {
-  std::vector<SceneVpl> shown;
-  for (const Entry& e : entries_)
-    if (isShown(e)) shown.push_back(e.wanted);
-  return sampleCount(shown);
+  int count = 0;
+  const SceneVpl* last = nullptr;
+  for (const Entry& e : entries_) {
+    if (!isShown(e)) continue;
+    count += last == nullptr || !isSameSun(*last, e.wanted);
+    last = &e.wanted;
+  }
+  return count;
 }
 
 int LiveLights::oldestFrames() const {

@@ -78,7 +78,7 @@ class LiveLights {
   std::vector<shared::Vpl> shown() const;
 
   int pending() const;
-  int live() const;  // samples that are shown (sampleCount)
+  int live() const;  // samples that are shown: a sun is one
   int oldestFrames() const;
   bool changed() const { return changed_; }  // since the last shown() that was cleared
   void clearChanged() { changed_ = false; }

@@ -229,20 +229,17 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   if (sceneChanged) movers = movers_.update(in.scene, in.changes);
   // While the camera moves samples stay as they are; where it rests they are chosen for what it
   // sees.
-  std::optional<View> chosenFor = steadyView(in.view, in.rays);
+  View chosenFor = steadyView(in.view, in.rays);
   choiceIsCurrent_ = !started_ || in.view == view_ || chosenFor == chosenFor_;
-  if (!choiceIsCurrent_) chosenFor = chosenFor_;
+  if (!choiceIsCurrent_) chosenFor = *chosenFor_;
   const bool choosesOtherwise =
-      chosenFor != chosenFor_ || (chosenFor && options.clampDistance != options_.clampDistance);
+      chosenFor != chosenFor_ || options.clampDistance != options_.clampDistance;
   chosenFor_ = chosenFor;
   if (paths_.update(in.scene, in.rays, in.changes, movers, options.counts, options.mostPaths) ||
       choosesOtherwise) {
-    VplSet set = paths_.set(in.scene);
-    if (chosenFor)
-      set =
-          chooseForView(set, options.counts, in.scene, in.rays, *chosenFor, options.clampDistance);
-    divideSuns(set.vpls, in.scene, in.rays, chosenFor ? &*chosenFor : nullptr,
-               options.counts.sunMaps);
+    VplSet set = chooseForView(paths_.set(in.scene), options.counts, in.scene, in.rays, chosenFor,
+                               options.clampDistance);
+    divideSuns(set.vpls, in.scene, in.rays, &chosenFor, options.counts.sunMaps);
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
   }

@@ -1,0 +1,66 @@
+// What is kept of visibility from edit to edit of a level, against what is found from nothing:
+// entry for entry, else a picture would hang on what was before.
+#include <gtest/gtest.h>
+
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/visibility/visibility_database.h"
+#include "tests/support/edit_sequence.h"
+
+namespace lamplighter {
+namespace {
+
+RenderSceneChanges everything() {
+  RenderSceneChanges all;
+  all.rebuilt = true;
+  return all;
+}
+
+// Entries that differ; all of them if their numbers do.
+int differences(const VisibilityDatabase& a, const VisibilityDatabase& b) {
+  int count = 0;
+  for (uint32_t object = 0; object < a.objects(); ++object) {
+    for (size_t p = 0; p < a.patches(object).patches.size(); ++p) {
+      const auto ra = a.row(object, static_cast<int>(p)), rb = b.row(object, static_cast<int>(p));
+      for (size_t i = 0; i < ra.size(); ++i) count += ra[i] != rb[i];
+    }
+  }
+  return count;
+}
+
+// The lights stay where they are, so that all entries are only brought up to date.
+bool staysTheSame(const test::EditSequence& edits) {
+  Scene level =
+      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf").scene;
+  RenderScene scene;
+  update(scene, level, SceneChanges::all());
+  std::vector<shared::Vpl> lights;
+  for (const SceneVpl& v :
+       generateVpls(scene, RayCaster(scene), LightSet(scene), {150, 0.3f, 3, 1}).vpls)
+    lights.push_back(v.vpl);
+  VisibilityDatabase kept;
+  kept.setScene(scene, everything());
+  kept.setLights(scene, lights);
+  for (const test::Edit& edit : edits) {
+    const Scene before = level;
+    apply(level, edit);
+    kept.setScene(scene, update(scene, level, compare(before, level)));
+    kept.refreshAll(scene);
+    VisibilityDatabase fresh;
+    fresh.setScene(scene, everything());
+    fresh.setLights(scene, lights);
+    if (kept.objects() != fresh.objects() || differences(kept, fresh) != 0) return false;
+  }
+  return true;
+}
+
+class EditsOfALevel : public testing::TestWithParam<uint32_t> {};
+
+TEST_P(EditsOfALevel, LeaveNoEntryOtherThanFromNothing) {
+  EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), staysTheSame),
+            test::EditSequence());
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, EditsOfALevel, testing::Range(1u, 11u));
+
+}  // namespace
+}  // namespace lamplighter
