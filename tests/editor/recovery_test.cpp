@@ -289,21 +289,6 @@ TEST_F(Recovery, AJournalOfNonsenseIsRefused) {
   }
   std::ofstream(file, std::ios::binary) << "{}\n{}\n";
   EXPECT_THROW(recover(file.parent_path()), InputError);
-  // Whole numbers that are none, or beyond an int.
-  for (const char* edits : {"1e300", "-1e300", "2147483647", "1.5", "-5", "99999999999", "null"}) {
-    std::ofstream(file, std::ios::binary)
-        << "{\"lamplighter_journal\":1,\"files\":[],\"level\":false,\"saved\":\"0\",\"scene\":\"\","
-           "\"edits\":"
-        << edits << "}\n{\"label\":\"\",\"time\":1e300}\n";
-    EXPECT_TRUE(findRecoverable(root_).empty()) << edits;
-    EXPECT_THROW(recover(file.parent_path()), InputError) << edits;
-  }
-  // Brackets and nothing else: what walks values recursively would run over the stack.
-  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
-  std::ofstream(file, std::ios::binary) << "{\"lamplighter_journal\":1,\"files\":" << deep << "}\n"
-                                        << deep << "\n";
-  EXPECT_TRUE(findRecoverable(root_).empty());
-  EXPECT_THROW(recover(file.parent_path()), InputError);
 }
 
 }  // namespace
