@@ -12,6 +12,15 @@ namespace lamplighter {
 
 namespace {
 
+// As a message of one line may hold it, whatever a file or a caller gave.
+std::string shown(std::string_view text) {
+  constexpr size_t kLongest = 60;
+  std::string out(text.substr(0, kLongest));
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text.size() > kLongest ? out + "..." : out;
+}
+
 template <typename T>
 T parseNumber(const ParameterSpec& spec, std::string_view text, const char* kind) {
   T value{};
@@ -21,7 +30,7 @@ T parseNumber(const ParameterSpec& spec, std::string_view text, const char* kind
   if (error != std::errc() || end != text.data() + text.size() || !inRange) {
     throw InputError(
         spec.name,
-        fmt::format("'{}' is no {} from {:g} to {:g}", text, kind, spec.minimum, spec.maximum),
+        fmt::format("'{}' is no {} from {:g} to {:g}", shown(text), kind, spec.minimum, spec.maximum),
         "give one in that range");
   }
   return value;
@@ -53,11 +62,11 @@ ParameterValue Settings::parse(const ParameterSpec& spec, std::string_view text)
   if (std::holds_alternative<bool>(spec.defaultValue)) {
     if (text == "true" || text == "on" || text == "1") return true;
     if (text == "false" || text == "off" || text == "0") return false;
-    throw InputError(spec.name, fmt::format("'{}' is neither true nor false", text),
+    throw InputError(spec.name, fmt::format("'{}' is neither true nor false", shown(text)),
                      "give one of them");
   }
   if (std::find(spec.choices.begin(), spec.choices.end(), text) == spec.choices.end()) {
-    throw InputError(spec.name, fmt::format("'{}' is none of its choices", text),
+    throw InputError(spec.name, fmt::format("'{}' is none of its choices", shown(text)),
                      fmt::format("give one of: {}", fmt::join(spec.choices, ", ")));
   }
   return std::string(text);

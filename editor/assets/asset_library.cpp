@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/error.h"
+#include "renderer/scene/files_named.h"
 #include "renderer/scene/gltf_io.h"
 
 namespace lamplighter {
@@ -12,8 +13,13 @@ namespace fs = std::filesystem;
 std::shared_ptr<const Clipping> AssetLibrary::load(const fs::path& file) {
   std::error_code error;
   const fs::path path = fs::absolute(file, error).lexically_normal();
-  const fs::file_time_type time = fs::last_write_time(path, error);
-  const uintmax_t size = error ? 0 : fs::file_size(path, error);
+  fs::file_time_type time = fs::last_write_time(path, error);
+  uintmax_t size = error ? 0 : fs::file_size(path, error);
+  for (const FileStamp& stamp : filesNamedIn(path)) {
+    std::error_code gone;
+    if (const auto theirs = fs::last_write_time(stamp.path, gone); !gone) time = std::max(time, theirs);
+    size += stamp.size;
+  }
   const auto it = std::find_if(entries_.begin(), entries_.end(),
                                [&](const Entry& e) { return e.file == path; });
   if (it != entries_.end()) {

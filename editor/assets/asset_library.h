@@ -12,7 +12,7 @@ namespace lamplighter {
 
 class AssetLibrary {
  public:
-  // The whole of the file's scene. Read anew where the file is another than it was. Throws
+  // The whole of the file's scene. Read anew where it or a file that it names changed. Throws
   // InputError.
   std::shared_ptr<const Clipping> load(const std::filesystem::path& file);
 
@@ -20,8 +20,8 @@ class AssetLibrary {
   static constexpr size_t kMost = 32;  // the last used
   struct Entry {
     std::filesystem::path file;
-    std::filesystem::file_time_type time;
-    uintmax_t size = 0;
+    std::filesystem::file_time_type time;  // of it and the files that it names: the newest
+    uintmax_t size = 0;                    // and all together
     std::shared_ptr<const Clipping> clipping;
   };
   std::list<Entry> entries_;  // the last used first

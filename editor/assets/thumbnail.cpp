@@ -9,6 +9,7 @@
 #include "editor/input/recording.h"
 #include "renderer/error.h"
 #include "renderer/image/image_io.h"
+#include "renderer/scene/files_named.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/views/view_picture.h"
 
@@ -33,6 +34,17 @@ View viewOf(const Bounds& bounds, int size) {
   view.eye = bounds.centre() - distance * view.forward();
   view.znear = std::max(1e-5f, 0.01f * (distance - radius));
   return view;
+}
+
+// Of the file's bytes, and of when the files were changed that it names: its textures may be others
+// while it is the same.
+uint64_t hashOfAsset(const fs::path& file) {
+  uint64_t hash = fileHash(file);
+  for (const FileStamp& stamp : filesNamedIn(file)) {
+    for (const uint64_t part : {stamp.size, static_cast<uint64_t>(stamp.modified)})
+      hash = (hash ^ part) * 0x100000001b3ull;  // FNV-1a's prime
+  }
+  return hash;
 }
 
 }  // namespace
@@ -70,7 +82,7 @@ Image8 renderThumbnail(const fs::path& file, int size) {
 Image8 cachedThumbnail(const fs::path& file, int size, const fs::path& cacheFolder) {
   if (cacheFolder.empty()) return renderThumbnail(file, size);
   const fs::path cached =
-      cacheFolder / fmt::format("{}-{}-{}.png", hashText(fileHash(file)), size, kVersion);
+      cacheFolder / fmt::format("{}-{}-{}.png", hashText(hashOfAsset(file)), size, kVersion);
   std::error_code error;
   if (fs::exists(cached, error)) {
     std::string why;

@@ -12,6 +12,7 @@
 
 #include "editor/document/write_file.h"
 #include "renderer/error.h"
+#include "renderer/json_text.h"
 #include "renderer/methods/gi_method.h"
 
 namespace lamplighter {
@@ -198,7 +199,7 @@ Recording readRecording(const std::filesystem::path& path) {
     if (line.ends_with('\r')) line.pop_back();
     if (line.empty()) continue;
     try {
-      const Json j = Json::parse(line, nullptr, false);
+      const Json j = parseJson<Json>(line);
       if (!j.is_object()) throw std::invalid_argument("is no JSON object");
       if (!hasHeader) {
         r.header = headerOf(j);

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "renderer/json_text.h"
+
 namespace lamplighter {
 
 namespace {
@@ -31,7 +33,7 @@ std::string ownerOf(const KeyMap& keys, const Chord& chord, const std::string& t
 
 KeyList parseKeys(std::string_view text, std::vector<std::string>& problems) {
   KeyList out;
-  const Json j = Json::parse(text, nullptr, false);
+  const Json j = parseJson<Json>(text);
   if (!j.is_object()) {
     problems.emplace_back("is no JSON object of actions and keys; the default keys are taken");
     return out;
@@ -66,12 +68,13 @@ KeyMap resolveKeys(const ActionRegistry& registry, const KeyList& preset, const 
   std::set<std::string> ofFile;
   for (const auto& [text, chord] : file) ofFile.insert(text);
   std::vector<std::string> bound;  // by the file so far
-  for (const auto& [text, chord] : file) {
+  for (const auto& entry : file) {
+    const std::string& text = entry.first;
     if (registry.find(text.substr(0, text.find(' '))) == nullptr) {
       problems.push_back(quoted(text) + ": there is no such action; docs/actions.md lists them");
       continue;
     }
-    std::vector<Chord> chords = parseChords(chord).value_or(std::vector<Chord>());
+    std::vector<Chord> chords = parseChords(entry.second).value_or(std::vector<Chord>());
     std::erase_if(chords, [&](const Chord& c) {
       const std::string owner = ownerOf(keys, c, text);
       if (owner.empty()) return false;

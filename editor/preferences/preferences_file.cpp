@@ -6,6 +6,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "renderer/error.h"
+#include "renderer/json_text.h"
 
 namespace lamplighter {
 
@@ -80,7 +81,7 @@ Json pathList(const std::vector<std::filesystem::path>& paths) {
 
 Preferences parsePreferences(std::string_view text, std::vector<std::string>& problems) {
   Preferences out;
-  const Json j = Json::parse(text, nullptr, false);
+  const Json j = parseJson<Json>(text);
   if (!j.is_object()) {
     problems.emplace_back("is no JSON object; defaults are taken");
     return out;

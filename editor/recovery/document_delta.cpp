@@ -53,7 +53,7 @@ std::vector<T> assetsOf(const std::vector<T>& base, const Json& list, Read read)
       out.push_back(read(entry));
       continue;
     }
-    const auto index = entry.get<size_t>();
+    const auto index = wholeOf<size_t>(entry);
     if (index >= base.size()) damaged("the level has other meshes or textures");
     out.push_back(base[index]);
   }
@@ -92,7 +92,7 @@ void applyNodes(std::vector<Node>& nodes, const Json& delta, Blobs& blobs) {
   std::unordered_map<NodeId, size_t> place;
   if (delta.contains("gone")) {
     std::unordered_map<NodeId, bool> gone;
-    for (const Json& id : delta["gone"]) gone[id.get<NodeId>()] = true;
+    for (const Json& id : delta["gone"]) gone[wholeOf<NodeId>(id)] = true;
     std::erase_if(nodes, [&](const Node& n) { return gone.contains(n.id); });
   }
   for (size_t i = 0; i < nodes.size(); ++i) place[nodes[i].id] = i;
@@ -111,7 +111,7 @@ void applyNodes(std::vector<Node>& nodes, const Json& delta, Blobs& blobs) {
   if (!delta.contains("order")) return;
   std::vector<Node> ordered;
   for (const Json& id : delta["order"]) {
-    const auto it = place.find(id.get<NodeId>());
+    const auto it = place.find(wholeOf<NodeId>(id));
     if (it == place.end()) damaged("an object is missing");
     ordered.push_back(std::move(nodes[it->second]));
     place.erase(it);
@@ -205,15 +205,15 @@ void applyDelta(const Scene& base, Document& document, const Json& delta, Blobs&
   if (has("materials")) {
     const Json& materials = delta["materials"];
     const Json& set = materials.at("set");
-    const size_t count = materials.at("count").get<size_t>();
+    const size_t count = wholeOf<size_t>(materials.at("count"));
     if (count > scene.materials.size() + set.size()) damaged("materials are missing");
     scene.materials.resize(count);
     for (const Json& entry : set)
-      fromJson(entry.at(1), blobs, scene.materials.at(entry.at(0).get<size_t>()));
+      fromJson(entry.at(1), blobs, scene.materials.at(wholeOf<size_t>(entry.at(0))));
   }
   if (has("cameras")) scene.cameras = valuesOf<Camera>(delta["cameras"], blobs);
   if (has("name")) scene.name = delta["name"].get<std::string>();
-  if (has("nextId")) scene.nextId = delta["nextId"].get<NodeId>();
+  if (has("nextId")) scene.nextId = wholeOf<NodeId>(delta["nextId"]);
   if (has("sky")) {
     fromJson(delta["sky"], blobs, scene.sky);
     scene.skyIsDefault = delta.at("skyIsDefault").get<bool>();

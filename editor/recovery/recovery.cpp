@@ -9,6 +9,7 @@
 #include "editor/input/recording.h"
 #include "editor/recovery/document_delta.h"
 #include "renderer/error.h"
+#include "renderer/json_text.h"
 #include "renderer/scene/gltf_io.h"
 
 namespace lamplighter {
@@ -26,7 +27,7 @@ std::vector<std::string> linesOf(const fs::path& journal) {
   return lines;
 }
 
-Json parsed(const std::string& line) { return Json::parse(line, nullptr, false); }
+Json parsed(const std::string& line) { return parseJson<Json>(line); }
 
 uint64_t hashOf(const Json& text) {
   const std::string hex = text.get<std::string>();
@@ -48,10 +49,19 @@ bool isJournal(const Json& header) {
          header["lamplighter_journal"] == 1;
 }
 
+// Edits before the first line.
+int editsOf(const Json& header) {
+  constexpr int kMost = 1'000'000'000;
+  const int edits = wholeOf<int>(header.at("edits"));
+  if (edits < 0 || edits > kMost)
+    throw InputError("journal", "has a number of edits that is none", "discard it");
+  return edits;
+}
+
 std::vector<FileStamp> stampsOf(const Json& files) {
   std::vector<FileStamp> out;
   for (const Json& f : files)
-    out.push_back({f.at(0).get<std::string>(), f.at(1).get<uint64_t>(), f.at(2).get<int64_t>()});
+    out.push_back({f.at(0).get<std::string>(), wholeOf<uint64_t>(f.at(1)), wholeOf<int64_t>(f.at(2))});
   return out;
 }
 
@@ -74,7 +84,7 @@ Recovered read(const fs::path& folder) {
   out.files = stampsOf(header.at("files"));
   out.hasLevel = header.at("level").get<bool>();
   out.savedHash = hashOf(header.at("saved"));
-  out.edits = header.at("edits").get<int>() - 1;  // the first line is none
+  out.edits = editsOf(header) - 1;  // the first line is none
   out.base = baseOf(out);
   out.document.scene = out.base;
   out.document.path = header.at("scene").get<std::string>();
@@ -105,10 +115,10 @@ std::optional<Recoverable> recoverableIn(const fs::path& folder) {
   if (!isJournal(header)) return std::nullopt;
   try {
     Recoverable r{folder, header.at("scene").get<std::string>(), 0,
-                  header.at("edits").get<int>() + static_cast<int>(lines.size()) - 2};
-    if (last.is_object()) r.time = last.value("time", int64_t{0});
+                  editsOf(header) + static_cast<int>(lines.size()) - 2};
+    if (last.is_object() && last.contains("time")) r.time = wholeOf<int64_t>(last["time"]);
     if (r.edits > 0) return r;
-  } catch (const Json::exception&) {
+  } catch (const std::exception&) {
     // Damaged: it must not keep the program from starting.
   }
   return std::nullopt;

@@ -91,13 +91,15 @@ struct Reader {
   template <typename T>
   void get(const Json& j, T& v) {
     if constexpr (std::is_enum_v<T>) {
-      const int i = j.get<int>();
+      const int i = wholeOf<int>(j);
       if (i < 0 || i > 16) damaged("a kind is none");
       v = static_cast<T>(i);
     } else if constexpr (std::is_floating_point_v<T>) {
       // What is no number is written as null.
       v = j.is_null() ? std::numeric_limits<T>::quiet_NaN() : j.get<T>();
-    } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) {
+    } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+      v = wholeOf<T>(j);
+    } else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, std::string>) {
       v = j.get<T>();
     } else if constexpr (std::is_same_v<T, quat>) {
       get(j.at(0), v.x), get(j.at(1), v.y), get(j.at(2), v.z), get(j.at(3), v.w);
@@ -131,7 +133,7 @@ struct Reader {
   }
   void get(const Json& j, std::vector<NodeId>& v) {
     v.clear();
-    for (const Json& id : j) v.push_back(id.get<NodeId>());
+    for (const Json& id : j) v.push_back(wholeOf<NodeId>(id));
   }
   void get(const Json& j, std::shared_ptr<const SkyImage>& v) {
     v.reset();
@@ -144,8 +146,8 @@ struct Reader {
   }
   void get(const Json& j, std::shared_ptr<const Image8>& v) {
     auto image = std::make_shared<Image8>();
-    image->width = j.at("width").get<int>();
-    image->height = j.at("height").get<int>();
+    image->width = wholeOf<int>(j.at("width"));
+    image->height = wholeOf<int>(j.at("height"));
     image->pixels = blobs.get(j.at("pixels").get<std::string>());
     const bool fits = image->width > 0 && image->height > 0 &&
                       image->pixels.size() == 4ull * static_cast<size_t>(image->width) *
@@ -298,8 +300,8 @@ Json toJson(const RenderSettings& render, Blobs&) {
   Json values = Json::object();
   for (const auto& [name, value] : render.values.values()) {
     values[name] = std::visit(
-        [&](const auto& v) -> Json {
-          return {std::string(1, "bifs"[value.index()]), v};
+        [type = std::string(1, "bifs"[value.index()])](const auto& v) -> Json {
+          return {type, v};
         },
         value);
   }
@@ -316,7 +318,7 @@ void fromJson(const Json& json, Blobs&, RenderSettings& render) {
     if (type == "b")
       render.values.set(name, v.get<bool>());
     else if (type == "i")
-      render.values.set(name, v.get<int>());
+      render.values.set(name, wholeOf<int>(v));
     else if (type == "f")
       render.values.set(name, v.get<float>());
     else

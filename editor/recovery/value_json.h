@@ -2,14 +2,30 @@
 // made of. Readers throw InputError or nlohmann's exceptions for what is no such value.
 #pragma once
 
+#include <concepts>
+#include <cstdint>
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "editor/document/document.h"
 #include "editor/recovery/blobs.h"
+#include "renderer/error.h"
 
 namespace lamplighter {
 
 using Json = nlohmann::ordered_json;
+
+// A whole number that T holds; what the JSON library makes of another is undefined. Throws InputError.
+template <std::integral T>
+T wholeOf(const Json& json) {
+  if (json.is_number_unsigned()) {
+    if (const auto v = json.get<uint64_t>(); std::in_range<T>(v)) return static_cast<T>(v);
+  } else if (json.is_number_integer()) {
+    if (const auto v = json.get<int64_t>(); std::in_range<T>(v)) return static_cast<T>(v);
+  }
+  throw InputError("journal", "a whole number is none", "it is damaged; use the autosave beside it");
+}
 
 Json toJson(const Node& node, Blobs& blobs);
 Json toJson(const Material& material, Blobs& blobs);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "renderer/error.h"
+#include "renderer/json_text.h"
 
 namespace lamplighter {
 
@@ -164,27 +165,6 @@ uint32_t littleEndian32(const uint8_t* p) {
   return p[0] | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
 }
 
-// How deep arrays and objects nest. The JSON library copies and writes values recursively, so the
-// depth has to be bounded before it sees the text.
-size_t nestingDepth(std::string_view text) {
-  size_t depth = 0, deepest = 0;
-  bool inString = false;
-  for (size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (inString) {
-      if (c == '\\') ++i;
-      if (c == '"') inString = false;
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '{' || c == '[') {
-      deepest = std::max(deepest, ++depth);
-    } else if ((c == '}' || c == ']') && depth > 0) {
-      --depth;
-    }
-  }
-  return deepest;
-}
-
 std::string_view jsonOfGlb(GltfDocument& document, const std::vector<uint8_t>& bytes) {
   const char* remedy = "copy or export it again";
   if (bytes.size() < 12) document.fail("is cut off within the header", remedy);
@@ -243,9 +223,8 @@ GltfDocument readGltfJson(const std::filesystem::path& path) {
     }
   }
 
-  constexpr size_t kDeepest = 200;
-  if (nestingDepth(text) > kDeepest) {
-    document.fail("has JSON that nests deeper than " + std::to_string(kDeepest) + " levels",
+  if (nestingDepth(text) > kDeepestJson) {
+    document.fail("has JSON that nests deeper than " + std::to_string(kDeepestJson) + " levels",
                   kExportAgain);
   }
   try {

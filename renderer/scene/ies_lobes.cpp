@@ -1,7 +1,9 @@
 #include "renderer/scene/ies_lobes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace lamplighter {
 
@@ -80,12 +82,104 @@ void weigh(const std::vector<std::vector<double>>& gram, const std::vector<doubl
   }
 }
 
-double dot(const std::vector<float>& a, const std::vector<float>& b) {
+// A lobe of the dictionary over the directions, those where it is dark left out.
+struct Atom {
+  std::vector<uint16_t> where;  // growing
+  std::vector<float> value;
+  double length = 0.0;
+};
+
+// Sums go by growing direction everywhere: the same bits as with the zeros.
+double dot(const Atom& a, const std::vector<float>& b) {
+  const uint16_t* where = a.where.data();
+  const float *value = a.value.data(), *with = b.data();
   double sum = 0.0;
-  for (size_t i = 0; i < a.size(); ++i)
-    sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+  for (size_t i = 0, n = a.where.size(); i < n; ++i)
+    sum += static_cast<double>(value[i]) * static_cast<double>(with[where[i]]);
   return sum;
 }
+
+double dot(const std::vector<float>& a, const std::vector<float>& b) {
+  const float *left = a.data(), *right = b.data();
+  double sum = 0.0;
+  for (size_t i = 0, n = a.size(); i < n; ++i)
+    sum += static_cast<double>(left[i]) * static_cast<double>(right[i]);
+  return sum;
+}
+
+void addTimes(float w, const Atom& a, std::vector<float>& sum) {
+  const uint16_t* where = a.where.data();
+  const float* value = a.value.data();
+  float* out = sum.data();
+  for (size_t i = 0, n = a.where.size(); i < n; ++i) out[where[i]] += w * value[i];
+}
+
+// Several atoms side by side, so that the sums, each in its order, need not wait for each other.
+constexpr size_t kSide = 8;
+struct Bundle {
+  std::array<size_t, kSide> atoms{};
+  size_t count = 0;             // of those
+  std::vector<uint16_t> where;  // kSide in turn; with a value of 0 past an atom's end
+  std::vector<float> value;
+};
+
+// The dictionary and its values: the same for every profile.
+struct Dictionary {
+  std::vector<vec3> directions = directionsOfSphere();
+  std::vector<SpotLobe> lobes = dictionary();
+  std::vector<Atom> atoms;
+  std::vector<Bundle> bundles;
+
+  Dictionary() {
+    std::vector<size_t> byLength;
+    for (const SpotLobe& l : lobes) {
+      byLength.push_back(atoms.size());
+      Atom& atom = atoms.emplace_back();
+      double square = 0.0;
+      for (size_t i = 0; i < kDirections; ++i) {
+        const float v = l.at(directions[i]);
+        if (v == 0.0f) continue;
+        atom.where.push_back(static_cast<uint16_t>(i));
+        atom.value.push_back(v);
+        square += static_cast<double>(v) * static_cast<double>(v);
+      }
+      atom.length = std::sqrt(square);
+    }
+    std::stable_sort(byLength.begin(), byLength.end(), [&](size_t a, size_t b) {
+      return atoms[a].where.size() > atoms[b].where.size();
+    });
+    for (size_t first = 0; first < byLength.size(); first += kSide) {
+      Bundle& bundle = bundles.emplace_back();
+      const size_t longest = atoms[byLength[first]].where.size();
+      bundle.where.resize(longest * kSide);
+      bundle.value.resize(longest * kSide);
+      for (; bundle.count < std::min(kSide, byLength.size() - first); ++bundle.count) {
+        const size_t a = bundle.atoms[bundle.count] = byLength[first + bundle.count];
+        for (size_t i = 0; i < atoms[a].where.size(); ++i) {
+          bundle.where[i * kSide + bundle.count] = atoms[a].where[i];
+          bundle.value[i * kSide + bundle.count] = atoms[a].value[i];
+        }
+      }
+    }
+  }
+
+  // dot(atoms[a], with) of each.
+  void dots(const std::vector<float>& with, std::vector<double>& out) const {
+    const std::vector<double> wide(with.begin(), with.end());
+    out.resize(atoms.size());
+    for (const Bundle& bundle : bundles) {
+      double sums[kSide] = {};
+      const uint16_t* where = bundle.where.data();
+      const float* value = bundle.value.data();
+      const double* by = wide.data();
+      for (size_t i = 0, n = bundle.where.size(); i < n; i += kSide) {
+        for (size_t s = 0; s < kSide; ++s)
+          sums[s] += static_cast<double>(value[i + s]) * by[where[i + s]];
+      }
+      for (size_t s = 0; s < bundle.count; ++s) out[bundle.atoms[s]] = sums[s];
+    }
+  }
+};
 
 double sumOf(const std::vector<float>& a) {
   double sum = 0.0;
@@ -103,57 +197,50 @@ float SpotLobe::at(const vec3& direction) const {
 }
 
 std::vector<SpotLobe> fitLobes(const std::function<float(const vec3&)>& intensity) {
-  const std::vector<vec3> directions = directionsOfSphere();
+  static const Dictionary kAll;
   std::vector<float> wanted(kDirections);
-  for (size_t i = 0; i < kDirections; ++i) wanted[i] = intensity(directions[i]);
-  const std::vector<SpotLobe> all = dictionary();
-  std::vector<std::vector<float>> atoms;
-  std::vector<double> lengths;
-  for (const SpotLobe& l : all) {
-    std::vector<float>& atom = atoms.emplace_back(kDirections);
-    for (size_t i = 0; i < kDirections; ++i) atom[i] = l.at(directions[i]);
-    lengths.push_back(std::sqrt(dot(atom, atom)));
-  }
+  for (size_t i = 0; i < kDirections; ++i) wanted[i] = intensity(kAll.directions[i]);
   const double energy = dot(wanted, wanted);
   std::vector<size_t> chosen;
   std::vector<std::vector<double>> gram;
-  std::vector<double> right, weights;
+  std::vector<double> right, weights, gains;
   std::vector<float> rest = wanted;
   while (chosen.size() < kMostLobes && dot(rest, rest) > kEnough * energy) {
-    size_t best = all.size();
+    kAll.dots(rest, gains);
+    size_t best = kAll.atoms.size();
     double most = 0.0;
-    for (size_t a = 0; a < all.size(); ++a) {
-      if (!(lengths[a] > 0.0) || std::find(chosen.begin(), chosen.end(), a) != chosen.end())
-        continue;
-      const double gain = dot(atoms[a], rest) / lengths[a];
+    for (size_t a = 0; a < kAll.atoms.size(); ++a) {
+      const double length = kAll.atoms[a].length;
+      if (!(length > 0.0) || std::find(chosen.begin(), chosen.end(), a) != chosen.end()) continue;
+      const double gain = gains[a] / length;
       if (gain > most) {
         most = gain;
         best = a;
       }
     }
-    if (best == all.size()) break;
+    if (best == kAll.atoms.size()) break;
     chosen.push_back(best);
+    std::vector<float> whole(kDirections);
+    addTimes(1.0f, kAll.atoms[best], whole);
     for (size_t i = 0; i + 1 < chosen.size(); ++i)
-      gram[i].push_back(dot(atoms[chosen[i]], atoms[best]));
+      gram[i].push_back(dot(kAll.atoms[chosen[i]], whole));
     std::vector<double>& row = gram.emplace_back();
-    for (const size_t c : chosen) row.push_back(dot(atoms[c], atoms[best]));
-    right.push_back(dot(atoms[best], wanted));
+    for (const size_t c : chosen) row.push_back(dot(kAll.atoms[c], whole));
+    right.push_back(dot(kAll.atoms[best], wanted));
     weights.push_back(0.0);
     weigh(gram, right, weights);
     rest = wanted;
-    for (size_t i = 0; i < chosen.size(); ++i) {
-      const auto w = static_cast<float>(weights[i]);
-      for (size_t d = 0; d < kDirections; ++d) rest[d] -= w * atoms[chosen[i]][d];
-    }
+    for (size_t i = 0; i < chosen.size(); ++i)
+      addTimes(-static_cast<float>(weights[i]), kAll.atoms[chosen[i]], rest);
   }
 
   std::vector<SpotLobe> out;
   double flux = 0.0;
   for (size_t i = 0; i < chosen.size(); ++i) {
     if (!(weights[i] > 0.0)) continue;
-    out.push_back(all[chosen[i]]);
+    out.push_back(kAll.lobes[chosen[i]]);
     out.back().intensity = static_cast<float>(weights[i]);
-    flux += weights[i] * sumOf(atoms[chosen[i]]);
+    flux += weights[i] * sumOf(kAll.atoms[chosen[i]].value);
   }
   // All of its light, wherever the fit is a little off.
   const double scale = flux > 0.0 ? sumOf(wanted) / flux : 0.0;

@@ -1,5 +1,6 @@
 // IESNA LM-63: keyword lines, TILT=, then numbers that may be broken into lines anywhere.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -7,6 +8,7 @@
 
 #include "renderer/error.h"
 #include "renderer/scene/ies_profile.h"
+#include "renderer/scene/ies_table.h"
 
 namespace lamplighter {
 
@@ -20,7 +22,7 @@ class Parser {
  public:
   Parser(std::string_view text, const std::string& file) : text_(text), file_(file) {}
 
-  std::shared_ptr<const IesProfile> parse() {
+  std::shared_ptr<IesProfile> parse() {
     if (text_.size() > kMostBytes) fail("is larger than 16 MiB");
     auto out = std::make_shared<IesProfile>();
     readTilt(*out);
@@ -56,9 +58,6 @@ class Parser {
     if (most * factor > kMostCandela) fail("has candela beyond 1e12");
     out->peak = static_cast<float>(most * factor);
     for (const double c : candela) out->values.push_back(static_cast<float>(c / most));
-    integrate(*out);
-    out->lobes = fitLobes([&](const vec3& direction) { return out->at(direction); });
-    if (out->lobes.empty()) fail("gives no light but in a direction or two");
     return out;
   }
 
@@ -154,45 +153,56 @@ class Parser {
     if (!sound) fail("has angles that its type of photometry does not have");
   }
 
-  static void integrate(IesProfile& p) {
-    constexpr int kRows = 180, kColumns = 360;
-    double sum = 0.0;
-    int last = 0;  // row with light
-    for (int row = 0; row < kRows; ++row) {
-      const double top = kPi * row / kRows, bottom = kPi * (row + 1) / kRows;
-      const double weight = (std::cos(top) - std::cos(bottom)) * 2.0 * kPi / kColumns;
-      const auto theta = static_cast<float>(0.5 * (top + bottom));
-      double values = 0.0;
-      for (int column = 0; column < kColumns; ++column) {
-        const float phi = 2.0f * kPi * (static_cast<float>(column) + 0.5f) / kColumns;
-        const float s = std::sin(theta);
-        values += p.at({s * std::cos(phi), s * std::sin(phi), -std::cos(theta)});
-      }
-      if (values > 0.0) last = row;
-      sum += weight * values;
-    }
-    p.solidAngle = static_cast<float>(sum);
-    p.cap = static_cast<float>(1.0 - std::cos(kPi * std::min(last + 2, kRows) / kRows));
-  }
-
   static constexpr size_t kEnd = std::string_view::npos;
   std::string_view text_;
   const std::string& file_;
   size_t at_ = 0;
 };
 
+void integrate(IesProfile& p) {
+  constexpr int kRows = 180, kColumns = 360;
+  double sum = 0.0;
+  int last = 0;  // row with light
+  for (int row = 0; row < kRows; ++row) {
+    const double top = kPi * row / kRows, bottom = kPi * (row + 1) / kRows;
+    const double weight = (std::cos(top) - std::cos(bottom)) * 2.0 * kPi / kColumns;
+    const auto theta = static_cast<float>(0.5 * (top + bottom));
+    double values = 0.0;
+    for (int column = 0; column < kColumns; ++column) {
+      const float phi = 2.0f * kPi * (static_cast<float>(column) + 0.5f) / kColumns;
+      const float s = std::sin(theta);
+      values += p.at({s * std::cos(phi), s * std::sin(phi), -std::cos(theta)});
+    }
+    if (values > 0.0) last = row;
+    sum += weight * values;
+  }
+  p.solidAngle = static_cast<float>(sum);
+  p.cap = static_cast<float>(1.0 - std::cos(kPi * std::min(last + 2, kRows) / kRows));
+}
+
 }  // namespace
 
-std::shared_ptr<const IesProfile> parseIes(std::string_view text, const std::string& file) {
+std::shared_ptr<IesProfile> parseIesTable(std::string_view text, const std::string& file) {
   return Parser(text, file).parse();
+}
+
+std::shared_ptr<const IesProfile> parseIes(std::string_view text, const std::string& file) {
+  const std::shared_ptr<IesProfile> out = parseIesTable(text, file);
+  integrate(*out);
+  out->lobes = fitLobes([&](const vec3& direction) { return out->at(direction); });
+  if (out->lobes.empty())
+    throw InputError(file, "gives no light but in a direction or two", kRemedy);
+  return out;
 }
 
 std::shared_ptr<const IesProfile> readIes(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string text;
-  if (in) text.resize(kMostBytes + 1);
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<size_t>(std::max<std::streamsize>(in.gcount(), 0)));
+  std::array<char, 4096> part{};
+  while (in && text.size() <= kMostBytes) {
+    in.read(part.data(), part.size());
+    text.append(part.data(), static_cast<size_t>(in.gcount()));
+  }
   if (text.empty()) throw InputError(path, "cannot be read, or is empty", kRemedy);
   const size_t slash = path.find_last_of("/\\");
   const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);

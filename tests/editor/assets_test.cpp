@@ -1,14 +1,17 @@
 // Props placed from other files: many times, with one mesh.
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include "editor/assets/asset_folder.h"
+#include "editor/assets/asset_library.h"
 #include "editor/assets/thumbnail.h"
 #include "editor/home_state.h"
 #include "renderer/error.h"
+#include "renderer/scene/files_named.h"
 #include "renderer/scene/gltf_io.h"
 #include "tests/editor/session_fixture.h"
 
@@ -159,6 +162,28 @@ TEST_F(Assets, ThumbnailsShowThePropUponNothingAndAreKept) {
   std::ofstream(fs::directory_iterator(cache)->path()) << "no picture";
   EXPECT_EQ(cachedThumbnail(file, 48, cache).pixels, image.pixels);
   EXPECT_THROW(cachedThumbnail(folder_ / "kit/notes.txt", 48, cache), InputError);
+}
+
+// The .gltf stays as it is when a texture beside it is painted over.
+TEST_F(Assets, OfAFolderAreReadAnewWhenAFileBesideThemChanges) {
+  const fs::path file = folder_ / "kit/deep/green crate.gltf";
+  const std::vector<FileStamp> beside = filesNamedIn(file);
+  ASSERT_FALSE(beside.empty());
+  ASSERT_TRUE(filesNamedIn(folder_ / "kit/crate.glb").empty());
+  const fs::path cache = folder_ / "cache";
+  const auto pictures = [&] {
+    return std::distance(fs::directory_iterator(cache), fs::directory_iterator());
+  };
+  AssetLibrary library;
+  const auto first = library.load(file);
+  cachedThumbnail(file, 48, cache);
+  cachedThumbnail(file, 48, cache);
+  EXPECT_EQ(pictures(), 1);
+  EXPECT_EQ(library.load(file), first);
+  fs::last_write_time(beside.front().path, fs::file_time_type::clock::now() + std::chrono::hours(1));
+  cachedThumbnail(file, 48, cache);
+  EXPECT_EQ(pictures(), 2);
+  EXPECT_NE(library.load(file), first);
 }
 
 }  // namespace
