@@ -41,8 +41,7 @@ void Session::save(const fs::path& wanted, bool forced) {
   const fs::path path = writablePath(wanted);
   // A replay writes into a folder of its own; the level stays what it was opened from.
   const bool isElsewhere = path != wanted;
-  const std::vector<fs::path> changed =
-      isElsewhere ? std::vector<fs::path>() : changedOnDisk(path);
+  const std::vector<fs::path> changed = isElsewhere ? std::vector<fs::path>() : changedOnDisk(path);
   if (!changed.empty() && !forced)
     throw InputError(changed.front().string(),
                      "another program has changed or removed it since it was opened",

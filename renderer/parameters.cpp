@@ -28,10 +28,10 @@ T parseNumber(const ParameterSpec& spec, std::string_view text, const char* kind
   const bool inRange =
       static_cast<double>(value) >= spec.minimum && static_cast<double>(value) <= spec.maximum;
   if (error != std::errc() || end != text.data() + text.size() || !inRange) {
-    throw InputError(
-        spec.name,
-        fmt::format("'{}' is no {} from {:g} to {:g}", shown(text), kind, spec.minimum, spec.maximum),
-        "give one in that range");
+    throw InputError(spec.name,
+                     fmt::format("'{}' is no {} from {:g} to {:g}", shown(text), kind, spec.minimum,
+                                 spec.maximum),
+                     "give one in that range");
   }
   return value;
 }

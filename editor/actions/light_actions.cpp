@@ -72,8 +72,7 @@ void addLightActions(ActionRegistry& r) {
            const Node& n = activeNode(s.document());
            if (!takesProfile(n))
              throw InputError(n.name, "is neither a point nor a spot light", "select one");
-           const auto profile =
-               a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
+           const auto profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
            s.setPunctualLight(n.id, withProfile(s.document().scene, n, profile));
          },
          {}});

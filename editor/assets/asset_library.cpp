@@ -17,7 +17,8 @@ std::shared_ptr<const Clipping> AssetLibrary::load(const fs::path& file) {
   uintmax_t size = error ? 0 : fs::file_size(path, error);
   for (const FileStamp& stamp : filesNamedIn(path)) {
     std::error_code gone;
-    if (const auto theirs = fs::last_write_time(stamp.path, gone); !gone) time = std::max(time, theirs);
+    if (const auto theirs = fs::last_write_time(stamp.path, gone); !gone)
+      time = std::max(time, theirs);
     size += stamp.size;
   }
   const auto it = std::find_if(entries_.begin(), entries_.end(),

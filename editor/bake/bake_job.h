@@ -25,7 +25,7 @@ struct BakeJobOptions {
 
 struct BakeReport {
   int pages = 0, tiles = 0, found = 0, taken = 0;  // tiles: found now; there from before
-  bool isCancelled = false, isWhole = false;  // whole: pages and scene are written
+  bool isCancelled = false, isWhole = false;       // whole: pages and scene are written
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> files;
 };

@@ -27,7 +27,7 @@ struct ReplayOptions {
   bool check = false;
   bool updateBaselines = false;
   bool frameClock = false;  // times count frames, and what a frame was spent on is not measured
-  std::string method;  // "": as recorded
+  std::string method;       // "": as recorded
   std::string backend = "auto";
   int threads = 0;  // 0: all cores
 };
@@ -42,8 +42,8 @@ struct Frontend {
   // Called once by a command that can stop in good order; from then on Ctrl+C only makes what is
   // returned answer true.
   std::function<std::function<bool()>()> catchInterrupts;
-  std::function<int64_t()> unixTime;                   // seconds since 1970, for journals
-  int process = 0;                                     // its number
+  std::function<int64_t()> unixTime;  // seconds since 1970, for journals
+  int process = 0;                    // its number
 };
 
 // Exit code: 0 good, 1 a check failed, 2 bad use or bad input (one line on standard error).

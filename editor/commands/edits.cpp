@@ -11,8 +11,7 @@ namespace lamplighter {
 namespace {
 
 size_t bytesOf(const Node& n) {
-  return sizeof n + n.name.size() + n.light.group.size() +
-         sizeof(NodeId) * n.light.leftOut.size() +
+  return sizeof n + n.name.size() + n.light.group.size() + sizeof(NodeId) * n.light.leftOut.size() +
          (n.punctual && n.punctual->profile ? n.punctual->profile->text.size() : 0) +
          (n.area && n.area->picture
               ? n.area->picture->bytes->size() + n.area->picture->image->pixels.size()

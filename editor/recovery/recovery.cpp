@@ -61,7 +61,8 @@ int editsOf(const Json& header) {
 std::vector<FileStamp> stampsOf(const Json& files) {
   std::vector<FileStamp> out;
   for (const Json& f : files)
-    out.push_back({f.at(0).get<std::string>(), wholeOf<uint64_t>(f.at(1)), wholeOf<int64_t>(f.at(2))});
+    out.push_back(
+        {f.at(0).get<std::string>(), wholeOf<uint64_t>(f.at(1)), wholeOf<int64_t>(f.at(2))});
   return out;
 }
 

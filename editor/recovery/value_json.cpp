@@ -205,7 +205,8 @@ void fields(A& a, T& v) {
   auto& [id, name, parent, local, mesh, camera, punctual, area, visible, locked, light, meshKind,
          sourceNode] = v;
   a("id", id), a("name", name), a("parent", parent), a("local", local), a("mesh", mesh);
-  a("camera", camera), a("punctual", punctual), a("area", area), a("visible", visible), a("locked", locked);
+  a("camera", camera), a("punctual", punctual), a("area", area), a("visible", visible),
+      a("locked", locked);
   a("light", light), a("meshKind", meshKind), a("sourceNode", sourceNode);
 }
 

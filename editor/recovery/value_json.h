@@ -16,7 +16,8 @@ namespace lamplighter {
 
 using Json = nlohmann::ordered_json;
 
-// A whole number that T holds; what the JSON library makes of another is undefined. Throws InputError.
+// A whole number that T holds; what the JSON library makes of another is undefined. Throws
+// InputError.
 template <std::integral T>
 T wholeOf(const Json& json) {
   if (json.is_number_unsigned()) {
@@ -24,7 +25,8 @@ T wholeOf(const Json& json) {
   } else if (json.is_number_integer()) {
     if (const auto v = json.get<int64_t>(); std::in_range<T>(v)) return static_cast<T>(v);
   }
-  throw InputError("journal", "a whole number is none", "it is damaged; use the autosave beside it");
+  throw InputError("journal", "a whole number is none",
+                   "it is damaged; use the autosave beside it");
 }
 
 Json toJson(const Node& node, Blobs& blobs);

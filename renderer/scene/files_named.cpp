@@ -16,7 +16,8 @@ std::vector<FileStamp> filesNamedIn(const std::filesystem::path& gltf) {
       if (!entry.is_object() || !entry.contains("uri") || !entry["uri"].is_string()) continue;
       const std::string uri = entry["uri"].get<std::string>();
       const auto name = std::filesystem::path(percentDecoded(uri)).lexically_normal();
-      if (uri.starts_with("data:") || name.is_absolute() || name.string().starts_with("..")) continue;
+      if (uri.starts_with("data:") || name.is_absolute() || name.string().starts_with(".."))
+        continue;
       files.push_back(stampOf(gltf.parent_path() / name));
     }
   }

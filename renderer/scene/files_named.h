@@ -8,8 +8,8 @@
 
 namespace lamplighter {
 
-// What a .gltf or .glb names as its buffers and images, as it is now, without reading any of it; none
-// outside its folder. Throws InputError where it is no glTF.
+// What a .gltf or .glb names as its buffers and images, as it is now, without reading any of it;
+// none outside its folder. Throws InputError where it is no glTF.
 std::vector<FileStamp> filesNamedIn(const std::filesystem::path& gltf);
 
 }  // namespace lamplighter

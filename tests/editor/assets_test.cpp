@@ -180,7 +180,8 @@ TEST_F(Assets, OfAFolderAreReadAnewWhenAFileBesideThemChanges) {
   cachedThumbnail(file, 48, cache);
   EXPECT_EQ(pictures(), 1);
   EXPECT_EQ(library.load(file), first);
-  fs::last_write_time(beside.front().path, fs::file_time_type::clock::now() + std::chrono::hours(1));
+  fs::last_write_time(beside.front().path,
+                      fs::file_time_type::clock::now() + std::chrono::hours(1));
   cachedThumbnail(file, 48, cache);
   EXPECT_EQ(pictures(), 2);
   EXPECT_NE(library.load(file), first);

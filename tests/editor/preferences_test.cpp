@@ -72,7 +72,8 @@ TEST(Preferences, OfABrokenFileAreTheDefaults) {
 
 TEST(Preferences, TellOfAnyTextInOneLine) {
   std::vector<std::string> problems;
-  parsePreferences(R"({"lamplighter_settings": 1, "settings": {"keys": "a\r\nb\u001b[2J"}})", problems);
+  parsePreferences(R"({"lamplighter_settings": 1, "settings": {"keys": "a\r\nb\u001b[2J"}})",
+                   problems);
   ASSERT_EQ(problems.size(), 1u);
   for (const char c : problems[0]) EXPECT_GE(static_cast<unsigned char>(c), 0x20) << problems[0];
 }
@@ -82,10 +83,10 @@ TEST(Preferences, OfNothingButBracketsAreTheDefaults) {
   const std::string deep = std::string(500'000, '[') + std::string(500'000, ']');
   for (const char* name : {"asset_folder", "recent_files", "settings", "other"}) {
     std::vector<std::string> problems;
-    EXPECT_EQ(parsePreferences("{\"lamplighter_settings\": 1, \"" + std::string(name) +
-                                   "\": " + deep + "}",
-                               problems),
-              Preferences());
+    EXPECT_EQ(
+        parsePreferences(
+            "{\"lamplighter_settings\": 1, \"" + std::string(name) + "\": " + deep + "}", problems),
+        Preferences());
     EXPECT_EQ(problems.size(), 1u) << name;
   }
 }

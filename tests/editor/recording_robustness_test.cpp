@@ -90,7 +90,8 @@ TEST_F(RecordingRobustness, HeadersThatMeanNothingAreRefused) {
 
 TEST_F(RecordingRobustness, NothingButBracketsIsRefused) {
   const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
-  EXPECT_NE(complaint(kHeader + "{\"f\":1,\"text\":" + deep + "}\n").find(":2: "), std::string::npos);
+  EXPECT_NE(complaint(kHeader + "{\"f\":1,\"text\":" + deep + "}\n").find(":2: "),
+            std::string::npos);
 }
 
 TEST_F(RecordingRobustness, TwoChecksOfOneNameAreRefused) {

@@ -229,9 +229,9 @@ TEST(GuideLinks, LeadToFilesAndHeadings) {
       const std::string file = link.target.substr(0, hash);
       const fs::path path = file.empty() ? page.path : page.path.parent_path() / file;
       EXPECT_TRUE(fs::exists(path)) << page.at(link.line) << ": " << link.target;
-      if (hash < link.target.size())
-        EXPECT_TRUE(hasAnchor(path, link.target.substr(hash + 1)))
-            << page.at(link.line) << ": " << link.target;
+      if (hash == link.target.size()) continue;
+      EXPECT_TRUE(hasAnchor(path, link.target.substr(hash + 1)))
+          << page.at(link.line) << ": " << link.target;
     }
   }
 }
@@ -265,10 +265,10 @@ TEST(GuideSteps, AreWhatTheTextSays) {
       if (knowsEnter) told.emplace_back("Enter");
       for (const Step& step : section.steps) {
         const bool isInput = step.verb == "key" || step.verb == "type" || step.verb == "hold";
-        if (isInput)
-          EXPECT_TRUE(std::find(told.begin(), told.end(), step.rest) != told.end())
-              << page.at(step.line) << ": `" << step.rest << "` is not in the text of \""
-              << section.heading << '"';
+        if (!isInput) continue;
+        EXPECT_TRUE(std::find(told.begin(), told.end(), step.rest) != told.end())
+            << page.at(step.line) << ": `" << step.rest << "` is not in the text of \""
+            << section.heading << '"';
       }
     }
   }

@@ -78,10 +78,8 @@ void toasts(PanelContext ui, ToastState& state, const Rect& view, float dt) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
                        theme::colour(theme::kPanel, 240), ui.px(4));
-    list.AddRect(
-        {rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
-        theme::colour(isBad(*notice) ? colourOf(notice->kind) : theme::kLine),
-        ui.px(4));
+    list.AddRect({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
+                 theme::colour(isBad(*notice) ? colourOf(notice->kind) : theme::kLine), ui.px(4));
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {rect.min.x + pad.x, rect.min.y + pad.y},
                  theme::colour(colourOf(notice->kind)), text.c_str(), nullptr, width - 2 * pad.x);
     ui.widgets.add(ui.prefix + std::to_string(number), rect, rect);

@@ -98,7 +98,7 @@ double frameSeconds(Backend& backend, const RenderScene& scene, const RayCaster&
   backend.reserveShadowMaps(kVpls, kMapResolution);
   const std::vector<shared::Vpl> vpls = trialVpls();
   const shared::ShadingParams params{vec4(0.1f, 0.002f, kMapResolution, kVpls),
-                                    vec4(1.0f, 0.0f, 0.0f, 0.0f)};
+                                     vec4(1.0f, 0.0f, 0.0f, 0.0f)};
   const auto frame = [&](std::span<const shared::Vpl> maps) {
     backend.renderShadowMaps(maps);
     backend.renderGBuffer(trialView(), vec2(0.0f));

@@ -1,5 +1,5 @@
-// IES profiles as they are read: an InputError, or intensities in [0, 1] in every direction. What is
-// computed from them is for ies_fit.
+// IES profiles as they are read: an InputError, or intensities in [0, 1] in every direction. What
+// is computed from them is for ies_fit.
 #include <cmath>
 
 #include "renderer/error.h"
