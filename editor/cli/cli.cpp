@@ -1,17 +1,13 @@
 #include "editor/cli/cli.h"
 
 #include <algorithm>
-#include <functional>
 #include <iostream>
 #include <new>
 
 #include <CLI/CLI.hpp>
 
-#include "editor/cli/manual.h"
-#include "editor/cli/subcommands.h"
-#include "editor/sky_text.h"
+#include "editor/cli/flags.h"
 #include "renderer/error.h"
-#include "renderer/views/debug_view.h"
 
 namespace lamplighter {
 
@@ -30,238 +26,6 @@ int fail(const std::string& what) {
   return kBadUse;
 }
 
-const auto kBackends = CLI::IsMember({"auto", "cpu", "gl"});
-
-// Each adds its subcommand and says what to run when it was the one called.
-using Run = std::function<int()>;
-
-void addInfo(CLI::App& app, Run& run) {
-  auto* sub =
-      app.add_subcommand("info", "Counts, extents, lights, cameras and warnings of a scene");
-  auto o = std::make_shared<cli::InfoOptions>();
-  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
-  sub->add_flag("--json", o->json, "As JSON");
-  sub->footer("Example: lamplighter info level.glb --json");
-  sub->callback([=, &run] { run = [=] { return cli::info(*o); }; });
-}
-
-void addMethodFlags(CLI::App& sub, cli::MethodFlags& o, const char* samples) {
-  sub.add_option("--vpls", o.vpls, "Light samples in all")->type_name("N");
-  sub.add_option("--direct-share", o.directShare, "Share of them on the lights themselves, 0 to 1")
-      ->type_name("F");
-  sub.add_option("--bounces", o.bounces, "Indirect bounces; 0 is direct light only")
-      ->type_name("N");
-  sub.add_option("--seed", o.seed, "Another set of random numbers")->type_name("N");
-  sub.add_option("--spp", o.spp, samples)->type_name("N");
-  sub.add_option("--set", o.assignments, "name=value of any parameter of the method; repeatable")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);  // one value a flag: the next word may be the scene
-}
-
-void addRender(CLI::App& app, Run& run, const Frontend& frontend) {
-  auto* sub = app.add_subcommand("render", "Render a scene until it is settled");
-  auto o = std::make_shared<cli::RenderOptions>();
-  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
-  sub->add_option("-o,--output", o->output, "EXR (linear radiance) or PNG (tone-mapped)")
-      ->type_name("FILE")
-      ->required();
-  sub->add_option("--method", o->method, "See 'lamplighter methods'")
-      ->type_name("NAME")
-      ->capture_default_str();
-  sub->add_option("--camera", o->camera, "Name or number of a camera [the first, or a view of all]")
-      ->type_name("NAME|INDEX");
-  sub->add_option("--size", o->size, "WxH in pixels")->type_name("WxH")->capture_default_str();
-  addMethodFlags(*sub, *o, "Samples a pixel");
-  sub->add_option("--backend", o->backend, "gl, cpu or auto")
-      ->check(kBackends)
-      ->capture_default_str();
-  sub->add_option("--sky", o->sky, "Another sky; radiance in W/(m2 sr), or a picture")
-      ->type_name(kSkyUsage);
-  sub->add_option("--sky-rotation", o->skyRotation, "Turns the sky's picture about the vertical")
-      ->type_name("DEGREES")
-      ->check(CLI::Range(-1e6, 1e6));
-  sub->add_option("--sky-scale", o->skyScale, "Multiplies the sky's picture")
-      ->type_name("FACTOR")
-      ->check(CLI::Range(0.0, 1e9));
-  sub->add_option("--exposure", o->exposure, "EV for PNG, or auto")
-      ->type_name("EV")
-      ->capture_default_str();
-  std::string views;
-  for (const DebugViewInfo& v : debugViews())
-    views += (views.empty() ? "" : ", ") + std::string(v.name);
-  sub->add_option("--view", o->view, views)->type_name("NAME")->capture_default_str();
-  sub->add_option("--view-vpl", o->viewVpl, "Light sample that --view occlusion is about, from 0")
-      ->type_name("INDEX")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_flag("--marks", o->marks, "Mark the light samples, as the viewport does");
-  sub->add_flag("--legend", o->legend, "Say in a strip below what the colours of the view mean");
-  sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
-  sub->add_option("--stats", o->stats, "JSON file for timings and counts")->type_name("FILE");
-  sub->footer(
-      "Example: lamplighter render level.glb -o level.png --vpls 1024 --bounces 3 --exposure auto");
-  sub->callback(
-      [=, &run, &frontend] { run = [=, &frontend] { return cli::render(*o, frontend); }; });
-}
-
-void addMethods(CLI::App& app, Run& run) {
-  auto* sub = app.add_subcommand("methods", "Every method, its paper, its parameters");
-  auto o = std::make_shared<cli::MethodsOptions>();
-  sub->add_flag("--json", o->json, "As JSON");
-  sub->add_flag("--markdown", o->markdown, "As the tables of docs/parameters.md");
-  sub->footer("Example: lamplighter methods --json");
-  sub->callback([=, &run] { run = [=] { return cli::methods(*o); }; });
-}
-
-void addActions(CLI::App& app, Run& run) {
-  auto* sub = app.add_subcommand("actions", "Every action of the editor, its arguments and key");
-  auto o = std::make_shared<cli::ActionsOptions>();
-  sub->add_flag("--json", o->json, "As JSON");
-  sub->add_flag("--markdown", o->markdown, "As the tables of docs/actions.md");
-  sub->footer("Example: lamplighter actions --json");
-  sub->callback([=, &run] { run = [=] { return cli::actions(*o); }; });
-}
-
-void addSettings(CLI::App& app, Run& run) {
-  auto* sub = app.add_subcommand("settings", "Every setting of the editor, its range and default");
-  auto o = std::make_shared<cli::SettingsOptions>();
-  sub->add_flag("--json", o->json, "As JSON");
-  sub->add_flag("--markdown", o->markdown, "As the tables of docs/settings.md");
-  sub->footer("Example: lamplighter settings --json");
-  sub->callback([=, &run] { run = [=] { return cli::settings(*o); }; });
-}
-
-void addCompare(CLI::App& app, Run& run) {
-  auto* sub = app.add_subcommand("compare", "How far picture A is from the reference B");
-  auto o = std::make_shared<cli::CompareOptions>();
-  sub->add_option("A", o->a, "Image")->type_name("FILE")->required();
-  sub->add_option("B", o->b, "Image of the same size, the reference")
-      ->type_name("FILE")
-      ->required();
-  sub->add_option("--mask", o->mask, "Only pixels over 0.5 in this image count")->type_name("FILE");
-  sub->add_option("--heatmap", o->heatmap, "PNG file for where they differ")->type_name("FILE");
-  sub->add_option("--max-relrmse", o->maxRelRmse, "A check: exit code 1 when relRMSE is larger")
-      ->type_name("X")
-      ->check(CLI::NonNegativeNumber);
-  sub->add_flag("--json", o->json, "As JSON");
-  sub->footer(
-      "relRMSE = sqrt(mean((A-B)^2)) / mean(B); bias = mean A / mean B\nExample: lamplighter "
-      "compare live.exr reference.exr --heatmap where.png");
-  sub->callback([=, &run] { run = [=] { return cli::compare(*o); }; });
-}
-
-void addTonemap(CLI::App& app, Run& run) {
-  auto* sub = app.add_subcommand("tonemap", "A radiance image as the editor would show it");
-  auto o = std::make_shared<cli::TonemapOptions>();
-  sub->add_option("IMAGE", o->input, "EXR or HDR file")->type_name("FILE")->required();
-  sub->add_option("-o,--output", o->output, "PNG file")->type_name("FILE")->required();
-  sub->add_option("--exposure", o->exposure, "EV, or auto")->type_name("EV")->capture_default_str();
-  sub->footer("Example: lamplighter tonemap live.exr -o live.png --exposure auto");
-  sub->callback([=, &run] { run = [=] { return cli::tonemap(*o); }; });
-}
-
-void addScript(CLI::App& app, Run& run, const Frontend& frontend) {
-  auto* sub = app.add_subcommand("script", "Run a file of actions on a scene, without a window");
-  auto o = std::make_shared<cli::ScriptOptions>();
-  sub->add_option("FILE", o->script, "Actions, one a line; # begins a comment")
-      ->type_name("FILE")
-      ->required();
-  sub->add_option("SCENE", o->scene, ".gltf or .glb file [none: the script opens one]")
-      ->type_name("FILE");
-  sub->add_option("--size", o->size, "WxH of the view in pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
-  sub->add_option("--backend", o->backend, "gl, cpu or auto")
-      ->check(kBackends)
-      ->capture_default_str();
-  sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
-  sub->add_option("--journal", o->journal, "Keep every edit in this folder until the script ends")
-      ->type_name("FOLDER");
-  sub->footer("Example: lamplighter script relight.txt level.glb");
-  sub->callback(
-      [=, &run, &frontend] { run = [=, &frontend] { return cli::script(*o, frontend); }; });
-}
-
-void addBake(CLI::App& app, Run& run, const Frontend& frontend) {
-  auto* sub =
-      app.add_subcommand("bake", "Light maps of a scene, and a copy that carries their UVs");
-  auto o = std::make_shared<cli::BakeOptions>();
-  sub->add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
-  sub->add_option("-o,--output", o->output, "Folder for the pages and the copy; made if need be")
-      ->type_name("FOLDER")
-      ->required();
-  sub->add_option("--method", o->method,
-                  "many_lights: its settled light samples, with exact shadows; or the reference")
-      ->check(CLI::IsMember({"many_lights", "reference"}))
-      ->capture_default_str();
-  sub->add_option("--density", o->atlas.texelsPerMetre, "Texels a metre")
-      ->type_name("X")
-      ->check(CLI::Range(0.01, 10000.0))
-      ->capture_default_str();
-  sub->add_option("--page", o->atlas.pageSize, "Texels along a side of a page")
-      ->type_name("N")
-      ->check(CLI::Range(64, 8192))
-      ->capture_default_str();
-  addMethodFlags(*sub, *o, "Paths a texel, of the reference");
-  sub->add_option("--shard", o->shard,
-                  "Find the i-th of n parts only; run all on machines that share the folder")
-      ->type_name("i/n");
-  sub->add_flag("--merge", o->merge, "Put the pages together from parts that are all there")
-      ->excludes("--shard");
-  sub->add_flag("--keep-parts", o->keepParts, "Leave the parts when the pages are there");
-  sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
-  sub->footer(
-      "Ctrl+C stops; the same command goes on from there.\n"
-      "Example: lamplighter bake level.glb -o baked --method reference --spp 256");
-  sub->callback([=, &run, &frontend] { run = [=, &frontend] { return cli::bake(*o, frontend); }; });
-}
-
-void addReplay(CLI::App& app, Run& run, const Frontend& frontend) {
-  auto* sub = app.add_subcommand("replay", "Play a recording of input");
-  auto o = std::make_shared<ReplayOptions>();
-  sub->add_option("FILE", o->recording, "Recording (.jsonl)")->type_name("FILE")->required();
-  sub->add_flag("--headless", o->headless, "Without a window");
-  sub->add_option("-o,--output", o->outputFolder, "Folder for the pictures of its checkpoints")
-      ->type_name("FOLDER");
-  sub->add_flag("--check", o->check,
-                "Compare with the baselines; exit code 1 when something differs");
-  sub->add_flag("--update-baselines", o->updateBaselines, "Write the baselines anew");
-  sub->add_flag("--frame-clock", o->frameClock,
-                "Times count frames, so that pictures of the window are the same each time; frames "
-                "between checkpoints are not rendered");
-  sub->add_option("--report", o->report, "JSON file for its checks and edit latencies")
-      ->type_name("FILE");
-  sub->add_option("--method", o->method, "Another method than the recorded one")->type_name("NAME");
-  sub->add_option("--backend", o->backend, "gl, cpu or auto")
-      ->check(kBackends)
-      ->capture_default_str();
-  sub->add_option("--threads", o->threads, "At most so many threads; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
-  sub->footer("Example: lamplighter replay tests/recordings/place_light.jsonl --headless --check");
-  sub->callback([=, &run, &frontend] { run = [=, &frontend] { return frontend.runReplay(*o); }; });
-}
-
-void addManual(CLI::App& app, Run& run) {
-  auto* sub = app.add_subcommand("manual", "This command line, every flag of it");
-  auto asMan = std::make_shared<bool>(false);
-  sub->add_flag("--man", *asMan, "As a page for man");
-  auto asMarkdown = std::make_shared<bool>(true);
-  sub->add_flag("--markdown", *asMarkdown, "As the tables of docs/flags.md, which is the default");
-  sub->footer("Example: lamplighter manual --man | man -l -");
-  sub->callback([=, &app, &run] {
-    run = [asMan, asMarkdown, &app] {
-      std::cout << (*asMan ? cli::manPage(app) : cli::flagTables(app));
-      return 0;
-    };
-  });
-}
-
 }  // namespace
 
 int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) {
@@ -270,29 +34,9 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
   app.footer(
       "Exit codes: 0 good, 1 a check failed, 2 bad use or bad input.\nExample: lamplighter "
       "level.glb");
-  Run run;
+  cli::Run run;
   EditorOptions editor;
-  app.add_option("SCENE", editor.scene, ".gltf or .glb file to edit [the default scene]")
-      ->type_name("FILE");
-  app.add_option("--record", editor.record, "Record all input to this file")->type_name("FILE");
-  app.add_option("--backend", editor.backend, "gl, cpu or auto")
-      ->check(kBackends)
-      ->capture_default_str();
-  app.add_option("--journal", editor.journal,
-                 "Keep every edit in this folder until it is saved [the user's state folder]")
-      ->type_name("FOLDER");
-  addInfo(app, run);
-  addRender(app, run, frontend);
-  addMethods(app, run);
-  addActions(app, run);
-  addSettings(app, run);
-  addCompare(app, run);
-  addTonemap(app, run);
-  addReplay(app, run, frontend);
-  addScript(app, run, frontend);
-  addBake(app, run, frontend);
-  addManual(app, run);
-  app.require_subcommand(0, 1);
+  cli::declareFlags(app, {argv, static_cast<size_t>(argc)}, editor, run, frontend);
 
   try {
     app.parse(argc, argv);
