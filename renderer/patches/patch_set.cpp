@@ -38,6 +38,15 @@ Bounds boundsOf(const RenderScene& s, const RenderObject& o, std::span<const uin
   return b;
 }
 
+void tellParents(std::vector<Patch>& patches) {
+  for (size_t parent = 0; parent < patches.size(); ++parent) {
+    const int first = patches[parent].firstChild;
+    if (first == kNone) continue;
+    for (const int child : {first, first + 1})
+      patches[static_cast<size_t>(child)].parent = static_cast<int>(parent);
+  }
+}
+
 // Spheres around patches, and a tree over those of the roots. A sphere holds those of all patches
 // below it: what cannot reach the one cannot reach the others, by more than rounding.
 void surround(ObjectPatches& out) {
@@ -119,6 +128,7 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
       for (const uint32_t t : triangles) out.patchOfTriangle[t] = index;
     }
   }
+  tellParents(out.patches);
   surround(out);
   return out;
 }

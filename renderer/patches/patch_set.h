@@ -16,8 +16,9 @@ struct Patch {
   Bounds box;                 // cluster: world space
   vec3 centre{0.0f};          // of a sphere around it, and around those of its children
   float radius = 0.0f;        // of that sphere [m]
-  int firstChild = kNone;     // its two children stand one after the other
-  int axis = 0;               // chart: 0: split across tangent, 1: across bitangent, in the middle
+  int parent = kNone;
+  int firstChild = kNone;  // its two children stand one after the other
+  int axis = 0;            // chart: 0: split across tangent, 1: across bitangent, in the middle
   bool isLeaf() const { return firstChild == kNone; }
 };
 

@@ -28,22 +28,21 @@ void VisibilityDatabase::resize(size_t slots) {
   knowsNow_.resize(waiting_.size(), 0);
   if (slots <= stride_) return;
   const size_t stride = std::max(slots, stride_ + stride_ / 2);
-  const auto widen = [&](std::vector<uint8_t>& rows, size_t patches, uint8_t fill) {
-    std::vector<uint8_t> wider(patches * stride, fill);
-    for (size_t p = 0; stride_ > 0 && p < patches; ++p)
-      std::copy_n(&rows[p * stride_], stride_, &wider[p * stride]);
-    rows = std::move(wider);
-  };
-  for (size_t i = 0; i < rows_.size(); ++i) {
-    const size_t patches = patches_[i].patches.size();
-    widen(rows_[i], patches, static_cast<uint8_t>(Occlusion::partial));
-    widen(withoutMovers_[i], patches, kUnknown);
+  const auto partial = static_cast<uint8_t>(Occlusion::partial);
+  for (size_t object = 0; object < rows_.size(); ++object) {
+    for (const int root : patches_[object].roots)
+      rows_[object][static_cast<size_t>(root)].states.resize(stride, partial);
+    for (Row& row : rows_[object]) {
+      if (!row.states.empty()) row.states.resize(stride, partial);
+      if (!row.withoutMovers.empty()) row.withoutMovers.resize(stride, kUnknown);
+    }
   }
   stride_ = stride;
 }
 
 void VisibilityDatabase::forgetOthers() {
-  for (auto& rows : withoutMovers_) std::fill(rows.begin(), rows.end(), kUnknown);
+  for (auto& rows : rows_)
+    for (Row& row : rows) std::fill(row.withoutMovers.begin(), row.withoutMovers.end(), kUnknown);
 }
 
 void VisibilityDatabase::addWaiting(int object, const Caster& before, bool couldHide) {
@@ -72,15 +71,17 @@ void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) 
     topology = findTopology(scene, object);
   patches_[object] = placePatches(scene, object, topology);
   const size_t patches = patches_[object].patches.size();
-  rows_[object].assign(patches * stride_, static_cast<uint8_t>(Occlusion::partial));
-  withoutMovers_[object].assign(patches * stride_, kUnknown);
+  rows_[object].assign(patches, Row());
+  for (const int root : patches_[object].roots)
+    rows_[object][static_cast<size_t>(root)].states.assign(
+        stride_, static_cast<uint8_t>(Occlusion::partial));
   divided_[object].assign(patches, 0);
   changed_[object].assign(patches, 1);
   // What a light leaves out it does not light for a while either.
   for (size_t slot = 0; slot < lights_.size(); ++slot) {
     if (!isLeftOut(o.leftOutBy, static_cast<uint32_t>(lights_[slot].footprint.y))) continue;
-    for (size_t patch = 0; patch < patches; ++patch)
-      rows_[object][patch * stride_ + slot] = static_cast<uint8_t>(Occlusion::full);
+    for (const int root : patches_[object].roots)
+      rows_[object][static_cast<size_t>(root)].states[slot] = static_cast<uint8_t>(Occlusion::full);
   }
 }
 
@@ -108,7 +109,6 @@ void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move
   reorder(topologies_);
   reorder(patches_);
   reorder(rows_);
-  reorder(withoutMovers_);
   reorder(divided_);
   reorder(changed_);
   identities_ = std::move(now);
@@ -251,7 +251,8 @@ void VisibilityDatabase::clearChanged() {
 
 size_t VisibilityDatabase::bytes() const {
   size_t bytes = 0;
-  for (size_t i = 0; i < rows_.size(); ++i) bytes += rows_[i].size() + withoutMovers_[i].size();
+  for (const auto& rows : rows_)
+    for (const Row& row : rows) bytes += row.states.capacity() + row.withoutMovers.capacity();
   return bytes;
 }
 
@@ -262,6 +263,7 @@ VisibilityCounts VisibilityDatabase::counts() const {
     c.patches += patches_[i].patches.size();
     for (size_t p = 0; p < patches_[i].patches.size(); ++p) {
       c.divided += divided_[i][p];
+      c.rows += rows_[i][p].states.empty() ? 0 : 1;
       if (!patches_[i].patches[p].isLeaf()) continue;
       for (int slot = 0; slot < static_cast<int>(lights_.size()); ++slot) {
         const Occlusion s = state(i, static_cast<int>(p), slot);

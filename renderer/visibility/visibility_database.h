@@ -19,6 +19,7 @@ namespace lamplighter {
 struct VisibilityCounts {
   size_t patches = 0;                      // nodes of all trees
   size_t divided = 0;                      // of them, those whose children are looked at apart
+  size_t rows = 0;                         // of them, those that have entries of their own
   size_t none = 0, partial = 0, full = 0;  // entries of leaves, as they are
   size_t bytes = 0;
 };
@@ -52,15 +53,24 @@ class VisibilityDatabase {
   size_t objects() const { return patches_.size(); }
   size_t slots() const { return lights_.size(); }
   Occlusion state(uint32_t object, int patch, int slot) const {
-    return static_cast<Occlusion>(
-        rows_[object][static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot)]);
+    return static_cast<Occlusion>(row(object, patch)[static_cast<size_t>(slot)]);
   }
   // All slots of a patch.
   std::span<const uint8_t> row(uint32_t object, int patch) const {
-    return {&rows_[object][static_cast<size_t>(patch) * stride_], lights_.size()};
+    const int whole = wholeOf(object, patch);
+    return {rows_[object][static_cast<size_t>(whole)].states.data(), lights_.size()};
+  }
+  // The patch, or the one above it that is looked at as a whole.
+  int wholeOf(uint32_t object, int patch) const {
+    const std::vector<Patch>& patches = patches_[object].patches;
+    int whole = patch, parent = patches[static_cast<size_t>(patch)].parent;
+    for (; parent != kNone && !isDivided(object, parent);
+         parent = patches[static_cast<size_t>(whole)].parent)
+      whole = parent;
+    return whole;
   }
   // Whether the children of a patch are looked at apart: enough lights are partial on it. Where not
-  // they are as it is.
+  // they are as it is. None is below one that is not.
   bool isDivided(uint32_t object, int patch) const {
     return divided_[object][static_cast<size_t>(patch)] != 0;
   }
@@ -69,7 +79,7 @@ class VisibilityDatabase {
   const std::vector<int>& cameFrom() const { return cameFrom_; }
   // Whether an entry of the patch changed since clearChanged().
   bool rowChanged(uint32_t object, int patch) const {
-    return changed_[object][static_cast<size_t>(patch)] != 0;
+    return changed_[object][static_cast<size_t>(wholeOf(object, patch))] != 0;
   }
   void clearChanged();
 
@@ -97,7 +107,15 @@ class VisibilityDatabase {
   struct Task;    // one light at one patch
   class Update;   // brings columns up to date (visibility_update.cpp)
   static constexpr uint8_t kUnknown = 255;
-  using Rows = std::vector<std::vector<uint8_t>>;
+  // What is known of a patch that is looked at: a root, or a part of one that is divided. By slot,
+  // stride_ of them. Most patches are neither, which keeps large levels small.
+  struct Row {
+    std::vector<uint8_t> states;  // Occlusion; empty: it is as the patch above it
+    // By all objects but those that moved last; kUnknown: not asked yet; empty: none was. While the
+    // same ones move on, as in a drag, nothing else is tested again (table 4-1).
+    std::vector<uint8_t> withoutMovers;
+  };
+  using Flags = std::vector<std::vector<uint8_t>>;  // by object and patch
 
   void matchObjects(const RenderScene& scene, std::vector<Move>& moves);
   void takeMoved(const RenderScene& scene, const RenderSceneChanges& changes,
@@ -113,23 +131,16 @@ class VisibilityDatabase {
   Column takeWaiting(int slot);
   int mostPartial() const;
   void resize(size_t slots);
-  size_t entry(int patch, int slot) const {
-    return static_cast<size_t>(patch) * stride_ + static_cast<size_t>(slot);
-  }
 
   // By object.
   std::vector<MeshTopology> topologies_;
   std::vector<ObjectIdentity> identities_;
   std::vector<ObjectPatches> patches_;
   std::vector<int> cameFrom_;
-  Rows rows_;     // patches × slots, Occlusion
-  Rows divided_;  // patches
-  Rows changed_;  // patches
-  // The objects that moved last, and the state of each entry by all others (kUnknown: not asked
-  // yet): while the same ones move on, as in a drag, nothing else is tested again (table 4-1).
-  std::vector<uint32_t> movers_;
-  Rows withoutMovers_;       // as rows_
-  std::vector<Move> moves_;  // of the last setScene()
+  std::vector<std::vector<Row>> rows_;  // and patch
+  Flags divided_, changed_;
+  std::vector<uint32_t> movers_;  // that moved last
+  std::vector<Move> moves_;       // of the last setScene()
 
   Occluders occluders_;
   BoundsTree tree_;                            // over objects' patches

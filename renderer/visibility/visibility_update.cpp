@@ -102,11 +102,13 @@ class VisibilityDatabase::Update {
   // The root and all below it; tasks in the order of slots.
   void run(uint32_t object, int root, std::span<const Task> tasks) {
     tasks_.assign(tasks.begin(), tasks.end());
-    visit(object, root, true, 0);
+    visit(object, root, 0);
   }
 
  private:
-  void visit(uint32_t object, int patch, bool parentIsDivided, size_t first);
+  void visit(uint32_t object, int patch, size_t first);
+  void beginParts(uint32_t object, int patch, std::span<const Task> tasks, bool changedBefore);
+  void forgetParts(uint32_t object, int patch);
   bool compute(uint32_t object, int patch, std::span<Task> tasks) const;
   // What may stand between the lights of a cluster and a patch, looked for when first wanted.
   struct Shaft {
@@ -130,8 +132,7 @@ class VisibilityDatabase::Update {
     return others == static_cast<uint8_t>(Occlusion::full) ||
            (others == static_cast<uint8_t>(Occlusion::partial) && !moversMayHide_);
   }
-  void passDown(uint32_t object, int patch, int child, bool wasDivided, bool isDivided,
-                size_t first, size_t last);
+  void passDown(uint32_t object, int patch, int child, bool wasDivided, size_t first, size_t last);
 
   VisibilityDatabase& db_;
   const RenderScene& scene_;
@@ -142,21 +143,51 @@ class VisibilityDatabase::Update {
   std::vector<Task> tasks_;  // those of the patch that is visited are the last
 };
 
-void VisibilityDatabase::Update::visit(uint32_t object, int patch, bool parentIsDivided,
-                                       size_t first) {
+// One that is looked at, and all below it that are.
+void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t first) {
+  const auto index = static_cast<size_t>(patch);
   const size_t last = tasks_.size();
-  if (compute(object, patch, std::span(tasks_).subspan(first)))
-    db_.changed_[object][static_cast<size_t>(patch)] = 1;
-  const Patch& p = db_.patches_[object].patches[static_cast<size_t>(patch)];
+  const bool changedBefore = db_.changed_[object][index] != 0;
+  if (compute(object, patch, std::span(tasks_).subspan(first))) db_.changed_[object][index] = 1;
+  const Patch& p = db_.patches_[object].patches[index];
   if (p.isLeaf()) return;
-  uint8_t& divided = db_.divided_[object][static_cast<size_t>(patch)];
-  const bool was = divided != 0;
-  const bool is = parentIsDivided && countPartial(db_.row(object, patch), db_.isLive_) > db_.most_;
-  divided = is ? 1 : 0;
+  const bool was = db_.isDivided(object, patch);
+  const bool is = countPartial(db_.row(object, patch), db_.isLive_) > db_.most_;
+  if (was && !is) forgetParts(object, patch);
+  if (!is) return;
+  if (!was) beginParts(object, patch, std::span(tasks_).subspan(first), changedBefore);
   for (int child = p.firstChild; child < p.firstChild + 2; ++child) {
-    passDown(object, patch, child, was, is, first, last);
-    if (tasks_.size() > last || was != is || (is && allMayDivide_)) visit(object, child, is, last);
+    passDown(object, patch, child, was, first, last);
+    if (tasks_.size() > last || !was || allMayDivide_) visit(object, child, last);
     tasks_.resize(last);
+  }
+}
+
+// They have been as the patch was before its tasks, which are done.
+void VisibilityDatabase::Update::beginParts(uint32_t object, int patch, std::span<const Task> tasks,
+                                            bool changedBefore) {
+  db_.divided_[object][static_cast<size_t>(patch)] = 1;
+  std::vector<Row>& rows = db_.rows_[object];
+  std::vector<uint8_t> before = rows[static_cast<size_t>(patch)].states;
+  for (const Task& t : tasks) before[static_cast<size_t>(t.slot)] = static_cast<uint8_t>(t.was);
+  const auto first =
+      static_cast<size_t>(db_.patches_[object].patches[static_cast<size_t>(patch)].firstChild);
+  for (const size_t child : {first, first + 1}) {
+    rows[child].states = before;
+    db_.changed_[object][child] = changedBefore ? 1 : 0;
+  }
+}
+
+// From now on they are as the patch is.
+void VisibilityDatabase::Update::forgetParts(uint32_t object, int patch) {
+  if (!db_.isDivided(object, patch)) return;
+  const auto index = static_cast<size_t>(patch);
+  db_.divided_[object][index] = 0;
+  db_.changed_[object][index] = 1;
+  const int first = db_.patches_[object].patches[index].firstChild;
+  for (int child = first; child < first + 2; ++child) {
+    forgetParts(object, child);
+    db_.rows_[object][static_cast<size_t>(child)] = Row();
   }
 }
 
@@ -165,8 +196,10 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
   if (tasks.empty()) return false;
   const ObjectPatches& patches = db_.patches_[object];
   const Patch& p = patches.patches[static_cast<size_t>(patch)];
-  uint8_t* states = &db_.rows_[object][db_.entry(patch, 0)];
-  uint8_t* others = &db_.withoutMovers_[object][db_.entry(patch, 0)];
+  Row& row = db_.rows_[object][static_cast<size_t>(patch)];
+  if (row.withoutMovers.empty()) row.withoutMovers.assign(db_.stride_, kUnknown);
+  uint8_t* states = row.states.data();
+  uint8_t* others = row.withoutMovers.data();
   const bool isInherited = std::all_of(tasks.begin(), tasks.end(),
                                        [](const Task& t) { return t.work == Work::inherit; });
   const PatchRegion region =
@@ -274,23 +307,23 @@ Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegio
   return std::max(state, db_.occluders_.occlusionBy(scene_, pyramid, db_.movers_, metMover));
 }
 
-// Adds the tasks of a child after those of its parent, which is done. A patch that was or becomes
-// none or full tells its children so (table 4-1), and one that is no longer divided, too.
+// Adds the tasks of a part of a divided patch after those of the patch, which are done. One that
+// was or becomes none or full tells its parts so (table 4-1).
 void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child, bool wasDivided,
-                                          bool isDivided, size_t first, size_t last) {
-  const uint8_t* childStates = &db_.rows_[object][db_.entry(child, 0)];
-  const uint8_t* childOthers = &db_.withoutMovers_[object][db_.entry(child, 0)];
-  const bool childIsDivided = db_.divided_[object][static_cast<size_t>(child)] != 0;
+                                          size_t first, size_t last) {
+  const Row& row = db_.rows_[object][static_cast<size_t>(child)];
+  const bool childIsDivided = db_.isDivided(object, child);
   const auto pass = [&](const Task& parent) {
     // Most entries that a mover may touch are decided by the others.
     const auto s = static_cast<size_t>(parent.slot);
-    if (parent.work == Work::check && parent.state == Occlusion::partial && isDivided &&
-        !childIsDivided && isDecided(childOthers[s]) && childStates[s] == childOthers[s])
+    if (parent.work == Work::check && parent.state == Occlusion::partial && !childIsDivided &&
+        !row.withoutMovers.empty() && isDecided(row.withoutMovers[s]) &&
+        row.states[s] == row.withoutMovers[s])
       return;
     Task task = parent;
-    const bool childrenAreSame = task.was != Occlusion::partial || !wasDivided;
-    if (task.state != Occlusion::partial || !isDivided) {
-      if (!task.isNew && childrenAreSame && task.was == task.state) return;
+    const bool wasAlike = task.was != Occlusion::partial || !wasDivided;
+    if (task.state != Occlusion::partial) {
+      if (!task.isNew && wasAlike && task.was == task.state) return;
       task.work = Work::inherit;
     } else if (task.work != Work::check || task.was == Occlusion::full ||
                (task.was == Occlusion::partial && !wasDivided)) {
@@ -301,12 +334,12 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
     task.parentWasNone = task.was == Occlusion::none;
     tasks_.push_back(task);
   };
-  if (wasDivided == isDivided) {
+  if (wasDivided) {
     for (size_t t = first; t < last; ++t) pass(tasks_[t]);
     return;
   }
-  // Lights of which nothing changed here are to be told as well.
-  const uint8_t* states = &db_.rows_[object][db_.entry(patch, 0)];
+  // Lights of which nothing changed here are to be looked at as well.
+  const uint8_t* states = db_.rows_[object][static_cast<size_t>(patch)].states.data();
   size_t t = first;
   for (const int next : order_) {
     const auto slot = static_cast<size_t>(next);
@@ -315,7 +348,7 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
     } else if (db_.isLive_[slot] != 0 && states[slot] == static_cast<uint8_t>(Occlusion::partial)) {
       Task& task = tasks_.emplace_back();
       task.slot = static_cast<int>(slot);
-      task.work = isDivided ? Work::anew : Work::inherit;
+      task.work = Work::anew;
       // A column that waits has taken in what moved here, but not elsewhere.
       if (!db_.waiting_[slot].empty())
         std::atomic_ref(db_.knowsNow_[slot]).store(1, std::memory_order_relaxed);
