@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <unordered_set>
 
 #include "editor/actions/register_actions.h"
 #include "editor/commands/edits.h"
@@ -145,11 +146,12 @@ void Session::toggleReference() {
 
 void Session::select(std::vector<NodeId> ids) {
   // Of an id given twice the last one counts.
-  document_.selection.clear();
-  for (const NodeId id : ids) {
-    std::erase(document_.selection, id);
-    document_.selection.push_back(id);
-  }
+  std::unordered_set<NodeId> taken;
+  std::vector<NodeId>& selection = document_.selection;
+  selection.clear();
+  for (auto id = ids.rbegin(); id != ids.rend(); ++id)
+    if (taken.insert(*id).second) selection.push_back(*id);
+  std::reverse(selection.begin(), selection.end());
   pruneSelection();
 }
 

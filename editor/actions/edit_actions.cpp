@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <unordered_set>
 
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
@@ -17,6 +18,7 @@ void copy(Session& s) { s.setClipboard(clip(s.document().scene, s.document().sel
 // The copied nodes again, with new ids, where they were, in this level or another.
 void paste(Session& s) {
   Pasting pasting = pasteInto(s.document().scene, s.clipboard(), s.clipboardIsOfThisLevel());
+  requireRoomFor(s.document().scene, pasting.nodes.size());
   const std::string label =
       pasting.nodes.size() == 1 ? "Paste " + pasting.nodes[0].name : "Paste objects";
   // Placing it by a click has begun a step already.
@@ -36,10 +38,10 @@ void remove(Session& s, const std::string& verb) {
 
 void duplicate(Session& s) {
   Copies copies = copyNodes(s.document().scene, s.document().selection);
-  for (Node& n : copies.nodes) {
-    if (std::find(copies.roots.begin(), copies.roots.end(), n.id) != copies.roots.end())
-      n.name += " copy";
-  }
+  requireRoomFor(s.document().scene, copies.nodes.size());
+  const std::unordered_set<NodeId> isRoot(copies.roots.begin(), copies.roots.end());
+  for (Node& n : copies.nodes)
+    if (isRoot.contains(n.id)) n.name += " copy";
   const std::string label =
       copies.roots.size() == 1 ? "Duplicate " + copies.nodes.front().name : "Duplicate objects";
   s.history().run(std::make_unique<AddNodes>(label, std::move(copies.nodes)));

@@ -1,6 +1,7 @@
 // Putting things where they belong: by a click, in rows and grids, along surfaces.
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 #include "editor/actions/arguments.h"
 #include "editor/actions/register_actions.h"
@@ -43,9 +44,11 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
         if (x == 0 && y == 0 && z == 0) continue;
         const vec3 way = steps * vec3(x, y, z);
         Copies copies = copyNodes(scene, originals);
+        if (nodes.empty())
+          requireRoomFor(scene, copies.nodes.size() * static_cast<size_t>(cells - 1.0));
+        const std::unordered_set<NodeId> isRoot(copies.roots.begin(), copies.roots.end());
         for (Node& n : copies.nodes) {
-          if (std::find(copies.roots.begin(), copies.roots.end(), n.id) == copies.roots.end())
-            continue;
+          if (!isRoot.contains(n.id)) continue;
           const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, n.parent);
           if (!hasVolume(parent)) continue;
           n.local.translation += glm::inverse(mat3(parent)) * way;

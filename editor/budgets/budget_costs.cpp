@@ -124,12 +124,20 @@ BudgetCost mapMemoryCost(const GiStats& now, const Settings& settings) {
   return {text, "More: every light sample that the view looks up has a shadow map of its own."};
 }
 
+BudgetCost visibilityMemoryCost(const GiStats& now) {
+  const auto held = now.memoryBytes.find("visibility");
+  if (held == now.memoryBytes.end()) return {"none", "Nothing: naive does not know."};
+  return {fmt::format("{:.3g} MiB", static_cast<double>(held->second) / (1 << 20)),
+          "More: fewer shadow maps are looked up on large levels with thousands of samples."};
+}
+
 }  // namespace
 
 std::optional<BudgetCost> costOf(const std::string& parameter, const Timeline& timeline,
                                  const GiStats& now, const Settings& settings) {
   if (parameter == "frame_time") return frameTimeCost(timeline);
   if (parameter == "map_memory") return mapMemoryCost(now, settings);
+  if (parameter == "visibility_memory") return visibilityMemoryCost(now);
   if (parameter == "samples_per_pixel")
     return BudgetCost{fmt::format("{} so far", now.samplesPerPixel),
                       "More: less noise in the settled picture; four times as many halve it."};

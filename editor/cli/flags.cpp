@@ -218,15 +218,17 @@ void replayFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
 }
 
 void manualFlags(CLI::App& sub, Run& run, const Frontend&) {
-  auto asMan = std::make_shared<bool>(false);
-  sub.add_flag("--man", *asMan, "As a page for man");
-  auto asMarkdown = std::make_shared<bool>(true);
-  sub.add_flag("--markdown", *asMarkdown, "As the tables of docs/flags.md, which is the default");
+  struct Options {
+    bool man = false, markdown = true;
+  };
+  auto o = std::make_shared<Options>();
+  sub.add_flag("--man", o->man, "As a page for man");
+  sub.add_flag("--markdown", o->markdown, "As the tables of docs/flags.md, which is the default");
   sub.footer("Example: lamplighter manual --man | man -l -");
   const CLI::App* all = sub.get_parent();
   sub.callback([=, &run] {
     run = [=] {
-      std::cout << (*asMan ? manPage(*all) : flagTables(*all));
+      std::cout << (o->man ? manPage(*all) : flagTables(*all));
       return 0;
     };
   });

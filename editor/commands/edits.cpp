@@ -1,8 +1,11 @@
 #include "editor/commands/edits.h"
 
 #include <algorithm>
-#include <map>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
 
+#include "renderer/error.h"
 #include "renderer/scene/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 
@@ -126,14 +129,12 @@ namespace {
 
 // For each node of the scene whether it is one of `ids` or hangs below one.
 std::vector<bool> withDescendants(const Scene& scene, const std::vector<NodeId>& ids) {
-  std::vector<NodeId> taken(ids);
-  std::sort(taken.begin(), taken.end());
+  std::unordered_set<NodeId> taken(ids.begin(), ids.end());
   std::vector<bool> in(scene.nodes.size());
   for (size_t i = 0; i < scene.nodes.size(); ++i) {  // parents come first
     const Node& n = scene.nodes[i];
-    in[i] = std::binary_search(taken.begin(), taken.end(), n.id) ||
-            (n.parent != kNoNode && std::binary_search(taken.begin(), taken.end(), n.parent));
-    if (in[i]) taken.insert(std::lower_bound(taken.begin(), taken.end(), n.id), n.id);
+    in[i] = taken.contains(n.id) || (n.parent != kNoNode && taken.contains(n.parent));
+    if (in[i]) taken.insert(n.id);
   }
   return in;
 }
@@ -167,14 +168,14 @@ void DeleteNodes::revert(Document& document) {
 Copies copyNodes(Scene& scene, const std::vector<NodeId>& ids) {
   const std::vector<NodeId> roots = topmost(scene, ids);
   const std::vector<bool> copied = withDescendants(scene, roots);
+  const std::unordered_set<NodeId> isRoot(roots.begin(), roots.end());
   Copies out;
-  std::map<NodeId, NodeId> newId;
+  std::unordered_map<NodeId, NodeId> newId;
   for (size_t i = 0; i < copied.size(); ++i) {
     if (!copied[i]) continue;
     Node n = scene.nodes[i];
     newId[n.id] = scene.nextId;
-    if (std::find(roots.begin(), roots.end(), n.id) != roots.end())
-      out.roots.push_back(scene.nextId);
+    if (isRoot.contains(n.id)) out.roots.push_back(scene.nextId);
     n.id = scene.nextId++;
     if (const auto parent = newId.find(n.parent); parent != newId.end()) n.parent = parent->second;
     out.nodes.push_back(std::move(n));
@@ -183,16 +184,23 @@ Copies copyNodes(Scene& scene, const std::vector<NodeId>& ids) {
 }
 
 std::vector<NodeId> topmost(const Scene& scene, const std::vector<NodeId>& ids) {
+  const std::unordered_set<NodeId> given(ids.begin(), ids.end());
+  std::unordered_set<NodeId> below;  // one of them
   std::vector<NodeId> out;
-  for (const Node& n : scene.nodes) {
-    if (std::find(ids.begin(), ids.end(), n.id) == ids.end()) continue;
-    bool below = false;
-    for (const Node* p = scene.find(n.parent); p != nullptr && !below; p = scene.find(p->parent)) {
-      below = std::find(ids.begin(), ids.end(), p->id) != ids.end();
-    }
-    if (!below) out.push_back(n.id);
+  for (const Node& n : scene.nodes) {  // parents come first
+    const bool isBelow =
+        n.parent != kNoNode && (given.contains(n.parent) || below.contains(n.parent));
+    if (isBelow) below.insert(n.id);
+    if (given.contains(n.id) && !isBelow) out.push_back(n.id);
   }
   return out;
+}
+
+void requireRoomFor(const Scene& scene, size_t more) {
+  constexpr size_t kMostNodes = 100000;
+  if (more <= kMostNodes && scene.nodes.size() + more <= kMostNodes) return;
+  throw InputError(std::to_string(more) + " more objects", "are too many for this level",
+                   "a level takes copies up to " + std::to_string(kMostNodes) + " objects");
 }
 
 }  // namespace lamplighter

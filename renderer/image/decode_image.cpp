@@ -56,8 +56,10 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
     return opened;
   }
   const std::string name = format;
-  if (name == "ktx2" || name == "dds") {
-    why = "is a " + name + " texture, which cannot be decoded here";
+  // OpenImageIO makes room for what a GIF says its size is before anyone can ask for that, and glTF
+  // knows none.
+  if (name == "ktx2" || name == "dds" || name == "gif") {
+    why = "is a " + name + " picture, which cannot be decoded here; make it a PNG";
     return opened;
   }
   opened.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(

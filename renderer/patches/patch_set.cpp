@@ -38,12 +38,18 @@ Bounds boundsOf(const RenderScene& s, const RenderObject& o, std::span<const uin
   return b;
 }
 
-void tellParents(std::vector<Patch>& patches) {
-  for (size_t parent = 0; parent < patches.size(); ++parent) {
-    const int first = patches[parent].firstChild;
+// Children stand after their parents.
+void findLevels(ObjectPatches& out) {
+  std::vector<size_t> levels(out.patches.size(), 0);
+  for (size_t i = 0; i < out.patches.size(); ++i) {
+    if (out.countAtLevel.size() <= levels[i]) out.countAtLevel.resize(levels[i] + 1, 0);
+    ++out.countAtLevel[levels[i]];
+    const int first = out.patches[i].firstChild;
     if (first == kNone) continue;
-    for (const int child : {first, first + 1})
-      patches[static_cast<size_t>(child)].parent = static_cast<int>(parent);
+    for (const int child : {first, first + 1}) {
+      out.patches[static_cast<size_t>(child)].parent = static_cast<int>(i);
+      levels[static_cast<size_t>(child)] = levels[i] + 1;
+    }
   }
 }
 
@@ -128,7 +134,7 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
       for (const uint32_t t : triangles) out.patchOfTriangle[t] = index;
     }
   }
-  tellParents(out.patches);
+  findLevels(out);
   surround(out);
   return out;
 }

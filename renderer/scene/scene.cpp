@@ -10,6 +10,14 @@
 namespace lamplighter {
 
 const Node* Scene::find(NodeId id) const {
+  // New nodes have larger ids and stand at the end, so that ids mostly grow; all are looked through
+  // where one is not found so, because it was moved.
+  size_t first = 0, last = nodes.size();
+  while (first < last) {
+    const size_t middle = first + (last - first) / 2;
+    if (nodes[middle].id == id) return &nodes[middle];
+    (nodes[middle].id < id ? first : last) = nodes[middle].id < id ? middle + 1 : middle;
+  }
   const auto it =
       std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return n.id == id; });
   return it == nodes.end() ? nullptr : &*it;

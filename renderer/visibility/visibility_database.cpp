@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -12,6 +13,7 @@ namespace {
 
 // More objects that move at once are not told apart from the others.
 constexpr size_t kMostMovers = 16;
+constexpr size_t kSlotsAStep = 64;  // by which rows grow
 
 // All but the slot and the brightness, which change nothing here.
 bool sameLight(const shared::Vpl& a, const shared::Vpl& b) {
@@ -26,18 +28,42 @@ bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 void VisibilityDatabase::resize(size_t slots) {
   waiting_.resize(std::max(slots, waiting_.size()));
   knowsNow_.resize(waiting_.size(), 0);
-  if (slots <= stride_) return;
-  const size_t stride = std::max(slots, stride_ + stride_ / 2);
-  const auto partial = static_cast<uint8_t>(Occlusion::partial);
+  const size_t stride = (slots + kSlotsAStep - 1) / kSlotsAStep * kSlotsAStep;
+  if (stride == stride_) return;
+  const auto fit = [&](std::vector<uint8_t>& row, uint8_t fill) {
+    std::vector<uint8_t> next(stride, fill);  // of just that many bytes
+    std::copy_n(row.begin(), std::min(row.size(), stride), next.begin());
+    row.swap(next);
+  };
   for (size_t object = 0; object < rows_.size(); ++object) {
-    for (const int root : patches_[object].roots)
-      rows_[object][static_cast<size_t>(root)].states.resize(stride, partial);
-    for (Row& row : rows_[object]) {
-      if (!row.states.empty()) row.states.resize(stride, partial);
-      if (!row.withoutMovers.empty()) row.withoutMovers.resize(stride, kUnknown);
+    for (size_t patch = 0; patch < rows_[object].size(); ++patch) {
+      Row& row = rows_[object][patch];
+      // Before there were lights not even roots had any.
+      const bool isRoot = patches_[object].patches[patch].parent == kNone;
+      if (isRoot || !row.states.empty()) fit(row.states, static_cast<uint8_t>(Occlusion::partial));
+      if (!row.withoutMovers.empty()) fit(row.withoutMovers, kUnknown);
     }
   }
   stride_ = stride;
+}
+
+// By what is there and nothing else, so that it is the same however that came about. Whether it is
+// another limit than before.
+bool VisibilityDatabase::takeMemoryLimit() {
+  std::vector<size_t> patches;  // at each level
+  for (const ObjectPatches& p : patches_) {
+    patches.resize(std::max(patches.size(), p.countAtLevel.size()), 0);
+    for (size_t level = 0; level < p.countAtLevel.size(); ++level)
+      patches[level] += p.countAtLevel[level];
+  }
+  const size_t before = levels_;
+  levels_ = kAllLevels;
+  size_t bytes = 0;
+  for (size_t level = 0; level < patches.size() && levels_ == kAllLevels; ++level) {
+    bytes += patches[level] * 2 * stride_;  // states, and withoutMovers
+    if (bytes > mostBytes_) levels_ = std::max<size_t>(level, 1);
+  }
+  return levels_ != before;
 }
 
 void VisibilityDatabase::forgetOthers() {
@@ -176,6 +202,7 @@ void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneCha
   if (moves_.empty()) return;
   occluders_.finish(scene);
   growTree();
+  limitChanged_ = takeMemoryLimit() || limitChanged_;
 }
 
 void VisibilityDatabase::growTree() {
@@ -226,9 +253,11 @@ void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const sha
   lights_.assign(bySlot.begin(), bySlot.end());
   isLive_.resize(lights_.size());
   for (size_t i = 0; i < lights_.size(); ++i) isLive_[i] = isLight(lights_[i]) ? 1 : 0;
-  if (slots.empty() && !areGone) return;
+  limitChanged_ = takeMemoryLimit() || limitChanged_;
+  const bool mayDivide = std::exchange(limitChanged_, false) || areGone;
+  if (slots.empty() && !mayDivide) return;
   const uint64_t before = tests_;
-  computeNew(scene, slots, areGone);
+  computeNew(scene, slots, mayDivide);
   if (!slots.empty()) testsPerColumn_ = (tests_ - before) / slots.size();
 }
 
@@ -243,6 +272,7 @@ void VisibilityDatabase::refresh(const RenderScene& scene, std::span<const int> 
   for (const int slot : slots)
     if (isWaiting(slot)) waiting.push_back(slot);
   if (!waiting.empty()) computeWaiting(scene, waiting);
+  if (std::exchange(limitChanged_, false)) computeNew(scene, {}, true);
 }
 
 void VisibilityDatabase::clearChanged() {

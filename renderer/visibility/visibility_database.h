@@ -6,6 +6,7 @@
 // column that it may touch waits until it is refreshed, with its light's shadow map.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,10 @@ class VisibilityDatabase {
   // Takes in what changed in the scene: moved, added, removed, hidden and rescaled objects, and
   // materials. Rows of objects that are new or moved are partial in columns that wait.
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes);
+
+  // Entries take no more than this: patches are not divided so far down that they could. The roots
+  // have theirs in any case. Holds from the next setLights() on; SIZE_MAX: no limit.
+  void limitMemory(size_t bytes) { mostBytes_ = bytes; }
 
   // The light samples by slot; a normal of zero: none is there. Those that differ from what was
   // there get new columns.
@@ -69,8 +74,8 @@ class VisibilityDatabase {
       whole = parent;
     return whole;
   }
-  // Whether the children of a patch are looked at apart: enough lights are partial on it. Where not
-  // they are as it is. None is below one that is not.
+  // Whether the children of a patch are looked at apart: enough lights are partial on it, and
+  // memory goes so far. Where not they are as it is. None is below one that is not.
   bool isDivided(uint32_t object, int patch) const {
     return divided_[object][static_cast<size_t>(patch)] != 0;
   }
@@ -107,6 +112,7 @@ class VisibilityDatabase {
   struct Task;    // one light at one patch
   class Update;   // brings columns up to date (visibility_update.cpp)
   static constexpr uint8_t kUnknown = 255;
+  static constexpr size_t kAllLevels = std::numeric_limits<size_t>::max();
   // What is known of a patch that is looked at: a root, or a part of one that is divided. By slot,
   // stride_ of them. Most patches are neither, which keeps large levels small.
   struct Row {
@@ -125,12 +131,14 @@ class VisibilityDatabase {
   void addWaiting(int object, const Caster& before, bool couldHide);
   void forgetOthers();
   void growTree();
-  // areGone: others, so that patches may be divided no more.
-  void computeNew(const RenderScene& scene, std::span<const int> slots, bool areGone);
+  // mayDivide: patches may be divided otherwise than they are, though nothing changed on them:
+  // others are gone, or there is more memory or less.
+  void computeNew(const RenderScene& scene, std::span<const int> slots, bool mayDivide);
   void computeWaiting(const RenderScene& scene, std::span<const int> slots);
   Column takeWaiting(int slot);
   int mostPartial() const;
   void resize(size_t slots);
+  bool takeMemoryLimit();
 
   // By object.
   std::vector<MeshTopology> topologies_;
@@ -151,7 +159,10 @@ class VisibilityDatabase {
   // By slot: some of the waiting column was computed where the movers are now.
   std::vector<uint8_t> knowsNow_;
   bool useClusters_ = true;
-  int most_ = -1;      // that a patch that is not divided may have
+  int most_ = -1;  // that a patch that is not divided may have
+  size_t mostBytes_ = std::numeric_limits<size_t>::max();
+  size_t levels_ = kAllLevels;  // that may have entries of their own; the roots are the first
+  bool limitChanged_ = false;
   size_t stride_ = 0;  // of rows, in slots
   uint64_t tests_ = 0, testsPerColumn_ = 0;
 };

@@ -102,11 +102,11 @@ class VisibilityDatabase::Update {
   // The root and all below it; tasks in the order of slots.
   void run(uint32_t object, int root, std::span<const Task> tasks) {
     tasks_.assign(tasks.begin(), tasks.end());
-    visit(object, root, 0);
+    visit(object, root, 0, 0);
   }
 
  private:
-  void visit(uint32_t object, int patch, size_t first);
+  void visit(uint32_t object, int patch, size_t level, size_t first);
   void beginParts(uint32_t object, int patch, std::span<const Task> tasks, bool changedBefore);
   void forgetParts(uint32_t object, int patch);
   bool compute(uint32_t object, int patch, std::span<Task> tasks) const;
@@ -144,7 +144,7 @@ class VisibilityDatabase::Update {
 };
 
 // One that is looked at, and all below it that are.
-void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t first) {
+void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level, size_t first) {
   const auto index = static_cast<size_t>(patch);
   const size_t last = tasks_.size();
   const bool changedBefore = db_.changed_[object][index] != 0;
@@ -152,13 +152,14 @@ void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t first)
   const Patch& p = db_.patches_[object].patches[index];
   if (p.isLeaf()) return;
   const bool was = db_.isDivided(object, patch);
-  const bool is = countPartial(db_.row(object, patch), db_.isLive_) > db_.most_;
+  const bool is =
+      level + 1 < db_.levels_ && countPartial(db_.row(object, patch), db_.isLive_) > db_.most_;
   if (was && !is) forgetParts(object, patch);
   if (!is) return;
   if (!was) beginParts(object, patch, std::span(tasks_).subspan(first), changedBefore);
   for (int child = p.firstChild; child < p.firstChild + 2; ++child) {
     passDown(object, patch, child, was, first, last);
-    if (tasks_.size() > last || !was || allMayDivide_) visit(object, child, last);
+    if (tasks_.size() > last || !was || allMayDivide_) visit(object, child, level + 1, last);
     tasks_.resize(last);
   }
 }
@@ -363,9 +364,9 @@ int VisibilityDatabase::mostPartial() const {
 
 // All columns of lights that are new.
 void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const int> slots,
-                                    bool areGone) {
+                                    bool mayDivide) {
   const int most = mostPartial();
-  const bool allMayDivide = areGone || most != most_;
+  const bool allMayDivide = mayDivide || most != most_;
   most_ = most;
   std::vector<Task> tasks;
   std::vector<bool> isNew(lights_.size(), false);

@@ -93,6 +93,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
       options.clampDistance != options_.clampDistance ||
       options.shadowBias != options_.shadowBias ||
       options.useVisibility != options_.useVisibility ||
+      options.visibilityBytes != options_.visibilityBytes ||
       options.useLightMaps != options_.useLightMaps || options.groupShare != options_.groupShare ||
       options.lightMapTexel != options_.lightMapTexel ||
       options.mergePasses != options_.mergePasses || options.block != options_.block ||
@@ -259,6 +260,7 @@ void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
     visibility_ = std::make_unique<VisibilityDatabase>();
     changes.rebuilt = true;
   }
+  visibility_->limitMemory(options.visibilityBytes);
   visibility_->setScene(in.scene, changes);
 }
 
@@ -422,6 +424,7 @@ MethodInfo manyLightsInfo() {
            parameters::mapResolution(),
            parameters::sunMaps(),
            parameters::mapMemory(),
+           parameters::visibilityMemory(),
            parameters::groupShare(),
            parameters::updates(),
            parameters::maxShadowMaps(),

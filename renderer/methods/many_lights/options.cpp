@@ -41,6 +41,7 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
   const std::string technique = settings.choice(parameters::technique());
   useLightMaps = technique == "light_maps";
   useVisibility = useLightMaps || technique == "visibility";
+  visibilityBytes = static_cast<size_t>(settings.integer(parameters::visibilityMemory())) << 20;
   groupShare = 0.01f * settings.real(parameters::groupShare());
   lightMapTexel = settings.real(parameters::lightMapTexel());
   lightsPerPass = settings.integer(parameters::lightsPerPass());

@@ -24,7 +24,8 @@ struct ManyLightsOptions {
   int antialias = 1;
   bool fillsCorners = false;  // with what the clamp takes away
   bool useVisibility = false;
-  bool useLightMaps = false;  // besides
+  size_t visibilityBytes = 0;  // at most
+  bool useLightMaps = false;   // besides
   float lightMapTexel = 0.1f;
   int lightsPerPass = 0;  // changes no picture
   bool mergePasses = false;

@@ -148,6 +148,23 @@ const ParameterSpec& mapMemory() {
   return spec;
 }
 
+const ParameterSpec& visibilityMemory() {
+  static const ParameterSpec spec{
+      "visibility_memory",
+      "Visibility memory",
+      "MiB",
+      "What is known of each light sample at each patch takes no more memory than this: patches of "
+      "large levels are divided less far where thousands of light samples would need more, and "
+      "more shadow maps are looked up there. The picture stays the same. Nothing for naive.",
+      512,
+      1,
+      65536,
+      true,
+      {},
+      ParameterGroup::budgets};
+  return spec;
+}
+
 const ParameterSpec& frameTime() {
   static const ParameterSpec spec{
       "frame_time",

@@ -13,18 +13,19 @@ const ParameterSpec& maxShadowMaps();
 const ParameterSpec& maxVisibilityTests();
 const ParameterSpec& maxLightMapTexels();
 const ParameterSpec& maxRays();
-const ParameterSpec& maxPaths();       // int, 0: no limit; walked again
-const ParameterSpec& groupShare();     // float, percent; 0: no groups
-const ParameterSpec& mapMemory();      // int, MiB
-const ParameterSpec& frameTime();      // float, ms; heeded in the editor's window alone
-const ParameterSpec& lightMapTexel();  // float, m
-const ParameterSpec& lightsPerPass();  // int, VPLs that one draw of the gl backend takes
-const ParameterSpec& mergePasses();    // bool, gl backend: by merged passes
-const ParameterSpec& block();          // choice, pixels a side of the low-resolution pass's blocks
-const ParameterSpec& prt();            // bool, cpu backend: complex meshes by transfer
-const ParameterSpec& prtPoints();      // int, light points an object
-const ParameterSpec& antialias();      // int, G-buffers averaged once the lights are settled
-const ParameterSpec& cornerLight();    // bool
-const ParameterSpec& refine();         // int, VPLs in all; heeded where the caller lets it
+const ParameterSpec& maxPaths();          // int, 0: no limit; walked again
+const ParameterSpec& groupShare();        // float, percent; 0: no groups
+const ParameterSpec& mapMemory();         // int, MiB
+const ParameterSpec& visibilityMemory();  // int, MiB
+const ParameterSpec& frameTime();         // float, ms; heeded in the editor's window alone
+const ParameterSpec& lightMapTexel();     // float, m
+const ParameterSpec& lightsPerPass();     // int, VPLs that one draw of the gl backend takes
+const ParameterSpec& mergePasses();       // bool, gl backend: by merged passes
+const ParameterSpec& block();        // choice, pixels a side of the low-resolution pass's blocks
+const ParameterSpec& prt();          // bool, cpu backend: complex meshes by transfer
+const ParameterSpec& prtPoints();    // int, light points an object
+const ParameterSpec& antialias();    // int, G-buffers averaged once the lights are settled
+const ParameterSpec& cornerLight();  // bool
+const ParameterSpec& refine();       // int, VPLs in all; heeded where the caller lets it
 
 }  // namespace lamplighter::parameters

@@ -74,6 +74,17 @@ TEST(DecodeImage, UnreasonableSizeIsRefused) {
   EXPECT_THAT(why, HasSubstr("8193 x 8193"));
 }
 
+// What would be given its room by the reader already.
+TEST(DecodeImage, GifIsRefusedUnread) {
+  const std::string_view header = "GIF89a\xff\xff\xff\xff\x80";
+  std::vector<uint8_t> bytes(header.begin(), header.end());
+  bytes.resize(2000, 0x2c);
+  std::string why;
+  EXPECT_FALSE(decodeImage8(bytes, why).has_value());
+  EXPECT_THAT(why, HasSubstr("gif"));
+  EXPECT_THAT(why, HasSubstr("make it a PNG"));
+}
+
 TEST(DecodeImage, JpegAndGreyAreExpanded) {
   const auto file = test::sharedScenes() / "classroom" / "textures";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;

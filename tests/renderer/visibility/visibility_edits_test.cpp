@@ -1,5 +1,7 @@
 // What is kept of visibility from edit to edit of a level, against what is found from nothing:
 // entry for entry, else a picture would hang on what was before.
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "renderer/sampling/vpl_set.h"
@@ -28,8 +30,11 @@ int differences(const VisibilityDatabase& a, const VisibilityDatabase& b) {
   return count;
 }
 
-// The lights stay where they are, so that all entries are only brought up to date.
-bool staysTheSame(const test::EditSequence& edits) {
+constexpr size_t kLittle = 150000;  // bytes
+
+// The lights stay where they are, so that all entries are only brought up to date. mostBytes: that
+// they may take.
+bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
   Scene level =
       loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf").scene;
   RenderScene scene;
@@ -39,6 +44,7 @@ bool staysTheSame(const test::EditSequence& edits) {
        generateVpls(scene, RayCaster(scene), LightSet(scene), {150, 0.3f, 3, 1}).vpls)
     lights.push_back(v.vpl);
   VisibilityDatabase kept;
+  kept.limitMemory(mostBytes);
   kept.setScene(scene, everything());
   kept.setLights(scene, lights);
   for (const test::Edit& edit : edits) {
@@ -47,9 +53,11 @@ bool staysTheSame(const test::EditSequence& edits) {
     kept.setScene(scene, update(scene, level, compare(before, level)));
     kept.refreshAll(scene);
     VisibilityDatabase fresh;
+    fresh.limitMemory(mostBytes);
     fresh.setScene(scene, everything());
     fresh.setLights(scene, lights);
     if (kept.objects() != fresh.objects() || differences(kept, fresh) != 0) return false;
+    if (kept.bytes() > mostBytes) return false;
   }
   return true;
 }
@@ -57,8 +65,16 @@ bool staysTheSame(const test::EditSequence& edits) {
 class EditsOfALevel : public testing::TestWithParam<uint32_t> {};
 
 TEST_P(EditsOfALevel, LeaveNoEntryOtherThanFromNothing) {
-  EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), staysTheSame),
-            test::EditSequence());
+  const auto check = [](const test::EditSequence& edits) {
+    return staysTheSame(edits, std::numeric_limits<size_t>::max());
+  };
+  EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), check), test::EditSequence());
+}
+
+// What objects that come and go need changes how far all others may be divided.
+TEST_P(EditsOfALevel, LeaveNoEntryOtherThanFromNothingWithLittleMemory) {
+  const auto check = [](const test::EditSequence& edits) { return staysTheSame(edits, kLittle); };
+  EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), check), test::EditSequence());
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, EditsOfALevel, testing::Range(1u, 11u));
 

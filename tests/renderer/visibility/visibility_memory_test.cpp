@@ -1,0 +1,134 @@
+// Entries within bounds: patches are divided less far, and nothing is said that is not so.
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/gltf_io.h"
+#include "renderer/visibility/visibility_database.h"
+#include "tests/support/lit_scene.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr size_t kMebibyte = size_t{1} << 20;
+
+Scene pillarRoom() {
+  return loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
+      .scene;
+}
+
+struct Room {
+  RenderScene scene;
+  std::vector<shared::Vpl> lights;
+  Room() {
+    update(scene, pillarRoom(), SceneChanges::all());
+    for (const SceneVpl& v :
+         generateVpls(scene, RayCaster(scene), LightSet(scene), {1000, 0.3f, 3, 1}).vpls)
+      lights.push_back(v.vpl);
+  }
+  void fill(VisibilityDatabase& database, size_t count) const {
+    database.setLights(scene, std::span(lights).first(count));
+  }
+};
+
+RenderSceneChanges everything() {
+  RenderSceneChanges all;
+  all.rebuilt = true;
+  return all;
+}
+
+// Entries of leaves that differ; there those of `coarse` have to be partial.
+size_t coarser(const VisibilityDatabase& coarse, const VisibilityDatabase& fine) {
+  size_t count = 0;
+  for (uint32_t object = 0; object < fine.objects(); ++object) {
+    for (size_t p = 0; p < fine.patches(object).patches.size(); ++p) {
+      if (!fine.patches(object).patches[p].isLeaf()) continue;
+      const auto a = coarse.row(object, static_cast<int>(p)),
+                 b = fine.row(object, static_cast<int>(p));
+      for (size_t slot = 0; slot < a.size(); ++slot) {
+        if (a[slot] == b[slot]) continue;
+        EXPECT_EQ(a[slot], static_cast<uint8_t>(Occlusion::partial));
+        ++count;
+      }
+    }
+  }
+  return count;
+}
+
+TEST(VisibilityMemory, LessIsCoarserAndNeverWrong) {
+  const Room room;
+  VisibilityDatabase fine;
+  fine.setScene(room.scene, everything());
+  room.fill(fine, room.lights.size());
+  ASSERT_GT(fine.bytes(), kMebibyte / 2);
+  size_t before = 0;
+  for (const size_t most : {kMebibyte / 2, kMebibyte / 4, kMebibyte / 8}) {
+    VisibilityDatabase coarse;
+    coarse.limitMemory(most);
+    coarse.setScene(room.scene, everything());
+    room.fill(coarse, room.lights.size());
+    EXPECT_LE(coarse.bytes(), most);
+    const size_t now = coarser(coarse, fine);
+    EXPECT_GT(now, before);
+    before = now;
+  }
+}
+
+// With more lights a patch may be divided less far, with fewer further again; and with more memory.
+TEST(VisibilityMemory, FollowsTheLightsAndTheBound) {
+  const Room room;
+  const auto fresh = [&](size_t most, size_t lights) {
+    VisibilityDatabase database;
+    database.limitMemory(most);
+    database.setScene(room.scene, everything());
+    room.fill(database, lights);
+    return database;
+  };
+  VisibilityDatabase kept = fresh(kMebibyte / 4, 100);
+  const size_t divided = kept.counts().divided;
+  room.fill(kept, 1000);
+  EXPECT_LT(kept.counts().divided, divided);
+  EXPECT_LE(kept.bytes(), kMebibyte / 4);
+  EXPECT_EQ(coarser(kept, fresh(kMebibyte / 4, 1000)), 0u);
+  room.fill(kept, 100);
+  EXPECT_EQ(kept.counts().divided, divided);
+  EXPECT_EQ(coarser(kept, fresh(kMebibyte / 4, 100)), 0u);
+  kept.limitMemory(16 * kMebibyte);
+  room.fill(kept, 1000);
+  const VisibilityDatabase plenty = fresh(16 * kMebibyte, 1000);
+  EXPECT_EQ(kept.counts().divided, plenty.counts().divided);
+  EXPECT_EQ(coarser(kept, plenty), 0u);
+}
+
+TEST(VisibilityMemory, ThePictureStaysTheSame) {
+  const Scene scene = pillarRoom();
+  View view;
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) view = viewOfCamera(scene, node, 96, 60);
+  Settings settings;
+  settings.set(parameters::vpls().name, 2000);
+  settings.set(parameters::bounces().name, 1);
+  settings.set(parameters::updates().name, 4000);
+  settings.set(parameters::antialias().name, 1);
+  const auto render = [&](int mebibytes) {
+    settings.set(parameters::visibilityMemory().name, mebibytes);
+    FrameRenderer renderer(makeCpuBackend());
+    return test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+  };
+  const GiOutput plenty = render(512), little = render(1);
+  EXPECT_GT(plenty.stats.memoryBytes.at("visibility"), kMebibyte);
+  EXPECT_LE(little.stats.memoryBytes.at("visibility"), kMebibyte);
+  const double error = compareImages(little.radiance->pixels(), plenty.radiance->pixels()).relRmse;
+  EXPECT_LT(error, 0.005);
+  std::cout << "relRMSE " << 100.0 * error << "%, maps " << plenty.stats.mapsHeld << " and "
+            << little.stats.mapsHeld << '\n';
+}
+
+}  // namespace
+}  // namespace lamplighter
