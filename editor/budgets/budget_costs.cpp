@@ -125,10 +125,13 @@ BudgetCost mapMemoryCost(const GiStats& now, const Settings& settings) {
 }
 
 BudgetCost visibilityMemoryCost(const GiStats& now) {
+  const char* const buys = "More: patches of large levels are divided further, for fewer look-ups.";
+  const auto mebibytes = [](uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
+  if (now.visibilityNeeds > 0)
+    return {fmt::format("left out: needs {:.3g} MiB", mebibytes(now.visibilityNeeds)), buys};
   const auto held = now.memoryBytes.find("visibility");
-  if (held == now.memoryBytes.end()) return {"none", "Nothing: naive does not know."};
-  return {fmt::format("{:.3g} MiB", static_cast<double>(held->second) / (1 << 20)),
-          "More: fewer shadow maps are looked up on large levels with thousands of samples."};
+  if (held == now.memoryBytes.end()) return {"none", buys};
+  return {fmt::format("{:.3g} MiB", mebibytes(held->second)), buys};
 }
 
 }  // namespace

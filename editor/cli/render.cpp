@@ -78,6 +78,7 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   memory["shadow maps without room"] = out.stats.mapsWithoutRoom;
   memory["rest of the backend"] = counts.memoryBytes - counts.mapBytes;
   for (const auto& [what, bytes] : out.stats.memoryBytes) memory[what] = bytes;
+  if (out.stats.visibilityNeeds > 0) memory["visibility without room"] = out.stats.visibilityNeeds;
   j["peak_memory_bytes"] = peakMemoryBytes();  // of the whole process
   return j.dump(2) + "\n";
 }

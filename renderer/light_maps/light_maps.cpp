@@ -150,15 +150,15 @@ LightMaps::Object LightMaps::makeObject(const RenderScene& scene, const ObjectPa
 }
 
 void LightMaps::resize(size_t slots) {
-  if (slots <= stride_) return;
-  const size_t stride = std::max(slots, stride_ + stride_ / 2);
+  const size_t words = (slots + 63) / 64;
+  if (words <= words_) return;
   for (Object& o : objects_) {
-    std::vector<uint8_t> wider(o.tiles.size() * stride, 0);
-    for (size_t t = 0; stride_ > 0 && t < o.tiles.size(); ++t)
-      std::copy_n(&o.held[t * stride_], stride_, &wider[t * stride]);
+    std::vector<uint64_t> wider(o.tiles.size() * words, 0);
+    for (size_t t = 0; words_ > 0 && t < o.tiles.size(); ++t)
+      std::copy_n(&o.held[t * words_], words_, &wider[t * words]);
     o.held = std::move(wider);
   }
-  stride_ = stride;
+  words_ = words;
 }
 
 void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visibility,
@@ -183,7 +183,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) {
     Object& o = objects_[fresh[i]];
     o = makeObject(scene, visibility.patches(fresh[i]), options.texel);
-    o.held.assign(o.tiles.size() * stride_, 0);
+    o.held.assign(o.tiles.size() * words_, 0);
   });
   std::vector<bool> isFresh(objects_.size(), false);
   for (const uint32_t i : fresh) isFresh[i] = true;
@@ -235,13 +235,15 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       touched += count;
     };
     for (const uint32_t slot : job.everySlot ? allSlots : changedSlots) {
-      uint8_t& has = o.held[job.tile * stride_ + slot];
+      uint64_t& word = o.held[job.tile * words_ + slot / 64];
+      const uint64_t bit = uint64_t{1} << slot % 64;
+      const bool has = (word & bit) != 0;
       const bool wants = isLight(bySlot[slot]) &&
                          static_cast<Occlusion>(states[slot]) != Occlusion::full &&
                          isMappable(bySlot[slot], chart, patch, spacing, options.clampDistance);
-      if (has != 0 && (!wants || isNew[slot])) change(lights_[slot], -1.0);
-      if (wants && (has == 0 || isNew[slot])) change(bySlot[slot], 1.0);
-      has = wants ? 1 : 0;
+      if (has && (!wants || isNew[slot])) change(lights_[slot], -1.0);
+      if (wants && (!has || isNew[slot])) change(bySlot[slot], 1.0);
+      word = wants ? word | bit : word & ~bit;
     }
     if (touched == 0) return;
     written += touched;
@@ -285,7 +287,7 @@ uint64_t LightMaps::bytes() const {
   uint64_t n = 0;
   for (const Object& o : objects_)
     n += o.irradiance.size() * (sizeof(vec4) + 3 * sizeof(double) + 3 * sizeof(float)) +
-         o.held.size();
+         o.held.size() * sizeof(uint64_t);
   return n;
 }
 

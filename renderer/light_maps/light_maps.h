@@ -46,10 +46,18 @@ class LightMaps {
     return index == kNone ? nullptr : &objects_[object].tiles[static_cast<size_t>(index)];
   }
   // Whether the leaf's tile holds the light in each slot. Only for leaves with a tile.
-  std::span<const uint8_t> held(uint32_t object, int leaf) const {
+  class Held {
+   public:
+    explicit Held(const uint64_t* words) : words_(words) {}
+    bool operator[](size_t slot) const { return (words_[slot / 64] >> slot % 64 & 1) != 0; }
+
+   private:
+    const uint64_t* words_;  // a bit a slot
+  };
+  Held held(uint32_t object, int leaf) const {
     const size_t index =
         static_cast<size_t>(objects_[object].tileOfPatch[static_cast<size_t>(leaf)]);
-    return {&objects_[object].held[index * stride_], lights_.size()};
+    return Held(&objects_[object].held[index * words_]);
   }
   // E of the leaf's tile on the front of its plane at the point nearest to `position` [W/m²].
   vec3 irradiance(const ObjectPatches& patches, uint32_t object, int leaf,
@@ -71,7 +79,7 @@ class LightMaps {
     std::vector<float> x, y, z;    // places in the world
     std::vector<double> sums;      // three a texel: all r of a tile, then g, then b
     std::vector<vec4> irradiance;  // the same, as it is read
-    std::vector<uint8_t> held;     // tiles × slots
+    std::vector<uint64_t> held;    // tiles × words_; a bit a slot
     Revision revision;             // of tiles and texels
   };
   static Object makeObject(const RenderScene& scene, const ObjectPatches& patches, float texel);
@@ -79,7 +87,7 @@ class LightMaps {
 
   std::vector<Object> objects_;
   std::vector<shared::Vpl> lights_;  // by slot, as they were added
-  size_t stride_ = 0;
+  size_t words_ = 0;                 // of a tile's bits
   Options options_;
   uint64_t written_ = 0;
 };

@@ -32,7 +32,7 @@ void PatchLights::usesOfAll(uint32_t object, int leaf, bool mapped,
     return;
   }
   const auto held = maps_->held(object, leaf);
-  for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[held[i]][states[i]];
+  for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[held[i] ? 1 : 0][states[i]];
 }
 
 }  // namespace lamplighter

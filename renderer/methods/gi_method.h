@@ -43,16 +43,17 @@ struct FrameInputs {
 };
 
 struct GiStats {
-  int vpls = 0;                // shown
-  int vplsPending = 0;         // not yet what the scene asks for
-  int mapsPending = 0;         // of them, those whose map must be rendered
-  int oldestFrames = 0;        // frames the oldest pending one has waited
-  int framesUntilSettled = 0;  // at this frame's pace, if nothing else changes
-  int vplsRefreshed = 0;       // this frame
-  int mapsRendered = 0;        // this frame
-  int mapsHeld = 0;            // of VPLs that are shown
-  int mapsWithoutRoom = 0;     // that are looked up and do not fit: others stand in
-  int mapsSpared = 0;          // this frame: what moved is hidden from their lights
+  int vpls = 0;                  // shown
+  int vplsPending = 0;           // not yet what the scene asks for
+  int mapsPending = 0;           // of them, those whose map must be rendered
+  int oldestFrames = 0;          // frames the oldest pending one has waited
+  int framesUntilSettled = 0;    // at this frame's pace, if nothing else changes
+  int vplsRefreshed = 0;         // this frame
+  int mapsRendered = 0;          // this frame
+  int mapsHeld = 0;              // of VPLs that are shown
+  int mapsWithoutRoom = 0;       // that are looked up and do not fit: others stand in
+  uint64_t visibilityNeeds = 0;  // bytes, where it has no room and is left out; else 0
+  int mapsSpared = 0;            // this frame: what moved is hidden from their lights
   // Paths of bounced light, this frame: looked at anew by rays, of these such as meet something
   // else now, as they were; and those that wait to be.
   int pathsWalked = 0, pathsReplaced = 0, pathsKept = 0, pathsPending = 0;

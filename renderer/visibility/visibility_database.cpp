@@ -13,7 +13,6 @@ namespace {
 
 // More objects that move at once are not told apart from the others.
 constexpr size_t kMostMovers = 16;
-constexpr size_t kSlotsAStep = 64;  // by which rows grow
 
 // All but the slot and the brightness, which change nothing here.
 bool sameLight(const shared::Vpl& a, const shared::Vpl& b) {
@@ -28,7 +27,7 @@ bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 void VisibilityDatabase::resize(size_t slots) {
   waiting_.resize(std::max(slots, waiting_.size()));
   knowsNow_.resize(waiting_.size(), 0);
-  const size_t stride = (slots + kSlotsAStep - 1) / kSlotsAStep * kSlotsAStep;
+  const size_t stride = rowBytes(slots);
   if (stride == stride_) return;
   const auto fit = [&](std::vector<uint8_t>& row, uint8_t fill) {
     std::vector<uint8_t> next(stride, fill);  // of just that many bytes
@@ -47,28 +46,39 @@ void VisibilityDatabase::resize(size_t slots) {
   stride_ = stride;
 }
 
-// By what is there and nothing else, so that it is the same however that came about. Whether it is
-// another limit than before.
-bool VisibilityDatabase::takeMemoryLimit() {
-  std::vector<size_t> patches;  // at each level
+std::vector<size_t> VisibilityDatabase::patchesAtLevels() const {
+  std::vector<size_t> patches(1, 0);
   for (const ObjectPatches& p : patches_) {
     patches.resize(std::max(patches.size(), p.countAtLevel.size()), 0);
     for (size_t level = 0; level < p.countAtLevel.size(); ++level)
       patches[level] += p.countAtLevel[level];
   }
+  return patches;
+}
+
+// By what is there and nothing else, so that it is the same however that came about. Whether other
+// patches may be divided than before.
+bool VisibilityDatabase::takeMemoryLimit() {
+  const std::vector<size_t> patches = patchesAtLevels();
   const size_t before = levels_;
   levels_ = kAllLevels;
-  size_t bytes = 0;
-  for (size_t level = 0; level < patches.size() && levels_ == kAllLevels; ++level) {
-    bytes += patches[level] * 2 * stride_;  // states, and withoutMovers
-    if (bytes > mostBytes_) levels_ = std::max<size_t>(level, 1);
+  size_t bytes = 0;  // of states
+  for (size_t level = 0; level < patches.size(); ++level) {
+    const size_t more = bytes + patches[level] * stride_;
+    if (level > 0 && more > mostBytes_) {
+      levels_ = level;
+      break;
+    }
+    bytes = more;
   }
+  const bool kept = std::exchange(keepsOthers_, 2 * bytes <= mostBytes_);
+  if (kept && !keepsOthers_) forgetOthers();
   return levels_ != before;
 }
 
 void VisibilityDatabase::forgetOthers() {
   for (auto& rows : rows_)
-    for (Row& row : rows) std::fill(row.withoutMovers.begin(), row.withoutMovers.end(), kUnknown);
+    for (Row& row : rows) std::vector<uint8_t>().swap(row.withoutMovers);
 }
 
 void VisibilityDatabase::addWaiting(int object, const Caster& before, bool couldHide) {

@@ -32,8 +32,11 @@ class VisibilityDatabase {
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes);
 
   // Entries take no more than this: patches are not divided so far down that they could. The roots
-  // have theirs in any case. Holds from the next setLights() on; SIZE_MAX: no limit.
+  // have theirs in any case, see leastBytes(). Holds from the next setLights() on; SIZE_MAX: no
+  // limit.
   void limitMemory(size_t bytes) { mostBytes_ = bytes; }
+  // What those of the roots take for so many lights.
+  size_t leastBytes(size_t slots) const { return rowBytes(slots) * patchesAtLevels()[0]; }
 
   // The light samples by slot; a normal of zero: none is there. Those that differ from what was
   // there get new columns.
@@ -112,13 +115,15 @@ class VisibilityDatabase {
   struct Task;    // one light at one patch
   class Update;   // brings columns up to date (visibility_update.cpp)
   static constexpr uint8_t kUnknown = 255;
+  static constexpr size_t kSlotsAStep = 64;  // by which rows grow
   static constexpr size_t kAllLevels = std::numeric_limits<size_t>::max();
   // What is known of a patch that is looked at: a root, or a part of one that is divided. By slot,
   // stride_ of them. Most patches are neither, which keeps large levels small.
   struct Row {
     std::vector<uint8_t> states;  // Occlusion; empty: it is as the patch above it
-    // By all objects but those that moved last; kUnknown: not asked yet; empty: none was. While the
-    // same ones move on, as in a drag, nothing else is tested again (table 4-1).
+    // By all objects but those that moved last; kUnknown: not asked yet; empty: none was, or
+    // nothing moved, or there is no room. While the same ones move on, as in a drag, nothing else
+    // is tested again (table 4-1).
     std::vector<uint8_t> withoutMovers;
   };
   using Flags = std::vector<std::vector<uint8_t>>;  // by object and patch
@@ -138,6 +143,10 @@ class VisibilityDatabase {
   Column takeWaiting(int slot);
   int mostPartial() const;
   void resize(size_t slots);
+  std::vector<size_t> patchesAtLevels() const;  // one at least
+  static size_t rowBytes(size_t slots) {
+    return (slots + kSlotsAStep - 1) / kSlotsAStep * kSlotsAStep;
+  }
   bool takeMemoryLimit();
 
   // By object.
@@ -162,6 +171,7 @@ class VisibilityDatabase {
   int most_ = -1;  // that a patch that is not divided may have
   size_t mostBytes_ = std::numeric_limits<size_t>::max();
   size_t levels_ = kAllLevels;  // that may have entries of their own; the roots are the first
+  bool keepsOthers_ = true;     // there is room for Row::withoutMovers
   bool limitChanged_ = false;
   size_t stride_ = 0;  // of rows, in slots
   uint64_t tests_ = 0, testsPerColumn_ = 0;

@@ -198,9 +198,11 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
   const ObjectPatches& patches = db_.patches_[object];
   const Patch& p = patches.patches[static_cast<size_t>(patch)];
   Row& row = db_.rows_[object][static_cast<size_t>(patch)];
-  if (row.withoutMovers.empty()) row.withoutMovers.assign(db_.stride_, kUnknown);
+  // Where nothing moves it is the state itself.
+  const bool keepsOthers = db_.keepsOthers_ && !db_.movers_.empty();
+  if (keepsOthers && row.withoutMovers.empty()) row.withoutMovers.assign(db_.stride_, kUnknown);
   uint8_t* states = row.states.data();
-  uint8_t* others = row.withoutMovers.data();
+  uint8_t* allOthers = keepsOthers ? row.withoutMovers.data() : nullptr;
   const bool isInherited = std::all_of(tasks.begin(), tasks.end(),
                                        [](const Task& t) { return t.work == Work::inherit; });
   const PatchRegion region =
@@ -216,15 +218,17 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
       Task& t = some[i];
       const auto slot = static_cast<size_t>(t.slot);
       t.was = static_cast<Occlusion>(states[slot]);
-      if (t.isNew) others[slot] = kUnknown;
+      uint8_t unkept = kUnknown;
+      uint8_t& others = keepsOthers ? allOthers[slot] : unkept;
+      if (t.isNew) others = kUnknown;
       if (isLeftOut(leftOutBy, static_cast<uint32_t>(db_.lights_[slot].footprint.y))) {
         t.state = Occlusion::full;
-        others[slot] = static_cast<uint8_t>(Occlusion::full);
+        others = static_cast<uint8_t>(Occlusion::full);
       } else if (t.work != Work::inherit) {
         if (t.met.object == kNone) t.met = met;
         if (t.metMover.object == kNone) t.metMover = metMover;
-        t.state = check(p, region, t, {some, i, shaft}, t.isSieved, others[slot], t.met, t.metMover,
-                        tests);
+        t.state =
+            check(p, region, t, {some, i, shaft}, t.isSieved, others, t.met, t.metMover, tests);
         met = t.met;
         metMover = t.metMover;
       }

@@ -91,6 +91,7 @@ TEST_F(PlacingTools, AGridFillsItsCells) {
   EXPECT_THROW(session_.actions().run(session_, "edit.duplicate_grid 100 100 2 1 1 1"), InputError);
   // Cells are many or few by what is in each: the whole level has to be one that can be worked in.
   const size_t nodes = session_.document().scene.nodes.size();
+  session_.select({light_});
   session_.actions().run(session_, "edit.duplicate_line 9000 1 0 0");
   const size_t many = session_.document().scene.nodes.size();
   EXPECT_THROW(session_.actions().run(session_, "edit.duplicate_line 50 0 0 1"), InputError);

@@ -66,7 +66,10 @@ class ManyLights::Stages {
 GiOutput ManyLights::render(const FrameInputs& in) {
   GiOutput out;
   Stages stages(in, out.stats);
-  const Options options(in.settings, in.refineUpdates > 0);
+  Options options(in.settings, in.refineUpdates > 0);
+  const bool wantsVisibility = options.useVisibility;
+  if (in.changes.rebuilt || lights_.slots() != neededFor_) visibilityNeeds_ = 0;
+  if (visibilityNeeds_ > options.visibilityBytes) options.forgoVisibility();
 
   // 1. Which VPLs the scene asks for, and which of those shown are out of date.
   takeScene(in, options);
@@ -75,7 +78,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
   // 2. Some of them, each wholly: place, intensity, where its map must be looked up,
   out.stats.vplsRefreshed = refreshLights(in, options);
-  updateVisibility(in, out.stats);
+  updateVisibility(in, options, out.stats);
   stages.end("visibility");
 
   // 3. the map, if that is anywhere in view, and the light that it sheds without shadows.
@@ -162,6 +165,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.mapsHeld = lights_.mapsHeld();
   out.stats.mapsWithoutRoom = lights_.withoutMap();
   if (visibility_) out.stats.memoryBytes["visibility"] = visibility_->bytes();
+  if (wantsVisibility && !visibility_) out.stats.visibilityNeeds = visibilityNeeds_;
   if (lightMaps_) out.stats.memoryBytes["light maps"] = lightMaps_->bytes();
   return out;
 }
@@ -264,10 +268,18 @@ void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
   visibility_->setScene(in.scene, changes);
 }
 
-void ManyLights::updateVisibility(const FrameInputs& in, GiStats& stats) {
+void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiStats& stats) {
   if (!visibility_) return;
+  const std::vector<shared::Vpl> shown = shownBySlot();
+  visibilityNeeds_ = visibility_->leastBytes(shown.size());
+  neededFor_ = lights_.slots();
+  if (visibilityNeeds_ > options.visibilityBytes) {
+    visibility_.reset();
+    options.forgoVisibility();
+    return;
+  }
   const uint64_t before = visibility_->tests();
-  visibility_->setLights(in.scene, shownBySlot());
+  visibility_->setLights(in.scene, shown);
   // Those whose maps still show what moved where it was wait with them.
   const std::vector<bool> upToDate = lights_.upToDate();
   std::vector<int> slots;

@@ -40,7 +40,7 @@ class ManyLights final : public GiMethod {
   void takePart(const FrameInputs& in, const Options& options, std::vector<shared::Vpl>& vpls,
                 bool isNew);
   int refreshLights(const FrameInputs& in, const Options& options);
-  void updateVisibility(const FrameInputs& in, GiStats& stats);
+  void updateVisibility(const FrameInputs& in, Options& options, GiStats& stats);
   void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
@@ -63,6 +63,8 @@ class ManyLights final : public GiMethod {
   PointVisibility pointVisibility_;  // of what VPLs are chosen for
   LiveLights lights_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
+  size_t visibilityNeeds_ = 0;                      // bytes at least, as found last
+  int neededFor_ = 0;                               // so many slots
   std::vector<uint8_t> wanted_;                     // by slot: its map is looked up
   StandIns standIns_;                               // for those that have none
   std::unique_ptr<LightMaps> lightMaps_;            // likewise

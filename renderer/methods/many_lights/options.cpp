@@ -69,4 +69,9 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
                 std::max(mostMaps / kRefinementShare, 1)};
 }
 
+void ManyLightsOptions::forgoVisibility() {
+  useVisibility = useLightMaps = usePrt = false;
+  block = 1;
+}
+
 }  // namespace lamplighter

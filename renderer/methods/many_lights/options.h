@@ -13,6 +13,9 @@ struct ManyLightsOptions {
   ManyLightsOptions(const Settings& settings, bool refines);
   ManyLightsOptions() = default;
 
+  // All that is made of visibility is left out, as in naive.
+  void forgoVisibility();
+
   VplCounts counts;
   int mapResolution = 0;
   float groupShare = 0.0f;

@@ -153,10 +153,11 @@ const ParameterSpec& visibilityMemory() {
       "visibility_memory",
       "Visibility memory",
       "MiB",
-      "What is known of each light sample at each patch takes no more memory than this: patches of "
-      "large levels are divided less far where thousands of light samples would need more, and "
-      "more shadow maps are looked up there. The picture stays the same. Nothing for naive.",
-      512,
+      "What is known of each light sample at each patch takes no more memory than this. Where "
+      "thousands of light samples on a large level would need more, patches are divided less far, "
+      "so that more shadow maps are looked up; where even whole patches do not fit, all are looked "
+      "up as by naive. The light stays the same. Nothing for naive.",
+      1024,
       1,
       65536,
       true,

@@ -124,8 +124,8 @@ TEST(LightMaps, HoldTheSumOfTheirLights) {
       for (const vec2& share : {vec2(0, 0), vec2(1, 0), vec2(1, 1)}) {
         const vec3 at = chart.at(glm::mix(patch.min, patch.max, share));
         vec3 e(0.0f);
-        for (size_t slot = 0; slot < held.size(); ++slot) {
-          if (held[slot] == 0) continue;
+        for (size_t slot = 0; slot < kept.lights.size(); ++slot) {
+          if (!held[slot]) continue;
           EXPECT_NE(kept.visibility.state(object, leaf, static_cast<int>(slot)), Occlusion::full);
           ++heldLights;
           e += shared::vplGeometry(kept.lights[slot], at, chart.normal, chart.normal, kClamp) *

@@ -12,6 +12,8 @@
 #include "renderer/scene/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
@@ -126,8 +128,39 @@ TEST(VisibilityMemory, ThePictureStaysTheSame) {
   EXPECT_LE(little.stats.memoryBytes.at("visibility"), kMebibyte);
   const double error = compareImages(little.radiance->pixels(), plenty.radiance->pixels()).relRmse;
   EXPECT_LT(error, 0.005);
-  std::cout << "relRMSE " << 100.0 * error << "%, maps " << plenty.stats.mapsHeld << " and "
-            << little.stats.mapsHeld << '\n';
+  std::cout << "relRMSE " << 100.0 * error << "%\n";
+}
+
+// Of so many patches that even the roots have no room: as naive, until there is room again.
+TEST(VisibilityMemory, WhereNothingFitsThePictureIsThatOfNaive) {
+  Scene scene = pillarRoom();
+  View view;
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) view = viewOfCamera(scene, node, 64, 40);
+  const auto box = test::boxMesh(vec3(0.05f));
+  for (int i = 0; i < 1000; ++i)
+    test::addMesh(scene, box,
+                  vec3(0.1f * static_cast<float>(i % 40), 0.1f, 0.1f * static_cast<float>(i / 40)));
+  Settings settings;
+  settings.set(parameters::vpls().name, 300);
+  settings.set(parameters::bounces().name, 1);
+  settings.set(parameters::updates().name, 1000);
+  settings.set(parameters::antialias().name, 1);
+  settings.set(parameters::visibilityMemory().name, 1);
+  FrameRenderer renderer(makeCpuBackend());
+  const GiOutput without =
+      test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+  EXPECT_GT(without.stats.visibilityNeeds, kMebibyte);
+  EXPECT_EQ(without.stats.memoryBytes.count("visibility"), 0u);
+  settings.set(parameters::visibilityMemory().name, 512);
+  const GiOutput with = test::renderSettled(renderer, scene, {}, view, settings);
+  EXPECT_EQ(with.stats.visibilityNeeds, 0u);
+  EXPECT_GT(with.stats.memoryBytes.at("visibility"), kMebibyte);
+  settings.set(parameters::technique().name, std::string("naive"));
+  FrameRenderer other(makeCpuBackend());
+  const GiOutput naive = test::renderSettled(other, scene, SceneChanges::all(), view, settings);
+  EXPECT_TRUE(test::sameBits(without.radiance->pixels(), naive.radiance->pixels()));
+  EXPECT_LT(compareImages(with.radiance->pixels(), naive.radiance->pixels()).relRmse, 0.03);
 }
 
 }  // namespace
