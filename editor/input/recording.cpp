@@ -112,6 +112,9 @@ RecordingHeader headerOf(const Json& j) {
   RecordingHeader h;
   h.scene = stringOf(j, "scene", "");
   h.sceneHash = stringOf(j, "sceneHash", "");
+  h.left = stringOf(j, "left", "");
+  if (h.left.find_first_of("/\\") != std::string::npos || h.left.starts_with('.'))
+    throw std::invalid_argument("\"left\" is no name of a folder beside the recording");
   if (j.contains("window")) {
     const Json& window = j["window"];
     if (!window.is_array() || window.size() != 2)
@@ -176,10 +179,14 @@ Checkpoint checkpointOf(const Json& j) {
 
 }  // namespace
 
-std::filesystem::path Recording::scenePath() const {
-  if (header.scene.empty()) return {};
-  return (path.has_parent_path() ? path.parent_path() : std::filesystem::path(".")) / header.scene;
+std::filesystem::path Recording::beside(const std::string& name) const {
+  if (name.empty()) return {};
+  return (path.has_parent_path() ? path.parent_path() : std::filesystem::path(".")) / name;
 }
+
+std::filesystem::path Recording::scenePath() const { return beside(header.scene); }
+
+std::filesystem::path Recording::leftPath() const { return beside(header.left); }
 
 std::filesystem::path Recording::baselineOf(const Checkpoint& checkpoint) const {
   std::filesystem::path p = path;
@@ -231,6 +238,7 @@ Recording readRecording(const std::filesystem::path& path) {
 std::string headerText(const RecordingHeader& h) {
   Json j{{"lamplighter", kFormat}, {"scene", h.scene}};
   if (!h.sceneHash.empty()) j["sceneHash"] = h.sceneHash;
+  if (!h.left.empty()) j["left"] = h.left;
   j["window"] = {h.width, h.height};
   j["fps"] = h.framesPerSecond;
   j["method"] = h.render.method;

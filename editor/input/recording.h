@@ -27,8 +27,11 @@
 namespace lamplighter {
 
 struct RecordingHeader {
-  std::string scene;               // relative to the recording's folder; "": no scene
-  std::string sceneHash;           // of the scene file's bytes, as hex; "": not checked
+  std::string scene;      // relative to the recording's folder; "": no scene
+  std::string sceneHash;  // of the scene file's bytes, as hex; "": not checked
+  // Folder with journals that killed processes have left, beside the recording. The replay finds
+  // copies of them, and keeps a journal itself; "": neither.
+  std::string left;
   int width = 1280, height = 720;  // of the window, pixels
   int framesPerSecond = 60;        // the fixed time step
   RenderSettings render;
@@ -55,7 +58,11 @@ struct Recording {
   std::vector<RecordingLine> lines;
 
   std::filesystem::path scenePath() const;  // empty when there is none
+  std::filesystem::path leftPath() const;   // likewise
   std::filesystem::path baselineOf(const Checkpoint& checkpoint) const;
+
+ private:
+  std::filesystem::path beside(const std::string& name) const;
 };
 
 // Throws InputError "FILE:LINE: what is wrong; what to do".

@@ -79,6 +79,9 @@ TEST_F(RecordingRobustness, HeadersThatMeanNothingAreRefused) {
            R"({"lamplighter":1,"fps":1e12})",
            R"({"lamplighter":1,"exposure":1e39})",
            R"({"lamplighter":1,"scene":7})",
+           R"({"lamplighter":1,"left":"../.."})",
+           R"({"lamplighter":1,"left":".."})",
+           R"({"lamplighter":1,"left":"/home"})",
            R"({"lamplighter":1,"settings":[1]})",
            R"({"lamplighter":"1"})",
        }) {

@@ -51,6 +51,7 @@ std::vector<InputEvent> oneOfEach() {
 TEST_F(RecordingFile, WhatWasRecordedIsReadBack) {
   RecordingHeader header;
   header.scene = "scene.gltf";
+  header.left = "left_behind";
   header.render.exposureEv = 1.5f;
   header.render.values.set("vpls", 64);
   header.render.values.set("direct_share", 0.25f);
@@ -63,6 +64,7 @@ TEST_F(RecordingFile, WhatWasRecordedIsReadBack) {
   const Recording r = readRecording(path_);
   EXPECT_EQ(r.header.render, header.render);
   EXPECT_EQ(r.scenePath(), path_.parent_path() / "scene.gltf");
+  EXPECT_EQ(r.leftPath(), path_.parent_path() / "left_behind");
   ASSERT_EQ(r.lines.size(), oneOfEach().size() + 1);
   for (size_t i = 0; i < oneOfEach().size(); ++i) {
     EXPECT_EQ(r.lines[i].frame, 1u);

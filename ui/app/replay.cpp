@@ -31,7 +31,7 @@ constexpr int kPatience = 5000;
 // Frames without input before a checkpoint counts: some widgets act a frame after the input.
 constexpr int kQuietFrames = 2;
 
-// Where actions of a recording save: in the folder for its pictures, or else where it is gone
+// Where actions of a recording save: in the folder that is asked for, or else where it is gone
 // after.
 class WriteFolder {
  public:
@@ -69,6 +69,7 @@ class Replay {
  private:
   const RecordingHeader& header() const { return player_.recording().header; }
   void start(Application& app);
+  void keepJournal(Session& session);
   void check(Application& app, Platform& platform, const Checkpoint& checkpoint);
   std::string documentProblem(const Session& session, const Checkpoint& checkpoint);
   std::string pictureProblem(Session& session, const Image8& picture, const Checkpoint& checkpoint);
@@ -80,6 +81,7 @@ class Replay {
   Recording updated_;  // with the hashes of this run
   Player player_;
   WriteFolder writeFolder_;
+  std::optional<WriteFolder> journals_;  // with what others have left, where the recording has some
   int passed_ = 0, failed_ = 0;
   nlohmann::ordered_json checks_ = nlohmann::ordered_json::array();
 };
@@ -92,6 +94,7 @@ void Replay::start(Application& app) {
   session.home().writeFolder = writeFolder_.path();
   session.document().render = header().render;
   if (!options_.method.empty()) session.document().render.method = options_.method;
+  keepJournal(session);
   for (int i = 0; i < 2; ++i) app.frame();  // the layout's sizes are known after these
   const fs::path scene = player_.recording().scenePath();
   if (scene.empty()) return;
@@ -103,6 +106,18 @@ void Replay::start(Application& app) {
                      "the scene " + scene.string() + " is not the one that was recorded",
                      "replay with --update-baselines if it was changed on purpose");
   app.openNow(scene);
+}
+
+void Replay::keepJournal(Session& session) {
+  const fs::path left = player_.recording().leftPath();
+  if (left.empty()) return;
+  journals_.emplace(fs::path());
+  std::error_code error;
+  fs::copy(left, journals_->path(), fs::copy_options::recursive, error);
+  if (error)
+    throw InputError(left.string(), "cannot be copied: " + error.message(),
+                     "put there what the recording finds, or take \"left\" out of it");
+  session.keepJournal(journals_->path(), ::getpid(), [] { return int64_t{0}; });
 }
 
 int Replay::run(Platform& platform, const MakeRenderer& makeRenderer) {
