@@ -44,18 +44,19 @@ float Session::cameraSpeed() const { return tools_->camera.speed(); }
 bool Session::flying() const { return tools_->camera.flying(); }
 
 void Session::frameSelection() {
+  const std::unordered_set<NodeId> selected = document_.selected();
   Bounds bounds;
   for (const RenderObject& o : renderer_->scene().objects) {
     for (const Node* n = document_.scene.find(o.node); n != nullptr;
          n = document_.scene.find(n->parent)) {
-      if (document_.isSelected(n->id)) {
+      if (selected.contains(n->id)) {
         bounds.add(o.bounds);
         break;
       }
     }
   }
   for (const RenderPunctual& p : renderer_->scene().punctuals) {
-    if (document_.isSelected(p.node)) bounds.add(p.position);
+    if (selected.contains(p.node)) bounds.add(p.position);
   }
   tools_->camera.frame(view_, bounds.empty() ? renderer_->scene().bounds : bounds);
 }

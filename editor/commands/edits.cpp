@@ -197,7 +197,7 @@ std::vector<NodeId> topmost(const Scene& scene, const std::vector<NodeId>& ids) 
 }
 
 void requireRoomFor(const Scene& scene, size_t more) {
-  constexpr size_t kMostNodes = 100000;
+  constexpr size_t kMostNodes = 20000;
   if (more <= kMostNodes && scene.nodes.size() + more <= kMostNodes) return;
   throw InputError(std::to_string(more) + " more objects", "are too many for this level",
                    "a level takes copies up to " + std::to_string(kMostNodes) + " objects");

@@ -126,7 +126,7 @@ struct Copies {
 };
 Copies copyNodes(Scene& scene, const std::vector<NodeId>& ids);
 
-// Throws InputError where a level with so many more objects would have more than 100,000.
+// Throws InputError where a level with so many more objects would have more than 20,000.
 void requireRoomFor(const Scene& scene, size_t more);
 
 // `ids` without those that hang below another of them, in the order of Scene::nodes.

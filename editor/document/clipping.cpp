@@ -1,6 +1,7 @@
 #include "editor/document/clipping.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace lamplighter {
 
@@ -75,14 +76,13 @@ bool hasMaterials(const Mesh& mesh, const std::map<int, int>& newIndex) {
 
 Clipping clip(const Scene& scene, const std::vector<NodeId>& ids) {
   Clipping out;
-  for (const Node& n : scene.nodes) {
-    bool isIn = false;
-    for (const Node* p = &n; p != nullptr && !isIn; p = scene.find(p->parent))
-      isIn = std::find(ids.begin(), ids.end(), p->id) != ids.end();
-    if (!isIn) continue;
+  const std::unordered_set<NodeId> given(ids.begin(), ids.end());
+  std::unordered_set<NodeId> taken;
+  for (const Node& n : scene.nodes) {  // parents come first
+    const bool isBelow = n.parent != kNoNode && taken.contains(n.parent);
+    if (!isBelow && !given.contains(n.id)) continue;
+    taken.insert(n.id);
     out.nodes.push_back(n);
-    const bool isBelow = std::any_of(out.nodes.begin(), out.nodes.end(),
-                                     [&](const Node& other) { return other.id == n.parent; });
     if (!isBelow) out.places[n.id] = decompose(worldMatrix(scene, n.id));
     if (n.mesh != kNone) out.meshes[n.mesh] = scene.meshes[static_cast<size_t>(n.mesh)];
   }

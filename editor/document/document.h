@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "renderer/parameters.h"
@@ -27,6 +28,8 @@ struct Document {
   std::filesystem::path path;     // empty: never saved
 
   bool isSelected(NodeId id) const;
+  // For those who ask of many.
+  std::unordered_set<NodeId> selected() const { return {selection.begin(), selection.end()}; }
   NodeId active() const { return selection.empty() ? kNoNode : selection.back(); }
 };
 

@@ -96,8 +96,9 @@ std::vector<LightSource> lightsOf(const Scene& scene) {
 
 std::vector<LightSource> selectedLights(const Document& document) {
   std::vector<LightSource> out = lightsOf(document.scene);
+  const std::unordered_set<NodeId> selected = document.selected();
   std::erase_if(
-      out, [&](const LightSource& l) { return l.node == kNoNode || !document.isSelected(l.node); });
+      out, [&](const LightSource& l) { return l.node == kNoNode || !selected.contains(l.node); });
   return out;
 }
 

@@ -102,6 +102,7 @@ std::vector<LightRow> lightRows(const Document& document, LightUnit unit) {
   const Scene& scene = document.scene;
   const ShiningLights shining = shiningLights(scene);
   const std::vector<bool> visible = visibleNodes(scene);
+  const std::unordered_set<NodeId> selected = document.selected();
   std::vector<LightRow> rows;
   for (const LightSource& light : lightsOf(scene)) {
     LightRow r;
@@ -118,7 +119,7 @@ std::vector<LightRow> lightRows(const Document& document, LightUnit unit) {
     r.state = stateOf(scene, light);
     r.visible = isSky || visible[light.index];
     r.shines = isSky ? shining.sky : shining.nodes[light.index];
-    r.selected = !isSky && document.isSelected(light.node);
+    r.selected = !isSky && selected.contains(light.node);
     rows.push_back(std::move(r));
   }
   return rows;

@@ -107,8 +107,9 @@ void drawLeftOut(Overlay& overlay, const View& view, const Document& document,
   const Scene& scene = document.scene;
   const LightLinks links = lightLinks(scene);
   if (links.count == 0) return;
+  const std::unordered_set<NodeId> selected = document.selected();
   for (size_t light = 0; light < scene.nodes.size(); ++light) {
-    if (!document.isSelected(scene.nodes[light].id) || links.ofLight[light] == 0) continue;
+    if (!selected.contains(scene.nodes[light].id) || links.ofLight[light] == 0) continue;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
       const Node& n = scene.nodes[i];
       if (n.mesh == kNone || !visible[i] || !isLeftOut(links.leftOutBy[i], links.ofLight[light]))
@@ -129,15 +130,16 @@ void drawLeftOut(Overlay& overlay, const View& view, const Document& document,
 
 void drawScene(Overlay& overlay, const View& view, const Document& document,
                const RenderScene& scene) {
+  const std::unordered_set<NodeId> selection = document.selected();
   const auto colourOf = [&](NodeId id, const vec4& plain) {
-    return id == document.active() ? kActive : document.isSelected(id) ? kSelected : plain;
+    return id == document.active() ? kActive : selection.contains(id) ? kSelected : plain;
   };
   const std::vector<mat4> world = worldMatrices(document.scene);
   const std::vector<bool> visible = visibleNodes(document.scene);
   for (size_t i = 0; i < world.size(); ++i) {
     const Node& n = document.scene.nodes[i];
     if (!visible[i]) continue;
-    const bool selected = document.isSelected(n.id);
+    const bool selected = selection.contains(n.id);
     if (n.area && selected) drawAreaLight(overlay, view, *n.area, world[i], colourOf(n.id, kLight));
     if (n.mesh != kNone && selected)
       drawBox(overlay, view, *document.scene.meshes[n.mesh], world[i], colourOf(n.id, kLight));

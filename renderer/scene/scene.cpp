@@ -10,6 +10,7 @@
 namespace lamplighter {
 
 const Node* Scene::find(NodeId id) const {
+  if (id == kNoNode) return nullptr;
   // New nodes have larger ids and stand at the end, so that ids mostly grow; all are looked through
   // where one is not found so, because it was moved.
   size_t first = 0, last = nodes.size();

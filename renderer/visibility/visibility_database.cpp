@@ -24,63 +24,6 @@ bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
 }  // namespace
 
-void VisibilityDatabase::resize(size_t slots) {
-  waiting_.resize(std::max(slots, waiting_.size()));
-  knowsNow_.resize(waiting_.size(), 0);
-  const size_t stride = rowBytes(slots);
-  if (stride == stride_) return;
-  const auto fit = [&](std::vector<uint8_t>& row, uint8_t fill) {
-    std::vector<uint8_t> next(stride, fill);  // of just that many bytes
-    std::copy_n(row.begin(), std::min(row.size(), stride), next.begin());
-    row.swap(next);
-  };
-  for (size_t object = 0; object < rows_.size(); ++object) {
-    for (size_t patch = 0; patch < rows_[object].size(); ++patch) {
-      Row& row = rows_[object][patch];
-      // Before there were lights not even roots had any.
-      const bool isRoot = patches_[object].patches[patch].parent == kNone;
-      if (isRoot || !row.states.empty()) fit(row.states, static_cast<uint8_t>(Occlusion::partial));
-      if (!row.withoutMovers.empty()) fit(row.withoutMovers, kUnknown);
-    }
-  }
-  stride_ = stride;
-}
-
-std::vector<size_t> VisibilityDatabase::patchesAtLevels() const {
-  std::vector<size_t> patches(1, 0);
-  for (const ObjectPatches& p : patches_) {
-    patches.resize(std::max(patches.size(), p.countAtLevel.size()), 0);
-    for (size_t level = 0; level < p.countAtLevel.size(); ++level)
-      patches[level] += p.countAtLevel[level];
-  }
-  return patches;
-}
-
-// By what is there and nothing else, so that it is the same however that came about. Whether other
-// patches may be divided than before.
-bool VisibilityDatabase::takeMemoryLimit() {
-  const std::vector<size_t> patches = patchesAtLevels();
-  const size_t before = levels_;
-  levels_ = kAllLevels;
-  size_t bytes = 0;  // of states
-  for (size_t level = 0; level < patches.size(); ++level) {
-    const size_t more = bytes + patches[level] * stride_;
-    if (level > 0 && more > mostBytes_) {
-      levels_ = level;
-      break;
-    }
-    bytes = more;
-  }
-  const bool kept = std::exchange(keepsOthers_, 2 * bytes <= mostBytes_);
-  if (kept && !keepsOthers_) forgetOthers();
-  return levels_ != before;
-}
-
-void VisibilityDatabase::forgetOthers() {
-  for (auto& rows : rows_)
-    for (Row& row : rows) std::vector<uint8_t>().swap(row.withoutMovers);
-}
-
 void VisibilityDatabase::addWaiting(int object, const Caster& before, bool couldHide) {
   for (size_t slot = 0; slot < lights_.size(); ++slot) {
     if (!isLight(lights_[slot])) continue;
@@ -212,7 +155,7 @@ void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneCha
   if (moves_.empty()) return;
   occluders_.finish(scene);
   growTree();
-  limitChanged_ = takeMemoryLimit() || limitChanged_;
+  limitChanged_ = takeMemoryLimit(stride_) || limitChanged_;
 }
 
 void VisibilityDatabase::growTree() {
@@ -251,6 +194,7 @@ void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const sha
   bool areGone = false;
   for (size_t i = 0; i < lights_.size(); ++i)
     areGone = areGone || (isLight(lights_[i]) && (i >= bySlot.size() || !isLight(bySlot[i])));
+  limitChanged_ = takeMemoryLimit(rowBytes(bySlot.size())) || limitChanged_;
   resize(bySlot.size());
   std::vector<int> slots;
   for (size_t i = 0; i < bySlot.size(); ++i) {
@@ -263,7 +207,6 @@ void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const sha
   lights_.assign(bySlot.begin(), bySlot.end());
   isLive_.resize(lights_.size());
   for (size_t i = 0; i < lights_.size(); ++i) isLive_[i] = isLight(lights_[i]) ? 1 : 0;
-  limitChanged_ = takeMemoryLimit() || limitChanged_;
   const bool mayDivide = std::exchange(limitChanged_, false) || areGone;
   if (slots.empty() && !mayDivide) return;
   const uint64_t before = tests_;
@@ -287,13 +230,6 @@ void VisibilityDatabase::refresh(const RenderScene& scene, std::span<const int> 
 
 void VisibilityDatabase::clearChanged() {
   for (auto& patches : changed_) std::fill(patches.begin(), patches.end(), 0);
-}
-
-size_t VisibilityDatabase::bytes() const {
-  size_t bytes = 0;
-  for (const auto& rows : rows_)
-    for (const Row& row : rows) bytes += row.states.capacity() + row.withoutMovers.capacity();
-  return bytes;
 }
 
 VisibilityCounts VisibilityDatabase::counts() const {

@@ -112,8 +112,9 @@ class VisibilityDatabase {
     Bounds before, after;
   };
   struct Column;  // a light, and what of the scene it has to take in
-  struct Task;    // one light at one patch
-  class Update;   // brings columns up to date (visibility_update.cpp)
+  enum class Work : uint8_t;
+  struct Task;   // one light at one patch
+  class Update;  // brings columns up to date (visibility_update.h)
   static constexpr uint8_t kUnknown = 255;
   static constexpr size_t kSlotsAStep = 64;  // by which rows grow
   static constexpr size_t kAllLevels = std::numeric_limits<size_t>::max();
@@ -147,7 +148,8 @@ class VisibilityDatabase {
   static size_t rowBytes(size_t slots) {
     return (slots + kSlotsAStep - 1) / kSlotsAStep * kSlotsAStep;
   }
-  bool takeMemoryLimit();
+  bool takeMemoryLimit(size_t stride);
+  void forgetBelow();
 
   // By object.
   std::vector<MeshTopology> topologies_;

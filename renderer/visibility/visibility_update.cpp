@@ -1,41 +1,25 @@
 // x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
 #define HWY_DISABLE_PCLMUL_AES 1
 
-// Columns of the visibility database brought up to date: patch by patch from the roots, at each for
-// all lights at once, so that it is known there whether the patch is divided before its children
-// are looked at.
-#include <algorithm>
+#include "renderer/visibility/visibility_update.h"
+
 #include <array>
-#include <atomic>
-#include <numeric>
 
 #include <hwy/highway.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "renderer/scene/light_linking.h"
-#include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A patch is divided where more lights than this share of all, and than this many, are partial.
-constexpr float kMostPartialShare = 0.05f;
-constexpr int kMostPartial = 4;
-
-// Roots, and lights at a patch, that are one piece of work for a thread.
-constexpr size_t kRootsAPiece = 64;
+// Lights at a patch that are one piece of work for a thread.
 constexpr size_t kLightsAPiece = 32;
 constexpr size_t kLightsAShaft = 4;    // fewer are looked at alone
 constexpr size_t kLightsToShare = 96;  // fewer are not shared out
-
-// Where an object is and was before are looked at as one if the sphere around both is no larger
-// than this times its own.
-constexpr float kOneReach = 1.3f;
-
-bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
 // Entries that are partial, of lights that are live (1, else 0).
 int countPartial(std::span<const uint8_t> states, std::span<const uint8_t> isLive) {
@@ -50,98 +34,7 @@ int countPartial(std::span<const uint8_t> states, std::span<const uint8_t> isLiv
   return static_cast<int>(count);
 }
 
-// What is to be done for a light at a patch.
-enum class Work : uint8_t {
-  inherit,  // it is as it is at the parent
-  check,    // it is as it was, but for what moved
-  anew
-};
-
 }  // namespace
-
-struct VisibilityDatabase::Column {
-  int slot = 0;
-  bool moversAreAll = true;      // what it waits for are the movers of now, and no more
-  bool moversHidNothing = true;  // nor could what it waits for hide a patch alone
-  // Of what it waits for, before and now; most wait for one thing.
-  ShadowReach reach;
-  std::vector<ShadowReach> more;
-  std::vector<int> objects;  // that it waits for: all their entries
-  bool mayFallOn(const vec3& centre, float radius) const {
-    return reach.mayFallOn(centre, radius) ||
-           std::any_of(more.begin(), more.end(),
-                       [&](const ShadowReach& r) { return r.mayFallOn(centre, radius); });
-  }
-};
-
-struct VisibilityDatabase::Task {
-  const Column* column = nullptr;  // null: that of a light of which nothing moved
-  int slot = 0;
-  Work work = Work::anew;
-  bool isNew = false;
-  bool isOfMover = false;  // the column waits for the object
-  // The entry before was not found by its own pyramid, which is not quite in that of the parent.
-  bool parentWasNone = false;
-  bool isSieved = false;                 // nothing that moved can be between: it stays
-  Occlusion was = Occlusion::partial;    // the entry before
-  Occlusion state = Occlusion::partial;  // inherit: the parent's; afterwards the entry
-  Blocker met, metMover;                 // at the parent, then here
-};
-
-class VisibilityDatabase::Update {
- public:
-  // allMayDivide: patches may be divided otherwise than they are though nothing changed on them.
-  // `order`: all slots.
-  Update(VisibilityDatabase& database, const RenderScene& scene, bool allMayDivide,
-         std::span<const int> order, std::atomic<uint64_t>& tests)
-      : db_(database), scene_(scene), allMayDivide_(allMayDivide), order_(order), tests_(tests) {
-    for (const uint32_t mover : database.movers_)
-      moversMayHide_ = moversMayHide_ || database.occluders_.mayHide(mover);
-  }
-
-  // The root and all below it; tasks in the order of slots.
-  void run(uint32_t object, int root, std::span<const Task> tasks) {
-    tasks_.assign(tasks.begin(), tasks.end());
-    visit(object, root, 0, 0);
-  }
-
- private:
-  void visit(uint32_t object, int patch, size_t level, size_t first);
-  void beginParts(uint32_t object, int patch, std::span<const Task> tasks, bool changedBefore);
-  void forgetParts(uint32_t object, int patch);
-  bool compute(uint32_t object, int patch, std::span<Task> tasks) const;
-  // What may stand between the lights of a cluster and a patch, looked for when first wanted.
-  struct Shaft {
-    int cluster = -1;
-    size_t first = 0, last = 0;  // of its tasks
-    LightShaft shaft{{}, PatchRegion(Bounds())};
-    Occluders::Candidates candidates;
-  };
-  // A task among others at the same patch.
-  struct Place {
-    std::span<const Task> tasks;
-    size_t index;
-    Shaft& shaft;
-  };
-  const Occluders::Candidates* candidatesOf(const Place& place, const PatchRegion& region) const;
-  Occlusion check(const Patch& patch, const PatchRegion& region, const Task& task,
-                  const Place& place, bool& isSieved, uint8_t& others, Blocker& met,
-                  Blocker& metMover, uint64_t& tests) const;
-  // Whether no mover makes a difference where this is the state by all others.
-  bool isDecided(uint8_t others) const {
-    return others == static_cast<uint8_t>(Occlusion::full) ||
-           (others == static_cast<uint8_t>(Occlusion::partial) && !moversMayHide_);
-  }
-  void passDown(uint32_t object, int patch, int child, bool wasDivided, size_t first, size_t last);
-
-  VisibilityDatabase& db_;
-  const RenderScene& scene_;
-  const bool allMayDivide_;
-  const std::span<const int> order_;
-  bool moversMayHide_ = false;
-  std::atomic<uint64_t>& tests_;
-  std::vector<Task> tasks_;  // those of the patch that is visited are the last
-};
 
 // One that is looked at, and all below it that are.
 void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level, size_t first) {
@@ -359,158 +252,6 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
         std::atomic_ref(db_.knowsNow_[slot]).store(1, std::memory_order_relaxed);
     }
   }
-}
-
-int VisibilityDatabase::mostPartial() const {
-  const auto lights = static_cast<float>(std::count_if(lights_.begin(), lights_.end(), isLight));
-  return std::max(kMostPartial, static_cast<int>(kMostPartialShare * lights));
-}
-
-// All columns of lights that are new.
-void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const int> slots,
-                                    bool mayDivide) {
-  const int most = mostPartial();
-  const bool allMayDivide = mayDivide || most != most_;
-  most_ = most;
-  std::vector<Task> tasks;
-  std::vector<bool> isNew(lights_.size(), false);
-  for (const int slot : slots) isNew[static_cast<size_t>(slot)] = true;
-  clusters_ = clusterLights(lights_);
-  for (const int slot : clusters_.order) {
-    if (!isNew[static_cast<size_t>(slot)] || !isLight(lights_[static_cast<size_t>(slot)])) continue;
-    Task& task = tasks.emplace_back();
-    task.slot = slot;
-    task.isNew = true;
-  }
-  if (tasks.empty() && !allMayDivide) return;
-  std::vector<std::pair<uint32_t, int>> roots;
-  for (uint32_t object = 0; object < patches_.size(); ++object)
-    for (const int root : patches_[object].roots) roots.emplace_back(object, root);
-  std::atomic<uint64_t> tests = 0;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, roots.size(), kRootsAPiece),
-                    [&](const tbb::blocked_range<size_t>& range) {
-                      Update update(*this, scene, allMayDivide, clusters_.order, tests);
-                      for (size_t i = range.begin(); i < range.end(); ++i)
-                        update.run(roots[i].first, roots[i].second, tasks);
-                    });
-  tests_ += tests;
-}
-
-VisibilityDatabase::Column VisibilityDatabase::takeWaiting(int slot) {
-  const auto i = static_cast<size_t>(slot);
-  const shared::Vpl& vpl = lights_[i];
-  Column column;
-  column.slot = slot;
-  const auto add = [&](const Caster& caster) {
-    const ShadowReach reach(vpl, caster);
-    if (!reach.isEmpty())
-      (column.reach.isEmpty() ? column.reach : column.more.emplace_back()) = reach;
-  };
-  for (const Waiting& w : waiting_[i]) {
-    column.moversHidNothing = column.moversHidNothing && !w.couldHide;
-    if (w.object == kNone) {
-      add(w.before);
-      continue;
-    }
-    const auto object = static_cast<uint32_t>(w.object);
-    const Caster now(patches_[object].bounds, patches_[object].radius);
-    const Caster both(w.before, now);
-    if (w.before.box.empty() || both.radius < kOneReach * now.radius) {
-      add(both);
-    } else {
-      add(w.before);
-      add(now);
-    }
-    column.objects.push_back(w.object);
-    column.moversAreAll =
-        column.moversAreAll && std::find(movers_.begin(), movers_.end(), object) != movers_.end();
-  }
-  waiting_[i].clear();
-  knowsNow_[i] = 0;
-  return column;
-}
-
-// Whole objects are left out where no shadow of what moved may fall on them, and then their roots.
-void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<const int> slots) {
-  std::vector<Column> columns;
-  for (const int slot : slots)
-    if (isLight(lights_[static_cast<size_t>(slot)])) columns.push_back(takeWaiting(slot));
-  std::sort(columns.begin(), columns.end(),
-            [](const Column& a, const Column& b) { return a.slot < b.slot; });
-
-  // Of objects that a column waits for all entries are looked at.
-  std::vector<bool> isWaitedFor(patches_.size(), false);
-  for (const Column& c : columns)
-    for (const int object : c.objects) isWaitedFor[static_cast<size_t>(object)] = true;
-
-  // Columns that reach what the trees come to: those of a node follow those of its parent.
-  std::vector<uint32_t> reaching;
-  std::vector<size_t> begins;
-  const auto narrow = [&](const vec3& centre, float radius) {
-    const size_t first = begins.back(), last = reaching.size();
-    begins.push_back(last);
-    for (size_t i = first; i < last; ++i)
-      if (columns[reaching[i]].mayFallOn(centre, radius)) reaching.push_back(reaching[i]);
-    return reaching.size() > last;
-  };
-  const auto narrowToBox = [&](const Bounds& b) { return narrow(b.centre(), b.radius()); };
-  const auto widen = [&] {
-    reaching.resize(begins.back());
-    begins.pop_back();
-  };
-  struct Job {
-    uint32_t object;
-    int root;
-    std::vector<Task> tasks;
-    void add(const Column& column, bool isOfMover) {
-      Task& task = tasks.emplace_back();
-      task.column = &column;
-      task.slot = column.slot;
-      task.work = Work::check;
-      task.isOfMover = isOfMover;
-    }
-  };
-  std::vector<Job> jobs;
-  begins.push_back(0);
-  for (uint32_t c = 0; c < columns.size(); ++c) reaching.push_back(c);
-  tree_.descend(
-      narrowToBox,
-      [&](uint32_t object) {
-        if (isWaitedFor[object]) return;
-        patches_[object].tree.descend(
-            narrowToBox,
-            [&](uint32_t r) {
-              const int root = patches_[object].roots[r];
-              const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
-              if (narrow(p.centre, p.radius)) {
-                Job& job = jobs.emplace_back(Job{object, root, {}});
-                for (size_t i = begins.back(); i < reaching.size(); ++i)
-                  job.add(columns[reaching[i]], false);
-              }
-              widen();
-            },
-            widen);
-      },
-      widen);
-  for (uint32_t object = 0; object < patches_.size(); ++object) {
-    if (!isWaitedFor[object]) continue;
-    for (const int root : patches_[object].roots) {
-      const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
-      Job& job = jobs.emplace_back(Job{object, root, {}});
-      for (const Column& c : columns) {
-        const bool isOfMover = std::find(c.objects.begin(), c.objects.end(),
-                                         static_cast<int>(object)) != c.objects.end();
-        if (isOfMover || c.mayFallOn(p.centre, p.radius)) job.add(c, isOfMover);
-      }
-    }
-  }
-  std::vector<int> order(lights_.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::atomic<uint64_t> tests = 0;
-  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    Update(*this, scene, false, order, tests).run(jobs[i].object, jobs[i].root, jobs[i].tasks);
-  });
-  tests_ += tests;
 }
 
 }  // namespace lamplighter

@@ -94,7 +94,7 @@ TEST_F(PlacingTools, AGridFillsItsCells) {
   session_.select({light_});
   session_.actions().run(session_, "edit.duplicate_line 9000 1 0 0");
   const size_t many = session_.document().scene.nodes.size();
-  EXPECT_THROW(session_.actions().run(session_, "edit.duplicate_line 50 0 0 1"), InputError);
+  EXPECT_THROW(session_.actions().run(session_, "edit.duplicate_line 2 0 0 1"), InputError);
   EXPECT_EQ(session_.document().scene.nodes.size(), many);
   session_.undo();
   EXPECT_EQ(session_.document().scene.nodes.size(), nodes);

@@ -1,0 +1,181 @@
+// Which columns of the visibility database are to be brought up to date, and where: all patches for
+// a light that is new, and those that a shadow may reach for one that waits.
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/visibility/visibility_update.h"
+
+namespace lamplighter {
+namespace {
+
+// A patch is divided where more lights than this share of all, and than this many, are partial.
+constexpr float kMostPartialShare = 0.05f;
+constexpr int kMostPartial = 4;
+
+constexpr size_t kRootsAPiece = 64;  // of work for a thread
+
+// Where an object is and was before are looked at as one if the sphere around both is no larger
+// than this times its own.
+constexpr float kOneReach = 1.3f;
+
+bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
+
+}  // namespace
+
+int VisibilityDatabase::mostPartial() const {
+  const auto lights = static_cast<float>(std::count_if(lights_.begin(), lights_.end(), isLight));
+  return std::max(kMostPartial, static_cast<int>(kMostPartialShare * lights));
+}
+
+// All columns of lights that are new.
+void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const int> slots,
+                                    bool mayDivide) {
+  const int most = mostPartial();
+  const bool allMayDivide = mayDivide || most != most_;
+  most_ = most;
+  std::vector<Task> tasks;
+  std::vector<bool> isNew(lights_.size(), false);
+  for (const int slot : slots) isNew[static_cast<size_t>(slot)] = true;
+  clusters_ = clusterLights(lights_);
+  for (const int slot : clusters_.order) {
+    if (!isNew[static_cast<size_t>(slot)] || !isLight(lights_[static_cast<size_t>(slot)])) continue;
+    Task& task = tasks.emplace_back();
+    task.slot = slot;
+    task.isNew = true;
+  }
+  if (tasks.empty() && !allMayDivide) return;
+  std::vector<std::pair<uint32_t, int>> roots;
+  for (uint32_t object = 0; object < patches_.size(); ++object)
+    for (const int root : patches_[object].roots) roots.emplace_back(object, root);
+  std::atomic<uint64_t> tests = 0;
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, roots.size(), kRootsAPiece),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      Update update(*this, scene, allMayDivide, clusters_.order, tests);
+                      for (size_t i = range.begin(); i < range.end(); ++i)
+                        update.run(roots[i].first, roots[i].second, tasks);
+                    });
+  tests_ += tests;
+}
+
+VisibilityDatabase::Column VisibilityDatabase::takeWaiting(int slot) {
+  const auto i = static_cast<size_t>(slot);
+  const shared::Vpl& vpl = lights_[i];
+  Column column;
+  column.slot = slot;
+  const auto add = [&](const Caster& caster) {
+    const ShadowReach reach(vpl, caster);
+    if (!reach.isEmpty())
+      (column.reach.isEmpty() ? column.reach : column.more.emplace_back()) = reach;
+  };
+  for (const Waiting& w : waiting_[i]) {
+    column.moversHidNothing = column.moversHidNothing && !w.couldHide;
+    if (w.object == kNone) {
+      add(w.before);
+      continue;
+    }
+    const auto object = static_cast<uint32_t>(w.object);
+    const Caster now(patches_[object].bounds, patches_[object].radius);
+    const Caster both(w.before, now);
+    if (w.before.box.empty() || both.radius < kOneReach * now.radius) {
+      add(both);
+    } else {
+      add(w.before);
+      add(now);
+    }
+    column.objects.push_back(w.object);
+    column.moversAreAll =
+        column.moversAreAll && std::find(movers_.begin(), movers_.end(), object) != movers_.end();
+  }
+  waiting_[i].clear();
+  knowsNow_[i] = 0;
+  return column;
+}
+
+// Whole objects are left out where no shadow of what moved may fall on them, and then their roots.
+void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<const int> slots) {
+  std::vector<Column> columns;
+  for (const int slot : slots)
+    if (isLight(lights_[static_cast<size_t>(slot)])) columns.push_back(takeWaiting(slot));
+  std::sort(columns.begin(), columns.end(),
+            [](const Column& a, const Column& b) { return a.slot < b.slot; });
+
+  // Of objects that a column waits for all entries are looked at.
+  std::vector<bool> isWaitedFor(patches_.size(), false);
+  for (const Column& c : columns)
+    for (const int object : c.objects) isWaitedFor[static_cast<size_t>(object)] = true;
+
+  // Columns that reach what the trees come to: those of a node follow those of its parent.
+  std::vector<uint32_t> reaching;
+  std::vector<size_t> begins;
+  const auto narrow = [&](const vec3& centre, float radius) {
+    const size_t first = begins.back(), last = reaching.size();
+    begins.push_back(last);
+    for (size_t i = first; i < last; ++i)
+      if (columns[reaching[i]].mayFallOn(centre, radius)) reaching.push_back(reaching[i]);
+    return reaching.size() > last;
+  };
+  const auto narrowToBox = [&](const Bounds& b) { return narrow(b.centre(), b.radius()); };
+  const auto widen = [&] {
+    reaching.resize(begins.back());
+    begins.pop_back();
+  };
+  struct Job {
+    uint32_t object;
+    int root;
+    std::vector<Task> tasks;
+    void add(const Column& column, bool isOfMover) {
+      Task& task = tasks.emplace_back();
+      task.column = &column;
+      task.slot = column.slot;
+      task.work = Work::check;
+      task.isOfMover = isOfMover;
+    }
+  };
+  std::vector<Job> jobs;
+  begins.push_back(0);
+  for (uint32_t c = 0; c < columns.size(); ++c) reaching.push_back(c);
+  tree_.descend(
+      narrowToBox,
+      [&](uint32_t object) {
+        if (isWaitedFor[object]) return;
+        patches_[object].tree.descend(
+            narrowToBox,
+            [&](uint32_t r) {
+              const int root = patches_[object].roots[r];
+              const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
+              if (narrow(p.centre, p.radius)) {
+                Job& job = jobs.emplace_back(Job{object, root, {}});
+                for (size_t i = begins.back(); i < reaching.size(); ++i)
+                  job.add(columns[reaching[i]], false);
+              }
+              widen();
+            },
+            widen);
+      },
+      widen);
+  for (uint32_t object = 0; object < patches_.size(); ++object) {
+    if (!isWaitedFor[object]) continue;
+    for (const int root : patches_[object].roots) {
+      const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
+      Job& job = jobs.emplace_back(Job{object, root, {}});
+      for (const Column& c : columns) {
+        const bool isOfMover = std::find(c.objects.begin(), c.objects.end(),
+                                         static_cast<int>(object)) != c.objects.end();
+        if (isOfMover || c.mayFallOn(p.centre, p.radius)) job.add(c, isOfMover);
+      }
+    }
+  }
+  std::vector<int> order(lights_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::atomic<uint64_t> tests = 0;
+  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
+    Update(*this, scene, false, order, tests).run(jobs[i].object, jobs[i].root, jobs[i].tasks);
+  });
+  tests_ += tests;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,90 @@
+// What the visibility database has entries for, within bounds.
+#include <algorithm>
+#include <utility>
+
+#include "renderer/visibility/visibility_database.h"
+
+namespace lamplighter {
+
+void VisibilityDatabase::resize(size_t slots) {
+  waiting_.resize(std::max(slots, waiting_.size()));
+  knowsNow_.resize(waiting_.size(), 0);
+  const size_t stride = rowBytes(slots);
+  if (stride == stride_) return;
+  const auto fit = [&](std::vector<uint8_t>& row, uint8_t fill) {
+    std::vector<uint8_t> next(stride, fill);  // of just that many bytes
+    std::copy_n(row.begin(), std::min(row.size(), stride), next.begin());
+    row.swap(next);
+  };
+  for (size_t object = 0; object < rows_.size(); ++object) {
+    for (size_t patch = 0; patch < rows_[object].size(); ++patch) {
+      Row& row = rows_[object][patch];
+      // Before there were lights not even roots had any.
+      const bool isRoot = patches_[object].patches[patch].parent == kNone;
+      if (isRoot || !row.states.empty()) fit(row.states, static_cast<uint8_t>(Occlusion::partial));
+      if (!row.withoutMovers.empty()) fit(row.withoutMovers, kUnknown);
+    }
+  }
+  stride_ = stride;
+}
+
+std::vector<size_t> VisibilityDatabase::patchesAtLevels() const {
+  std::vector<size_t> patches(1, 0);
+  for (const ObjectPatches& p : patches_) {
+    patches.resize(std::max(patches.size(), p.countAtLevel.size()), 0);
+    for (size_t level = 0; level < p.countAtLevel.size(); ++level)
+      patches[level] += p.countAtLevel[level];
+  }
+  return patches;
+}
+
+// How far patches may be divided with rows of so many bytes: by what is there and nothing else, so
+// that it is the same however that came about. Whether it is otherwise than before.
+bool VisibilityDatabase::takeMemoryLimit(size_t stride) {
+  const std::vector<size_t> patches = patchesAtLevels();
+  const size_t before = levels_;
+  levels_ = kAllLevels;
+  size_t bytes = 0;  // of states
+  for (size_t level = 0; level < patches.size(); ++level) {
+    const size_t more = bytes + patches[level] * stride;
+    if (level > 0 && more > mostBytes_) {
+      levels_ = level;
+      break;
+    }
+    bytes = more;
+  }
+  const bool kept = std::exchange(keepsOthers_, 2 * bytes <= mostBytes_);
+  if (kept && !keepsOthers_) forgetOthers();
+  if (levels_ < before) forgetBelow();
+  return levels_ != before;
+}
+
+// At once, so that rows are not made longer of what is to go.
+void VisibilityDatabase::forgetBelow() {
+  for (uint32_t object = 0; object < patches_.size(); ++object) {
+    const std::vector<Patch>& patches = patches_[object].patches;
+    std::vector<size_t> levels(patches.size(), 0);
+    for (size_t i = 0; i < patches.size(); ++i) {  // children stand after their parents
+      if (patches[i].parent != kNone)
+        levels[i] = levels[static_cast<size_t>(patches[i].parent)] + 1;
+      if (levels[i] >= levels_) rows_[object][i] = Row();
+      if (levels[i] + 1 < levels_ || divided_[object][i] == 0) continue;
+      divided_[object][i] = 0;
+      changed_[object][i] = 1;
+    }
+  }
+}
+
+void VisibilityDatabase::forgetOthers() {
+  for (auto& rows : rows_)
+    for (Row& row : rows) std::vector<uint8_t>().swap(row.withoutMovers);
+}
+
+size_t VisibilityDatabase::bytes() const {
+  size_t bytes = 0;
+  for (const auto& rows : rows_)
+    for (const Row& row : rows) bytes += row.states.capacity() + row.withoutMovers.capacity();
+  return bytes;
+}
+
+}  // namespace lamplighter
