@@ -1,6 +1,7 @@
 // What stood between another light and another patch is asked first, to be quick. It must change no
 // answer: which one that is hangs on threads, and on what was edited before.
-#include <array>
+#include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ TEST_P(OccluderHints, ChangeNoAnswer) {
   update(scene, level, SceneChanges::all());
   std::vector<shared::Vpl> lights;
   for (const SceneVpl& v :
-       generateVpls(scene, RayCaster(scene), LightSet(scene), {300, 0.3f, 3, 1}).vpls)
+       generateVpls(scene, RayCaster(scene), LightSet(scene), {200, 0.3f, 3, 1}).vpls)
     lights.push_back(v.vpl);
   Occluders occluders;
   occluders.resize(scene.objects.size());
@@ -74,32 +75,36 @@ TEST_P(OccluderHints, ChangeNoAnswer) {
   }
   EXPECT_EQ(otherwise, 0u) << "of " << among;
 
-  size_t asked = 0, differ = 0;
-  std::array<Blocker, 3> hints;  // of the light before, of the patch before, of long ago
-  for (uint32_t object = 0; object < patches.size(); ++object) {
-    for (size_t p = 0; p < patches[object].patches.size(); p += 3) {
-      const PatchRegion region(scene, object, patches[object], patches[object].patches[p]);
-      for (size_t light = 0; light < lights.size(); ++light) {
-        const OcclusionPyramid pyramid(lights[light], region);
-        Blocker none;
-        const Occlusion answer = occluders.occlusionWithout(scene, pyramid, {}, none);
-        for (Blocker& hint : hints) {
-          Blocker tried = hint;
-          differ += occluders.occlusionWithout(scene, pyramid, {}, tried) != answer;
-          ++asked;
-          if (&hint == &hints[0]) hint = tried;
+  // All that ever stood between: where nothing does, none of it is found to when it is asked first.
+  std::set<std::pair<int, uint32_t>> blockers;
+  const auto forAll = [&](const auto& visit) {
+    for (uint32_t object = 0; object < patches.size(); ++object) {
+      for (const Patch& patch : patches[object].patches) {
+        const PatchRegion region(scene, object, patches[object], patch);
+        for (const shared::Vpl& light : lights) {
+          const OcclusionPyramid pyramid(light, region);
+          Blocker met;
+          visit(pyramid, occluders.occlusionWithout(scene, pyramid, {}, met), met);
         }
-        if (light == p % lights.size()) hints[1] = none;
-        if (none.object != kNone && light % 97 == 0) hints[2] = none;
       }
     }
-  }
+  };
+  forAll([&](const OcclusionPyramid&, Occlusion, const Blocker& met) {
+    if (met.object != kNone) blockers.emplace(met.object, met.item);
+  });
+  size_t asked = 0, differ = 0;
+  forAll([&](const OcclusionPyramid& pyramid, Occlusion answer, const Blocker&) {
+    if (answer != Occlusion::none) return;
+    for (const auto& [object, item] : blockers) {
+      Blocker first{object, item};
+      differ += occluders.occlusionBy(scene, pyramid, {}, first) != Occlusion::none;
+      ++asked;
+    }
+  });
   EXPECT_GT(asked, 100000u);
-  EXPECT_EQ(differ, 0u) << "of " << asked;
+  EXPECT_EQ(differ, 0u) << "of " << asked << ", " << blockers.size() << " blockers";
 }
-INSTANTIATE_TEST_SUITE_P(Rooms, OccluderHints,
-                         testing::Values("pillar_room.gltf", "area_light_room.gltf", "default.gltf",
-                                         "table_room.gltf"));
+INSTANTIATE_TEST_SUITE_P(Rooms, OccluderHints, testing::Values("pillar_room.gltf", "default.gltf"));
 
 }  // namespace
 }  // namespace lamplighter
