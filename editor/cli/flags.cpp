@@ -17,7 +17,27 @@ namespace lamplighter::cli {
 
 namespace {
 
-const auto kBackends = CLI::IsMember({"auto", "cpu", "gl"});
+void addBackend(CLI::App& app, std::string& backend) {
+  app.add_option("--backend", backend, "gl, cpu or auto")
+      ->check(CLI::IsMember({"auto", "cpu", "gl"}))
+      ->capture_default_str();
+}
+
+void addThreads(CLI::App& app, int& threads) {
+  app.add_option("--threads", threads, "At most so many threads; 0: all cores")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+}
+
+// What is listed from the code: as text, as JSON, or as a page of the documentation.
+template <typename Options>
+void listFlags(CLI::App& sub, Run& run, const char* page, int (*print)(const Options&)) {
+  auto o = std::make_shared<Options>();
+  sub.add_flag("--json", o->json, "As JSON");
+  sub.add_flag("--markdown", o->markdown, std::string("As the tables of ") + page);
+  sub.footer("Example: lamplighter " + sub.get_name() + " --json");
+  sub.callback([=, &run] { run = [=] { return print(*o); }; });
+}
 
 // Each declares the flags of its subcommand and says what to run when it was the one called.
 
@@ -55,9 +75,7 @@ void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->type_name("NAME|INDEX");
   sub.add_option("--size", o->size, "WxH in pixels")->type_name("WxH")->capture_default_str();
   addMethodFlags(sub, *o, "Samples a pixel");
-  sub.add_option("--backend", o->backend, "gl, cpu or auto")
-      ->check(kBackends)
-      ->capture_default_str();
+  addBackend(sub, o->backend);
   sub.add_option("--sky", o->sky, "Another sky; radiance in W/(m2 sr), or a picture")
       ->type_name(kSkyUsage);
   sub.add_option("--sky-rotation", o->skyRotation, "Turns the sky's picture about the vertical")
@@ -78,9 +96,7 @@ void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->check(CLI::NonNegativeNumber);
   sub.add_flag("--marks", o->marks, "Mark the light samples, as the viewport does");
   sub.add_flag("--legend", o->legend, "Say in a strip below what the colours of the view mean");
-  sub.add_option("--threads", o->threads, "At most so many threads; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+  addThreads(sub, o->threads);
   sub.add_option("--stats", o->stats, "JSON file for timings and counts")->type_name("FILE");
   sub.footer(
       "Example: lamplighter render level.glb -o level.png --vpls 1024 --bounces 3 --exposure auto");
@@ -88,27 +104,15 @@ void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
 }
 
 void methodsFlags(CLI::App& sub, Run& run, const Frontend&) {
-  auto o = std::make_shared<MethodsOptions>();
-  sub.add_flag("--json", o->json, "As JSON");
-  sub.add_flag("--markdown", o->markdown, "As the tables of docs/parameters.md");
-  sub.footer("Example: lamplighter methods --json");
-  sub.callback([=, &run] { run = [=] { return methods(*o); }; });
+  listFlags(sub, run, "docs/parameters.md", methods);
 }
 
 void actionsFlags(CLI::App& sub, Run& run, const Frontend&) {
-  auto o = std::make_shared<ActionsOptions>();
-  sub.add_flag("--json", o->json, "As JSON");
-  sub.add_flag("--markdown", o->markdown, "As the tables of docs/actions.md");
-  sub.footer("Example: lamplighter actions --json");
-  sub.callback([=, &run] { run = [=] { return actions(*o); }; });
+  listFlags(sub, run, "docs/actions.md", actions);
 }
 
 void settingsFlags(CLI::App& sub, Run& run, const Frontend&) {
-  auto o = std::make_shared<SettingsOptions>();
-  sub.add_flag("--json", o->json, "As JSON");
-  sub.add_flag("--markdown", o->markdown, "As the tables of docs/settings.md");
-  sub.footer("Example: lamplighter settings --json");
-  sub.callback([=, &run] { run = [=] { return settings(*o); }; });
+  listFlags(sub, run, "docs/settings.md", settings);
 }
 
 void compareFlags(CLI::App& sub, Run& run, const Frontend&) {
@@ -146,12 +150,8 @@ void scriptFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_option("--size", o->size, "WxH of the view in pixels")
       ->type_name("WxH")
       ->capture_default_str();
-  sub.add_option("--backend", o->backend, "gl, cpu or auto")
-      ->check(kBackends)
-      ->capture_default_str();
-  sub.add_option("--threads", o->threads, "At most so many threads; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+  addBackend(sub, o->backend);
+  addThreads(sub, o->threads);
   sub.add_option("--journal", o->journal, "Keep every edit in this folder until the script ends")
       ->type_name("FOLDER");
   sub.footer("Example: lamplighter script relight.txt level.glb");
@@ -183,9 +183,7 @@ void bakeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_flag("--merge", o->merge, "Put the pages together from parts that are all there")
       ->excludes("--shard");
   sub.add_flag("--keep-parts", o->keepParts, "Leave the parts when the pages are there");
-  sub.add_option("--threads", o->threads, "At most so many threads; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+  addThreads(sub, o->threads);
   sub.footer(
       "Ctrl+C stops; the same command goes on from there.\n"
       "Example: lamplighter bake level.glb -o baked --method reference --spp 256");
@@ -207,12 +205,8 @@ void replayFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_option("--report", o->report, "JSON file for its checks and edit latencies")
       ->type_name("FILE");
   sub.add_option("--method", o->method, "Another method than the recorded one")->type_name("NAME");
-  sub.add_option("--backend", o->backend, "gl, cpu or auto")
-      ->check(kBackends)
-      ->capture_default_str();
-  sub.add_option("--threads", o->threads, "At most so many threads; 0: all cores")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1024));
+  addBackend(sub, o->backend);
+  addThreads(sub, o->threads);
   sub.footer("Example: lamplighter replay tests/recordings/place_light.jsonl --headless --check");
   sub.callback([=, &run, &frontend] { run = [=, &frontend] { return frontend.runReplay(*o); }; });
 }
@@ -261,9 +255,7 @@ void declareFlags(CLI::App& app, std::span<const char* const> words, EditorOptio
   app.add_option("SCENE", editor.scene, ".gltf or .glb file to edit [the default scene]")
       ->type_name("FILE");
   app.add_option("--record", editor.record, "Record all input to this file")->type_name("FILE");
-  app.add_option("--backend", editor.backend, "gl, cpu or auto")
-      ->check(kBackends)
-      ->capture_default_str();
+  addBackend(app, editor.backend);
   app.add_option("--journal", editor.journal,
                  "Keep every edit in this folder until it is saved [the user's state folder]")
       ->type_name("FOLDER");
