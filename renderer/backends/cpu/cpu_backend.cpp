@@ -1,6 +1,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 
 #include <algorithm>
+#include <atomic>
 #include <new>
 #include <stdexcept>
 
@@ -10,7 +11,7 @@
 #include "renderer/backends/cpu/gbuffer.h"
 #include "renderer/backends/cpu/light_sums.h"
 #include "renderer/backends/cpu/low_resolution.h"
-#include "renderer/backends/cpu/shadow_maps.h"
+#include "renderer/backends/cpu/shadow_raster.h"
 #include "renderer/backends/cpu/specular_sums.h"
 #include "renderer/error.h"
 
@@ -61,6 +62,7 @@ class CpuBackend final : public Backend {
     const bool isOther = changes.rebuilt || scene_ != &scene;
     scene_ = &scene;
     rays_ = &rays;
+    castersMoved_ = castersMoved_ || isOther || changes.materials || !changes.movedObjects.empty();
     if (isOther) {
       leftOutBy_.clear();
       for (const RenderObject& o : scene.objects)
@@ -106,14 +108,18 @@ class CpuBackend final : public Backend {
       });
     }
     const int tasks = (resolution_ + kRowsPerTask - 1) / kRowsPerTask;
+    if (castersMoved_) raster_.setScene(*scene_);
+    castersMoved_ = false;
+    raster_.setResolution(resolution_);
+    std::atomic<uint64_t> rays = 0;
     tbb::parallel_for(0, static_cast<int>(vpls.size()) * tasks, [&](int task) {
       const shared::Vpl& vpl = vpls[task / tasks];
       const int firstRow = (task % tasks) * kRowsPerTask;
       const int lastRow = std::min(firstRow + kRowsPerTask, resolution_);
-      cpu::traceShadowMap(*rays_, vpl, resolution_, firstRow, lastRow, {mapOf(vpl), texels});
+      rays += raster_.render(*rays_, vpl, firstRow, lastRow, {mapOf(vpl), texels});
     });
     counts_.shadowMaps += vpls.size();
-    counts_.rays += vpls.size() * static_cast<uint64_t>(resolution_) * resolution_;
+    counts_.rays += rays;
   }
 
   void dropShadowMaps(std::span<const int> slots) override {
@@ -269,6 +275,8 @@ class CpuBackend final : public Backend {
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;
+  cpu::ShadowRaster raster_;
+  bool castersMoved_ = true;  // since raster_ knows of them
   int resolution_ = 0, most_ = 0;
   std::vector<std::vector<float>> maps_;  // by slot; row after row; empty: none
   size_t held_ = 0;

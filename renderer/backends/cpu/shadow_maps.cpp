@@ -8,8 +8,7 @@
 namespace lamplighter::cpu {
 namespace {
 
-// Rays are cast in blocks of 4×2 texels: coherent within the packet.
-constexpr int kBlockWidth = 4, kBlockHeight = 2, kLanes = 8;
+constexpr int kLanes = kBlockWidth * kBlockHeight;
 
 // The ray of a hemisphere map's texel. Its direction has w = 1, so that t is w where it hits.
 Ray hemisphereRay(const shared::Vpl& vpl, const mat3& frame, float tNear, vec2 centre) {
@@ -24,15 +23,18 @@ Ray directionalRay(const shared::Vpl& vpl, const mat3& frame, vec2 centre) {
 
 }  // namespace
 
-void traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resolution, int firstRow,
-                    int lastRow, std::span<float> map) {
+uint64_t traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resolution, int firstRow,
+                        int lastRow, std::span<float> map, std::span<const uint8_t> wanted) {
   const bool directional = vpl.position.w == shared::kVplDirectional;
   const vec3 normal(vpl.normal), tangent(vpl.tangent);
   const mat3 frame(tangent, glm::cross(normal, tangent), normal);
   const float tNear = rayEpsilon(vec3(vpl.position));
   const float size = static_cast<float>(resolution);
+  uint64_t count = 0;
+  size_t block = 0;
   for (int y0 = firstRow; y0 < lastRow; y0 += kBlockHeight) {
-    for (int x0 = 0; x0 < resolution; x0 += kBlockWidth) {
+    for (int x0 = 0; x0 < resolution; x0 += kBlockWidth, ++block) {
+      if (!wanted.empty() && wanted[block] == 0) continue;
       std::array<Ray, kLanes> ray;
       std::array<Hit, kLanes> hit;
       for (int lane = 0; lane < kLanes; ++lane) {
@@ -51,9 +53,11 @@ void traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resolutio
           stored = directional ? 1.0f - hit[lane].t / (2.0f * vpl.normal.w) : 1.0f / hit[lane].t;
         }
         map[static_cast<size_t>(y) * resolution + x] = stored;
+        ++count;
       }
     }
   }
+  return count;
 }
 
 }  // namespace lamplighter::cpu

@@ -9,9 +9,13 @@
 
 namespace lamplighter::cpu {
 
+// Rays are cast in blocks of texels: coherent within the packet.
+inline constexpr int kBlockWidth = 4, kBlockHeight = 2;
+
 // Renders rows [firstRow, lastRow) of the map of `vpl` into `map` (resolution², see
-// shaders/shared/vpl_shading.h for what is stored).
-void traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resolution, int firstRow,
-                    int lastRow, std::span<float> map);
+// shaders/shared/vpl_shading.h for what is stored). Of blocks, row after row of those rows, only
+// those that are `wanted`; empty: all. The number of rays that were cast.
+uint64_t traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resolution, int firstRow,
+                        int lastRow, std::span<float> map, std::span<const uint8_t> wanted = {});
 
 }  // namespace lamplighter::cpu

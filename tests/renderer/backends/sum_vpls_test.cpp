@@ -109,14 +109,17 @@ TEST(SumVpls, TheSameBitsAtAnyNumberOfThreads) {
 }
 
 TEST(CpuBackend, CountsItsWork) {
-  LitScene lit(blocks());
-  const View view = test::lookAt(vec3(3, 3, 4), vec3(0), 20, 10);
-  lit.sum(lights(), view, 16);
-  const KernelCounts counts = lit.backend->counts();
-  EXPECT_EQ(counts.shadowMaps, 4u);
-  EXPECT_EQ(counts.rays, 4u * 16 * 16 + 200u);
-  EXPECT_EQ(counts.lightPixels, 4u * 200u);
-  EXPECT_GE(counts.memoryBytes, 4u * 16 * 16 * sizeof(float));
+  // Maps of whole tiles are rasterised, others are traced.
+  for (const auto& [resolution, raysAMap] : {std::pair(16u, 0u), {17u, 17u * 17u}}) {
+    LitScene lit(blocks());
+    const View view = test::lookAt(vec3(3, 3, 4), vec3(0), 20, 10);
+    lit.sum(lights(), view, static_cast<int>(resolution));
+    const KernelCounts counts = lit.backend->counts();
+    EXPECT_EQ(counts.shadowMaps, 4u);
+    EXPECT_EQ(counts.rays, 4u * raysAMap + 200u);
+    EXPECT_EQ(counts.lightPixels, 4u * 200u);
+    EXPECT_GE(counts.memoryBytes, 4u * resolution * resolution * sizeof(float));
+  }
 }
 
 TEST(CpuBackend, ShowsAnAreaLightsBackDark) {

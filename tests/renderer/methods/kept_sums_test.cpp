@@ -120,6 +120,8 @@ TEST(KeptSums, ADragCostsWhatItTouches) {
   Room room;
   Settings settings = settingsOf("light_maps", 100);
   settings.set(parameters::updates().name, 10);
+  constexpr int kResolution = 18;  // of maps that are traced, a ray a texel
+  settings.set(parameters::mapResolution().name, kResolution);
   FrameRenderer renderer(makeCpuBackend());
   settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
   const auto pixels = static_cast<uint64_t>(room.view.width) * room.view.height;
@@ -136,7 +138,7 @@ TEST(KeptSums, ADragCostsWhatItTouches) {
     EXPECT_LT(end.lightPixels - start.lightPixels, all / 2) << name;
     EXPECT_GT(end.lightPixels - start.lightPixels, 0u) << name;
     const uint64_t maps = end.shadowMaps - start.shadowMaps;
-    EXPECT_LT(end.rays - start.rays - maps * 16 * 16, pixels / 2) << name;
+    EXPECT_LT(end.rays - start.rays - maps * kResolution * kResolution, pixels / 2) << name;
     settled(renderer, room.scene, {}, room.view, settings);
   }
 }

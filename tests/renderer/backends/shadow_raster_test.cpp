@@ -1,0 +1,69 @@
+// Maps that are rasterised hold what rays meet.
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/shadow_maps.h"
+#include "renderer/backends/cpu/shadow_raster.h"
+#include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+struct Compared {
+  size_t texels = 0, others = 0;  // by more than rounding
+  uint64_t rays = 0;
+};
+
+// Both in pieces of rows, as the backend has them.
+Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, int resolution) {
+  const RayCaster rays(scene);
+  cpu::ShadowRaster raster;
+  raster.setScene(scene);
+  raster.setResolution(resolution);
+  const auto texels = static_cast<size_t>(resolution) * static_cast<size_t>(resolution);
+  Compared all;
+  for (const shared::Vpl& vpl : vpls) {
+    std::vector<float> drawn(texels, -1.0f), traced(texels, -1.0f);
+    cpu::traceShadowMap(rays, vpl, resolution, 0, resolution, traced);
+    for (int row = 0; row < resolution; row += 32)
+      all.rays += raster.render(rays, vpl, row, std::min(row + 32, resolution), drawn);
+    for (size_t i = 0; i < texels; ++i)
+      all.others += std::abs(drawn[i] - traced[i]) > 1e-5f + 1e-4f * traced[i];
+    all.texels += texels;
+  }
+  return all;
+}
+
+std::vector<shared::Vpl> lightsOf(const RenderScene& scene, int count) {
+  std::vector<shared::Vpl> lights;
+  for (const SceneVpl& v :
+       generateVpls(scene, RayCaster(scene), LightSet(scene), {count, 0.3f, 3, 1}).vpls)
+    lights.push_back(v.vpl);
+  return lights;
+}
+
+// A texel may fall to either side of an edge.
+TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
+  for (const char* name : {"pillar_room", "area_light_room", "cornell_style", "table_room"}) {
+    RenderScene scene;
+    update(scene,
+           loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
+                    (std::string(name) + ".gltf"))
+               .scene,
+           SceneChanges::all());
+    for (const int resolution : {8, 64, 96, 256}) {
+      const Compared c = compare(scene, lightsOf(scene, 8192 / resolution), resolution);
+      std::cout << name << " " << resolution << ": " << c.others << " of " << c.texels
+                << " texels differ, " << 100 * c.rays / c.texels << "% by rays\n";
+      EXPECT_LE(c.others, c.texels / 20000);
+      EXPECT_LT(c.rays, c.texels / 2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter
