@@ -4,6 +4,7 @@
 #include "renderer/visibility/occlusion_pyramid.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -234,53 +235,54 @@ bool OcclusionPyramid::mayBeOutside(const vec3& point, float margin) const {
 
 bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c, vec3* at) const {
   // Most triangles are wholly outside of one plane, or have a corner inside all.
-  const auto zero = hn::Zero(kTag);
+  static_assert(kMostPlanes == kLanes);
+  const auto x = hn::LoadU(kTag, planes_.x.data()), y = hn::LoadU(kTag, planes_.y.data()),
+             z = hn::LoadU(kTag, planes_.z.data()), offset = hn::LoadU(kTag, planes_.offset.data());
+  const auto outsideOf = [&](const vec3& p) {
+    auto distance = hn::MulAdd(x, hn::Set(kTag, p.x), offset);
+    distance = hn::MulAdd(y, hn::Set(kTag, p.y), distance);
+    distance = hn::MulAdd(z, hn::Set(kTag, p.z), distance);
+    return hn::Lt(distance, hn::Zero(kTag));
+  };
   const std::array<vec3, 3> points{a, b, c};
-  std::array<bool, 3> isInside{true, true, true};
-  for (int first = 0; first < count_; first += kLanes) {
-    const auto x = hn::LoadU(kTag, &planes_.x[static_cast<size_t>(first)]);
-    const auto y = hn::LoadU(kTag, &planes_.y[static_cast<size_t>(first)]);
-    const auto z = hn::LoadU(kTag, &planes_.z[static_cast<size_t>(first)]);
-    const auto offset = hn::LoadU(kTag, &planes_.offset[static_cast<size_t>(first)]);
-    auto allOutside = hn::Lt(zero, hn::Set(kTag, 1.0f));
-    for (size_t i = 0; i < 3; ++i) {
-      auto distance = hn::MulAdd(x, hn::Set(kTag, points[i].x), offset);
-      distance = hn::MulAdd(y, hn::Set(kTag, points[i].y), distance);
-      distance = hn::MulAdd(z, hn::Set(kTag, points[i].z), distance);
-      const auto outside = hn::Lt(distance, zero);
-      isInside[i] = isInside[i] && hn::AllFalse(kTag, outside);
-      allOutside = hn::And(allOutside, outside);
-    }
-    if (!hn::AllFalse(kTag, allOutside)) return false;
-  }
+  const std::array outside{outsideOf(a), outsideOf(b), outsideOf(c)};
+  if (!hn::AllFalse(kTag, hn::And(outside[0], hn::And(outside[1], outside[2])))) return false;
   for (size_t i = 0; i < 3; ++i) {
-    if (!isInside[i]) continue;
+    if (!hn::AllFalse(kTag, outside[i])) continue;
     if (at != nullptr) *at = points[i];
     return true;
   }
   if (at != nullptr) *at = a;  // unless a better one is found
 
-  std::array<vec3, kMostCorners> corners{a, b, c}, clipped;
-  size_t count = 3;
-  for (int i = 0; i < count_; ++i) {
-    const auto n = static_cast<size_t>(i);
+  // Planes that all corners are inside of cut nothing off.
+  uint8_t cutting[8];
+  hn::StoreMaskBits(kTag, hn::Or(outside[0], hn::Or(outside[1], outside[2])), cutting);
+  std::array<std::array<vec3, kMostCorners>, 2> polygons;
+  std::copy(points.begin(), points.end(), polygons[0].begin());
+  size_t count = 3, now = 0;
+  for (uint32_t rest = cutting[0]; rest != 0; rest &= rest - 1) {
+    const auto n = static_cast<size_t>(std::countr_zero(rest));
     const vec3 normal(planes_.x[n], planes_.y[n], planes_.z[n]);
     const auto distance = [&](const vec3& p) { return glm::dot(normal, p) + planes_.offset[n]; };
+    const auto& corners = polygons[now];
+    auto& clipped = polygons[1 - now];
     size_t kept = 0;
+    float df = distance(corners[0]);
     for (size_t k = 0; k < count; ++k) {
-      const vec3 &from = corners[k], &to = corners[(k + 1) % count];
-      const float df = distance(from), dt = distance(to);
+      const vec3 &from = corners[k], &to = corners[k + 1 < count ? k + 1 : 0];
+      const float dt = distance(to);
       if (df >= 0.0f) clipped[kept++] = from;
       if ((df >= 0.0f) != (dt >= 0.0f)) clipped[kept++] = from + (df / (df - dt)) * (to - from);
       if (kept + 2 > kMostCorners) return true;
+      df = dt;
     }
     if (kept == 0) return false;
-    corners = clipped;
+    now = 1 - now;
     count = kept;
   }
   if (at != nullptr) {
     *at = vec3(0.0f);
-    for (size_t k = 0; k < count; ++k) *at += corners[k];
+    for (size_t k = 0; k < count; ++k) *at += polygons[now][k];
     *at /= static_cast<float>(count);
   }
   return true;
