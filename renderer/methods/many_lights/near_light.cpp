@@ -21,6 +21,8 @@ constexpr int kVplsTried = 32, kRaysAPoint = 2;
 // intensity cannot be compared.
 constexpr float kEvenShare = 0.5f;
 
+constexpr int kRaysAtOnce = 8;
+
 float brightness(const shared::Vpl& vpl) {
   return std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
 }
@@ -51,24 +53,50 @@ NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
     float sum = 0.0f;
     for (const uint32_t i : choice.vpls)
       choice.upTo.push_back(sum += even + scale * brightness(vpls[i].vpl));
+    choice.makeGuide();
   }
+}
+
+void NearLight::Choice::makeGuide() {
+  uint32_t i = 0;
+  for (size_t part = 0; part < upTo.size(); ++part) {
+    const float from = static_cast<float>(part) / static_cast<float>(upTo.size()) * upTo.back();
+    while (i + 1 < upTo.size() && upTo[i] <= from) ++i;
+    guide.push_back(i);
+  }
+}
+
+size_t NearLight::Choice::find(float below) const {
+  const float part = below / upTo.back() * static_cast<float>(guide.size());
+  size_t i = guide[std::min(static_cast<size_t>(part), guide.size() - 1)];
+  // Rounding may have taken the next part.
+  while (i > 0 && upTo[i - 1] > below) --i;
+  while (i + 1 < upTo.size() && upTo[i] <= below) ++i;
+  return i;
 }
 
 void NearLight::findRows(const View& view, vec2 jitter, int first, int last,
                          std::span<Pixel> pixels) const {
   tbb::parallel_for(first, last, [&](int y) {
-    for (int x = 0; x < view.width; ++x) {
-      const vec2 at = vec2(x, y) + 0.5f + jitter;
-      const auto index = static_cast<uint32_t>(y * view.width + x);
-      pixels[index] = pixel(view, at, index);
+    for (int x0 = 0; x0 < view.width; x0 += kRaysAtOnce) {
+      std::array<Ray, kRaysAtOnce> rays;
+      std::array<Hit, kRaysAtOnce> hits;
+      for (int i = 0; i < kRaysAtOnce; ++i) {
+        const vec2 at = vec2(x0 + i, y) + 0.5f + jitter;
+        const vec3 direction = view.rayDirection(at.x, at.y);
+        rays[i] = {view.eye, view.znear / glm::dot(direction, view.forward()), direction};
+        if (x0 + i >= view.width) rays[i].tFar = -1.0f;
+      }
+      rays_.intersect8(rays, hits, Surfaces::seen);
+      for (int i = 0; i < std::min(kRaysAtOnce, view.width - x0); ++i) {
+        const auto index = static_cast<uint32_t>(y * view.width + x0 + i);
+        pixels[index] = pixel(rays[i].direction, hits[i], index);
+      }
     }
   });
 }
 
-NearLight::Pixel NearLight::pixel(const View& view, vec2 at, uint32_t index) const {
-  const vec3 direction = view.rayDirection(at.x, at.y);
-  const float tNear = view.znear / glm::dot(direction, view.forward());
-  const Hit hit = rays_.intersect({view.eye, tNear, direction}, Surfaces::seen);
+NearLight::Pixel NearLight::pixel(const vec3& direction, const Hit& hit, uint32_t index) const {
   if (!hit) return {};
   const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
   const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
@@ -145,9 +173,9 @@ vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const 
   float total = 0.0f;
   for (int k = 0; k < kVplsTried; ++k) {
     const float below = (static_cast<float>(k) + u.x) / kVplsTried * choice.upTo.back();
-    const auto it = std::upper_bound(choice.upTo.begin(), choice.upTo.end() - 1, below);
-    const float probability = *it - (it == choice.upTo.begin() ? 0.0f : *(it - 1));
-    const shared::Vpl& vpl = vpls_[choice.vpls[static_cast<size_t>(it - choice.upTo.begin())]].vpl;
+    const size_t chosen = choice.find(below);
+    const float probability = choice.upTo[chosen] - (chosen == 0 ? 0.0f : choice.upTo[chosen - 1]);
+    const shared::Vpl& vpl = vpls_[choice.vpls[chosen]].vpl;
     const float geometry =
         isLeftOut(at.leftOutBy, static_cast<uint32_t>(vpl.footprint.y))
             ? 0.0f

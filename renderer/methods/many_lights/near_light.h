@@ -53,12 +53,16 @@ class NearLight {
   struct Choice {
     std::vector<uint32_t> vpls;
     std::vector<float> upTo;  // sum of probabilities, this one's included
+    // For that many equal parts of the sum: the first that reaches into it.
+    std::vector<uint32_t> guide;
+    void makeGuide();
+    size_t find(float below) const;  // the first with upTo > below, or the last
   };
   struct Place {
     vec3 position, normal;  // off its surface, on the lit side
     uint32_t leftOutBy;     // light_linking.h
   };
-  Pixel pixel(const View& view, vec2 at, uint32_t index) const;
+  Pixel pixel(const vec3& direction, const Hit& hit, uint32_t index) const;
   vec3 gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const;
   vec3 irradianceOfSuns(const Place& at) const;
   vec3 irradiance(const Place& at, const Choice& choice, vec2 u) const;
