@@ -28,34 +28,27 @@ vec3 Background::at(int x, int y) const {
                                             static_cast<float>(y) + 0.5f + jitter.y));
 }
 
-void compose(const GBuffer& g, const LightSums& sums, const LowResolution* low,
-             const Background& background, bool white, Image& out) {
+void compose(const GBuffer& g, const PictureLight& light, const Background& background, bool white,
+             Image& out) {
   tbb::parallel_for(0, g.tiles(), [&](int tile) {
     const int tileX = tile % g.tilesX * kTileSize, tileY = tile / g.tilesX * kTileSize;
-    const uint32_t edges = low == nullptr ? ~uint32_t{0} : low->edges()[static_cast<size_t>(tile)];
     const Floats inversePi = hn::Set(kTag, 1.0f / kPi);
     for (int packet = 0; packet < kPacketsPerTile; ++packet) {
       const int x = tileX + packet % kPacketsPerRow * kPacketWidth,
                 y = tileY + packet / kPacketsPerRow * kPacketHeight;
       if (x >= g.width || y >= g.height) continue;
       const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
-      LowResolution::Irradiance between;
-      const float *red = sums.red(first), *green = sums.green(first), *blue = sums.blue(first);
-      if ((edges >> packet & 1) == 0) {
-        low->interpolate(tile, packet, between);
-        red = between.r;
-        green = between.g;
-        blue = between.b;
-      }
+      PictureLight::Irradiance irradiance;
+      light.at(tile, packet, irradiance);
       const auto channel = [&](const float* e, const std::vector<float>& albedo,
                                const std::vector<float>& emission) {
-        const Floats light = hn::Mul(hn::LoadU(kTag, e), inversePi);
-        const Floats reflected = white ? light : hn::Mul(hn::LoadU(kTag, &albedo[first]), light);
+        const Floats scaled = hn::Mul(hn::LoadU(kTag, e), inversePi);
+        const Floats reflected = white ? scaled : hn::Mul(hn::LoadU(kTag, &albedo[first]), scaled);
         return hn::Add(hn::LoadU(kTag, &emission[first]), reflected);
       };
       float pixels[3 * kLanes];
-      hn::StoreInterleaved3(channel(red, g.ar, g.er), channel(green, g.ag, g.eg),
-                            channel(blue, g.ab, g.eb), kTag, pixels);
+      hn::StoreInterleaved3(channel(irradiance.r, g.ar, g.er), channel(irradiance.g, g.ag, g.eg),
+                            channel(irradiance.b, g.ab, g.eb), kTag, pixels);
       for (int lane = 0; lane < kLanes; ++lane) {
         if (g.hit[first + static_cast<size_t>(lane)] != 0) continue;
         const vec3 sky = background.at(x + lane % kPacketWidth, y + lane / kPacketWidth);

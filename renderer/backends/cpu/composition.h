@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/gbuffer.h"
-#include "renderer/backends/cpu/light_sums.h"
-#include "renderer/backends/cpu/low_resolution.h"
+#include "renderer/backends/cpu/picture_light.h"
 #include "renderer/backends/kernels.h"
 
 namespace lamplighter::cpu {
@@ -19,10 +18,10 @@ struct Background {
   vec3 at(int x, int y) const;
 };
 
-// Le + ρ/π · E of each pixel, the sky where nothing is hit. `low`: what is between the samples;
-// null: all pixels are summed. `white`: with ρ = 1. The image has the G-buffer's size.
-void compose(const GBuffer& gbuffer, const LightSums& sums, const LowResolution* low,
-             const Background& background, bool white, Image& out);
+// Le + ρ/π · E of each pixel, the sky where nothing is hit. `white`: with ρ = 1. The image has the
+// G-buffer's size.
+void compose(const GBuffer& gbuffer, const PictureLight& light, const Background& background,
+             bool white, Image& out);
 
 // Pictures that nobody holds any more are written again: fresh memory is slow.
 class ImagePool {

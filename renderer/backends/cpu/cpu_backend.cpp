@@ -11,6 +11,7 @@
 #include "renderer/backends/cpu/gbuffer.h"
 #include "renderer/backends/cpu/light_sums.h"
 #include "renderer/backends/cpu/low_resolution.h"
+#include "renderer/backends/cpu/sample_sharing.h"
 #include "renderer/backends/cpu/shadow_raster.h"
 #include "renderer/backends/cpu/specular_sums.h"
 #include "renderer/error.h"
@@ -39,6 +40,7 @@ struct Picture {
     f(sums);
     f(sampleSums);
   }
+  cpu::PictureLight light() const { return {sums, block == 1 ? nullptr : &low, nullptr, {}}; }
   size_t bytes() const {
     return gbuffer.bytes() + sums.bytes() + low.bytes() + sampleSums.bytes() + speculars.bytes();
   }
@@ -183,6 +185,15 @@ class CpuBackend final : public Backend {
                                                 constants, params.speculars.y, patches);
     }
     p.block = std::max(1, static_cast<int>(params.block.x));
+    shared_ = {};
+    if (shown_ == &still_) sharing_.forget();
+    if (p.block != 1 && isStillOf(lights, constants, patches)) {
+      if (!sharing_.isTaken()) sharing_.take(still_.gbuffer, still_.light());
+      shared_ = sharing_.findOwn(still_.gbuffer, shifted_.gbuffer);
+      counts_.pixelsInterpolated += still_.low.pixelsInterpolated();
+      update(p.sums, p.gbuffer, shared_);
+      return;
+    }
     if (p.block == 1) {
       update(p.sums, p.gbuffer, {});
       return;
@@ -198,8 +209,10 @@ class CpuBackend final : public Backend {
     const Picture& p = *shown_;
     const auto image = images_.take(p.gbuffer.width, p.gbuffer.height);
     const cpu::Background background{scene_->sky, p.view, p.jitter};
-    cpu::compose(p.gbuffer, p.sums, p.block == 1 ? nullptr : &p.low, background, white,
-                 image->image);
+    const cpu::PictureLight still = still_.light();
+    const cpu::PictureLight light =
+        shared_.empty() ? p.light() : cpu::PictureLight{p.sums, nullptr, &still, shared_};
+    cpu::compose(p.gbuffer, light, background, white, image->image);
     if (!white) p.speculars.addTo(p.gbuffer, image->image);
     return image;
   }
@@ -217,14 +230,15 @@ class CpuBackend final : public Backend {
   }
 
   std::vector<uint8_t> readInterpolated() override {
-    const cpu::GBuffer& g = shown_->gbuffer;
-    if (shown_->block <= 1) return {};
+    const Picture& p = shared_.empty() ? *shown_ : still_;
+    const cpu::GBuffer& g = p.gbuffer;
+    if (p.block <= 1) return {};
     std::vector<uint8_t> interpolated;
     interpolated.reserve(static_cast<size_t>(g.width) * static_cast<size_t>(g.height));
     for (int y = 0; y < g.height; ++y) {
       for (int x = 0; x < g.width; ++x) {
         const size_t packet = g.index(x, y) / cpu::kLanes;
-        const uint32_t edges = shown_->low.edges()[packet / cpu::kPacketsPerTile];
+        const uint32_t edges = p.low.edges()[packet / cpu::kPacketsPerTile];
         interpolated.push_back((edges >> packet % cpu::kPacketsPerTile & 1) == 0 ? 1 : 0);
       }
     }
@@ -235,6 +249,14 @@ class CpuBackend final : public Backend {
 
  private:
   size_t texels() const { return static_cast<size_t>(resolution_) * resolution_; }
+
+  // Whether a picture with pixels moved has the same light as that of their middles.
+  bool isStillOf(std::span<const cpu::LightRecord> lights, const cpu::SumConstants& constants,
+                 const PatchLights* patches) const {
+    return shown_ == &shifted_ && stillIsKnown_ && moves_.empty() && stillView_ == shifted_.view &&
+           still_.block == shifted_.block &&
+           still_.sums.isOf(still_.gbuffer, lights, constants, patches);
+  }
 
   // Null: there is none.
   float* mapOf(int slot) {
@@ -280,9 +302,11 @@ class CpuBackend final : public Backend {
   int resolution_ = 0, most_ = 0;
   std::vector<std::vector<float>> maps_;  // by slot; row after row; empty: none
   size_t held_ = 0;
-  Picture still_, shifted_;    // pixels in their places, and moved for antialiasing
-  Picture* shown_ = &still_;   // the one that was rendered last
-  bool stillIsKnown_ = false;  // still_ shows stillView_, but for what moved
+  Picture still_, shifted_;           // pixels in their places, and moved for antialiasing
+  Picture* shown_ = &still_;          // the one that was rendered last
+  cpu::SampleSharing sharing_;        // of still_
+  std::span<const uint32_t> shared_;  // packets of shown_ with light of their own; empty: all
+  bool stillIsKnown_ = false;         // still_ shows stillView_, but for what moved
   View stillView_;
   std::vector<uint32_t> leftOutBy_;  // by object, where the scene has any; else empty
   std::vector<Bounds> moves_;        // where something was or is that moved since

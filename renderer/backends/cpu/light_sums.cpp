@@ -32,12 +32,18 @@ std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
   return slots;
 }
 
+template <typename Source>
+std::vector<Revision> revisionsOf(const Source* source) {
+  std::vector<Revision> revisions;
+  for (uint32_t i = 0; source != nullptr && i < source->objects(); ++i)
+    revisions.push_back(source->revision(i));
+  return revisions;
+}
+
 // Whether any object's part of the source, if there is one, is another than last time.
 template <typename Source>
 bool revised(std::vector<Revision>& last, const Source* source) {
-  std::vector<Revision> now;
-  for (uint32_t i = 0; source != nullptr && i < source->objects(); ++i)
-    now.push_back(source->revision(i));
+  std::vector<Revision> now = revisionsOf(source);
   const bool isOther = now != last;
   last = std::move(now);
   return isOther;
@@ -303,6 +309,17 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   oldMaps_.clear();
   knowsSums_ = true;
   return {lightPixels, lookUps};
+}
+
+bool LightSums::isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights,
+                     SumConstants constants, const PatchLights* patches) const {
+  constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
+  if (!knowsSums_ || !oldMaps_.empty() || constants != constants_ ||
+      hasPatches_ != (patches != nullptr) || !std::ranges::equal(lights, lights_) ||
+      mapRevisions_ != revisionsOf(patches ? patches->maps() : nullptr) ||
+      transferRevisions_ != revisionsOf(patches ? patches->prt() : nullptr))
+    return false;
+  return std::ranges::equal(tiles_, gbuffer.revision, {}, &Tile::revision);
 }
 
 void LightSums::clearPackets(int tile, uint32_t packets) {

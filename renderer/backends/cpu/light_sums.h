@@ -28,6 +28,10 @@ class LightSums {
                    SumConstants constants, const PatchLights* patches,
                    std::span<const uint32_t> wanted = {}, std::span<const uint32_t> leftOutBy = {});
 
+  // Whether it is of these, as they are now.
+  bool isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights, SumConstants constants,
+            const PatchLights* patches) const;
+
   // To be called before a shadow map changes, with what it holds: its light may have to be taken
   // away with it.
   void mapChanges(int slot, std::span<const float> map);
