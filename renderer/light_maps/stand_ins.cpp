@@ -21,6 +21,8 @@ constexpr float kCoarsest = 2.0f;
 constexpr float kFar = 0.3f;
 // VPLs of a group look the same way, but for this cosine.
 constexpr float kSameWay = 0.95f;
+// Of the median of all lights' brightness: what is brighter counts as so bright.
+constexpr float kMostOfMedian = 4.0f;
 
 float brightness(const shared::Vpl& v) {
   return std::max({v.intensity.r, v.intensity.g, v.intensity.b});
@@ -51,6 +53,25 @@ uint64_t cellOf(const shared::Vpl& v, int grid) {
          sideOf(vec3(v.normal)) << 51 | along(v.position.x) << 34 | along(v.position.y) << 17 |
          along(v.position.z);
 }
+
+// Over the surface that a light is on, so that it does not hide others from it [m].
+vec3 over(const shared::Vpl& v) { return vec3(v.position) + 0.01f * vec3(v.normal); }
+
+// Of all lights together; parallel light is measured otherwise. A few that are far brighter than
+// most, such as what the sun makes of the ground outside, count as if they were not: they are no
+// reason to take the others less seriously where these do not reach.
+float allLight(std::span<const shared::Vpl> lights) {
+  std::vector<float> each;
+  for (const shared::Vpl& v : lights)
+    if (v.position.w != shared::kVplDirectional) each.push_back(brightness(v));
+  if (each.empty()) return 0.0f;
+  std::sort(each.begin(), each.end());
+  const float most = kMostOfMedian * each[each.size() / 2];
+  float all = 0.0f;
+  for (const float b : each) all += std::min(b, most);
+  return all;
+}
+
 constexpr uint64_t kIsOfOne = uint64_t{1} << 62;
 
 bool sameBits(std::span<const shared::Vpl> a, std::span<const shared::Vpl> b) {
@@ -85,15 +106,16 @@ struct StandIns::Numbers {
 
 void StandIns::update(std::span<const shared::Vpl> shown, size_t slots,
                       const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
-                      float groupShare) {
-  if (slots == slots_ && hasMap == hasMap_ && isWanted == isWanted_ && groupShare == groupShare_ &&
-      sameBits(shown, shown_))
+                      const Groups& groups) {
+  const bool seeOthers = groups.sceneChanged && groups.share > 0.0f;
+  if (!seeOthers && slots == slots_ && hasMap == hasMap_ && isWanted == isWanted_ &&
+      groups.share == groupShare_ && sameBits(shown, shown_))
     return;
   shown_.assign(shown.begin(), shown.end());
   slots_ = slots;
   hasMap_ = hasMap;
   isWanted_ = isWanted;
-  groupShare_ = groupShare;
+  groupShare_ = groups.share;
   lights_.clear();
   groups_.clear();
   members_.clear();
@@ -102,7 +124,7 @@ void StandIns::update(std::span<const shared::Vpl> shown, size_t slots,
   std::fill(isGroup_.begin(), isGroup_.end(), uint8_t{0});
   Numbers numbers(std::move(numberOf_));
   standForOne(numbers);
-  if (groupShare > 0.0f) standForGroups(numbers, groupShare);
+  if (groups.share > 0.0f) standForGroups(numbers, groups);
   numberOf_ = std::move(numbers.now);
   int most = 0;
   for (const auto& [key, number] : numberOf_) most = std::max(most, number + 1);
@@ -153,10 +175,8 @@ void StandIns::standForOne(Numbers& numbers) {
 }
 
 // In cells of finer and finer grids, what is not too bright for one shadow.
-void StandIns::standForGroups(Numbers& numbers, float share) {
-  float all = 0.0f;
-  for (const shared::Vpl& v : shown_) all += brightness(v);
-  const float most = share * all;
+void StandIns::standForGroups(Numbers& numbers, const Groups& groups) {
+  const float most = groups.share * allLight(shown_);
   std::vector<const shared::Vpl*> lights;  // those that may be in groups
   for (const shared::Vpl& v : shown_) {
     if (v.position.w == shared::kVplDirectional || 2.0f * brightness(v) > most) continue;
@@ -191,6 +211,10 @@ void StandIns::standForGroups(Numbers& numbers, float share) {
         group.radius = std::max(group.radius, glm::distance(vec3(v.position), group.place));
         areAlike = areAlike && glm::dot(vec3(v.normal), vec3(at->normal)) >= kSameWay &&
                    v.normal.w == at->normal.w && v.tangent.w == at->tangent.w;
+      }
+      for (size_t i = first; i < last && areAlike && groups.sees; ++i) {
+        const shared::Vpl& v = *lights[cells[i].second];
+        areAlike = &v == at || groups.sees(over(v), over(*at));
       }
       if (!areAlike) continue;
       for (size_t i = first; i < last; ++i)

@@ -9,6 +9,7 @@
 // looks up the map of the VPL at whose place it is.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -21,10 +22,18 @@ namespace lamplighter {
 
 class StandIns {
  public:
+  // What a group may be.
+  struct Groups {
+    float share = 0.0f;  // of all light but parallel light, what one has at most; 0: there is none
+    // Whether one place sees another: what is on two sides of a wall is no group. Null: they all
+    // do.
+    std::function<bool(const vec3&, const vec3&)> sees;
+    bool sceneChanged = false;  // places may see others than in the last call
+  };
   // `shown`: the VPLs, with their slots in intensity.w; by slot whether it has a map, and whether
-  // the view wants it to have one. `groupShare`: of all light, what a group has at most; 0: none.
+  // the view wants it to have one.
   void update(std::span<const shared::Vpl> shown, size_t slots, const std::vector<uint8_t>& hasMap,
-              const std::vector<uint8_t>& isWanted, float groupShare);
+              const std::vector<uint8_t>& isWanted, const Groups& groups);
 
   size_t slots() const { return slots_ + room_; }  // of VPLs and stand-ins
   // In an order that follows from what is shown.
@@ -53,7 +62,7 @@ class StandIns {
   };
   struct Numbers;
   void standForOne(Numbers& numbers);
-  void standForGroups(Numbers& numbers, float share);
+  void standForGroups(Numbers& numbers, const Groups& groups);
   void add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const vec3& intensity,
            bool isGroup);
 

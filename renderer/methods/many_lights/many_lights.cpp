@@ -38,6 +38,14 @@ bool hasGlossy(const RenderScene& scene) {
   });
 }
 
+StandIns::Groups groupsOf(const FrameInputs& in, float share) {
+  return {share,
+          [&rays = in.rays](const vec3& a, const vec3& b) {
+            return !rays.occluded({a, 0.0f, b - a, 1.0f});
+          },
+          !in.changes.none()};
+}
+
 // Rays a pixel for the light in corners, which pixels share.
 constexpr uint32_t kCornerPaths = 1;
 
@@ -251,7 +259,8 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
   stats.mapsRendered = lights_.updateMaps(
       in.backend, wanted_, {std::max(options.mostMaps - refining, 1), static_cast<int>(maps)});
   if (visibility_)
-    standIns_.update(lights_.shown(), slots, lights_.hasMap(), wanted_, options.groupShare);
+    standIns_.update(lights_.shown(), slots, lights_.hasMap(), wanted_,
+                     groupsOf(in, options.groupShare));
 }
 
 void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
@@ -379,7 +388,7 @@ void ManyLights::takePart(const FrameInputs& in, const Options& options,
   if (!visibility_ || !isNew) return;
   partLights_.update(in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
                      {options.useLightMaps, {options.lightMapTexel, options.clampDistance}},
-                     lights_.hasMap(), wanted_, options.groupShare);
+                     lights_.hasMap(), wanted_, groupsOf(in, options.groupShare));
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,

@@ -122,7 +122,7 @@ const ParameterSpec& groupShare() {
       "other that is far away, as long as the group has no more than this share of all light. So "
       "that more light samples cost less than their number. 0: a look-up for each. Nothing for "
       "naive.",
-      0.0f,
+      0.2f,
       0.0,
       5.0,
       false,

@@ -29,7 +29,7 @@ class PartLights {
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
               std::span<const shared::Vpl> lights, size_t slots, const Maps& maps,
               const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
-              float groupShare);
+              const StandIns::Groups& groups);
   void forget() { *this = PartLights(); }
 
   const LightMaps* maps() const { return maps_.get(); }

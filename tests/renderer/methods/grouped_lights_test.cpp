@@ -107,7 +107,7 @@ std::vector<shared::Vpl> row(int count, const vec3& step) {
 TEST(StandIns, OneWithoutMapLooksUpThatOfItsNeighbour) {
   const auto vpls = row(4, vec3(1, 0, 0));
   StandIns standIns;
-  standIns.update(vpls, 4, {1, 0, 1, 0}, {1, 0, 1, 1}, 0.0f);
+  standIns.update(vpls, 4, {1, 0, 1, 0}, {1, 0, 1, 1}, {.share = 0.0f, .sees = {}});
   ASSERT_EQ(standIns.lights().size(), 1u);  // nothing looks up that of light 1
   const int slot = static_cast<int>(standIns.lights()[0].intensity.w);
   EXPECT_EQ(standIns.mapSlot(slot), 2);
@@ -127,7 +127,7 @@ TEST(StandIns, OneWithoutMapLooksUpThatOfItsNeighbour) {
 TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
   const auto vpls = row(4, vec3(0.01f, 0, 0));
   StandIns standIns;
-  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, 1.0f);
+  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
   ASSERT_GE(standIns.groups(), 1u);
   const shared::Vpl group = standIns.lights()[0];
   const auto slot = static_cast<size_t>(group.intensity.w);
@@ -150,7 +150,7 @@ TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
     EXPECT_EQ(uses[slot], LightUse::skip);
     EXPECT_EQ(uses[0], LightUse::takeShadow);
   }
-  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, 0.3f);  // too bright
+  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 0.3f, .sees = {}});  // too bright
   EXPECT_EQ(standIns.groups(), 0u);
 }
 
