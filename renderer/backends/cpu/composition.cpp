@@ -17,9 +17,6 @@ using Tag = hn::FixedTag<float, kLanes>;
 using Floats = hn::Vec<Tag>;
 constexpr Tag kTag;
 
-// Pictures that are kept for being written again; more are in use at once nowhere.
-constexpr size_t kMostPooled = 4;
-
 }  // namespace
 
 vec3 Background::at(int x, int y) const {
@@ -61,17 +58,6 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
                     static_cast<size_t>(columns) * sizeof(vec3));
     }
   });
-}
-
-std::shared_ptr<ImagePool::Pooled> ImagePool::take(int width, int height) {
-  for (const auto& image : images_)
-    if (image.use_count() == 1 && image->image.width == width && image->image.height == height)
-      return image;
-  std::erase_if(images_, [](const auto& image) { return image.use_count() == 1; });
-  auto image = std::make_shared<Pooled>();
-  image->image = Image(width, height);
-  if (images_.size() < kMostPooled) images_.push_back(image);
-  return image;
 }
 
 }  // namespace lamplighter::cpu

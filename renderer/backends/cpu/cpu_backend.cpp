@@ -14,6 +14,7 @@
 #include "renderer/backends/cpu/sample_sharing.h"
 #include "renderer/backends/cpu/shadow_raster.h"
 #include "renderer/backends/cpu/specular_sums.h"
+#include "renderer/backends/image_pool.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -289,7 +290,7 @@ class CpuBackend final : public Backend {
     return image;
   }
 
-  cpu::ImagePool images_;
+  ImagePool images_;
   BackendInfo info_{.name = "cpu",
                     .device = "x86-64-v3, 8 lanes",
                     .tracesShadowMaps = true,

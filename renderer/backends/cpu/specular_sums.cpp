@@ -140,20 +140,24 @@ uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const 
 
 void SpecularSums::addTo(const GBuffer& g, Image& picture) const {
   if (!isOn_) return;
-  tbb::parallel_for(0, picture.height, [&](int y) {
-    for (int x = 0; x < picture.width; ++x) {
-      const size_t i = g.index(x, y);
-      const Tile& tile = tiles_[i / kTilePixels];
-      if (tile.gloss.empty() || g.hit[i] == 0) continue;
-      const Gloss gloss = tile.gloss[i % kTilePixels];
-      if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
-      const vec3 toEye = glm::normalize(eye_ - vec3(g.px[i], g.py[i], g.pz[i]));
-      const float nv = glm::dot(toEye, vec3(g.sx[i], g.sy[i], g.sz[i]));
-      const float share =
-          shared::diffuseShare(gloss.metallic, gloss.roughness, leastRoughness_, nv);
-      const vec3 emission = g.emission(i);
-      vec3& pixel = picture.at(x, y);
-      pixel = emission + share * (pixel - emission) + tile.radiance[i % kTilePixels];
+  tbb::parallel_for(0, g.tiles(), [&](int t) {
+    const Tile& tile = tiles_[static_cast<size_t>(t)];
+    if (tile.gloss.empty()) return;
+    const int x0 = t % g.tilesX * kTileSize, y0 = t / g.tilesX * kTileSize;
+    for (int y = y0; y < std::min(y0 + kTileSize, picture.height); ++y) {
+      for (int x = x0; x < std::min(x0 + kTileSize, picture.width); ++x) {
+        const size_t i = g.index(x, y);
+        if (g.hit[i] == 0) continue;
+        const Gloss gloss = tile.gloss[i % kTilePixels];
+        if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
+        const vec3 toEye = glm::normalize(eye_ - vec3(g.px[i], g.py[i], g.pz[i]));
+        const float nv = glm::dot(toEye, vec3(g.sx[i], g.sy[i], g.sz[i]));
+        const float share =
+            shared::diffuseShare(gloss.metallic, gloss.roughness, leastRoughness_, nv);
+        const vec3 emission = g.emission(i);
+        vec3& pixel = picture.at(x, y);
+        pixel = emission + share * (pixel - emission) + tile.radiance[i % kTilePixels];
+      }
     }
   });
 }

@@ -46,14 +46,14 @@ std::shared_ptr<RadianceImage> CornerLight::addTo(RadianceImage& settled) {
   return std::make_shared<HostImage>(std::move(with));
 }
 
-std::shared_ptr<RadianceImage> CornerLight::scale(
-    const std::shared_ptr<RadianceImage>& picture) const {
+std::shared_ptr<RadianceImage> CornerLight::scale(const std::shared_ptr<RadianceImage>& picture) {
   if (gains_.width != picture->width() || gains_.height != picture->height()) return picture;
-  Image scaled = picture->pixels();
-  tbb::parallel_for(0, scaled.height, [&](int y) {
-    for (int x = 0; x < scaled.width; ++x) scaled.at(x, y) *= gains_.at(x, y);
+  const Image& from = picture->pixels();
+  const auto scaled = scaled_.take(from.width, from.height);
+  tbb::parallel_for(0, from.height, [&](int y) {
+    for (int x = 0; x < from.width; ++x) scaled->image.at(x, y) = from.at(x, y) * gains_.at(x, y);
   });
-  return std::make_shared<HostImage>(std::move(scaled));
+  return scaled;
 }
 
 }  // namespace lamplighter

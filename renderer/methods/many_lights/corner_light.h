@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "renderer/backends/image_pool.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/near_light.h"
 
@@ -28,12 +29,13 @@ class CornerLight {
   std::shared_ptr<RadianceImage> addTo(RadianceImage& settled);
   // A picture on its way: each pixel brighter by the share that it had gained when it was settled.
   // The picture itself where nothing is kept.
-  std::shared_ptr<RadianceImage> scale(const std::shared_ptr<RadianceImage>& picture) const;
+  std::shared_ptr<RadianceImage> scale(const std::shared_ptr<RadianceImage>& picture);
 
  private:
   int rows_ = 0;  // found so far
   std::vector<NearLight::Pixel> pixels_;
   Image gains_;  // with it over without it
+  ImagePool scaled_;
 };
 
 }  // namespace lamplighter
