@@ -154,5 +154,35 @@ TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
   EXPECT_EQ(standIns.groups(), 0u);
 }
 
+// On both sides of a wall, for which there is one shadow less.
+TEST(StandIns, WhatDoesNotSeeEachOtherIsNoGroup) {
+  const auto vpls = row(4, vec3(0.01f, 0, 0));
+  const std::vector<uint8_t> all(4, 1);
+  StandIns standIns;
+  const auto wallAt = [](float x) {
+    return [x](const vec3& a, const vec3& b) { return (a.x < x) == (b.x < x); };
+  };
+  standIns.update(vpls, 4, all, all, {.share = 1.0f, .sees = wallAt(0.025f)});
+  EXPECT_EQ(standIns.groups(), 0u);
+  // It is gone, and back.
+  standIns.update(vpls, 4, all, all, {.share = 1.0f, .sees = wallAt(9.0f), .sceneChanged = true});
+  EXPECT_GE(standIns.groups(), 1u);
+  standIns.update(vpls, 4, all, all, {.share = 1.0f, .sees = wallAt(0.025f), .sceneChanged = true});
+  EXPECT_EQ(standIns.groups(), 0u);
+}
+
+// One light that is far brighter, as the sunny ground outside is, makes no groups of all others.
+TEST(StandIns, AFewBrightLightsAreNoMeasure) {
+  auto vpls = row(8, vec3(0.01f, 0, 0));
+  const std::vector<uint8_t> all(8, 1);
+  vpls[7].position += vec4(50.0f, 0, 0, 0);
+  StandIns standIns;
+  standIns.update(vpls, 8, all, all, {.share = 0.2f, .sees = {}});
+  EXPECT_EQ(standIns.groups(), 0u);
+  vpls[7].intensity = vec4(vec3(1e4f), vpls[7].intensity.w);
+  standIns.update(vpls, 8, all, all, {.share = 0.15f, .sees = {}});
+  EXPECT_EQ(standIns.groups(), 0u);
+}
+
 }  // namespace
 }  // namespace lamplighter

@@ -1,0 +1,131 @@
+// Samples of a pixel beside its middle take the light of the middle where the picture is even: far
+// less work, the same picture but for what nobody sees, and no trace of what was before.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+Settings settingsOf(int antialias, const std::string& block) {
+  Settings s;
+  s.set(parameters::vpls().name, 200);
+  s.set(parameters::updates().name, 200);
+  s.set(parameters::bounces().name, 1);
+  s.set(parameters::antialias().name, antialias);
+  s.set(parameters::cornerLight().name, false);
+  s.set(parameters::block().name, block);
+  return s;
+}
+
+struct Room {
+  Scene scene;
+  View view;
+  explicit Room(const std::string& name)
+      : scene(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
+                       (name + ".gltf"))
+                  .scene) {
+    for (const Node& node : scene.nodes)
+      if (node.camera != kNone) view = viewOfCamera(scene, node, 320, 200);
+  }
+};
+
+Image settled(FrameRenderer& renderer, const Room& room, const SceneChanges& changes,
+              const Settings& settings) {
+  return test::renderSettled(renderer, room.scene, changes, room.view, settings).radiance->pixels();
+}
+
+class SharedSamples : public testing::TestWithParam<const char*> {};
+
+TEST_P(SharedSamples, AreFarLessWorkAndShowTheSame) {
+  const Room room(GetParam());
+  FrameRenderer renderer(makeCpuBackend());
+  settled(renderer, room, SceneChanges::all(), settingsOf(1, "4"));
+  const uint64_t once = renderer.backend().counts().lightPixels;
+  const Image shared = settled(renderer, room, {}, settingsOf(8, "4"));
+  const uint64_t eight = renderer.backend().counts().lightPixels - once;
+  RecordProperty("share", std::to_string(static_cast<double>(eight) / (8.0 * once)));
+  EXPECT_GT(eight, 0u);
+  EXPECT_LT(eight, 6 * once);
+
+  FrameRenderer other(makeCpuBackend());
+  const Image each = settled(other, room, SceneChanges::all(), settingsOf(8, "1"));
+  const double error = compareImages(shared, each).relRmse;
+  RecordProperty("relRmse", std::to_string(error));
+  // Of blocks alone, one sample a pixel: what of the error is theirs.
+  const Image blocks = settled(renderer, room, {}, settingsOf(1, "4"));
+  const Image all = settled(other, room, {}, settingsOf(1, "1"));
+  EXPECT_LT(error, compareImages(blocks, all).relRmse + 0.002);
+}
+INSTANTIATE_TEST_SUITE_P(Rooms, SharedSamples,
+                         testing::Values("pillar_room", "table_room", "cornell_style"));
+
+TEST(SharedSamples, LeaveNoTraceOfWhatWasBefore) {
+  Room room("pillar_room");
+  const Settings settings = settingsOf(4, "4");
+  FrameRenderer renderer(makeCpuBackend());
+  settled(renderer, room, SceneChanges::all(), settings);
+  for (const char* name : {"mover", "ceiling light"}) {
+    const Scene before = room.scene;
+    for (Node& node : room.scene.nodes)
+      if (node.name == name) node.local.translation.x += 0.2f;
+    const Image kept = settled(renderer, room, compare(before, room.scene), settings);
+    FrameRenderer anew(makeCpuBackend());
+    EXPECT_TRUE(test::sameBits(kept, settled(anew, room, SceneChanges::all(), settings))) << name;
+  }
+  // Another view, and back.
+  const View view = room.view;
+  room.view.eye.x += 0.1f;
+  settled(renderer, room, {}, settings);
+  room.view = view;
+  FrameRenderer anew(makeCpuBackend());
+  EXPECT_TRUE(test::sameBits(settled(renderer, room, {}, settings),
+                             settled(anew, room, SceneChanges::all(), settings)));
+}
+
+// The border of a hard shadow on one plane, between packets or in one, is as smooth as that of a
+// box before the sky.
+TEST(SharedSamples, BordersOfShadowsStaySmooth) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(20.0f, test::addMaterial(scene, vec3(0.8f))));
+  test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0, 2.0f, 0));
+  const auto picture = [&](bool isShared) {
+    test::LitScene lit(scene);
+    shared::Vpl vpl = test::makeVpl(vec3(0.3f, 5.0f, 0.1f), vec3(0, -1, 0));
+    vpl.intensity = vec4(vec3(50.0f), 0.0f);
+    const std::vector vpls{vpl};
+    lit.backend->reserveShadowMaps(1, 512);
+    lit.backend->renderShadowMaps(vpls);
+    const View view = test::lookAt(vec3(0, 1.5f, 6.0f), vec3(0, 0.5f, 0), 161, 99);
+    shared::ShadingParams params{vec4(0.0f, 0.002f, 512.0f, 64.0f), vec4(4.0f, 0, 0, 0), vec4(0)};
+    Image mean(view.width, view.height);
+    if (isShared) {  // there is a middle to take light of
+      lit.backend->renderGBuffer(view, vec2(0.0f));
+      lit.backend->sumVpls(vpls, params, nullptr);
+    }
+    for (int i = 0; i < 16; ++i) {
+      lit.backend->renderGBuffer(view, vec2((static_cast<float>(i % 4) - 1.5f) / 4.0f,
+                                            (static_cast<float>(i / 4) - 1.5f) / 4.0f));
+      lit.backend->sumVpls(vpls, params, nullptr);
+      const Image sample = lit.backend->compose(false)->pixels();
+      for (size_t p = 0; p < sample.pixels.size(); ++p) mean.pixels[p] += sample.pixels[p] / 16.0f;
+    }
+    return mean;
+  };
+  const double error = compareImages(picture(true), picture(false)).relRmse;
+  RecordProperty("relRmse", std::to_string(error));
+  EXPECT_LT(error, 0.002);
+}
+
+}  // namespace
+}  // namespace lamplighter
