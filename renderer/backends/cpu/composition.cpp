@@ -35,8 +35,8 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
                 y = tileY + packet / kPacketsPerRow * kPacketHeight;
       if (x >= g.width || y >= g.height) continue;
       const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
-      PictureLight::Irradiance irradiance;
-      light.at(tile, packet, irradiance);
+      PictureLight::Irradiance room;
+      const PictureLight::Packet irradiance = light.at(tile, packet, room);
       const auto channel = [&](const float* e, const std::vector<float>& albedo,
                                const std::vector<float>& emission) {
         const Floats scaled = hn::Mul(hn::LoadU(kTag, e), inversePi);

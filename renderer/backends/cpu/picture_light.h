@@ -18,8 +18,11 @@ struct PictureLight {
   const PictureLight* other = nullptr;
   std::span<const uint32_t> own;
 
-  // E [W/m²] at the eight pixels of a packet.
-  void at(int tile, int packet, Irradiance& out) const;
+  // E [W/m²] at the eight pixels of a packet: where it is kept, or what `room` was filled with.
+  struct Packet {
+    const float *r, *g, *b;
+  };
+  Packet at(int tile, int packet, Irradiance& room) const;
   // Whether it is interpolated.
   bool isBetween(int tile, int packet) const {
     return low != nullptr && (low->edges()[static_cast<size_t>(tile)] >> packet & 1) == 0;

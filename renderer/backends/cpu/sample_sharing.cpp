@@ -64,8 +64,8 @@ void SampleSharing::take(const GBuffer& g, const PictureLight& light) {
       const int x = x0 + packet % kPacketsPerRow * kPacketWidth,
                 y = y0 + packet / kPacketsPerRow * kPacketHeight;
       if (x >= g.width || y >= g.height) continue;
-      PictureLight::Irradiance e;
-      light.at(tile, packet, e);
+      PictureLight::Irradiance room;
+      const PictureLight::Packet e = light.at(tile, packet, room);
       for (int lane = 0; lane < kLanes; ++lane) {
         const int px = x + lane % kPacketWidth, py = y + lane / kPacketWidth;
         if (px < g.width && py < g.height)

@@ -293,7 +293,9 @@ void ShadowRaster::draw(const Triangle& t, const Directions& d, float most, int 
   Row rows[2];
   const auto fillRow = [&](int y, Row& row) {
     const size_t at = static_cast<size_t>(y) * kRow;
-    for (size_t i = 0; i < static_cast<size_t>(tiles_) + 1; i += kLanes) {
+    // As far as the tiles' last vector reads, and one more.
+    for (size_t i = 0; i <= kLanes * ((static_cast<size_t>(tiles_) + kLanes - 1) / kLanes);
+         i += kLanes) {
       const Floats dx = load(d.cornerX, at + i), dy = load(d.cornerY, at + i),
                    dz = load(d.cornerZ, at + i);
       for (size_t e = 0; e < 3; ++e) hn::StoreU(along(t.edges[e], dx, dy, dz), kTag, &row[e][i]);
