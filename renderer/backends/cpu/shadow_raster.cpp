@@ -12,8 +12,6 @@
 #include <hwy/highway.h>
 
 #include "renderer/backends/cpu/shadow_maps.h"
-#include "shaders/shared/octahedral.h"
-#include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -33,7 +31,8 @@ constexpr size_t kMostTriangles = 1024, kMostComplex = 64;
 constexpr float kMostOfBlocks = 0.75f;
 
 constexpr int kMostTiles = 16;  // on a side
-constexpr size_t kRow = 24;     // of corners of tiles, in whole vectors
+constexpr size_t kRow = TexelDirections::kCornersARow;
+static_assert(kRow >= kMostTiles + kLanes);
 
 // Of an edge's function: what it may be wrong by, so that neighbours do not both leave a tile out.
 constexpr float kRounding = 1e-6f;
@@ -77,7 +76,7 @@ struct ShadowRaster::Light {
   mat3 axes;         // columns: those of light space
   float across, up;  // what light space is scaled by; 1 but for parallel lights
   float most;        // of what is stored: at the nearest that a ray meets
-  const Directions& directions;
+  const TexelDirections& directions;
 
   Light(const ShadowRaster& raster, const shared::Vpl& vpl)
       : isParallel(vpl.position.w == shared::kVplDirectional),
@@ -148,50 +147,14 @@ void ShadowRaster::setResolution(int resolution) {
   if (resolution % tile_ != 0) tile_ = 0;
   if (tile_ == 0) return;
   tiles_ = resolution / tile_;
-  fill(hemisphere_, false);
-  fill(parallel_, true);
-}
-
-void ShadowRaster::fill(Directions& d, bool isParallel) const {
-  d = Directions();
-  const auto size = static_cast<float>(resolution_);
-  const auto direction = [&](vec2 texel) {
-    const vec2 s = shared::shadowTexelCentre(texel, size);
-    return isParallel ? vec3(s, 1.0f) : shared::octahedralDecode(s);
-  };
-  const auto push = [](const vec3& v, std::vector<float>& x, std::vector<float>& y,
-                       std::vector<float>& z) {
-    x.push_back(v.x);
-    y.push_back(v.y);
-    z.push_back(v.z);
-  };
-  for (int y0 = 0; y0 < resolution_; y0 += kBlockHeight) {
-    for (int x0 = 0; x0 < resolution_; x0 += kBlockWidth) {
-      const vec2 half(0.5f * kBlockWidth - 0.5f, 0.5f * kBlockHeight - 0.5f);
-      const vec3 middle = direction(vec2(x0, y0) + half);
-      const vec3 axis = isParallel ? middle : glm::normalize(middle);
-      float cosine = 1.0f, distance = 0.0f;
-      for (int lane = 0; lane < kBlockWidth * kBlockHeight; ++lane) {
-        const vec3 way = direction(vec2(x0 + lane % kBlockWidth, y0 + lane / kBlockWidth));
-        push(way, d.x, d.y, d.z);
-        cosine = std::min(cosine, glm::dot(axis, glm::normalize(way)));
-        distance = std::max(distance, glm::distance(middle, way));
-      }
-      push(axis, d.midX, d.midY, d.midZ);
-      d.cosine.push_back(isParallel ? distance : cosine);
-      d.sine.push_back(isParallel ? 0.0f : std::sqrt(std::max(0.0f, 1.0f - cosine * cosine)));
-    }
-  }
-  for (int y = 0; y <= tiles_; ++y)
-    for (int x = 0; x < static_cast<int>(kRow); ++x)
-      push(direction(vec2(std::min(x, tiles_) * tile_, y * tile_) - 0.5f), d.cornerX, d.cornerY,
-           d.cornerZ);
+  hemisphere_ = texelDirections(resolution, tile_, false);
+  parallel_ = texelDirections(resolution, tile_, true);
 }
 
 // Marks blocks that may see what is left to rays. Whether rasterising the others is worth it.
 bool ShadowRaster::markForRays(const Light& light, int firstRow, int lastRow,
                                std::vector<uint8_t>& marks) const {
-  const Directions& d = light.directions;
+  const TexelDirections& d = light.directions;
   const size_t first = static_cast<size_t>(firstRow / kBlockHeight * (resolution_ / kBlockWidth)),
                count = static_cast<size_t>((lastRow - firstRow) / kBlockHeight) *
                        static_cast<size_t>(resolution_ / kBlockWidth);
@@ -282,7 +245,7 @@ void ShadowRaster::prepare(const Light& light, size_t first, Batch& out) const {
   store(plane, [](Triangle& t) -> vec3& { return t.plane; });
 }
 
-void ShadowRaster::draw(const Triangle& t, const Directions& d, float most, int firstRow,
+void ShadowRaster::draw(const Triangle& t, const TexelDirections& d, float most, int firstRow,
                         int lastRow, std::span<float> map) const {
   const auto along = [](const vec3& n, Floats x, Floats y, Floats z) {
     return hn::MulAdd(all(n.x), x, hn::MulAdd(all(n.y), y, hn::Mul(all(n.z), z)));

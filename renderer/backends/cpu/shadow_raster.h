@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/backends/cpu/texel_directions.h"
 #include "renderer/raycast/ray_caster.h"
 #include "shaders/shared/vpl.h"
 
@@ -40,22 +41,10 @@ class ShadowRaster {
     vec3 centre;
     float radius;
   };
-  // By block of texels (shadow_maps.h), eight texels each: the directions of their rays in light
-  // space, or (u, v, 1) of parallel ones.
-  struct Directions {
-    std::vector<float> x, y, z;
-    // The middle of a block and how far its texels are from that: an angle's cosine and sine, or a
-    // distance.
-    std::vector<float> midX, midY, midZ, cosine, sine;
-    // The same at corners of tiles, row after row.
-    std::vector<float> cornerX, cornerY, cornerZ;
-  };
-
-  void fill(Directions& directions, bool isParallel) const;
   bool markForRays(const Light& light, int firstRow, int lastRow,
                    std::vector<uint8_t>& marks) const;
   void prepare(const Light& light, size_t first, Batch& out) const;
-  void draw(const Triangle& triangle, const Directions& directions, float most, int firstRow,
+  void draw(const Triangle& triangle, const TexelDirections& directions, float most, int firstRow,
             int lastRow, std::span<float> map) const;
 
   bool isUseful_ = false;
@@ -63,7 +52,7 @@ class ShadowRaster {
   Corners corners_;
   std::vector<Sphere> complex_;                // around the other objects
   int resolution_ = 0, tile_ = 0, tiles_ = 0;  // tile_: texels [0: rays alone]
-  Directions hemisphere_, parallel_;
+  TexelDirections hemisphere_, parallel_;
 };
 
 }  // namespace lamplighter::cpu

@@ -1,10 +1,12 @@
 // Maps that are rasterised hold what rays meet.
+#include "renderer/backends/cpu/shadow_raster.h"
+
+#include <cmath>
 #include <iostream>
 
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/shadow_maps.h"
-#include "renderer/backends/cpu/shadow_raster.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf_io.h"
 #include "tests/support/lit_scene.h"
@@ -63,6 +65,31 @@ TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
       EXPECT_LT(c.rays, c.texels / 2);
     }
   }
+}
+
+// Of suns: squares over parts of the room, from all round.
+TEST(ShadowRaster, HoldsWhatParallelRaysMeet) {
+  RenderScene scene;
+  update(scene,
+         loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/table_room.gltf")
+             .scene,
+         SceneChanges::all());
+  const float radius = scene.bounds.radius();
+  std::vector<shared::Vpl> suns;
+  for (int i = 0; i < 40; ++i) {
+    const float angle = 2.4f * static_cast<float>(i), height = 0.05f * static_cast<float>(i) - 1.0f;
+    const vec3 towards = glm::normalize(vec3(std::cos(angle), height, std::sin(angle)));
+    shared::Vpl sun = test::makeVpl(scene.bounds.centre() + 0.02f * static_cast<float>(i), towards,
+                                    shared::kVplDirectional, 0.7f * static_cast<float>(i));
+    sun.normal.w = 1.1f * radius;
+    sun.tangent.w = 0.1f * static_cast<float>(i % 10 + 1) * radius;
+    suns.push_back(sun);
+  }
+  const Compared c = compare(scene, suns, 64);
+  std::cout << c.others << " of " << c.texels << " texels differ, " << 100 * c.rays / c.texels
+            << "% by rays\n";
+  EXPECT_LE(c.others, c.texels / 20000);
+  EXPECT_LT(c.rays, c.texels);
 }
 
 }  // namespace
