@@ -32,8 +32,8 @@ constexpr int kBounces[] = {0, 1, 5};
 constexpr int kPaths = 256;
 // Pictures with shifted pixels that many_lights averages.
 constexpr int kAntialias = 16;
-// So near that next to nothing is taken away [m]. Nearer, and what many samples give is so little of
-// the most that they could that it is lost in the rounding of sums (light_kernel.h).
+// So near that next to nothing is taken away [m]. Nearer, and what many samples give is so little
+// of the most that they could that it is lost in the rounding of sums (light_kernel.h).
 constexpr float kNoClamp = 0.1f;
 
 // Through its first camera, or from outside.
