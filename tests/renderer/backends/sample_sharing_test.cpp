@@ -1,7 +1,5 @@
 // Samples of a pixel beside its middle take the light of the middle where the picture is even: far
 // less work, the same picture but for what nobody sees, and no trace of what was before.
-#include <filesystem>
-
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
@@ -9,7 +7,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
-#include "renderer/scene/gltf_io.h"
+#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -28,16 +26,8 @@ Settings settingsOf(int antialias, const std::string& block) {
   return s;
 }
 
-struct Room {
-  Scene scene;
-  View view;
-  explicit Room(const std::string& name)
-      : scene(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                       (name + ".gltf"))
-                  .scene) {
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 320, 200);
-  }
+struct Room : test::AssetRoom {
+  explicit Room(const std::string& name) : AssetRoom(name, 320, 200) {}
 };
 
 Image settled(FrameRenderer& renderer, const Room& room, const SceneChanges& changes,

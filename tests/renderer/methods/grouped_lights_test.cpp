@@ -1,6 +1,5 @@
 // Look-ups that groups of light samples share: fewer, with a picture that stays right.
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -11,22 +10,14 @@
 #include "renderer/light_maps/stand_ins.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
-#include "renderer/scene/gltf_io.h"
+#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 
 namespace lamplighter {
 namespace {
 
-struct Room {
-  Scene scene;
-  View view;
-  explicit Room(const std::string& name)
-      : scene(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                       (name + ".gltf"))
-                  .scene) {
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 160, 100);
-  }
+struct Room : test::AssetRoom {
+  explicit Room(const std::string& name) : AssetRoom(name, 160, 100) {}
 };
 
 Settings settingsOf(const std::string& technique, int vpls, float groupShare) {
