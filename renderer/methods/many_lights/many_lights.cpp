@@ -38,8 +38,11 @@ bool hasGlossy(const RenderScene& scene) {
   });
 }
 
-StandIns::Groups groupsOf(const FrameInputs& in, float share) {
-  return {share,
+// With fewer VPLs each counts, the faint ones too where nothing else lights.
+constexpr int kFewestForGroups = 800;
+
+StandIns::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
+  return {vpls < kFewestForGroups ? 0.0f : share,
           [&rays = in.rays](const vec3& a, const vec3& b) {
             return !rays.occluded({a, 0.0f, b - a, 1.0f});
           },
@@ -260,7 +263,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
       in.backend, wanted_, {std::max(options.mostMaps - refining, 1), static_cast<int>(maps)});
   if (visibility_)
     standIns_.update(lights_.shown(), slots, lights_.hasMap(), wanted_,
-                     groupsOf(in, options.groupShare));
+                     groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
@@ -388,7 +391,7 @@ void ManyLights::takePart(const FrameInputs& in, const Options& options,
   if (!visibility_ || !isNew) return;
   partLights_.update(in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
                      {options.useLightMaps, {options.lightMapTexel, options.clampDistance}},
-                     lights_.hasMap(), wanted_, groupsOf(in, options.groupShare));
+                     lights_.hasMap(), wanted_, groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
