@@ -16,8 +16,8 @@ namespace {
 constexpr float kMostPartialShare = 0.05f;
 constexpr int kMostPartial = 4;
 
-constexpr size_t kRootsAPiece =
-    2;  // of work for a thread, at least: rooms have few, but large ones
+// Of work for a thread, at least: rooms have few, but large ones.
+constexpr size_t kRootsAPiece = 2;
 
 // Where an object is and was before are looked at as one if the sphere around both is no larger
 // than this times its own.

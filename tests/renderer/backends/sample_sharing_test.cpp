@@ -83,8 +83,8 @@ TEST(SharedSamples, LeaveNoTraceOfWhatWasBefore) {
                              settled(anew, room, SceneChanges::all(), settings)));
 }
 
-// The border of a hard shadow on one plane, between packets or in one, is as smooth as that of a
-// box before the sky.
+// The border of a hard shadow on one plane, between packets or in one, is as smooth as where no
+// sample shares.
 TEST(SharedSamples, BordersOfShadowsStaySmooth) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(20.0f, test::addMaterial(scene, vec3(0.8f))));
