@@ -17,23 +17,50 @@ layout(location = 2) uniform int uHasLinks;  // 0: no light leaves anything out
 
 layout(location = 0) out uint outIsSmooth;
 
-// Past the picture's edge is what is at it, which differs by no more.
 vec3 sampleAt(ivec2 at) {
-  at = clamp(at, ivec2(0), textureSize(uSamples, 0) - 1);
   return max(texelFetch(uSamples, at, 0).rgb, vec3(0.0));
+}
+
+// Whether two samples, of the picture's whole grid, lie on one surface.
+bool areOnOneSurface(ivec2 a, ivec2 b) {
+  ivec2 last = textureSize(uPosition, 0) - 1;
+  a = pixelOfSample(a, uBlock, last);
+  b = pixelOfSample(b, uBlock, last);
+  vec4 normals = texelFetch(uNormals, a, 0), others = texelFetch(uNormals, b, 0);
+  vec4 from = texelFetch(uPosition, a, 0), to = texelFetch(uPosition, b, 0);
+  return from.w != 0.0 && to.w != 0.0 &&
+         isOnSurface(from.xyz, unpackNormal(normals.zw), unpackNormal(normals.xy), to.xyz,
+                     unpackNormal(others.xy));
+}
+
+// Whether the irradiance differs much between two corners of the cell, of one surface where no light
+// makes hard shadows.
+bool differsMuch(ivec2 cell) {
+  for (int i = 0; i < 4; ++i) {
+    ivec2 a = cell + ivec2(i & 1, i >> 1);
+    for (int j = i + 1; j < 4; ++j) {
+      ivec2 b = cell + ivec2(j & 1, j >> 1);
+      vec3 first = sampleAt(a), second = sampleAt(b);
+      if (!isSmooth(first, second, first, second, kMostContrastAbout) &&
+          (uHasHard != 0 || areOnOneSurface(a, b)))
+        return true;
+    }
+  }
+  return false;
 }
 
 // Whether the irradiance differs little enough at the corners of the cell and of those about it.
 bool isSmoothAbout(ivec2 cell) {
-  vec3 samples[16];
-  for (int i = 0; i < 16; ++i) samples[i] = sampleAt(cell + ivec2(i & 3, i >> 2) - 1);
-  bool isIt = isSmooth(samples[5], samples[6], samples[9], samples[10], kMostContrast);
-  for (int i = 0; i < 11; ++i) {
-    if ((i & 3) == 3) continue;
-    isIt = isIt && isSmooth(samples[i], samples[i + 1], samples[i + 4], samples[i + 5],
-                            kMostContrastAbout);
+  if (!isSmooth(sampleAt(cell), sampleAt(cell + ivec2(1, 0)), sampleAt(cell + ivec2(0, 1)),
+                sampleAt(cell + 1), kMostContrast))
+    return false;
+  ivec2 cells = textureSize(uSamples, 0) - 1;
+  for (int i = 0; i < 9; ++i) {
+    ivec2 other = cell + ivec2(i % 3, i / 3) - 1;
+    bool isThere = all(greaterThanEqual(other, ivec2(0))) && all(lessThan(other, cells));
+    if (isThere && differsMuch(other)) return false;
   }
-  return isIt;
+  return true;
 }
 
 bool isHardAt(ivec2 at) {

@@ -8,8 +8,9 @@
 //     leaks past what is thinner than a block;
 //   - the same lights leave out what all of these pixels show (renderer/scene/light_linking.h);
 //   - the irradiance at its corners differs little: the borders of shadows stay where they are;
-//   - it does not differ much in any of the eight cells about it, whatever is there: the border of
-//     a hard shadow may come into this cell without reaching a corner;
+//   - it does not differ much in any of the eight cells about it: the border of a shadow may come
+//     into this cell without reaching a corner. Where no light makes hard shadows, only corners of
+//     one surface are compared, as each surface has its own light;
 //   - none of the few lights that make hard shadows is partly hidden from the patch of a corner
 //     (renderer/backends/cpu/light_sums.h): what they light may be narrower than a block.
 // The pixels of all other cells are summed one by one.

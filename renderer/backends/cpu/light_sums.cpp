@@ -418,8 +418,8 @@ void LightSums::finishTile(const Frame& frame, int tile) {
   });
 }
 
-std::vector<uint8_t> LightSums::findHardShadows() const {
-  std::vector<uint8_t> found(red_.size(), 0);
+LightSums::HardShadows LightSums::findHardShadows() const {
+  HardShadows found{true, std::vector<uint8_t>(red_.size(), 0)};
   if (!hasPatches_) return found;
   std::vector<LightStrength> strengths;
   for (const LightRecord& light : lights_) {
@@ -429,6 +429,7 @@ std::vector<uint8_t> LightSums::findHardShadows() const {
                          hasRow ? light.slot : -1});
   }
   const std::vector<int> slots = hardLights(strengths);
+  found.hasLights = !slots.empty();
   if (slots.empty()) return found;
   std::vector<uint8_t> isHard(table_.rows(), 0);
   for (const Tile& tile : tiles_)
@@ -444,7 +445,7 @@ std::vector<uint8_t> LightSums::findHardShadows() const {
     tile.places.forEachRow([&](size_t packet, uint8_t lanes, uint32_t row) {
       if (isHard[row] == 0) return;
       for (size_t lane = 0; lane < kLanes; ++lane)
-        if ((lanes >> lane & 1) != 0) found[packet + lane] = 1;
+        if ((lanes >> lane & 1) != 0) found.at[packet + lane] = 1;
     });
   return found;
 }

@@ -42,8 +42,12 @@ class LightSums {
 
   // Where one of few lights is partly hidden from a pixel's patch, so that there may be hard
   // shadows of any shape: a parallel or punctual one with more than kHardShare (low_resolution.h)
-  // of the light of all parallel or all other lights. By pixel of the G-buffer, 1 or 0.
-  std::vector<uint8_t> findHardShadows() const;
+  // of the light of all parallel or all other lights.
+  struct HardShadows {
+    bool hasLights = true;    // there are such lights, or it is not known
+    std::vector<uint8_t> at;  // by pixel of the G-buffer, 1 or 0
+  };
+  HardShadows findHardShadows() const;
 
   // E at a pixel of the G-buffer, where it was wanted [W/m²].
   vec3 irradiance(size_t i) const { return {red_[i], green_[i], blue_[i]}; }

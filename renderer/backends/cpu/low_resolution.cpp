@@ -92,6 +92,27 @@ bool isOnOneSurface(const GBuffer& g, int x0, int y0, int x1, int y1) {
   return true;
 }
 
+// Pairs of a cell's corners, which are numbered along its rows.
+struct Pair {
+  int a, b;
+};
+constexpr Pair kPairs[] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+constexpr uint8_t kAllPairs = (1u << std::size(kPairs)) - 1;
+
+// Which pairs of these points lie on one surface, a bit each.
+uint8_t pairsOnOneSurface(const GBuffer& g, const size_t (&corners)[4]) {
+  const auto position = [&](size_t i) { return vec3(g.px[i], g.py[i], g.pz[i]); };
+  const auto shading = [&](size_t i) { return vec3(g.sx[i], g.sy[i], g.sz[i]); };
+  uint8_t pairs = 0;
+  for (size_t k = 0; k < std::size(kPairs); ++k) {
+    const size_t a = corners[kPairs[k].a], b = corners[kPairs[k].b];
+    const vec3 normal(g.gx[a], g.gy[a], g.gz[a]);
+    if (shared::isOnSurface(position(a), normal, shading(a), position(b), shading(b)))
+      pairs |= static_cast<uint8_t>(1u << k);
+  }
+  return pairs;
+}
+
 // Whether the same lights leave out all that these pixels show.
 bool isLitAlike(const GBuffer& g, std::span<const uint32_t> leftOutBy, int x0, int y0, int x1,
                 int y1) {
@@ -157,7 +178,11 @@ void LowResolution::findPlanes(const GBuffer& g, int tile, std::span<const uint3
       const bool isOne =
           isOnly || (isOnOneSurface(g, x, y, right, bottom) &&
                      (leftOutBy.empty() || isLitAlike(g, leftOutBy, x, y, right, bottom)));
-      planes_[cellAt(x / block_, y / block_)] = isOne ? 0 : kNoPlane;
+      const size_t cell = cellAt(x / block_, y / block_);
+      planes_[cell] = isOne ? 0 : kNoPlane;
+      pairs_[cell] = isOne ? kAllPairs
+                           : pairsOnOneSurface(g, {g.index(x, y), g.index(right, y),
+                                                   g.index(x, bottom), g.index(right, bottom)});
     }
   }
 }
@@ -177,7 +202,7 @@ void LowResolution::update(const GBuffer& g, int block, std::span<const uint32_t
     cellsX_ = (width_ + block - 1) / block;
     cellsY_ = (height_ + block - 1) / block;
     const size_t cells = static_cast<size_t>(cellsX_ + 2) * static_cast<size_t>(cellsY_ + 2);
-    for (auto* v : {&planes_, &cells_}) v->assign(cells, 0);
+    for (auto* v : {&planes_, &pairs_, &cells_}) v->assign(cells, 0);
     for (auto* v : {&red_, &green_, &blue_})
       v->assign(rowLength() * static_cast<size_t>(samples_.height + 1) + kLanes, 0.0f);
     isHard_.assign(red_.size(), 0);
@@ -214,8 +239,20 @@ void LowResolution::takeLight(const LightSums& light, std::span<const uint8_t> i
   }
 }
 
+// Whether two corners of one surface do, of the cell whose first sample is there.
+bool LowResolution::isCutByShadow(uint8_t pairs, size_t at) const {
+  const size_t corners[] = {at, at + 1, at + rowLength(), at + rowLength() + 1};
+  const auto light = [&](size_t i) { return vec3(red_[i], green_[i], blue_[i]); };
+  for (size_t k = 0; k < std::size(kPairs); ++k) {
+    if ((pairs >> k & 1) == 0) continue;
+    const vec3 a = light(corners[kPairs[k].a]), b = light(corners[kPairs[k].b]);
+    if (!shared::isSmooth(a, b, a, b, shared::kMostContrastAbout)) return true;
+  }
+  return false;
+}
+
 // shared::isSmooth for eight cells at a time.
-void LowResolution::findContrast(int row) {
+void LowResolution::findContrast(int row, bool hasHardLights) {
   const Floats most = hn::Set(kTag, shared::kMostContrast);
   const Floats mostAbout = hn::Set(kTag, shared::kMostContrastAbout);
   for (int i = 0; i < cellsX_; i += kLanes) {
@@ -241,7 +278,9 @@ void LowResolution::findContrast(int row) {
       const uint8_t* hard = isHard_.data() + at + static_cast<size_t>(k);
       const bool isHard = (hard[0] | hard[1] | hard[rowLength()] | hard[rowLength() + 1]) != 0;
       if ((bits[0] >> k & 1) != 0 || isHard) is |= kContrast;
-      if ((muchBits[0] >> k & 1) != 0) is |= kMuchContrast;
+      if ((muchBits[0] >> k & 1) != 0 && (hasHardLights || pairs_[cell] == kAllPairs ||
+                                          isCutByShadow(pairs_[cell], at + static_cast<size_t>(k))))
+        is |= kMuchContrast;
       cells_[cell] = is;
     }
   }
@@ -266,9 +305,9 @@ uint32_t LowResolution::edgesOf(int tile) const {
 }
 
 void LowResolution::findEdges(const GBuffer& picture, const LightSums& light) {
-  const std::vector<uint8_t> isHard = light.findHardShadows();
-  tbb::parallel_for(0, samples_.height + 1, [&](int row) { takeLight(light, isHard, row); });
-  tbb::parallel_for(0, cellsY_, [&](int row) { findContrast(row); });
+  const LightSums::HardShadows hard = light.findHardShadows();
+  tbb::parallel_for(0, samples_.height + 1, [&](int row) { takeLight(light, hard.at, row); });
+  tbb::parallel_for(0, cellsY_, [&](int row) { findContrast(row, hard.hasLights); });
   std::atomic<uint64_t> interpolated = 0;
   const int tiles = tilesX_ * tilesY_;
   tbb::parallel_for(0, (tiles + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {

@@ -45,7 +45,8 @@ class LowResolution {
   void takeSamples(const GBuffer& picture);
   void findPlanes(const GBuffer& picture, int tile, std::span<const uint32_t> leftOutBy);
   void takeLight(const LightSums& light, std::span<const uint8_t> isHard, int row);
-  void findContrast(int row);
+  void findContrast(int row, bool hasHardLights);
+  bool isCutByShadow(uint8_t pairs, size_t at) const;
   uint32_t edgesOf(int tile) const;
   // Cells are in rows with one more all about them, samples in rows with a copy of the last ones.
   size_t cellAt(int i, int j) const {
@@ -61,6 +62,7 @@ class LowResolution {
   std::vector<uint64_t> sampleRevisions_;  // of the picture's tiles, as sampled, by samples' tile
   std::vector<uint64_t> planeRevisions_;   // likewise, as looked at, by the picture's tile
   std::vector<uint8_t> planes_;            // by cell: kNoPlane or 0
+  std::vector<uint8_t> pairs_;             // likewise: which kPairs are of one surface, a bit each
   std::vector<uint8_t> cells_;             // by cell, all of it
   std::vector<float> red_, green_, blue_;  // E at samples, row after row
   std::vector<uint8_t> isHard_;            // likewise: there may be hard shadows
