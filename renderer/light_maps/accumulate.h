@@ -1,4 +1,4 @@
-// One light into the sums of one light-map tile, eight texels at a time.
+// Lights into the sums of one light-map tile, eight texels at a time.
 #pragma once
 
 #include <span>
@@ -14,13 +14,23 @@ struct TexelPlaces {
   vec3 normal;                     // unit
 };
 
+// A light as it is added to texels (sign 1) or taken away from them (−1).
+struct TexelLight {
+  TexelLight(const shared::Vpl& vpl, float sign);
+  float kind;               // Vpl::position.w
+  vec3 position, axis;      // axis: Vpl::normal
+  vec3 tangent, bitangent;  // of a parallel light's square
+  vec3 intensity;           // times the sign
+  float coneScale, side;    // Vpl::normal.w and Vpl::tangent.w
+};
+
 // What a contribution is rounded to [W/m²]. Sums of its multiples are exact in a double up to
 // 2⁵³ times it.
 inline constexpr double kIrradianceUnit = 1.0 / 67108864.0;  // 2⁻²⁶
 
-// Adds (sign 1) or takes away (−1) the irradiance of the VPL, without shadow, rounded to multiples
-// of kIrradianceUnit. r, g, b: `count` sums each. Follows vplGeometry of vpl_shading.h.
-void accumulate(const shared::Vpl& vpl, const TexelPlaces& places, float clampDistance, double sign,
-                size_t count, double* r, double* g, double* b);
+// Adds the irradiance of the lights, without shadow, each rounded to a multiple of kIrradianceUnit;
+// below 2²⁴ W/m². r, g, b: a sum for each texel. Follows vplGeometry of vpl_shading.h.
+void accumulate(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+                float clampDistance, double* r, double* g, double* b);
 
 }  // namespace lamplighter

@@ -45,32 +45,43 @@ bool isShadedFlat(const RenderScene& s, const Chart& chart) {
   });
 }
 
+// Where a tile's patch is.
+struct TilePlace {
+  const Chart& chart;
+  const Patch& patch;
+  float spacing;  // of its texels [m]
+  vec3 corners[4];
+
+  TilePlace(const Chart& c, const Patch& p, float texelSpacing)
+      : chart(c),
+        patch(p),
+        spacing(texelSpacing),
+        corners{c.at(p.min), c.at({p.max.x, p.min.y}), c.at(p.max), c.at({p.min.x, p.max.y})} {}
+};
+
 // Whether the light's plane crosses the patch: there is none of its light behind it, and before it
 // it grows from nothing, which texels on both sides would round off.
-bool isCrossed(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, float spacing) {
+bool isCrossed(const shared::Vpl& vpl, const TilePlace& tile) {
   const vec3 position(vpl.position), normal(vpl.normal);
   float least = std::numeric_limits<float>::infinity(), most = -least;
-  for (const vec2& p :
-       {patch.min, vec2(patch.max.x, patch.min.y), patch.max, vec2(patch.min.x, patch.max.y)}) {
-    const float height = glm::dot(chart.at(p) - position, normal);
+  for (const vec3& corner : tile.corners) {
+    const float height = glm::dot(corner - position, normal);
     least = std::min(least, height);
     most = std::max(most, height);
   }
-  return least < -kBehindTexels * spacing && most > kBehindTexels * spacing;
+  return least < -kBehindTexels * tile.spacing && most > kBehindTexels * tile.spacing;
 }
 
 // Whether its light is smooth enough over the patch to be interpolated, and not too bright to be
 // summed.
-bool isMappable(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, float spacing,
-                float clampDistance) {
+bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance) {
   const float brightest = std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
   const vec3 position(vpl.position), normal(vpl.normal), tangent(vpl.tangent);
   if (vpl.position.w == shared::kVplDirectional) {
     const vec3 bitangent = glm::cross(normal, tangent);
     vec2 least(std::numeric_limits<float>::infinity()), most(-least);
-    for (const vec2& p :
-         {patch.min, vec2(patch.max.x, patch.min.y), patch.max, vec2(patch.min.x, patch.max.y)}) {
-      const vec3 v = chart.at(p) - position;
+    for (const vec3& corner : tile.corners) {
+      const vec3 v = corner - position;
       const vec2 q(glm::dot(v, tangent), glm::dot(v, bitangent));
       least = glm::min(least, q);
       most = glm::max(most, q);
@@ -82,16 +93,16 @@ bool isMappable(const shared::Vpl& vpl, const Chart& chart, const Patch& patch, 
   }
   const bool isSpot = vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
   if (isSpot) return false;  // its edge may fall between two texels
-  if (isCrossed(vpl, chart, patch, spacing)) return false;
-  const vec2 p = chart.project(position);
-  const vec2 off = p - glm::clamp(p, patch.min, patch.max);
-  const float height = glm::dot(position - chart.origin, chart.normal);
+  if (isCrossed(vpl, tile)) return false;
+  const vec2 p = tile.chart.project(position);
+  const vec2 off = p - glm::clamp(p, tile.patch.min, tile.patch.max);
+  const float height = glm::dot(position - tile.chart.origin, tile.chart.normal);
   const float distance2 = glm::dot(off, off) + height * height;
   const float bounded = vpl.position.w == shared::kVplCosine
                             ? std::max(distance2, clampDistance * clampDistance)
                             : distance2;
-  return distance2 >= kNearTexels * kNearTexels * spacing * spacing &&
-         brightest <= kBrightest * bounded;
+  const float nearest = kNearTexels * tile.spacing;
+  return distance2 >= nearest * nearest && brightest <= kBrightest * bounded;
 }
 
 // Texels of a tile, with those behind the last that are there for whole vectors.
@@ -211,6 +222,11 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       if (every || !changedSlots.empty()) jobs.push_back({object, t, every});
     }
   }
+  std::vector<TexelLight> taken, added;  // by slot
+  if (!jobs.empty()) {
+    for (const shared::Vpl& vpl : lights_) taken.emplace_back(vpl, -1.0f);
+    for (const shared::Vpl& vpl : bySlot) added.emplace_back(vpl, 1.0f);
+  }
   std::atomic<uint64_t> written = 0;
   std::vector<uint8_t> wrote(jobs.size(), 0);
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t j) {
@@ -221,32 +237,28 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     const Patch& patch = patches.patches[static_cast<size_t>(tile.patch)];
     const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
     const auto states = visibility.row(job.object, tile.patch);  // of those given
-    const float spacing = spacingOf(tile, patch);
+    const TilePlace place(chart, patch, spacingOf(tile, patch));
     const size_t count = paddedCount(tile);
     const TexelPlaces places{{&o.x[tile.first], count},
                              {&o.y[tile.first], count},
                              {&o.z[tile.first], count},
                              chart.normal};
     double* sums = &o.sums[size_t{3} * tile.first];
-    uint64_t touched = 0;
-    const auto change = [&](const shared::Vpl& vpl, double sign) {
-      accumulate(vpl, places, options.clampDistance, sign, count, sums, sums + count,
-                 sums + 2 * count);
-      touched += count;
-    };
+    std::vector<const TexelLight*> changes;
     for (const uint32_t slot : job.everySlot ? allSlots : changedSlots) {
       uint64_t& word = o.held[job.tile * words_ + slot / 64];
       const uint64_t bit = uint64_t{1} << slot % 64;
       const bool has = (word & bit) != 0;
       const bool wants = isLight(bySlot[slot]) &&
                          static_cast<Occlusion>(states[slot]) != Occlusion::full &&
-                         isMappable(bySlot[slot], chart, patch, spacing, options.clampDistance);
-      if (has && (!wants || isNew[slot])) change(lights_[slot], -1.0);
-      if (wants && (!has || isNew[slot])) change(bySlot[slot], 1.0);
+                         isMappable(bySlot[slot], place, options.clampDistance);
+      if (has && (!wants || isNew[slot])) changes.push_back(&taken[slot]);
+      if (wants && (!has || isNew[slot])) changes.push_back(&added[slot]);
       word = wants ? word | bit : word & ~bit;
     }
-    if (touched == 0) return;
-    written += touched;
+    if (changes.empty()) return;
+    accumulate(changes, places, options.clampDistance, sums, sums + count, sums + 2 * count);
+    written += changes.size() * count;
     wrote[j] = 1;
     for (size_t i = 0; i < count; ++i)
       o.irradiance[tile.first + i] = vec4(sums[i], sums[count + i], sums[2 * count + i], 0.0);

@@ -65,9 +65,9 @@ TEST(Accumulate, IsTheSharedDefinitionRounded) {
   vpls.push_back(test::makeVpl(vec3(1, 3, 1), vec3(0, -1, 0), shared::kVplUniform));
   vpls.back().normal.w = 0.0f;
   vpls.back().tangent.w = 1.0f;
-  constexpr size_t kCount = 37;  // not a multiple of eight
-  std::vector<float> x(40), y(40), z(40);
-  for (size_t i = 0; i < 40; ++i) {
+  constexpr size_t kCount = 40;
+  std::vector<float> x(kCount), y(kCount), z(kCount);
+  for (size_t i = 0; i < kCount; ++i) {
     x[i] = -3.0f + 0.15f * static_cast<float>(i);
     y[i] = 0.3f;
     z[i] = 1.0f - 0.05f * static_cast<float>(i);
@@ -76,7 +76,8 @@ TEST(Accumulate, IsTheSharedDefinitionRounded) {
   int lit = 0;
   for (const shared::Vpl& vpl : vpls) {
     std::vector<double> r(kCount), g(kCount), b(kCount);
-    accumulate(vpl, {x, y, z, normal}, kClamp, 1.0, kCount, r.data(), g.data(), b.data());
+    const TexelLight light(vpl, 1.0f);
+    accumulate(std::vector{&light}, {x, y, z, normal}, kClamp, r.data(), g.data(), b.data());
     for (size_t i = 0; i < kCount; ++i) {
       const float e = shared::vplGeometry(vpl, vec3(x[i], y[i], z[i]), normal, normal, kClamp);
       EXPECT_NEAR(g[i], e * vpl.intensity.g, 1e-5 * e * vpl.intensity.g + kIrradianceUnit);
@@ -93,13 +94,18 @@ TEST(Accumulate, WhatIsTakenAwayLeavesNoBit) {
   std::vector<float> x(64), y(64, 0.1f), z(64, -0.4f);
   for (size_t i = 0; i < 64; ++i) x[i] = -3.0f + 0.1f * static_cast<float>(i);
   std::vector<double> r(64), g(64), b(64);
-  const auto all = [&](double sign) {
-    for (const shared::Vpl& vpl : vpls)
-      accumulate(vpl, {x, y, z, vec3(0, 1, 0)}, kClamp, sign, 64, r.data(), g.data(), b.data());
-  };
-  all(1.0);
+  const TexelPlaces places{x, y, z, vec3(0, 1, 0)};
+  std::vector<TexelLight> lights;
+  std::vector<const TexelLight*> added, taken;
+  for (const float sign : {1.0f, -1.0f})
+    for (const shared::Vpl& vpl : vpls) lights.emplace_back(vpl, sign);
+  for (size_t i = 0; i < vpls.size(); ++i) {
+    added.push_back(&lights[i]);
+    taken.insert(taken.begin(), &lights[vpls.size() + i]);
+  }
+  accumulate(added, places, kClamp, r.data(), g.data(), b.data());
   EXPECT_GT(*std::max_element(r.begin(), r.end()), 0.0);
-  all(-1.0);
+  accumulate(taken, places, kClamp, r.data(), g.data(), b.data());
   for (const auto* sums : {&r, &g, &b})
     EXPECT_TRUE(std::all_of(sums->begin(), sums->end(), [](double s) { return s == 0.0; }));
 }
