@@ -17,6 +17,26 @@ Ray rayFrom(const SeenPoint& point, const vec4& position, const vec4& normal) {
   return ray;
 }
 
+// What moved, and a sphere about it, which most rays pass by.
+struct Obstacle {
+  Bounds box;
+  vec3 middle;
+  float radius2;  // m²
+  explicit Obstacle(const Bounds& b) : box(b), middle(b.centre()) {
+    const float radius = b.radius() + rayEpsilon(b.min) + rayEpsilon(b.max);
+    radius2 = 1.01f * radius * radius;
+  }
+
+  bool mayBeBetween(const SeenPoint& point, const vec4& position, const vec4& normal) const {
+    const vec3 to = middle - point.position;
+    const bool isParallel = position.w == shared::kVplDirectional;
+    const vec3 way = isParallel ? vec3(normal) : vec3(position) - point.position;
+    const float along = std::max(glm::dot(to, way) / glm::dot(way, way), 0.0f);
+    const vec3 off = to - (isParallel ? along : std::min(along, 1.0f)) * way;
+    return glm::dot(off, off) <= radius2 && mayTouch(rayFrom(point, position, normal), box);
+  }
+};
+
 }  // namespace
 
 bool PointVisibility::Row::sees(const SeenPoint& point, size_t index, const RayCaster& rays) {
@@ -33,16 +53,19 @@ void PointVisibility::outdate(const RenderSceneChanges& changes,
     rows_.clear();
     return;
   }
-  if (movers.empty()) return;
+  std::vector<Obstacle> obstacles;
+  for (const MoverFinder::Mover& m : movers)
+    for (const Bounds& box : {m.before, m.after})
+      if (!box.empty()) obstacles.emplace_back(box);
+  if (obstacles.empty()) return;
   std::vector<Row*> rows;
   for (auto& [id, row] : rows_) rows.push_back(&row);
   tbb::parallel_for(size_t{0}, rows.size(), [&](size_t r) {
     Row& row = *rows[r];
     for (size_t i = 0; i < points_.size(); ++i) {
       if (!row.known_[i]) continue;
-      const Ray ray = rayFrom(points_[i], row.position_, row.normal_);
-      row.known_[i] = std::none_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
-        return mayTouch(ray, m.before) || mayTouch(ray, m.after);
+      row.known_[i] = std::none_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& o) {
+        return o.mayBeBetween(points_[i], row.position_, row.normal_);
       });
     }
   });
