@@ -27,6 +27,17 @@ Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
   return glossAt(scene, g.object[i], g.triangle[i], u, v);
 }
 
+// By object, whether any of it may be.
+std::vector<uint8_t> findGlossy(const RenderScene& scene) {
+  std::vector<uint8_t> mayBe;
+  for (const RenderObject& object : scene.objects) {
+    const Material& m = scene.materials[static_cast<size_t>(object.material)];
+    mayBe.push_back(m.metallicRoughnessTexture.texture != kNone ||
+                    shared::isGlossy(m.metallic, m.roughness));
+  }
+  return mayBe;
+}
+
 }  // namespace
 
 void SpecularSums::clear() {
@@ -34,13 +45,13 @@ void SpecularSums::clear() {
 }
 
 void SpecularSums::findParts(const RenderScene& scene, const GBuffer& g, size_t index,
-                             const PatchLights* patches) {
+                             std::span<const uint8_t> mayBeGlossy, const PatchLights* patches) {
   Tile& tile = tiles_[index];
   tile.parts.clear();
   tile.gloss.clear();
   for (size_t in = 0; in < kTilePixels; ++in) {
     const size_t i = index * kTilePixels + in;
-    if (g.hit[i] == 0) continue;
+    if (g.hit[i] == 0 || mayBeGlossy[g.object[i]] == 0) continue;
     const Gloss gloss = glossOf(scene, g, i);
     if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
     if (tile.gloss.empty()) tile.gloss.resize(kTilePixels);
@@ -98,8 +109,9 @@ uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const 
   std::vector<size_t> found;
   for (size_t i = 0; i < tiles_.size(); ++i)
     if (!knowsPlaces_ || tiles_[i].revision != g.revision[i]) found.push_back(i);
+  const std::vector<uint8_t> mayBeGlossy = findGlossy(scene);
   tbb::parallel_for(size_t{0}, found.size(),
-                    [&](size_t i) { findParts(scene, g, found[i], patches); });
+                    [&](size_t i) { findParts(scene, g, found[i], mayBeGlossy, patches); });
   std::vector<bool> isOther;
   if (hasPatches) isOther = findUses(*patches);
 

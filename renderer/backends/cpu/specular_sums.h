@@ -53,7 +53,7 @@ class SpecularSums {
     std::vector<vec3> radiance;  // [W/(m² sr)]
   };
   void findParts(const RenderScene& scene, const GBuffer& gbuffer, size_t tile,
-                 const PatchLights* patches);
+                 std::span<const uint8_t> mayBeGlossy, const PatchLights* patches);
   std::vector<bool> findUses(const PatchLights& patches);
 
   bool isOn_ = false, isKnown_ = false, knowsPlaces_ = false, hasPatches_ = false;

@@ -6,6 +6,17 @@
 #include <tbb/parallel_for.h>
 
 namespace lamplighter::cpu {
+namespace {
+
+// Whether a point of a triangle of which another point lies in the leaf surely does too.
+bool liesIn(const ObjectPatches& patches, int leaf, const vec3& position) {
+  const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
+  if (patch.chart == kNone) return true;
+  const vec2 p = patches.charts[static_cast<size_t>(patch.chart)].project(position);
+  return p.x >= patch.min.x && p.x < patch.max.x && p.y >= patch.min.y && p.y < patch.max.y;
+}
+
+}  // namespace
 
 void PlaceTable::reset(size_t slots) {
   slots_ = slots;
@@ -86,6 +97,15 @@ void TilePlaces::clear() {
 void TilePlaces::find(const GBuffer& g, int tile, const PatchLights* patches, uint32_t packets) {
   first_ = static_cast<size_t>(tile) * kTilePixels;
   std::vector<Part> parts;
+  // The pixel before and its place: of the same triangle, it is mostly that one again.
+  size_t last = 0;
+  int lastPlace = kNone;
+  const auto isAsLast = [&](size_t i) {
+    return lastPlace != kNone && g.object[i] == g.object[last] &&
+           g.triangle[i] == g.triangle[last] &&
+           liesIn(patches->patches(g.object[i]), places_[static_cast<size_t>(lastPlace)].leaf,
+                  {g.px[i], g.py[i], g.pz[i]});
+  };
   for (packets &= ~known_; packets != 0; packets &= packets - 1) {
     const int packet = std::countr_zero(packets);
     known_ |= uint32_t{1} << packet;
@@ -93,7 +113,9 @@ void TilePlaces::find(const GBuffer& g, int tile, const PatchLights* patches, ui
     for (int lane = 0; lane < kLanes; ++lane) {
       const size_t i = first_ + static_cast<size_t>(packet * kLanes + lane);
       if (g.hit[i] == 0) continue;
-      const uint16_t place = patches == nullptr ? uint16_t{0} : placeOf(g, *patches, i);
+      if (patches != nullptr && !isAsLast(i)) lastPlace = placeOf(g, *patches, i);
+      last = i;
+      const auto place = static_cast<uint16_t>(std::max(lastPlace, 0));
       const auto it =
           std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.place == place; });
       Part& part = it == parts.end() ? parts.emplace_back(Part{place, 0}) : *it;
