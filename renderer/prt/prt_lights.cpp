@@ -263,6 +263,13 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
   return shows;
 }
 
+uint64_t PrtLights::raysPerLight() const {
+  uint64_t rays = 0;
+  for (const Object& o : objects_)
+    if (o.transfer) rays += o.places.size();
+  return rays;
+}
+
 bool PrtLights::isFront(uint32_t object, uint32_t triangle, const vec3& normal) const {
   const uint32_t* corner =
       &scene_->indices[scene_->objects[object].firstIndex + 3 * static_cast<size_t>(triangle)];

@@ -66,6 +66,8 @@ class PrtLights {
   // Since they were made: rays to VPLs, and those that the database spared.
   uint64_t rays() const { return raysTraced_; }
   uint64_t raysSpared() const { return raysSpared_; }
+  // That a light which changes takes at most: one to each light point.
+  uint64_t raysPerLight() const;
 
  private:
   static constexpr size_t kSums = 3 * kShCoefficients;  // a light point: all r, then g, then b

@@ -26,7 +26,7 @@ struct RefreshWork {
   uint64_t shadowMaps = 0;
   uint64_t visibilityTests = 0;  // occlusion pyramids against the scene
   uint64_t lightMapTexels = 0;   // times lights added or taken away
-  uint64_t rays = 0;             // for shadow maps that are traced
+  uint64_t rays = 0;             // for shadow maps that are traced, and to light points
 
   RefreshWork& operator+=(const RefreshWork& o);
   // No kind of work is more than what this allows of it.

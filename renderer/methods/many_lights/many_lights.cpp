@@ -233,6 +233,10 @@ int ManyLights::refreshLights(const FrameInputs& in, const Options& options) {
     const auto side = static_cast<uint64_t>(options.mapResolution);
     moved.rays = stale.rays = side * side;
   }
+  if (prt_) {
+    moved.rays += prt_->raysPerLight();
+    stale.rays += prt_->raysPerLight();
+  }
   if (visibility_) moved.visibilityTests = visibility_->testsPerColumn();
   if (lightMaps_) moved.lightMapTexels = 2 * lightMaps_->texels();  // out and in again
   return lights_.refresh(options.budget, moved, stale);

@@ -93,7 +93,8 @@ const ParameterSpec& maxLightMapTexels() {
 
 const ParameterSpec& maxRays() {
   static const ParameterSpec spec =
-      limitOf("max_rays", "Rays a frame", "Rays for shadow maps (cpu backend)");
+      limitOf("max_rays", "Rays a frame",
+              "Rays for shadow maps and light points of transfer (cpu backend)");
   return spec;
 }
 

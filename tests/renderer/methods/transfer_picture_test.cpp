@@ -154,6 +154,28 @@ TEST(TransferPicture, IsTheSameAfterTheBackgroundAndFromTheCache) {
   fs::remove_all(folder);
 }
 
+// A light that is refreshed takes a ray to each light point besides those for its map.
+TEST(TransferPicture, ItsRaysAreOfTheBudget) {
+  constexpr int kMaps = 20, kRaysAMap = 64 * 64;
+  const auto refreshedOf = [](bool prt) {
+    BumpyRoom room;
+    FrameRenderer renderer(makeCpuBackend());
+    Settings settings = settingsOf(prt, 1);
+    settings.set(parameters::vpls().name, 100);
+    test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+    settings.set(parameters::maxRays().name, kMaps * kRaysAMap);
+    const Scene before = room.scene;
+    room.scene.nodes[1].local.translation.x += 0.5f;  // the plate
+    return renderer
+        .render({room.scene, compare(before, room.scene), room.view, "many_lights", settings})
+        .stats.vplsRefreshed;
+  };
+  EXPECT_EQ(refreshedOf(false), kMaps);
+  const int with = refreshedOf(true);
+  EXPECT_LT(with, kMaps);
+  EXPECT_GT(with, kMaps / 2);
+}
+
 TEST(TransferPicture, FollowsItsSwitch) {
   const BumpyRoom room;
   FrameRenderer renderer(makeCpuBackend());
