@@ -29,27 +29,42 @@ Settings settingsOf(const std::string& technique, int vpls) {
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::updates().name, 150);
   s.set(parameters::antialias().name, 1);
+  s.set(parameters::cornerLight().name, false);  // found by rays for each of them
   return s;
 }
 
-View viewOf(const Scene& scene) {
+fs::path pathOf(const std::string& name) {
+  return name.find('/') == std::string::npos
+             ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+             : test::sharedScenes() / name;
+}
+
+View viewOf(const Scene& scene, int divisor = 1) {
+  const int width = kWidth / divisor, height = kHeight / divisor;
   for (const Node& node : scene.nodes)
-    if (node.camera != kNone) return viewOfCamera(scene, node, kWidth, kHeight);
+    if (node.camera != kNone) return viewOfCamera(scene, node, width, height);
   RenderScene render;
   update(render, scene, SceneChanges::all());
-  return viewOfBounds(render.bounds, kWidth, kHeight);
+  return viewOfBounds(render.bounds, width, height);
 }
 
 struct Rendered {
+  std::unique_ptr<FrameRenderer> renderer;
   Image image;
-  uint64_t lookUps;
+  uint64_t lookUps() const { return renderer->backend().counts().lookUps; }
 };
 
 Rendered rendered(const Scene& scene, const View& view, const std::string& technique, int vpls) {
-  FrameRenderer renderer(makeCpuBackend());
+  auto renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
   const GiOutput out =
-      test::renderSettled(renderer, scene, SceneChanges::all(), view, settingsOf(technique, vpls));
-  return {out.radiance->pixels(), renderer.backend().counts().lookUps};
+      test::renderSettled(*renderer, scene, SceneChanges::all(), view, settingsOf(technique, vpls));
+  return {std::move(renderer), out.radiance->pixels()};
+}
+
+// The picture that is shown, with rays.
+Image withRays(const FrameRenderer& of, const View& view, const VisibilityDatabase* visibility) {
+  return test::withTracedShadows(of.scene(), *of.rays(), test::shownLights(of.inspect()), view,
+                                 Settings(), visibility);
 }
 
 struct Case {
@@ -63,10 +78,7 @@ class VisibilityTechnique : public testing::TestWithParam<Case> {};
 // Within 1%. Where a level's shadow maps leak by more than that, the techniques that know that
 // nothing or all of a light arrives are farther from `naive`, but then nearer to what is right.
 TEST_P(VisibilityTechnique, IsThePictureOfNaive) {
-  const std::string name = GetParam().scene;
-  const fs::path path = name.find('/') == std::string::npos
-                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
-                            : test::sharedScenes() / name;
+  const fs::path path = pathOf(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
   const View view = viewOf(scene);
@@ -77,24 +89,44 @@ TEST_P(VisibilityTechnique, IsThePictureOfNaive) {
     const Metrics m = compareImages(fast.image, naive.image);
     RecordProperty(technique + "RelRmse", std::to_string(m.relRmse));
     RecordProperty(technique + "LookUpsPercent",
-                   std::to_string(100 * fast.lookUps / naive.lookUps));
-    EXPECT_LT(fast.lookUps, naive.lookUps);
+                   std::to_string(100 * fast.lookUps() / naive.lookUps()));
+    EXPECT_LT(fast.lookUps(), naive.lookUps());
     EXPECT_NEAR(m.bias, 1.0, 0.005);
     if (m.relRmse < 0.01) continue;
-    const Image truth = test::withTracedShadows(scene, view, settingsOf("naive", GetParam().vpls));
+    const Image truth = withRays(*naive.renderer, view, nullptr);
     EXPECT_LT(compareImages(fast.image, truth).relRmse, compareImages(naive.image, truth).relRmse)
         << "and " << m.relRmse << " from naive";
   }
 }
 INSTANTIATE_TEST_SUITE_P(
     Scenes, VisibilityTechnique,
-    testing::Values(Case{"default.gltf", 300}, Case{"area_light_room.gltf", 300},
-                    Case{"table_room.gltf", 300}, Case{"pillar_room.gltf", 300},
-                    Case{"cornell_style.gltf", 300}, Case{"modern-hall/modern-hall.glb", 100},
-                    Case{"bathroom/bathroom.glb", 100}, Case{"zdm2-map/zdm2.glb", 20},
-                    Case{"classroom/classroom.gltf", 300},
+    testing::Values(Case{"default.gltf", 300}, Case{"close_light.gltf", 300},
+                    Case{"area_light_room.gltf", 300}, Case{"table_room.gltf", 300},
+                    Case{"pillar_room.gltf", 300}, Case{"cornell_style.gltf", 300},
+                    Case{"modern-hall/modern-hall.glb", 100}, Case{"bathroom/bathroom.glb", 100},
+                    Case{"zdm2-map/zdm2.glb", 20}, Case{"classroom/classroom.gltf", 300},
                     Case{"kenney-fps-level/kenney-fps-level.gltf", 100},
                     Case{"flight-helmet/FlightHelmet.gltf", 100}));
+
+// Whatever shadow maps leak: where the database says that a light arrives, or that it does not, a
+// ray says so too, at every pixel.
+class VisibilityKnowledge : public testing::TestWithParam<Case> {};
+
+TEST_P(VisibilityKnowledge, IsWhatRaysSay) {
+  const fs::path path = pathOf(GetParam().scene);
+  if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
+  const Scene scene = loadGltf(path).scene;
+  const View view = viewOf(scene, 2);
+  const Rendered shown = rendered(scene, view, "visibility", GetParam().vpls);
+  const VisibilityDatabase* known = shown.renderer->inspect().visibility;
+  ASSERT_NE(known, nullptr);
+  const Image rays = withRays(*shown.renderer, view, nullptr);
+  EXPECT_LT(compareImages(withRays(*shown.renderer, view, known), rays).relRmse, 0.0005);
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, VisibilityKnowledge,
+                         testing::Values(Case{"narrow_gap.gltf", 300}, Case{"default.gltf", 300},
+                                         Case{"living-room/living-room.gltf", 50},
+                                         Case{"classroom/classroom.gltf", 50}));
 
 TEST(VisibilityTechnique, APictureAfterEditsIsTheOneMadeFromNothing) {
   Scene scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf").scene;
