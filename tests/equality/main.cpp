@@ -9,6 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "renderer/gl/headless_context.h"
+#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/scene/render_scene.h"
@@ -23,10 +24,12 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kBackends = {"cpu", "gl"};
 constexpr int kResolutions[] = {64, 256};
 
+constexpr int kGroupedVpls = 800;  // from which on they are grouped
+
 // What its size lets be done in a while.
 int fewVpls(size_t triangles) { return triangles < 10000 ? 300 : 100; }
-// From which on light samples are grouped.
-int vplsInGroups(size_t) { return 800; }
+int defaultVpls(size_t) { return std::get<int>(parameters::vpls().defaultValue); }
+int groupedVpls(size_t) { return kGroupedVpls; }
 
 Column column(const std::string& backend, int resolution, const std::string& name, int vpls,
               const std::string& technique) {
@@ -49,12 +52,19 @@ std::vector<Column> shadowColumns(int vpls) {
   return columns;
 }
 
-// The low-resolution pass and groups, as they are by default.
-std::vector<Column> wholeColumns(int vpls) {
+// With the low-resolution pass.
+std::vector<Column> allColumns(int vpls) {
   std::vector<Column> columns;
   for (const std::string& backend : kBackends)
     for (const int resolution : kResolutions)
       columns.push_back(column(backend, resolution, "all", vpls, "light_maps"));
+  return columns;
+}
+
+// With so many VPLs large maps take too long.
+std::vector<Column> groupColumns(int vpls) {
+  std::vector<Column> columns = allColumns(vpls);
+  std::erase_if(columns, [](const Column& c) { return c.resolution != kResolutions[0]; });
   return columns;
 }
 
@@ -74,8 +84,9 @@ struct Kind {
 
 const Kind kKinds[] = {
     {"Visibility and light maps, at full resolution", 0.01, fewVpls, shadowColumns},
-    {"All at its defaults", 0.03, vplsInGroups, wholeColumns},
-    {"All, with transfer", 0.03, fewVpls, transferColumns}};
+    {"All as it is by default", 0.03, defaultVpls, allColumns},
+    {"All, with groups", 0.03, groupedVpls, groupColumns},
+    {"All, with transfer", 0.03, defaultVpls, transferColumns}};
 
 size_t trianglesOf(const Scene& scene) {
   RenderScene render;
@@ -92,8 +103,8 @@ void rule(size_t columns) {
 void printOver(const std::vector<Over>& over) {
   std::cout
       << "\n| scene | view | backend | maps | technique | from naive | naive from rays | from "
-         "rays |\n";
-  rule(8);
+         "rays | database |\n";
+  rule(9);
   for (const Over& o : over)
     std::cout << fmt::format(
         "| {} | {} | {} | {}² | {} | {:.2f}% | {:.2f}% | {:.2f}% | {:.3f}% |\n", o.scene, o.view,
