@@ -27,7 +27,7 @@ SHARED_CONST float kLeastNormalCosine = 0.999f;
 // Share of the brightest corner by which the irradiance of a cell's corners may differ.
 SHARED_CONST float kMostContrast = 0.2f;
 // The same in the cells about it.
-SHARED_CONST float kMostContrastAbout = 0.5f;
+SHARED_CONST float kMostContrastAbout = 0.25f;
 
 // Samples along a side of `size` pixels.
 SHARED_FUNCTION int lowResolutionSamples(int size, int block) {

@@ -49,6 +49,7 @@ struct Case {
   int vpls;
   float leastInterpolated;
   double mostError = 0.015;
+  int mapResolution = 64;
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
@@ -65,8 +66,9 @@ TEST_P(LowResolutionPicture, IsTheOneOfAllPixels) {
   SceneChanges changes = SceneChanges::all();
   for (const View& view : viewsOf(scene)) {
     const auto picture = [&](const std::string& block) {
-      GiOutput out =
-          test::renderSettled(renderer, scene, changes, view, settingsOf(GetParam().vpls, block));
+      Settings settings = settingsOf(GetParam().vpls, block);
+      settings.set(parameters::mapResolution().name, GetParam().mapResolution);
+      GiOutput out = test::renderSettled(renderer, scene, changes, view, settings);
       changes = {};
       return out;
     };
@@ -87,6 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LowResolutionPicture,
                                          Case{"pillar_room.gltf", 300, 0.3f},
                                          Case{"table_room.gltf", 300, 0.3f},
                                          Case{"cornell_style.gltf", 300, 0.3f},
+                                         Case{"narrow_gap.gltf", 300, 0.1f, 0.03, 256},
                                          Case{"cornell-box/cornell-box.glb", 300, 0.1f},
                                          Case{"kenney-fps-level/kenney-fps-level.gltf", 100, 0.02f},
                                          Case{"classroom/classroom.gltf", 300, 0.05f},
