@@ -271,22 +271,17 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   lights_.assign(given.begin(), given.end());
 }
 
-vec3 LightMaps::irradiance(const ObjectPatches& patches, uint32_t object, int leaf,
-                           const vec3& position) const {
-  const LightMapTile& t = *tile(object, leaf);
+LightMaps::Sampler::Sampler(const LightMaps& maps, const ObjectPatches& patches, uint32_t object,
+                            int leaf)
+    : chart_(
+          patches.charts[static_cast<size_t>(patches.patches[static_cast<size_t>(leaf)].chart)]) {
   const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
-  const vec2 last(static_cast<float>(t.columns - 1), static_cast<float>(t.rows - 1));
-  const vec2 p = patches.charts[static_cast<size_t>(patch.chart)].project(position);
-  const vec2 at = glm::clamp((p - patch.min) / (patch.max - patch.min), 0.0f, 1.0f) * last;
-  const vec2 low = glm::min(glm::floor(at), last - 1.0f);
-  const vec2 w = at - low;
-  const vec4* texel =
-      &objects_[object]
-           .irradiance[t.first + static_cast<uint32_t>(low.y) * static_cast<uint32_t>(t.columns) +
-                       static_cast<uint32_t>(low.x)];
-  const vec4 top = glm::mix(texel[0], texel[1], w.x);
-  const vec4 bottom = glm::mix(texel[t.columns], texel[t.columns + 1], w.x);
-  return vec3(glm::mix(top, bottom, w.y));
+  const LightMapTile& tile = *maps.tile(object, leaf);
+  min_ = patch.min;
+  size_ = patch.max - patch.min;
+  last_ = vec2(static_cast<float>(tile.columns - 1), static_cast<float>(tile.rows - 1));
+  columns_ = tile.columns;
+  texels_ = &maps.objects_[object].irradiance[tile.first];
 }
 
 size_t LightMaps::texels() const {

@@ -59,9 +59,33 @@ class LightMaps {
         static_cast<size_t>(objects_[object].tileOfPatch[static_cast<size_t>(leaf)]);
     return Held(&objects_[object].held[index * words_]);
   }
-  // E of the leaf's tile on the front of its plane at the point nearest to `position` [W/m²].
+  // A leaf's tile, to be read at many points; until the maps or patches change.
+  class Sampler {
+   public:
+    Sampler(const LightMaps& maps, const ObjectPatches& patches, uint32_t object, int leaf);
+    // E on the front of its plane at the point nearest to `position` [W/m²].
+    vec3 irradiance(const vec3& position) const {
+      const vec2 p = chart_.project(position);
+      const vec2 at = glm::clamp((p - min_) / size_, 0.0f, 1.0f) * last_;
+      const vec2 low = glm::min(glm::floor(at), last_ - 1.0f);
+      const vec2 w = at - low;
+      const vec4* texel =
+          texels_ + static_cast<ptrdiff_t>(low.y) * columns_ + static_cast<ptrdiff_t>(low.x);
+      const vec4 top = glm::mix(texel[0], texel[1], w.x);
+      const vec4 bottom = glm::mix(texel[columns_], texel[columns_ + 1], w.x);
+      return vec3(glm::mix(top, bottom, w.y));
+    }
+
+   private:
+    const Chart& chart_;
+    vec2 min_, size_, last_;  // of the patch; the last column and row
+    ptrdiff_t columns_;
+    const vec4* texels_;
+  };
   vec3 irradiance(const ObjectPatches& patches, uint32_t object, int leaf,
-                  const vec3& position) const;
+                  const vec3& position) const {
+    return Sampler(*this, patches, object, leaf).irradiance(position);
+  }
   // An object's texels; rgb: E [W/m²].
   std::span<const vec4> texels(uint32_t object) const { return objects_[object].irradiance; }
   const Revision& revision(uint32_t object) const { return objects_[object].revision; }

@@ -400,20 +400,27 @@ void LightSums::finishTile(const Frame& frame, int tile) {
     }
   }
   if (!hasMaps_ && !hasTransfer_) return;
-  t.places.forEachMapped(t.wanted, [&](size_t packet, uint8_t lanes, const Place& place) {
-    const ObjectPatches& patches = frame.patches->patches(place.object);
+  const auto add = [&](size_t packet, uint8_t lanes, auto&& irradianceAt) {
     for (size_t lane = 0; lane < kLanes; ++lane) {
       if ((lanes >> lane & 1) == 0) continue;
       const size_t i = packet + lane;
-      const vec3 position(g.px[i], g.py[i], g.pz[i]);
-      const vec3 e =
-          frame.patches->hasTransfer(place.object, place.leaf)
-              ? frame.patches->prt()->irradiance(place.object, g.triangle[i], position)
-              : frame.patches->maps()->irradiance(patches, place.object, place.leaf, position);
+      const vec3 e = irradianceAt(i, vec3(g.px[i], g.py[i], g.pz[i]));
       // The map is interpolated and what is taken away is not: no less than no light is left.
       red_[i] = std::max(red_[i] + e.r, 0.0f);
       green_[i] = std::max(green_[i] + e.g, 0.0f);
       blue_[i] = std::max(blue_[i] + e.b, 0.0f);
+    }
+  };
+  t.places.forEachMapped(t.wanted, [&](size_t packet, uint8_t lanes, const Place& place) {
+    const PatchLights& lights = *frame.patches;
+    if (lights.hasTransfer(place.object, place.leaf)) {
+      add(packet, lanes, [&](size_t i, const vec3& position) {
+        return lights.prt()->irradiance(place.object, g.triangle[i], position);
+      });
+    } else {
+      const LightMaps::Sampler map(*lights.maps(), lights.patches(place.object), place.object,
+                                   place.leaf);
+      add(packet, lanes, [&](size_t, const vec3& position) { return map.irradiance(position); });
     }
   });
 }
