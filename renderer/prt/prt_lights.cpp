@@ -4,9 +4,11 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/light_maps/hard_lights.h"
 #include "renderer/prt/incident_light.h"
 
 namespace lamplighter {
@@ -25,6 +27,21 @@ bool isLight(const shared::Vpl& vpl) {
 bool isSame(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
          vec3(a.intensity) == vec3(b.intensity) && a.footprint.y == b.footprint.y;
+}
+
+// By slot, whether its light is one of few that make hard shadows.
+std::vector<bool> findHard(std::span<const shared::Vpl> bySlot) {
+  std::vector<LightStrength> strengths;
+  for (size_t slot = 0; slot < bySlot.size(); ++slot) {
+    const shared::Vpl& vpl = bySlot[slot];
+    if (!isLight(vpl)) continue;
+    strengths.push_back(
+        {static_cast<LightStrength::Kind>(static_cast<int>(vpl.position.w)), vec3(vpl.normal),
+         std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b}), static_cast<int>(slot)});
+  }
+  std::vector<bool> isHard(bySlot.size(), false);
+  for (const int slot : hardLights(strengths)) isHard[static_cast<size_t>(slot)] = true;
+  return isHard;
 }
 
 // By area: what is beside the charts of a simple object is slivers, which have too few vertices to
@@ -107,6 +124,7 @@ PrtLights::Take PrtLights::takeOf(const Frame& frame, uint32_t object, size_t sl
   const Object& o = objects_[object];
   const shared::Vpl& vpl = frame.bySlot[slot];
   if (!isLight(vpl)) return Take::none;
+  if (isHard_[slot]) return Take::toPixels;
   if (vpl.position.w != shared::kVplDirectional) {
     const Bounds& box = frame.scene.objects[object].bounds;
     const vec3 position(vpl.position);
@@ -241,12 +259,15 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
     if (objects_[i].transfer) isFresh[i] = true;
 
   if (!changes.movedObjects.empty()) isStale_.assign(isStale_.size(), true);
+  const std::vector<bool> wasHard = std::exchange(isHard_, findHard(bySlot));
   std::vector<uint32_t> all(bySlot.size()), some;
   std::iota(all.begin(), all.end(), 0u);
   for (const uint32_t slot : all) {
     const bool catchesUp = isStale_[slot] && slot < upToDate.size() && upToDate[slot];
     if (catchesUp) isStale_[slot] = false;
-    if (catchesUp || !isSame(lights_[slot], bySlot[slot])) some.push_back(slot);
+    const bool isOther = !isSame(lights_[slot], bySlot[slot]) || slot >= wasHard.size() ||
+                         wasHard[slot] != isHard_[slot];
+    if (catchesUp || isOther) some.push_back(slot);
   }
   bool shows = anew;
   for (uint32_t i = 0; i < objects_.size(); ++i) {

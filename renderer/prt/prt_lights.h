@@ -104,6 +104,7 @@ class PrtLights {
   bool isKnown_ = false;
   std::vector<Object> objects_;
   std::vector<shared::Vpl> lights_;  // by slot, as summed
+  std::vector<bool> isHard_;         // by slot: its shadows are too hard for transfer
   std::vector<bool> isStale_;        // by slot: something moved since its shadows were found
   Revision coverage_;
   uint64_t raysTraced_ = 0, raysSpared_ = 0;

@@ -102,22 +102,54 @@ TEST(PrtLights, LightASphereFromAfarAsItIsLitDirectly) {
   }
 }
 
+// Parallel light in a square of ten metres.
+Vpl parallelVpl(const vec3& position, const vec3& towards, float intensity) {
+  Vpl vpl = brightVpl(position, towards, intensity, shared::kVplDirectional);
+  vpl.normal.w = 10.0f;
+  vpl.tangent.w = 5.0f;
+  return vpl;
+}
+
+// One of a sky's, and others that pass the scene by.
+std::vector<Vpl> skyWith(const Vpl& vpl) {
+  std::vector<Vpl> sky = {vpl};
+  for (int i = 0; i < 30; ++i)
+    sky.push_back(
+        parallelVpl(vec3(1000, 0, 0), vec3(0, 1, 0.01f * static_cast<float>(i + 1)), 2.0f));
+  return sky;
+}
+
+float brightest(const World& world) {
+  float most = 0.0f;
+  for (const vec3& e : world.prt.irradiance(0)) most = std::max(most, e.r);
+  return most;
+}
+
 TEST(PrtLights, OfADirectionalLightEndWhereItsSquareEnds) {
   World world;
   addComplex(world.scene, test::sphereMesh(0.5f, 16), vec3(0.0f));
-  Vpl sun = brightVpl(vec3(0.0f), vec3(0, 1, 0), 2.0f, shared::kVplDirectional);
-  sun.normal.w = 10.0f;
-  sun.tangent = vec4(1, 0, 0, 5.0f);
-  world.show({sun});
-  const auto top = [&] {
-    float most = 0.0f;
-    for (const vec3& e : world.prt.irradiance(0)) most = std::max(most, e.r);
-    return most;
-  };
-  EXPECT_NEAR(top(), 2.0f, 0.1f);
-  sun.position.x = 6.0f;
-  world.show({sun}, SceneChanges());
-  EXPECT_EQ(top(), 0.0f);
+  Vpl light = parallelVpl(vec3(0.0f), vec3(0, 1, 0), 2.0f);
+  world.show(skyWith(light));
+  EXPECT_NEAR(brightest(world), 2.0f, 0.1f);
+  light.position.x = 6.0f;
+  world.show(skyWith(light), SceneChanges());
+  EXPECT_EQ(brightest(world), 0.0f);
+}
+
+// A sun's shadows are harder than light points can tell; it comes and goes as the sky does.
+TEST(PrtLights, LeaveASunToPixels) {
+  World world;
+  addComplex(world.scene, test::sphereMesh(0.5f, 16), vec3(0.0f));
+  const Vpl light = parallelVpl(vec3(0.0f), vec3(0, 1, 0), 2.0f);
+  std::vector<Vpl> alone = skyWith(light);
+  for (size_t i = 1; i < alone.size(); ++i) alone[i] = Vpl{};
+  for (const bool isAlone : {true, false, true}) {
+    const std::vector<Vpl>& vpls = isAlone ? alone : skyWith(light);
+    world.show(vpls, isAlone ? SceneChanges::all() : SceneChanges());
+    EXPECT_EQ(world.prt.held(0)[0], isAlone ? 0 : 1);
+    EXPECT_EQ(brightest(world) > 1.0f, !isAlone);
+    EXPECT_TRUE(world.isAsFromNothing(vpls));
+  }
 }
 
 // Figure 4-14: a bar of four metres, one half of it under a roof.
