@@ -4,6 +4,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "shaders/shared/vpl_shading.h"
+
 namespace lamplighter {
 namespace {
 
@@ -37,14 +39,28 @@ struct Obstacle {
   }
 };
 
+// But for how bright it is.
+bool isSamePlace(const shared::Vpl& a, const shared::Vpl& b) {
+  return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent;
+}
+
 }  // namespace
 
 bool PointVisibility::Row::sees(const SeenPoint& point, size_t index, const RayCaster& rays) {
   if (!known_[index]) {
     known_[index] = true;
-    seen_[index] = !rays.occluded(rayFrom(point, position_, normal_));
+    seen_[index] = !rays.occluded(rayFrom(point, vpl_.position, vpl_.normal));
   }
   return seen_[index];
+}
+
+float PointVisibility::Row::geometry(const SeenPoint& point, size_t index) {
+  if (!measured_[index]) {
+    measured_[index] = true;
+    geometry_[index] =
+        shared::vplGeometry(vpl_, point.position, point.normal, point.normal, clampDistance_);
+  }
+  return geometry_[index];
 }
 
 void PointVisibility::outdate(const RenderSceneChanges& changes,
@@ -65,14 +81,15 @@ void PointVisibility::outdate(const RenderSceneChanges& changes,
     for (size_t i = 0; i < points_.size(); ++i) {
       if (!row.known_[i]) continue;
       row.known_[i] = std::none_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& o) {
-        return o.mayBeBetween(points_[i], row.position_, row.normal_);
+        return o.mayBeBetween(points_[i], row.vpl_.position, row.vpl_.normal);
       });
     }
   });
 }
 
 std::vector<PointVisibility::Row*> PointVisibility::rows(std::span<const SceneVpl> lights,
-                                                         std::span<const SeenPoint> points) {
+                                                         std::span<const SeenPoint> points,
+                                                         float clampDistance) {
   Points same;
   for (size_t i = 0; i < std::min(points.size(), points_.size()); ++i)
     same[i] = points[i] == points_[i];
@@ -85,10 +102,13 @@ std::vector<PointVisibility::Row*> PointVisibility::rows(std::span<const SceneVp
     const auto it =
         node.empty() ? kept.try_emplace(light.id).first : kept.insert(std::move(node)).position;
     Row& row = it->second;
-    if (row.position_ != light.vpl.position || row.normal_ != light.vpl.normal) row = Row();
-    row.position_ = light.vpl.position;
-    row.normal_ = light.vpl.normal;
+    if (!isSamePlace(row.vpl_, light.vpl)) row = Row();
+    if (row.clampDistance_ != clampDistance) row.measured_.reset();
+    row.vpl_ = light.vpl;
+    row.clampDistance_ = clampDistance;
     row.known_ &= same;
+    row.measured_ &= same;
+    row.geometry_.resize(points.size());
     out.push_back(&row);
   }
   rows_ = std::move(kept);

@@ -1,5 +1,6 @@
-// Which of some points light samples see, kept from edit to edit: of the samples of a light that is
-// dragged most bounce where they did, and a ray that nothing moved across finds what it found.
+// Which of some points light samples see, and what would reach these, kept from edit to edit: of
+// the samples of a light that is dragged most bounce where they did, and a ray that nothing moved
+// across finds what it found.
 #pragma once
 
 #include <bitset>
@@ -30,17 +31,23 @@ class PointVisibility {
    public:
     // Whether nothing stands between it and the point with this index.
     bool sees(const SeenPoint& point, size_t index, const RayCaster& rays);
+    // Irradiance at the point if nothing does, over the sample's intensity [1/m²].
+    float geometry(const SeenPoint& point, size_t index);
 
    private:
     friend class PointVisibility;
-    vec4 position_{0.0f}, normal_{0.0f};
-    Points known_, seen_;
+    shared::Vpl vpl_{};
+    float clampDistance_ = 0.0f;
+    Points known_, seen_, measured_;
+    std::vector<float> geometry_;  // by point
   };
 
   // To be called before the rows of a scene that changed are asked for again.
   void outdate(const RenderSceneChanges& changes, std::span<const MoverFinder::Mover> movers);
-  // One for each light, whose ids differ; good until the next call. At most kMostPoints points.
-  std::vector<Row*> rows(std::span<const SceneVpl> lights, std::span<const SeenPoint> points);
+  // One for each light, whose ids differ; good until the next call. At most kMostPoints points;
+  // 1/d² is bounded at clampDistance [m].
+  std::vector<Row*> rows(std::span<const SceneVpl> lights, std::span<const SeenPoint> points,
+                         float clampDistance);
 
  private:
   std::vector<SeenPoint> points_;

@@ -11,7 +11,6 @@
 #include "renderer/sampling/random.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
-#include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
 namespace {
@@ -33,13 +32,6 @@ constexpr uint32_t kPointSet = 0x5d, kRankSet = 0x6d;
 
 bool isCandidate(const SceneVpl& v) {
   return v.id.bounce > 0 || (v.isSample && v.vpl.position.w == shared::kVplDirectional);
-}
-
-// Irradiance if nothing stands between.
-float irradianceAt(const SeenPoint& at, const shared::Vpl& vpl, float clampDistance) {
-  if (isLeftOut(at.leftOutBy, static_cast<uint32_t>(vpl.footprint.y))) return 0.0f;
-  return luminance(vec3(vpl.intensity)) *
-         shared::vplGeometry(vpl, at.position, at.normal, at.normal, clampDistance);
 }
 
 }  // namespace
@@ -93,11 +85,14 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
   std::vector<float> irradiance((candidates.size() + others.size()) * columns);
   std::vector<SceneVpl> lights(candidates.begin(), candidates.end());
   lights.insert(lights.end(), others.begin(), others.end());
-  const std::vector<PointVisibility::Row*> rows = kept.rows(lights, points);
+  const std::vector<PointVisibility::Row*> rows = kept.rows(lights, points, clampDistance);
   tbb::parallel_for(size_t{0}, lights.size(), [&](size_t i) {
+    const shared::Vpl& vpl = lights[i].vpl;
+    const float brightness = luminance(vec3(vpl.intensity));
     for (size_t j = 0; j < columns; ++j) {
-      const float bare = irradianceAt(points[j], lights[i].vpl, clampDistance);
-      irradiance[i * columns + j] = bare > 0.0f && rows[i]->sees(points[j], j, rays) ? bare : 0.0f;
+      if (isLeftOut(points[j].leftOutBy, static_cast<uint32_t>(vpl.footprint.y))) continue;
+      const float bare = brightness * rows[i]->geometry(points[j], j);
+      if (bare > 0.0f && rows[i]->sees(points[j], j, rays)) irradiance[i * columns + j] = bare;
     }
   });
   std::vector<double> sums(columns, 0.0);
@@ -106,7 +101,7 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
       sums[j] += static_cast<double>(irradiance[i * columns + j]);
   const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(columns);
   if (!(mean > 0.0)) return importance;
-  for (size_t i = 0; i < candidates.size(); ++i) {
+  tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
     double squares = 0.0;
     for (size_t j = 0; j < columns; ++j) {
       const double share =
@@ -114,7 +109,7 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
       squares += share * share;
     }
     importance[i] = static_cast<float>(std::sqrt(squares / static_cast<double>(columns)));
-  }
+  });
   return importance;
 }
 
