@@ -44,6 +44,11 @@ class Occluders {
                              std::span<const uint32_t> objects, Blocker& first) const;
   Occlusion occlusionBy(const RenderScene& scene, const OcclusionPyramid& pyramid,
                         std::span<const uint32_t> objects, Blocker& first) const;
+  // Boxes around some of its triangles each, and whether they are all there is of it.
+  std::span<const Bounds> groups(uint32_t object) const { return objects_[object].groups; }
+  bool isOfGroups(uint32_t object) const {
+    return objects_[object].flat.empty() && !objects_[object].groups.empty();
+  }
   // Whether one polygon of other objects hides all of the pyramid's patch.
   bool hiddenWithout(const OcclusionPyramid& pyramid, std::span<const uint32_t> objects) const;
   // The same, of candidates; the pyramid's light is one of the shaft's.

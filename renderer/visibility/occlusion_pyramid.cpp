@@ -1,5 +1,4 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
+#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
 
 #include "renderer/visibility/occlusion_pyramid.h"
 
@@ -8,9 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include <hwy/highway.h>
-
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/visibility/pyramid_sides.h"
 
 namespace lamplighter {
 namespace {
@@ -22,10 +20,6 @@ constexpr Tag kTag;
 
 // A triangle clipped by each plane gains a corner at most.
 constexpr size_t kMostCorners = 3 + 8;
-
-// Of rayEpsilon(): what rounding makes of a sum such as the height over a plane. A place may be
-// wrong by more, but then with all that lies there.
-constexpr float kSumsRounding = 0.125f;
 
 float roundingAt(std::span<const vec3> points) {
   vec3 farthest(0.0f);
@@ -140,59 +134,29 @@ void OcclusionPyramid::add(const vec3& normal, const vec3& on, float margin) {
   planes_.offset[i] = margin - glm::dot(normal, on);
 }
 
-// The planes through the light and each side of a rectangle, all four at a time. A plane that the
-// rectangle hardly leaves is left out, since it is not known on which side it is.
-//
-// Rays begin and end a little off both surfaces, and so may leave the exact pyramid: near the light
-// by what they stand off it, near the patch by what they begin over it, where the side leans
-// inwards. There is no more slack than that at the patch, and what is hardly higher is not between:
-// a wall that the patch ends at would be, for all lights.
+// All four at a time.
 void OcclusionPyramid::addSides(const vec3& middle, const vec3& up) {
   const hn::FixedTag<float, 4> tag;
-  const auto all = [&](float v) { return hn::Set(tag, v); };
-  const auto load = [&](const std::array<float, 4>& v) { return hn::LoadU(tag, v.data()); };
-  const auto x = load(region_.from[0]), y = load(region_.from[1]), z = load(region_.from[2]);
-  const auto sx = load(region_.sides[0]), sy = load(region_.sides[1]), sz = load(region_.sides[2]);
-  const auto dx = parallel_ ? all(towards_.x) : hn::Sub(x, all(apex_.x));
-  const auto dy = parallel_ ? all(towards_.y) : hn::Sub(y, all(apex_.y));
-  const auto dz = parallel_ ? all(towards_.z) : hn::Sub(z, all(apex_.z));
-  auto nx = hn::Sub(hn::Mul(dy, sz), hn::Mul(dz, sy));
-  auto ny = hn::Sub(hn::Mul(dz, sx), hn::Mul(dx, sz));
-  auto nz = hn::Sub(hn::Mul(dx, sy), hn::Mul(dy, sx));
-  const auto length2 = hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz)));
-  auto length = hn::Sqrt(hn::Max(length2, all(1e-30f)));
-  const auto inside = hn::Div(
-      hn::MulAdd(nx, hn::Sub(all(middle.x), x),
-                 hn::MulAdd(ny, hn::Sub(all(middle.y), y), hn::Mul(nz, hn::Sub(all(middle.z), z)))),
-      length);
-  const auto known = hn::Gt(hn::Abs(inside), all(margin_));
-  if (!parallel_) {
-    // Through a place three margins farther out than the light: n·|n| + 3 m (n × side) / |n|, and
-    // the way out is the other one where n points outwards.
-    const auto slack =
-        hn::CopySign(hn::Div(all(3.0f * (region_.thickness + margin_)), length), inside);
-    const auto tx = hn::Sub(hn::Mul(ny, sz), hn::Mul(nz, sy));
-    const auto ty = hn::Sub(hn::Mul(nz, sx), hn::Mul(nx, sz));
-    const auto tz = hn::Sub(hn::Mul(nx, sy), hn::Mul(ny, sx));
-    nx = hn::MulAdd(tx, slack, nx);
-    ny = hn::MulAdd(ty, slack, ny);
-    nz = hn::MulAdd(tz, slack, nz);
-    length = hn::Sqrt(hn::MulAdd(nx, nx, hn::MulAdd(ny, ny, hn::Mul(nz, nz))));
-  }
-  const auto scale = hn::IfThenElseZero(known, hn::CopySign(hn::Div(all(1.0f), length), inside));
-  nx = hn::Mul(nx, scale);
-  ny = hn::Mul(ny, scale);
-  nz = hn::Mul(nz, scale);
-  const auto leaning = hn::MulAdd(nx, all(up.x), hn::MulAdd(ny, all(up.y), hn::Mul(nz, all(up.z))));
-  const auto margin = hn::Add(
-      hn::MulAdd(hn::Abs(leaning), all(region_.thickness), all(kSumsRounding * margin_)),
-      hn::Mul(hn::Max(hn::Neg(leaning), hn::Zero(tag)), all(2.0f * (region_.thickness + margin_))));
-  const auto offset = hn::Sub(margin, hn::MulAdd(nx, x, hn::MulAdd(ny, y, hn::Mul(nz, z))));
+  using Vec = hn::Vec<decltype(tag)>;
+  const auto set = [&](const vec3& v) {
+    return Lanes3<Vec>{hn::Set(tag, v.x), hn::Set(tag, v.y), hn::Set(tag, v.z)};
+  };
+  const auto load = [&](const std::array<std::array<float, 4>, 3>& v) {
+    return Lanes3<Vec>{hn::LoadU(tag, v[0].data()), hn::LoadU(tag, v[1].data()),
+                       hn::LoadU(tag, v[2].data())};
+  };
+  const Lanes3<Vec> from = load(region_.from), apex = set(apex_);
+  const Lanes3<Vec> way = parallel_ ? set(towards_)
+                                    : Lanes3<Vec>{hn::Sub(from.x, apex.x), hn::Sub(from.y, apex.y),
+                                                  hn::Sub(from.z, apex.z)};
+  const SidePlanes<Vec> planes =
+      sidePlanes(tag, from, load(region_.sides), way, set(middle), set(up),
+                 hn::Set(tag, region_.thickness), hn::Set(tag, margin_), parallel_);
   const auto i = static_cast<size_t>(count_);
-  hn::StoreU(nx, tag, &planes_.x[i]);
-  hn::StoreU(ny, tag, &planes_.y[i]);
-  hn::StoreU(nz, tag, &planes_.z[i]);
-  hn::StoreU(offset, tag, &planes_.offset[i]);
+  hn::StoreU(planes.normal.x, tag, &planes_.x[i]);
+  hn::StoreU(planes.normal.y, tag, &planes_.y[i]);
+  hn::StoreU(planes.normal.z, tag, &planes_.z[i]);
+  hn::StoreU(planes.offset, tag, &planes_.offset[i]);
   count_ += 4;
 }
 

@@ -2,6 +2,8 @@
 // from a light. A cheap sieve before occlusion pyramids, the other way round than these look.
 #pragma once
 
+#include <limits>
+
 #include "renderer/math.h"
 #include "shaders/shared/vpl.h"
 
@@ -26,6 +28,17 @@ class ShadowReach {
   ShadowReach(const shared::Vpl& vpl, const Caster& caster);
 
   bool isEmpty() const { return kind_ == Kind::none; }
+  // What mayFallOn() goes by where the light is not parallel.
+  struct Cone {
+    vec3 apex, axis;
+    float nearest, sine, cosine;
+  };
+  Cone cone() const {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    if (kind_ == Kind::cone) return {apex_, axis_, nearest_, sine_, cosine_};
+    // All of space, or what nothing is as far off as.
+    return {apex_, vec3(0.0f), kind_ == Kind::none ? kFar : -kFar, 0.0f, 0.0f};
+  }
   // Whether the shadow may fall on some of a sphere: one no nearer than the caster's near side, and
   // no farther from the cone or cylinder than its radius. Conservative; and where it may, it may on
   // a sphere around that sphere, and that of a caster around this one may.

@@ -1,0 +1,148 @@
+#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
+
+#include "renderer/visibility/pyramid_batch.h"
+
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/visibility/pyramid_sides.h"
+
+namespace lamplighter {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr size_t kLanes = PyramidBatch::kLights;
+using Tag = hn::FixedTag<float, kLanes>;
+constexpr Tag kTag;
+using Vec = hn::Vec<Tag>;
+
+Vec set(float v) { return hn::Set(kTag, v); }
+Lanes3<Vec> set(const vec3& v) { return {set(v.x), set(v.y), set(v.z)}; }
+
+Vec load(const std::array<float, kLanes>& v) { return hn::Load(kTag, v.data()); }
+Lanes3<Vec> load(const std::array<std::array<float, kLanes>, 3>& v) {
+  return {load(v[0]), load(v[1]), load(v[2])};
+}
+template <typename Plane>
+Lanes3<Vec> normalOf(const Plane& p) {
+  return {load(p.x), load(p.y), load(p.z)};
+}
+
+// As glm adds it up, so that it is the same bits.
+Vec dot(const Lanes3<Vec>& a, const Lanes3<Vec>& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+uint32_t bitsOf(hn::Mask<Tag> mask) {
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(kTag, mask, bits);
+  return bits[0];
+}
+
+// Whether boxes are wholly outside of planes, as OcclusionPyramid::mayMeet() adds it up.
+auto areOutside(const Lanes3<Vec>& normal, Vec offset, const Lanes3<Vec>& centre,
+                const Lanes3<Vec>& half) {
+  auto farthest = hn::MulAdd(normal.x, centre.x, offset);
+  farthest = hn::MulAdd(normal.y, centre.y, farthest);
+  farthest = hn::MulAdd(normal.z, centre.z, farthest);
+  farthest = hn::MulAdd(hn::Abs(normal.x), half.x, farthest);
+  farthest = hn::MulAdd(hn::Abs(normal.y), half.y, farthest);
+  farthest = hn::MulAdd(hn::Abs(normal.z), half.z, farthest);
+  return hn::Lt(farthest, hn::Zero(kTag));
+}
+
+}  // namespace
+
+void BoxBatch::set(size_t i, const Bounds& box) {
+  const vec3 middle = box.centre(), extent = 0.5f * box.extent();
+  for (int c = 0; c < 3; ++c) {
+    centre[static_cast<size_t>(c)][i] = middle[c];
+    half[static_cast<size_t>(c)][i] = extent[c];
+  }
+}
+
+PyramidApex::PyramidApex(const shared::Vpl& vpl)
+    : position(vpl.position), normal(vpl.normal), rounding(rayEpsilon(position)) {}
+
+PyramidBatch::PyramidBatch(std::span<const PyramidApex* const> lights, const PatchRegion& region)
+    : all_((Mask{1} << lights.size()) - 1) {
+  alignas(32) Lanes px, py, pz, nx, ny, nz, rounding;
+  for (size_t i = 0; i < kLights; ++i) {
+    const PyramidApex& light = *lights[i < lights.size() ? i : 0];
+    px[i] = light.position.x;
+    py[i] = light.position.y;
+    pz[i] = light.position.z;
+    nx[i] = light.normal.x;
+    ny[i] = light.normal.y;
+    nz[i] = light.normal.z;
+    rounding[i] = light.rounding;
+  }
+  const Lanes3<Vec> apex{load(px), load(py), load(pz)}, towards{load(nx), load(ny), load(nz)};
+  const auto margin = hn::Max(load(rounding), set(region.rounding));
+  const auto store = [&](Plane& plane, const Lanes3<Vec>& normal, Vec offset) {
+    hn::Store(normal.x, kTag, plane.x.data());
+    hn::Store(normal.y, kTag, plane.y.data());
+    hn::Store(normal.z, kTag, plane.z.data());
+    hn::Store(offset, kTag, plane.offset.data());
+  };
+  store(planes_[0], towards, hn::Sub(hn::Neg(margin), dot(towards, apex)));
+
+  const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
+  const Lanes3<Vec> centre = set(middle), normal = set(region.normal);
+  const auto height = dot(
+      {hn::Sub(apex.x, centre.x), hn::Sub(apex.y, centre.y), hn::Sub(apex.z, centre.z)}, normal);
+  const auto above = hn::Gt(height, hn::Zero(kTag));
+  const auto turn = [&](Vec v) { return hn::IfThenElse(above, v, hn::Neg(v)); };
+  const Lanes3<Vec> up{turn(normal.x), turn(normal.y), turn(normal.z)};
+  const auto thickness = set(region.thickness);
+  const auto slab = hn::Add(thickness, margin);
+  const auto slack = region.chart != kNone ? slab : hn::Mul(set(-3.0f), slab);
+  store(planes_[1], up, hn::Sub(slack, dot(up, centre)));
+
+  for (size_t i = 0; i < 4; ++i) {
+    const auto at = [&](const auto& v) { return set(vec3(v[0][i], v[1][i], v[2][i])); };
+    const Lanes3<Vec> from = at(region.from);
+    const Lanes3<Vec> way{hn::Sub(from.x, apex.x), hn::Sub(from.y, apex.y),
+                          hn::Sub(from.z, apex.z)};
+    const SidePlanes<Vec> side =
+        sidePlanes(kTag, from, at(region.sides), way, centre, up, thickness, margin, false);
+    store(planes_[2 + i], side.normal, side.offset);
+  }
+}
+
+PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box) const {
+  const Lanes3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
+  auto outside = hn::MaskFromVec(hn::Zero(kTag));
+  for (const Plane& p : planes_)
+    outside = hn::Or(outside, areOutside(normalOf(p), load(p.offset), centre, half));
+  return all_ & ~bitsOf(outside);
+}
+
+PyramidBatch::Mask PyramidBatch::mayMeetOwn(const BoxBatch& boxes) const {
+  const Lanes3<Vec> centre = load(boxes.centre), half = load(boxes.half);
+  auto outside = hn::MaskFromVec(hn::Zero(kTag));
+  for (const Plane& p : planes_)
+    outside = hn::Or(outside, areOutside(normalOf(p), load(p.offset), centre, half));
+  return all_ & ~bitsOf(outside);
+}
+
+uint32_t PyramidBatch::mayMeetSome(size_t light, const BoxBatch& boxes) const {
+  const Lanes3<Vec> centre = load(boxes.centre), half = load(boxes.half);
+  auto outside = hn::MaskFromVec(hn::Zero(kTag));
+  for (const Plane& p : planes_) {
+    const Lanes3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
+    outside = hn::Or(outside, areOutside(normal, set(p.offset[light]), centre, half));
+  }
+  return 0xff & ~bitsOf(outside);
+}
+
+PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius) const {
+  auto outside = hn::MaskFromVec(hn::Zero(kTag));
+  for (const Plane& p : planes_) {
+    auto distance = hn::MulAdd(load(p.x), set(centre.x), load(p.offset));
+    distance = hn::MulAdd(load(p.y), set(centre.y), distance);
+    distance = hn::MulAdd(load(p.z), set(centre.z), distance);
+    outside = hn::Or(outside, hn::Lt(distance, set(-radius)));
+  }
+  return all_ & ~bitsOf(outside);
+}
+
+}  // namespace lamplighter
