@@ -57,7 +57,7 @@ void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const in
                     [&](const tbb::blocked_range<size_t>& range) {
                       Update update(*this, scene, allMayDivide, clusters_.order, tests);
                       for (size_t i = range.begin(); i < range.end(); ++i)
-                        update.run(roots[i].first, roots[i].second, tasks);
+                        update.run(roots[i].first, roots[i].second, tasks, {});
                     });
   tests_ += tests;
 }
@@ -103,6 +103,14 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
     if (isLight(lights_[static_cast<size_t>(slot)])) columns.push_back(takeWaiting(slot));
   std::sort(columns.begin(), columns.end(),
             [](const Column& a, const Column& b) { return a.slot < b.slot; });
+  SimpleColumns simple{MoverShadows(occluders_, movers_, lights_), ShadowReaches(lights_.size()),
+                       std::vector<const Column*>(lights_.size(), nullptr)};
+  for (const Column& c : columns) {
+    const auto slot = static_cast<size_t>(c.slot);
+    if (!c.moversAreAll || !c.more.empty() || !simple.shadows.isAbout(slot)) continue;
+    simple.bySlot[slot] = &c;
+    simple.reaches.set(slot, c.reach);
+  }
 
   // Of objects that a column waits for all entries are looked at.
   std::vector<bool> isWaitedFor(patches_.size(), false);
@@ -128,6 +136,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
     uint32_t object;
     int root;
     std::vector<Task> tasks;
+    std::vector<uint64_t> simple;  // by slot, a bit each
     void add(const Column& column, bool isOfMover) {
       Task& task = tasks.emplace_back();
       task.column = &column;
@@ -135,7 +144,11 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
       task.work = Work::check;
       task.isOfMover = isOfMover;
     }
+    void addSimple(int slot) {
+      simple[static_cast<size_t>(slot) / 64] |= uint64_t{1} << static_cast<size_t>(slot) % 64;
+    }
   };
+  const std::vector<uint64_t> noneSimple((lights_.size() + 63) / 64, 0);
   std::vector<Job> jobs;
   begins.push_back(0);
   for (uint32_t c = 0; c < columns.size(); ++c) reaching.push_back(c);
@@ -149,9 +162,15 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
               const int root = patches_[object].roots[r];
               const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
               if (narrow(p.centre, p.radius)) {
-                Job& job = jobs.emplace_back(Job{object, root, {}});
-                for (size_t i = begins.back(); i < reaching.size(); ++i)
-                  job.add(columns[reaching[i]], false);
+                Job& job = jobs.emplace_back(Job{object, root, {}, noneSimple});
+                for (size_t i = begins.back(); i < reaching.size(); ++i) {
+                  const Column& c = columns[reaching[i]];
+                  if (simple.bySlot[static_cast<size_t>(c.slot)] != nullptr) {
+                    job.addSimple(c.slot);
+                  } else {
+                    job.add(c, false);
+                  }
+                }
               }
               widen();
             },
@@ -162,7 +181,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
     if (!isWaitedFor[object]) continue;
     for (const int root : patches_[object].roots) {
       const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
-      Job& job = jobs.emplace_back(Job{object, root, {}});
+      Job& job = jobs.emplace_back(Job{object, root, {}, {}});
       for (const Column& c : columns) {
         const bool isOfMover = std::find(c.objects.begin(), c.objects.end(),
                                          static_cast<int>(object)) != c.objects.end();
@@ -174,7 +193,9 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
   std::iota(order.begin(), order.end(), 0);
   std::atomic<uint64_t> tests = 0;
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    Update(*this, scene, false, order, tests).run(jobs[i].object, jobs[i].root, jobs[i].tasks);
+    Update update(*this, scene, false, order, tests);
+    update.useSimple(simple);
+    update.run(jobs[i].object, jobs[i].root, jobs[i].tasks, jobs[i].simple);
   });
   tests_ += tests;
 }

@@ -112,17 +112,19 @@ class VisibilityDatabase {
     Bounds before, after;
   };
   struct Column;  // a light, and what of the scene it has to take in
+  struct SimpleColumns;
   enum class Work : uint8_t;
   struct Task;   // one light at one patch
   class Update;  // brings columns up to date (visibility_update.h)
-  static constexpr uint8_t kUnknown = 255;
+  static constexpr uint8_t kUnknown = 255, kNoneAndMet = 3;
   static constexpr size_t kSlotsAStep = 64;  // by which rows grow
   static constexpr size_t kAllLevels = std::numeric_limits<size_t>::max();
   // What is known of a patch that is looked at: a root, or a part of one that is divided. By slot,
   // stride_ of them. Most patches are neither, which keeps large levels small.
   struct Row {
     std::vector<uint8_t> states;  // Occlusion; empty: it is as the patch above it
-    // By all objects but those that moved last; kUnknown: not asked yet; empty: none was, or
+    // By all objects but those that moved last, from kNoneAndMet on none and where those were met
+    // (MoverShadows::Hint); kUnknown: not asked yet; empty: none was, or
     // nothing moved, or there is no room. While the same ones move on, as in a drag, nothing else
     // is tested again (table 4-1).
     std::vector<uint8_t> withoutMovers;

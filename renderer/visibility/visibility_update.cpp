@@ -36,9 +36,18 @@ int countPartial(std::span<const uint8_t> states, std::span<const uint8_t> isLiv
 
 }  // namespace
 
+void VisibilityDatabase::Update::run(uint32_t object, int root, std::span<const Task> tasks,
+                                     std::span<const uint64_t> simple) {
+  tasks_.assign(tasks.begin(), tasks.end());
+  simple_.assign(simple.begin(), simple.end());
+  simpleWords_ = simple.size();
+  visit(object, root, 0, 0);
+}
+
 // One that is looked at, and all below it that are.
 void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level, size_t first) {
   const auto index = static_cast<size_t>(patch);
+  if (simpleWords_ > 0) checkSimple(object, patch, first, simpleAt(level));
   const size_t last = tasks_.size();
   const bool changedBefore = db_.changed_[object][index] != 0;
   if (compute(object, patch, std::span(tasks_).subspan(first))) db_.changed_[object][index] = 1;
@@ -52,7 +61,9 @@ void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level,
   if (!was) beginParts(object, patch, std::span(tasks_).subspan(first), changedBefore);
   for (int child = p.firstChild; child < p.firstChild + 2; ++child) {
     passDown(object, patch, child, was, first, last);
-    if (tasks_.size() > last || !was || allMayDivide_) visit(object, child, level + 1, last);
+    const bool isSimple = simpleWords_ > 0 && passSimpleDown(level, was);
+    if (tasks_.size() > last || isSimple || !was || allMayDivide_)
+      visit(object, child, level + 1, last);
     tasks_.resize(last);
   }
 }
@@ -86,7 +97,7 @@ void VisibilityDatabase::Update::forgetParts(uint32_t object, int patch) {
 }
 
 // All tasks at one patch; whether an entry changed.
-bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<Task> tasks) const {
+bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<Task> tasks) {
   if (tasks.empty()) return false;
   const ObjectPatches& patches = db_.patches_[object];
   const Patch& p = patches.patches[static_cast<size_t>(patch)];
@@ -101,33 +112,45 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
   const PatchRegion region =
       isInherited ? PatchRegion(Bounds()) : PatchRegion(scene_, object, patches, p);
   const uint32_t leftOutBy = scene_.objects[object].leftOutBy;
+  if (hints_.size() < tasks_.size()) hints_.resize(tasks_.size());
   const auto computeSome = [&](size_t first, size_t last) {
-    Blocker met, metMover;  // by the light before
+    Hints before;  // of the light before
     uint64_t tests = 0;
     bool changed = false;
     Shaft shaft;
     const auto some = tasks.subspan(first, last - first);
+    uint8_t unkept = kUnknown;
+    const auto take = [&](const Task& t) {
+      if (t.state == t.was) return;
+      states[t.slot] = static_cast<uint8_t>(t.state);
+      changed = true;
+    };
+    const auto checkAlone = [&](size_t i, uint8_t& others) {
+      Task& t = some[i];
+      Hints hints = t.hints == kNone ? Hints() : hints_[static_cast<size_t>(t.hints)];
+      if (hints.met.object == kNone) hints.met = before.met;
+      if (hints.metMover.object == kNone) hints.metMover = before.metMover;
+      t.state = check(region, t, {some, i, shaft}, others, hints, tests);
+      t.hints = static_cast<int>(&t - tasks_.data());
+      hints_[static_cast<size_t>(t.hints)] = before = hints;
+      take(t);
+    };
     for (size_t i = 0; i < some.size(); ++i) {
       Task& t = some[i];
       const auto slot = static_cast<size_t>(t.slot);
       t.was = static_cast<Occlusion>(states[slot]);
-      uint8_t unkept = kUnknown;
+      unkept = kUnknown;
       uint8_t& others = keepsOthers ? allOthers[slot] : unkept;
       if (t.isNew) others = kUnknown;
-      if (isLeftOut(leftOutBy, static_cast<uint32_t>(db_.lights_[slot].footprint.y))) {
+      if (leftOutBy != 0 &&
+          isLeftOut(leftOutBy, static_cast<uint32_t>(db_.lights_[slot].footprint.y))) {
         t.state = Occlusion::full;
         others = static_cast<uint8_t>(Occlusion::full);
-      } else if (t.work != Work::inherit) {
-        if (t.met.object == kNone) t.met = met;
-        if (t.metMover.object == kNone) t.metMover = metMover;
-        t.state =
-            check(p, region, t, {some, i, shaft}, t.isSieved, others, t.met, t.metMover, tests);
-        met = t.met;
-        metMover = t.metMover;
+      } else if (t.work != Work::inherit && !settle(p, t, others)) {
+        checkAlone(i, others);
+        continue;
       }
-      if (t.state == t.was) continue;
-      states[slot] = static_cast<uint8_t>(t.state);
-      changed = true;
+      take(t);
     }
     if (tests > 0) tests_ += tests;
     return changed;
@@ -169,40 +192,48 @@ const Occluders::Candidates* VisibilityDatabase::Update::candidatesOf(
   return isIn ? &shaft.candidates : nullptr;
 }
 
-// Table 4-1: where nothing that moved can be between, before or now, nothing is looked at.
-Occlusion VisibilityDatabase::Update::check(const Patch& patch, const PatchRegion& region,
-                                            const Task& task, const Place& place, bool& isSieved,
-                                            uint8_t& others, Blocker& met, Blocker& metMover,
-                                            uint64_t& tests) const {
-  const shared::Vpl& vpl = db_.lights_[static_cast<size_t>(task.slot)];
-  isSieved = false;
-  if (others == static_cast<uint8_t>(Occlusion::full)) return Occlusion::full;
+// Table 4-1: where nothing that moved can be between, before or now, nothing is looked at. Whether
+// that, or what is known, tells the state.
+bool VisibilityDatabase::Update::settle(const Patch& patch, Task& task, uint8_t& others) const {
+  const auto is = [&](Occlusion state) {
+    task.state = state;
+    return true;
+  };
+  task.isSieved = false;
+  if (others == static_cast<uint8_t>(Occlusion::full)) return is(Occlusion::full);
   const bool wasFound = task.work == Work::check && !task.isOfMover && !task.parentWasNone;
-  isSieved = wasFound && !task.column->mayFallOn(patch.centre, patch.radius);
-  if (isSieved) return task.was;
+  task.isSieved = wasFound && !task.column->mayFallOn(patch.centre, patch.radius);
+  if (task.isSieved) return is(task.was);
   // What all hid, and the movers did not, the others hide.
   if (wasFound && others == kUnknown && task.was == Occlusion::full && task.column->moversAreAll &&
       task.column->moversHidNothing) {
     others = static_cast<uint8_t>(Occlusion::full);
-    return Occlusion::full;
+    return is(Occlusion::full);
   }
-  if (isDecided(others)) return static_cast<Occlusion>(others);
-  const OcclusionPyramid pyramid(vpl, region);
+  if (isDecided(others)) return is(static_cast<Occlusion>(others));
   // Where nothing stood between, only the movers can.
-  if (wasFound && task.column->moversAreAll && task.was == Occlusion::none)
+  if (others == kUnknown && wasFound && task.column->moversAreAll && task.was == Occlusion::none)
     others = static_cast<uint8_t>(Occlusion::none);
+  return false;
+}
+
+// By a pyramid.
+Occlusion VisibilityDatabase::Update::check(const PatchRegion& region, const Task& task,
+                                            const Place& place, uint8_t& others, Hints& hints,
+                                            uint64_t& tests) const {
+  const OcclusionPyramid pyramid(db_.lights_[static_cast<size_t>(task.slot)], region);
   if (others == kUnknown) {
     if (!pyramid.isDark()) ++tests;
     const Occluders::Candidates* candidates =
         pyramid.isDark() || pyramid.isDegenerate() ? nullptr : candidatesOf(place, region);
     others = static_cast<uint8_t>(
         candidates != nullptr
-            ? db_.occluders_.occlusionAmong(scene_, pyramid, *candidates, db_.movers_, met)
-            : db_.occluders_.occlusionWithout(scene_, pyramid, db_.movers_, met));
+            ? db_.occluders_.occlusionAmong(scene_, pyramid, *candidates, db_.movers_, hints.met)
+            : db_.occluders_.occlusionWithout(scene_, pyramid, db_.movers_, hints.met));
   }
-  const auto state = static_cast<Occlusion>(others);
+  const Occlusion state = isNone(others) ? Occlusion::none : static_cast<Occlusion>(others);
   if (state == Occlusion::full) return state;
-  return std::max(state, db_.occluders_.occlusionBy(scene_, pyramid, db_.movers_, metMover));
+  return std::max(state, db_.occluders_.occlusionBy(scene_, pyramid, db_.movers_, hints.metMover));
 }
 
 // Adds the tasks of a part of a divided patch after those of the patch, which are done. One that
@@ -211,6 +242,7 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
                                           size_t first, size_t last) {
   const Row& row = db_.rows_[object][static_cast<size_t>(child)];
   const bool childIsDivided = db_.isDivided(object, child);
+  tasks_.reserve(tasks_.size() + order_.size());  // parents are among them
   const auto pass = [&](const Task& parent) {
     // Most entries that a mover may touch are decided by the others.
     const auto s = static_cast<size_t>(parent.slot);
@@ -218,19 +250,20 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
         !row.withoutMovers.empty() && isDecided(row.withoutMovers[s]) &&
         row.states[s] == row.withoutMovers[s])
       return;
-    Task task = parent;
-    const bool wasAlike = task.was != Occlusion::partial || !wasDivided;
-    if (task.state != Occlusion::partial) {
-      if (!task.isNew && wasAlike && task.was == task.state) return;
-      task.work = Work::inherit;
-    } else if (task.work != Work::check || task.was == Occlusion::full ||
-               (task.was == Occlusion::partial && !wasDivided)) {
-      task.work = Work::anew;
-    } else if (task.isSieved) {
+    Work work = Work::check;
+    if (parent.state != Occlusion::partial) {
+      const bool wasAlike = parent.was != Occlusion::partial || !wasDivided;
+      if (!parent.isNew && wasAlike && parent.was == parent.state) return;
+      work = Work::inherit;
+    } else if (parent.work != Work::check || parent.was == Occlusion::full ||
+               (parent.was == Occlusion::partial && !wasDivided)) {
+      work = Work::anew;
+    } else if (parent.isSieved) {
       return;
     }
-    task.parentWasNone = task.was == Occlusion::none;
-    tasks_.push_back(task);
+    Task& task = tasks_.emplace_back(parent);
+    task.work = work;
+    task.parentWasNone = parent.was == Occlusion::none;
   };
   if (wasDivided) {
     for (size_t t = first; t < last; ++t) pass(tasks_[t]);

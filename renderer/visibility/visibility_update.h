@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "renderer/visibility/mover_shadows.h"
+#include "renderer/visibility/shadow_reaches.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -32,9 +34,19 @@ struct VisibilityDatabase::Column {
   }
 };
 
+// Columns that wait for the movers alone, by slot: most of their entries are checked many at a time
+// (visibility_simple.cpp).
+struct VisibilityDatabase::SimpleColumns {
+  MoverShadows shadows;
+  ShadowReaches reaches;
+  std::vector<const Column*> bySlot;  // null: it is not simple
+};
+
+// Small: a step of a drag passes down tens of thousands.
 struct VisibilityDatabase::Task {
   const Column* column = nullptr;  // null: that of a light of which nothing moved
   int slot = 0;
+  int hints = kNone;  // index of those found here, or else at the nearest patch above
   Work work = Work::anew;
   bool isNew = false;
   bool isOfMover = false;  // the column waits for the object
@@ -43,7 +55,6 @@ struct VisibilityDatabase::Task {
   bool isSieved = false;                 // nothing that moved can be between: it stays
   Occlusion was = Occlusion::partial;    // the entry before
   Occlusion state = Occlusion::partial;  // inherit: the parent's; afterwards the entry
-  Blocker met, metMover;                 // at the parent, then here
 };
 
 // Goes patch by patch from the roots, at each for all lights at once, so that it is known there
@@ -59,17 +70,29 @@ class VisibilityDatabase::Update {
       moversMayHide_ = moversMayHide_ || database.occluders_.mayHide(mover);
   }
 
-  // The root and all below it; tasks in the order of slots.
-  void run(uint32_t object, int root, std::span<const Task> tasks) {
-    tasks_.assign(tasks.begin(), tasks.end());
-    visit(object, root, 0, 0);
-  }
+  // What simple columns are checked by; it must outlive this.
+  void useSimple(const SimpleColumns& columns) { simpleColumns_ = &columns; }
+
+  // The root and all below it; tasks in the order of slots. `simple`: besides, a bit for each slot
+  // of a simple column that is to be checked there, or empty.
+  void run(uint32_t object, int root, std::span<const Task> tasks,
+           std::span<const uint64_t> simple);
 
  private:
   void visit(uint32_t object, int patch, size_t level, size_t first);
+  // Simple columns at a patch, and at a part of it; whether any are left there.
+  void checkSimple(uint32_t object, int patch, size_t first, std::span<uint64_t> simple);
+  bool passSimpleDown(size_t level, bool wasDivided);
+  std::span<uint64_t> simpleAt(size_t level) {
+    return std::span(simple_).subspan(level * simpleWords_, simpleWords_);
+  }
   void beginParts(uint32_t object, int patch, std::span<const Task> tasks, bool changedBefore);
   void forgetParts(uint32_t object, int patch);
-  bool compute(uint32_t object, int patch, std::span<Task> tasks) const;
+  bool compute(uint32_t object, int patch, std::span<Task> tasks);
+  // What an entry's pyramid met: of all but the movers, and of these.
+  struct Hints {
+    Blocker met, metMover;
+  };
   // What may stand between the lights of a cluster and a patch, looked for when first wanted.
   struct Shaft {
     int cluster = -1;
@@ -84,13 +107,27 @@ class VisibilityDatabase::Update {
     Shaft& shaft;
   };
   const Occluders::Candidates* candidatesOf(const Place& place, const PatchRegion& region) const;
-  Occlusion check(const Patch& patch, const PatchRegion& region, const Task& task,
-                  const Place& place, bool& isSieved, uint8_t& others, Blocker& met,
-                  Blocker& metMover, uint64_t& tests) const;
+  // Whether the entry is decided without a pyramid, and how.
+  bool settle(const Patch& patch, Task& task, uint8_t& others) const;
+  Occlusion check(const PatchRegion& region, const Task& task, const Place& place, uint8_t& others,
+                  Hints& hints, uint64_t& tests) const;
   // Whether no mover makes a difference where this is the state by all others.
   bool isDecided(uint8_t others) const {
     return others == static_cast<uint8_t>(Occlusion::full) ||
            (others == static_cast<uint8_t>(Occlusion::partial) && !moversMayHide_);
+  }
+  // Whether Row::withoutMovers says none, with a hint or without.
+  static bool isNone(uint8_t others) {
+    return others == static_cast<uint8_t>(Occlusion::none) ||
+           (others >= kNoneAndMet && others != kUnknown);
+  }
+  static MoverShadows::Hint hintOf(uint8_t others) {
+    return others >= kNoneAndMet ? static_cast<MoverShadows::Hint>(others - kNoneAndMet)
+                                 : MoverShadows::kNoHint;
+  }
+  static uint8_t noneAndMet(MoverShadows::Hint hint) {
+    static_assert(kNoneAndMet + MoverShadows::kHints < kUnknown);
+    return static_cast<uint8_t>(kNoneAndMet + hint);
   }
   void passDown(uint32_t object, int patch, int child, bool wasDivided, size_t first, size_t last);
 
@@ -98,9 +135,13 @@ class VisibilityDatabase::Update {
   const RenderScene& scene_;
   const bool allMayDivide_;
   const std::span<const int> order_;
+  const SimpleColumns* simpleColumns_ = nullptr;
   bool moversMayHide_ = false;
   std::atomic<uint64_t>& tests_;
-  std::vector<Task> tasks_;  // those of the patch that is visited are the last
+  std::vector<Task> tasks_;   // those of the patch that is visited are the last
+  std::vector<Hints> hints_;  // by task; those that Task::hints tells of
+  size_t simpleWords_ = 0;
+  std::vector<uint64_t> simple_;  // by level and slot, a bit each
 };
 
 }  // namespace lamplighter

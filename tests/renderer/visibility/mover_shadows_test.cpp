@@ -7,6 +7,7 @@
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/visibility/shadow_reaches.h"
+#include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
 namespace {
@@ -154,6 +155,38 @@ TEST_F(MoversOfARoom, MoversShadowTogetherWhatTheyShadowAlone) {
   EXPECT_GT(met, 1000u);
   EXPECT_GT(asked - met, 1000u);
   EXPECT_EQ(differ, 0u) << "of " << asked;
+}
+
+// Steps and turns, of which some lights miss a few.
+TEST_F(MoversOfARoom, ADragLeavesNoEntryOtherThanFromNothing) {
+  RenderSceneChanges everything;
+  everything.rebuilt = true;
+  VisibilityDatabase kept;
+  kept.setScene(scene_, everything);
+  kept.setLights(scene_, lights_);
+  std::vector<int> some;
+  for (int slot = 0; slot < static_cast<int>(lights_.size()); slot += 3) some.push_back(slot);
+  for (int step = 0; step < 9; ++step) {
+    const Scene before = level_;
+    Node& node = *level_.find(mover_);
+    node.local.translation += vec3(0.11f, step % 4 == 1 ? 0.3f : 0.0f, -0.07f);
+    node.local.rotation = glm::angleAxis(0.3f * static_cast<float>(step), vec3(0.0f, 1.0f, 0.0f));
+    kept.setScene(scene_, update(scene_, level_, compare(before, level_)));
+    kept.refresh(scene_, some);
+    if (step % 3 != 2) continue;
+    kept.refreshAll(scene_);
+    VisibilityDatabase fresh;
+    fresh.setScene(scene_, everything);
+    fresh.setLights(scene_, lights_);
+    size_t differ = 0;
+    for (uint32_t object = 0; object < fresh.objects(); ++object) {
+      for (int p = 0; p < static_cast<int>(fresh.patches(object).patches.size()); ++p) {
+        const auto a = kept.row(object, p), b = fresh.row(object, p);
+        for (size_t i = 0; i < b.size(); ++i) differ += a[i] != b[i];
+      }
+    }
+    EXPECT_EQ(differ, 0u) << "after step " << step;
+  }
 }
 
 }  // namespace
