@@ -192,11 +192,13 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
   std::vector<int> order(lights_.size());
   std::iota(order.begin(), order.end(), 0);
   std::atomic<uint64_t> tests = 0;
-  tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t i) {
-    Update update(*this, scene, false, order, tests);
-    update.useSimple(simple);
-    update.run(jobs[i].object, jobs[i].root, jobs[i].tasks, jobs[i].simple);
-  });
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, jobs.size()),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      Update update(*this, scene, false, order, tests);
+                      update.useSimple(simple);
+                      for (size_t i = range.begin(); i < range.end(); ++i)
+                        update.run(jobs[i].object, jobs[i].root, jobs[i].tasks, jobs[i].simple);
+                    });
   tests_ += tests;
 }
 
