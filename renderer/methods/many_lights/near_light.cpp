@@ -31,7 +31,7 @@ float brightness(const shared::Vpl& vpl) {
 
 NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
                      std::span<const SceneVpl> vpls, const Options& options)
-    : scene_(scene), rays_(rays), vpls_(vpls), options_(options) {
+    : scene_(scene), rays_(rays), options_(options) {
   for (const SceneVpl& v : vpls) {
     if (!v.isOfSun()) continue;
     const auto isIt = [&](const Sun& sun) { return sun.set == v.id.set(); };
@@ -45,14 +45,20 @@ NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
     float total = 0.0f;
     for (size_t i = 0; i < vpls.size(); ++i) {
       if (vpls[i].id.bounce > bounce || vpls[i].isOfSun()) continue;
-      choice.vpls.push_back(static_cast<uint32_t>(i));
-      total += brightness(vpls[i].vpl);
+      choice.entries.push_back({vpls[i].vpl, brightness(vpls[i].vpl), 0.0f});
+      total += choice.entries.back().brightness;
     }
-    const float even = kEvenShare / static_cast<float>(choice.vpls.size());
+    const float even = kEvenShare / static_cast<float>(choice.entries.size());
     const float scale = total > 0.0f ? (1.0f - kEvenShare) / total : 0.0f;
     float sum = 0.0f;
-    for (const uint32_t i : choice.vpls)
-      choice.upTo.push_back(sum += even + scale * brightness(vpls[i].vpl));
+    for (const Choice::Entry& e : choice.entries)
+      choice.upTo.push_back(sum += even + scale * e.brightness);
+    for (size_t i = 0; i < choice.entries.size(); ++i) {
+      const float probability = choice.upTo[i] - (i == 0 ? 0.0f : choice.upTo[i - 1]);
+      Choice::Entry& e = choice.entries[i];
+      e.weight = probability > 0.0f ? sum / probability : 0.0f;
+      e.brightness *= e.weight;
+    }
     choice.makeGuide();
   }
 }
@@ -163,26 +169,24 @@ vec3 NearLight::irradianceOfSuns(const Place& at) const {
 // Global Illumination", 2005).
 vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const {
   vec3 sum(0.0f);
-  if (choice.vpls.empty()) return sum;
+  if (choice.entries.empty()) return sum;
   struct Candidate {
-    const shared::Vpl* vpl;
-    vec3 irradiance;  // over the probability of having tried it
-    float upTo;       // sum of brightness, this one's included
+    const Choice::Entry* entry;
+    float geometry;  // irradiance over intensity [1/m²]
+    float upTo;      // sum of brightness, this one's included
   };
   std::array<Candidate, kVplsTried> tried;
   float total = 0.0f;
   for (int k = 0; k < kVplsTried; ++k) {
     const float below = (static_cast<float>(k) + u.x) / kVplsTried * choice.upTo.back();
-    const size_t chosen = choice.find(below);
-    const float probability = choice.upTo[chosen] - (chosen == 0 ? 0.0f : choice.upTo[chosen - 1]);
-    const shared::Vpl& vpl = vpls_[choice.vpls[chosen]].vpl;
+    const Choice::Entry& chosen = choice.entries[choice.find(below)];
+    const shared::Vpl& vpl = chosen.vpl;
     const float geometry =
         isLeftOut(at.leftOutBy, static_cast<uint32_t>(vpl.footprint.y))
             ? 0.0f
             : shared::vplGeometry(vpl, at.position, at.normal, at.normal, options_.clampDistance);
-    const float weight = probability > 0.0f ? choice.upTo.back() / probability : 0.0f;
-    total += geometry * weight * brightness(vpl);
-    tried[static_cast<size_t>(k)] = {&vpl, geometry * weight * vec3(vpl.intensity), total};
+    total += geometry * chosen.brightness;
+    tried[static_cast<size_t>(k)] = {&chosen, geometry, total};
   }
   if (!(total > 0.0f)) return sum;
   for (int k = 0; k < kRaysAPoint; ++k) {
@@ -191,7 +195,9 @@ vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const 
         std::upper_bound(tried.begin(), tried.end() - 1, below,
                          [](float value, const Candidate& c) { return value < c.upTo; });
     const float share = it->upTo - (it == tried.begin() ? 0.0f : (it - 1)->upTo);
-    if (share > 0.0f && sees(at, *it->vpl)) sum += it->irradiance * (total / share);
+    const Choice::Entry& e = *it->entry;
+    if (share > 0.0f && sees(at, e.vpl))
+      sum += it->geometry * e.weight * vec3(e.vpl.intensity) * (total / share);
   }
   return sum * (1.0f / (kVplsTried * kRaysAPoint));
 }

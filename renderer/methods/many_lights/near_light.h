@@ -51,7 +51,13 @@ class NearLight {
   };
   // Other VPLs that may still light a surface from which light bounces a given number of times on.
   struct Choice {
-    std::vector<uint32_t> vpls;
+    // All that is asked of one that is tried, side by side.
+    struct Entry {
+      shared::Vpl vpl;
+      float brightness;  // of its brightest channel, over the probability of trying it
+      float weight;      // 1 over that
+    };
+    std::vector<Entry> entries;
     std::vector<float> upTo;  // sum of probabilities, this one's included
     // For that many equal parts of the sum: the first that reaches into it.
     std::vector<uint32_t> guide;
@@ -70,7 +76,6 @@ class NearLight {
 
   const RenderScene& scene_;
   const RayCaster& rays_;
-  std::span<const SceneVpl> vpls_;
   Options options_;
   std::vector<Sun> suns_;
   std::vector<Choice> choices_;  // by the number of bounces that a VPL may have behind it
