@@ -149,10 +149,12 @@ int run(const std::vector<std::string>& arguments) {
   fs::path folder;
   std::vector<std::string> wanted;
   for (size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--pictures" && i + 1 < arguments.size())
+    if (arguments[i] == "--pictures" && i + 1 < arguments.size()) {
       folder = arguments[++i];
-    else
+      fs::create_directories(folder);
+    } else {
       wanted.push_back(arguments[i]);
+    }
   }
   std::vector<fs::path> scenes;
   for (const auto& entry :
