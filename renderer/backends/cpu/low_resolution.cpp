@@ -148,15 +148,19 @@ void LowResolution::takeSamples(const GBuffer& g) {
         samples_.px[to] = g.px[from];
         samples_.py[to] = g.py[from];
         samples_.pz[to] = g.pz[from];
-        samples_.sx[to] = g.sx[from];
-        samples_.sy[to] = g.sy[from];
-        samples_.sz[to] = g.sz[from];
-        samples_.gx[to] = g.gx[from];
-        samples_.gy[to] = g.gy[from];
-        samples_.gz[to] = g.gz[from];
-        samples_.hit[to] = g.hit[from];
-        samples_.object[to] = g.object[from];
-        samples_.triangle[to] = g.triangle[from];
+        // All else is alike on one flat triangle: read where its tile was read before, as the
+        // pixels of samples are far apart in memory.
+        const size_t tileOf = from / kTilePixels;
+        const size_t like = g.onlyTriangle[tileOf] == GBuffer::kMany ? from : tileOf * kTilePixels;
+        samples_.sx[to] = g.sx[like];
+        samples_.sy[to] = g.sy[like];
+        samples_.sz[to] = g.sz[like];
+        samples_.gx[to] = g.gx[like];
+        samples_.gy[to] = g.gy[like];
+        samples_.gz[to] = g.gz[like];
+        samples_.hit[to] = g.hit[like];
+        samples_.object[to] = g.object[like];
+        samples_.triangle[to] = g.triangle[like];
       }
     }
     for (int packet = 0; packet < kPacketsPerTile; ++packet) samples_.findFlat(tile, packet);
