@@ -1,3 +1,4 @@
+// The bits of a word, one after the other.
 #pragma once
 
 #include <bit>

@@ -84,6 +84,7 @@ void VisibilityDatabase::Update::checkSimple(uint32_t object, int patch, size_t 
     if (simple[w] == 0) continue;
     uint64_t unknown = simple[w], partial = 0;
     if (isKnown) {
+      static_assert(kSlotsAStep % 64 == 0, "rows have room for whole words");
       const uint8_t* others = &row.withoutMovers[64 * w];
       uint64_t some = simple[w] & ~equal(others, static_cast<uint8_t>(Occlusion::full));
       for (size_t i = 0; i < 64; i += 8)
