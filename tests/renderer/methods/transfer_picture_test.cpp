@@ -1,6 +1,7 @@
 // Complex objects by precomputed transfer in a picture: against each pixel on its own, and against
 // paths.
 #include <filesystem>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -85,6 +86,9 @@ struct Case {
   double mostRelRmse, mostBias;
   bool beatsPixels;
 };
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << (c.hasPlate ? "plate" : "open") << ", bounces " << c.bounces;
+}
 
 class TransferPictures : public testing::TestWithParam<Case> {};
 
