@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/shared/brdf.h"
+
 namespace lamplighter {
 
 namespace {
@@ -147,6 +149,10 @@ vec3 emissionShareAt(const RenderScene& s, uint32_t object, uint32_t triangle, f
     return vec3(0.0f);
   if (m.emissiveTexture.texture == kNone) return vec3(1.0f);
   return vec3(look(s, m.emissiveTexture, corners(s, object, triangle, u, v), true));
+}
+
+bool mayBeGlossy(const Material& m) {
+  return shared::isGlossy(m.metallic, m.roughness) || m.metallicRoughnessTexture.texture != kNone;
 }
 
 Gloss glossAt(const RenderScene& s, uint32_t object, uint32_t triangle, float u, float v) {

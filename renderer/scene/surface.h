@@ -21,6 +21,8 @@ Surface surfaceAt(const RenderScene& scene, uint32_t object, uint32_t triangle, 
 struct Gloss {
   float metallic = 0.0f, roughness = 1.0f;
 };
+// Whether any point of the material may have a lobe.
+bool mayBeGlossy(const Material& material);
 // At the point, texture included. Only for surfaces that the eye sees: what bounces is Lambert.
 Gloss glossAt(const RenderScene& scene, uint32_t object, uint32_t triangle, float u, float v);
 

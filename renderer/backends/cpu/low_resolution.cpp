@@ -243,7 +243,8 @@ void LowResolution::takeLight(const LightSums& light, std::span<const uint8_t> i
   }
 }
 
-// Whether two corners of one surface do, of the cell whose first sample is there.
+// Whether the light of two corners of one surface differs much, in the cell whose first sample is
+// there.
 bool LowResolution::isCutByShadow(uint8_t pairs, size_t at) const {
   const size_t corners[] = {at, at + 1, at + rowLength(), at + rowLength() + 1};
   const auto light = [&](size_t i) { return vec3(red_[i], green_[i], blue_[i]); };

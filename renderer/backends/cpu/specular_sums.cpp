@@ -30,11 +30,8 @@ Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
 // By object, whether any of it may be.
 std::vector<uint8_t> findGlossy(const RenderScene& scene) {
   std::vector<uint8_t> mayBe;
-  for (const RenderObject& object : scene.objects) {
-    const Material& m = scene.materials[static_cast<size_t>(object.material)];
-    mayBe.push_back(m.metallicRoughnessTexture.texture != kNone ||
-                    shared::isGlossy(m.metallic, m.roughness));
-  }
+  for (const RenderObject& object : scene.objects)
+    mayBe.push_back(mayBeGlossy(scene.materials[static_cast<size_t>(object.material)]));
   return mayBe;
 }
 

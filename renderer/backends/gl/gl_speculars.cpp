@@ -5,16 +5,15 @@
 
 #include "renderer/gl/pass_state.h"
 #include "renderer/light_maps/patch_lights.h"
+#include "renderer/scene/surface.h"
 #include "shaders/shared/bindings.h"
-#include "shaders/shared/brdf.h"
 
 namespace lamplighter::gl {
 namespace {
 
 bool hasGlossyObject(const GlScene& scene) {
   return std::any_of(scene.drawn().begin(), scene.drawn().end(), [&](const GlScene::Drawn& d) {
-    const Material& m = scene.scene().materials[static_cast<size_t>(d.material)];
-    return shared::isGlossy(m.metallic, m.roughness) || m.metallicRoughnessTexture.texture != kNone;
+    return mayBeGlossy(scene.scene().materials[static_cast<size_t>(d.material)]);
   });
 }
 

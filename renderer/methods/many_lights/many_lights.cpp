@@ -9,8 +9,8 @@
 #include "renderer/sampling/sun_squares.h"
 #include "renderer/sampling/view_importance.h"
 #include "renderer/sampling/vpl_footprints.h"
+#include "renderer/scene/surface.h"
 #include "renderer/visibility/seen_lights.h"
-#include "shaders/shared/brdf.h"
 
 namespace lamplighter {
 namespace {
@@ -33,8 +33,7 @@ vec4 speculars(bool on, float leastRoughness) {
 }
 bool hasGlossy(const RenderScene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const RenderObject& o) {
-    const Material& m = scene.materials[static_cast<size_t>(o.material)];
-    return shared::isGlossy(m.metallic, m.roughness) || m.metallicRoughnessTexture.texture != kNone;
+    return mayBeGlossy(scene.materials[static_cast<size_t>(o.material)]);
   });
 }
 
