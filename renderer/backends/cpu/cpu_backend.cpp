@@ -49,6 +49,10 @@ struct Picture {
 
 class CpuBackend final : public Backend {
  public:
+  CpuBackend() {
+    still_.forEachSums([](cpu::LightSums& sums) { sums.keepLit(); });
+  }
+
   const BackendInfo& info() const override { return info_; }
 
   KernelCounts counts() const override {

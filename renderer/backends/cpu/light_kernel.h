@@ -71,8 +71,11 @@ class PacketList {
 
 enum class Sign : uint8_t { add, takeAway };
 
-// Adds what the light gives these pixels by `use` (not skip), or takes it away again.
+// Adds what the light gives these pixels by `use` (not skip), or takes it away again. lit: a light
+// with a shadow map notes there, by packet of the G-buffer, in which lanes it added or took
+// something, and is taken away by that without a look-up; null: it is looked up each time.
 void addLight(const GBuffer& gbuffer, const PacketList& packets, LightUse use, Sign sign,
-              const LightRecord& light, const SumConstants& constants, FixedSums& sums);
+              const LightRecord& light, const SumConstants& constants, uint8_t* lit,
+              FixedSums& sums);
 
 }  // namespace lamplighter::cpu

@@ -53,11 +53,12 @@ bool revised(std::vector<Revision>& last, const Source* source) {
 class Adder {
  public:
   Adder(const GBuffer& gbuffer, const PlaceTable* table, std::span<const uint32_t> leftOutBy,
-        const SumConstants& constants, FixedSums& sums, SumCounts& counts)
+        const SumConstants& constants, LitLanes& lit, FixedSums& sums, SumCounts& counts)
       : gbuffer_(gbuffer),
         table_(table),
         leftOutBy_(leftOutBy),
         constants_(constants),
+        lit_(lit),
         sums_(sums),
         counts_(counts) {}
 
@@ -89,16 +90,16 @@ class Adder {
     sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
   }
 
-  // Adds all of these, as they are now, those that are used alike one after the other.
-  void addAll(std::span<const LightRecord> lights) {
+  // All of these, those that are used alike one after the other.
+  void addAll(std::span<const LightRecord* const> lights, Sign sign, TilePlaces::When when) {
     order_.clear();
-    for (const LightRecord& light : lights) {
-      const bool isListed = table_ != nullptr && light.slot >= 0;
-      order_.emplace_back(isListed ? usesOf(light.slot, TilePlaces::When::now) : 0, &light);
+    for (const LightRecord* light : lights) {
+      const bool isListed = table_ != nullptr && light->slot >= 0;
+      order_.emplace_back(isListed ? usesOf(light->slot, when) : 0, light);
     }
     std::stable_sort(order_.begin(), order_.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [uses, light] : order_) add(*light, Sign::add, TilePlaces::When::now);
+    for (const auto& [uses, light] : order_) add(*light, sign, when);
   }
 
  private:
@@ -145,14 +146,17 @@ class Adder {
 
   void sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light) {
     if (packets.count() == 0) return;
-    addLight(gbuffer_, packets, use, sign, light, constants_, sums_);
-    if (use != LightUse::add) counts_.lookUps += packets.count() * kLanes;
+    uint8_t* lit = lit_.of(light.slot);
+    addLight(gbuffer_, packets, use, sign, light, constants_, lit, sums_);
+    const bool isKnown = sign == Sign::takeAway && lit != nullptr;
+    if (use != LightUse::add && !isKnown) counts_.lookUps += packets.count() * kLanes;
   }
 
   const GBuffer& gbuffer_;
   const PlaceTable* table_;
   std::span<const uint32_t> leftOutBy_;
   const SumConstants& constants_;
+  LitLanes& lit_;
   FixedSums& sums_;
   SumCounts& counts_;
   std::vector<Part> parts_;
@@ -168,13 +172,13 @@ class Adder {
 
 struct LightSums::Frame {
   const GBuffer& gbuffer;
-  std::span<const LightRecord> lights;
   std::vector<const LightRecord*> slots;
   const PatchLights* patches;
   std::span<const uint32_t> wanted;  // by tile; empty: all
   std::span<const uint32_t> leftOutBy;
-  std::vector<Change> changes;  // of lights and their maps
-  std::vector<bool> isChanged;  // by slot
+  std::vector<const LightRecord*> all;           // the lights
+  std::vector<const LightRecord*> taken, added;  // of these and their maps, as they were and are
+  std::vector<bool> isChanged;                   // by slot
 };
 
 void LightSums::mapChanges(int slot, std::span<const float> map) {
@@ -182,10 +186,18 @@ void LightSums::mapChanges(int slot, std::span<const float> map) {
   const bool isSummed = std::any_of(lights_.begin(), lights_.end(),
                                     [&](const LightRecord& l) { return l.mapSlot == slot; });
   if (!isSummed) return;
-  // To take more away than stays is more work than to begin anew.
-  if (2 * (oldMaps_.size() + 1) > lights_.size()) return forgetMaps();
+  if (isMost(oldMaps_.size() + 1, lights_.size())) return forgetMaps();
+  if (lit_.areKept()) {
+    oldMaps_.emplace(slot, std::vector<float>());
+    return;
+  }
   if ((oldMaps_.size() + 1) * map.size_bytes() > kMostOldBytes) return forgetMaps();
   oldMaps_.emplace(slot, std::vector<float>(map.begin(), map.end()));
+}
+
+// Whether to take away so many lights and add them anew is more work than to begin with all.
+bool LightSums::isMost(size_t changed, size_t all) const {
+  return lit_.areKept() ? 4 * changed > 3 * all : 2 * changed > all;
 }
 
 void LightSums::forgetMaps() {
@@ -220,20 +232,24 @@ void LightSums::compareWithLast(const Frame& frame) {
   }
 }
 
-std::vector<LightSums::Change> LightSums::findChanges(std::span<const LightRecord> lights) {
+void LightSums::findChanges(Frame& frame) {
   for (LightRecord& light : lights_) {
     const auto old = oldMaps_.find(light.mapSlot);
-    if (old != oldMaps_.end()) light.map = old->second.data();
+    if (old != oldMaps_.end() && !lit_.areKept()) light.map = old->second.data();
   }
-  const auto before = bySlot(lights_), now = bySlot(lights);
-  std::vector<Change> changes;
-  for (size_t slot = 0; slot < std::max(before.size(), now.size()); ++slot) {
+  const auto before = bySlot(lights_);
+  const auto& now = frame.slots;
+  frame.isChanged.assign(std::max(before.size(), now.size()), false);
+  for (size_t slot = 0; slot < frame.isChanged.size(); ++slot) {
     const LightRecord* was = slot < before.size() ? before[slot] : nullptr;
     const LightRecord* is = slot < now.size() ? now[slot] : nullptr;
-    if (was == is || (was != nullptr && is != nullptr && *was == *is)) continue;
-    changes.push_back({static_cast<int>(slot), was, is});
+    if (was == is) continue;  // there is none
+    if (was != nullptr && is != nullptr && *was == *is && !oldMaps_.contains(was->mapSlot))
+      continue;
+    if (was != nullptr) frame.taken.push_back(was);
+    if (is != nullptr) frame.added.push_back(is);
+    frame.isChanged[slot] = true;
   }
-  return changes;
 }
 
 void LightSums::findPlaces(const Frame& frame) {
@@ -266,23 +282,22 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
                             SumConstants constants, const PatchLights* patches,
                             std::span<const uint32_t> wanted, std::span<const uint32_t> leftOutBy) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
-  Frame frame{gbuffer, lights, bySlot(lights), patches, wanted, leftOutBy, {}, {}};
+  Frame frame{gbuffer, bySlot(lights), patches, wanted, leftOutBy, {}, {}, {}, {}};
+  for (const LightRecord& light : lights) frame.all.push_back(&light);
   const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
   // Lights that cast no shadow have no slot to tell them by.
   if (constants != constants_ || !std::all_of(lights.begin(), lights.end(), hasSlot) ||
       !std::all_of(lights_.begin(), lights_.end(), hasSlot))
     knowsSums_ = false;
+  if (!lit_.fit(keepsLit_ ? frame.slots.size() : 0, gbuffer.px.size() / kLanes)) knowsSums_ = false;
   if (knowsSums_) {
-    frame.changes = findChanges(lights);
-    if (2 * frame.changes.size() > lights.size()) knowsSums_ = false;
+    findChanges(frame);
+    if (isMost(std::max(frame.taken.size(), frame.added.size()), lights.size())) knowsSums_ = false;
   }
   constants_ = constants;
   compareWithLast(frame);
   findPlaces(frame);
-  frame.isChanged.assign(std::max(frame.slots.size(), table_.slots()), false);
-  for (const Change& change : frame.changes)
-    if (static_cast<size_t>(change.slot) < frame.isChanged.size())
-      frame.isChanged[static_cast<size_t>(change.slot)] = true;
+  frame.isChanged.resize(std::max(frame.isChanged.size(), table_.slots()), false);
 
   knowsSums_ = false;  // until all is done
   std::atomic<uint64_t> lightPixels = 0, lookUps = 0;
@@ -336,7 +351,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   std::vector<Adder> kept, begun;
   const PlaceTable* table = hasPatches_ ? &table_ : nullptr;
   const auto newAdder = [&] {
-    return Adder(frame.gbuffer, table, frame.leftOutBy, constants_, sums_, counts);
+    return Adder(frame.gbuffer, table, frame.leftOutBy, constants_, lit_, sums_, counts);
   };
   const auto addPackets = [&](std::vector<Adder>& adders, int tile, uint32_t packets) {
     const TilePlaces& places = tiles_[static_cast<size_t>(tile)].places;
@@ -368,20 +383,19 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
       here.add(*light, Sign::add, When::now);
     }
   }
-  for (const Change& change : frame.changes) {
-    for (Adder& tiles : kept)
-      if (change.before != nullptr) tiles.add(*change.before, Sign::takeAway, When::before);
-    for (Adder& tiles : kept)
-      if (change.now != nullptr) tiles.add(*change.now, Sign::add, When::now);
-  }
   // The maps of some lights fit the second-level cache, those of all do not: each is fetched for
   // all of the tiles at once.
   const size_t texels = static_cast<size_t>(constants_.resolution) * constants_.resolution;
   const size_t atOnce = std::max<size_t>(1, kMapBytesAtOnce / (texels * sizeof(float)));
-  for (size_t i = 0; i < frame.lights.size(); i += atOnce) {
-    const auto some = frame.lights.subspan(i, std::min(atOnce, frame.lights.size() - i));
-    for (Adder& tiles : begun) tiles.addAll(some);
-  }
+  const auto addAll = [&](std::vector<Adder>& adders, std::span<const LightRecord* const> lights,
+                          Sign sign, When when) {
+    for (size_t i = 0; i < lights.size(); i += atOnce)
+      for (Adder& tiles : adders)
+        tiles.addAll(lights.subspan(i, std::min(atOnce, lights.size() - i)), sign, when);
+  };
+  addAll(kept, frame.taken, Sign::takeAway, When::before);
+  addAll(kept, frame.added, Sign::add, When::now);
+  addAll(begun, frame.all, Sign::add, When::now);
   return counts;
 }
 
@@ -458,7 +472,8 @@ LightSums::HardShadows LightSums::findHardShadows() const {
 }
 
 size_t LightSums::bytes() const {
-  size_t bytes = sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) + table_.bytes();
+  size_t bytes =
+      sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) + table_.bytes() + lit_.bytes();
   for (const auto& [slot, map] : oldMaps_) bytes += map.size() * sizeof(float);
   return bytes;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/light_kernel.h"
+#include "renderer/backends/cpu/lit_lanes.h"
 #include "renderer/backends/cpu/tile_places.h"
 #include "renderer/revision.h"
 
@@ -31,6 +32,9 @@ class LightSums {
   // Whether it is of these, as they are now.
   bool isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights, SumConstants constants,
             const PatchLights* patches) const;
+
+  // For what changes from frame to frame: memory for sums that change quickly (LitLanes).
+  void keepLit() { keepsLit_ = true; }
 
   // To be called before a shadow map changes, with what it holds: its light may have to be taken
   // away with it.
@@ -66,16 +70,11 @@ class LightSums {
     uint32_t kept() const { return wanted & summed; }
     uint32_t begun() const { return wanted & ~summed; }
   };
-  // A light to take away, one to add, or both; null: none.
-  struct Change {
-    int slot;
-    const LightRecord* before;
-    const LightRecord* now;
-  };
   struct Frame;
 
   void compareWithLast(const Frame& frame);
-  std::vector<Change> findChanges(std::span<const LightRecord> lights);
+  bool isMost(size_t changed, size_t all) const;
+  void findChanges(Frame& frame);
   void findPlaces(const Frame& frame);
   SumCounts sumTiles(const Frame& frame, int first, int last);
   void clearPackets(int tile, uint32_t packets);
@@ -85,8 +84,11 @@ class LightSums {
   bool knowsPlaces_ = false;  // of tiles that show the same
   bool hasPatches_ = false, hasMaps_ = false, hasTransfer_ = false;
   SumConstants constants_;
-  std::vector<LightRecord> lights_;            // as summed
-  std::map<int, std::vector<float>> oldMaps_;  // by slot, as summed, of those that changed since
+  std::vector<LightRecord> lights_;  // as summed
+  // By slot, as summed, of those that changed since; empty where lit_ is kept.
+  std::map<int, std::vector<float>> oldMaps_;
+  bool keepsLit_ = false;
+  LitLanes lit_;  // of what is summed
   PlaceTable table_;
   std::vector<Tile> tiles_;
   std::vector<Revision> mapRevisions_;       // of light maps, by object

@@ -3,16 +3,10 @@
 // multiply-adds fused where written so.
 #pragma once
 
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#ifndef HWY_DISABLE_PCLMUL_AES
-#define HWY_DISABLE_PCLMUL_AES 1
-#endif
-
 #include <algorithm>
 
-#include <hwy/highway.h>
-
 #include "renderer/backends/cpu/light_kernel.h"
+#include "renderer/wide_rounding.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::cpu {
@@ -46,22 +40,6 @@ struct Vector3 {
 };
 
 using Ints = hn::Vec<IntTag>;
-
-// Highway's own conversions also put right what is out of range, which nothing is here.
-HWY_INLINE Ints roundToInts(Floats v) {
-#if HWY_TARGET == HWY_AVX2
-  return Ints{_mm256_cvtps_epi32(v.raw)};
-#else
-  return hn::NearestInt(v);
-#endif
-}
-HWY_INLINE Ints truncateToInts(Floats v) {
-#if HWY_TARGET == HWY_AVX2
-  return Ints{_mm256_cvttps_epi32(v.raw)};
-#else
-  return hn::ConvertTo(IntTag(), v);
-#endif
-}
 
 HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
 HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {

@@ -1,0 +1,35 @@
+// Vectors of floats to whole numbers, where none is out of range: Highway's own conversions also
+// put right what is, at twice the cost.
+#pragma once
+
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#ifndef HWY_DISABLE_PCLMUL_AES
+#define HWY_DISABLE_PCLMUL_AES 1
+#endif
+
+#include <hwy/highway.h>
+
+namespace lamplighter {
+
+using WideFloats = hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::FixedTag<float, 8>>;
+using WideInts = hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::FixedTag<int32_t, 8>>;
+
+// To the nearest, ties to even.
+HWY_INLINE WideInts roundToInts(WideFloats v) {
+#if HWY_TARGET == HWY_AVX2
+  return WideInts{_mm256_cvtps_epi32(v.raw)};
+#else
+  return hwy::HWY_NAMESPACE::NearestInt(v);
+#endif
+}
+
+// Towards zero.
+HWY_INLINE WideInts truncateToInts(WideFloats v) {
+#if HWY_TARGET == HWY_AVX2
+  return WideInts{_mm256_cvttps_epi32(v.raw)};
+#else
+  return hwy::HWY_NAMESPACE::ConvertTo(hwy::HWY_NAMESPACE::FixedTag<int32_t, 8>(), v);
+#endif
+}
+
+}  // namespace lamplighter
