@@ -21,6 +21,7 @@ struct TexelLight {
   vec3 position, axis;      // axis: Vpl::normal
   vec3 tangent, bitangent;  // of a parallel light's square
   vec3 intensity;           // times the sign
+  vec3 units;               // the same, in units
   float coneScale, side;    // Vpl::normal.w and Vpl::tangent.w
 };
 
@@ -29,8 +30,9 @@ struct TexelLight {
 inline constexpr double kIrradianceUnit = 1.0 / 67108864.0;  // 2⁻²⁶
 
 // Adds the irradiance of the lights, without shadow, each rounded to a multiple of kIrradianceUnit;
-// below 2²⁴ W/m². r, g, b: a sum for each texel. Follows vplGeometry of vpl_shading.h.
-void accumulate(std::span<const TexelLight* const> lights, const TexelPlaces& places,
-                float clampDistance, double* r, double* g, double* b);
+// below 2²⁴ W/m². r, g, b: a sum for each texel. Follows vplGeometry of vpl_shading.h. Puts the
+// lights in another order; no order changes a bit of the sums.
+void accumulate(std::span<const TexelLight*> lights, const TexelPlaces& places, float clampDistance,
+                double* r, double* g, double* b);
 
 }  // namespace lamplighter

@@ -154,6 +154,12 @@ LightMaps::Object LightMaps::makeObject(const RenderScene& scene, const ObjectPa
         out.z[i] = p.z;
       }
     }
+    // Those behind the last are like it, so that all lie in the patch.
+    for (; i < tile.first + paddedCount(tile); ++i) {
+      out.x[i] = out.x[i - 1];
+      out.y[i] = out.y[i - 1];
+      out.z[i] = out.z[i - 1];
+    }
   }
   out.sums.assign(size_t{3} * texels, 0.0);
   out.irradiance.assign(texels, vec4(0.0f));
@@ -249,9 +255,10 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       uint64_t& word = o.held[job.tile * words_ + slot / 64];
       const uint64_t bit = uint64_t{1} << slot % 64;
       const bool has = (word & bit) != 0;
-      const bool wants = isLight(bySlot[slot]) &&
-                         static_cast<Occlusion>(states[slot]) != Occlusion::full &&
-                         isMappable(bySlot[slot], place, options.clampDistance);
+      // What is held and the same is as mappable as it was.
+      const bool wants =
+          isLight(bySlot[slot]) && static_cast<Occlusion>(states[slot]) != Occlusion::full &&
+          ((has && !isNew[slot]) || isMappable(bySlot[slot], place, options.clampDistance));
       if (has && (!wants || isNew[slot])) changes.push_back(&taken[slot]);
       if (wants && (!has || isNew[slot])) changes.push_back(&added[slot]);
       word = wants ? word | bit : word & ~bit;

@@ -2,6 +2,7 @@
 #include "renderer/light_maps/light_maps.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -77,7 +78,8 @@ TEST(Accumulate, IsTheSharedDefinitionRounded) {
   for (const shared::Vpl& vpl : vpls) {
     std::vector<double> r(kCount), g(kCount), b(kCount);
     const TexelLight light(vpl, 1.0f);
-    accumulate(std::vector{&light}, {x, y, z, normal}, kClamp, r.data(), g.data(), b.data());
+    std::vector lights{&light};
+    accumulate(lights, {x, y, z, normal}, kClamp, r.data(), g.data(), b.data());
     for (size_t i = 0; i < kCount; ++i) {
       const float e = shared::vplGeometry(vpl, vec3(x[i], y[i], z[i]), normal, normal, kClamp);
       EXPECT_NEAR(g[i], e * vpl.intensity.g, 1e-5 * e * vpl.intensity.g + kIrradianceUnit);
@@ -108,6 +110,36 @@ TEST(Accumulate, WhatIsTakenAwayLeavesNoBit) {
   accumulate(taken, places, kClamp, r.data(), g.data(), b.data());
   for (const auto* sums : {&r, &g, &b})
     EXPECT_TRUE(std::all_of(sums->begin(), sums->end(), [](double s) { return s == 0.0; }));
+}
+
+// Faint ones are summed in 32 bits, several runs of them, and bright ones in doubles: together they
+// are what each gives alone.
+TEST(Accumulate, AllAtOnceAreTheSameBitsAsOneByOne) {
+  std::vector<shared::Vpl> vpls = test::randomVpls(200, 4);
+  for (size_t i = 0; i < vpls.size(); ++i) {
+    const float scale = i % 7 == 0 ? 5000.0f : i % 3 == 0 ? 40.0f : 0.3f;
+    vpls[i].intensity = vec4(scale * vec3(vpls[i].intensity), vpls[i].intensity.w);
+  }
+  std::vector<float> x(64), y(64, 0.1f), z(64, -0.4f);
+  for (size_t i = 0; i < 64; ++i) x[i] = -3.0f + 0.1f * static_cast<float>(i);
+  const TexelPlaces places{x, y, z, vec3(0, 1, 0)};
+  using Sums = std::array<std::vector<double>, 3>;
+  const std::vector<double> zero(64);
+  Sums together{zero, zero, zero}, alone = together;
+  std::vector<TexelLight> lights;
+  std::vector<const TexelLight*> all;
+  for (const shared::Vpl& vpl : vpls) lights.emplace_back(vpl, 1.0f);
+  for (const TexelLight& light : lights) all.push_back(&light);
+  const auto add = [&](std::span<const TexelLight*> some, Sums& to) {
+    accumulate(some, places, kClamp, to[0].data(), to[1].data(), to[2].data());
+  };
+  add(all, together);
+  EXPECT_GT(*std::max_element(together[0].begin(), together[0].end()), 32.0);
+  for (const TexelLight& light : lights) {
+    std::vector one{&light};
+    add(one, alone);
+  }
+  EXPECT_EQ(together, alone);
 }
 
 // At every texel: the sum of the lights that it holds. Between them, and from one tile to the next
