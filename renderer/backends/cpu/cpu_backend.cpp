@@ -50,7 +50,7 @@ struct Picture {
 class CpuBackend final : public Backend {
  public:
   CpuBackend() {
-    still_.forEachSums([](cpu::LightSums& sums) { sums.keepLit(); });
+    still_.forEachSums([](cpu::LightSums& sums) { sums.noteLit(); });
   }
 
   const BackendInfo& info() const override { return info_; }

@@ -12,26 +12,19 @@ namespace {
 
 constexpr float kMostSum = 0x1p30f;  // units
 
-// Where the sums of a packet are.
-class WideSums {
- public:
-  explicit WideSums(FixedSums& sums) : r_(sums.r.data()), g_(sums.g.data()), b_(sums.b.data()) {}
-  HWY_INLINE void add(size_t i, Floats weight, const Vector3& units) const {
-    add(r_ + i, hn::Mul(weight, units.x));
-    add(g_ + i, hn::Mul(weight, units.y));
-    add(b_ + i, hn::Mul(weight, units.z));
-  }
+HWY_INLINE Vector3 load(const float (&from)[3][kLanes]) {
+  return {hn::Load(kTag, from[0]), hn::Load(kTag, from[1]), hn::Load(kTag, from[2])};
+}
 
- private:
-  // Rounding to nearest is the same on both sides of zero, so that taking away undoes adding.
-  static HWY_INLINE void add(int32_t* to, Floats share) {
-    hn::StoreU(hn::Add(hn::LoadU(IntTag(), to), roundToInts(share)), IntTag(), to);
-  }
-
-  int32_t* HWY_RESTRICT r_;
-  int32_t* HWY_RESTRICT g_;
-  int32_t* HWY_RESTRICT b_;
-};
+// Rounding to nearest is the same on both sides of zero, so that taking away undoes adding.
+HWY_INLINE void addTo(int32_t (&sum)[3][kLanes], Floats weight, const Vector3& units) {
+  const auto add = [&](int32_t* to, Floats share) {
+    hn::Store(hn::Add(hn::Load(IntTag(), to), roundToInts(share)), IntTag(), to);
+  };
+  add(sum[0], hn::Mul(weight, units.x));
+  add(sum[1], hn::Mul(weight, units.y));
+  add(sum[2], hn::Mul(weight, units.z));
+}
 
 // What it gives where it arrives [1/m² of its intensity]. v: from the light to the point; z: its
 // height over the light's plane; s: −n·v, or n·(the light's direction) of a parallel one.
@@ -51,31 +44,36 @@ HWY_INLINE Floats weightOf(const WideLight& light, const WideConstants& c, const
   }
 }
 
+HWY_INLINE Vector3 loadNormals(const float* from) {
+  return {hn::LoadU(kTag, from), hn::LoadU(kTag, from + kLanes),
+          hn::LoadU(kTag, from + 2 * kLanes)};
+}
+
 HWY_INLINE Vector3 fromLight(const Vector3& p, const WideLight& light) {
   return {hn::Sub(p.x, light.position.x), hn::Sub(p.y, light.position.y),
           hn::Sub(p.z, light.position.z)};
 }
 
-// kUse: add, addShadowed or takeShadow. lit: null, or by packet.
+// kUse: add, addShadowed or takeShadow. Of the last it only finds where, without branches: half of
+// all packets of a partly hidden patch are somewhere, so that they would be foretold wrongly.
+// addLit() sums it then.
 template <LightRecord::Kind kKind, LightUse kUse>
-void addLight(const GBuffer& g, const PacketList& packets, bool isNegative,
-              const LightRecord& record, const SumConstants& constants, uint8_t* lit,
-              FixedSums& fixedSums) {
-  constexpr bool kLooksUp = kUse != LightUse::add;
+void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
+              const LightRecord& record, const SumConstants& constants, LitOfList& lit) {
+  constexpr bool kLooksUp = kUse != LightUse::add, kSums = kUse != LightUse::takeShadow;
   const WideLight light(record, isNegative, constants);
   const WideConstants c(constants);
-  const WideSums sums(fixedSums);
   const Floats zero = hn::Zero(kTag);
-  const Vectors positions(g.px, g.py, g.pz), shadings(g.sx, g.sy, g.sz),
-      geometrics(g.gx, g.gy, g.gz);
   for (size_t k = 0; k < packets.count(); ++k) {
-    const size_t i = packets.first(k);
-    if (kLooksUp && lit != nullptr) lit[i / kLanes] &= static_cast<uint8_t>(~*packets.lanes(k));
+    const size_t i = packets.packet(k);
+    PacketBlock::Packet& packet = block.at(i);
+    if constexpr (kLooksUp) lit[k] = 0;
     const Mask meant = hn::LoadMaskBits(kTag, packets.lanes(k));
-    const Vector3 v = fromLight(positions.at(i), light);
-    const Vector3 shading = shadings.at(i);
-    const bool isFlat = g.isFlat[i / kLanes] != 0;
-    const Vector3 geometric = isFlat ? shading : geometrics.at(i);
+    const Vector3 v = fromLight(load(packet.position), light);
+    const Vector3 shading = load(packet.shading);
+    const float* normals = block.geometric(i);
+    const bool isFlat = normals == nullptr;
+    const Vector3 geometric = isFlat ? shading : loadNormals(normals);
     Floats s, z = zero;
     Mask reached, occluded = hn::MaskFromVec(zero);
     if constexpr (kKind == LightRecord::Kind::directional) {
@@ -86,7 +84,7 @@ void addLight(const GBuffer& g, const PacketList& packets, bool isNegative,
       const Mask within = hn::And(hn::And(hn::Ge(q.x, hn::Neg(side)), hn::Lt(q.x, side)),
                                   hn::And(hn::Ge(q.y, hn::Neg(side)), hn::Lt(q.y, side)));
       reached = hn::And(hn::And(meant, within), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
-      if (hn::AllFalse(kTag, reached)) continue;
+      if (kSums && hn::AllFalse(kTag, reached)) continue;
       if constexpr (kLooksUp) occluded = directionalOccluded(light, c, q, geometric, facing);
     } else {
       z = dot(v, light.normal);
@@ -94,48 +92,44 @@ void addLight(const GBuffer& g, const PacketList& packets, bool isNegative,
       const Floats facing = isFlat ? s : hn::Neg(dot(geometric, v));
       reached =
           hn::And(hn::And(meant, hn::Gt(z, zero)), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
-      if (hn::AllFalse(kTag, reached)) continue;
+      if (kSums && hn::AllFalse(kTag, reached)) continue;
       // A height above zero keeps 1/w finite in the lanes that the light does not reach.
       if constexpr (kLooksUp)
-        occluded = hemisphereOccluded(light, c, v, hn::IfThenElse(reached, z, all(1.0f)), geometric,
-                                      facing);
+        occluded = hemisphereOccluded<!kSums>(light, c, v, hn::IfThenElse(reached, z, all(1.0f)),
+                                              geometric, facing);
     }
     if constexpr (kUse == LightUse::addShadowed) reached = hn::AndNot(occluded, reached);
     if constexpr (kUse == LightUse::takeShadow) reached = hn::And(occluded, reached);
     if constexpr (kLooksUp) {
-      if (hn::AllFalse(kTag, reached)) continue;
-      if (lit != nullptr) {
-        uint8_t lanes[8];
-        hn::StoreMaskBits(kTag, reached, lanes);
-        lit[i / kLanes] |= lanes[0];
-      }
+      uint8_t lanes[8];
+      hn::StoreMaskBits(kTag, reached, lanes);
+      lit[k] = lanes[0];
     }
-    const Floats weight = hn::IfThenElseZero(reached, weightOf<kKind>(light, c, v, z, s));
-    sums.add(i, hn::Min(weight, light.mostWeight), light.units);
+    if constexpr (kSums) {
+      const Floats weight = hn::IfThenElseZero(reached, weightOf<kKind>(light, c, v, z, s));
+      addTo(packet.sum, hn::Min(weight, light.mostWeight), light.units);
+    }
   }
 }
 
-// Takes away what a light with a shadow map gave: which lanes these are is known.
+// In those lanes.
 template <LightRecord::Kind kKind>
-void takeAwayLit(const GBuffer& g, const PacketList& packets, bool isNegative,
-                 const LightRecord& record, const SumConstants& constants, const uint8_t* lit,
-                 FixedSums& fixedSums) {
+void addLit(PacketBlock& block, const PacketList& packets, bool isNegative,
+            const LightRecord& record, const SumConstants& constants, const LitOfList& lit) {
   const WideLight light(record, isNegative, constants);
   const WideConstants c(constants);
-  const WideSums sums(fixedSums);
-  const Vectors positions(g.px, g.py, g.pz), shadings(g.sx, g.sy, g.sz);
   // Which packets there are is found first, without a branch that nobody can foretell.
-  uint16_t some[PacketList::kMost];
+  std::array<uint8_t, PacketBlock::kMost> some;
   size_t count = 0;
   for (size_t k = 0; k < packets.count(); ++k) {
-    some[count] = static_cast<uint16_t>(k);
-    count += (lit[packets.first(k) / kLanes] & *packets.lanes(k)) != 0 ? 1 : 0;
+    some[count] = static_cast<uint8_t>(k);
+    count += lit[k] != 0 ? 1 : 0;
   }
   for (size_t n = 0; n < count; ++n) {
-    const size_t k = some[n], i = packets.first(k);
-    const auto lanes = static_cast<uint8_t>(lit[i / kLanes] & *packets.lanes(k));
-    const Vector3 v = fromLight(positions.at(i), light);
-    const Vector3 shading = shadings.at(i);
+    const size_t k = some[n];
+    PacketBlock::Packet& packet = block.at(packets.packet(k));
+    const Vector3 v = fromLight(load(packet.position), light);
+    const Vector3 shading = load(packet.shading);
     Floats s, z = hn::Zero(kTag);
     if constexpr (kKind == LightRecord::Kind::directional) {
       s = dot(shading, light.normal);
@@ -144,30 +138,43 @@ void takeAwayLit(const GBuffer& g, const PacketList& packets, bool isNegative,
       s = hn::Neg(dot(shading, v));
     }
     const Floats weight =
-        hn::IfThenElseZero(hn::LoadMaskBits(kTag, &lanes), weightOf<kKind>(light, c, v, z, s));
-    sums.add(i, hn::Min(weight, light.mostWeight), light.units);
+        hn::IfThenElseZero(hn::LoadMaskBits(kTag, &lit[k]), weightOf<kKind>(light, c, v, z, s));
+    addTo(packet.sum, hn::Min(weight, light.mostWeight), light.units);
   }
 }
 
+bool isNegative(LightUse use, Sign sign) {
+  return (sign == Sign::takeAway) != (use == LightUse::takeShadow);
+}
+
 template <LightRecord::Kind kKind>
-void addLight(const GBuffer& gbuffer, const PacketList& packets, LightUse use, Sign sign,
-              const LightRecord& light, const SumConstants& constants, uint8_t* lit,
-              FixedSums& sums) {
-  const bool isNegative = (sign == Sign::takeAway) != (use == LightUse::takeShadow);
-  if (sign == Sign::takeAway && use != LightUse::add && lit != nullptr)
-    return takeAwayLit<kKind>(gbuffer, packets, isNegative, light, constants, lit, sums);
+void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+              const LightRecord& light, const SumConstants& constants, LitOfList& lit) {
+  const bool negative = isNegative(use, sign);
   switch (use) {
     case LightUse::skip:
       break;
     case LightUse::add:
-      return addLight<kKind, LightUse::add>(gbuffer, packets, isNegative, light, constants, lit,
-                                            sums);
+      return addLight<kKind, LightUse::add>(block, packets, negative, light, constants, lit);
     case LightUse::addShadowed:
-      return addLight<kKind, LightUse::addShadowed>(gbuffer, packets, isNegative, light, constants,
-                                                    lit, sums);
+      return addLight<kKind, LightUse::addShadowed>(block, packets, negative, light, constants,
+                                                    lit);
     case LightUse::takeShadow:
-      return addLight<kKind, LightUse::takeShadow>(gbuffer, packets, isNegative, light, constants,
-                                                   lit, sums);
+      addLight<kKind, LightUse::takeShadow>(block, packets, negative, light, constants, lit);
+      return addLit<kKind>(block, packets, negative, light, constants, lit);
+  }
+}
+
+// Calls f.operator()<kind>().
+template <typename F>
+void byKind(LightRecord::Kind kind, F&& f) {
+  switch (kind) {
+    case LightRecord::Kind::cosine:
+      return f.template operator()<LightRecord::Kind::cosine>();
+    case LightRecord::Kind::uniform:
+      return f.template operator()<LightRecord::Kind::uniform>();
+    case LightRecord::Kind::directional:
+      return f.template operator()<LightRecord::Kind::directional>();
   }
 }
 
@@ -191,22 +198,21 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
   return light;
 }
 
-void addLight(const GBuffer& gbuffer, const PacketList& packets, LightUse use, Sign sign,
-              const LightRecord& light, const SumConstants& constants, uint8_t* lit,
-              FixedSums& sums) {
+void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+              const LightRecord& light, const SumConstants& constants, LitOfList& lit) {
   static_assert(hn::MaxLanes(kTag) == kLanes);
   if (packets.count() == 0) return;
-  const auto add = [&]<LightRecord::Kind kKind>() {
-    addLight<kKind>(gbuffer, packets, use, sign, light, constants, lit, sums);
-  };
-  switch (light.kind) {
-    case LightRecord::Kind::cosine:
-      return add.operator()<LightRecord::Kind::cosine>();
-    case LightRecord::Kind::uniform:
-      return add.operator()<LightRecord::Kind::uniform>();
-    case LightRecord::Kind::directional:
-      return add.operator()<LightRecord::Kind::directional>();
-  }
+  byKind(light.kind, [&]<LightRecord::Kind kKind>() {
+    addLight<kKind>(block, packets, use, sign, light, constants, lit);
+  });
+}
+
+void addLit(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+            const LightRecord& light, const SumConstants& constants, const LitOfList& lit) {
+  if (packets.count() == 0) return;
+  byKind(light.kind, [&]<LightRecord::Kind kKind>() {
+    addLit<kKind>(block, packets, isNegative(use, sign), light, constants, lit);
+  });
 }
 
 // A sum is at most that of all intensities × the weight that each can have. A parallel light's

@@ -6,11 +6,12 @@
 // of a sum made from nothing (light_sums.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "renderer/backends/cpu/gbuffer.h"
+#include "renderer/backends/cpu/packet_block.h"
 #include "renderer/light_maps/patch_lights.h"
 #include "shaders/shared/vpl.h"
 
@@ -43,39 +44,37 @@ struct SumConstants {
 // The finest unit with which no sum of these lights can overflow, wherever it is taken.
 float unitsPerIrradiance(std::span<const LightRecord> lights, float clampDistance2);
 
-// E of each pixel in units, structure of arrays over the whole G-buffer.
-struct FixedSums {
-  std::vector<int32_t> r, g, b;
-};
-
-// Packets, by their first pixels, and which of their lanes are meant. Those of several tiles, so
-// that making a light ready is worth it where few of a tile are meant; and of few, so that they
-// stay in the first-level cache.
+// Packets of a block, and which of their lanes are meant.
 class PacketList {
  public:
-  static constexpr size_t kMost = 4 * kPacketsPerTile;
   void clear() { count_ = 0; }
-  void add(size_t first, uint8_t lanes) {
-    first_[count_] = first;
+  void add(size_t packet, uint8_t lanes) {
+    packet_[count_] = static_cast<uint8_t>(packet);
     lanes_[count_++] = lanes;
   }
   size_t count() const { return count_; }
-  size_t first(size_t k) const { return first_[k]; }
+  size_t packet(size_t k) const { return packet_[k]; }
   const uint8_t* lanes(size_t k) const { return &lanes_[k]; }
 
  private:
-  size_t first_[kMost];
-  uint8_t lanes_[kMost];
+  static_assert(PacketBlock::kMost <= 256);
+  uint8_t packet_[PacketBlock::kMost];
+  uint8_t lanes_[PacketBlock::kMost];
   size_t count_ = 0;
 };
 
 enum class Sign : uint8_t { add, takeAway };
 
-// Adds what the light gives these pixels by `use` (not skip), or takes it away again. lit: a light
-// with a shadow map notes there, by packet of the G-buffer, in which lanes it added or took
-// something, and is taken away by that without a look-up; null: it is looked up each time.
-void addLight(const GBuffer& gbuffer, const PacketList& packets, LightUse use, Sign sign,
-              const LightRecord& light, const SumConstants& constants, uint8_t* lit,
-              FixedSums& sums);
+// Of each packet of a list, the lanes in which a light gives or takes something.
+using LitOfList = std::array<uint8_t, PacketBlock::kMost>;
+
+// Adds what the light gives these pixels by `use` (not skip) to the block's sums, or takes it away
+// again. Where it looks its shadow map up it tells what `lit` was then.
+void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+              const LightRecord& light, const SumConstants& constants, LitOfList& lit);
+
+// The same, for a light that adds or takes its shadow in those lanes, without a look-up.
+void addLit(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+            const LightRecord& light, const SumConstants& constants, const LitOfList& lit);
 
 }  // namespace lamplighter::cpu

@@ -8,7 +8,6 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/light_maps/hard_lights.h"
-#include "renderer/scene/light_linking.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -17,6 +16,9 @@ namespace {
 constexpr size_t kMapBytesAtOnce = size_t{512} << 10;
 // Of maps as they were, which are kept from their change to the next sum.
 constexpr size_t kMostOldBytes = size_t{16} << 20;
+// Of notes of what is lit; of more none are kept. Slots are added in such steps.
+constexpr size_t kMostLitBytes = size_t{32} << 20;
+constexpr size_t kLitStep = 64;
 // Tiles that are summed together, so that each shadow map is fetched from memory once for all.
 constexpr int kTilesPerTask = 16;
 // The same where few of their packets are wanted.
@@ -49,125 +51,6 @@ bool revised(std::vector<Revision>& last, const Source* source) {
   return isOther;
 }
 
-// Adds lights to packets of some tiles, or takes them away.
-class Adder {
- public:
-  Adder(const GBuffer& gbuffer, const PlaceTable* table, std::span<const uint32_t> leftOutBy,
-        const SumConstants& constants, LitLanes& lit, FixedSums& sums, SumCounts& counts)
-      : gbuffer_(gbuffer),
-        table_(table),
-        leftOutBy_(leftOutBy),
-        constants_(constants),
-        lit_(lit),
-        sums_(sums),
-        counts_(counts) {}
-
-  bool hasRoomFor(uint32_t packets) const {
-    return listed_ + static_cast<size_t>(std::popcount(packets)) <= PacketList::kMost;
-  }
-  void addPackets(int tile, uint32_t packets, const TilePlaces& places) {
-    listedUses_ = 0;
-    parts_.push_back({packets, &places});
-    listed_ += static_cast<size_t>(std::popcount(packets));
-    pixels_ += static_cast<uint64_t>(gbuffer_.pixelsOf(tile, packets));
-    if (table_ == nullptr) return;
-    for (const uint32_t row : places.rows())
-      if (std::find(rows_.begin(), rows_.end(), row) == rows_.end()) rows_.push_back(row);
-  }
-
-  void add(const LightRecord& light, Sign sign, TilePlaces::When when) {
-    counts_.lightPixels += pixels_;
-    if (table_ != nullptr && light.slot >= 0) {
-      if (!listAs(usesOf(light.slot, when), light.slot, when)) return;
-      for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
-        sum(lists_[static_cast<size_t>(use)], use, sign, light);
-      return;
-    }
-    listedUses_ = 0;
-    lists_[0].clear();
-    for (const Part& part : parts_) part.places->listAll(part.packets, lists_[0]);
-    if (light.link != 0 && !leftOutBy_.empty()) leaveOut(light.link);
-    sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
-  }
-
-  // All of these, those that are used alike one after the other.
-  void addAll(std::span<const LightRecord* const> lights, Sign sign, TilePlaces::When when) {
-    order_.clear();
-    for (const LightRecord* light : lights) {
-      const bool isListed = table_ != nullptr && light->slot >= 0;
-      order_.emplace_back(isListed ? usesOf(light->slot, when) : 0, light);
-    }
-    std::stable_sort(order_.begin(), order_.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (const auto& [uses, light] : order_) add(*light, sign, when);
-  }
-
- private:
-  struct Part {
-    uint32_t packets;
-    const TilePlaces* places;
-  };
-
-  // Takes lanes out of the first list that show what gets no light of the link.
-  void leaveOut(uint32_t link) {
-    const PacketList all = lists_[0];
-    lists_[0].clear();
-    for (size_t k = 0; k < all.count(); ++k) {
-      uint8_t lanes = *all.lanes(k);
-      for (size_t i = all.first(k); i < all.first(k) + kLanes; ++i)
-        if (gbuffer_.hit[i] != 0 && isLeftOut(leftOutBy_[gbuffer_.object[i]], link))
-          lanes &= static_cast<uint8_t>(~(1u << (i - all.first(k))));
-      if (lanes != 0) lists_[0].add(all.first(k), lanes);
-    }
-  }
-
-  // How the light is used in each of the rows, in two bits; and a bit that is always set.
-  static constexpr size_t kMostRows = 31;
-  uint64_t usesOf(int slot, TilePlaces::When when) const {
-    if (rows_.size() > kMostRows) return 0;
-    uint64_t uses = 1;
-    for (const uint32_t row : rows_) {
-      const LightUse* of = when == TilePlaces::When::now ? table_->now(row) : table_->before(row);
-      uses = uses << 2 | static_cast<uint64_t>(of[slot]);
-    }
-    return uses;
-  }
-
-  // Lights that are used alike have the same lists. Returns whether there is anything in them.
-  bool listAs(uint64_t uses, int slot, TilePlaces::When when) {
-    static_assert(static_cast<int>(LightUse::skip) == 0);
-    if (uses != 0 && (uses & (uses - 1)) == 0) return false;
-    if (uses != 0 && uses == listedUses_) return true;
-    listedUses_ = uses;
-    for (PacketList& list : lists_) list.clear();
-    for (const Part& part : parts_) part.places->list(*table_, when, slot, part.packets, lists_);
-    return true;
-  }
-
-  void sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light) {
-    if (packets.count() == 0) return;
-    uint8_t* lit = lit_.of(light.slot);
-    addLight(gbuffer_, packets, use, sign, light, constants_, lit, sums_);
-    const bool isKnown = sign == Sign::takeAway && lit != nullptr;
-    if (use != LightUse::add && !isKnown) counts_.lookUps += packets.count() * kLanes;
-  }
-
-  const GBuffer& gbuffer_;
-  const PlaceTable* table_;
-  std::span<const uint32_t> leftOutBy_;
-  const SumConstants& constants_;
-  LitLanes& lit_;
-  FixedSums& sums_;
-  SumCounts& counts_;
-  std::vector<Part> parts_;
-  size_t listed_ = 0;
-  uint64_t pixels_ = 0;
-  std::vector<uint32_t> rows_;  // of the table, in these tiles
-  uint64_t listedUses_ = 0;     // that lists_ are for; 0: none
-  TilePlaces::Lists lists_;
-  std::vector<std::pair<uint64_t, const LightRecord*>> order_;
-};
-
 }  // namespace
 
 struct LightSums::Frame {
@@ -187,7 +70,7 @@ void LightSums::mapChanges(int slot, std::span<const float> map) {
                                     [&](const LightRecord& l) { return l.mapSlot == slot; });
   if (!isSummed) return;
   if (isMost(oldMaps_.size() + 1, lights_.size())) return forgetMaps();
-  if (lit_.areKept()) {
+  if (litIsKept_) {
     oldMaps_.emplace(slot, std::vector<float>());
     return;
   }
@@ -197,7 +80,7 @@ void LightSums::mapChanges(int slot, std::span<const float> map) {
 
 // Whether to take away so many lights and add them anew is more work than to begin with all.
 bool LightSums::isMost(size_t changed, size_t all) const {
-  return lit_.areKept() ? 4 * changed > 3 * all : 2 * changed > all;
+  return litIsKept_ ? 4 * changed > 3 * all : 2 * changed > all;
 }
 
 void LightSums::forgetMaps() {
@@ -232,10 +115,35 @@ void LightSums::compareWithLast(const Frame& frame) {
   }
 }
 
+// Decides whether to note what is lit: while the view stays and as far as it fits. Returns whether
+// that is as it was.
+bool LightSums::fitLit(const Frame& frame) {
+  const GBuffer& g = frame.gbuffer;
+  size_t same = 0;  // tiles
+  for (size_t i = 0; i < std::min(tiles_.size(), g.revision.size()); ++i)
+    same += tiles_[i].revision == g.revision[i] ? 1 : 0;
+  const bool isStill = sums_.r.size() == g.px.size() && 2 * same > g.revision.size();
+  litSlots_ = std::max(litSlots_, (frame.slots.size() + kLitStep - 1) / kLitStep * kLitStep);
+  size_t packets = 0;
+  for (const uint32_t wanted : frame.wanted) packets += static_cast<size_t>(std::popcount(wanted));
+  if (frame.wanted.empty()) packets = g.px.size() / kLanes;
+  const bool was = litIsKept_;
+  litIsKept_ = keepsLit_ && isStill && packets * litSlots_ <= kMostLitBytes;
+  if (was && !litIsKept_)
+    for (Tile& tile : tiles_) tile.lit.forget();
+  return was == litIsKept_;
+}
+
+void LightSums::keepLit() {
+  if (!litIsKept_) return;
+  tbb::parallel_for(size_t{0}, tiles_.size(),
+                    [&](size_t i) { tiles_[i].lit.keep(tiles_[i].wanted, litSlots_); });
+}
+
 void LightSums::findChanges(Frame& frame) {
   for (LightRecord& light : lights_) {
     const auto old = oldMaps_.find(light.mapSlot);
-    if (old != oldMaps_.end() && !lit_.areKept()) light.map = old->second.data();
+    if (old != oldMaps_.end() && !litIsKept_) light.map = old->second.data();
   }
   const auto before = bySlot(lights_);
   const auto& now = frame.slots;
@@ -289,13 +197,14 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   if (constants != constants_ || !std::all_of(lights.begin(), lights.end(), hasSlot) ||
       !std::all_of(lights_.begin(), lights_.end(), hasSlot))
     knowsSums_ = false;
-  if (!lit_.fit(keepsLit_ ? frame.slots.size() : 0, gbuffer.px.size() / kLanes)) knowsSums_ = false;
+  if (!fitLit(frame)) knowsSums_ = false;
   if (knowsSums_) {
     findChanges(frame);
     if (isMost(std::max(frame.taken.size(), frame.added.size()), lights.size())) knowsSums_ = false;
   }
   constants_ = constants;
   compareWithLast(frame);
+  keepLit();
   findPlaces(frame);
   frame.isChanged.resize(std::max(frame.isChanged.size(), table_.slots()), false);
 
@@ -348,20 +257,20 @@ void LightSums::clearPackets(int tile, uint32_t packets) {
 SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   using When = TilePlaces::When;
   SumCounts counts;
-  std::vector<Adder> kept, begun;
+  std::vector<LightAdder> kept, begun;
   const PlaceTable* table = hasPatches_ ? &table_ : nullptr;
   const auto newAdder = [&] {
-    return Adder(frame.gbuffer, table, frame.leftOutBy, constants_, lit_, sums_, counts);
+    return LightAdder(frame.gbuffer, table, frame.leftOutBy, constants_, counts);
   };
-  const auto addPackets = [&](std::vector<Adder>& adders, int tile, uint32_t packets) {
-    const TilePlaces& places = tiles_[static_cast<size_t>(tile)].places;
-    if ((packets & places.hit()) == 0) return false;
+  const auto addPackets = [&](std::vector<LightAdder>& adders, int tile, uint32_t packets) {
+    Tile& t = tiles_[static_cast<size_t>(tile)];
+    if ((packets & t.places.hit()) == 0) return false;
     if (adders.empty() || !adders.back().hasRoomFor(packets)) adders.push_back(newAdder());
-    adders.back().addPackets(tile, packets, places);
+    adders.back().addPackets(tile, packets, t.places, litIsKept_ ? &t.lit : nullptr);
     return true;
   };
   for (int i = first; i < last; ++i) {
-    const Tile& tile = tiles_[static_cast<size_t>(i)];
+    Tile& tile = tiles_[static_cast<size_t>(i)];
     clearPackets(i, tile.begun());
     addPackets(begun, i, tile.begun());
     if (!addPackets(kept, i, tile.kept()) || !hasPatches_) continue;
@@ -373,8 +282,8 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
     if (slots.empty()) continue;
-    Adder here = newAdder();
-    here.addPackets(i, tile.kept(), tile.places);
+    LightAdder here = newAdder();
+    here.addPackets(i, tile.kept(), tile.places, litIsKept_ ? &tile.lit : nullptr);
     for (const int slot : slots) {
       if (static_cast<size_t>(slot) >= frame.slots.size()) continue;
       const LightRecord* light = frame.slots[static_cast<size_t>(slot)];
@@ -382,20 +291,23 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
       here.add(*light, Sign::takeAway, When::before);
       here.add(*light, Sign::add, When::now);
     }
+    here.finish(sums_);
   }
   // The maps of some lights fit the second-level cache, those of all do not: each is fetched for
   // all of the tiles at once.
   const size_t texels = static_cast<size_t>(constants_.resolution) * constants_.resolution;
   const size_t atOnce = std::max<size_t>(1, kMapBytesAtOnce / (texels * sizeof(float)));
-  const auto addAll = [&](std::vector<Adder>& adders, std::span<const LightRecord* const> lights,
-                          Sign sign, When when) {
+  const auto addAll = [&](std::vector<LightAdder>& adders,
+                          std::span<const LightRecord* const> lights, Sign sign, When when) {
     for (size_t i = 0; i < lights.size(); i += atOnce)
-      for (Adder& tiles : adders)
+      for (LightAdder& tiles : adders)
         tiles.addAll(lights.subspan(i, std::min(atOnce, lights.size() - i)), sign, when);
   };
   addAll(kept, frame.taken, Sign::takeAway, When::before);
   addAll(kept, frame.added, Sign::add, When::now);
   addAll(begun, frame.all, Sign::add, When::now);
+  for (const std::vector<LightAdder>* adders : {&kept, &begun})
+    for (const LightAdder& tiles : *adders) tiles.finish(sums_);
   return counts;
 }
 
@@ -472,8 +384,8 @@ LightSums::HardShadows LightSums::findHardShadows() const {
 }
 
 size_t LightSums::bytes() const {
-  size_t bytes =
-      sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) + table_.bytes() + lit_.bytes();
+  size_t bytes = sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) + table_.bytes();
+  for (const Tile& tile : tiles_) bytes += tile.lit.bytes();
   for (const auto& [slot, map] : oldMaps_) bytes += map.size() * sizeof(float);
   return bytes;
 }

@@ -7,17 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "renderer/backends/cpu/light_kernel.h"
-#include "renderer/backends/cpu/lit_lanes.h"
-#include "renderer/backends/cpu/tile_places.h"
+#include "renderer/backends/cpu/light_adder.h"
 #include "renderer/revision.h"
 
 namespace lamplighter::cpu {
-
-struct SumCounts {
-  uint64_t lightPixels = 0;  // lights × pixels, added or taken away
-  uint64_t lookUps = 0;      // of those, with one in a shadow map; in whole packets
-};
 
 class LightSums {
  public:
@@ -33,8 +26,8 @@ class LightSums {
   bool isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights, SumConstants constants,
             const PatchLights* patches) const;
 
-  // For what changes from frame to frame: memory for sums that change quickly (LitLanes).
-  void keepLit() { keepsLit_ = true; }
+  // For sums that change from frame to frame: memory to take lights away quickly (TileLit).
+  void noteLit() { keepsLit_ = true; }
 
   // To be called before a shadow map changes, with what it holds: its light may have to be taken
   // away with it.
@@ -67,6 +60,7 @@ class LightSums {
     uint32_t summed = 0;    // packets, of the lights as they were
     uint32_t wanted = 0;    // packets; those that are summed go on from there, others begin anew
     TilePlaces places;
+    TileLit lit;  // of what is summed
     uint32_t kept() const { return wanted & summed; }
     uint32_t begun() const { return wanted & ~summed; }
   };
@@ -75,6 +69,8 @@ class LightSums {
   void compareWithLast(const Frame& frame);
   bool isMost(size_t changed, size_t all) const;
   void findChanges(Frame& frame);
+  bool fitLit(const Frame& frame);
+  void keepLit();
   void findPlaces(const Frame& frame);
   SumCounts sumTiles(const Frame& frame, int first, int last);
   void clearPackets(int tile, uint32_t packets);
@@ -85,10 +81,11 @@ class LightSums {
   bool hasPatches_ = false, hasMaps_ = false, hasTransfer_ = false;
   SumConstants constants_;
   std::vector<LightRecord> lights_;  // as summed
-  // By slot, as summed, of those that changed since; empty where lit_ is kept.
+  // By slot, as summed, of those that changed since; empty where notes of what is lit are kept.
   std::map<int, std::vector<float>> oldMaps_;
   bool keepsLit_ = false;
-  LitLanes lit_;  // of what is summed
+  bool litIsKept_ = false;
+  size_t litSlots_ = 0;
   PlaceTable table_;
   std::vector<Tile> tiles_;
   std::vector<Revision> mapRevisions_;       // of light maps, by object

@@ -66,11 +66,18 @@ class TilePlaces {
   // Known packets in which anything is.
   uint32_t hit() const { return hit_; }
   std::span<const uint32_t> rows() const { return rows_; }
-  // Appends, by slot, those of these packets that use the light in each way.
+  // Those of these packets that are hit, into a block.
+  void addTo(const GBuffer& gbuffer, uint32_t packets, PacketBlock& block) const;
+  // Of packets that addTo() added, the first of them as `base`.
+  struct InBlock {
+    uint32_t packets;
+    size_t base;
+  };
+  // Appends those that use the light of the slot in each way.
   enum class When : uint8_t { before, now };
-  void list(const PlaceTable& table, When when, int slot, uint32_t packets, Lists& out) const;
-  // Appends all of these that are hit.
-  void listAll(uint32_t packets, PacketList& out) const;
+  void list(const PlaceTable& table, When when, int slot, const InBlock& some, Lists& out) const;
+  // Appends all.
+  void listAll(const InBlock& some, PacketList& out) const;
 
   // Calls f(first pixel of the packet, lanes, row in the table) for all that is known.
   template <typename F>
@@ -109,6 +116,8 @@ class TilePlaces {
   };
   static_assert(kPacketsPerTile <= 32);
 
+  template <typename F>
+  void forEachInBlock(uint32_t which, const InBlock& some, F&& f) const;
   uint16_t placeOf(const GBuffer& gbuffer, const PatchLights& lights, size_t pixel);
 
   size_t first_ = 0;              // pixel of the tile

@@ -124,7 +124,10 @@ HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const WideConstant
   return hn::GatherIndex(kTag, map, hn::BitCast(IntTag(), bounded));
 }
 
-// v: from the light to the point; z: its height over the light's plane, > 0.
+// v: from the light to the point; z: its height over the light's plane, > 0. kIsMostly: something
+// is mostly occluded, so that to leave out what is asked of those that are costs more than it
+// spares.
+template <bool kIsMostly = false>
 HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& c, const Vector3& v,
                                    Floats z, const Vector3& geometric, Floats facing) {
   const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
@@ -135,7 +138,7 @@ HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& 
   const Floats stored = fetch(light.map, s, t, c);
   const Mask beforePoint = hn::Gt(hn::Mul(stored, w), c.beforePoint);
   // Mostly nothing is; then the plane need not be asked.
-  if (hn::AllFalse(kTag, beforePoint)) return beforePoint;
+  if (!kIsMostly && hn::AllFalse(kTag, beforePoint)) return beforePoint;
   const Floats cs = centreOf(s, c), ct = centreOf(t, c);
   const Floats ex = hn::Mul(hn::Add(cs, ct), all(0.5f));
   const Floats ey = hn::Mul(hn::Sub(cs, ct), all(0.5f));
