@@ -20,9 +20,8 @@
 namespace lamplighter {
 namespace {
 
-// Rows of a shadow map that are one task: enough rays to be worth it, and fixed, so that what is
-// computed does not depend on the number of threads.
-constexpr int kRowsPerTask = 32;
+// Rows of a shadow map that are one task: what is found once for a map is found for each of them.
+constexpr int kRowsPerTask = 2 * cpu::ShadowRaster::kBand;
 
 // What a view shows, and the light there.
 struct Picture {

@@ -30,34 +30,13 @@ constexpr size_t kMostTriangles = 1024, kMostComplex = 64;
 // As are they where this share of blocks is left to them.
 constexpr float kMostOfBlocks = 0.75f;
 
+constexpr int kLeastTile = 2 * kBlockWidth;
 constexpr int kMostTiles = 16;  // on a side
 constexpr size_t kRow = TexelDirections::kCornersARow;
 static_assert(kRow >= kMostTiles + kLanes);
 
-// Of an edge's function: what it may be wrong by, so that neighbours do not both leave a tile out.
-constexpr float kRounding = 1e-6f;
-
 Floats all(float v) { return hn::Set(kTag, v); }
 Floats load(const std::vector<float>& v, size_t at) { return hn::LoadU(kTag, &v[at]); }
-
-struct Wide {
-  Floats x, y, z;
-};
-Wide operator-(const Wide& a, const Wide& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-Floats dot(const Wide& a, const Wide& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
-// Exactly that of (b, a) but for the sign: neighbours agree on the edge that they share.
-Wide cross(const Wide& a, const Wide& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-Wide operator*(const Wide& a, Floats s) {
-  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
-}
 
 // A map's rows are four texels of a block's upper row, and of its lower one.
 Floats loadBlock(const float* map, size_t resolution) {
@@ -68,53 +47,108 @@ void storeBlock(Floats v, float* map, size_t resolution) {
   hn::StoreU(hn::UpperHalf(kHalfTag, v), kHalfTag, map + resolution);
 }
 
-}  // namespace
+uint32_t bits(hn::Mask<Tag> lanes) {
+  uint8_t out[8];
+  hn::StoreMaskBits(kTag, lanes, out);
+  return out[0];
+}
 
-struct ShadowRaster::Light {
-  bool isParallel;
-  vec3 origin;
-  mat3 axes;         // columns: those of light space
-  float across, up;  // what light space is scaled by; 1 but for parallel lights
-  float most;        // of what is stored: at the nearest that a ray meets
-  const TexelDirections& directions;
-
-  Light(const ShadowRaster& raster, const shared::Vpl& vpl)
-      : isParallel(vpl.position.w == shared::kVplDirectional),
-        origin(vpl.position),
-        axes(vec3(vpl.tangent), glm::cross(vec3(vpl.normal), vec3(vpl.tangent)), vec3(vpl.normal)),
-        across(isParallel ? 1.0f / vpl.tangent.w : 1.0f),
-        up(isParallel ? 0.5f / vpl.normal.w : 1.0f),
-        most(isParallel ? 1.0f : 1.0f / rayEpsilon(origin)),
-        directions(isParallel ? raster.parallel_ : raster.hemisphere_) {}
-
-  // Of parallel light z is what is stored: 1 a radius over the origin, 0 under it.
-  Wide toLight(const Wide& p) const {
-    const Wide way = p - Wide{all(origin.x), all(origin.y), all(origin.z)};
-    const auto along = [&](int axis, float scale) {
-      const vec3 a = axes[axis] * scale;
-      return dot(way, {all(a.x), all(a.y), all(a.z)});
-    };
-    const Floats z = along(2, up);
-    return {along(0, across), along(1, across), isParallel ? hn::Add(z, all(0.5f)) : z};
+// What is linear in a ray's direction.
+struct Function {
+  Floats x, y, z;
+  Function(const float (&f)[4][kLanes], size_t lane)
+      : x(all(f[0][lane])), y(all(f[1][lane])), z(all(f[2][lane])) {}
+  Floats at(Floats dx, Floats dy, Floats dz) const {
+    return hn::MulAdd(x, dx, hn::MulAdd(y, dy, hn::Mul(z, dz)));
   }
 };
 
-struct ShadowRaster::Triangle {
-  std::array<vec3, 3> edges;  // d·edge ≥ 0 within
-  std::array<float, 3> slack;
-  vec3 plane{0.0f};  // d·plane: what is stored
+// Within it a, b and c are no less than 0.
+struct Triangle {
+  Function a, b, c, stored;
+  Triangle(const ShadowTriangles::Batch& batch, size_t lane)
+      : a(batch.functions[0], lane),
+        b(batch.functions[1], lane),
+        c(batch.functions[2], lane),
+        stored(batch.functions[ShadowTriangles::Batch::kPlane], lane) {}
 };
 
-struct ShadowRaster::Batch {
-  std::array<Triangle, kLanes> triangles;
-  uint32_t lanes = 0;  // a bit for each that may be seen
+struct Ends {
+  Floats least, most;
+};
+Ends both(const Ends& a, const Ends& b) {
+  return {hn::Min(a.least, b.least), hn::Max(a.most, b.most)};
+}
+
+// Of the functions at the corners of eight tiles in a row, on one side of them.
+struct AtCorners {
+  Ends a, b, c, stored;
+  AtCorners(const Triangle& t, const TexelDirections& d, int row, int first) {
+    const size_t at = static_cast<size_t>(row) * kRow + static_cast<size_t>(first);
+    const Floats x0 = load(d.cornerX, at), x1 = load(d.cornerX, at + 1);
+    const Floats y0 = load(d.cornerY, at), y1 = load(d.cornerY, at + 1);
+    const Floats z0 = load(d.cornerZ, at), z1 = load(d.cornerZ, at + 1);
+    const auto ends = [&](const Function& f) {
+      const Floats left = f.at(x0, y0, z0), right = f.at(x1, y1, z1);
+      return Ends{hn::Min(left, right), hn::Max(left, right)};
+    };
+    a = ends(t.a);
+    b = ends(t.b);
+    c = ends(t.c);
+    stored = ends(t.stored);
+  }
+};
+
+// Draws into columns [x, x + width) of rows [y, end). The least that is stored there then.
+template <bool isWhole>
+float drawTile(const Triangle& t, const TexelDirections& d, Floats most, int x, int width, int y,
+               int end, int resolution, float* map) {
+  Floats least = most;
+  const auto stride = static_cast<size_t>(resolution);
+  const int across = resolution / kBlockWidth;
+  for (; y < end; y += kBlockHeight) {
+    size_t at = kLanes * static_cast<size_t>(y / kBlockHeight * across + x / kBlockWidth);
+    float* texels = map + static_cast<size_t>(y) * stride + static_cast<size_t>(x);
+    for (const float* const last = texels + width; texels < last;
+         texels += kBlockWidth, at += kLanes) {
+      const Floats dx = load(d.x, at), dy = load(d.y, at), dz = load(d.z, at);
+      const Floats stored = t.stored.at(dx, dy, dz);
+      auto isMet = hn::Le(stored, most);
+      if (!isWhole)
+        isMet = hn::And(isMet, hn::Ge(hn::Min(hn::Min(t.a.at(dx, dy, dz), t.b.at(dx, dy, dz)),
+                                              t.c.at(dx, dy, dz)),
+                                      hn::Zero(kTag)));
+      const Floats nearest = hn::Max(hn::IfThenElseZero(isMet, stored), loadBlock(texels, stride));
+      storeBlock(nearest, texels, stride);
+      least = hn::Min(least, nearest);
+    }
+  }
+  return hn::GetLane(hn::MinOfLanes(kTag, least));
+}
+
+}  // namespace
+
+// Rows that are rendered at once, while what they read and write fits the first-level cache.
+struct ShadowRaster::Band {
+  int firstRow, lastRow;
+  int firstTile, lastTile;     // rows of tiles that they reach into
+  std::vector<uint8_t> marks;  // by block: it is left to rays
+  // By tile: no less is stored in any of its texels in these rows.
+  alignas(32) float least[kBand / kLeastTile][kRow] = {};
+
+  Band(int first, int last, int tile)
+      : firstRow(first),
+        lastRow(last),
+        firstTile(first / tile),
+        lastTile((last + tile - 1) / tile) {}
+  // Of a row of tiles, as far as it is in here.
+  int top(int row, int tile) const { return std::max(firstRow, row * tile); }
+  int bottom(int row, int tile) const { return std::min(lastRow, (row + 1) * tile); }
 };
 
 void ShadowRaster::setScene(const RenderScene& scene) {
   complex_.clear();
-  for (auto& corner : corners_)
-    for (auto& axis : corner) axis.clear();
-  triangles_ = 0;
+  std::vector<ShadowTriangles::Corners> triangles;
   for (const RenderObject& o : scene.objects) {
     const Material& material = scene.materials[static_cast<size_t>(o.material)];
     if (material.isClear()) continue;
@@ -122,25 +156,20 @@ void ShadowRaster::setScene(const RenderScene& scene) {
       complex_.push_back({o.bounds.centre(), o.bounds.radius()});
       continue;
     }
-    triangles_ += o.triangleCount();
-    for (uint32_t i = 0; i < o.indexCount; ++i) {
-      const vec3& p = scene.positions[scene.indices[o.firstIndex + i]];
-      for (int axis = 0; axis < 3; ++axis)
-        corners_[i % 3][static_cast<size_t>(axis)].push_back(p[axis]);
-    }
-    if (triangles_ > kMostTriangles) break;
+    const uint32_t* const index = &scene.indices[o.firstIndex];
+    for (uint32_t i = 0; i < o.indexCount; i += 3)
+      triangles.push_back({scene.positions[index[i]], scene.positions[index[i + 1]],
+                           scene.positions[index[i + 2]]});
+    if (triangles.size() > kMostTriangles) break;
   }
-  isUseful_ = triangles_ <= kMostTriangles && complex_.size() <= kMostComplex;
-  // Whole vectors: the last are points, which are never seen.
-  const size_t padded = (triangles_ + kLanes - 1) / kLanes * kLanes;
-  for (auto& corner : corners_)
-    for (auto& axis : corner) axis.resize(padded, 0.0f);
+  isUseful_ = triangles.size() <= kMostTriangles && complex_.size() <= kMostComplex;
+  triangles_.set(isUseful_ ? std::move(triangles) : std::vector<ShadowTriangles::Corners>());
 }
 
 void ShadowRaster::setResolution(int resolution) {
   if (resolution == resolution_) return;
   resolution_ = resolution;
-  tile_ = kBlockWidth * 2;
+  tile_ = kLeastTile;
   while (resolution > tile_ * kMostTiles) tile_ *= 2;
   // Tiles' corners lie on the creases of the octahedron, so that directions are linear on either
   // side of a tile's diagonal.
@@ -152,12 +181,12 @@ void ShadowRaster::setResolution(int resolution) {
 }
 
 // Marks blocks that may see what is left to rays. Whether rasterising the others is worth it.
-bool ShadowRaster::markForRays(const Light& light, int firstRow, int lastRow,
-                               std::vector<uint8_t>& marks) const {
-  const TexelDirections& d = light.directions;
-  const size_t first = static_cast<size_t>(firstRow / kBlockHeight * (resolution_ / kBlockWidth)),
-               count = static_cast<size_t>((lastRow - firstRow) / kBlockHeight) *
-                       static_cast<size_t>(resolution_ / kBlockWidth);
+bool ShadowRaster::markForRays(const LightSpace& light, Band& band) const {
+  const TexelDirections& d = directions(light);
+  const auto across = static_cast<size_t>(resolution_ / kBlockWidth);
+  const size_t first = static_cast<size_t>(band.firstRow / kBlockHeight) * across,
+               count = static_cast<size_t>((band.lastRow - band.firstRow) / kBlockHeight) * across;
+  std::vector<uint8_t>& marks = band.marks;
   marks.assign(count, 0);
   for (const Sphere& sphere : complex_) {
     const vec3 way = sphere.centre - light.origin;
@@ -189,9 +218,7 @@ bool ShadowRaster::markForRays(const Light& light, int firstRow, int lastRow,
                                      hn::Mul(load(d.sine, first + i), all(sine)));
         meets = hn::Ge(cosines, least);
       }
-      uint8_t bits[8];
-      hn::StoreMaskBits(kTag, meets, bits);
-      for (uint32_t rest = bits[0]; rest != 0; rest &= rest - 1)
+      for (uint32_t rest = bits(meets); rest != 0; rest &= rest - 1)
         marks[i + static_cast<size_t>(std::countr_zero(rest))] = 1;
     }
   }
@@ -199,110 +226,55 @@ bool ShadowRaster::markForRays(const Light& light, int firstRow, int lastRow,
   return marked <= kMostOfBlocks * static_cast<float>(count);
 }
 
-void ShadowRaster::prepare(const Light& light, size_t first, Batch& out) const {
-  std::array<Wide, 3> corner;
-  for (size_t i = 0; i < 3; ++i)
-    corner[i] = light.toLight(
-        {load(corners_[i][0], first), load(corners_[i][1], first), load(corners_[i][2], first)});
-  const auto& [a, b, c] = corner;
-  const Wide normal = cross(b - a, c - a);
-  std::array<Wide, 3> flat = corner;  // as the rays see them: of parallel ones z is 1
-  if (light.isParallel)
-    for (Wide& p : flat) p.z = all(1.0f);
-  const Floats det = light.isParallel ? normal.z : dot(a, normal);
-  const Floats inverse = hn::Div(all(1.0f), det);
-  // Of parallel light: a.z − ((u − a.x) n.x + (v − a.y) n.y) / n.z.
-  const Wide slope = normal * inverse;
-  const Wide plane = light.isParallel
-                         ? Wide{hn::Neg(slope.x), hn::Neg(slope.y),
-                                hn::MulAdd(slope.x, a.x, hn::MulAdd(slope.y, a.y, a.z))}
-                         : slope;
-  auto isSeen = hn::And(hn::Lt(hn::Abs(inverse), all(std::numeric_limits<float>::max())),
-                        hn::Ne(det, hn::Zero(kTag)));
-  if (!light.isParallel)
-    isSeen = hn::And(isSeen, hn::Gt(hn::Max(a.z, hn::Max(b.z, c.z)), hn::Zero(kTag)));
-  uint8_t bits[8];
-  hn::StoreMaskBits(kTag, isSeen, bits);
-  out.lanes = bits[0];
-  if (out.lanes == 0) return;
-  const Floats side = hn::CopySign(all(1.0f), det);
-  const auto store = [&](const Wide& v, auto&& member) {
-    HWY_ALIGN float x[kLanes], y[kLanes], z[kLanes];
-    hn::Store(v.x, kTag, x);
-    hn::Store(v.y, kTag, y);
-    hn::Store(v.z, kTag, z);
-    for (size_t lane = 0; lane < kLanes; ++lane)
-      member(out.triangles[lane]) = vec3(x[lane], y[lane], z[lane]);
-  };
-  for (size_t i = 0; i < 3; ++i) {
-    store(cross(flat[(i + 1) % 3], flat[(i + 2) % 3]) * side,
-          [&](Triangle& t) -> vec3& { return t.edges[i]; });
-    for (Triangle& t : out.triangles) {
-      const vec3 size = glm::abs(t.edges[i]);
-      t.slack[i] = -kRounding * (size.x + size.y + size.z);
+// Where all blocks of a tile are left to rays nothing is nearer than what is there.
+void ShadowRaster::passOverMarked(Band& band) const {
+  const int across = resolution_ / kBlockWidth;
+  for (int ty = band.firstTile; ty < band.lastTile; ++ty) {
+    for (int tx = 0; tx < tiles_; ++tx) {
+      bool isMarked = true;
+      for (int y = band.top(ty, tile_); y < band.bottom(ty, tile_); y += kBlockHeight)
+        for (int x = tx * tile_; x < (tx + 1) * tile_; x += kBlockWidth)
+          isMarked = isMarked &&
+                     band.marks[static_cast<size_t>((y - band.firstRow) / kBlockHeight * across +
+                                                    x / kBlockWidth)] != 0;
+      if (isMarked) band.least[ty - band.firstTile][tx] = std::numeric_limits<float>::infinity();
     }
   }
-  store(plane, [](Triangle& t) -> vec3& { return t.plane; });
 }
 
-void ShadowRaster::draw(const Triangle& t, const TexelDirections& d, float most, int firstRow,
-                        int lastRow, std::span<float> map) const {
-  const auto along = [](const vec3& n, Floats x, Floats y, Floats z) {
-    return hn::MulAdd(all(n.x), x, hn::MulAdd(all(n.y), y, hn::Mul(all(n.z), z)));
-  };
-  const auto resolution = static_cast<size_t>(resolution_);
-  // Of the edges' functions at the corners of tiles: in the row above and in the one below.
-  using Row = std::array<std::array<float, kRow>, 3>;
-  Row rows[2];
-  const auto fillRow = [&](int y, Row& row) {
-    const size_t at = static_cast<size_t>(y) * kRow;
-    // As far as the tiles' last vector reads, and one more.
-    for (size_t i = 0; i <= kLanes * ((static_cast<size_t>(tiles_) + kLanes - 1) / kLanes);
-         i += kLanes) {
-      const Floats dx = load(d.cornerX, at + i), dy = load(d.cornerY, at + i),
-                   dz = load(d.cornerZ, at + i);
-      for (size_t e = 0; e < 3; ++e) hn::StoreU(along(t.edges[e], dx, dy, dz), kTag, &row[e][i]);
-    }
-  };
-  const int firstTile = firstRow / tile_, lastTile = (lastRow + tile_ - 1) / tile_;
-  fillRow(firstTile, rows[0]);
-  for (int ty = firstTile; ty < lastTile; ++ty) {
-    const Row &above = rows[(ty - firstTile) % 2], &below = rows[(ty - firstTile + 1) % 2];
-    fillRow(ty + 1, rows[(ty - firstTile + 1) % 2]);
-    for (size_t tx0 = 0; tx0 < static_cast<size_t>(tiles_); tx0 += kLanes) {
-      auto isMet = hn::Eq(all(0.0f), all(0.0f)), isInside = isMet;
-      for (size_t e = 0; e < 3; ++e) {
-        const Floats c0 = hn::LoadU(kTag, &above[e][tx0]), c1 = hn::LoadU(kTag, &below[e][tx0]),
-                     c2 = hn::LoadU(kTag, &above[e][tx0 + 1]),
-                     c3 = hn::LoadU(kTag, &below[e][tx0 + 1]);
-        isMet = hn::And(isMet, hn::Ge(hn::Max(hn::Max(c0, c1), hn::Max(c2, c3)), all(t.slack[e])));
-        isInside =
-            hn::And(isInside, hn::Gt(hn::Min(hn::Min(c0, c1), hn::Min(c2, c3)), all(-t.slack[e])));
-      }
-      uint8_t met[8], inside[8];
-      hn::StoreMaskBits(kTag, isMet, met);
-      hn::StoreMaskBits(kTag, isInside, inside);
-      for (uint32_t rest = met[0]; rest != 0; rest &= rest - 1) {
-        const int lane = std::countr_zero(rest), tx = static_cast<int>(tx0) + lane;
-        if (tx >= tiles_) break;
-        const bool isWhole = (inside[0] >> lane & 1) != 0;
-        for (int y = std::max(firstRow, ty * tile_); y < std::min(lastRow, (ty + 1) * tile_);
-             y += kBlockHeight) {
-          for (int x = tx * tile_; x < (tx + 1) * tile_; x += kBlockWidth) {
-            const size_t at =
-                kLanes * static_cast<size_t>(y / kBlockHeight * (resolution_ / kBlockWidth) +
-                                             x / kBlockWidth);
-            const Floats dx = load(d.x, at), dy = load(d.y, at), dz = load(d.z, at);
-            float* const texels =
-                &map[static_cast<size_t>(y) * resolution + static_cast<size_t>(x)];
-            const Floats last = loadBlock(texels, resolution), stored = along(t.plane, dx, dy, dz);
-            auto isNearer = hn::And(hn::Gt(stored, last), hn::Le(stored, all(most)));
-            if (!isWhole)
-              for (const vec3& edge : t.edges)
-                isNearer = hn::And(isNearer, hn::Ge(along(edge, dx, dy, dz), hn::Zero(kTag)));
-            storeBlock(hn::IfThenElse(isNearer, stored, last), texels, resolution);
-          }
-        }
+void ShadowRaster::draw(const ShadowTriangles::Batch& batch, size_t lane, const LightSpace& light,
+                        Band& band, std::span<float> map) const {
+  const TexelDirections& d = directions(light);
+  const Triangle t(batch, lane);
+  const auto slack = [&](size_t function) { return all(batch.functions[function][3][lane]); };
+  const Floats slackA = slack(0), slackB = slack(1), slackC = slack(2);
+  // The tile in the middle of an odd number of them has the tip of the octahedron between its
+  // corners: what is stored there may be more than at these.
+  const Floats slackStored = tiles_ % 2 == 0 ? slack(ShadowTriangles::Batch::kPlane)
+                                             : all(std::numeric_limits<float>::infinity());
+  const Floats zero = hn::Zero(kTag), most = all(light.most);
+  for (int first = 0; first < tiles_; first += static_cast<int>(kLanes)) {
+    const uint32_t lanes = (1u << std::min(tiles_ - first, static_cast<int>(kLanes))) - 1;
+    AtCorners above(t, d, band.firstTile, first);
+    for (int ty = band.firstTile; ty < band.lastTile; ++ty) {
+      const AtCorners below(t, d, ty + 1, first);
+      float* const least = &band.least[ty - band.firstTile][first];
+      const Ends a = both(above.a, below.a), b = both(above.b, below.b), c = both(above.c, below.c),
+                 stored = both(above.stored, below.stored);
+      above = below;
+      const auto isMet = hn::And(
+          hn::And(hn::Ge(hn::Add(a.most, slackA), zero), hn::Ge(hn::Add(b.most, slackB), zero)),
+          hn::And(hn::Ge(hn::Add(c.most, slackC), zero),
+                  hn::Gt(hn::Add(stored.most, slackStored), hn::Load(kTag, least))));
+      const uint32_t met = bits(isMet) & lanes;
+      if (met == 0) continue;
+      const uint32_t whole = bits(hn::And(hn::And(hn::Gt(a.least, slackA), hn::Gt(b.least, slackB)),
+                                          hn::Gt(c.least, slackC)));
+      for (uint32_t rest = met; rest != 0; rest &= rest - 1) {
+        const int tx = std::countr_zero(rest);
+        const auto draw = (whole >> tx & 1) != 0 ? drawTile<true> : drawTile<false>;
+        least[tx] = draw(t, d, most, (first + tx) * tile_, tile_, band.top(ty, tile_),
+                         band.bottom(ty, tile_), resolution_, map.data());
       }
     }
   }
@@ -310,24 +282,30 @@ void ShadowRaster::draw(const Triangle& t, const TexelDirections& d, float most,
 
 uint64_t ShadowRaster::render(const RayCaster& rays, const shared::Vpl& vpl, int firstRow,
                               int lastRow, std::span<float> map) const {
-  const auto texels =
-      static_cast<uint64_t>(resolution_) * static_cast<uint64_t>(lastRow - firstRow);
-  std::vector<uint8_t> marks;
-  const Light light(*this, vpl);
-  if (!isUseful_ || tile_ == 0 || !markForRays(light, firstRow, lastRow, marks)) {
-    traceShadowMap(rays, vpl, resolution_, firstRow, lastRow, map);
-    return texels;
+  if (!isUseful_ || tile_ == 0)
+    return traceShadowMap(rays, vpl, resolution_, firstRow, lastRow, map);
+  const LightSpace light(vpl);
+  std::vector<ShadowTriangles::Batch> batches;
+  uint64_t cast = 0;
+  for (int row = firstRow; row < lastRow; row += kBand) {
+    Band band(row, std::min(row + kBand, lastRow), tile_);
+    if (!markForRays(light, band)) {
+      cast += traceShadowMap(rays, vpl, resolution_, row, band.lastRow, map);
+      continue;
+    }
+    if (batches.empty()) {
+      batches.resize(triangles_.batches());
+      triangles_.see(light, batches);
+    }
+    passOverMarked(band);
+    const auto across = static_cast<std::ptrdiff_t>(resolution_);
+    std::fill(map.begin() + row * across, map.begin() + band.lastRow * across, 0.0f);
+    for (const ShadowTriangles::Batch& batch : batches)
+      for (uint32_t rest = batch.lanes; rest != 0; rest &= rest - 1)
+        draw(batch, static_cast<size_t>(std::countr_zero(rest)), light, band, map);
+    cast += traceShadowMap(rays, vpl, resolution_, row, band.lastRow, map, band.marks);
   }
-  const auto first = static_cast<size_t>(firstRow) * static_cast<size_t>(resolution_);
-  std::fill_n(map.begin() + static_cast<std::ptrdiff_t>(first), texels, 0.0f);
-  Batch batch;
-  for (size_t i = 0; i < triangles_; i += kLanes) {
-    prepare(light, i, batch);
-    for (uint32_t rest = batch.lanes; rest != 0; rest &= rest - 1)
-      draw(batch.triangles[static_cast<size_t>(std::countr_zero(rest))], light.directions,
-           light.most, firstRow, lastRow, map);
-  }
-  return traceShadowMap(rays, vpl, resolution_, firstRow, lastRow, map, marks);
+  return cast;
 }
 
 }  // namespace lamplighter::cpu
