@@ -1,66 +1,130 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
 #include "renderer/sampling/point_visibility.h"
 
 #include <algorithm>
+#include <bit>
 
+#include <hwy/highway.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/sampling/random.h"
+#include "renderer/scene/light_linking.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
 namespace {
 
-Ray rayFrom(const SeenPoint& point, const vec4& position, const vec4& normal) {
-  Ray ray{point.position, 0.0f, vec3(normal)};
-  if (position.w != shared::kVplDirectional) {
-    const vec3 way = vec3(position) - point.position;
+namespace hn = hwy::HWY_NAMESPACE;
+using Tag = hn::FixedTag<float, 8>;
+using Floats = hn::Vec<Tag>;
+constexpr Tag kTag;
+
+Floats all(float v) { return hn::Set(kTag, v); }
+
+uint32_t bits(hn::Mask<Tag> lanes) {
+  uint8_t out[8];
+  hn::StoreMaskBits(kTag, lanes, out);
+  return out[0];
+}
+
+struct Wide {
+  Floats x, y, z;
+};
+Wide wide(const vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
+Wide operator-(const Wide& a, const Wide& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+// The bits of glm's.
+Floats dot(const Wide& a, const Wide& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+Ray rayFrom(const vec3& point, const shared::Vpl& vpl) {
+  Ray ray{point, 0.0f, vec3(vpl.normal)};
+  if (vpl.position.w != shared::kVplDirectional) {
+    const vec3 way = vec3(vpl.position) - point;
     ray.tFar = glm::length(way);
     ray.direction = way / ray.tFar;
   }
   return ray;
 }
 
-// What moved, and a sphere about it, which most rays pass by.
-struct Obstacle {
-  Bounds box;
-  vec3 middle;
-  float radius2;  // m²
-  explicit Obstacle(const Bounds& b) : box(b), middle(b.centre()) {
-    const float radius = b.radius() + rayEpsilon(b.min) + rayEpsilon(b.max);
-    radius2 = 1.01f * radius * radius;
-  }
-
-  bool mayBeBetween(const SeenPoint& point, const vec4& position, const vec4& normal) const {
-    const vec3 to = middle - point.position;
-    const bool isParallel = position.w == shared::kVplDirectional;
-    const vec3 way = isParallel ? vec3(normal) : vec3(position) - point.position;
-    const float along = std::max(glm::dot(to, way) / glm::dot(way, way), 0.0f);
-    const vec3 off = to - (isParallel ? along : std::min(along, 1.0f)) * way;
-    return glm::dot(off, off) <= radius2 && mayTouch(rayFrom(point, position, normal), box);
-  }
-};
-
 // But for how bright it is.
 bool isSamePlace(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent;
 }
 
-}  // namespace
-
-bool PointVisibility::Row::sees(const SeenPoint& point, size_t index, const RayCaster& rays) {
-  if (!known_[index]) {
-    known_[index] = true;
-    seen_[index] = !rays.occluded(rayFrom(point, vpl_.position, vpl_.normal));
-  }
-  return seen_[index];
+// Whether a way from `from` along `half` and back again as far as that touches a box about the
+// origin with half of its size: no axis of either, or across both, parts them (Gottschalk, Lin and
+// Manocha, "OBBTree", 1996).
+hn::Mask<Tag> mayTouchBox(const Wide& middle, const Wide& half, const vec3& size) {
+  const Wide along{hn::Abs(half.x), hn::Abs(half.y), hn::Abs(half.z)};
+  const Wide e = wide(size);
+  const auto isNear = [](Floats off, Floats way, Floats reach) {
+    return hn::Le(hn::Abs(off), hn::Add(way, reach));
+  };
+  const auto isNearAcross = [](Floats m0, Floats m1, Floats h0, Floats h1, Floats reach) {
+    return hn::Le(hn::Abs(hn::Sub(hn::Mul(m0, h1), hn::Mul(m1, h0))), reach);
+  };
+  const auto across = [](Floats e0, Floats e1, Floats a0, Floats a1) {
+    return hn::MulAdd(e0, a1, hn::Mul(e1, a0));
+  };
+  const auto inX =
+      hn::And(isNear(middle.x, along.x, e.x),
+              isNearAcross(middle.y, middle.z, half.y, half.z, across(e.y, e.z, along.y, along.z)));
+  const auto inY =
+      hn::And(isNear(middle.y, along.y, e.y),
+              isNearAcross(middle.z, middle.x, half.z, half.x, across(e.z, e.x, along.z, along.x)));
+  const auto inZ =
+      hn::And(isNear(middle.z, along.z, e.z),
+              isNearAcross(middle.x, middle.y, half.x, half.y, across(e.x, e.y, along.x, along.y)));
+  return hn::And(inX, hn::And(inY, inZ));
 }
 
-float PointVisibility::Row::geometry(const SeenPoint& point, size_t index) {
-  if (!measured_[index]) {
-    measured_[index] = true;
-    geometry_[index] =
-        shared::vplGeometry(vpl_, point.position, point.normal, point.normal, clampDistance_);
+}  // namespace
+
+// What moved.
+struct PointVisibility::Obstacle {
+  Bounds box;
+  float rounding;  // of its coordinates [m]
+};
+
+size_t PointVisibility::IdHash::operator()(const VplId& id) const {
+  return hash4(id.light, id.emitter, id.bounce, id.index);
+}
+
+void PointVisibility::outdate(Row& row, std::span<const Obstacle> obstacles) const {
+  const vec3 light(row.vpl.position);
+  const bool isParallel = row.vpl.position.w == shared::kVplDirectional;
+  const float rounding = rounding_ + rayEpsilon(light);
+  for (size_t b = 0; b < kBlocks; ++b) {
+    if (row.known[b] == 0) continue;
+    if (isParallel) {
+      for (uint32_t rest = row.known[b]; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<uint32_t>(std::countr_zero(rest));
+        const Ray ray = rayFrom(positions_.at(b * kLanes + lane), row.vpl);
+        if (std::any_of(obstacles.begin(), obstacles.end(),
+                        [&](const Obstacle& o) { return mayTouch(ray, o.box); }))
+          row.known[b] &= static_cast<uint8_t>(~(1u << lane));
+      }
+      continue;
+    }
+    const auto load = [&](const std::array<float, kMostPoints>& v) {
+      return hn::Load(kTag, &v[b * kLanes]);
+    };
+    const Wide point{load(positions_.x), load(positions_.y), load(positions_.z)};
+    const Wide way = wide(light) - point;
+    const Floats half = all(0.5f);
+    const Wide halfWay{hn::Mul(way.x, half), hn::Mul(way.y, half), hn::Mul(way.z, half)};
+    for (const Obstacle& o : obstacles) {
+      const vec3 centre = o.box.centre();
+      const Wide middle = wide(light - centre) - halfWay;
+      const vec3 size = 0.5f * (o.box.max - o.box.min) + 2.0f * (rounding + o.rounding);
+      row.known[b] &= static_cast<uint8_t>(~bits(mayTouchBox(middle, halfWay, size)));
+    }
   }
-  return geometry_[index];
 }
 
 void PointVisibility::outdate(const RenderSceneChanges& changes,
@@ -72,47 +136,115 @@ void PointVisibility::outdate(const RenderSceneChanges& changes,
   std::vector<Obstacle> obstacles;
   for (const MoverFinder::Mover& m : movers)
     for (const Bounds& box : {m.before, m.after})
-      if (!box.empty()) obstacles.emplace_back(box);
+      if (!box.empty()) obstacles.push_back({box, rayEpsilon(box.min) + rayEpsilon(box.max)});
   if (obstacles.empty()) return;
   std::vector<Row*> rows;
+  rows.reserve(rows_.size());
   for (auto& [id, row] : rows_) rows.push_back(&row);
-  tbb::parallel_for(size_t{0}, rows.size(), [&](size_t r) {
-    Row& row = *rows[r];
-    for (size_t i = 0; i < points_.size(); ++i) {
-      if (!row.known_[i]) continue;
-      row.known_[i] = std::none_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& o) {
-        return o.mayBeBetween(points_[i], row.vpl_.position, row.vpl_.normal);
-      });
-    }
-  });
+  tbb::parallel_for(size_t{0}, rows.size(), [&](size_t r) { outdate(*rows[r], obstacles); });
 }
 
-std::vector<PointVisibility::Row*> PointVisibility::rows(std::span<const SceneVpl> lights,
-                                                         std::span<const SeenPoint> points,
-                                                         float clampDistance) {
-  Points same;
+void PointVisibility::takePoints(std::span<const SeenPoint> points) {
+  same_ = {};
   for (size_t i = 0; i < std::min(points.size(), points_.size()); ++i)
-    same[i] = points[i] == points_[i];
+    if (points[i] == points_[i]) same_[i / kLanes] |= static_cast<uint8_t>(1u << i % kLanes);
   points_.assign(points.begin(), points.end());
-  std::map<VplId, Row> kept;
-  std::vector<Row*> out;
-  out.reserve(lights.size());
-  for (const SceneVpl& light : lights) {
-    auto node = rows_.extract(light.id);
-    const auto it =
-        node.empty() ? kept.try_emplace(light.id).first : kept.insert(std::move(node)).position;
-    Row& row = it->second;
-    if (!isSamePlace(row.vpl_, light.vpl)) row = Row();
-    if (row.clampDistance_ != clampDistance) row.measured_.reset();
-    row.vpl_ = light.vpl;
-    row.clampDistance_ = clampDistance;
-    row.known_ &= same;
-    row.measured_ &= same;
-    row.geometry_.resize(points.size());
-    out.push_back(&row);
+  positions_ = normals_ = {};
+  rounding_ = 0.0f;
+  for (size_t i = 0; i < points.size(); ++i) {
+    positions_.set(i, points[i].position);
+    normals_.set(i, points[i].normal);
+    rounding_ = std::max(rounding_, rayEpsilon(points[i].position));
   }
-  rows_ = std::move(kept);
-  return out;
+}
+
+PointVisibility::Row& PointVisibility::rowOf(const SceneVpl& light, float clampDistance) {
+  Row& row = rows_[light.id];
+  if (!isSamePlace(row.vpl, light.vpl)) row = Row();
+  if (row.clampDistance != clampDistance) row.measured = 0;
+  row.vpl = light.vpl;
+  row.clampDistance = clampDistance;
+  row.call = calls_;
+  for (size_t b = 0; b < kBlocks; ++b) {
+    row.known[b] &= same_[b];
+    if (same_[b] != 0xff) row.measured &= ~(1u << b);
+  }
+  return row;
+}
+
+// As shared::vplGeometry, bit for bit.
+void PointVisibility::measure(Row& row, size_t block) const {
+  const size_t first = block * kLanes;
+  if (row.vpl.position.w != shared::kVplCosine) {
+    for (size_t i = first; i < std::min(first + kLanes, points_.size()); ++i)
+      row.geometry[i] = shared::vplGeometry(row.vpl, points_[i].position, points_[i].normal,
+                                            points_[i].normal, row.clampDistance);
+    return;
+  }
+  const auto load = [&](const Vectors& v) {
+    return Wide{hn::Load(kTag, &v.x[first]), hn::Load(kTag, &v.y[first]),
+                hn::Load(kTag, &v.z[first])};
+  };
+  const Floats zero = hn::Zero(kTag);
+  const Wide v = load(positions_) - wide(vec3(row.vpl.position));
+  const Floats z = dot(v, wide(vec3(row.vpl.normal))), s = hn::Neg(dot(load(normals_), v));
+  const Floats d2 = dot(v, v), least = all(row.clampDistance * row.clampDistance);
+  const Floats geometry = hn::Div(hn::Mul(s, z), hn::Mul(d2, hn::Max(d2, least)));
+  const auto isLit = hn::And(hn::Gt(z, zero), hn::Gt(s, zero));
+  hn::Store(hn::IfThenElseZero(isLit, geometry), kTag, &row.geometry[first]);
+}
+
+uint32_t PointVisibility::leftOut(uint32_t link, size_t block) const {
+  uint32_t lanes = 0;
+  if (link == 0) return lanes;
+  const size_t first = block * kLanes;
+  for (size_t i = first; i < std::min(first + kLanes, points_.size()); ++i)
+    if (isLeftOut(points_[i].leftOutBy, link)) lanes |= 1u << (i - first);
+  return lanes;
+}
+
+void PointVisibility::fill(Row& row, const RayCaster& rays, float* out) const {
+  const Floats brightness = all(luminance(vec3(row.vpl.intensity)));
+  const auto link = static_cast<uint32_t>(row.vpl.footprint.y);
+  for (size_t b = 0; b < kBlocks; ++b) {
+    const size_t first = b * kLanes;
+    if (first >= points_.size()) {
+      hn::StoreU(hn::Zero(kTag), kTag, out + first);
+      continue;
+    }
+    if ((row.measured >> b & 1) == 0) measure(row, b);
+    row.measured |= 1u << b;
+    const Floats bare = hn::Mul(brightness, hn::Load(kTag, &row.geometry[first]));
+    const size_t count = std::min(points_.size() - first, kLanes);
+    const uint32_t lit =
+        bits(hn::Gt(bare, hn::Zero(kTag))) & ((1u << count) - 1) & ~leftOut(link, b);
+    for (uint32_t rest = lit & ~uint32_t{row.known[b]}; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(rest));
+      const uint32_t bit = 1u << lane;
+      const bool isSeen = !rays.occluded(rayFrom(points_[first + lane].position, row.vpl));
+      row.seen[b] = static_cast<uint8_t>(isSeen ? row.seen[b] | bit : row.seen[b] & ~bit);
+      row.known[b] |= static_cast<uint8_t>(bit);
+    }
+    const auto seen = static_cast<uint8_t>(lit & row.seen[b]);
+    const uint8_t mask[8] = {seen};
+    hn::StoreU(hn::IfThenElseZero(hn::LoadMaskBits(kTag, mask), bare), kTag, out + first);
+  }
+}
+
+std::span<const float> PointVisibility::irradiance(std::span<const SceneVpl> lights,
+                                                   std::span<const SeenPoint> points,
+                                                   const RayCaster& rays, float clampDistance) {
+  ++calls_;
+  takePoints(points);
+  std::vector<Row*> rows;
+  rows.reserve(lights.size());
+  for (const SceneVpl& light : lights) rows.push_back(&rowOf(light, clampDistance));
+  if (rows_.size() > lights.size())
+    std::erase_if(rows_, [&](const auto& kept) { return kept.second.call != calls_; });
+  irradiance_.resize(lights.size() * kMostPoints);
+  tbb::parallel_for(size_t{0}, rows.size(),
+                    [&](size_t i) { fill(*rows[i], rays, &irradiance_[i * kMostPoints]); });
+  return irradiance_;
 }
 
 }  // namespace lamplighter

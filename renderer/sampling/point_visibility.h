@@ -1,11 +1,11 @@
-// Which of some points light samples see, and what would reach these, kept from edit to edit: of
-// the samples of a light that is dragged most bounce where they did, and a ray that nothing moved
-// across finds what it found.
+// Which of some points light samples see, and what reaches these, kept from edit to edit: of the
+// samples of a light that is dragged most bounce where they did, and a ray that nothing moved
+// across finds what it found. Points are taken eight at a time.
 #pragma once
 
-#include <bitset>
-#include <map>
+#include <array>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "renderer/raycast/ray_caster.h"
@@ -24,34 +24,55 @@ struct SeenPoint {
 class PointVisibility {
  public:
   static constexpr size_t kMostPoints = 128;
-  using Points = std::bitset<kMostPoints>;
 
-  // A light sample, and what is known of it so far.
-  class Row {
-   public:
-    // Whether nothing stands between it and the point with this index.
-    bool sees(const SeenPoint& point, size_t index, const RayCaster& rays);
-    // Irradiance at the point if nothing does, over the sample's intensity [1/m²].
-    float geometry(const SeenPoint& point, size_t index);
-
-   private:
-    friend class PointVisibility;
-    shared::Vpl vpl_{};
-    float clampDistance_ = 0.0f;
-    Points known_, seen_, measured_;
-    std::vector<float> geometry_;  // by point
-  };
-
-  // To be called before the rows of a scene that changed are asked for again.
+  // To be called before a scene that changed is asked about again.
   void outdate(const RenderSceneChanges& changes, std::span<const MoverFinder::Mover> movers);
-  // One for each light, whose ids differ; good until the next call. At most kMostPoints points;
-  // 1/d² is bounded at clampDistance [m].
-  std::vector<Row*> rows(std::span<const SceneVpl> lights, std::span<const SeenPoint> points,
-                         float clampDistance);
+
+  // Luminance of the irradiance that each point has from each light, whose ids differ: a row of
+  // kMostPoints a light, 0 past the last of the points, which are no more. Good until the next
+  // call. 1/d² is bounded at clampDistance [m].
+  std::span<const float> irradiance(std::span<const SceneVpl> lights,
+                                    std::span<const SeenPoint> points, const RayCaster& rays,
+                                    float clampDistance);
 
  private:
+  static constexpr size_t kLanes = 8, kBlocks = kMostPoints / kLanes;
+  using Points = std::array<uint8_t, kBlocks>;  // a bit for each
+  // A light sample, and what is known of it so far.
+  struct Row {
+    shared::Vpl vpl{};
+    float clampDistance = 0.0f;
+    uint64_t call = 0;       // that it was asked for in
+    Points known{}, seen{};  // whether nothing stands between it and the point
+    uint32_t measured = 0;   // blocks, a bit for each
+    alignas(
+        32) std::array<float, kMostPoints> geometry{};  // E there if nothing does, over I [1/m²]
+  };
+  // All x, all y, all z; what is past the last is nothing.
+  struct Vectors {
+    alignas(32) std::array<float, kMostPoints> x{}, y{}, z{};
+    void set(size_t i, const vec3& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
+    vec3 at(size_t i) const { return {x[i], y[i], z[i]}; }
+  };
+  struct Obstacle;
+  struct IdHash {
+    size_t operator()(const VplId& id) const;
+  };
+
+  void takePoints(std::span<const SeenPoint> points);
+  Row& rowOf(const SceneVpl& light, float clampDistance);
+  void outdate(Row& row, std::span<const Obstacle> obstacles) const;
+  void measure(Row& row, size_t block) const;
+  uint32_t leftOut(uint32_t link, size_t block) const;
+  void fill(Row& row, const RayCaster& rays, float* out) const;
+
   std::vector<SeenPoint> points_;
-  std::map<VplId, Row> rows_;
+  Vectors positions_, normals_;
+  float rounding_ = 0.0f;  // of their coordinates [m]
+  Points same_{};          // of the points: as they were in the last call
+  uint64_t calls_ = 0;
+  std::unordered_map<VplId, Row, IdHash> rows_;
+  std::vector<float> irradiance_;
 };
 
 }  // namespace lamplighter

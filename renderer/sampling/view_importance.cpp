@@ -80,32 +80,20 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
                                 const RayCaster& rays, float clampDistance, PointVisibility& kept) {
   std::vector<float> importance(candidates.size(), 0.0f);
   if (points.empty()) return importance;
-  // One row a light, a column a point.
   const size_t columns = points.size();
-  std::vector<float> irradiance((candidates.size() + others.size()) * columns);
   std::vector<SceneVpl> lights(candidates.begin(), candidates.end());
   lights.insert(lights.end(), others.begin(), others.end());
-  const std::vector<PointVisibility::Row*> rows = kept.rows(lights, points, clampDistance);
-  tbb::parallel_for(size_t{0}, lights.size(), [&](size_t i) {
-    const shared::Vpl& vpl = lights[i].vpl;
-    const float brightness = luminance(vec3(vpl.intensity));
-    for (size_t j = 0; j < columns; ++j) {
-      if (isLeftOut(points[j].leftOutBy, static_cast<uint32_t>(vpl.footprint.y))) continue;
-      const float bare = brightness * rows[i]->geometry(points[j], j);
-      if (bare > 0.0f && rows[i]->sees(points[j], j, rays)) irradiance[i * columns + j] = bare;
-    }
-  });
+  const std::span<const float> irradiance = kept.irradiance(lights, points, rays, clampDistance);
+  const auto row = [&](size_t light) { return &irradiance[light * PointVisibility::kMostPoints]; };
   std::vector<double> sums(columns, 0.0);
-  for (size_t i = 0; i < candidates.size() + others.size(); ++i)
-    for (size_t j = 0; j < columns; ++j)
-      sums[j] += static_cast<double>(irradiance[i * columns + j]);
+  for (size_t i = 0; i < lights.size(); ++i)
+    for (size_t j = 0; j < columns; ++j) sums[j] += static_cast<double>(row(i)[j]);
   const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(columns);
   if (!(mean > 0.0)) return importance;
   tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
     double squares = 0.0;
     for (size_t j = 0; j < columns; ++j) {
-      const double share =
-          static_cast<double>(irradiance[i * columns + j]) / std::max(sums[j], kDarkest * mean);
+      const double share = static_cast<double>(row(i)[j]) / std::max(sums[j], kDarkest * mean);
       squares += share * share;
     }
     importance[i] = static_cast<float>(std::sqrt(squares / static_cast<double>(columns)));
