@@ -1,3 +1,6 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
 #include "renderer/raycast/ray_caster.h"
 
 #include <algorithm>
@@ -7,6 +10,7 @@
 #include <utility>
 
 #include <embree3/rtcore.h>
+#include <hwy/highway.h>
 
 #include "renderer/scene/surface.h"
 
@@ -48,6 +52,38 @@ RTCRay toEmbree(const Ray& r) {
   return e;
 }
 
+// Of eight rays as far as they have come, −1 for those of `valid` that touch the box, or nearly.
+void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  constexpr hn::FixedTag<float, 8> tag;
+  constexpr hn::FixedTag<int32_t, 8> ints;
+  // A direction that is almost across an axis is as if it were a little less so: what is outside
+  // is still left out, and nothing divides by zero.
+  const auto least = hn::Set(tag, 1e-30f), one = hn::Set(tag, 1.0f);
+  auto from = hn::Zero(tag), to = hn::Load(tag, r.tfar);
+  auto slack = from;
+  const float* const origins[3] = {r.org_x, r.org_y, r.org_z};
+  const float* const directions[3] = {r.dir_x, r.dir_y, r.dir_z};
+  for (const float* origin : origins) slack = hn::Max(slack, hn::Abs(hn::Load(tag, origin)));
+  // As rayEpsilon().
+  slack = hn::Max(hn::Mul(slack, hn::Set(tag, 0x1p-17f)), hn::Set(tag, 1e-5f));
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto origin = hn::Load(tag, origins[axis]);
+    auto way = hn::Load(tag, directions[axis]);
+    way = hn::IfThenElse(hn::Lt(hn::Abs(way), least), least, way);
+    const auto inverse = hn::Div(one, way);
+    const auto low = hn::Sub(hn::Sub(hn::Set(tag, box.min[axis]), slack), origin),
+               high = hn::Sub(hn::Add(hn::Set(tag, box.max[axis]), slack), origin);
+    const auto a = hn::Mul(low, inverse), b = hn::Mul(high, inverse);
+    from = hn::Max(from, hn::Min(a, b));
+    to = hn::Min(to, hn::Max(a, b));
+  }
+  // Not: those that surely miss, so that what is no number stays.
+  const auto misses = hn::Gt(from, hn::MulAdd(to, hn::Set(tag, 1.0002f), slack));
+  const auto all = hn::Load(ints, valid);
+  hn::Store(hn::IfThenZeroElse(hn::RebindMask(ints, misses), all), ints, valid);
+}
+
 }  // namespace
 
 // One geometry an object, with the object's number as its id, in two scenes: one tree over all
@@ -64,6 +100,7 @@ struct RayCaster::Impl {
   RTCScene still = nullptr, moving = nullptr;
   std::vector<uint8_t> isMoving;  // by object: it is in `moving`
   std::vector<uint32_t> movers;
+  Bounds movingBounds;  // of these, and a little more
   struct Passing {
     bool isClear, isMasked;
     bool operator==(const Passing&) const = default;
@@ -147,6 +184,7 @@ struct RayCaster::Impl {
     rtcSetSceneBuildQuality(moving, RTC_BUILD_QUALITY_LOW);
     isMoving.assign(scene.objects.size(), 0);
     movers.clear();
+    movingBounds = Bounds();
     passing.clear();
     for (uint32_t i = 0; i < scene.objects.size(); ++i) passing.push_back(passingOf(i));
     for (uint32_t i = 0; i < scene.objects.size(); ++i) add(still, i);
@@ -189,6 +227,15 @@ struct RayCaster::Impl {
       rtcCommitGeometry(geometry);
     }
     commit(moving);
+    movingBounds = Bounds();
+    for (const uint32_t i : movers) movingBounds.add(scene.objects[i].bounds);
+    const vec3 slack(rayEpsilon(movingBounds.min) + rayEpsilon(movingBounds.max));
+    movingBounds.min -= slack;
+    movingBounds.max += slack;
+  }
+  // Whether a ray may meet what moved: most pass it by, and are not asked.
+  bool mayMeetMovers(const Ray& ray) const {
+    return !movers.empty() && mayTouch(ray, movingBounds);
   }
 
   // A query of one of the scenes.
@@ -238,7 +285,7 @@ Hit RayCaster::intersect(const Ray& ray, Surfaces which) const {
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   Impl::Query still = impl_->query(which, true);
   rtcIntersect1(impl_->still, &still.embree, &r);
-  if (!impl_->movers.empty()) {
+  if (impl_->mayMeetMovers({ray.origin, ray.tNear, ray.direction, r.ray.tfar})) {
     Impl::Query moving = impl_->query(which, false);
     rtcIntersect1(impl_->moving, &moving.embree, &r);
   }
@@ -250,7 +297,7 @@ bool RayCaster::occluded(const Ray& ray) const {
   RTCRay r = toEmbree(ray);
   Impl::Query still = impl_->query(Surfaces::all, true);
   rtcOccluded1(impl_->still, &still.embree, &r);
-  if (!impl_->movers.empty() && !(r.tfar < 0.0f)) {
+  if (!(r.tfar < 0.0f) && impl_->mayMeetMovers(ray)) {
     Impl::Query moving = impl_->query(Surfaces::all, false);
     rtcOccluded1(impl_->moving, &moving.embree, &r);
   }
@@ -278,8 +325,12 @@ void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
   Impl::Query still = impl_->query(which, true, true);
   rtcIntersect8(valid, impl_->still, &still.embree, &r);
   if (!impl_->movers.empty()) {
+    alignas(32) int near[8];
+    std::copy_n(valid, 8, near);
+    keepTouching(r.ray, impl_->movingBounds, near);
     Impl::Query moving = impl_->query(which, false);
-    rtcIntersect8(valid, impl_->moving, &moving.embree, &r);
+    if (std::any_of(near, near + 8, [](int lane) { return lane != 0; }))
+      rtcIntersect8(near, impl_->moving, &moving.embree, &r);
   }
   for (size_t i = 0; i < 8; ++i) {
     hits[i] = valid[i] == 0 || r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID

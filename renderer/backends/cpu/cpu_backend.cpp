@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include "renderer/backends/cpu/composition.h"
 #include "renderer/backends/cpu/gbuffer.h"
@@ -104,15 +105,14 @@ class CpuBackend final : public Backend {
     const size_t texels = this->texels();
     shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
     for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
-    for (const shared::Vpl& vpl : vpls) {
-      if (mapOf(vpl) == nullptr) {
-        makeMap(vpl);
-        continue;
-      }
-      still_.forEachSums([&](cpu::LightSums& sums) {
-        sums.mapChanges(static_cast<int>(vpl.intensity.w), {mapOf(vpl), texels});
-      });
-    }
+    const auto tellOfOld = [&](cpu::LightSums& sums) {
+      for (const shared::Vpl& vpl : vpls)
+        if (const float* map = mapOf(vpl))
+          sums.mapChanges(static_cast<int>(vpl.intensity.w), {map, texels});
+    };
+    tbb::parallel_invoke([&] { tellOfOld(still_.sums); }, [&] { tellOfOld(still_.sampleSums); });
+    for (const shared::Vpl& vpl : vpls)
+      if (mapOf(vpl) == nullptr) makeMap(vpl);
     const int tasks = (resolution_ + kRowsPerTask - 1) / kRowsPerTask;
     if (castersMoved_) raster_.setScene(*scene_);
     castersMoved_ = false;

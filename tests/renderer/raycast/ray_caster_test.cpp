@@ -141,6 +141,51 @@ TEST(RayCaster, AnUpdatedTreeGivesTheBitsOfANewOne) {
   EXPECT_GT(hits, 5000);
 }
 
+// Rays that surely pass by what moved are not asked about it: none that meets it may be, be it at
+// an edge, along an axis or far from the origin.
+TEST(RayCaster, AsksAboutWhatMovedWhereItIsHit) {
+  for (const float away : {0.0f, 3000.0f}) {
+    Scene before;
+    const vec3 middle(away, 1.0f, -away);
+    const NodeId box = test::addMesh(before, test::boxMesh(vec3(1.0f, 2.0f, 0.5f)), middle);
+    Scene after = before;
+    after.find(box)->local.translation.x += 0.5f;
+    RenderScene world = worldOf(before);
+    RayCaster moved(world);
+    moved.update(update(world, after, compare(before, after)));
+    const RenderScene anew = worldOf(after);
+    const RayCaster built(anew);
+    const vec3 centre = middle + vec3(0.5f, 0.0f, 0.0f);
+    int hits = 0;
+    for (uint32_t i = 0; i < 2000; ++i) {
+      std::array<Ray, 8> rays;
+      for (uint32_t lane = 0; lane < 8; ++lane) {
+        const vec2 u = 2.0f * sobol2(8 * i + lane, 1) - 1.0f, v = sobol2(8 * i + lane, 2);
+        // On its surface, its edges and just past them; every other one along an axis.
+        vec3 at(u.x, u.y, v.x < 0.5f ? -1.0f : 1.0f);
+        if (i % 4 > 1) at.x = at.x < 0.0f ? -1.0f : 1.0f;
+        if (i % 8 > 5) at.y = 1.0f + 1e-4f * u.x;
+        const vec3 to = centre + at * vec3(0.5f, 1.0f, 0.25f);
+        const vec3 from = i % 2 == 0 ? to + vec3(0.0f, 0.0f, 3.0f * at.z)
+                                     : centre + vec3(4.0f * u.y, 3.0f * v.y, 2.0f * at.z);
+        rays[lane] = {from, 0.0f, to - from};
+      }
+      std::array<Hit, 8> a, b;
+      moved.intersect8(rays, a);
+      built.intersect8(rays, b);
+      for (size_t lane = 0; lane < 8; ++lane) {
+        const Hit one = moved.intersect(rays[lane]);
+        ASSERT_EQ(a[lane].t, b[lane].t);
+        ASSERT_EQ(one.t, built.intersect(rays[lane]).t);
+        ASSERT_EQ(moved.occluded(rays[lane]), built.occluded(rays[lane]));
+        hits += a[lane] ? 1 : 0;
+      }
+    }
+    EXPECT_GT(hits, 5000);
+    EXPECT_LT(hits, 16000);
+  }
+}
+
 TEST(RayCaster, FollowsMaterialsThatBecomeClearOrMasked) {
   Scene before;
   const int m = test::addMaterial(before, vec3(1.0f));
