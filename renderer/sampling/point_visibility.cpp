@@ -131,6 +131,7 @@ void PointVisibility::outdate(const RenderSceneChanges& changes,
                               std::span<const MoverFinder::Mover> movers) {
   if (changes.rebuilt || changes.materials) {
     rows_.clear();
+    known_.clear();
     return;
   }
   std::vector<Obstacle> obstacles;
@@ -138,10 +139,8 @@ void PointVisibility::outdate(const RenderSceneChanges& changes,
     for (const Bounds& box : {m.before, m.after})
       if (!box.empty()) obstacles.push_back({box, rayEpsilon(box.min) + rayEpsilon(box.max)});
   if (obstacles.empty()) return;
-  std::vector<Row*> rows;
-  rows.reserve(rows_.size());
-  for (auto& [id, row] : rows_) rows.push_back(&row);
-  tbb::parallel_for(size_t{0}, rows.size(), [&](size_t r) { outdate(*rows[r], obstacles); });
+  tbb::parallel_for(size_t{0}, known_.size(),
+                    [&](size_t i) { outdate(*known_[i].row, obstacles); });
 }
 
 void PointVisibility::takePoints(std::span<const SeenPoint> points) {
@@ -158,18 +157,44 @@ void PointVisibility::takePoints(std::span<const SeenPoint> points) {
   }
 }
 
-PointVisibility::Row& PointVisibility::rowOf(const SceneVpl& light, float clampDistance) {
-  Row& row = rows_[light.id];
-  if (!isSamePlace(row.vpl, light.vpl)) row = Row();
+// Most lights stand in the order in which they stood: only the others are looked for.
+void PointVisibility::findRows(std::span<const SceneVpl> lights) {
+  constexpr size_t kAhead = 8;  // past those of a path or two that went
+  std::vector<Known> found;
+  found.reserve(lights.size());
+  std::vector<uint8_t> isFound(known_.size(), 0);
+  size_t next = 0;
+  for (const SceneVpl& light : lights) {
+    size_t i = next;
+    const size_t end = std::min(next + kAhead, known_.size());
+    while (i < end && known_[i].id != light.id) ++i;
+    if (i < end) {
+      found.push_back(known_[i]);
+    } else {
+      const auto [it, isNew] = rows_.try_emplace(light.id);
+      found.push_back({light.id, &it->second});
+      if (isNew) continue;
+      i = it->second.at;
+    }
+    isFound[i] = 1;
+    next = i + 1;
+  }
+  for (size_t i = 0; i < known_.size(); ++i)
+    if (isFound[i] == 0) rows_.erase(known_[i].id);
+  known_ = std::move(found);
+}
+
+void PointVisibility::take(const shared::Vpl& light, float clampDistance, size_t at,
+                           Row& row) const {
+  if (!isSamePlace(row.vpl, light)) row = Row();
   if (row.clampDistance != clampDistance) row.measured = 0;
-  row.vpl = light.vpl;
+  row.vpl = light;
   row.clampDistance = clampDistance;
-  row.call = calls_;
+  row.at = at;
   for (size_t b = 0; b < kBlocks; ++b) {
     row.known[b] &= same_[b];
     if (same_[b] != 0xff) row.measured &= ~(1u << b);
   }
-  return row;
 }
 
 // As shared::vplGeometry, bit for bit.
@@ -234,16 +259,14 @@ void PointVisibility::fill(Row& row, const RayCaster& rays, float* out) const {
 std::span<const float> PointVisibility::irradiance(std::span<const SceneVpl> lights,
                                                    std::span<const SeenPoint> points,
                                                    const RayCaster& rays, float clampDistance) {
-  ++calls_;
   takePoints(points);
-  std::vector<Row*> rows;
-  rows.reserve(lights.size());
-  for (const SceneVpl& light : lights) rows.push_back(&rowOf(light, clampDistance));
-  if (rows_.size() > lights.size())
-    std::erase_if(rows_, [&](const auto& kept) { return kept.second.call != calls_; });
+  findRows(lights);
   irradiance_.resize(lights.size() * kMostPoints);
-  tbb::parallel_for(size_t{0}, rows.size(),
-                    [&](size_t i) { fill(*rows[i], rays, &irradiance_[i * kMostPoints]); });
+  tbb::parallel_for(size_t{0}, lights.size(), [&](size_t i) {
+    Row& row = *known_[i].row;
+    take(lights[i].vpl, clampDistance, i, row);
+    fill(row, rays, &irradiance_[i * kMostPoints]);
+  });
   return irradiance_;
 }
 

@@ -42,7 +42,7 @@ class PointVisibility {
   struct Row {
     shared::Vpl vpl{};
     float clampDistance = 0.0f;
-    uint64_t call = 0;       // that it was asked for in
+    size_t at = 0;           // in known_
     Points known{}, seen{};  // whether nothing stands between it and the point
     uint32_t measured = 0;   // blocks, a bit for each
     alignas(
@@ -60,7 +60,8 @@ class PointVisibility {
   };
 
   void takePoints(std::span<const SeenPoint> points);
-  Row& rowOf(const SceneVpl& light, float clampDistance);
+  void findRows(std::span<const SceneVpl> lights);
+  void take(const shared::Vpl& light, float clampDistance, size_t at, Row& row) const;
   void outdate(Row& row, std::span<const Obstacle> obstacles) const;
   void measure(Row& row, size_t block) const;
   uint32_t leftOut(uint32_t link, size_t block) const;
@@ -70,8 +71,13 @@ class PointVisibility {
   Vectors positions_, normals_;
   float rounding_ = 0.0f;  // of their coordinates [m]
   Points same_{};          // of the points: as they were in the last call
-  uint64_t calls_ = 0;
   std::unordered_map<VplId, Row, IdHash> rows_;
+  // All rows, in the order of the lights that were asked about last.
+  struct Known {
+    VplId id;
+    Row* row;
+  };
+  std::vector<Known> known_;
   std::vector<float> irradiance_;
 };
 

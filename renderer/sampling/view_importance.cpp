@@ -1,10 +1,15 @@
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
 #include "renderer/sampling/view_importance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include <hwy/highway.h>
 #include <tbb/parallel_for.h>
 
 #include "renderer/sampling/low_discrepancy.h"
@@ -29,6 +34,29 @@ constexpr float kEyeGrid = 0.5f;  // metres
 constexpr float kTurnGrid = 15.0f * kPi / 180.0f;
 constexpr int kSteadyHeight = 1024;  // a picture of another size and the same ratio is the same
 constexpr uint32_t kPointSet = 0x5d, kRankSet = 0x6d;
+
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr hn::FixedTag<double, 4> kDoubles;
+constexpr hn::FixedTag<float, 4> kFloats;
+
+// Of all points.
+constexpr size_t kColumns = PointVisibility::kMostPoints;
+using Columns = std::array<double, kColumns>;
+
+hn::Vec<decltype(kDoubles)> loadDoubles(const float* row) {
+  return hn::PromoteTo(kDoubles, hn::LoadU(kFloats, row));
+}
+void addTo(Columns& sums, const float* row) {
+  for (size_t j = 0; j < kColumns; j += 4)
+    hn::StoreU(hn::Add(hn::LoadU(kDoubles, &sums[j]), loadDoubles(row + j)), kDoubles, &sums[j]);
+}
+// What of each column's whole a row is, squared.
+void squareShares(const float* row, const Columns& whole, Columns& out) {
+  for (size_t j = 0; j < kColumns; j += 4) {
+    const auto share = hn::Div(loadDoubles(row + j), hn::LoadU(kDoubles, &whole[j]));
+    hn::StoreU(hn::Mul(share, share), kDoubles, &out[j]);
+  }
+}
 
 bool isCandidate(const SceneVpl& v) {
   return v.id.bounce > 0 || (v.isSample && v.vpl.position.w == shared::kVplDirectional);
@@ -79,24 +107,32 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
                                 std::span<const SceneVpl> others, std::span<const SeenPoint> points,
                                 const RayCaster& rays, float clampDistance, PointVisibility& kept) {
   std::vector<float> importance(candidates.size(), 0.0f);
-  if (points.empty()) return importance;
-  const size_t columns = points.size();
+  if (points.empty() || candidates.empty()) return importance;
   std::vector<SceneVpl> lights(candidates.begin(), candidates.end());
   lights.insert(lights.end(), others.begin(), others.end());
   const std::span<const float> irradiance = kept.irradiance(lights, points, rays, clampDistance);
-  const auto row = [&](size_t light) { return &irradiance[light * PointVisibility::kMostPoints]; };
-  std::vector<double> sums(columns, 0.0);
-  for (size_t i = 0; i < lights.size(); ++i)
-    for (size_t j = 0; j < columns; ++j) sums[j] += static_cast<double>(row(i)[j]);
-  const double mean = std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(columns);
+  const auto row = [&](size_t light) { return &irradiance[light * kColumns]; };
+  Columns sums{};
+  for (size_t i = 0; i < lights.size(); ++i) addTo(sums, row(i));
+  const auto count = static_cast<double>(points.size());
+  const double mean =
+      std::accumulate(sums.begin(), sums.begin() + static_cast<ptrdiff_t>(points.size()), 0.0) /
+      count;
   if (!(mean > 0.0)) return importance;
-  tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
-    double squares = 0.0;
-    for (size_t j = 0; j < columns; ++j) {
-      const double share = static_cast<double>(row(i)[j]) / std::max(sums[j], kDarkest * mean);
-      squares += share * share;
-    }
-    importance[i] = static_cast<float>(std::sqrt(squares / static_cast<double>(columns)));
+  Columns whole;
+  for (size_t j = 0; j < kColumns; ++j) whole[j] = std::max(sums[j], kDarkest * mean);
+  // Four at a time: each sum waits for itself alone.
+  constexpr size_t kAtOnce = 4;
+  tbb::parallel_for(size_t{0}, (candidates.size() + kAtOnce - 1) / kAtOnce, [&](size_t group) {
+    const size_t first = group * kAtOnce, last = candidates.size() - 1;
+    std::array<Columns, kAtOnce> squares;
+    for (size_t i = 0; i < kAtOnce; ++i)
+      squareShares(row(std::min(first + i, last)), whole, squares[i]);
+    std::array<double, kAtOnce> sum{};
+    for (size_t j = 0; j < kColumns; ++j)
+      for (size_t i = 0; i < kAtOnce; ++i) sum[i] += squares[i][j];
+    for (size_t i = 0; i < kAtOnce && first + i <= last; ++i)
+      importance[first + i] = static_cast<float>(std::sqrt(sum[i] / count));
   });
   return importance;
 }

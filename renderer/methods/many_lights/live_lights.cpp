@@ -60,14 +60,15 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
   std::map<VplId, float> brightnessOfSet;
   // Paths that left nothing are shown as they are.
   std::map<VplId, bool> pathIsShown;
-  for (const VplId& path : paths) pathIsShown.emplace(path, true);
+  for (const VplId& path : paths) pathIsShown.emplace_hint(pathIsShown.end(), path, true);
   for (const SceneVpl& w : wanted) {
     brightnessOfSet[w.id.set()] += brightness(w.vpl);
     if (w.id.bounce > 0) pathIsShown[w.id.path()] = false;
   }
+  auto old = pathIsShown_.begin();  // both are in one order
   for (auto& [path, isShown] : pathIsShown) {
-    const auto it = pathIsShown_.find(path);
-    isShown = isShown || (it != pathIsShown_.end() && it->second);
+    while (old != pathIsShown_.end() && old->first < path) ++old;
+    isShown = isShown || (old != pathIsShown_.end() && old->first == path && old->second);
   }
   pathIsShown_ = std::move(pathIsShown);
 
