@@ -8,6 +8,7 @@
 
 #include "renderer/visibility/occluders.h"
 #include "renderer/visibility/pyramid_batch.h"
+#include "renderer/visibility/shadow_reaches.h"
 
 namespace lamplighter {
 
@@ -24,6 +25,8 @@ class MoverShadows {
   struct Answer {
     PyramidBatch::Mask met = 0;       // bit i: the light asked for with index i
     std::array<Hint, kLights> hints;  // of those that are met
+    // While no box of the movers goes or grows by as much, the answer is the same [m]; 0: unknown.
+    PyramidBatch::Depths slack;
   };
 
   // The movers as they are placed; lights by slot.
@@ -32,8 +35,16 @@ class MoverShadows {
 
   // Not those that are parallel; none where a mover may hide whole patches, or is not of groups.
   bool isAbout(size_t slot) const { return isUseful_ && !lights_[slot].isParallel; }
-  // Of lights it is about for which the patch, a rectangle, is neither dark nor degenerate: what
-  // Occluders::occlusionBy() says, partial where met, else none.
+  // Of lights wanted, those of which the shadow of a mover may fall on the sphere around a patch:
+  // bit i is that of slot 64 * word + i.
+  uint64_t mayFallOn(size_t word, uint64_t wanted, const vec3& centre, float radius) const {
+    uint64_t mask = 0;
+    for (const ShadowReaches& reaches : allReaches_)
+      mask |= reaches.mayFallOn(word, wanted, centre, radius);
+    return mask;
+  }
+  // Of lights it is about, those, for which the patch, a rectangle, is neither dark nor degenerate:
+  // what Occluders::occlusionBy() says, partial where met, else none.
   Answer of(const PatchRegion& region, std::span<const Question> lights) const;
 
  private:
@@ -43,31 +54,23 @@ class MoverShadows {
   };
   struct Mover {
     Caster caster;
-    Bounds box;                         // around its groups
-    size_t groups = 0, firstGroup = 0;  // of all movers' one after the other
-    std::vector<BoxBatch> batches;      // of groups, neighbours together
-    std::vector<BoxBatch> around;       // a box around each of these
+    BoxBatches groups;
+    size_t firstHint = 0;  // of all movers' batches one after the other
   };
-  // Group's boxes that hints are of: all, or as many as there are hints.
-  struct Hinted {
-    Bounds box;
-    size_t mover = 0;
-  };
-  Hint hintOf(size_t mover, size_t group) const {
-    return static_cast<Hint>((movers_[mover].firstGroup + group) * hinted_.size() / groups_);
+  // The batch of a mover that a hint is of; none of it: past all.
+  size_t hinted(size_t mover, Hint hint) const {
+    return hint >= movers_[mover].firstHint ? hint - movers_[mover].firstHint : kNoHint;
   }
-  // The first of its groups that is met, or kNone.
-  int firstMet(const Mover& mover, const PyramidBatch& pyramids, size_t light) const;
-  bool reaches(size_t slot, size_t mover, const PatchRegion& region) const {
-    return reaches_[slot * movers_.size() + mover].mayFallOn(region.centre, region.radius);
+  const ShadowReach& reachOf(size_t slot, size_t mover) const {
+    return reaches_[slot * movers_.size() + mover];
   }
 
   std::vector<Mover> movers_;
   bool isUseful_;
   std::vector<Light> lights_;
-  std::vector<ShadowReach> reaches_;  // by light and mover
-  std::vector<Hinted> hinted_;
-  size_t groups_ = 0;
+  std::vector<ShadowReach> reaches_;       // by light and mover
+  std::vector<ShadowReaches> allReaches_;  // by mover
+  float rounding_ = 0.0f;                  // of places of movers [m]
 };
 
 }  // namespace lamplighter

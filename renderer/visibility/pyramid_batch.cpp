@@ -2,6 +2,10 @@
 
 #include "renderer/visibility/pyramid_batch.h"
 
+#include <algorithm>
+#include <bit>
+#include <limits>
+
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/visibility/pyramid_sides.h"
 
@@ -37,16 +41,21 @@ uint32_t bitsOf(hn::Mask<Tag> mask) {
   return bits[0];
 }
 
-// Whether boxes are wholly outside of planes, as OcclusionPyramid::mayMeet() adds it up.
-auto areOutside(const Lanes3<Vec>& normal, Vec offset, const Lanes3<Vec>& centre,
-                const Lanes3<Vec>& half) {
+// By how much boxes are inside of planes, as OcclusionPyramid::mayMeet() adds it up.
+Vec depthOf(const Lanes3<Vec>& normal, Vec offset, const Lanes3<Vec>& centre,
+            const Lanes3<Vec>& half) {
   auto farthest = hn::MulAdd(normal.x, centre.x, offset);
   farthest = hn::MulAdd(normal.y, centre.y, farthest);
   farthest = hn::MulAdd(normal.z, centre.z, farthest);
   farthest = hn::MulAdd(hn::Abs(normal.x), half.x, farthest);
   farthest = hn::MulAdd(hn::Abs(normal.y), half.y, farthest);
-  farthest = hn::MulAdd(hn::Abs(normal.z), half.z, farthest);
-  return hn::Lt(farthest, hn::Zero(kTag));
+  return hn::MulAdd(hn::Abs(normal.z), half.z, farthest);
+}
+
+// Keeps those of the planes; which are inside of all.
+uint32_t take(Vec depths, PyramidBatch::Depths& out) {
+  hn::StoreU(depths, kTag, out.data());
+  return 0xff & ~bitsOf(hn::Lt(depths, hn::Zero(kTag)));
 }
 
 }  // namespace
@@ -57,6 +66,22 @@ void BoxBatch::set(size_t i, const Bounds& box) {
     centre[static_cast<size_t>(c)][i] = middle[c];
     half[static_cast<size_t>(c)][i] = extent[c];
   }
+}
+
+// The last is filled up with its last box.
+BoxBatches::BoxBatches(std::span<const Bounds> boxes) {
+  constexpr size_t kBoxes = BoxBatch::kBoxes;
+  const auto batchesOf = [](std::span<const Bounds> some) {
+    std::vector<BoxBatch> batches((some.size() + kBoxes - 1) / kBoxes);
+    for (size_t i = 0; i < batches.size() * kBoxes; ++i)
+      batches[i / kBoxes].set(i % kBoxes, some[std::min(i, some.size() - 1)]);
+    return batches;
+  };
+  boxes_ = batchesOf(boxes);
+  std::vector<Bounds> around(boxes_.size());
+  for (size_t i = 0; i < boxes.size(); ++i) around[i / kBoxes].add(boxes[i]);
+  for (const Bounds& b : around) bounds_.add(b);
+  around_ = batchesOf(around);
 }
 
 PyramidApex::PyramidApex(const shared::Vpl& vpl)
@@ -108,41 +133,62 @@ PyramidBatch::PyramidBatch(std::span<const PyramidApex* const> lights, const Pat
   }
 }
 
-PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box) const {
+PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box, Depths& depths) const {
   const Lanes3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
-  auto outside = hn::MaskFromVec(hn::Zero(kTag));
+  auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_)
-    outside = hn::Or(outside, areOutside(normalOf(p), load(p.offset), centre, half));
-  return all_ & ~bitsOf(outside);
+    least = hn::Min(depthOf(normalOf(p), load(p.offset), centre, half), least);
+  return all_ & take(least, depths);
 }
 
-PyramidBatch::Mask PyramidBatch::mayMeetOwn(const BoxBatch& boxes) const {
-  const Lanes3<Vec> centre = load(boxes.centre), half = load(boxes.half);
-  auto outside = hn::MaskFromVec(hn::Zero(kTag));
-  for (const Plane& p : planes_)
-    outside = hn::Or(outside, areOutside(normalOf(p), load(p.offset), centre, half));
-  return all_ & ~bitsOf(outside);
-}
-
-uint32_t PyramidBatch::mayMeetSome(size_t light, const BoxBatch& boxes) const {
-  const Lanes3<Vec> centre = load(boxes.centre), half = load(boxes.half);
-  auto outside = hn::MaskFromVec(hn::Zero(kTag));
-  for (const Plane& p : planes_) {
-    const Lanes3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
-    outside = hn::Or(outside, areOutside(normal, set(p.offset[light]), centre, half));
-  }
-  return 0xff & ~bitsOf(outside);
-}
-
-PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius) const {
-  auto outside = hn::MaskFromVec(hn::Zero(kTag));
+PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius,
+                                               Depths& depths) const {
+  auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_) {
     auto distance = hn::MulAdd(load(p.x), set(centre.x), load(p.offset));
     distance = hn::MulAdd(load(p.y), set(centre.y), distance);
     distance = hn::MulAdd(load(p.z), set(centre.z), distance);
-    outside = hn::Or(outside, hn::Lt(distance, set(-radius)));
+    least = hn::Min(distance, least);
   }
-  return all_ & ~bitsOf(outside);
+  const Mask met = all_ & ~bitsOf(hn::Lt(least, set(-radius)));
+  hn::StoreU(hn::Add(least, set(radius)), kTag, depths.data());
+  return met;
+}
+
+PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, size_t first) const {
+  const auto depthsIn = [&](const BoxBatch& batch) {
+    const Lanes3<Vec> centre = load(batch.centre), half = load(batch.half);
+    auto least = set(std::numeric_limits<float>::max());
+    for (const Plane& p : planes_) {
+      const Lanes3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
+      least = hn::Min(depthOf(normal, set(p.offset[light]), centre, half), least);
+    }
+    return least;
+  };
+  const auto zero = hn::Zero(kTag);
+  const auto found = [&](size_t batch, Vec depths) {
+    return Found{static_cast<int>(batch), hn::GetLane(hn::MaxOfLanes(kTag, depths))};
+  };
+  auto outside = set(-std::numeric_limits<float>::max());
+  if (first < boxes.size()) {
+    const auto depths = depthsIn(boxes.boxes()[first]);
+    if (!hn::AllTrue(kTag, hn::Lt(depths, zero))) return found(first, depths);
+    outside = depths;
+  }
+  for (size_t a = 0; a < boxes.around().size(); ++a) {
+    const auto around = depthsIn(boxes.around()[a]);
+    const auto isOutside = hn::Lt(around, zero);
+    outside = hn::Max(outside, hn::IfThenElse(isOutside, around, outside));
+    for (uint32_t some = 0xff & ~bitsOf(isOutside); some != 0; some &= some - 1) {
+      const size_t batch = a * kLanes + static_cast<size_t>(std::countr_zero(some));
+      if (batch >= boxes.size()) break;
+      if (batch == first) continue;
+      const auto depths = depthsIn(boxes.boxes()[batch]);
+      if (!hn::AllTrue(kTag, hn::Lt(depths, zero))) return found(batch, depths);
+      outside = hn::Max(outside, depths);
+    }
+  }
+  return {kNone, hn::GetLane(hn::MaxOfLanes(kTag, outside))};
 }
 
 }  // namespace lamplighter

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "renderer/visibility/occlusion_pyramid.h"
 
@@ -25,21 +26,42 @@ struct BoxBatch {
   void set(size_t i, const Bounds& box);
 };
 
+// Boxes, neighbours together, and one around each eight of them.
+class BoxBatches {
+ public:
+  explicit BoxBatches(std::span<const Bounds> boxes);
+  size_t size() const { return boxes_.size(); }  // batches
+  std::span<const BoxBatch> boxes() const { return boxes_; }
+  std::span<const BoxBatch> around() const { return around_; }
+  const Bounds& bounds() const { return bounds_; }
+
+ private:
+  std::vector<BoxBatch> boxes_, around_;
+  Bounds bounds_;
+};
+
 class PyramidBatch {
  public:
   static constexpr size_t kLights = BoxBatch::kBoxes;
   // Answers: bit i is that of light i.
   using Mask = uint32_t;
+  // By how much what is asked about is inside of the plane that it is least inside of, so that it
+  // may move as far and still is met; negative: by how much it is outside. By light [m].
+  using Depths = std::array<float, kLights>;
 
   // Of lights for which the rectangle is neither dark nor degenerate.
   PyramidBatch(std::span<const PyramidApex* const> lights, const PatchRegion& region);
 
   Mask all() const { return all_; }
-  Mask mayMeet(const Bounds& box) const;
-  Mask mayMeetOwn(const BoxBatch& boxes) const;  // each pyramid the box with its index
-  // Of the pyramid of one light; bit i is box i.
-  uint32_t mayMeetSome(size_t light, const BoxBatch& boxes) const;
-  Mask mayMeetSphere(const vec3& centre, float radius) const;
+  Mask mayMeet(const Bounds& box, Depths& depths) const;
+  Mask mayMeetSphere(const vec3& centre, float radius, Depths& depths) const;
+  // Whether the pyramid of one light may meet any of some boxes. `first`: the batch that is asked
+  // first.
+  struct Found {
+    int batch = kNone;   // the first where one is met
+    float depth = 0.0f;  // of the one there that is deepest inside; else of the one least outside
+  };
+  Found find(size_t light, const BoxBatches& boxes, size_t first) const;
 
  private:
   static constexpr size_t kPlanes = 6;

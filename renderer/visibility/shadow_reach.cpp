@@ -31,10 +31,12 @@ ShadowReach::ShadowReach(const shared::Vpl& vpl, const Caster& caster) {
   }
   apex_ = vec3(vpl.position);
   const vec3 v = centre - apex_;
-  if (glm::dot(v, vec3(vpl.normal)) + radius_ < 0.0f) return;  // behind the light
+  before_ = glm::dot(v, vec3(vpl.normal)) + radius_;
+  if (before_ < 0.0f) return;  // behind the light
   const float distance = glm::length(v);
   if (distance <= 1.01f * radius_) {
     kind_ = Kind::everywhere;
+    nearest_ = distance - 1.01f * radius_;
     return;
   }
   kind_ = Kind::cone;
@@ -44,6 +46,23 @@ ShadowReach::ShadowReach(const shared::Vpl& vpl, const Caster& caster) {
   cosine_ = std::sqrt(1.0f - sine_ * sine_);
   // Rounding grows with the distance from the light.
   sine_ = std::min(1.0f, 1.0001f * sine_ + 1e-6f);
+}
+
+// By the sphere of the caster made smaller: what that reaches, one as large as before does that
+// still holds it. Only the sine is other then, by what is taken off over the distance, and the
+// cosine grows by less than the tangent times as much.
+float ShadowReach::slack(const vec3& centre, float radius) const {
+  if (kind_ == Kind::everywhere) return std::max(0.0f, std::min(-nearest_, before_));
+  if (kind_ != Kind::cone) return 0.0f;
+  const vec3 v = centre - apex_;
+  const float distance2 = glm::dot(v, v), along = glm::dot(v, axis_);
+  if (along <= 0.0f) return 0.0f;
+  const float across = std::sqrt(std::max(distance2 - along * along, 0.0f));
+  const float inside = radius + along * sine_ - across * cosine_;
+  const float casterAway = nearest_ + radius_;
+  const float sideways = inside * casterAway * cosine_ / (along * cosine_ + across * sine_);
+  const float past = std::sqrt(distance2) + radius - nearest_;
+  return std::max(0.0f, std::min({sideways, past, before_, radius_}));
 }
 
 }  // namespace lamplighter

@@ -71,6 +71,9 @@ class ShadowReach {
     }
     return true;
   }
+  // How far the caster may go or shrink and still reach a sphere that it may fall on; 0 where that
+  // is not known.
+  float slack(const vec3& centre, float radius) const;
 
  private:
   enum class Kind : uint8_t { none, everywhere, cone, cylinder };
@@ -79,6 +82,7 @@ class ShadowReach {
   float nearest_ = 0.0f;          // of the caster: from the apex; a cylinder: along the axis [m]
   float sine_ = 0.0f, cosine_ = 1.0f;
   float radius_ = 0.0f;
+  float before_ = 0.0f;  // of a cone: how far the caster reaches before the light's plane [m]
 };
 
 }  // namespace lamplighter

@@ -32,8 +32,7 @@ void ShadowReaches::set(size_t i, const ShadowReach& reach) {
 }
 
 // As ShadowReach::mayFallOn() adds it up.
-uint32_t ShadowReaches::mayFallOn(size_t group, const vec3& centre, float radius) const {
-  const Group& g = groups_[group];
+HWY_INLINE uint32_t ShadowReaches::mayFallOn(const Group& g, const vec3& centre, float radius) {
   const auto load = [](const Lanes& lanes) { return hn::Load(kTag, lanes.data()); };
   const auto set = [](float v) { return hn::Set(kTag, v); };
   const auto dot = [](const auto& a, const auto& b) {
@@ -62,6 +61,16 @@ uint32_t ShadowReaches::mayFallOn(size_t group, const vec3& centre, float radius
       kTag, hn::AndNot(isNear, hn::Or(hn::And(isBehind, isAround), hn::AndNot(isBehind, isIn))),
       bits);
   return bits[0];
+}
+
+uint64_t ShadowReaches::mayFallOn(size_t word, uint64_t wanted, const vec3& centre,
+                                  float radius) const {
+  constexpr uint64_t kAll = (uint64_t{1} << kLanes) - 1;
+  uint64_t mask = 0;
+  for (size_t i = 0; i < 64; i += kLanes)
+    if ((wanted >> i & kAll) != 0)
+      mask |= uint64_t{mayFallOn(groups_[(64 * word + i) / kLanes], centre, radius)} << i;
+  return wanted & mask;
 }
 
 }  // namespace lamplighter

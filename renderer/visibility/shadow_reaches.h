@@ -16,9 +16,9 @@ class ShadowReaches {
 
   // Not of a parallel light.
   void set(size_t i, const ShadowReach& reach);
-  // Bit i: whether that with index kLanes * group + i may fall on some of the sphere; the same as
-  // each says itself.
-  uint32_t mayFallOn(size_t group, const vec3& centre, float radius) const;
+  // Of those wanted, whether they may fall on some of the sphere: bit i is that with index
+  // 64 * word + i. The same as each says itself.
+  uint64_t mayFallOn(size_t word, uint64_t wanted, const vec3& centre, float radius) const;
 
  private:
   using Lanes = std::array<float, kLanes>;
@@ -26,6 +26,8 @@ class ShadowReaches {
     std::array<Lanes, 3> apex{}, axis{};
     Lanes nearest, sine{}, cosine{};
   };
+  static uint32_t mayFallOn(const Group& group, const vec3& centre, float radius);
+
   std::vector<Group> groups_;
 };
 

@@ -117,20 +117,38 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
   for (const Column& c : columns)
     for (const int object : c.objects) isWaitedFor[static_cast<size_t>(object)] = true;
 
-  // Columns that reach what the trees come to: those of a node follow those of its parent.
+  // Columns that reach what the trees come to: those of a node follow those of its parent. Simple
+  // ones are bits by slot.
+  const size_t words = (lights_.size() + 63) / 64;
   std::vector<uint32_t> reaching;
-  std::vector<size_t> begins;
+  std::vector<size_t> begins(1, 0);
+  std::vector<uint64_t> reachingSimple(words, 0);
+  for (uint32_t c = 0; c < columns.size(); ++c) {
+    const auto slot = static_cast<size_t>(columns[c].slot);
+    if (simple.bySlot[slot] != nullptr) {
+      reachingSimple[slot / 64] |= uint64_t{1} << slot % 64;
+    } else {
+      reaching.push_back(c);
+    }
+  }
   const auto narrow = [&](const vec3& centre, float radius) {
     const size_t first = begins.back(), last = reaching.size();
     begins.push_back(last);
     for (size_t i = first; i < last; ++i)
       if (columns[reaching[i]].mayFallOn(centre, radius)) reaching.push_back(reaching[i]);
-    return reaching.size() > last;
+    bool any = reaching.size() > last;
+    for (size_t w = 0; w < words; ++w) {
+      const uint64_t before = reachingSimple[reachingSimple.size() - words];
+      reachingSimple.push_back(simple.reaches.mayFallOn(w, before, centre, radius));
+      any = any || reachingSimple.back() != 0;
+    }
+    return any;
   };
   const auto narrowToBox = [&](const Bounds& b) { return narrow(b.centre(), b.radius()); };
   const auto widen = [&] {
     reaching.resize(begins.back());
     begins.pop_back();
+    reachingSimple.resize(reachingSimple.size() - words);
   };
   struct Job {
     uint32_t object;
@@ -144,14 +162,8 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
       task.work = Work::check;
       task.isOfMover = isOfMover;
     }
-    void addSimple(int slot) {
-      simple[static_cast<size_t>(slot) / 64] |= uint64_t{1} << static_cast<size_t>(slot) % 64;
-    }
   };
-  const std::vector<uint64_t> noneSimple((lights_.size() + 63) / 64, 0);
   std::vector<Job> jobs;
-  begins.push_back(0);
-  for (uint32_t c = 0; c < columns.size(); ++c) reaching.push_back(c);
   tree_.descend(
       narrowToBox,
       [&](uint32_t object) {
@@ -162,15 +174,11 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
               const int root = patches_[object].roots[r];
               const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
               if (narrow(p.centre, p.radius)) {
-                Job& job = jobs.emplace_back(Job{object, root, {}, noneSimple});
-                for (size_t i = begins.back(); i < reaching.size(); ++i) {
-                  const Column& c = columns[reaching[i]];
-                  if (simple.bySlot[static_cast<size_t>(c.slot)] != nullptr) {
-                    job.addSimple(c.slot);
-                  } else {
-                    job.add(c, false);
-                  }
-                }
+                Job& job = jobs.emplace_back(Job{object, root, {}, {}});
+                job.simple.assign(reachingSimple.end() - static_cast<ptrdiff_t>(words),
+                                  reachingSimple.end());
+                for (size_t i = begins.back(); i < reaching.size(); ++i)
+                  job.add(columns[reaching[i]], false);
               }
               widen();
             },

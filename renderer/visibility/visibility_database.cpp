@@ -1,10 +1,12 @@
 #include "renderer/visibility/visibility_database.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include "renderer/scene/light_linking.h"
 
@@ -129,6 +131,12 @@ void VisibilityDatabase::takeMoved(const RenderScene& scene, const RenderSceneCh
                                    std::vector<Move>& moves) {
   const std::vector<uint32_t>& moved = changes.movedObjects;
   setMovers(moved);
+  const auto placeOf = [&](uint32_t i) {
+    const std::span<const Bounds> groups = occluders_.groups(i);
+    return MoverPlace{occluders_.caster(i), {groups.begin(), groups.end()}};
+  };
+  std::vector<MoverPlace> before;
+  for (const uint32_t i : movers_) before.push_back(placeOf(i));
   for (const uint32_t i : moved) {
     moves.push_back({patches_[i].bounds, scene.objects[i].bounds});
     addWaiting(static_cast<int>(i), Caster(patches_[i].bounds, patches_[i].radius),
@@ -136,10 +144,20 @@ void VisibilityDatabase::takeMoved(const RenderScene& scene, const RenderSceneCh
     cameFrom_[i] = kNone;
   }
   tbb::parallel_for(size_t{0}, moved.size(), [&](size_t i) {
-    placeObject(scene, moved[i]);
-    occluders_.place(scene, moved[i], topologies_[moved[i]], patches_[moved[i]]);
-    identities_[moved[i]] = identify(scene, moved[i]);
+    const uint32_t object = moved[i];
+    tbb::parallel_invoke([&] { identities_[object] = identify(scene, object); },
+                         [&] {
+                           placeObject(scene, object);
+                           occluders_.place(scene, object, topologies_[object], patches_[object]);
+                         });
   });
+  float step = 0.0f, size = std::numeric_limits<float>::max();
+  for (size_t m = 0; m < movers_.size(); ++m) {
+    const MoverPlace now = placeOf(movers_[m]);
+    step = std::max(step, farthestStep(before[m], now));
+    size = std::min(size, now.caster.radius);
+  }
+  if (const MoverPath::Mark by = path_.advance(step, size); by > 0) lowerMarks(by);
 }
 
 void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneChanges& changes) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "renderer/visibility/light_clusters.h"
+#include "renderer/visibility/mover_path.h"
 #include "renderer/visibility/object_identity.h"
 #include "renderer/visibility/occluders.h"
 #include "renderer/visibility/shadow_reach.h"
@@ -128,6 +129,9 @@ class VisibilityDatabase {
     // nothing moved, or there is no room. While the same ones move on, as in a drag, nothing else
     // is tested again (table 4-1).
     std::vector<uint8_t> withoutMovers;
+    // Until when what the movers of now make of an entry that is none without them is sure to stay;
+    // empty: not known, or there is no room.
+    std::vector<MoverPath::Mark> standsTill;
   };
   using Flags = std::vector<std::vector<uint8_t>>;  // by object and patch
 
@@ -138,6 +142,7 @@ class VisibilityDatabase {
   void placeObject(const RenderScene& scene, uint32_t object);
   void addWaiting(int object, const Caster& before, bool couldHide);
   void forgetOthers();
+  void lowerMarks(MoverPath::Mark by);
   void growTree();
   // mayDivide: patches may be divided otherwise than they are, though nothing changed on them:
   // others are gone, or there is more memory or less.
@@ -161,6 +166,7 @@ class VisibilityDatabase {
   std::vector<std::vector<Row>> rows_;  // and patch
   Flags divided_, changed_;
   std::vector<uint32_t> movers_;  // that moved last
+  MoverPath path_;                // of these
   std::vector<Move> moves_;       // of the last setScene()
 
   Occluders occluders_;
@@ -176,6 +182,7 @@ class VisibilityDatabase {
   size_t mostBytes_ = std::numeric_limits<size_t>::max();
   size_t levels_ = kAllLevels;  // that may have entries of their own; the roots are the first
   bool keepsOthers_ = true;     // there is room for Row::withoutMovers
+  bool keepsMarks_ = true;      // and for Row::standsTill
   bool limitChanged_ = false;
   size_t stride_ = 0;  // of rows, in slots
   uint64_t tests_ = 0, testsPerColumn_ = 0;

@@ -23,6 +23,7 @@ void VisibilityDatabase::resize(size_t slots) {
       const bool isRoot = patches_[object].patches[patch].parent == kNone;
       if (isRoot || !row.states.empty()) fit(row.states, static_cast<uint8_t>(Occlusion::partial));
       if (!row.withoutMovers.empty()) fit(row.withoutMovers, kUnknown);
+      if (!row.standsTill.empty()) fit(row.standsTill, 0);
     }
   }
   stride_ = stride;
@@ -54,7 +55,8 @@ bool VisibilityDatabase::takeMemoryLimit(size_t stride) {
     bytes = more;
   }
   const bool kept = std::exchange(keepsOthers_, 2 * bytes <= mostBytes_);
-  if (kept && !keepsOthers_) forgetOthers();
+  const bool keptMarks = std::exchange(keepsMarks_, 3 * bytes <= mostBytes_);
+  if ((kept && !keepsOthers_) || (keptMarks && !keepsMarks_)) forgetOthers();
   if (levels_ < before) forgetBelow();
   return levels_ != before;
 }
@@ -77,13 +79,25 @@ void VisibilityDatabase::forgetBelow() {
 
 void VisibilityDatabase::forgetOthers() {
   for (auto& rows : rows_)
-    for (Row& row : rows) std::vector<uint8_t>().swap(row.withoutMovers);
+    for (Row& row : rows) {
+      std::vector<uint8_t>().swap(row.withoutMovers);
+      std::vector<MoverPath::Mark>().swap(row.standsTill);
+    }
+  path_.restart();
+}
+
+void VisibilityDatabase::lowerMarks(MoverPath::Mark by) {
+  for (auto& rows : rows_)
+    for (Row& row : rows)
+      for (MoverPath::Mark& mark : row.standsTill)
+        mark = static_cast<MoverPath::Mark>(std::max(mark, by) - by);
 }
 
 size_t VisibilityDatabase::bytes() const {
   size_t bytes = 0;
   for (const auto& rows : rows_)
-    for (const Row& row : rows) bytes += row.states.capacity() + row.withoutMovers.capacity();
+    for (const Row& row : rows)
+      bytes += row.states.capacity() + row.withoutMovers.capacity() + row.standsTill.capacity();
   return bytes;
 }
 

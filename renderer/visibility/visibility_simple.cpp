@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <optional>
 
 #include <hwy/highway.h>
@@ -16,18 +17,27 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Which of 64 bytes have a value.
-uint64_t equal(const uint8_t* bytes, uint8_t value) {
-  const hn::FixedTag<uint8_t, 32> tag;
+constexpr hn::FixedTag<uint8_t, 32> kBytes;
+
+// Of which of 64 bytes something is so.
+template <typename Is>
+uint64_t which(const uint8_t* bytes, const Is& is) {
   uint64_t mask = 0;
   for (size_t i = 0; i < 64; i += 32) {
     uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, hn::Eq(hn::LoadU(tag, bytes + i), hn::Set(tag, value)), bits);
-    uint64_t some = 0;
-    for (size_t b = 0; b < 4; ++b) some |= uint64_t{bits[b]} << (8 * b);
-    mask |= some << i;
+    hn::StoreMaskBits(kBytes, is(hn::LoadU(kBytes, bytes + i)), bits);
+    uint32_t some;
+    std::memcpy(&some, bits, sizeof some);
+    mask |= uint64_t{some} << i;
   }
   return mask;
+}
+
+uint64_t equal(const uint8_t* bytes, uint8_t value) {
+  return which(bytes, [&](auto v) { return hn::Eq(v, hn::Set(kBytes, value)); });
+}
+uint64_t atLeast(const uint8_t* bytes, uint8_t value) {
+  return which(bytes, [&](auto v) { return hn::Eq(hn::Max(v, hn::Set(kBytes, value)), v); });
 }
 
 }  // namespace
@@ -52,58 +62,76 @@ void VisibilityDatabase::Update::checkSimple(uint32_t object, int patch, size_t 
   const Patch& p = patches.patches[static_cast<size_t>(patch)];
   Row& row = db_.rows_[object][static_cast<size_t>(patch)];
   const size_t before = tasks_.size();
-  const auto makeTask = [&](size_t slot) {
+  const auto makeTask = [&](size_t slot) -> Task& {
     simple[slot / 64] &= ~(uint64_t{1} << slot % 64);
     Task& task = tasks_.emplace_back();
     task.column = simpleColumns_->bySlot[slot];
     task.slot = static_cast<int>(slot);
     task.work = Work::check;
+    return task;
+  };
+  const auto makeFound = [&](size_t slot, Occlusion state) {
+    Task& task = makeTask(slot);
+    task.isFound = true;
+    task.state = state;
   };
   std::optional<PatchRegion> region;
-  std::array<MoverShadows::Question, MoverShadows::kLights> open;
-  size_t openCount = 0;
+  std::array<MoverShadows::Question, MoverShadows::kLights> questions;
+  size_t count = 0;
   const auto ask = [&] {
     if (!region) region.emplace(scene_, object, patches, p);
     const MoverShadows::Answer answer =
-        simpleColumns_->shadows.of(*region, {open.data(), openCount});
-    for (size_t i = 0; i < openCount; ++i) {
-      const size_t slot = open[i].slot;
+        simpleColumns_->shadows.of(*region, {questions.data(), count});
+    for (size_t i = 0; i < count; ++i) {
+      const size_t slot = questions[i].slot;
       const bool isMet = (answer.met >> i & 1) != 0;
       if (isMet) row.withoutMovers[slot] = noneAndMet(answer.hints[i]);
+      if (!row.standsTill.empty()) row.standsTill[slot] = db_.path_.markAfter(answer.slack[i]);
       const Occlusion state = isMet ? Occlusion::partial : Occlusion::none;
       if (row.states[slot] != static_cast<uint8_t>(state)) {
-        makeTask(slot);
+        makeFound(slot, state);
       } else if (!isMet) {
         simple[slot / 64] &= ~(uint64_t{1} << slot % 64);
       }
     }
-    openCount = 0;
+    count = 0;
   };
   const bool isKnown = !row.withoutMovers.empty() && p.chart != kNone;
+  if (isKnown && db_.keepsMarks_ && row.standsTill.empty()) row.standsTill.assign(db_.stride_, 0);
+  const bool passesDown = db_.isDivided(object, patch);
   for (size_t w = 0; w < simple.size(); ++w) {
     if (simple[w] == 0) continue;
-    uint64_t unknown = simple[w], partial = 0;
+    uint64_t unknown = simple[w], open = 0, cleared = 0;
     if (isKnown) {
       static_assert(kSlotsAStep % 64 == 0, "rows have room for whole words");
-      const uint8_t* others = &row.withoutMovers[64 * w];
-      uint64_t some = simple[w] & ~equal(others, static_cast<uint8_t>(Occlusion::full));
-      for (size_t i = 0; i < 64; i += 8)
-        if ((some >> i & 0xff) != 0)
-          some &= ~(uint64_t{0xff} << i) |
-                  uint64_t{simpleColumns_->reaches.mayFallOn((64 * w + i) / 8, p.centre, p.radius)}
-                      << i;
-      simple[w] = some;
-      unknown = some & equal(others, kUnknown);
-      partial = equal(others, static_cast<uint8_t>(Occlusion::partial));
+      const uint8_t* without = &row.withoutMovers[64 * w];
+      uint64_t some = simple[w] & ~equal(without, static_cast<uint8_t>(Occlusion::full));
+      unknown = some & equal(without, kUnknown);
+      const uint64_t partial = equal(without, static_cast<uint8_t>(Occlusion::partial));
+      // What stands is as it was.
+      uint64_t stands = 0;
+      if (!row.standsTill.empty())
+        stands = some & ~unknown & ~partial & atLeast(&row.standsTill[64 * w], db_.path_.now());
+      const uint64_t none = some & ~unknown & ~partial & ~stands;
+      open = simpleColumns_->shadows.mayFallOn(w, none, p.centre, p.radius);
+      // Where no shadow can fall nothing is met.
+      const uint64_t isNone = equal(&row.states[64 * w], static_cast<uint8_t>(Occlusion::none));
+      cleared = none & ~open & ~isNone;
+      // What is partial whatever moves is only asked for its parts.
+      const uint64_t others = some & (passesDown ? unknown | partial : unknown);
+      simple[w] = simpleColumns_->reaches.mayFallOn(w, others, p.centre, p.radius);
+      unknown &= simple[w];
+      simple[w] |= open | cleared | (stands & ~isNone);
     }
-    forEachBit(simple[w] & ~unknown & ~partial, [&](size_t i) {
+    forEachBit(open, [&](size_t i) {
       const size_t slot = 64 * w + i;
-      open[openCount] = {slot, hintOf(row.withoutMovers[slot])};
-      if (++openCount == open.size()) ask();
+      questions[count] = {slot, hintOf(row.withoutMovers[slot])};
+      if (++count == questions.size()) ask();
     });
+    forEachBit(cleared, [&](size_t i) { makeFound(64 * w + i, Occlusion::none); });
     forEachBit(unknown, [&](size_t i) { makeTask(64 * w + i); });
   }
-  if (openCount > 0) ask();
+  if (count > 0) ask();
   if (tasks_.size() == before) return;
   std::sort(tasks_.begin() + static_cast<ptrdiff_t>(first), tasks_.end(),
             [](const Task& a, const Task& b) { return a.slot < b.slot; });

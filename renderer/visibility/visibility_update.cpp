@@ -142,6 +142,7 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
       unkept = kUnknown;
       uint8_t& others = keepsOthers ? allOthers[slot] : unkept;
       if (t.isNew) others = kUnknown;
+      if (!row.standsTill.empty()) row.standsTill[slot] = 0;
       if (leftOutBy != 0 &&
           isLeftOut(leftOutBy, static_cast<uint32_t>(db_.lights_[slot].footprint.y))) {
         t.state = Occlusion::full;
@@ -200,6 +201,7 @@ bool VisibilityDatabase::Update::settle(const Patch& patch, Task& task, uint8_t&
     return true;
   };
   task.isSieved = false;
+  if (task.isFound) return true;
   if (others == static_cast<uint8_t>(Occlusion::full)) return is(Occlusion::full);
   const bool wasFound = task.work == Work::check && !task.isOfMover && !task.parentWasNone;
   task.isSieved = wasFound && !task.column->mayFallOn(patch.centre, patch.radius);
@@ -232,7 +234,7 @@ Occlusion VisibilityDatabase::Update::check(const PatchRegion& region, const Tas
             : db_.occluders_.occlusionWithout(scene_, pyramid, db_.movers_, hints.met));
   }
   const Occlusion state = isNone(others) ? Occlusion::none : static_cast<Occlusion>(others);
-  if (state == Occlusion::full) return state;
+  if (isDecided(others)) return state;
   return std::max(state, db_.occluders_.occlusionBy(scene_, pyramid, db_.movers_, hints.metMover));
 }
 
@@ -263,6 +265,7 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
     }
     Task& task = tasks_.emplace_back(parent);
     task.work = work;
+    task.isFound = false;
     task.parentWasNone = parent.was == Occlusion::none;
   };
   if (wasDivided) {

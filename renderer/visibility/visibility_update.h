@@ -52,6 +52,7 @@ struct VisibilityDatabase::Task {
   bool isOfMover = false;  // the column waits for the object
   // The entry before was not found by its own pyramid, which is not quite in that of the parent.
   bool parentWasNone = false;
+  bool isFound = false;                  // the state is known
   bool isSieved = false;                 // nothing that moved can be between: it stays
   Occlusion was = Occlusion::partial;    // the entry before
   Occlusion state = Occlusion::partial;  // inherit: the parent's; afterwards the entry

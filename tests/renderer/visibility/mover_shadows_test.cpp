@@ -2,6 +2,8 @@
 // database that a drag brought up to date is the one that is made from nothing.
 #include "renderer/visibility/mover_shadows.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "renderer/sampling/vpl_set.h"
@@ -53,6 +55,48 @@ class MoversOfARoom : public testing::Test {
     }
   }
 
+  Occluders placeOccluders() const {
+    Occluders occluders;
+    occluders.resize(scene_.objects.size());
+    for (uint32_t i = 0; i < scene_.objects.size(); ++i) {
+      const MeshTopology topology = findTopology(scene_, i);
+      occluders.place(scene_, i, topology, placePatches(scene_, i, topology));
+    }
+    occluders.finish(scene_);
+    return occluders;
+  }
+
+  MoverPlace placeOf(const Occluders& occluders) const {
+    const std::span<const Bounds> groups = occluders.groups(moverObject());
+    return {occluders.caster(moverObject()), {groups.begin(), groups.end()}};
+  }
+
+  // visit(region, slot, whether it is met, the answer's slack), the same ones whatever the shadows,
+  // with hints of all kinds.
+  template <typename Visit>
+  void forEachAnswer(const MoverShadows& shadows, const Visit& visit) const {
+    uint32_t random = 1;
+    forEachBatch([&](const PatchRegion& region, const std::vector<size_t>& slots) {
+      std::vector<MoverShadows::Question> questions;
+      for (const size_t slot : slots) {
+        random = random * 1664525u + 1013904223u;
+        const uint64_t wanted = uint64_t{1} << slot % 64;
+        if (shadows.mayFallOn(slot / 64, wanted, region.centre, region.radius) != 0) {
+          questions.push_back({slot, static_cast<MoverShadows::Hint>(random >> 24)});
+        }
+      }
+      MoverShadows::Answer answer;
+      if (!questions.empty()) answer = shadows.of(region, questions);
+      size_t i = 0;
+      for (const size_t slot : slots) {
+        const bool isAsked = i < questions.size() && questions[i].slot == slot;
+        visit(region, slot, isAsked && (answer.met >> i & 1) != 0,
+              isAsked ? answer.slack[i] : 0.0f);
+        if (isAsked) ++i;
+      }
+    });
+  }
+
   Scene level_;
   RenderScene scene_;
   std::vector<shared::Vpl> lights_;
@@ -72,14 +116,13 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
     std::vector<const PyramidApex*> pointers;
     for (const PyramidApex& a : apices) pointers.push_back(&a);
     const PyramidBatch batch(pointers, region);
-    BoxBatch boxes;
-    std::array<Bounds, BoxBatch::kBoxes> each;
+    std::array<Bounds, 13> each;
     for (size_t i = 0; i < each.size(); ++i) {
       const vec3 at = scene_.bounds.min + vec3(next(), next(), next()) * scene_.bounds.extent();
       each[i].add(at);
       each[i].add(at + 0.5f * vec3(next(), next(), next()));
-      boxes.set(i, each[i]);
     }
+    const BoxBatches boxes(each);
     for (size_t i = 0; i < slots.size(); ++i) {
       const OcclusionPyramid alone(lights_[slots[i]], region);
       const auto is = [&](uint32_t mask, size_t bit, bool expected) {
@@ -87,12 +130,15 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
         met += expected;
         ++asked;
       };
-      is(batch.mayMeet(each[0]), i, alone.mayMeet(each[0]));
-      is(batch.mayMeetOwn(boxes), i, alone.mayMeet(each[i]));
-      is(batch.mayMeetSphere(each[1].centre(), 0.3f), i,
+      PyramidBatch::Depths depths;
+      is(batch.mayMeet(each[0], depths), i, alone.mayMeet(each[0]));
+      is(batch.mayMeetSphere(each[1].centre(), 0.3f, depths), i,
          alone.mayMeetSphere(each[1].centre(), 0.3f));
-      for (size_t b = 0; b < each.size(); ++b)
-        is(batch.mayMeetSome(i, boxes), b, alone.mayMeet(each[b]));
+      const bool any =
+          std::any_of(each.begin(), each.end(), [&](const Bounds& b) { return alone.mayMeet(b); });
+      const PyramidBatch::Found found = batch.find(i, boxes, i % 3);
+      is(found.batch != kNone, 0, any);
+      is(found.depth >= 0.0f, 0, any);
     }
   });
   EXPECT_GT(met, 10000u);
@@ -112,8 +158,11 @@ TEST_F(MoversOfARoom, ShadowsReachTogetherWhatEachReachesAlone) {
   forEachBatch([&](const PatchRegion& region, const std::vector<size_t>& slots) {
     for (const size_t slot : slots) {
       const bool expected = slot % 7 != 0 && each[slot].mayFallOn(region.centre, region.radius);
-      const uint32_t mask = reaches.mayFallOn(slot / 8, region.centre, region.radius);
-      differ += (mask >> slot % 8 & 1) != (expected ? 1u : 0u);
+      const uint64_t bit = uint64_t{1} << slot % 64;
+      const uint64_t both = bit | uint64_t{1} << 5;  // and what else is wanted
+      differ += (reaches.mayFallOn(slot / 64, bit, region.centre, region.radius) != 0) != expected;
+      differ += (reaches.mayFallOn(slot / 64, both, region.centre, region.radius) & bit) !=
+                (expected ? bit : 0);
       reached += expected;
     }
   });
@@ -123,42 +172,72 @@ TEST_F(MoversOfARoom, ShadowsReachTogetherWhatEachReachesAlone) {
 
 // Whatever they were met by before.
 TEST_F(MoversOfARoom, MoversShadowTogetherWhatTheyShadowAlone) {
-  Occluders occluders;
-  occluders.resize(scene_.objects.size());
-  for (uint32_t i = 0; i < scene_.objects.size(); ++i) {
-    const MeshTopology topology = findTopology(scene_, i);
-    occluders.place(scene_, i, topology, placePatches(scene_, i, topology));
-  }
-  occluders.finish(scene_);
+  const Occluders occluders = placeOccluders();
   const uint32_t mover = moverObject();
   const MoverShadows shadows(occluders, {&mover, 1}, lights_);
   ASSERT_TRUE(shadows.isAbout(0));
   size_t met = 0, asked = 0, differ = 0;
-  uint32_t random = 1;
-  forEachBatch([&](const PatchRegion& region, const std::vector<size_t>& slots) {
-    std::vector<MoverShadows::Question> questions;
-    for (const size_t slot : slots) {
-      random = random * 1664525u + 1013904223u;
-      questions.push_back({slot, static_cast<MoverShadows::Hint>(random >> 24)});
-    }
-    const MoverShadows::Answer answer = shadows.of(region, questions);
-    for (size_t i = 0; i < slots.size(); ++i) {
-      Blocker first;
-      const Occlusion alone = occluders.occlusionBy(
-          scene_, OcclusionPyramid(lights_[slots[i]], region), {&mover, 1}, first);
-      const bool isMet = (answer.met >> i & 1) != 0;
-      differ += alone != (isMet ? Occlusion::partial : Occlusion::none);
-      met += isMet;
-      ++asked;
-    }
+  forEachAnswer(shadows, [&](const PatchRegion& region, size_t slot, bool isMet, float) {
+    Blocker first;
+    const Occlusion alone =
+        occluders.occlusionBy(scene_, OcclusionPyramid(lights_[slot], region), {&mover, 1}, first);
+    differ += alone != (isMet ? Occlusion::partial : Occlusion::none);
+    met += isMet;
+    ++asked;
   });
   EXPECT_GT(met, 1000u);
   EXPECT_GT(asked - met, 1000u);
   EXPECT_EQ(differ, 0u) << "of " << asked;
 }
 
-// Steps and turns, of which some lights miss a few.
-TEST_F(MoversOfARoom, ADragLeavesNoEntryOtherThanFromNothing) {
+// Wherever it goes and however it turns, no box of it by more than was said.
+TEST_F(MoversOfARoom, AnswersStandWhileMoversGoLessThanTheirSlack) {
+  const uint32_t mover = moverObject();
+  const Occluders before = placeOccluders();
+  std::vector<float> slacks;
+  std::vector<bool> answers;
+  forEachAnswer(MoverShadows(before, {&mover, 1}, lights_),
+                [&](const PatchRegion&, size_t, bool isMet, float slack) {
+                  slacks.push_back(slack);
+                  answers.push_back(isMet);
+                });
+  const vec3 ways[] = {{0.05f, 0.0f, 0.0f},    {-0.03f, 0.02f, 0.0f}, {0.0f, 0.0f, -0.08f},
+                       {0.01f, -0.15f, 0.01f}, {0.0f, 0.25f, 0.2f},   {0.004f, 0.0f, 0.003f}};
+  float angle = 0.0f;
+  for (const vec3& way : ways) {
+    const Scene old = level_;
+    Node& node = *level_.find(mover_);
+    const Transform place = node.local;
+    node.local.translation += way;
+    node.local.rotation = glm::angleAxis(angle, vec3(0.0f, 1.0f, 0.0f)) * node.local.rotation;
+    angle += 0.02f;
+    update(scene_, level_, compare(old, level_));
+    const Occluders after = placeOccluders();
+    const float step = 1.01f * farthestStep(placeOf(before), placeOf(after));
+    EXPECT_LT(step, 0.6f);
+    size_t stand = 0, met = 0, differ = 0, i = 0;
+    forEachAnswer(MoverShadows(after, {&mover, 1}, lights_),
+                  [&](const PatchRegion&, size_t, bool isMet, float) {
+                    const bool stands = slacks[i] > step;
+                    stand += stands;
+                    met += stands && isMet;
+                    differ += stands && isMet != answers[i];
+                    ++i;
+                  });
+    EXPECT_GT(stand, 100u) << "after " << step << " m";
+    if (step < 0.1f) {
+      EXPECT_GT(met, 100u);
+    }
+    EXPECT_EQ(differ, 0u) << "of " << stand << " after " << step << " m";
+    node.local = place;
+    update(scene_, level_, SceneChanges::all());
+  }
+}
+
+// Steps and turns, of which some lights miss a few; short ones leave most of what was found before.
+class DragsInARoom : public MoversOfARoom, public testing::WithParamInterface<float> {};
+
+TEST_P(DragsInARoom, LeaveNoEntryOtherThanFromNothing) {
   RenderSceneChanges everything;
   everything.rebuilt = true;
   VisibilityDatabase kept;
@@ -166,11 +245,12 @@ TEST_F(MoversOfARoom, ADragLeavesNoEntryOtherThanFromNothing) {
   kept.setLights(scene_, lights_);
   std::vector<int> some;
   for (int slot = 0; slot < static_cast<int>(lights_.size()); slot += 3) some.push_back(slot);
-  for (int step = 0; step < 9; ++step) {
+  for (int step = 0; step < 18; ++step) {
     const Scene before = level_;
     Node& node = *level_.find(mover_);
-    node.local.translation += vec3(0.11f, step % 4 == 1 ? 0.3f : 0.0f, -0.07f);
-    node.local.rotation = glm::angleAxis(0.3f * static_cast<float>(step), vec3(0.0f, 1.0f, 0.0f));
+    node.local.translation += GetParam() * vec3(0.11f, step % 4 == 1 ? 0.3f : 0.0f, -0.07f);
+    node.local.rotation =
+        glm::angleAxis(GetParam() * 0.3f * static_cast<float>(step), vec3(0.0f, 1.0f, 0.0f));
     kept.setScene(scene_, update(scene_, level_, compare(before, level_)));
     kept.refresh(scene_, some);
     if (step % 3 != 2) continue;
@@ -187,6 +267,34 @@ TEST_F(MoversOfARoom, ADragLeavesNoEntryOtherThanFromNothing) {
     }
     EXPECT_EQ(differ, 0u) << "after step " << step;
   }
+}
+INSTANTIATE_TEST_SUITE_P(Steps, DragsInARoom, testing::Values(1.0f, 0.2f, 0.03f));
+
+// However long it is, and however many steps it is made of.
+TEST(MoverPathTest, MarksStandNoLongerThanTheirSlack) {
+  for (const float step : {0.0003f, 0.01f, 0.17f, 1.5f, 40.0f}) {
+    MoverPath path;
+    path.advance(step, 0.7f);
+    for (const float slack : {-1.0f, 0.0f, 0.02f, 0.3f, 1.0f, 100.0f}) {
+      MoverPath::Mark mark = path.markAfter(slack);
+      float gone = 0.0f;
+      for (int i = 0; i < 3000 && gone < 2.0f * slack + 1.0f; ++i) {
+        if (mark >= path.now()) {
+          EXPECT_LE(gone, slack) << "in steps of " << step;
+        }
+        const MoverPath::Mark by = path.advance(step, 0.7f);
+        mark = static_cast<MoverPath::Mark>(std::max(mark, by) - by);
+        gone += step;
+      }
+    }
+    EXPECT_EQ(path.markAfter(0.0f), 0);
+  }
+  MoverPath path;
+  path.advance(0.01f, 0.7f);
+  MoverPath::Mark mark = path.markAfter(0.1f);
+  for (int i = 0; i < 7; ++i) path.advance(0.01f, 0.7f);
+  EXPECT_GE(mark, path.now());
+  EXPECT_EQ(path.advance(std::numeric_limits<float>::infinity(), 0.7f), 255);
 }
 
 }  // namespace
