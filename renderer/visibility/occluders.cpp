@@ -51,9 +51,7 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
   boxes.clear();
   for (const Chart& chart : patches.charts) {
     if (chart.outline.empty() || chart.area < kLargePolygon) continue;
-    Bounds& box = boxes.emplace_back();
-    for (const vec3& corner : chart.outline) box.add(corner);
-    object.polygons.push_back({chart.outline, chart.normal, box});
+    boxes.push_back(object.polygons.emplace_back(chart.outline, chart.normal).box);
   }
   object.polygonTree = BoundsTree(boxes);
 }
@@ -137,10 +135,7 @@ bool Occluders::hides(const OcclusionPyramid& pyramid, const OcclusionPyramid::A
                       uint32_t object) const {
   return !objects_[object].polygonTree.visit(
       [&](const Bounds& b) { return axis.mayMeet(b); },
-      [&](uint32_t p) {
-        const Polygon& polygon = objects_[object].polygons[p];
-        return !pyramid.isCutBy(polygon.corners, polygon.normal);
-      });
+      [&](uint32_t p) { return !pyramid.isCutBy(objects_[object].polygons[p]); });
 }
 
 Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyramid& pyramid,
@@ -208,8 +203,8 @@ Occlusion Occluders::occlusionAmong(const RenderScene& s, const OcclusionPyramid
   const OcclusionPyramid::Axis axis(pyramid);
   const bool isHidden = std::any_of(
       candidates.polygons.begin(), candidates.polygons.end(), [&](const auto& candidate) {
-        const Polygon& polygon = objects_[candidate.first].polygons[candidate.second];
-        return axis.mayMeet(polygon.box) && pyramid.isCutBy(polygon.corners, polygon.normal);
+        const HidingPolygon& polygon = objects_[candidate.first].polygons[candidate.second];
+        return axis.mayMeet(polygon.box) && pyramid.isCutBy(polygon);
       });
   return isHidden ? Occlusion::full : Occlusion::partial;
 }
@@ -232,10 +227,10 @@ bool Occluders::hiddenFromEye(const RenderScene& s, const OcclusionPyramid& pyra
   const auto enter = [&](const Bounds& b) { return axis.mayMeet(b); };
   return !polygonTree_.visit(enter, [&](uint32_t i) {
     return objects_[i].polygonTree.visit(enter, [&](uint32_t p) {
-      const Polygon& polygon = objects_[i].polygons[p];
+      const HidingPolygon& polygon = objects_[i].polygons[p];
       const float before = glm::dot(polygon.normal, eye - polygon.corners[0]);
       const bool isDrawn = before > kNotClipped || (before < -kNotClipped && !s.backIsUnseen(i));
-      return !(isDrawn && pyramid.isCutBy(polygon.corners, polygon.normal));
+      return !(isDrawn && pyramid.isCutBy(polygon));
     });
   });
 }

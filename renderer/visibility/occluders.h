@@ -65,18 +65,13 @@ class Occluders {
   const Caster& caster(uint32_t object) const { return objects_[object].caster; }
 
  private:
-  struct Polygon {
-    std::vector<vec3> corners;  // convex
-    vec3 normal{0.0f};
-    Bounds box;
-  };
   struct Object {
     Caster caster;
-    std::vector<uint32_t> flat;     // triangles that are tested themselves
-    std::vector<int> roughChart;    // of each of them; empty: none is in one
-    BoundsTree tree;                // over those, then groups
-    std::vector<Bounds> groups;     // of loose triangles
-    std::vector<Polygon> polygons;  // large ones, which may hide whole patches
+    std::vector<uint32_t> flat;           // triangles that are tested themselves
+    std::vector<int> roughChart;          // of each of them; empty: none is in one
+    BoundsTree tree;                      // over those, then groups
+    std::vector<Bounds> groups;           // of loose triangles
+    std::vector<HidingPolygon> polygons;  // large ones, which may hide whole patches
     BoundsTree polygonTree;
   };
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,

@@ -264,8 +264,17 @@ OcclusionPyramid::Axis::Axis(const OcclusionPyramid& p)
     inverse_[c] = 1.0f / (std::abs(way[c]) > 1e-20f ? way[c] : std::copysign(1e-20f, way[c]));
 }
 
-bool OcclusionPyramid::isCutBy(std::span<const vec3> polygon, const vec3& n) const {
-  const vec3& on = polygon[0];
+HidingPolygon::HidingPolygon(std::span<const vec3> outline, const vec3& n)
+    : corners(outline.begin(), outline.end()), normal(n) {
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
+    edges.push_back({glm::cross(n, edge), glm::length(edge)});
+    box.add(corners[i]);
+  }
+}
+
+bool OcclusionPyramid::isCutBy(const HidingPolygon& polygon) const {
+  const vec3 &on = polygon.corners[0], &n = polygon.normal;
   const float inset = 8.0f * margin_ + region_.thickness;
   const float lightSide = parallel_ ? glm::dot(n, towards_) : glm::dot(n, apex_ - on);
   if (std::abs(lightSide) <= (parallel_ ? 1e-4f : inset)) return false;
@@ -274,10 +283,9 @@ bool OcclusionPyramid::isCutBy(std::span<const vec3> polygon, const vec3& n) con
     if (side * lightSide >= 0.0f || std::abs(side) <= inset) return false;
     const vec3 across = parallel_ ? corner - (side / lightSide) * towards_
                                   : apex_ + (lightSide / (lightSide - side)) * (corner - apex_);
-    for (size_t i = 0; i < polygon.size(); ++i) {
-      const vec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-      if (glm::dot(glm::cross(n, edge), across - polygon[i]) < inset * glm::length(edge))
-        return false;
+    for (size_t i = 0; i < polygon.edges.size(); ++i) {
+      const HidingPolygon::Edge& edge = polygon.edges[i];
+      if (glm::dot(edge.inwards, across - polygon.corners[i]) < inset * edge.length) return false;
     }
     return true;
   };

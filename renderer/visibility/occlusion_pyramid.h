@@ -5,6 +5,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "renderer/patches/patch_set.h"
 #include "renderer/visibility/shadow_reach.h"
@@ -39,6 +40,20 @@ struct PatchRegion {
   std::span<const vec3> points() const { return {corners.data(), static_cast<size_t>(count)}; }
 };
 
+// A convex polygon that may hide whole patches, with what is asked of it for every pyramid.
+struct HidingPolygon {
+  struct Edge {
+    vec3 inwards{0.0f};   // in its plane, as long as the edge
+    float length = 0.0f;  // [m]
+  };
+  std::vector<vec3> corners;
+  std::vector<Edge> edges;  // from each corner to the next
+  vec3 normal{0.0f};        // unit
+  Bounds box;
+
+  HidingPolygon(std::span<const vec3> corners, const vec3& normal);
+};
+
 class OcclusionPyramid {
  public:
   // Refers to both, which must outlive it.
@@ -71,8 +86,8 @@ class OcclusionPyramid {
   bool meets(const vec3& a, const vec3& b, const vec3& c, vec3* at = nullptr) const;
   // Whether a point is in it, by more than rounding.
   bool holds(const vec3& point) const { return !mayBeOutside(point, margin_); }
-  // Whether a convex polygon with unit normal n stands wholly across it, between light and patch.
-  bool isCutBy(std::span<const vec3> polygon, const vec3& n) const;
+  // Whether a polygon stands wholly across it, between light and patch.
+  bool isCutBy(const HidingPolygon& polygon) const;
 
   // The segment from the middle of the patch to the light. Only what that meets can stand across
   // all of the pyramid, and it meets far less.
