@@ -27,6 +27,54 @@ constexpr float kMargins = 8.0f;
 // [m].
 constexpr float kWidest = 0.25f;
 
+// Where lights are, eight at a time.
+class Places {
+ public:
+  static constexpr size_t kMost = 64;
+
+  // `reach`: of the pyramid past the light.
+  void set(size_t i, const vec3& place, float reach) {
+    x_[i] = place.x;
+    y_[i] = place.y;
+    z_[i] = place.z;
+    reach_[i] = reach;
+  }
+  // The last eight are filled up with the first.
+  void fill(size_t count) {
+    for (; count % kLanes != 0; ++count) set(count, at(0), reach_[0]);
+  }
+  vec3 at(size_t i) const { return {x_[i], y_[i], z_[i]}; }
+
+  // The least of dot(n, x) over what reaches past the lights.
+  float least(const vec3& n, size_t count) const {
+    auto least = hn::Set(kTag, std::numeric_limits<float>::max());
+    for (size_t i = 0; i < count; i += kLanes) {
+      const auto reach = hn::Load(kTag, &reach_[i]);
+      least = hn::Min(least, hn::Sub(along(n, i, vec3(0.0f)), reach));
+    }
+    return hn::GetLane(hn::MinOfLanes(kTag, least));
+  }
+  // The most that a light lies outwards as seen from a place, over how high it lies.
+  float steepest(const vec3& out, const vec3& up, const vec3& from, size_t count) const {
+    auto most = hn::Set(kTag, -std::numeric_limits<float>::max());
+    for (size_t i = 0; i < count; i += kLanes)
+      most = hn::Max(most, hn::Div(along(out, i, from), along(up, i, from)));
+    return hn::GetLane(hn::MaxOfLanes(kTag, most));
+  }
+
+ private:
+  // As glm adds it up.
+  hn::Vec<decltype(kTag)> along(const vec3& n, size_t i, const vec3& from) const {
+    const auto part = [&](float normal, const float* places, float begin) {
+      return hn::Mul(hn::Set(kTag, normal), hn::Sub(hn::Load(kTag, places), hn::Set(kTag, begin)));
+    };
+    return hn::Add(hn::Add(part(n.x, &x_[i], from.x), part(n.y, &y_[i], from.y)),
+                   part(n.z, &z_[i], from.z));
+  }
+
+  alignas(32) std::array<float, kMost> x_, y_, z_, reach_;
+};
+
 }  // namespace
 
 LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRegion& region) {
@@ -38,13 +86,12 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
     return glm::dot(vec3(v.position) - middle, region.normal);
   };
   float side = 0.0f;
-  std::array<vec3, 64> points;
-  std::array<float, 64> reach;  // of the pyramid past the light
+  Places points;
   size_t count = 0;
   float atBase = 0.0f, leastSlab = std::numeric_limits<float>::max(), mostSlab = 0.0f;
   const shared::Vpl* like = nullptr;
   bool areAlike = true;
-  for (size_t i = 0; i < lights.size() && i < points.size(); ++i) {
+  for (size_t i = 0; i < lights.size() && i < Places::kMost; ++i) {
     const shared::Vpl& v = *lights[i];
     const vec3 p(v.position);
     const float h = heightOf(v), height = std::abs(h);
@@ -60,8 +107,7 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
     side = h > 0.0f ? 1.0f : -1.0f;
     held_ |= uint64_t{1} << i;
     reach_ = std::max(reach_, std::abs(p.x) + std::abs(p.y) + std::abs(p.z));
-    points[count] = p;
-    reach[count++] = past;
+    points.set(count++, p, past);
     atBase = std::max(atBase, before);
     leastSlab = std::min(leastSlab, slab);
     mostSlab = std::max(mostSlab, slab);
@@ -70,6 +116,7 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
                glm::all(glm::lessThan(glm::abs(vec3(v.normal) - vec3(like->normal)), vec3(1e-6f)));
   }
   if (count == 0) return;
+  points.fill(count);
   for (const vec3& c : region.points())
     reach_ = std::max(reach_, std::abs(c.x) + std::abs(c.y) + std::abs(c.z));
 
@@ -77,8 +124,7 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
   const auto support = [&](const vec3& n) {
     float least = std::numeric_limits<float>::max();
     for (const vec3& c : region.points()) least = std::min(least, glm::dot(n, c) - 3.0f * atBase);
-    for (size_t i = 0; i < count; ++i) least = std::min(least, glm::dot(n, points[i]) - reach[i]);
-    return least;
+    return std::min(least, points.least(n, count));
   };
   const vec3 up = side * region.normal;
   // The pyramids end over the patch, by three times the slab; those of rough patches under it.
@@ -89,8 +135,8 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
     const vec3 n(like->normal);
     float least = std::numeric_limits<float>::max(), farthest = 0.0f;
     for (size_t i = 0; i < count; ++i) {
-      least = std::min(least, glm::dot(n, points[i]));
-      farthest = std::max(farthest, glm::distance(points[i], middle));
+      least = std::min(least, glm::dot(n, points.at(i)));
+      farthest = std::max(farthest, glm::distance(points.at(i), middle));
     }
     // Normals differ by rounding.
     add(n, least - 4e-6f * (farthest + 2.0f * region.radius));
@@ -101,11 +147,7 @@ LightShaft::LightShaft(std::span<const shared::Vpl* const> lights, const PatchRe
     const vec3 along = glm::normalize(to - from);
     const vec3 out = glm::cross(along, up);
     const float outwards = glm::dot(out, from - middle) > 0.0f ? 1.0f : -1.0f;
-    float most = -std::numeric_limits<float>::max();
-    for (size_t k = 0; k < count; ++k) {
-      const vec3 way = points[k] - from;
-      most = std::max(most, outwards * glm::dot(out, way) / glm::dot(up, way));
-    }
+    const float most = points.steepest(outwards * out, up, from, count);
     const vec3 inwards = glm::normalize(most * up - outwards * out);
     add(inwards, support(inwards));
   }
