@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 #include <tbb/parallel_for.h>
 
 #include "renderer/light_maps/accumulate.h"
+#include "renderer/light_maps/mappable.h"
 
 namespace lamplighter {
 namespace {
@@ -16,11 +17,6 @@ namespace {
 constexpr size_t kLanes = 8;      // of accumulate()
 constexpr int kMostTexels = 33;   // a side
 constexpr float kFlat = 0.9999f;  // cos 0.8°
-// Between texels n texels from a light, interpolation is wrong by up to 1/n².
-constexpr float kNearTexels = 10.0f;
-// A patch that begins so many texels behind a light, at a wall that meets its own, is before it.
-constexpr float kBehindTexels = 0.05f;
-constexpr float kBrightest = 2048.0f;  // W/m²: 65536 such lights still fit the sums
 
 bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
@@ -45,69 +41,17 @@ bool isShadedFlat(const RenderScene& s, const Chart& chart) {
   });
 }
 
-// Where a tile's patch is.
-struct TilePlace {
-  const Chart& chart;
-  const Patch& patch;
-  float spacing;  // of its texels [m]
-  vec3 corners[4];
-
-  TilePlace(const Chart& c, const Patch& p, float texelSpacing)
-      : chart(c),
-        patch(p),
-        spacing(texelSpacing),
-        corners{c.at(p.min), c.at({p.max.x, p.min.y}), c.at(p.max), c.at({p.min.x, p.max.y})} {}
-};
-
-// Whether the light's plane crosses the patch: there is none of its light behind it, and before it
-// it grows from nothing, which texels on both sides would round off.
-bool isCrossed(const shared::Vpl& vpl, const TilePlace& tile) {
-  const vec3 position(vpl.position), normal(vpl.normal);
-  float least = std::numeric_limits<float>::infinity(), most = -least;
-  for (const vec3& corner : tile.corners) {
-    const float height = glm::dot(corner - position, normal);
-    least = std::min(least, height);
-    most = std::max(most, height);
-  }
-  return least < -kBehindTexels * tile.spacing && most > kBehindTexels * tile.spacing;
-}
-
-// Whether its light is smooth enough over the patch to be interpolated, and not too bright to be
-// summed.
-bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance) {
-  const float brightest = std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
-  const vec3 position(vpl.position), normal(vpl.normal), tangent(vpl.tangent);
-  if (vpl.position.w == shared::kVplDirectional) {
-    const vec3 bitangent = glm::cross(normal, tangent);
-    vec2 least(std::numeric_limits<float>::infinity()), most(-least);
-    for (const vec3& corner : tile.corners) {
-      const vec3 v = corner - position;
-      const vec2 q(glm::dot(v, tangent), glm::dot(v, bitangent));
-      least = glm::min(least, q);
-      most = glm::max(most, q);
-    }
-    const float inner = 0.999f * vpl.tangent.w, outer = 1.001f * vpl.tangent.w;
-    const bool isWithin = least.x > -inner && least.y > -inner && most.x < inner && most.y < inner;
-    const bool isOutside = least.x > outer || least.y > outer || most.x < -outer || most.y < -outer;
-    return brightest <= kBrightest && (isWithin || isOutside);
-  }
-  const bool isSpot = vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
-  if (isSpot) return false;  // its edge may fall between two texels
-  if (isCrossed(vpl, tile)) return false;
-  const vec2 p = tile.chart.project(position);
-  const vec2 off = p - glm::clamp(p, tile.patch.min, tile.patch.max);
-  const float height = glm::dot(position - tile.chart.origin, tile.chart.normal);
-  const float distance2 = glm::dot(off, off) + height * height;
-  const float bounded = vpl.position.w == shared::kVplCosine
-                            ? std::max(distance2, clampDistance * clampDistance)
-                            : distance2;
-  const float nearest = kNearTexels * tile.spacing;
-  return distance2 >= nearest * nearest && brightest <= kBrightest * bounded;
-}
-
 // Texels of a tile, with those behind the last that are there for whole vectors.
 size_t paddedCount(const LightMapTile& tile) {
   return (static_cast<size_t>(tile.columns * tile.rows) + kLanes - 1) / kLanes * kLanes;
+}
+
+// Of the 64 slots from 64·w on, those of which nothing arrives, a bit each.
+uint64_t fullOnes(std::span<const uint8_t> states, size_t w) {
+  uint64_t bits = 0;
+  for (size_t i = 64 * w; i < std::min(64 * w + 64, states.size()); ++i)
+    bits |= uint64_t{static_cast<Occlusion>(states[i]) == Occlusion::full} << i % 64;
+  return bits;
 }
 
 float spacingOf(const LightMapTile& tile, const Patch& patch) {
@@ -170,10 +114,12 @@ void LightMaps::resize(size_t slots) {
   const size_t words = (slots + 63) / 64;
   if (words <= words_) return;
   for (Object& o : objects_) {
-    std::vector<uint64_t> wider(o.tiles.size() * words, 0);
-    for (size_t t = 0; words_ > 0 && t < o.tiles.size(); ++t)
-      std::copy_n(&o.held[t * words_], words_, &wider[t * words]);
-    o.held = std::move(wider);
+    for (std::vector<uint64_t>* bits : {&o.held, &o.refused}) {
+      std::vector<uint64_t> wider(o.tiles.size() * words, 0);
+      for (size_t t = 0; words_ > 0 && t < o.tiles.size(); ++t)
+        std::copy_n(&(*bits)[t * words_], words_, &wider[t * words]);
+      *bits = std::move(wider);
+    }
   }
   words_ = words;
 }
@@ -201,31 +147,34 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     Object& o = objects_[fresh[i]];
     o = makeObject(scene, visibility.patches(fresh[i]), options.texel);
     o.held.assign(o.tiles.size() * words_, 0);
+    o.refused = o.held;
   });
   std::vector<bool> isFresh(objects_.size(), false);
   for (const uint32_t i : fresh) isFresh[i] = true;
   std::vector<uint32_t> changedObjects = fresh;
 
   lights_.resize(bySlot.size());
-  std::vector<uint32_t> changedSlots, allSlots(bySlot.size());
-  std::iota(allSlots.begin(), allSlots.end(), 0u);
-  std::vector<bool> isNew(bySlot.size(), false);
-  for (uint32_t i = 0; i < bySlot.size(); ++i) {
-    if (sameContribution(lights_[i], bySlot[i])) continue;
-    isNew[i] = true;
-    changedSlots.push_back(i);
+  // Slots whose lights are others, and those with lights.
+  std::vector<uint64_t> isNew(words_, 0), isThere(words_, 0);
+  std::vector<uint32_t> newLights;
+  for (size_t i = 0; i < bySlot.size(); ++i) {
+    const uint64_t bit = uint64_t{1} << i % 64;
+    if (!sameContribution(lights_[i], bySlot[i])) isNew[i / 64] |= bit;
+    if (isLight(bySlot[i])) isThere[i / 64] |= bit;
+    if ((isNew[i / 64] & isThere[i / 64] & bit) != 0) newLights.push_back(static_cast<uint32_t>(i));
   }
+  const bool anyIsNew =
+      std::any_of(isNew.begin(), isNew.end(), [](uint64_t word) { return word != 0; });
 
   struct Job {
     uint32_t object, tile;
-    bool everySlot;
   };
   std::vector<Job> jobs;
   for (uint32_t object = 0; object < objects_.size(); ++object) {
     const Object& o = objects_[object];
     for (uint32_t t = 0; t < o.tiles.size(); ++t) {
-      const bool every = isFresh[object] || visibility.rowChanged(object, o.tiles[t].patch);
-      if (every || !changedSlots.empty()) jobs.push_back({object, t, every});
+      if (anyIsNew || isFresh[object] || visibility.rowChanged(object, o.tiles[t].patch))
+        jobs.push_back({object, t});
     }
   }
   std::vector<TexelLight> taken, added;  // by slot
@@ -233,6 +182,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     for (const shared::Vpl& vpl : lights_) taken.emplace_back(vpl, -1.0f);
     for (const shared::Vpl& vpl : bySlot) added.emplace_back(vpl, 1.0f);
   }
+  const MappableLights newOnes(bySlot, newLights, options.clampDistance);
   std::atomic<uint64_t> written = 0;
   std::vector<uint8_t> wrote(jobs.size(), 0);
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t j) {
@@ -251,17 +201,28 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
                              chart.normal};
     double* sums = &o.sums[size_t{3} * tile.first];
     std::vector<const TexelLight*> changes;
-    for (const uint32_t slot : job.everySlot ? allSlots : changedSlots) {
-      uint64_t& word = o.held[job.tile * words_ + slot / 64];
-      const uint64_t bit = uint64_t{1} << slot % 64;
-      const bool has = (word & bit) != 0;
-      // What is held and the same is as mappable as it was.
-      const bool wants =
-          isLight(bySlot[slot]) && static_cast<Occlusion>(states[slot]) != Occlusion::full &&
-          ((has && !isNew[slot]) || isMappable(bySlot[slot], place, options.clampDistance));
-      if (has && (!wants || isNew[slot])) changes.push_back(&taken[slot]);
-      if (wants && (!has || isNew[slot])) changes.push_back(&added[slot]);
-      word = wants ? word | bit : word & ~bit;
+    std::vector<uint64_t> newMappable(words_, 0);
+    newOnes.find(place, newMappable);
+    for (size_t w = 0; w < words_; ++w) {
+      uint64_t& held = o.held[job.tile * words_ + w];
+      uint64_t& refused = o.refused[job.tile * words_ + w];
+      refused &= ~isNew[w];
+      const uint64_t isFull = fullOnes(states, w);
+      // What is the same and is held is as mappable as it was; what was refused is not.
+      uint64_t asked = isNew[w] | (held & isFull) | (isThere[w] & ~(held | isFull | refused));
+      for (; asked != 0; asked &= asked - 1) {
+        const uint64_t bit = asked & -asked;
+        const size_t slot = 64 * w + static_cast<size_t>(std::countr_zero(asked));
+        const bool has = (held & bit) != 0, isOther = (isNew[w] & bit) != 0;
+        const bool mayWant = (isThere[w] & ~isFull & bit) != 0;
+        const bool wants =
+            mayWant && (isOther ? (newMappable[w] & bit) != 0
+                                : has || isMappable(bySlot[slot], place, options.clampDistance));
+        if (mayWant && !wants) refused |= bit;
+        if (has && (!wants || isOther)) changes.push_back(&taken[slot]);
+        if (wants && (!has || isOther)) changes.push_back(&added[slot]);
+        held = wants ? held | bit : held & ~bit;
+      }
     }
     if (changes.empty()) return;
     accumulate(changes, places, options.clampDistance, sums, sums + count, sums + 2 * count);
@@ -301,7 +262,7 @@ uint64_t LightMaps::bytes() const {
   uint64_t n = 0;
   for (const Object& o : objects_)
     n += o.irradiance.size() * (sizeof(vec4) + 3 * sizeof(double) + 3 * sizeof(float)) +
-         o.held.size() * sizeof(uint64_t);
+         (o.held.size() + o.refused.size()) * sizeof(uint64_t);
   return n;
 }
 

@@ -103,8 +103,10 @@ class LightMaps {
     std::vector<float> x, y, z;    // places in the world
     std::vector<double> sums;      // three a texel: all r of a tile, then g, then b
     std::vector<vec4> irradiance;  // the same, as it is read
-    std::vector<uint64_t> held;    // tiles × words_; a bit a slot
-    Revision revision;             // of tiles and texels
+    // Tiles × words_, a bit a slot: lights in the sums, and those that are known not to be smooth
+    // enough for them.
+    std::vector<uint64_t> held, refused;
+    Revision revision;  // of tiles and texels
   };
   static Object makeObject(const RenderScene& scene, const ObjectPatches& patches, float texel);
   void resize(size_t slots);

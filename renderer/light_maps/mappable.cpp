@@ -1,0 +1,155 @@
+#include "renderer/light_maps/mappable.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "renderer/wide_rounding.h"
+
+namespace lamplighter {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr size_t kLanes = 8;
+using Tag = hn::FixedTag<float, kLanes>;
+using Floats = hn::Vec<Tag>;
+constexpr Tag kTag;
+
+// Between texels n texels from a light, interpolation is wrong by up to 1/n².
+constexpr float kNearTexels = 10.0f;
+// A patch that begins so many texels behind a light, at a wall that meets its own, is before it.
+constexpr float kBehindTexels = 0.05f;
+constexpr float kBrightest = 2048.0f;  // W/m²: 65536 such lights still fit the sums
+
+float brightestOf(const shared::Vpl& vpl) {
+  return std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
+}
+
+bool isSpot(const shared::Vpl& vpl) {
+  return vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
+}
+
+HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+
+struct Vector3 {
+  Floats x, y, z;
+};
+
+// In the order in which glm adds, so that all is as isMappable() finds it.
+HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+HWY_INLINE Floats dot(const Vector3& a, const vec3& b) {
+  return dot(a, Vector3{all(b.x), all(b.y), all(b.z)});
+}
+
+// Whether the light's plane crosses the patch: there is none of its light behind it, and before it
+// it grows from nothing, which texels on both sides would round off.
+bool isCrossed(const shared::Vpl& vpl, const TilePlace& tile) {
+  const vec3 position(vpl.position), normal(vpl.normal);
+  float least = std::numeric_limits<float>::infinity(), most = -least;
+  for (const vec3& corner : tile.corners) {
+    const float height = glm::dot(corner - position, normal);
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  return least < -kBehindTexels * tile.spacing && most > kBehindTexels * tile.spacing;
+}
+
+}  // namespace
+
+bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance) {
+  const float brightest = brightestOf(vpl);
+  const vec3 position(vpl.position), normal(vpl.normal), tangent(vpl.tangent);
+  if (vpl.position.w == shared::kVplDirectional) {
+    const vec3 bitangent = glm::cross(normal, tangent);
+    vec2 least(std::numeric_limits<float>::infinity()), most(-least);
+    for (const vec3& corner : tile.corners) {
+      const vec3 v = corner - position;
+      const vec2 q(glm::dot(v, tangent), glm::dot(v, bitangent));
+      least = glm::min(least, q);
+      most = glm::max(most, q);
+    }
+    const float inner = 0.999f * vpl.tangent.w, outer = 1.001f * vpl.tangent.w;
+    const bool isWithin = least.x > -inner && least.y > -inner && most.x < inner && most.y < inner;
+    const bool isOutside = least.x > outer || least.y > outer || most.x < -outer || most.y < -outer;
+    return brightest <= kBrightest && (isWithin || isOutside);
+  }
+  if (isSpot(vpl)) return false;  // its edge may fall between two texels
+  if (isCrossed(vpl, tile)) return false;
+  const vec2 p = tile.chart.project(position);
+  const vec2 off = p - glm::clamp(p, tile.patch.min, tile.patch.max);
+  const float height = glm::dot(position - tile.chart.origin, tile.chart.normal);
+  const float distance2 = glm::dot(off, off) + height * height;
+  const float bounded = vpl.position.w == shared::kVplCosine
+                            ? std::max(distance2, clampDistance * clampDistance)
+                            : distance2;
+  const float nearest = kNearTexels * tile.spacing;
+  return distance2 >= nearest * nearest && brightest <= kBrightest * bounded;
+}
+
+MappableLights::MappableLights(std::span<const shared::Vpl> bySlot, std::span<const uint32_t> slots,
+                               float clampDistance)
+    : bySlot_(bySlot), clampDistance_(clampDistance) {
+  for (const uint32_t slot : slots) {
+    const shared::Vpl& vpl = bySlot[slot];
+    if (vpl.position.w == shared::kVplDirectional || isSpot(vpl)) {
+      others_.push_back(slot);
+      continue;
+    }
+    slots_.push_back(slot);
+    px_.push_back(vpl.position.x);
+    py_.push_back(vpl.position.y);
+    pz_.push_back(vpl.position.z);
+    nx_.push_back(vpl.normal.x);
+    ny_.push_back(vpl.normal.y);
+    nz_.push_back(vpl.normal.z);
+    brightest_.push_back(brightestOf(vpl));
+    least_.push_back(vpl.position.w == shared::kVplCosine ? clampDistance * clampDistance : 0.0f);
+  }
+  const size_t whole = (slots_.size() + kLanes - 1) / kLanes * kLanes;
+  for (auto* v : {&px_, &py_, &pz_, &nx_, &ny_, &nz_, &brightest_, &least_}) v->resize(whole, 0.0f);
+}
+
+void MappableLights::find(const TilePlace& tile, std::span<uint64_t> bits) const {
+  const auto set = [&](uint32_t slot, bool is) {
+    const uint64_t bit = uint64_t{1} << slot % 64;
+    bits[slot / 64] = is ? bits[slot / 64] | bit : bits[slot / 64] & ~bit;
+  };
+  for (const uint32_t slot : others_) set(slot, isMappable(bySlot_[slot], tile, clampDistance_));
+  const float behind = kBehindTexels * tile.spacing, nearest = kNearTexels * tile.spacing;
+  const auto minus = [](const Vector3& a, const vec3& b) {
+    return Vector3{hn::Sub(a.x, all(b.x)), hn::Sub(a.y, all(b.y)), hn::Sub(a.z, all(b.z))};
+  };
+  for (size_t i = 0; i < slots_.size(); i += kLanes) {
+    const auto load = [i](const std::vector<float>& v) { return hn::LoadU(kTag, &v[i]); };
+    const Vector3 position{load(px_), load(py_), load(pz_)},
+        normal{load(nx_), load(ny_), load(nz_)};
+    Floats lowest = all(std::numeric_limits<float>::infinity()), highest = hn::Neg(lowest);
+    for (const vec3& corner : tile.corners) {
+      const Vector3 v{hn::Sub(all(corner.x), position.x), hn::Sub(all(corner.y), position.y),
+                      hn::Sub(all(corner.z), position.z)};
+      const Floats height = dot(v, normal);
+      lowest = hn::Min(lowest, height);
+      highest = hn::Max(highest, height);
+    }
+    const auto isCrossed = hn::And(hn::Lt(lowest, all(-behind)), hn::Gt(highest, all(behind)));
+    const Vector3 v = minus(position, tile.chart.origin);
+    const auto off = [](Floats p, float least, float most) {
+      return hn::Sub(p, hn::Min(hn::Max(p, all(least)), all(most)));
+    };
+    const Floats x = off(dot(v, tile.chart.tangent), tile.patch.min.x, tile.patch.max.x);
+    const Floats y = off(dot(v, tile.chart.bitangent), tile.patch.min.y, tile.patch.max.y);
+    const Floats height = dot(v, tile.chart.normal);
+    const Floats distance2 =
+        hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(height, height));
+    const Floats bounded = hn::Max(distance2, load(least_));
+    const auto isFar = hn::Ge(distance2, all(nearest * nearest));
+    const auto isFaint = hn::Le(load(brightest_), hn::Mul(all(kBrightest), bounded));
+    uint8_t found[8];
+    hn::StoreMaskBits(kTag, hn::AndNot(isCrossed, hn::And(isFar, isFaint)), found);
+    for (size_t k = i; k < std::min(i + kLanes, slots_.size()); ++k)
+      set(slots_[k], (found[0] >> (k - i) & 1) != 0);
+  }
+}
+
+}  // namespace lamplighter
