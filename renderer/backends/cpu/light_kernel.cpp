@@ -1,16 +1,11 @@
 #include "renderer/backends/cpu/light_kernel.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
 
 #include "renderer/backends/cpu/wide_light.h"
 
 namespace lamplighter::cpu {
 namespace {
-
-constexpr float kMostSum = 0x1p30f;  // units
 
 HWY_INLINE Vector3 load(const float (&from)[3][kLanes]) {
   return {hn::Load(kTag, from[0]), hn::Load(kTag, from[1]), hn::Load(kTag, from[2])};
@@ -213,25 +208,6 @@ void addLit(PacketBlock& block, const PacketList& packets, LightUse use, Sign si
   byKind(light.kind, [&]<LightRecord::Kind kKind>() {
     addLit<kKind>(block, packets, isNegative(use, sign), light, constants, lit);
   });
-}
-
-// A sum is at most that of all intensities × the weight that each can have. A parallel light's
-// squares lie side by side, so that one of each direction counts.
-float unitsPerIrradiance(std::span<const LightRecord> lights, float clampDistance2) {
-  float most = 0.0f;
-  std::map<std::array<float, 3>, float> parallel;
-  for (const LightRecord& light : lights) {
-    const float brightest = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
-    if (light.kind != LightRecord::Kind::directional) {
-      most += brightest * mostWeight(light.kind, clampDistance2);
-      continue;
-    }
-    float& square = parallel[{light.normal.x, light.normal.y, light.normal.z}];
-    square = std::max(square, brightest);
-  }
-  for (const auto& [direction, square] : parallel) most += square;
-  if (!(most > 0.0f) || !std::isfinite(most)) return 1.0f;
-  return std::ldexp(1.0f, std::clamp(std::ilogb(kMostSum / most), -100, 100));
 }
 
 }  // namespace lamplighter::cpu

@@ -41,9 +41,6 @@ struct SumConstants {
   bool operator==(const SumConstants&) const = default;
 };
 
-// The finest unit with which no sum of these lights can overflow, wherever it is taken.
-float unitsPerIrradiance(std::span<const LightRecord> lights, float clampDistance2);
-
 // Packets of a block, and which of their lanes are meant.
 class PacketList {
  public:

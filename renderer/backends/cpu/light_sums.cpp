@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/backends/cpu/sum_unit.h"
 #include "renderer/light_maps/hard_lights.h"
 
 namespace lamplighter::cpu {

@@ -1,5 +1,7 @@
 #include "renderer/light_maps/mappable.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/lit_scene.h"

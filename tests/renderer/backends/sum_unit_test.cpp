@@ -1,0 +1,64 @@
+#include "renderer/backends/cpu/sum_unit.h"
+
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random_boxes.h"
+
+namespace lamplighter::cpu {
+namespace {
+
+std::vector<LightRecord> randomLights(uint32_t seed) {
+  std::vector<LightRecord> lights;
+  for (shared::Vpl vpl : test::randomVpls(60, seed)) {
+    if (lights.size() % 4 == 0) vpl.position.w = shared::kVplUniform;
+    lights.push_back(makeLightRecord(vpl, nullptr));
+  }
+  return lights;
+}
+
+// What all of them could give a point that all of them face [W/m²].
+float mostAt(const vec3& point, const std::vector<LightRecord>& lights, float clampDistance) {
+  float sum = 0.0f;
+  for (const LightRecord& light : lights) {
+    const vec3 way = point - light.position;
+    const float d2 = glm::dot(way, way);
+    const float least = light.kind == LightRecord::Kind::cosine
+                            ? std::max(clampDistance * clampDistance, 1.0f / 4096.0f)
+                            : 1.0f / 256.0f;
+    sum +=
+        std::max({light.intensity.r, light.intensity.g, light.intensity.b}) / std::max(d2, least);
+  }
+  return sum;
+}
+
+// Wherever it is taken, also where lights are, no sum is more than 32 bits hold; and with a small
+// clamp the unit is not that of a point that all lights touch.
+TEST(SumUnit, IsFineAndNoSumOverflows) {
+  for (const float clampDistance : {0.5f, 0.2f, 0.05f, 0.01f}) {
+    for (uint32_t seed = 1; seed <= 5; ++seed) {
+      const std::vector<LightRecord> lights = randomLights(seed);
+      const float units = unitsPerIrradiance(lights, clampDistance * clampDistance);
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<float> around(-3.0f, 3.0f), near(-0.1f, 0.1f);
+      for (int i = 0; i < 2000; ++i) {
+        vec3 point(around(random), around(random), around(random));
+        if (i % 2 == 0)
+          point = lights[static_cast<size_t>(i / 2) % lights.size()].position +
+                  vec3(near(random), near(random), near(random));
+        EXPECT_LE(units * mostAt(point, lights, clampDistance), 0x1p30f);
+      }
+      float touched = 0.0f;
+      for (const LightRecord& light : lights)
+        touched += mostAt(light.position, {light}, clampDistance);
+      if (clampDistance < 0.1f) {
+        EXPECT_GT(units * touched, 0x1p31f);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter::cpu
