@@ -19,27 +19,38 @@ bool LightAdder::hasRoomFor(uint32_t packets) const {
 
 void LightAdder::addPackets(int tile, uint32_t packets, const TilePlaces& places, TileLit* lit) {
   listedUses_ = 0;
-  parts_.push_back({{packets, block_.count()}, &places});
-  places.addTo(gbuffer_, packets, block_);
-  for (uint32_t rest = packets & places.hit(); lit != nullptr && rest != 0; rest &= rest - 1)
-    lit_.push_back({lit->of(std::countr_zero(rest)), lit->stride()});
   pixels_ += static_cast<uint64_t>(gbuffer_.pixelsOf(tile, packets));
-  if (table_ == nullptr) return;
-  for (const uint32_t row : places.rows())
-    if (std::find(rows_.begin(), rows_.end(), row) == rows_.end()) rows_.push_back(row);
+  packets &= places.hit();
+  const size_t base = block_.count(), firstPart = parts_.size();
+  for (uint32_t rest = packets; rest != 0; rest &= rest - 1) {
+    const int packet = std::countr_zero(rest);
+    block_.add(gbuffer_,
+               static_cast<size_t>(tile) * kTilePixels + static_cast<size_t>(packet) * kLanes);
+    if (lit != nullptr) lit_.push_back({lit->of(packet), lit->stride()});
+  }
+  places.forEachPart(packets, [&](int packet, uint8_t lanes, uint32_t row) {
+    const size_t before = static_cast<size_t>(std::popcount(packets & ((1u << packet) - 1)));
+    const size_t of = static_cast<size_t>(std::ranges::find(rows_, row) - rows_.begin());
+    if (of == rows_.size()) rows_.push_back(row);
+    parts_.push_back({static_cast<uint8_t>(base + before), lanes, static_cast<uint16_t>(of)});
+  });
+  // The parts of a packet side by side, so that they come together again where they are used alike.
+  std::stable_sort(parts_.begin() + static_cast<ptrdiff_t>(firstPart), parts_.end(),
+                   [](const Part& a, const Part& b) { return a.packet < b.packet; });
+  uses_.resize(rows_.size());
 }
 
 void LightAdder::add(const LightRecord& light, Sign sign, TilePlaces::When when) {
   counts_.lightPixels += pixels_;
   if (table_ != nullptr && light.slot >= 0) {
-    if (!listAs(usesOf(light.slot, when), light.slot, when)) return;
+    if (!listAs(findUses(light.slot, when))) return;
     for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
       sum(lists_[static_cast<size_t>(use)], use, sign, light);
     return;
   }
   listedUses_ = 0;
   lists_[0].clear();
-  for (const Part& part : parts_) part.places->listAll(part.packets, lists_[0]);
+  for (const Part& part : parts_) lists_[0].add(part.packet, part.lanes);
   if (light.link != 0 && !leftOutBy_.empty()) leaveOut(light.link);
   sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
 }
@@ -49,7 +60,7 @@ void LightAdder::addAll(std::span<const LightRecord* const> lights, Sign sign,
   order_.clear();
   for (const LightRecord* light : lights) {
     const bool isListed = table_ != nullptr && light->slot >= 0;
-    order_.emplace_back(isListed ? usesOf(light->slot, when) : 0, light);
+    order_.emplace_back(isListed ? findUses(light->slot, when) : 0, light);
   }
   std::stable_sort(order_.begin(), order_.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -70,25 +81,28 @@ void LightAdder::leaveOut(uint32_t link) {
   }
 }
 
-// How the light is used in each of the rows, in two bits; and a bit that is always set.
-uint64_t LightAdder::usesOf(int slot, TilePlaces::When when) const {
-  if (rows_.size() > kMostRows) return 0;
-  uint64_t uses = 1;
-  for (const uint32_t row : rows_) {
+// How the light is used in each of the rows. The same in two bits for each, and a bit that is
+// always set; 0 where these are too many.
+uint64_t LightAdder::findUses(int slot, TilePlaces::When when) {
+  uint64_t key = 1;
+  for (size_t i = 0; i < rows_.size(); ++i) {
+    const uint32_t row = rows_[i];
     const LightUse* of = when == TilePlaces::When::now ? table_->now(row) : table_->before(row);
-    uses = uses << 2 | static_cast<uint64_t>(of[slot]);
+    uses_[i] = of[slot];
+    key = key << 2 | static_cast<uint64_t>(of[slot]);
   }
-  return uses;
+  return rows_.size() > kMostRows ? 0 : key;
 }
 
 // Lights that are used alike have the same lists. Returns whether there is anything in them.
-bool LightAdder::listAs(uint64_t uses, int slot, TilePlaces::When when) {
+bool LightAdder::listAs(uint64_t key) {
   static_assert(static_cast<int>(LightUse::skip) == 0);
-  if (uses != 0 && (uses & (uses - 1)) == 0) return false;
-  if (uses != 0 && uses == listedUses_) return true;
-  listedUses_ = uses;
+  if (key != 0 && (key & (key - 1)) == 0) return false;
+  if (key != 0 && key == listedUses_) return true;
+  listedUses_ = key;
   for (PacketList& list : lists_) list.clear();
-  for (const Part& part : parts_) part.places->list(*table_, when, slot, part.packets, lists_);
+  for (const Part& part : parts_)
+    lists_[static_cast<size_t>(uses_[part.row])].add(part.packet, part.lanes);
   return true;
 }
 

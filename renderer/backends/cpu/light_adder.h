@@ -41,9 +41,10 @@ class LightAdder {
   void finish(FixedSums& sums) const { block_.addTo(sums); }
 
  private:
+  // Lanes of a packet of the block that lie in one place.
   struct Part {
-    TilePlaces::InBlock packets;
-    const TilePlaces* places;
+    uint8_t packet, lanes;
+    uint16_t row;  // into rows_
   };
   struct Lit {
     uint8_t* ofSlot0;
@@ -51,8 +52,8 @@ class LightAdder {
   };
 
   void leaveOut(uint32_t link);
-  uint64_t usesOf(int slot, TilePlaces::When when) const;
-  bool listAs(uint64_t uses, int slot, TilePlaces::When when);
+  uint64_t findUses(int slot, TilePlaces::When when);
+  bool listAs(uint64_t key);
   void sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light);
 
   const GBuffer& gbuffer_;
@@ -65,8 +66,9 @@ class LightAdder {
   std::vector<Part> parts_;
   uint64_t pixels_ = 0;
   std::vector<uint32_t> rows_;  // of the table, in these tiles
+  std::vector<LightUse> uses_;  // by rows_, of the light that was asked for last
   uint64_t listedUses_ = 0;     // that lists_ are for; 0: none
-  TilePlaces::Lists lists_;
+  PacketList lists_[4];         // by LightUse
   std::vector<std::pair<uint64_t, const LightRecord*>> order_;
 };
 

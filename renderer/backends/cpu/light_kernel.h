@@ -45,7 +45,12 @@ struct SumConstants {
 class PacketList {
  public:
   void clear() { count_ = 0; }
+  // More lanes of the packet that was added last, or another one.
   void add(size_t packet, uint8_t lanes) {
+    if (count_ > 0 && packet_[count_ - 1] == packet) {
+      lanes_[count_ - 1] |= lanes;
+      return;
+    }
     packet_[count_] = static_cast<uint8_t>(packet);
     lanes_[count_++] = lanes;
   }

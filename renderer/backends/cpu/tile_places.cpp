@@ -143,40 +143,4 @@ void TilePlaces::takeRows(PlaceTable& table) {
   for (const Place& place : places_) rows_.push_back(table.rowOf(place));
 }
 
-void TilePlaces::addTo(const GBuffer& gbuffer, uint32_t packets, PacketBlock& block) const {
-  for (uint32_t rest = packets & hit_; rest != 0; rest &= rest - 1)
-    block.add(gbuffer, first_ + static_cast<size_t>(std::countr_zero(rest)) * kLanes);
-}
-
-template <typename F>
-void TilePlaces::forEachInBlock(uint32_t which, const InBlock& some, F&& f) const {
-  const uint32_t all = some.packets & hit_;
-  for (uint32_t rest = which; rest != 0; rest &= rest - 1)
-    f(some.base + static_cast<size_t>(std::popcount(all & ((rest & -rest) - 1))));
-}
-
-void TilePlaces::list(const PlaceTable& table, When when, int slot, const InBlock& some,
-                      Lists& out) const {
-  for (const Kind& kind : kinds_) {
-    const uint32_t meant = kind.packets & some.packets;
-    if (meant == 0) continue;
-    std::array<uint8_t, 4> lanes{};
-    for (size_t i = kind.first; i < kind.first + kind.count; ++i) {
-      const uint32_t row = rows_[parts_[i].place];
-      const LightUse* uses = when == When::now ? table.now(row) : table.before(row);
-      lanes[static_cast<size_t>(uses[slot])] |= parts_[i].lanes;
-    }
-    for (size_t use = 1; use < 4; ++use) {
-      if (lanes[use] == 0) continue;
-      forEachInBlock(meant, some, [&](size_t packet) { out[use].add(packet, lanes[use]); });
-    }
-  }
-}
-
-void TilePlaces::listAll(const InBlock& some, PacketList& out) const {
-  for (const Kind& kind : kinds_)
-    forEachInBlock(kind.packets & some.packets, some,
-                   [&](size_t packet) { out.add(packet, 0xff); });
-}
-
 }  // namespace lamplighter::cpu

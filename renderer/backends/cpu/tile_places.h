@@ -52,8 +52,6 @@ class PlaceTable {
 // are in a tile.
 class TilePlaces {
  public:
-  using Lists = std::array<PacketList, 4>;  // by LightUse
-
   // Forgets what it knows, when the tile shows something else.
   void clear();
   // Finds those of these packets (a bit each), unless they are known.
@@ -66,18 +64,16 @@ class TilePlaces {
   // Known packets in which anything is.
   uint32_t hit() const { return hit_; }
   std::span<const uint32_t> rows() const { return rows_; }
-  // Those of these packets that are hit, into a block.
-  void addTo(const GBuffer& gbuffer, uint32_t packets, PacketBlock& block) const;
-  // Of packets that addTo() added, the first of them as `base`.
-  struct InBlock {
-    uint32_t packets;
-    size_t base;
-  };
-  // Appends those that use the light of the slot in each way.
   enum class When : uint8_t { before, now };
-  void list(const PlaceTable& table, When when, int slot, const InBlock& some, Lists& out) const;
-  // Appends all.
-  void listAll(const InBlock& some, PacketList& out) const;
+  // Calls f(packet, lanes, row in the table, 0 where there is none) for all places of these.
+  template <typename F>
+  void forEachPart(uint32_t which, F&& f) const {
+    for (const Kind& kind : kinds_)
+      for (size_t part = kind.first; part < kind.first + kind.count; ++part)
+        for (uint32_t packets = kind.packets & which; packets != 0; packets &= packets - 1)
+          f(std::countr_zero(packets), parts_[part].lanes,
+            rows_.empty() ? 0 : rows_[parts_[part].place]);
+  }
 
   // Calls f(first pixel of the packet, lanes, row in the table) for all that is known.
   template <typename F>
@@ -116,8 +112,6 @@ class TilePlaces {
   };
   static_assert(kPacketsPerTile <= 32);
 
-  template <typename F>
-  void forEachInBlock(uint32_t which, const InBlock& some, F&& f) const;
   uint16_t placeOf(const GBuffer& gbuffer, const PatchLights& lights, size_t pixel);
 
   size_t first_ = 0;              // pixel of the tile
