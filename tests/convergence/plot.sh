@@ -21,7 +21,7 @@ lines_of() { # bounces
 {
   echo "set terminal pngcairo size 1700,620 font 'Inter,11'; set output '$out'"
   echo "set multiplot; set logscale xy; set grid; unset key"
-  echo "set xlabel 'light samples'; set yrange [1:300]; set xrange [50:20000]"
+  echo "set xlabel 'light samples'; set yrange [0.5:300]; set xrange [50:20000]"
   echo "set tmargin at screen 0.93; set bmargin at screen 0.1"
   left=0.05
   for bounces in 0 1 5; do
