@@ -43,7 +43,7 @@ MoverShadows::Answer MoverShadows::of(const PatchRegion& region,
                                       std::span<const Question> lights) const {
   std::array<const PyramidApex*, kLights> apices;
   for (size_t i = 0; i < lights.size(); ++i) apices[i] = &lights_[lights[i].slot].apex;
-  const PyramidBatch pyramids({apices.data(), lights.size()}, region);
+  const PyramidBatch pyramids(LightLanes({apices.data(), lights.size()}), region);
   Answer answer;
   answer.slack.fill(std::numeric_limits<float>::max());
   for (size_t m = 0; m < movers_.size(); ++m) {

@@ -11,9 +11,6 @@ constexpr float kLargePolygon = 1.0f;
 // What is nearer to the eye than this may be cut by the near plane, at 1 cm [m].
 constexpr float kNotClipped = 0.05f;
 
-// More candidates than these are no less work than to look for what each light meets.
-constexpr size_t kMostItems = 48, kMostPolygons = 24;
-
 }  // namespace
 
 void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& topology,
@@ -70,14 +67,6 @@ void Occluders::finish(const RenderScene& s) {
     }
   };
   fit(tree_, boxes);
-  loose_.clear();
-  std::vector<Bounds> loose;
-  for (uint32_t i = 0; i < boxes.size(); ++i) {
-    if (objects_[i].groups.empty()) continue;
-    loose_.push_back(i);
-    loose.push_back(boxes[i]);
-  }
-  fit(looseTree_, loose);
   fit(polygonTree_, polygons);
 }
 
@@ -152,61 +141,6 @@ Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyram
       !tree_.visit(enter, [&](uint32_t i) { return !(counts(i) && meets(s, pyramid, i, first)); });
   if (!isMet) return Occlusion::none;
   return hiddenWithout(pyramid, objects) ? Occlusion::full : Occlusion::partial;
-}
-
-void Occluders::collect(const LightShaft& shaft, std::span<const uint32_t> without,
-                        Candidates& out) const {
-  out.items.clear();
-  out.polygons.clear();
-  const auto enter = [&](const Bounds& b) { return shaft.mayMeet(b); };
-  const auto counts = [&](uint32_t i) {
-    return std::find(without.begin(), without.end(), i) == without.end();
-  };
-  out.isWhole = tree_.visit(enter, [&](uint32_t i) {
-    return !counts(i) || !objects_[i].groups.empty() ||
-           objects_[i].tree.visit(enter, [&](uint32_t item) {
-             if (out.items.size() == kMostItems) return false;
-             out.items.push_back({static_cast<int>(i), item});
-             return true;
-           });
-  });
-  out.hasPolygons = polygonTree_.visit(enter, [&](uint32_t i) {
-    return !counts(i) || objects_[i].polygonTree.visit(enter, [&](uint32_t p) {
-      if (out.polygons.size() == kMostPolygons) return false;
-      out.polygons.emplace_back(i, p);
-      return true;
-    });
-  });
-}
-
-Occlusion Occluders::occlusionAmong(const RenderScene& s, const OcclusionPyramid& pyramid,
-                                    const Candidates& candidates, std::span<const uint32_t> without,
-                                    Blocker& first) const {
-  if (!candidates.isWhole) return occlusionWithout(s, pyramid, without, first);
-  if (pyramid.isDark()) return Occlusion::full;
-  if (pyramid.isDegenerate()) return Occlusion::partial;
-  bool isMet = stillMeets(s, pyramid, first);
-  for (size_t i = 0; !isMet && i < candidates.items.size(); ++i) {
-    Blocker candidate = candidates.items[i];
-    isMet = stillMeets(s, pyramid, candidate);
-    if (isMet) first = candidate;
-  }
-  isMet = isMet || !looseTree_.visit([&](const Bounds& b) { return pyramid.mayMeet(b); },
-                                     [&](uint32_t i) {
-                                       const bool counts = std::find(without.begin(), without.end(),
-                                                                     loose_[i]) == without.end();
-                                       return !(counts && meets(s, pyramid, loose_[i], first));
-                                     });
-  if (!isMet) return Occlusion::none;
-  if (!candidates.hasPolygons)
-    return hiddenWithout(pyramid, without) ? Occlusion::full : Occlusion::partial;
-  const OcclusionPyramid::Axis axis(pyramid);
-  const bool isHidden = std::any_of(
-      candidates.polygons.begin(), candidates.polygons.end(), [&](const auto& candidate) {
-        const HidingPolygon& polygon = objects_[candidate.first].polygons[candidate.second];
-        return axis.mayMeet(polygon.box) && pyramid.isCutBy(polygon);
-      });
-  return isHidden ? Occlusion::full : Occlusion::partial;
 }
 
 bool Occluders::hiddenWithout(const OcclusionPyramid& pyramid,

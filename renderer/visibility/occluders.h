@@ -3,11 +3,16 @@
 // around a whole complex object).
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
-#include "renderer/visibility/light_shaft.h"
+#include "renderer/visibility/light_lanes.h"
+#include "renderer/visibility/occlusion_pyramid.h"
 
 namespace lamplighter {
+
+class HidingBatch;
 
 // What a pyramid met: an item of an object. Most of what meets a pyramid meets the next one too,
 // that of a child or of a light nearby, so that there it is asked first.
@@ -21,15 +26,12 @@ struct Blocker {
 
 class Occluders {
  public:
-  // Triangles and large polygons that may stand in a shaft but for some objects, or more than is
-  // worth a list. Groups of loose triangles are boxes: of those a pyramid's test knows less than a
-  // shaft's, so that they are not in it.
-  struct Candidates {
-    std::vector<Blocker> items;
-    std::vector<std::pair<uint32_t, uint32_t>> polygons;  // of object
-    bool isWhole = false;
-    bool hasPolygons = false;
+  // Up to eight lights that are not parallel, for which a rectangle is neither dark nor degenerate.
+  struct Lights {
+    std::span<const shared::Vpl* const> vpls;
+    const PatchRegion& region;
   };
+  using States = std::array<Occlusion, LightLanes::kLights>;
 
   void resize(size_t objects) { objects_.resize(objects); }
   // One object where it is now; call finish() after the last.
@@ -44,6 +46,9 @@ class Occluders {
                              std::span<const uint32_t> objects, Blocker& first) const;
   Occlusion occlusionBy(const RenderScene& scene, const OcclusionPyramid& pyramid,
                         std::span<const uint32_t> objects, Blocker& first) const;
+  // The first of both, of several lights; `first` by light.
+  States occlusionsWithout(const RenderScene& scene, const Lights& lights,
+                           std::span<const uint32_t> objects, std::span<Blocker> first) const;
   // Boxes around some of its triangles each, and whether they are all there is of it.
   std::span<const Bounds> groups(uint32_t object) const { return objects_[object].groups; }
   bool isOfGroups(uint32_t object) const {
@@ -51,11 +56,6 @@ class Occluders {
   }
   // Whether one polygon of other objects hides all of the pyramid's patch.
   bool hiddenWithout(const OcclusionPyramid& pyramid, std::span<const uint32_t> objects) const;
-  // The same, of candidates; the pyramid's light is one of the shaft's.
-  void collect(const LightShaft& shaft, std::span<const uint32_t> without, Candidates& out) const;
-  Occlusion occlusionAmong(const RenderScene& scene, const OcclusionPyramid& pyramid,
-                           const Candidates& candidates, std::span<const uint32_t> without,
-                           Blocker& first) const;
   // Whether one polygon stands between an eye, the pyramid's light, and all of its patch, so that
   // it is drawn over it: its front does, where its back is not drawn.
   bool hiddenFromEye(const RenderScene& scene, const OcclusionPyramid& pyramid,
@@ -74,6 +74,9 @@ class Occluders {
     std::vector<HidingPolygon> polygons;  // large ones, which may hide whole patches
     BoundsTree polygonTree;
   };
+  class Search;
+  LightLanes::Mask hiddenWithout(const HidingBatch& batch, LightLanes::Mask of,
+                                 std::span<const uint32_t> objects) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
              uint32_t item, vec3& at) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
@@ -86,10 +89,8 @@ class Occluders {
              uint32_t object) const;
 
   std::vector<Object> objects_;
-  std::vector<uint32_t> loose_;  // objects with groups
-  BoundsTree looseTree_;         // over the bounds of these
-  BoundsTree tree_;              // over the objects' bounds
-  BoundsTree polygonTree_;       // over those of their large polygons
+  BoundsTree tree_;         // over the objects' bounds
+  BoundsTree polygonTree_;  // over those of their large polygons
 };
 
 }  // namespace lamplighter

@@ -3,7 +3,6 @@
 #include "renderer/visibility/occlusion_pyramid.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -17,9 +16,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kLanes = 8;
 using Tag = hn::FixedTag<float, kLanes>;
 constexpr Tag kTag;
-
-// A triangle clipped by each plane gains a corner at most.
-constexpr size_t kMostCorners = 3 + 8;
 
 float roundingAt(std::span<const vec3> points) {
   vec3 farthest(0.0f);
@@ -73,10 +69,6 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
       apex_(vpl.position),
       towards_(vpl.normal),
       margin_(parallel_ ? region.rounding : std::max(rayEpsilon(apex_), region.rounding)) {
-  planes_.x.fill(0.0f);
-  planes_.y.fill(0.0f);
-  planes_.z.fill(0.0f);
-  planes_.offset.fill(1.0f);
   const float slab = region_.thickness + margin_;
   // Behind both planes by more than sums are rounded, the light is none (vplGeometry), not little.
   const float behind = region_.thickness + kSumsRounding * margin_;
@@ -126,7 +118,7 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
 }
 
 void OcclusionPyramid::add(const vec3& normal, const vec3& on, float margin) {
-  if (count_ == kMostPlanes) return;  // fewer planes: larger, conservative
+  if (count_ == PyramidPlanes::kMost) return;  // fewer planes: larger, conservative
   const auto i = static_cast<size_t>(count_++);
   planes_.x[i] = normal.x;
   planes_.y[i] = normal.y;
@@ -184,7 +176,7 @@ bool OcclusionPyramid::mayMeetSphere(const vec3& centre, float radius) const {
   farthest = hn::MulAdd(hn::LoadU(kTag, planes_.x.data()), hn::Set(kTag, centre.x), farthest);
   farthest = hn::MulAdd(hn::LoadU(kTag, planes_.y.data()), hn::Set(kTag, centre.y), farthest);
   farthest = hn::MulAdd(hn::LoadU(kTag, planes_.z.data()), hn::Set(kTag, centre.z), farthest);
-  static_assert(kMostPlanes == kLanes);
+  static_assert(PyramidPlanes::kMost == kLanes);
   return hn::AllFalse(kTag, hn::Lt(farthest, hn::Set(kTag, -radius)));
 }
 
@@ -193,63 +185,8 @@ bool OcclusionPyramid::mayBeOutside(const vec3& point, float margin) const {
   distance = hn::MulAdd(hn::LoadU(kTag, planes_.x.data()), hn::Set(kTag, point.x), distance);
   distance = hn::MulAdd(hn::LoadU(kTag, planes_.y.data()), hn::Set(kTag, point.y), distance);
   distance = hn::MulAdd(hn::LoadU(kTag, planes_.z.data()), hn::Set(kTag, point.z), distance);
-  static_assert(kMostPlanes == kLanes);
+  static_assert(PyramidPlanes::kMost == kLanes);
   return !hn::AllFalse(kTag, hn::Lt(distance, hn::Set(kTag, margin)));
-}
-
-bool OcclusionPyramid::meets(const vec3& a, const vec3& b, const vec3& c, vec3* at) const {
-  // Most triangles are wholly outside of one plane, or have a corner inside all.
-  static_assert(kMostPlanes == kLanes);
-  const auto x = hn::LoadU(kTag, planes_.x.data()), y = hn::LoadU(kTag, planes_.y.data()),
-             z = hn::LoadU(kTag, planes_.z.data()), offset = hn::LoadU(kTag, planes_.offset.data());
-  const auto outsideOf = [&](const vec3& p) {
-    auto distance = hn::MulAdd(x, hn::Set(kTag, p.x), offset);
-    distance = hn::MulAdd(y, hn::Set(kTag, p.y), distance);
-    distance = hn::MulAdd(z, hn::Set(kTag, p.z), distance);
-    return hn::Lt(distance, hn::Zero(kTag));
-  };
-  const std::array<vec3, 3> points{a, b, c};
-  const std::array outside{outsideOf(a), outsideOf(b), outsideOf(c)};
-  if (!hn::AllFalse(kTag, hn::And(outside[0], hn::And(outside[1], outside[2])))) return false;
-  for (size_t i = 0; i < 3; ++i) {
-    if (!hn::AllFalse(kTag, outside[i])) continue;
-    if (at != nullptr) *at = points[i];
-    return true;
-  }
-  if (at != nullptr) *at = a;  // unless a better one is found
-
-  // Planes that all corners are inside of cut nothing off.
-  uint8_t cutting[8];
-  hn::StoreMaskBits(kTag, hn::Or(outside[0], hn::Or(outside[1], outside[2])), cutting);
-  std::array<std::array<vec3, kMostCorners>, 2> polygons;
-  std::copy(points.begin(), points.end(), polygons[0].begin());
-  size_t count = 3, now = 0;
-  for (uint32_t rest = cutting[0]; rest != 0; rest &= rest - 1) {
-    const auto n = static_cast<size_t>(std::countr_zero(rest));
-    const vec3 normal(planes_.x[n], planes_.y[n], planes_.z[n]);
-    const auto distance = [&](const vec3& p) { return glm::dot(normal, p) + planes_.offset[n]; };
-    const auto& corners = polygons[now];
-    auto& clipped = polygons[1 - now];
-    size_t kept = 0;
-    float df = distance(corners[0]);
-    for (size_t k = 0; k < count; ++k) {
-      const vec3 &from = corners[k], &to = corners[k + 1 < count ? k + 1 : 0];
-      const float dt = distance(to);
-      if (df >= 0.0f) clipped[kept++] = from;
-      if ((df >= 0.0f) != (dt >= 0.0f)) clipped[kept++] = from + (df / (df - dt)) * (to - from);
-      if (kept + 2 > kMostCorners) return true;
-      df = dt;
-    }
-    if (kept == 0) return false;
-    now = 1 - now;
-    count = kept;
-  }
-  if (at != nullptr) {
-    *at = vec3(0.0f);
-    for (size_t k = 0; k < count; ++k) *at += polygons[now][k];
-    *at /= static_cast<float>(count);
-  }
-  return true;
 }
 
 OcclusionPyramid::Axis::Axis(const OcclusionPyramid& p)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/patches/patch_set.h"
+#include "renderer/visibility/pyramid_planes.h"
 #include "renderer/visibility/shadow_reach.h"
 #include "shaders/shared/vpl.h"
 
@@ -83,7 +84,9 @@ class OcclusionPyramid {
   bool mayMeet(const Bounds& box) const;
   bool mayMeetSphere(const vec3& centre, float radius) const;
   // `at`: a point of what is met, if so.
-  bool meets(const vec3& a, const vec3& b, const vec3& c, vec3* at = nullptr) const;
+  bool meets(const vec3& a, const vec3& b, const vec3& c, vec3* at = nullptr) const {
+    return planes_.meet(a, b, c, at);
+  }
   // Whether a point is in it, by more than rounding.
   bool holds(const vec3& point) const { return !mayBeOutside(point, margin_); }
   // Whether a polygon stands wholly across it, between light and patch.
@@ -110,12 +113,6 @@ class OcclusionPyramid {
  private:
   bool mayBeOutside(const vec3& point, float margin) const;
 
-  static constexpr int kMostPlanes = 8;
-  // Unit normals inwards; inside: dot(normal, x) + offset >= 0. Eight at a time are tested, so that
-  // what follows the last are planes that everything is inside of.
-  struct Planes {
-    std::array<float, kMostPlanes> x, y, z, offset;
-  };
   void addSides(const vec3& middle, const vec3& up);
   void add(const vec3& normal, const vec3& on, float margin);
 
@@ -125,7 +122,7 @@ class OcclusionPyramid {
   vec3 apex_{0.0f};      // a parallel light: unused
   vec3 towards_{0.0f};   // the light's axis; a parallel light: unit, towards the light
   float margin_ = 0.0f;  // what rounding may make of a place here [m]
-  Planes planes_;
+  PyramidPlanes planes_;
   int count_ = 0;
 };
 

@@ -6,39 +6,17 @@
 #include <bit>
 #include <limits>
 
-#include "renderer/raycast/ray_caster.h"
-#include "renderer/visibility/pyramid_sides.h"
+#include "renderer/visibility/lane_sums.h"
 
 namespace lamplighter {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
+using namespace lanes;
 constexpr size_t kLanes = PyramidBatch::kLights;
-using Tag = hn::FixedTag<float, kLanes>;
-constexpr Tag kTag;
-using Vec = hn::Vec<Tag>;
 
-Vec set(float v) { return hn::Set(kTag, v); }
-Lanes3<Vec> set(const vec3& v) { return {set(v.x), set(v.y), set(v.z)}; }
-
-Vec load(const std::array<float, kLanes>& v) { return hn::Load(kTag, v.data()); }
-Lanes3<Vec> load(const std::array<std::array<float, kLanes>, 3>& v) {
-  return {load(v[0]), load(v[1]), load(v[2])};
-}
 template <typename Plane>
 Lanes3<Vec> normalOf(const Plane& p) {
   return {load(p.x), load(p.y), load(p.z)};
-}
-
-// As glm adds it up, so that it is the same bits.
-Vec dot(const Lanes3<Vec>& a, const Lanes3<Vec>& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
-uint32_t bitsOf(hn::Mask<Tag> mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(kTag, mask, bits);
-  return bits[0];
 }
 
 // By how much boxes are inside of planes, as OcclusionPyramid::mayMeet() adds it up.
@@ -51,6 +29,14 @@ Vec depthOf(const Lanes3<Vec>& normal, Vec offset, const Lanes3<Vec>& centre,
   farthest = hn::MulAdd(hn::Abs(normal.y), half.y, farthest);
   return hn::MulAdd(hn::Abs(normal.z), half.z, farthest);
 }
+
+// By how much points are, as OcclusionPyramid::meets() adds it up.
+HWY_INLINE Vec distanceOf(const Lanes3<Vec>& normal, Vec offset, const Lanes3<Vec>& point) {
+  auto distance = hn::MulAdd(normal.x, point.x, offset);
+  distance = hn::MulAdd(normal.y, point.y, distance);
+  return hn::MulAdd(normal.z, point.z, distance);
+}
+uint32_t outside(Vec depths) { return bitsOf(hn::Lt(depths, hn::Zero(kTag))); }
 
 // Keeps those of the planes; which are inside of all.
 uint32_t take(Vec depths, PyramidBatch::Depths& out) {
@@ -84,24 +70,11 @@ BoxBatches::BoxBatches(std::span<const Bounds> boxes) {
   around_ = batchesOf(around);
 }
 
-PyramidApex::PyramidApex(const shared::Vpl& vpl)
-    : position(vpl.position), normal(vpl.normal), rounding(rayEpsilon(position)) {}
-
-PyramidBatch::PyramidBatch(std::span<const PyramidApex* const> lights, const PatchRegion& region)
-    : all_((Mask{1} << lights.size()) - 1) {
-  alignas(32) Lanes px, py, pz, nx, ny, nz, rounding;
-  for (size_t i = 0; i < kLights; ++i) {
-    const PyramidApex& light = *lights[i < lights.size() ? i : 0];
-    px[i] = light.position.x;
-    py[i] = light.position.y;
-    pz[i] = light.position.z;
-    nx[i] = light.normal.x;
-    ny[i] = light.normal.y;
-    nz[i] = light.normal.z;
-    rounding[i] = light.rounding;
-  }
-  const Lanes3<Vec> apex{load(px), load(py), load(pz)}, towards{load(nx), load(ny), load(nz)};
-  const auto margin = hn::Max(load(rounding), set(region.rounding));
+PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
+    : all_(lights.all()) {
+  const Lanes3<Vec> apex = load(lights.position), towards = load(lights.normal);
+  const auto margin = hn::Max(load(lights.rounding), set(region.rounding));
+  hn::Store(margin, kTag, margin_.data());
   const auto store = [&](Plane& plane, const Lanes3<Vec>& normal, Vec offset) {
     hn::Store(normal.x, kTag, plane.x.data());
     hn::Store(normal.y, kTag, plane.y.data());
@@ -112,8 +85,7 @@ PyramidBatch::PyramidBatch(std::span<const PyramidApex* const> lights, const Pat
 
   const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
   const Lanes3<Vec> centre = set(middle), normal = set(region.normal);
-  const auto height = dot(
-      {hn::Sub(apex.x, centre.x), hn::Sub(apex.y, centre.y), hn::Sub(apex.z, centre.z)}, normal);
+  const auto height = dot(sub(apex, centre), normal);
   const auto above = hn::Gt(height, hn::Zero(kTag));
   const auto turn = [&](Vec v) { return hn::IfThenElse(above, v, hn::Neg(v)); };
   const Lanes3<Vec> up{turn(normal.x), turn(normal.y), turn(normal.z)};
@@ -125,10 +97,8 @@ PyramidBatch::PyramidBatch(std::span<const PyramidApex* const> lights, const Pat
   for (size_t i = 0; i < 4; ++i) {
     const auto at = [&](const auto& v) { return set(vec3(v[0][i], v[1][i], v[2][i])); };
     const Lanes3<Vec> from = at(region.from);
-    const Lanes3<Vec> way{hn::Sub(from.x, apex.x), hn::Sub(from.y, apex.y),
-                          hn::Sub(from.z, apex.z)};
-    const SidePlanes<Vec> side =
-        sidePlanes(kTag, from, at(region.sides), way, centre, up, thickness, margin, false);
+    const SidePlanes<Vec> side = sidePlanes(kTag, from, at(region.sides), sub(from, apex), centre,
+                                            up, thickness, margin, false);
     store(planes_[2 + i], side.normal, side.offset);
   }
 }
@@ -145,14 +115,94 @@ PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius,
                                                Depths& depths) const {
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_) {
-    auto distance = hn::MulAdd(load(p.x), set(centre.x), load(p.offset));
-    distance = hn::MulAdd(load(p.y), set(centre.y), distance);
-    distance = hn::MulAdd(load(p.z), set(centre.z), distance);
-    least = hn::Min(distance, least);
+    least = hn::Min(distanceOf(normalOf(p), load(p.offset), set(centre)), least);
   }
   const Mask met = all_ & ~bitsOf(hn::Lt(least, set(-radius)));
   hn::StoreU(hn::Add(least, set(radius)), kTag, depths.data());
   return met;
+}
+
+PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box) const {
+  Depths unused;
+  return mayMeet(box, unused);
+}
+
+PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius) const {
+  Depths unused;
+  return mayMeetSphere(centre, radius, unused);
+}
+
+PyramidBatch::Mask PyramidBatch::hold(const vec3& point) const {
+  const Lanes3<Vec> p = set(point);
+  auto least = set(std::numeric_limits<float>::max());
+  for (const Plane& plane : planes_)
+    least = hn::Min(distanceOf(normalOf(plane), load(plane.offset), p), least);
+  return all_ & bitsOf(hn::Ge(least, load(margin_)));
+}
+
+PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const {
+  const Lanes3<Vec> a = set(triangle[0]), b = set(triangle[1]), c = set(triangle[2]);
+  auto leastA = set(std::numeric_limits<float>::max()), leastB = leastA, leastC = leastA;
+  auto leastOfMost = leastA;  // of the corner farthest inside of each plane
+  for (const Plane& p : planes_) {
+    const Lanes3<Vec> normal = normalOf(p);
+    const auto offset = load(p.offset);
+    const auto da = distanceOf(normal, offset, a), db = distanceOf(normal, offset, b),
+               dc = distanceOf(normal, offset, c);
+    leastA = hn::Min(da, leastA);
+    leastB = hn::Min(db, leastB);
+    leastC = hn::Min(dc, leastC);
+    leastOfMost = hn::Min(hn::Max(hn::Max(da, db), dc), leastOfMost);
+  }
+  const Mask open = all_ & ~outside(leastOfMost);
+  Met met;
+  met.byCorner = {open & ~outside(leastA), open & ~outside(leastB), open & ~outside(leastC)};
+  met.unsure = open & ~met.met();
+  return met;
+}
+
+// A triangle is past the edge of two planes, though not outside of either, where all of it is
+// outside of a third one through that edge: where heights over both add up, one of them times some
+// factor, to less than nothing at each corner.
+PyramidBatch::Mask PyramidBatch::surelyMiss(const std::array<vec3, 3>& triangle,
+                                            float rounding) const {
+  const auto margin = hn::Mul(set(2.0f), hn::Max(load(margin_), set(rounding)));
+  std::array<std::array<Vec, 3>, kPlanes> depths;
+  for (size_t p = 1; p < kPlanes; ++p) {
+    const Plane& plane = planes_[p];
+    const auto offset = hn::Add(load(plane.offset), margin);
+    for (size_t i = 0; i < 3; ++i)
+      depths[p][i] = distanceOf(normalOf(plane), offset, set(triangle[i]));
+  }
+  const auto zero = hn::Zero(kTag);
+  const auto isPastEdge = [&](const std::array<Vec, 3>& a, const std::array<Vec, 3>& b) {
+    auto least = zero, most = set(std::numeric_limits<float>::max());  // of the factor
+    for (size_t i = 0; i < 3; ++i) {
+      const auto factor = hn::Div(hn::Neg(a[i]), b[i]);
+      const auto isLower = hn::Lt(b[i], zero);
+      least = hn::Max(hn::IfThenElseZero(isLower, factor), least);
+      most = hn::Min(hn::IfThenElse(isLower, most, factor), most);
+    }
+    return hn::Lt(hn::Mul(least, set(1.001f)), most);
+  };
+  // Edges of the patch's plane with a side, and of two sides.
+  auto past = isPastEdge(depths[5], depths[2]);
+  for (size_t side = 2; side < 6; ++side) {
+    past = hn::Or(past, isPastEdge(depths[1], depths[side]));
+    if (side < 5) past = hn::Or(past, isPastEdge(depths[side], depths[side + 1]));
+  }
+  return all_ & bitsOf(past);
+}
+
+PyramidPlanes PyramidBatch::planesOf(size_t light) const {
+  PyramidPlanes planes;
+  for (size_t i = 0; i < kPlanes; ++i) {
+    planes.x[i] = planes_[i].x[light];
+    planes.y[i] = planes_[i].y[light];
+    planes.z[i] = planes_[i].z[light];
+    planes.offset[i] = planes_[i].offset[light];
+  }
+  return planes;
 }
 
 PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, size_t first) const {

@@ -7,17 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "renderer/visibility/light_lanes.h"
 #include "renderer/visibility/occlusion_pyramid.h"
 
 namespace lamplighter {
-
-// What a pyramid wants of a light that is not parallel.
-struct PyramidApex {
-  vec3 position{0.0f}, normal{0.0f};
-  float rounding = 0.0f;  // rayEpsilon() there [m]
-  PyramidApex() = default;
-  explicit PyramidApex(const shared::Vpl& vpl);
-};
 
 // Eight boxes, to be asked of at once.
 struct BoxBatch {
@@ -42,19 +35,34 @@ class BoxBatches {
 
 class PyramidBatch {
  public:
-  static constexpr size_t kLights = BoxBatch::kBoxes;
-  // Answers: bit i is that of light i.
-  using Mask = uint32_t;
+  static constexpr size_t kLights = LightLanes::kLights;
+  static_assert(kLights == BoxBatch::kBoxes);
+  using Mask = LightLanes::Mask;
   // By how much what is asked about is inside of the plane that it is least inside of, so that it
   // may move as far and still is met; negative: by how much it is outside. By light [m].
-  using Depths = std::array<float, kLights>;
+  using Depths = LightLanes::Floats;
 
   // Of lights for which the rectangle is neither dark nor degenerate.
-  PyramidBatch(std::span<const PyramidApex* const> lights, const PatchRegion& region);
+  PyramidBatch(const LightLanes& lights, const PatchRegion& region);
 
   Mask all() const { return all_; }
   Mask mayMeet(const Bounds& box, Depths& depths) const;
   Mask mayMeetSphere(const vec3& centre, float radius, Depths& depths) const;
+  Mask mayMeet(const Bounds& box) const;
+  Mask mayMeetSphere(const vec3& centre, float radius) const;
+  // Those that a point is in, by more than rounding.
+  Mask hold(const vec3& point) const;
+  // Those that corners of a triangle are in, and those where only clipping it tells: planesOf().
+  struct Met {
+    std::array<Mask, 3> byCorner{};
+    Mask unsure = 0;
+    Mask met() const { return byCorner[0] | byCorner[1] | byCorner[2]; }
+  };
+  Met meets(const std::array<vec3, 3>& triangle) const;
+  // Of those, some where clipping it would leave nothing, by more than rounding; `rounding`: of the
+  // triangle's corners [m].
+  Mask surelyMiss(const std::array<vec3, 3>& triangle, float rounding) const;
+  PyramidPlanes planesOf(size_t light) const;
   // Whether the pyramid of one light may meet any of some boxes. `first`: the batch that is asked
   // first.
   struct Found {
@@ -65,11 +73,11 @@ class PyramidBatch {
 
  private:
   static constexpr size_t kPlanes = 6;
-  using Lanes = std::array<float, kLights>;
   struct Plane {
-    Lanes x, y, z, offset;
+    LightLanes::Floats x, y, z, offset;
   };
   alignas(32) std::array<Plane, kPlanes> planes_;
+  alignas(32) LightLanes::Floats margin_;  // what rounding may make of a place here [m]
   Mask all_;
 };
 

@@ -92,7 +92,7 @@ class VisibilityDatabase {
   }
   void clearChanged();
 
-  // Whether new columns are looked at cluster by cluster, which changes nothing but the time.
+  // Whether several lights are looked at together, which changes nothing but the time.
   void useClusters(bool use) { useClusters_ = use; }
 
   // Pyramids against the scene, since the database was made.

@@ -3,22 +3,19 @@
 
 #include "renderer/visibility/visibility_update.h"
 
-#include <array>
-
 #include <hwy/highway.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "renderer/scene/light_linking.h"
+#include "renderer/visibility/visibility_piece.h"
 
 namespace lamplighter {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Lights at a patch that are one piece of work for a thread.
+// Lights to be looked at that are one piece of work for a thread, at least: some times as many as
+// are looked at together.
 constexpr size_t kLightsAPiece = 32;
-constexpr size_t kLightsAShaft = 4;    // fewer are looked at alone
 constexpr size_t kLightsToShare = 96;  // fewer are not shared out
 
 // Entries that are partial, of lights that are live (1, else 0).
@@ -105,137 +102,22 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
   // Where nothing moves it is the state itself.
   const bool keepsOthers = db_.keepsOthers_ && !db_.movers_.empty();
   if (keepsOthers && row.withoutMovers.empty()) row.withoutMovers.assign(db_.stride_, kUnknown);
-  uint8_t* states = row.states.data();
-  uint8_t* allOthers = keepsOthers ? row.withoutMovers.data() : nullptr;
-  const bool isInherited = std::all_of(tasks.begin(), tasks.end(),
-                                       [](const Task& t) { return t.work == Work::inherit; });
+  const auto toLookAt = static_cast<size_t>(std::count_if(
+      tasks.begin(), tasks.end(), [](const Task& t) { return t.work != Work::inherit; }));
   const PatchRegion region =
-      isInherited ? PatchRegion(Bounds()) : PatchRegion(scene_, object, patches, p);
-  const uint32_t leftOutBy = scene_.objects[object].leftOutBy;
+      toLookAt == 0 ? PatchRegion(Bounds()) : PatchRegion(scene_, object, patches, p);
   if (hints_.size() < tasks_.size()) hints_.resize(tasks_.size());
   const auto computeSome = [&](size_t first, size_t last) {
-    Hints before;  // of the light before
-    uint64_t tests = 0;
-    bool changed = false;
-    Shaft shaft;
-    const auto some = tasks.subspan(first, last - first);
-    uint8_t unkept = kUnknown;
-    const auto take = [&](const Task& t) {
-      if (t.state == t.was) return;
-      states[t.slot] = static_cast<uint8_t>(t.state);
-      changed = true;
-    };
-    const auto checkAlone = [&](size_t i, uint8_t& others) {
-      Task& t = some[i];
-      Hints hints = t.hints == kNone ? Hints() : hints_[static_cast<size_t>(t.hints)];
-      if (hints.met.object == kNone) hints.met = before.met;
-      if (hints.metMover.object == kNone) hints.metMover = before.metMover;
-      t.state = check(region, t, {some, i, shaft}, others, hints, tests);
-      t.hints = static_cast<int>(&t - tasks_.data());
-      hints_[static_cast<size_t>(t.hints)] = before = hints;
-      take(t);
-    };
-    for (size_t i = 0; i < some.size(); ++i) {
-      Task& t = some[i];
-      const auto slot = static_cast<size_t>(t.slot);
-      t.was = static_cast<Occlusion>(states[slot]);
-      unkept = kUnknown;
-      uint8_t& others = keepsOthers ? allOthers[slot] : unkept;
-      if (t.isNew) others = kUnknown;
-      if (!row.standsTill.empty()) row.standsTill[slot] = 0;
-      if (leftOutBy != 0 &&
-          isLeftOut(leftOutBy, static_cast<uint32_t>(db_.lights_[slot].footprint.y))) {
-        t.state = Occlusion::full;
-        others = static_cast<uint8_t>(Occlusion::full);
-      } else if (t.work != Work::inherit && !settle(p, t, others)) {
-        checkAlone(i, others);
-        continue;
-      }
-      take(t);
-    }
-    if (tests > 0) tests_ += tests;
-    return changed;
+    Piece piece(*this, scene_.objects[object].leftOutBy, p, region, row, keepsOthers);
+    return piece.run(tasks.subspan(first, last - first));
   };
-  if (isInherited || tasks.size() < kLightsToShare) return computeSome(0, tasks.size());
+  if (toLookAt < kLightsToShare) return computeSome(0, tasks.size());
   std::atomic<bool> changed = false;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, tasks.size(), kLightsAPiece),
-                    [&](const tbb::blocked_range<size_t>& range) {
-                      if (computeSome(range.begin(), range.end())) changed = true;
-                    });
+  const size_t pieces = toLookAt / kLightsAPiece;
+  tbb::parallel_for(size_t{0}, pieces, [&](size_t i) {
+    if (computeSome(i * tasks.size() / pieces, (i + 1) * tasks.size() / pieces)) changed = true;
+  });
   return changed;
-}
-
-// Null: the light is alone.
-const Occluders::Candidates* VisibilityDatabase::Update::candidatesOf(
-    const Place& place, const PatchRegion& region) const {
-  const auto clusterOf = [&](size_t i) {
-    const Task& task = place.tasks[i];
-    return task.work == Work::anew ? db_.clusters_.clusterOf[static_cast<size_t>(task.slot)] : -1;
-  };
-  const int cluster = clusterOf(place.index);
-  if (!db_.useClusters_ || region.count != 4 || cluster < 0) return nullptr;
-  Shaft& shaft = place.shaft;
-  if (shaft.cluster != cluster || place.index >= shaft.last) {
-    shaft.cluster = cluster;
-    shaft.first = shaft.last = place.index;
-    while (shaft.last < place.tasks.size() && clusterOf(shaft.last) == cluster) ++shaft.last;
-    shaft.candidates.isWhole = false;
-    if (shaft.last - shaft.first >= kLightsAShaft) {
-      std::array<const shared::Vpl*, 64> lights;
-      const size_t count = std::min(lights.size(), shaft.last - shaft.first);
-      for (size_t i = 0; i < count; ++i)
-        lights[i] = &db_.lights_[static_cast<size_t>(place.tasks[shaft.first + i].slot)];
-      shaft.shaft = LightShaft({lights.data(), count}, region);
-      db_.occluders_.collect(shaft.shaft, db_.movers_, shaft.candidates);
-    }
-  }
-  const bool isIn = shaft.candidates.isWhole && shaft.shaft.holds(place.index - shaft.first);
-  return isIn ? &shaft.candidates : nullptr;
-}
-
-// Table 4-1: where nothing that moved can be between, before or now, nothing is looked at. Whether
-// that, or what is known, tells the state.
-bool VisibilityDatabase::Update::settle(const Patch& patch, Task& task, uint8_t& others) const {
-  const auto is = [&](Occlusion state) {
-    task.state = state;
-    return true;
-  };
-  task.isSieved = false;
-  if (task.isFound) return true;
-  if (others == static_cast<uint8_t>(Occlusion::full)) return is(Occlusion::full);
-  const bool wasFound = task.work == Work::check && !task.isOfMover && !task.parentWasNone;
-  task.isSieved = wasFound && !task.column->mayFallOn(patch.centre, patch.radius);
-  if (task.isSieved) return is(task.was);
-  // What all hid, and the movers did not, the others hide.
-  if (wasFound && others == kUnknown && task.was == Occlusion::full && task.column->moversAreAll &&
-      task.column->moversHidNothing) {
-    others = static_cast<uint8_t>(Occlusion::full);
-    return is(Occlusion::full);
-  }
-  if (isDecided(others)) return is(static_cast<Occlusion>(others));
-  // Where nothing stood between, only the movers can.
-  if (others == kUnknown && wasFound && task.column->moversAreAll && task.was == Occlusion::none)
-    others = static_cast<uint8_t>(Occlusion::none);
-  return false;
-}
-
-// By a pyramid.
-Occlusion VisibilityDatabase::Update::check(const PatchRegion& region, const Task& task,
-                                            const Place& place, uint8_t& others, Hints& hints,
-                                            uint64_t& tests) const {
-  const OcclusionPyramid pyramid(db_.lights_[static_cast<size_t>(task.slot)], region);
-  if (others == kUnknown) {
-    if (!pyramid.isDark()) ++tests;
-    const Occluders::Candidates* candidates =
-        pyramid.isDark() || pyramid.isDegenerate() ? nullptr : candidatesOf(place, region);
-    others = static_cast<uint8_t>(
-        candidates != nullptr
-            ? db_.occluders_.occlusionAmong(scene_, pyramid, *candidates, db_.movers_, hints.met)
-            : db_.occluders_.occlusionWithout(scene_, pyramid, db_.movers_, hints.met));
-  }
-  const Occlusion state = isNone(others) ? Occlusion::none : static_cast<Occlusion>(others);
-  if (isDecided(others)) return state;
-  return std::max(state, db_.occluders_.occlusionBy(scene_, pyramid, db_.movers_, hints.metMover));
 }
 
 // Adds the tasks of a part of a divided patch after those of the patch, which are done. One that

@@ -94,24 +94,7 @@ class VisibilityDatabase::Update {
   struct Hints {
     Blocker met, metMover;
   };
-  // What may stand between the lights of a cluster and a patch, looked for when first wanted.
-  struct Shaft {
-    int cluster = -1;
-    size_t first = 0, last = 0;  // of its tasks
-    LightShaft shaft{{}, PatchRegion(Bounds())};
-    Occluders::Candidates candidates;
-  };
-  // A task among others at the same patch.
-  struct Place {
-    std::span<const Task> tasks;
-    size_t index;
-    Shaft& shaft;
-  };
-  const Occluders::Candidates* candidatesOf(const Place& place, const PatchRegion& region) const;
-  // Whether the entry is decided without a pyramid, and how.
-  bool settle(const Patch& patch, Task& task, uint8_t& others) const;
-  Occlusion check(const PatchRegion& region, const Task& task, const Place& place, uint8_t& others,
-                  Hints& hints, uint64_t& tests) const;
+  class Piece;  // some of the tasks at a patch (visibility_piece.h)
   // Whether no mover makes a difference where this is the state by all others.
   bool isDecided(uint8_t others) const {
     return others == static_cast<uint8_t>(Occlusion::full) ||

@@ -115,7 +115,7 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
     for (const size_t slot : slots) apices.emplace_back(lights_[slot]);
     std::vector<const PyramidApex*> pointers;
     for (const PyramidApex& a : apices) pointers.push_back(&a);
-    const PyramidBatch batch(pointers, region);
+    const PyramidBatch batch(LightLanes(pointers), region);
     std::array<Bounds, 13> each;
     for (size_t i = 0; i < each.size(); ++i) {
       const vec3 at = scene_.bounds.min + vec3(next(), next(), next()) * scene_.bounds.extent();
