@@ -140,14 +140,18 @@ class Occluders::Search {
       if (some == 0) continue;
       const std::array<vec3, 3> t = cornersOf(question.object, question.item);
       if (std::popcount(some) >= kWorthSieve) some &= ~pyramids_.surelyMiss(t, roundingOf(t));
-      forEachBit(some, [&](size_t i) {
-        if ((known_ >> i & 1) == 0) planes_[i] = pyramids_.planesOf(i);
-        known_ |= Mask{1} << i;
-        Mask one = Mask{1} << i;
+      while ((some &= open_) != 0) {
+        const auto i = static_cast<size_t>(std::countr_zero(some));
+        const Mask one = Mask{1} << i;
+        if ((known_ & one) == 0) planes_[i] = pyramids_.planesOf(i);
+        known_ |= one;
         vec3 at;
-        if (planes_[i].meet(t[0], t[1], t[2], &at))
-          take({static_cast<int>(question.object), question.item, true, at}, one, one);
-      });
+        Mask met = 0;
+        // Where one light meets it others do.
+        if (planes_[i].meet(t[0], t[1], t[2], &at)) met = one | (some & pyramids_.hold(at));
+        some &= ~one;
+        take({static_cast<int>(question.object), question.item, true, at}, met, some);
+      }
     }
     unsureCount_ = 0;
   }
