@@ -32,6 +32,10 @@ bool VisibilityDatabase::Update::Piece::run(std::span<Task> tasks) {
       if (openCount_ >= kTogether) findOthers();
     }
   }
+  if (unknownCount_ + openCount_ < kWorthTogether) {
+    for (size_t i = 0; i < unknownCount_; ++i) checkAlone(*unknown_[i], kUnknown);
+    unknownCount_ = 0;
+  }
   if (unknownCount_ > 0) findSides();
   while (openCount_ > 0) findOthers();
   if (tests_ > 0) update_.tests_ += tests_;

@@ -27,6 +27,7 @@ class VisibilityDatabase::Update::Piece {
 
  private:
   static constexpr size_t kTogether = LightLanes::kLights;
+  static constexpr size_t kWorthTogether = 3;  // fewer are quicker alone
 
   const shared::Vpl& lightOf(const Task& task) const {
     return db_.lights_[static_cast<size_t>(task.slot)];

@@ -15,8 +15,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Lights to be looked at that are one piece of work for a thread, at least: some times as many as
 // are looked at together.
-constexpr size_t kLightsAPiece = 32;
-constexpr size_t kLightsToShare = 96;  // fewer are not shared out
+constexpr size_t kLightsAPiece = 16;
+constexpr size_t kLightsToShare = 32;  // fewer are not shared out
 
 // Entries that are partial, of lights that are live (1, else 0).
 int countPartial(std::span<const uint8_t> states, std::span<const uint8_t> isLive) {
