@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "renderer/wide_rounding.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "renderer/wide_rounding.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
@@ -145,10 +145,9 @@ void MappableLights::find(const TilePlace& tile, std::span<uint64_t> bits) const
     const Floats bounded = hn::Max(distance2, load(least_));
     const auto isFar = hn::Ge(distance2, all(nearest * nearest));
     const auto isFaint = hn::Le(load(brightest_), hn::Mul(all(kBrightest), bounded));
-    uint8_t found[8];
-    hn::StoreMaskBits(kTag, hn::AndNot(isCrossed, hn::And(isFar, isFaint)), found);
+    const uint32_t found = bitsOf(hn::AndNot(isCrossed, hn::And(isFar, isFaint)));
     for (size_t k = i; k < std::min(i + kLanes, slots_.size()); ++k)
-      set(slots_[k], (found[0] >> (k - i) & 1) != 0);
+      set(slots_[k], (found >> (k - i) & 1) != 0);
   }
 }
 

@@ -1,16 +1,13 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include "renderer/sampling/point_visibility.h"
 
 #include <algorithm>
 #include <bit>
 
-#include <hwy/highway.h>
 #include <tbb/parallel_for.h>
 
 #include "renderer/sampling/random.h"
 #include "renderer/scene/light_linking.h"
+#include "renderer/wide.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
@@ -22,12 +19,6 @@ using Floats = hn::Vec<Tag>;
 constexpr Tag kTag;
 
 Floats all(float v) { return hn::Set(kTag, v); }
-
-uint32_t bits(hn::Mask<Tag> lanes) {
-  uint8_t out[8];
-  hn::StoreMaskBits(kTag, lanes, out);
-  return out[0];
-}
 
 struct Wide {
   Floats x, y, z;
@@ -122,7 +113,7 @@ void PointVisibility::outdate(Row& row, std::span<const Obstacle> obstacles) con
       const vec3 centre = o.box.centre();
       const Wide middle = wide(light - centre) - halfWay;
       const vec3 size = 0.5f * (o.box.max - o.box.min) + 2.0f * (rounding + o.rounding);
-      row.known[b] &= static_cast<uint8_t>(~bits(mayTouchBox(middle, halfWay, size)));
+      row.known[b] &= static_cast<uint8_t>(~bitsOf(mayTouchBox(middle, halfWay, size)));
     }
   }
 }
@@ -242,7 +233,7 @@ void PointVisibility::fill(Row& row, const RayCaster& rays, float* out) const {
     const Floats bare = hn::Mul(brightness, hn::Load(kTag, &row.geometry[first]));
     const size_t count = std::min(points_.size() - first, kLanes);
     const uint32_t lit =
-        bits(hn::Gt(bare, hn::Zero(kTag))) & ((1u << count) - 1) & ~leftOut(link, b);
+        bitsOf(hn::Gt(bare, hn::Zero(kTag))) & ((1u << count) - 1) & ~leftOut(link, b);
     for (uint32_t rest = lit & ~uint32_t{row.known[b]}; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(rest));
       const uint32_t bit = 1u << lane;

@@ -5,6 +5,7 @@
 
 #include "renderer/visibility/light_lanes.h"
 #include "renderer/visibility/pyramid_sides.h"
+#include "renderer/wide.h"
 
 namespace lamplighter::lanes {
 
@@ -27,12 +28,6 @@ HWY_INLINE Vec3 sub(const Vec3& a, const Vec3& b) {
 }
 HWY_INLINE Vec dot(const Vec3& a, const Vec3& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
-HWY_INLINE LightLanes::Mask bitsOf(hn::Mask<Tag> mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(kTag, mask, bits);
-  return bits[0];
 }
 
 }  // namespace lamplighter::lanes

@@ -95,11 +95,7 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
     }
     if constexpr (kUse == LightUse::addShadowed) reached = hn::AndNot(occluded, reached);
     if constexpr (kUse == LightUse::takeShadow) reached = hn::And(occluded, reached);
-    if constexpr (kLooksUp) {
-      uint8_t lanes[8];
-      hn::StoreMaskBits(kTag, reached, lanes);
-      lit[k] = lanes[0];
-    }
+    if constexpr (kLooksUp) lit[k] = static_cast<uint8_t>(bitsOf(reached));
     if constexpr (kSums) {
       const Floats weight = hn::IfThenElseZero(reached, weightOf<kKind>(light, c, v, z, s));
       addTo(packet.sum, hn::Min(weight, light.mostWeight), light.units);

@@ -1,6 +1,3 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include "renderer/backends/cpu/shadow_raster.h"
 
 #include <algorithm>
@@ -9,9 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include <hwy/highway.h>
-
 #include "renderer/backends/cpu/shadow_maps.h"
+#include "renderer/wide.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -45,12 +41,6 @@ Floats loadBlock(const float* map, size_t resolution) {
 void storeBlock(Floats v, float* map, size_t resolution) {
   hn::StoreU(hn::LowerHalf(kHalfTag, v), kHalfTag, map);
   hn::StoreU(hn::UpperHalf(kHalfTag, v), kHalfTag, map + resolution);
-}
-
-uint32_t bits(hn::Mask<Tag> lanes) {
-  uint8_t out[8];
-  hn::StoreMaskBits(kTag, lanes, out);
-  return out[0];
 }
 
 // What is linear in a ray's direction.
@@ -218,7 +208,7 @@ bool ShadowRaster::markForRays(const LightSpace& light, Band& band) const {
                                      hn::Mul(load(d.sine, first + i), all(sine)));
         meets = hn::Ge(cosines, least);
       }
-      for (uint32_t rest = bits(meets); rest != 0; rest &= rest - 1)
+      for (uint32_t rest = bitsOf(meets); rest != 0; rest &= rest - 1)
         marks[i + static_cast<size_t>(std::countr_zero(rest))] = 1;
     }
   }
@@ -266,10 +256,10 @@ void ShadowRaster::draw(const ShadowTriangles::Batch& batch, size_t lane, const 
           hn::And(hn::Ge(hn::Add(a.most, slackA), zero), hn::Ge(hn::Add(b.most, slackB), zero)),
           hn::And(hn::Ge(hn::Add(c.most, slackC), zero),
                   hn::Gt(hn::Add(stored.most, slackStored), hn::Load(kTag, least))));
-      const uint32_t met = bits(isMet) & lanes;
+      const uint32_t met = bitsOf(isMet) & lanes;
       if (met == 0) continue;
-      const uint32_t whole = bits(hn::And(hn::And(hn::Gt(a.least, slackA), hn::Gt(b.least, slackB)),
-                                          hn::Gt(c.least, slackC)));
+      const uint32_t whole = bitsOf(hn::And(
+          hn::And(hn::Gt(a.least, slackA), hn::Gt(b.least, slackB)), hn::Gt(c.least, slackC)));
       for (uint32_t rest = met; rest != 0; rest &= rest - 1) {
         const int tx = std::countr_zero(rest);
         const auto draw = (whole >> tx & 1) != 0 ? drawTile<true> : drawTile<false>;

@@ -1,14 +1,10 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include "renderer/backends/cpu/shadow_triangles.h"
 
 #include <algorithm>
 #include <limits>
 
-#include <hwy/highway.h>
-
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/wide.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -75,9 +71,7 @@ void see(const LightSpace& light, const std::array<Wide, 3>& corner, ShadowTrian
                         hn::Ne(det, hn::Zero(kTag)));
   if (!light.isParallel)
     isSeen = hn::And(isSeen, hn::Gt(hn::Max(a.z, hn::Max(b.z, c.z)), hn::Zero(kTag)));
-  uint8_t bits[8];
-  hn::StoreMaskBits(kTag, isSeen, bits);
-  out.lanes = bits[0];
+  out.lanes = bitsOf(isSeen);
   if (out.lanes == 0) return;
   // Of parallel light: a.z − ((u − a.x) n.x + (v − a.y) n.y) / n.z.
   const Wide slope = normal * inverse;

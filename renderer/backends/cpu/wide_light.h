@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "renderer/backends/cpu/light_kernel.h"
-#include "renderer/wide_rounding.h"
+#include "renderer/wide.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::cpu {
