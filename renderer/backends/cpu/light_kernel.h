@@ -71,7 +71,7 @@ enum class Sign : uint8_t { add, takeAway };
 using LitOfList = std::array<uint8_t, PacketBlock::kMost>;
 
 // Adds what the light gives these pixels by `use` (not skip) to the block's sums, or takes it away
-// again. Where it looks its shadow map up it tells what `lit` was then.
+// again. Where it looks its shadow map up, `lit` tells afterwards what addLit() takes.
 void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
               const LightRecord& light, const SumConstants& constants, LitOfList& lit);
 
