@@ -1,4 +1,4 @@
-// Eight floats at a time, for whichever kernel needs it.
+// Eight floats, or as many bytes as these are, at a time, for whichever kernel needs it.
 #pragma once
 
 // x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
@@ -7,6 +7,7 @@
 #endif
 
 #include <cstdint>
+#include <cstring>
 
 #include <hwy/highway.h>
 
@@ -20,6 +21,14 @@ HWY_INLINE uint32_t bitsOf(hwy::HWY_NAMESPACE::Mask<hwy::HWY_NAMESPACE::FixedTag
   uint8_t bits[8];
   hwy::HWY_NAMESPACE::StoreMaskBits(hwy::HWY_NAMESPACE::FixedTag<float, 8>(), lanes, bits);
   return bits[0];
+}
+HWY_INLINE uint32_t
+bitsOf(hwy::HWY_NAMESPACE::Mask<hwy::HWY_NAMESPACE::FixedTag<uint8_t, 32>> lanes) {
+  uint32_t bits = 0;
+  uint8_t bytes[8];
+  hwy::HWY_NAMESPACE::StoreMaskBits(hwy::HWY_NAMESPACE::FixedTag<uint8_t, 32>(), lanes, bytes);
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
 }
 
 // To the nearest, ties to even. This and the next are for what is in range: Highway's own also put

@@ -239,19 +239,6 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   lights_.assign(given.begin(), given.end());
 }
 
-LightMaps::Sampler::Sampler(const LightMaps& maps, const ObjectPatches& patches, uint32_t object,
-                            int leaf)
-    : chart_(
-          patches.charts[static_cast<size_t>(patches.patches[static_cast<size_t>(leaf)].chart)]) {
-  const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
-  const LightMapTile& tile = *maps.tile(object, leaf);
-  min_ = patch.min;
-  size_ = patch.max - patch.min;
-  last_ = vec2(static_cast<float>(tile.columns - 1), static_cast<float>(tile.rows - 1));
-  columns_ = tile.columns;
-  texels_ = &maps.objects_[object].irradiance[tile.first];
-}
-
 size_t LightMaps::texels() const {
   size_t n = 0;
   for (const Object& o : objects_) n += o.irradiance.size();

@@ -76,6 +76,12 @@ class LightMaps {
       return vec3(glm::mix(top, bottom, w.y));
     }
 
+    // The same of eight points, by coordinate; e: rgb. What is not a point of the tile's chart may
+    // be among them.
+    static constexpr size_t kPoints = 8;
+    void irradiance(const float* x, const float* y, const float* z,
+                    std::span<vec4, kPoints> e) const;
+
    private:
     const Chart& chart_;
     vec2 min_, size_, last_;  // of the patch; the last column and row

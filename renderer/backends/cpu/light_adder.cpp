@@ -8,8 +8,9 @@
 namespace lamplighter::cpu {
 namespace {
 
-// Whose uses fit a key, in two bits each.
+// Whose uses fit a number, in two bits each; and what stands for those of more.
 constexpr size_t kMostRows = 31;
+constexpr uint64_t kManyRows = 0;
 
 }  // namespace
 
@@ -21,7 +22,7 @@ void LightAdder::addPackets(int tile, uint32_t packets, const TilePlaces& places
   listedUses_ = 0;
   pixels_ += static_cast<uint64_t>(gbuffer_.pixelsOf(tile, packets));
   packets &= places.hit();
-  const size_t base = block_.count(), firstPart = parts_.size();
+  const size_t base = block_.count();
   for (uint32_t rest = packets; rest != 0; rest &= rest - 1) {
     const int packet = std::countr_zero(rest);
     block_.add(gbuffer_,
@@ -31,28 +32,18 @@ void LightAdder::addPackets(int tile, uint32_t packets, const TilePlaces& places
   places.forEachPart(packets, [&](int packet, uint8_t lanes, uint32_t row) {
     const size_t before = static_cast<size_t>(std::popcount(packets & ((1u << packet) - 1)));
     const size_t of = static_cast<size_t>(std::ranges::find(rows_, row) - rows_.begin());
-    if (of == rows_.size()) rows_.push_back(row);
-    parts_.push_back({static_cast<uint8_t>(base + before), lanes, static_cast<uint16_t>(of)});
+    if (of == rows_.size()) {
+      rows_.push_back(row);
+      inRows_.emplace_back();
+    }
+    inRows_[of].of[base + before] |= lanes;
   });
-  // The parts of a packet side by side, so that they come together again where they are used alike.
-  std::stable_sort(parts_.begin() + static_cast<ptrdiff_t>(firstPart), parts_.end(),
-                   [](const Part& a, const Part& b) { return a.packet < b.packet; });
   uses_.resize(rows_.size());
 }
 
 void LightAdder::add(const LightRecord& light, Sign sign, TilePlaces::When when) {
-  counts_.lightPixels += pixels_;
-  if (table_ != nullptr && light.slot >= 0) {
-    if (!listAs(findUses(light.slot, when))) return;
-    for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
-      sum(lists_[static_cast<size_t>(use)], use, sign, light);
-    return;
-  }
-  listedUses_ = 0;
-  lists_[0].clear();
-  for (const Part& part : parts_) lists_[0].add(part.packet, part.lanes);
-  if (light.link != 0 && !leftOutBy_.empty()) leaveOut(light.link);
-  sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
+  const bool isListed = table_ != nullptr && light.slot >= 0;
+  addAs(isListed ? findUses(light.slot, when) : kManyRows, light, sign, when);
 }
 
 void LightAdder::addAll(std::span<const LightRecord* const> lights, Sign sign,
@@ -60,49 +51,65 @@ void LightAdder::addAll(std::span<const LightRecord* const> lights, Sign sign,
   order_.clear();
   for (const LightRecord* light : lights) {
     const bool isListed = table_ != nullptr && light->slot >= 0;
-    order_.emplace_back(isListed ? findUses(light->slot, when) : 0, light);
+    order_.emplace_back(isListed ? findUses(light->slot, when) : kManyRows, light);
   }
   std::stable_sort(order_.begin(), order_.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [uses, light] : order_) add(*light, sign, when);
+  for (const auto& [uses, light] : order_) addAs(uses, *light, sign, when);
 }
 
-// Takes lanes out of the first list that show what gets no light of the link.
-void LightAdder::leaveOut(uint32_t link) {
-  const PacketList all = lists_[0];
-  lists_[0].clear();
-  for (size_t k = 0; k < all.count(); ++k) {
-    uint8_t lanes = *all.lanes(k);
-    const size_t first = block_.first(all.packet(k));
+// uses: findUses(), of a light in the table.
+void LightAdder::addAs(uint64_t uses, const LightRecord& light, Sign sign, TilePlaces::When when) {
+  counts_.lightPixels += pixels_;
+  if (table_ != nullptr && light.slot >= 0) {
+    if (uses == kManyRows) findUses(light.slot, when);
+    if (!listAs(uses)) return;
+    for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
+      sum(lists_[static_cast<size_t>(use)], use, sign, light);
+    return;
+  }
+  listedUses_ = kManyRows;
+  PacketLanes lanes;
+  for (const PacketLanes& row : inRows_) lanes.add(row);
+  if (light.link != 0 && !leftOutBy_.empty()) leaveOut(light.link, lanes);
+  lists_[0].take(lanes);
+  sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
+}
+
+// Takes out what shows something that gets no light of the link.
+void LightAdder::leaveOut(uint32_t link, PacketLanes& lanes) const {
+  for (size_t k = 0; k < block_.count(); ++k) {
+    const size_t first = block_.first(k);
     for (size_t i = first; i < first + kLanes; ++i)
       if (gbuffer_.hit[i] != 0 && isLeftOut(leftOutBy_[gbuffer_.object[i]], link))
-        lanes &= static_cast<uint8_t>(~(1u << (i - first)));
-    if (lanes != 0) lists_[0].add(all.packet(k), lanes);
+        lanes.of[k] &= static_cast<uint8_t>(~(1u << (i - first)));
   }
 }
 
-// How the light is used in each of the rows. The same in two bits for each, and a bit that is
-// always set; 0 where these are too many.
+// How the light is used in each of the rows: into uses_, and in two bits for each, after one that
+// is always set.
 uint64_t LightAdder::findUses(int slot, TilePlaces::When when) {
-  uint64_t key = 1;
+  uint64_t uses = 1;
   for (size_t i = 0; i < rows_.size(); ++i) {
     const uint32_t row = rows_[i];
     const LightUse* of = when == TilePlaces::When::now ? table_->now(row) : table_->before(row);
     uses_[i] = of[slot];
-    key = key << 2 | static_cast<uint64_t>(of[slot]);
+    uses = uses << 2 | static_cast<uint64_t>(of[slot]);
   }
-  return rows_.size() > kMostRows ? 0 : key;
+  return rows_.size() > kMostRows ? kManyRows : uses;
 }
 
-// Lights that are used alike have the same lists. Returns whether there is anything in them.
-bool LightAdder::listAs(uint64_t key) {
+// Lights that are used alike have the same lists. Of kManyRows, those of uses_. Returns whether
+// there is anything in them.
+bool LightAdder::listAs(uint64_t uses) {
   static_assert(static_cast<int>(LightUse::skip) == 0);
-  if (key != 0 && (key & (key - 1)) == 0) return false;
-  if (key != 0 && key == listedUses_) return true;
-  listedUses_ = key;
-  for (PacketList& list : lists_) list.clear();
-  for (const Part& part : parts_)
-    lists_[static_cast<size_t>(uses_[part.row])].add(part.packet, part.lanes);
+  if (uses != kManyRows && std::has_single_bit(uses)) return false;
+  if (uses != kManyRows && uses == listedUses_) return true;
+  listedUses_ = uses;
+  std::array<PacketLanes, 4> lanes;
+  for (size_t i = rows_.size(); i-- > 0; uses >>= 2)
+    lanes[listedUses_ == kManyRows ? static_cast<size_t>(uses_[i]) : uses & 3].add(inRows_[i]);
+  for (size_t use = 1; use < lanes.size(); ++use) lists_[use].take(lanes[use]);
   return true;
 }
 

@@ -41,19 +41,15 @@ class LightAdder {
   void finish(FixedSums& sums) const { block_.addTo(sums); }
 
  private:
-  // Lanes of a packet of the block that lie in one place.
-  struct Part {
-    uint8_t packet, lanes;
-    uint16_t row;  // into rows_
-  };
   struct Lit {
     uint8_t* ofSlot0;
     size_t stride;
   };
 
-  void leaveOut(uint32_t link);
+  void addAs(uint64_t uses, const LightRecord& light, Sign sign, TilePlaces::When when);
+  void leaveOut(uint32_t link, PacketLanes& lanes) const;
   uint64_t findUses(int slot, TilePlaces::When when);
-  bool listAs(uint64_t key);
+  bool listAs(uint64_t uses);
   void sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light);
 
   const GBuffer& gbuffer_;
@@ -63,12 +59,12 @@ class LightAdder {
   SumCounts& counts_;
   PacketBlock block_;
   std::vector<Lit> lit_;  // by packet of the block; or none, where it is not noted
-  std::vector<Part> parts_;
   uint64_t pixels_ = 0;
-  std::vector<uint32_t> rows_;  // of the table, in these tiles
-  std::vector<LightUse> uses_;  // by rows_, of the light that was asked for last
-  uint64_t listedUses_ = 0;     // that lists_ are for; 0: none
-  PacketList lists_[4];         // by LightUse
+  std::vector<uint32_t> rows_;       // of the table, in these tiles
+  std::vector<PacketLanes> inRows_;  // what lies in each of them
+  std::vector<LightUse> uses_;       // by rows_, of the light that was asked for last
+  uint64_t listedUses_ = 0;          // that lists_ are for; 0: none
+  PacketList lists_[4];              // by LightUse
   std::vector<std::pair<uint64_t, const LightRecord*>> order_;
 };
 

@@ -1,11 +1,16 @@
 #include "renderer/backends/cpu/light_kernel.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "renderer/backends/cpu/wide_light.h"
 
 namespace lamplighter::cpu {
 namespace {
+
+constexpr size_t kBytes = 32;
+constexpr hn::FixedTag<uint8_t, kBytes> kByteTag;
+static_assert(PacketBlock::kMost % kBytes == 0);
 
 HWY_INLINE Vector3 load(const float (&from)[3][kLanes]) {
   return {hn::Load(kTag, from[0]), hn::Load(kTag, from[1]), hn::Load(kTag, from[2])};
@@ -170,6 +175,23 @@ void byKind(LightRecord::Kind kind, F&& f) {
 }
 
 }  // namespace
+
+void PacketLanes::add(const PacketLanes& more) {
+  for (size_t i = 0; i < of.size(); i += kBytes) {
+    const auto both = hn::Or(hn::Load(kByteTag, &of[i]), hn::Load(kByteTag, &more.of[i]));
+    hn::Store(both, kByteTag, &of[i]);
+  }
+}
+
+void PacketList::take(const PacketLanes& lanes) {
+  lanes_ = lanes;
+  count_ = 0;
+  for (size_t i = 0; i < lanes.of.size(); i += kBytes) {
+    const auto some = hn::Ne(hn::Load(kByteTag, &lanes.of[i]), hn::Zero(kByteTag));
+    for (uint32_t rest = bitsOf(some); rest != 0; rest &= rest - 1)
+      packet_[count_++] = static_cast<uint8_t>(i + static_cast<size_t>(std::countr_zero(rest)));
+  }
+}
 
 LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
   LightRecord light;

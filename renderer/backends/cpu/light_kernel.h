@@ -41,27 +41,24 @@ struct SumConstants {
   bool operator==(const SumConstants&) const = default;
 };
 
-// Packets of a block, and which of their lanes are meant.
+// Which lanes of the packets of a block are meant, a byte each.
+struct alignas(32) PacketLanes {
+  std::array<uint8_t, PacketBlock::kMost> of{};
+  void add(const PacketLanes& more);
+};
+
+// Those of these packets of which any lane is meant, in order.
 class PacketList {
  public:
-  void clear() { count_ = 0; }
-  // More lanes of the packet that was added last, or another one.
-  void add(size_t packet, uint8_t lanes) {
-    if (count_ > 0 && packet_[count_ - 1] == packet) {
-      lanes_[count_ - 1] |= lanes;
-      return;
-    }
-    packet_[count_] = static_cast<uint8_t>(packet);
-    lanes_[count_++] = lanes;
-  }
+  void take(const PacketLanes& lanes);
   size_t count() const { return count_; }
   size_t packet(size_t k) const { return packet_[k]; }
-  const uint8_t* lanes(size_t k) const { return &lanes_[k]; }
+  const uint8_t* lanes(size_t k) const { return &lanes_.of[packet_[k]]; }
 
  private:
   static_assert(PacketBlock::kMost <= 256);
-  uint8_t packet_[PacketBlock::kMost];
-  uint8_t lanes_[PacketBlock::kMost];
+  PacketLanes lanes_;
+  std::array<uint8_t, PacketBlock::kMost> packet_;
   size_t count_ = 0;
 };
 

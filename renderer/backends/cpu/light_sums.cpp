@@ -1,6 +1,7 @@
 #include "renderer/backends/cpu/light_sums.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <utility>
@@ -9,9 +10,12 @@
 
 #include "renderer/backends/cpu/sum_unit.h"
 #include "renderer/light_maps/hard_lights.h"
+#include "renderer/wide.h"
 
 namespace lamplighter::cpu {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
 
 // Of shadow maps, in the second-level cache beside the tiles.
 constexpr size_t kMapBytesAtOnce = size_t{512} << 10;
@@ -23,7 +27,7 @@ constexpr size_t kLitStep = 64;
 // Tiles that are summed together, so that each shadow map is fetched from memory once for all.
 constexpr int kTilesPerTask = 16;
 // The same where few of their packets are wanted.
-constexpr int kSparseTilesPerTask = 64;
+constexpr int kSparseTilesPerTask = 32;
 
 std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
   std::vector<const LightRecord*> slots;
@@ -33,6 +37,14 @@ std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
     slots[static_cast<size_t>(light.slot)] = &light;
   }
   return slots;
+}
+
+// Eight sums in units to irradiance.
+void scalePacket(const int32_t* units, float unit, float* to) {
+  const hn::FixedTag<float, kLanes> tag;
+  const hn::FixedTag<int32_t, kLanes> intTag;
+  const auto values = hn::ConvertTo(tag, hn::LoadU(intTag, units));
+  hn::StoreU(hn::Mul(hn::Set(tag, unit), values), tag, to);
 }
 
 template <typename Source>
@@ -320,34 +332,33 @@ void LightSums::finishTile(const Frame& frame, int tile) {
   const Tile& t = tiles_[static_cast<size_t>(tile)];
   for (uint32_t packets = t.wanted; packets != 0; packets &= packets - 1) {
     const size_t packet = first + static_cast<size_t>(std::countr_zero(packets)) * kLanes;
-    for (size_t i = packet; i < packet + kLanes; ++i) {
-      red_[i] = unit * static_cast<float>(sums_.r[i]);
-      green_[i] = unit * static_cast<float>(sums_.g[i]);
-      blue_[i] = unit * static_cast<float>(sums_.b[i]);
-    }
+    scalePacket(&sums_.r[packet], unit, &red_[packet]);
+    scalePacket(&sums_.g[packet], unit, &green_[packet]);
+    scalePacket(&sums_.b[packet], unit, &blue_[packet]);
   }
   if (!hasMaps_ && !hasTransfer_) return;
-  const auto add = [&](size_t packet, uint8_t lanes, auto&& irradianceAt) {
-    for (size_t lane = 0; lane < kLanes; ++lane) {
-      if ((lanes >> lane & 1) == 0) continue;
-      const size_t i = packet + lane;
-      const vec3 e = irradianceAt(i, vec3(g.px[i], g.py[i], g.pz[i]));
-      // The map is interpolated and what is taken away is not: no less than no light is left.
-      red_[i] = std::max(red_[i] + e.r, 0.0f);
-      green_[i] = std::max(green_[i] + e.g, 0.0f);
-      blue_[i] = std::max(blue_[i] + e.b, 0.0f);
-    }
-  };
   t.places.forEachMapped(t.wanted, [&](size_t packet, uint8_t lanes, const Place& place) {
     const PatchLights& lights = *frame.patches;
+    std::array<vec4, kLanes> e;
     if (lights.hasTransfer(place.object, place.leaf)) {
-      add(packet, lanes, [&](size_t i, const vec3& position) {
-        return lights.prt()->irradiance(place.object, g.triangle[i], position);
-      });
+      for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+        const auto lane = static_cast<size_t>(std::countr_zero(rest));
+        const size_t i = packet + lane;
+        e[lane] = vec4(
+            lights.prt()->irradiance(place.object, g.triangle[i], vec3(g.px[i], g.py[i], g.pz[i])),
+            0.0f);
+      }
     } else {
-      const LightMaps::Sampler map(*lights.maps(), lights.patches(place.object), place.object,
-                                   place.leaf);
-      add(packet, lanes, [&](size_t, const vec3& position) { return map.irradiance(position); });
+      LightMaps::Sampler(*lights.maps(), lights.patches(place.object), place.object, place.leaf)
+          .irradiance(&g.px[packet], &g.py[packet], &g.pz[packet], e);
+    }
+    for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+      const auto lane = static_cast<size_t>(std::countr_zero(rest));
+      const size_t i = packet + lane;
+      // The map is interpolated and what is taken away is not: no less than no light is left.
+      red_[i] = std::max(red_[i] + e[lane].r, 0.0f);
+      green_[i] = std::max(green_[i] + e[lane].g, 0.0f);
+      blue_[i] = std::max(blue_[i] + e[lane].b, 0.0f);
     }
   });
 }

@@ -1,0 +1,76 @@
+#include "renderer/light_maps/light_maps.h"
+#include "renderer/wide.h"
+
+namespace lamplighter {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr hn::FixedTag<float, LightMaps::Sampler::kPoints> kTag;
+constexpr hn::FixedTag<float, 4> kTexelTag;
+using Floats = hn::Vec<decltype(kTag)>;
+
+HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+
+// In the order in which glm adds it up.
+HWY_INLINE Floats dot(Floats x, Floats y, Floats z, const vec3& v) {
+  return hn::Add(hn::Add(hn::Mul(x, all(v.x)), hn::Mul(y, all(v.y))), hn::Mul(z, all(v.z)));
+}
+
+// glm::mix().
+template <typename V>
+HWY_INLINE V mix(V a, V b, V share) {
+  const auto one = hn::Set(hn::DFromV<V>(), 1.0f);
+  return hn::Add(hn::Mul(a, hn::Sub(one, share)), hn::Mul(b, share));
+}
+
+// On one axis of a tile: columns, or rows.
+struct Along {
+  Floats low, share;  // the texel before the point, and how far it is to the next
+  Along(Floats p, float min, float size, float last) {
+    const Floats part = hn::Div(hn::Sub(p, all(min)), all(size));
+    const Floats at = hn::Mul(hn::Min(hn::Max(part, hn::Zero(kTag)), all(1.0f)), all(last));
+    low = hn::Min(hn::Floor(at), all(last - 1.0f));
+    share = hn::Sub(at, low);
+  }
+};
+
+}  // namespace
+
+LightMaps::Sampler::Sampler(const LightMaps& maps, const ObjectPatches& patches, uint32_t object,
+                            int leaf)
+    : chart_(
+          patches.charts[static_cast<size_t>(patches.patches[static_cast<size_t>(leaf)].chart)]) {
+  const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
+  const LightMapTile& tile = *maps.tile(object, leaf);
+  min_ = patch.min;
+  size_ = patch.max - patch.min;
+  last_ = vec2(static_cast<float>(tile.columns - 1), static_cast<float>(tile.rows - 1));
+  columns_ = tile.columns;
+  texels_ = &maps.objects_[object].irradiance[tile.first];
+}
+
+void LightMaps::Sampler::irradiance(const float* x, const float* y, const float* z,
+                                    std::span<vec4, kPoints> e) const {
+  const Floats px = hn::Sub(hn::LoadU(kTag, x), all(chart_.origin.x)),
+               py = hn::Sub(hn::LoadU(kTag, y), all(chart_.origin.y)),
+               pz = hn::Sub(hn::LoadU(kTag, z), all(chart_.origin.z));
+  const Along column(dot(px, py, pz, chart_.tangent), min_.x, size_.x, last_.x),
+      row(dot(px, py, pz, chart_.bitangent), min_.y, size_.y, last_.y);
+  const Floats first = hn::MulAdd(row.low, all(static_cast<float>(columns_)), column.low);
+  alignas(32) int32_t texels[kPoints];
+  alignas(32) float across[kPoints], down[kPoints];
+  hn::Store(truncateToInts(first), hn::FixedTag<int32_t, kPoints>(), texels);
+  hn::Store(column.share, kTag, across);
+  hn::Store(row.share, kTag, down);
+  for (size_t i = 0; i < kPoints; ++i) {
+    const auto load = [&](ptrdiff_t after) {
+      return hn::LoadU(kTexelTag, &texels_[texels[i] + after].x);
+    };
+    const auto u = hn::Set(kTexelTag, across[i]), v = hn::Set(kTexelTag, down[i]);
+    const auto top = mix(load(0), load(1), u);
+    const auto bottom = mix(load(columns_), load(columns_ + 1), u);
+    hn::StoreU(mix(top, bottom, v), kTexelTag, &e[i].x);
+  }
+}
+
+}  // namespace lamplighter
