@@ -1,194 +1,221 @@
 #include "renderer/light_maps/accumulate.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <utility>
 #include <vector>
 
-#include "renderer/wide.h"
+#include "renderer/light_maps/texel_sums.h"
 
 namespace lamplighter {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-constexpr size_t kLanes = 8;
-using Tag = hn::FixedTag<float, kLanes>;
-using IntTag = hn::FixedTag<int32_t, kLanes>;
-using HalfInts = hn::Half<IntTag>;
-using DoubleTag = hn::FixedTag<double, kLanes / 2>;
-using Floats = hn::Vec<Tag>;
-constexpr Tag kTag;
-constexpr DoubleTag kDoubleTag;
-
-using Doubles = hn::Vec<DoubleTag>;
-using Ints = hn::Vec<IntTag>;
+using namespace texels;
 
 // What several lights together may give to be summed in 32 bits [W/m²]: 2³⁰ units, of 2³¹.
 constexpr float kMostInInts = 16.0f;
 constexpr auto kUnitsPerIrradiance = static_cast<float>(1.0 / kIrradianceUnit);
 
-HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+// Where eight texels are, as TexelPlaces.
+struct Packet {
+  Floats u, w;
+};
 
-HWY_INLINE Floats dot(Floats x, Floats y, Floats z, const vec3& v) {
-  return hn::MulAdd(x, all(v.x), hn::MulAdd(y, all(v.y), hn::Mul(z, all(v.z))));
-}
-
-// The sums of one channel of eight texels.
-class Sums {
+// Lights that shine from points by the cosine, which nearly all do, over the plane of a tile: in
+// coordinates of that, most of what they give a texel is the same for all. Structure of arrays.
+class PlaneLights {
  public:
-  HWY_INLINE explicit Sums(const double* from)
-      : low_(hn::LoadU(kDoubleTag, from)), high_(hn::LoadU(kDoubleTag, from + kLanes / 2)) {}
-  HWY_INLINE void store(double* to) const {
-    hn::StoreU(low_, kDoubleTag, to);
-    hn::StoreU(high_, kDoubleTag, to + kLanes / 2);
-  }
-  HWY_INLINE void addRounded(Floats values) {
-    const hn::Half<Tag> half;
-    low_ = hn::Add(low_, rounded(hn::PromoteTo(kDoubleTag, hn::LowerHalf(half, values))));
-    high_ = hn::Add(high_, rounded(hn::PromoteTo(kDoubleTag, hn::UpperHalf(half, values))));
-  }
-  HWY_INLINE void addUnits(Ints units) {
-    const HalfInts half;
-    const Doubles unit = hn::Set(kDoubleTag, kIrradianceUnit);
-    low_ = hn::MulAdd(hn::PromoteTo(kDoubleTag, hn::LowerHalf(half, units)), unit, low_);
-    high_ = hn::MulAdd(hn::PromoteTo(kDoubleTag, hn::UpperHalf(half, units)), unit, high_);
-  }
+  PlaneLights(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+              float clampDistance);
+
+  // To several packets at once, which share what is read of a light.
+  template <size_t kPackets>
+  void add(const Packet* at, PacketSums* sums) const;
 
  private:
-  // A double beside this one is a multiple of kIrradianceUnit, so the sum with it is rounded to
-  // one, ties to even, and the difference is exact.
-  static HWY_INLINE Doubles rounded(Doubles values) {
-    const Doubles large = hn::Set(kDoubleTag, 0x1.8p52 * kIrradianceUnit);
-    return hn::Sub(hn::Add(values, large), large);
-  }
+  // Lights that are summed one after the other.
+  struct Run {
+    size_t first, last;  // in order_
+  };
+  enum Value : size_t {
+    kU,  // of its foot on the plane [m]
+    kW,
+    kHeight2,  // its height over the plane, squared [m²]
+    // How high texels are over the light's own plane, by how far they are from its foot.
+    kAxisU,
+    kAxisW,
+    kAxisHeight,
+    kRed,  // intensity times its height over the plane, in units where it is faint
+    kGreen,
+    kBlue,
+    kMost,  // no less than it can give a texel [W/m²]
+    kValues
+  };
 
-  Doubles low_, high_;
+  void setEight(std::span<const TexelLight* const> lights, size_t first, const TexelPlaces& places);
+  void divide(size_t count);
+  HWY_INLINE Floats weigh(const float* light, const Packet& at) const;
+
+  float clamp2_;
+  std::vector<float> values_;    // eight lights one after the other, of these value after value
+  std::vector<uint32_t> order_;  // where the first value of a light is
+  // Faint ones, in runs of which none gives too much for 32 bits; and all others.
+  std::vector<Run> faint_;
+  Run bright_;
 };
 
-// The light's irradiance at eight places relative to it [m⁻² × its intensity]. Whether there is
-// any.
-HWY_INLINE bool weigh(const TexelLight& light, const vec3& normal, Floats x, Floats y, Floats z,
-                      Floats clamp2, Floats& weight) {
-  const Floats zero = hn::Zero(kTag);
-  if (light.kind == shared::kVplDirectional) {
-    const Floats side = all(light.side), least = all(-light.side);
-    const Floats qx = dot(x, y, z, light.tangent), qy = dot(x, y, z, light.bitangent);
-    const auto within = hn::And(hn::And(hn::Ge(qx, least), hn::Lt(qx, side)),
-                                hn::And(hn::Ge(qy, least), hn::Lt(qy, side)));
-    weight = hn::IfThenElseZero(within, all(std::max(glm::dot(normal, light.axis), 0.0f)));
-    return true;
-  }
-  const Floats height = dot(x, y, z, light.axis), s = dot(x, y, z, -normal);
-  const auto lit = hn::And(hn::Gt(height, zero), hn::Gt(s, zero));
-  if (hn::AllFalse(kTag, lit)) return false;
-  const Floats d2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-  if (light.kind == shared::kVplCosine) {
-    weight = hn::IfThenElseZero(lit, hn::Div(hn::Mul(s, height), hn::Mul(d2, hn::Max(d2, clamp2))));
-    return true;
-  }
-  const Floats d = hn::Sqrt(d2);
-  const Floats ramp = hn::MulAdd(hn::Div(height, d), all(light.coneScale), all(light.side));
-  const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
-  weight = hn::IfThenElseZero(lit, hn::Mul(hn::Mul(cone, cone), hn::Div(s, hn::Mul(d2, d))));
-  return true;
+PlaneLights::PlaneLights(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+                         float clampDistance)
+    : clamp2_(clampDistance * clampDistance),
+      values_((lights.size() + kLanes - 1) / kLanes * kLanes * kValues) {
+  for (size_t i = 0; i < lights.size(); i += kLanes) setEight(lights, i, places);
+  divide(lights.size());
 }
 
-// A sphere about all texels.
-struct Sphere {
-  vec3 centre;
-  float radius;
-
-  explicit Sphere(const TexelPlaces& places) {
-    vec3 least(std::numeric_limits<float>::infinity()), most(-least);
-    for (size_t i = 0; i < places.x.size(); ++i) {
-      const vec3 p(places.x[i], places.y[i], places.z[i]);
-      least = glm::min(least, p);
-      most = glm::max(most, p);
+void PlaneLights::setEight(std::span<const TexelLight* const> lights, size_t first,
+                           const TexelPlaces& places) {
+  enum From : size_t { kPosition, kAxis = 3, kIntensity = 6, kFrom = 9 };
+  alignas(32) float from[kFrom][kLanes];
+  for (size_t lane = 0; lane < kLanes; ++lane) {
+    const TexelLight& light = *lights[std::min(first + lane, lights.size() - 1)];
+    for (int c = 0; c < 3; ++c) {
+      const auto i = static_cast<size_t>(c);
+      from[kPosition + i][lane] = light.position[c] - places.origin[c];
+      from[kAxis + i][lane] = light.axis[c];
+      from[kIntensity + i][lane] = light.intensity[c];
     }
-    centre = 0.5f * (least + most);
-    radius = 0.5f * glm::distance(least, most);
   }
-};
-
-// No less than it can give a texel [W/m²].
-float mostOf(const TexelLight& light, const Sphere& texels, float clampDistance) {
-  const vec3 channels = glm::abs(light.intensity);
-  const float brightest = std::max({channels.r, channels.g, channels.b});
-  if (light.kind == shared::kVplDirectional) return brightest;
-  // A thousandth for rounding.
-  float nearest = 0.999f * glm::distance(light.position, texels.centre) - 1.001f * texels.radius;
-  nearest = std::max(nearest, light.kind == shared::kVplCosine ? clampDistance : 0.0f);
-  return 1.001f * brightest / (nearest * nearest);
+  const auto dot = [&](From v, const vec3& axis) {
+    return hn::MulAdd(hn::Load(kTag, from[v]), all(axis.x),
+                      hn::MulAdd(hn::Load(kTag, from[v + 1]), all(axis.y),
+                                 hn::Mul(hn::Load(kTag, from[v + 2]), all(axis.z))));
+  };
+  const auto store = [&](Value value, Floats v) {
+    hn::StoreU(v, kTag, &values_[first * kValues + value * kLanes]);
+  };
+  const Floats zero = hn::Zero(kTag);
+  const Floats u = dot(kPosition, places.tangent), w = dot(kPosition, places.bitangent);
+  const Floats height = dot(kPosition, places.normal), height2 = hn::Mul(height, height);
+  store(kU, u);
+  store(kW, w);
+  store(kHeight2, height2);
+  store(kAxisU, dot(kAxis, places.tangent));
+  store(kAxisW, dot(kAxis, places.bitangent));
+  store(kAxisHeight, hn::Neg(hn::Mul(height, dot(kAxis, places.normal))));
+  const auto isAbove = hn::And(hn::Gt(height, zero), hn::Gt(height2, zero));
+  Floats brightest = zero;
+  for (size_t c = 0; c < 3; ++c) {
+    const Floats channel = hn::Load(kTag, from[kIntensity + c]);
+    brightest = hn::Max(brightest, hn::Abs(channel));
+    store(static_cast<Value>(kRed + c), hn::IfThenElseZero(isAbove, hn::Mul(height, channel)));
+  }
+  const auto beside = [&](Floats foot, float least, float most) {
+    return hn::Max(hn::Max(hn::Sub(all(least), foot), hn::Sub(foot, all(most))), zero);
+  };
+  const Floats besideU = beside(u, places.min.x, places.max.x),
+               besideW = beside(w, places.min.y, places.max.y);
+  const Floats nearest2 = hn::MulAdd(besideU, besideU, hn::MulAdd(besideW, besideW, height2));
+  // A thousandth for rounding, twice.
+  const Floats least = hn::Max(hn::Mul(nearest2, all(0.999f)), all(clamp2_));
+  store(kMost, hn::IfThenElseZero(isAbove, hn::Div(hn::Mul(brightest, all(1.001f)), least)));
 }
 
-// Lights that are summed one after the other, `isFaint`: in 32 bits.
-struct Run {
-  size_t first, last;
-  bool isFaint;
-};
-
-// Puts the faint ones first, in runs of which none gives too much.
-std::vector<Run> divide(std::span<const TexelLight*> lights, const TexelPlaces& places,
-                        float clampDistance) {
-  const Sphere texels(places);
-  std::vector<Run> runs;
-  size_t faint = 0;
+// What gives nothing is left out.
+void PlaneLights::divide(size_t count) {
+  order_.resize(count);
+  size_t faint = 0, bright = count;  // from either end
   float sum = 0.0f;
-  for (size_t i = 0; i < lights.size(); ++i) {
-    const float most = mostOf(*lights[i], texels, clampDistance);
-    if (!(most <= kMostInInts)) continue;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t light = i / kLanes * kLanes * kValues + i % kLanes;
+    const float most = values_[light + kMost * kLanes];
+    if (most == 0.0f) continue;
+    if (!(most <= kMostInInts)) {
+      order_[--bright] = static_cast<uint32_t>(light);
+      continue;
+    }
     sum += most;
-    if (runs.empty() || sum > kMostInInts) {
-      runs.push_back({faint, faint, true});
+    if (faint_.empty() || sum > kMostInInts) {
+      faint_.push_back({faint, faint});
       sum = most;
     }
-    std::swap(lights[faint], lights[i]);
-    runs.back().last = ++faint;
+    for (const Value channel : {kRed, kGreen, kBlue})
+      values_[light + channel * kLanes] *= kUnitsPerIrradiance;
+    order_[faint++] = static_cast<uint32_t>(light);
+    faint_.back().last = faint;
   }
-  if (faint < lights.size()) runs.push_back({faint, lights.size(), false});
-  return runs;
+  bright_ = {bright, count};
 }
 
-// Three channels of eight texels.
-struct PacketSums {
-  Sums r, g, b;
-};
-
-struct Packet {
-  Floats x, y, z;
-
-  HWY_INLINE bool weigh(const TexelLight& light, const vec3& normal, Floats clamp2,
-                        Floats& weight) const {
-    return lamplighter::weigh(light, normal, hn::Sub(x, all(light.position.x)),
-                              hn::Sub(y, all(light.position.y)), hn::Sub(z, all(light.position.z)),
-                              clamp2, weight);
-  }
-};
-
-HWY_INLINE void addFaint(std::span<const TexelLight* const> lights, const Packet& at,
-                         const vec3& normal, Floats clamp2, PacketSums& sums) {
-  Ints r = hn::Zero(IntTag()), g = r, b = r;
-  for (const TexelLight* light : lights) {
-    Floats weight;
-    if (!at.weigh(*light, normal, clamp2, weight)) continue;
-    const vec3& units = light->units;
-    r = hn::Add(r, roundToInts(hn::Mul(weight, all(units.r))));
-    g = hn::Add(g, roundToInts(hn::Mul(weight, all(units.g))));
-    b = hn::Add(b, roundToInts(hn::Mul(weight, all(units.b))));
-  }
-  sums.r.addUnits(r);
-  sums.g.addUnits(g);
-  sums.b.addUnits(b);
+// The irradiance of a light, with its values from here on [m⁻³ × its intensity times its height].
+HWY_INLINE Floats PlaneLights::weigh(const float* light, const Packet& at) const {
+  const auto value = [&](Value v) { return all(light[v * kLanes]); };
+  const Floats du = hn::Sub(at.u, value(kU)), dw = hn::Sub(at.w, value(kW));
+  const Floats height =
+      hn::MulAdd(du, value(kAxisU), hn::MulAdd(dw, value(kAxisW), value(kAxisHeight)));
+  const Floats d2 = hn::MulAdd(du, du, hn::MulAdd(dw, dw, value(kHeight2)));
+  return hn::Div(hn::Max(height, hn::Zero(kTag)), hn::Mul(d2, hn::Max(d2, all(clamp2_))));
 }
 
-HWY_INLINE void addBright(std::span<const TexelLight* const> lights, const Packet& at,
-                          const vec3& normal, Floats clamp2, PacketSums& sums) {
-  for (const TexelLight* light : lights) {
-    Floats weight;
-    if (!at.weigh(*light, normal, clamp2, weight)) continue;
-    sums.r.addRounded(hn::Mul(weight, all(light->intensity.r)));
-    sums.g.addRounded(hn::Mul(weight, all(light->intensity.g)));
-    sums.b.addRounded(hn::Mul(weight, all(light->intensity.b)));
+template <size_t kPackets>
+void PlaneLights::add(const Packet* at, PacketSums* sums) const {
+  for (const Run& run : faint_) {
+    Ints r[kPackets], g[kPackets], b[kPackets];
+#pragma GCC unroll 2
+    for (size_t p = 0; p < kPackets; ++p) r[p] = g[p] = b[p] = hn::Zero(IntTag());
+    for (size_t i = run.first; i < run.last; ++i) {
+      const float* const light = &values_[order_[i]];
+      const Floats red = all(light[kRed * kLanes]), green = all(light[kGreen * kLanes]),
+                   blue = all(light[kBlue * kLanes]);
+#pragma GCC unroll 2
+      for (size_t p = 0; p < kPackets; ++p) {
+        const Floats weight = weigh(light, at[p]);
+        r[p] = hn::Add(r[p], roundToInts(hn::Mul(weight, red)));
+        g[p] = hn::Add(g[p], roundToInts(hn::Mul(weight, green)));
+        b[p] = hn::Add(b[p], roundToInts(hn::Mul(weight, blue)));
+      }
+    }
+#pragma GCC unroll 2
+    for (size_t p = 0; p < kPackets; ++p) {
+      sums[p].r.addUnits(r[p]);
+      sums[p].g.addUnits(g[p]);
+      sums[p].b.addUnits(b[p]);
+    }
   }
+  for (size_t i = bright_.first; i < bright_.last; ++i) {
+    const float* const light = &values_[order_[i]];
+#pragma GCC unroll 2
+    for (size_t p = 0; p < kPackets; ++p)
+      sums[p].addRounded(weigh(light, at[p]), light[kRed * kLanes], light[kGreen * kLanes],
+                         light[kBlue * kLanes]);
+  }
+}
+
+// Any other light's irradiance [m⁻² × its intensity; parallel: 1].
+Floats weigh(const TexelLight& light, const TexelPlaces& places, const Packet& at) {
+  const Floats zero = hn::Zero(kTag);
+  const vec3 v = places.origin - light.position;
+  // Along an axis, from the light.
+  const auto along = [&](const vec3& axis) {
+    return hn::MulAdd(
+        at.u, all(glm::dot(axis, places.tangent)),
+        hn::MulAdd(at.w, all(glm::dot(axis, places.bitangent)), all(glm::dot(axis, v))));
+  };
+  if (light.kind == shared::kVplDirectional) {
+    const Floats side = all(light.side), least = all(-light.side);
+    const Floats x = along(light.tangent), y = along(light.bitangent);
+    const auto within = hn::And(hn::And(hn::Ge(x, least), hn::Lt(x, side)),
+                                hn::And(hn::Ge(y, least), hn::Lt(y, side)));
+    const float cosine = std::max(glm::dot(places.normal, light.axis), 0.0f);
+    return hn::IfThenElseZero(within, all(cosine));
+  }
+  const float s = -glm::dot(places.normal, v);
+  if (!(s > 0.0f)) return zero;
+  const Floats x = along(places.tangent), y = along(places.bitangent), z = along(light.axis);
+  const Floats d2 = hn::MulAdd(x, x, hn::MulAdd(y, y, all(s * s))), d = hn::Sqrt(d2);
+  const Floats ramp = hn::MulAdd(hn::Div(z, d), all(light.coneScale), all(light.side));
+  const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
+  return hn::IfThenElseZero(hn::Gt(z, zero),
+                            hn::Mul(hn::Mul(cone, cone), hn::Div(all(s), hn::Mul(d2, d))));
 }
 
 }  // namespace
@@ -200,30 +227,52 @@ TexelLight::TexelLight(const shared::Vpl& vpl, float sign)
       tangent(vpl.tangent),
       bitangent(glm::cross(axis, tangent)),
       intensity(sign * vec3(vpl.intensity)),
-      units(kUnitsPerIrradiance * intensity),
       coneScale(vpl.normal.w),
       side(vpl.tangent.w) {}
 
-void accumulate(std::span<const TexelLight*> lights, const TexelPlaces& places, float clampDistance,
-                double* r, double* g, double* b) {
-  const std::vector<Run> runs = divide(lights, places, clampDistance);
-  const Floats clamp2 = all(clampDistance * clampDistance);
-  for (size_t i = 0; i < places.x.size(); i += kLanes) {
-    const Packet at{hn::LoadU(kTag, &places.x[i]), hn::LoadU(kTag, &places.y[i]),
-                    hn::LoadU(kTag, &places.z[i])};
-    // All lights one after the other, so that the sums stay in registers.
-    PacketSums sums{Sums(r + i), Sums(g + i), Sums(b + i)};
-    for (const Run& run : runs) {
-      const auto some = lights.subspan(run.first, run.last - run.first);
-      if (run.isFaint)
-        addFaint(some, at, places.normal, clamp2, sums);
-      else
-        addBright(some, at, places.normal, clamp2, sums);
+void accumulate(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+                float clampDistance, double* r, double* g, double* b) {
+  std::vector<const TexelLight*> cosine, others;
+  cosine.reserve(lights.size());
+  for (const TexelLight* light : lights)
+    (light->kind == shared::kVplCosine ? cosine : others).push_back(light);
+  const PlaneLights over(cosine, places, clampDistance);
+  // All lights one after the other, so that the sums stay in registers.
+  const auto addTo = [&]<size_t kPackets>(size_t first) {
+    const auto all = [&](auto&& f) {
+      return [&]<size_t... p>(std::index_sequence<p...>) {
+        return std::array{f(first + p * kLanes)...};
+      }
+      (std::make_index_sequence<kPackets>());
+    };
+    const auto at = all([&](size_t i) {
+      return Packet{hn::LoadU(kTag, &places.u[i]), hn::LoadU(kTag, &places.w[i])};
+    });
+    auto sums = all([&](size_t i) { return PacketSums{Sums(r + i), Sums(g + i), Sums(b + i)}; });
+    over.add<kPackets>(at.data(), sums.data());
+    for (size_t p = 0; p < kPackets; ++p) {
+      for (const TexelLight* light : others) {
+        const vec3& i = light->intensity;
+        sums[p].addRounded(weigh(*light, places, at[p]), i.r, i.g, i.b);
+      }
+      const size_t i = first + p * kLanes;
+      sums[p].r.store(r + i);
+      sums[p].g.store(g + i);
+      sums[p].b.store(b + i);
     }
-    sums.r.store(r + i);
-    sums.g.store(g + i);
-    sums.b.store(b + i);
-  }
+  };
+  size_t i = 0;
+  for (; i + 2 * kLanes <= places.u.size(); i += 2 * kLanes) addTo.template operator()<2>(i);
+  if (i < places.u.size()) addTo.template operator()<1>(i);
+}
+
+void readSums(const double* r, const double* g, const double* b, std::span<vec4> out) {
+  const hn::FixedTag<float, kLanes / 2> half;
+  const auto load = [&](const double* from) {
+    return hn::DemoteTo(half, hn::LoadU(kDoubleTag, from));
+  };
+  for (size_t i = 0; i < out.size(); i += kLanes / 2)
+    hn::StoreInterleaved4(load(r + i), load(g + i), load(b + i), hn::Zero(half), half, &out[i].x);
 }
 
 }  // namespace lamplighter

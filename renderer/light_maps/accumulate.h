@@ -8,10 +8,11 @@
 
 namespace lamplighter {
 
-// Places of a tile's texels in the world, and their plane.
+// A tile's plane, and where its texels are on it.
 struct TexelPlaces {
-  std::span<const float> x, y, z;  // [m]; the number of them a multiple of eight
-  vec3 normal;                     // unit
+  vec3 origin, tangent, bitangent, normal;  // of the plane, as of a Chart
+  vec2 min, max;                            // all texels are between
+  std::span<const float> u, w;  // along tangent and bitangent [m]; a multiple of eight of them
 };
 
 // A light as it is added to texels (sign 1) or taken away from them (−1).
@@ -21,7 +22,6 @@ struct TexelLight {
   vec3 position, axis;      // axis: Vpl::normal
   vec3 tangent, bitangent;  // of a parallel light's square
   vec3 intensity;           // times the sign
-  vec3 units;               // the same, in units
   float coneScale, side;    // Vpl::normal.w and Vpl::tangent.w
 };
 
@@ -30,9 +30,12 @@ struct TexelLight {
 inline constexpr double kIrradianceUnit = 1.0 / 67108864.0;  // 2⁻²⁶
 
 // Adds the irradiance of the lights, without shadow, each rounded to a multiple of kIrradianceUnit;
-// below 2²⁴ W/m². r, g, b: a sum for each texel. Follows vplGeometry of vpl_shading.h. Puts the
-// lights in another order; no order changes a bit of the sums.
-void accumulate(std::span<const TexelLight*> lights, const TexelPlaces& places, float clampDistance,
-                double* r, double* g, double* b);
+// below 2²⁴ W/m². r, g, b: a sum for each texel. Follows vplGeometry of vpl_shading.h. No
+// order of the lights changes a bit of the sums.
+void accumulate(std::span<const TexelLight* const> lights, const TexelPlaces& places,
+                float clampDistance, double* r, double* g, double* b);
+
+// What is summed, as it is read: rgb, E [W/m²]. A multiple of eight texels.
+void readSums(const double* r, const double* g, const double* b, std::span<vec4> out);
 
 }  // namespace lamplighter

@@ -10,12 +10,12 @@
 
 #include "renderer/light_maps/accumulate.h"
 #include "renderer/light_maps/mappable.h"
+#include "renderer/light_maps/texel_grid.h"
 
 namespace lamplighter {
 namespace {
 
-constexpr size_t kLanes = 8;      // of accumulate()
-constexpr int kMostTexels = 33;   // a side
+constexpr int kMostTexels = TexelGrid::kMostAlong;
 constexpr float kFlat = 0.9999f;  // cos 0.8°
 
 bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
@@ -41,9 +41,8 @@ bool isShadedFlat(const RenderScene& s, const Chart& chart) {
   });
 }
 
-// Texels of a tile, with those behind the last that are there for whole vectors.
 size_t paddedCount(const LightMapTile& tile) {
-  return (static_cast<size_t>(tile.columns * tile.rows) + kLanes - 1) / kLanes * kLanes;
+  return TexelGrid::paddedCount(tile.columns, tile.rows);
 }
 
 // Of the 64 slots from 64·w on, those of which nothing arrives, a bit each.
@@ -82,28 +81,6 @@ LightMaps::Object LightMaps::makeObject(const RenderScene& scene, const ObjectPa
     out.tileOfPatch[p] = static_cast<int>(out.tiles.size());
     out.tiles.push_back(tile);
     texels += static_cast<uint32_t>(paddedCount(tile));
-  }
-  for (auto* v : {&out.x, &out.y, &out.z}) v->assign(texels, 0.0f);
-  for (const LightMapTile& tile : out.tiles) {
-    const Patch& patch = patches.patches[static_cast<size_t>(tile.patch)];
-    const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
-    const vec2 steps(static_cast<float>(tile.columns - 1), static_cast<float>(tile.rows - 1));
-    size_t i = tile.first;
-    for (int row = 0; row < tile.rows; ++row) {
-      for (int column = 0; column < tile.columns; ++column, ++i) {
-        const vec2 share = vec2(static_cast<float>(column), static_cast<float>(row)) / steps;
-        const vec3 p = chart.at(glm::mix(patch.min, patch.max, share));
-        out.x[i] = p.x;
-        out.y[i] = p.y;
-        out.z[i] = p.z;
-      }
-    }
-    // Those behind the last are like it, so that all lie in the patch.
-    for (; i < tile.first + paddedCount(tile); ++i) {
-      out.x[i] = out.x[i - 1];
-      out.y[i] = out.y[i - 1];
-      out.z[i] = out.z[i - 1];
-    }
   }
   out.sums.assign(size_t{3} * texels, 0.0);
   out.irradiance.assign(texels, vec4(0.0f));
@@ -195,10 +172,6 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     const auto states = visibility.row(job.object, tile.patch);  // of those given
     const TilePlace place(chart, patch, spacingOf(tile, patch));
     const size_t count = paddedCount(tile);
-    const TexelPlaces places{{&o.x[tile.first], count},
-                             {&o.y[tile.first], count},
-                             {&o.z[tile.first], count},
-                             chart.normal};
     double* sums = &o.sums[size_t{3} * tile.first];
     std::vector<const TexelLight*> changes;
     std::vector<uint64_t> newMappable(words_, 0);
@@ -225,11 +198,12 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       }
     }
     if (changes.empty()) return;
-    accumulate(changes, places, options.clampDistance, sums, sums + count, sums + 2 * count);
+    const TexelGrid texels(chart, patch, tile.columns, tile.rows);
+    accumulate(changes, texels.places(), options.clampDistance, sums, sums + count,
+               sums + 2 * count);
     written += changes.size() * count;
     wrote[j] = 1;
-    for (size_t i = 0; i < count; ++i)
-      o.irradiance[tile.first + i] = vec4(sums[i], sums[count + i], sums[2 * count + i], 0.0);
+    readSums(sums, sums + count, sums + 2 * count, {&o.irradiance[tile.first], count});
   });
   written_ += written;
   for (size_t j = 0; j < jobs.size(); ++j)
@@ -248,7 +222,7 @@ size_t LightMaps::texels() const {
 uint64_t LightMaps::bytes() const {
   uint64_t n = 0;
   for (const Object& o : objects_)
-    n += o.irradiance.size() * (sizeof(vec4) + 3 * sizeof(double) + 3 * sizeof(float)) +
+    n += o.irradiance.size() * (sizeof(vec4) + 3 * sizeof(double)) +
          (o.held.size() + o.refused.size()) * sizeof(uint64_t);
   return n;
 }

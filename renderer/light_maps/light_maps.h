@@ -106,7 +106,6 @@ class LightMaps {
   struct Object {
     std::vector<int> tileOfPatch;  // kNone: no tile
     std::vector<LightMapTile> tiles;
-    std::vector<float> x, y, z;    // places in the world
     std::vector<double> sums;      // three a texel: all r of a tile, then g, then b
     std::vector<vec4> irradiance;  // the same, as it is read
     // Tiles × words_, a bit a slot: lights in the sums, and those that are known not to be smooth

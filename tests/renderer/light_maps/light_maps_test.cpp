@@ -57,6 +57,37 @@ Scene litBoxes() {
   return scene;
 }
 
+// On the plane y = `height`, along a line.
+struct Line {
+  std::vector<float> u, w;
+  float height;
+  Line(size_t count, float y) : u(count), w(count), height(y) {}
+  vec3 at(size_t i) const { return {w[i], height, u[i]}; }
+  TexelPlaces places() const {
+    const auto ends = [](const std::vector<float>& v) {
+      const auto [least, most] = std::minmax_element(v.begin(), v.end());
+      return vec2(*least, *most);
+    };
+    const vec2 ofU = ends(u), ofW = ends(w);
+    return {vec3(0, height, 0),
+            vec3(0, 0, 1),
+            vec3(1, 0, 0),
+            vec3(0, 1, 0),
+            {ofU.x, ofW.x},
+            {ofU.y, ofW.y},
+            u,
+            w};
+  }
+};
+Line lineOf64() {
+  Line line(64, 0.1f);
+  for (size_t i = 0; i < 64; ++i) {
+    line.u[i] = -0.4f;
+    line.w[i] = -3.0f + 0.1f * static_cast<float>(i);
+  }
+  return line;
+}
+
 TEST(Accumulate, IsTheSharedDefinitionRounded) {
   std::vector<shared::Vpl> vpls = test::randomVpls(20, 3);
   shared::Vpl sun = test::makeVpl(vec3(0), vec3(0.5f, 1, 0.4f), shared::kVplDirectional, 2.0f);
@@ -67,11 +98,10 @@ TEST(Accumulate, IsTheSharedDefinitionRounded) {
   vpls.back().normal.w = 0.0f;
   vpls.back().tangent.w = 1.0f;
   constexpr size_t kCount = 40;
-  std::vector<float> x(kCount), y(kCount), z(kCount);
+  Line line(kCount, 0.3f);
   for (size_t i = 0; i < kCount; ++i) {
-    x[i] = -3.0f + 0.15f * static_cast<float>(i);
-    y[i] = 0.3f;
-    z[i] = 1.0f - 0.05f * static_cast<float>(i);
+    line.w[i] = -3.0f + 0.15f * static_cast<float>(i);
+    line.u[i] = 1.0f - 0.05f * static_cast<float>(i);
   }
   const vec3 normal(0, 1, 0);
   int lit = 0;
@@ -79,9 +109,9 @@ TEST(Accumulate, IsTheSharedDefinitionRounded) {
     std::vector<double> r(kCount), g(kCount), b(kCount);
     const TexelLight light(vpl, 1.0f);
     std::vector lights{&light};
-    accumulate(lights, {x, y, z, normal}, kClamp, r.data(), g.data(), b.data());
+    accumulate(lights, line.places(), kClamp, r.data(), g.data(), b.data());
     for (size_t i = 0; i < kCount; ++i) {
-      const float e = shared::vplGeometry(vpl, vec3(x[i], y[i], z[i]), normal, normal, kClamp);
+      const float e = shared::vplGeometry(vpl, line.at(i), normal, normal, kClamp);
       EXPECT_NEAR(g[i], e * vpl.intensity.g, 1e-5 * e * vpl.intensity.g + kIrradianceUnit);
       EXPECT_EQ(std::remainder(r[i], kIrradianceUnit), 0.0);
       lit += e > 0.0f;
@@ -93,10 +123,9 @@ TEST(Accumulate, IsTheSharedDefinitionRounded) {
 // Whatever is added and in whichever order it is taken away, nothing is left.
 TEST(Accumulate, WhatIsTakenAwayLeavesNoBit) {
   const std::vector<shared::Vpl> vpls = test::randomVpls(50, 9);
-  std::vector<float> x(64), y(64, 0.1f), z(64, -0.4f);
-  for (size_t i = 0; i < 64; ++i) x[i] = -3.0f + 0.1f * static_cast<float>(i);
+  const Line line = lineOf64();
   std::vector<double> r(64), g(64), b(64);
-  const TexelPlaces places{x, y, z, vec3(0, 1, 0)};
+  const TexelPlaces places = line.places();
   std::vector<TexelLight> lights;
   std::vector<const TexelLight*> added, taken;
   for (const float sign : {1.0f, -1.0f})
@@ -120,9 +149,8 @@ TEST(Accumulate, AllAtOnceAreTheSameBitsAsOneByOne) {
     const float scale = i % 7 == 0 ? 5000.0f : i % 3 == 0 ? 40.0f : 0.3f;
     vpls[i].intensity = vec4(scale * vec3(vpls[i].intensity), vpls[i].intensity.w);
   }
-  std::vector<float> x(64), y(64, 0.1f), z(64, -0.4f);
-  for (size_t i = 0; i < 64; ++i) x[i] = -3.0f + 0.1f * static_cast<float>(i);
-  const TexelPlaces places{x, y, z, vec3(0, 1, 0)};
+  const Line line = lineOf64();
+  const TexelPlaces places = line.places();
   using Sums = std::array<std::vector<double>, 3>;
   const std::vector<double> zero(64);
   Sums together{zero, zero, zero}, alone = together;
@@ -130,7 +158,7 @@ TEST(Accumulate, AllAtOnceAreTheSameBitsAsOneByOne) {
   std::vector<const TexelLight*> all;
   for (const shared::Vpl& vpl : vpls) lights.emplace_back(vpl, 1.0f);
   for (const TexelLight& light : lights) all.push_back(&light);
-  const auto add = [&](std::span<const TexelLight*> some, Sums& to) {
+  const auto add = [&](std::span<const TexelLight* const> some, Sums& to) {
     accumulate(some, places, kClamp, to[0].data(), to[1].data(), to[2].data());
   };
   add(all, together);

@@ -1,0 +1,64 @@
+// Fixed-point sums of eight texels of a light map, for accumulate.cpp.
+#pragma once
+
+#include "renderer/light_maps/accumulate.h"
+#include "renderer/wide.h"
+
+namespace lamplighter::texels {
+
+namespace hn = hwy::HWY_NAMESPACE;
+constexpr size_t kLanes = 8;
+using Tag = hn::FixedTag<float, kLanes>;
+using IntTag = hn::FixedTag<int32_t, kLanes>;
+using DoubleTag = hn::FixedTag<double, kLanes / 2>;
+constexpr Tag kTag;
+constexpr DoubleTag kDoubleTag;
+using Floats = hn::Vec<Tag>;
+using Ints = hn::Vec<IntTag>;
+using Doubles = hn::Vec<DoubleTag>;
+
+HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+
+// Of one channel.
+class Sums {
+ public:
+  HWY_INLINE explicit Sums(const double* from)
+      : low_(hn::LoadU(kDoubleTag, from)), high_(hn::LoadU(kDoubleTag, from + kLanes / 2)) {}
+  HWY_INLINE void store(double* to) const {
+    hn::StoreU(low_, kDoubleTag, to);
+    hn::StoreU(high_, kDoubleTag, to + kLanes / 2);
+  }
+  HWY_INLINE void addRounded(Floats values) {
+    const hn::Half<Tag> half;
+    low_ = hn::Add(low_, rounded(hn::PromoteTo(kDoubleTag, hn::LowerHalf(half, values))));
+    high_ = hn::Add(high_, rounded(hn::PromoteTo(kDoubleTag, hn::UpperHalf(half, values))));
+  }
+  HWY_INLINE void addUnits(Ints units) {
+    const hn::Half<IntTag> half;
+    const Doubles unit = hn::Set(kDoubleTag, kIrradianceUnit);
+    low_ = hn::MulAdd(hn::PromoteTo(kDoubleTag, hn::LowerHalf(half, units)), unit, low_);
+    high_ = hn::MulAdd(hn::PromoteTo(kDoubleTag, hn::UpperHalf(half, units)), unit, high_);
+  }
+
+ private:
+  // A double beside this one is a multiple of kIrradianceUnit, so the sum with it is rounded to
+  // one, ties to even, and the difference is exact.
+  static HWY_INLINE Doubles rounded(Doubles values) {
+    const Doubles large = hn::Set(kDoubleTag, 0x1.8p52 * kIrradianceUnit);
+    return hn::Sub(hn::Add(values, large), large);
+  }
+
+  Doubles low_, high_;
+};
+
+// Of three channels.
+struct PacketSums {
+  Sums r, g, b;
+  HWY_INLINE void addRounded(Floats weight, float red, float green, float blue) {
+    r.addRounded(hn::Mul(weight, all(red)));
+    g.addRounded(hn::Mul(weight, all(green)));
+    b.addRounded(hn::Mul(weight, all(blue)));
+  }
+};
+
+}  // namespace lamplighter::texels
