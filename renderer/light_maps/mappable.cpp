@@ -8,7 +8,6 @@
 namespace lamplighter {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 constexpr size_t kLanes = 8;
 using Tag = hn::FixedTag<float, kLanes>;
 using Floats = hn::Vec<Tag>;
@@ -28,19 +27,12 @@ bool isSpot(const shared::Vpl& vpl) {
   return vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
 }
 
-HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+using Vector3 = Wide3<Floats>;
 
-struct Vector3 {
-  Floats x, y, z;
-};
-
+HWY_INLINE Floats all(float v) { return wide(v); }
 // In the order in which glm adds, so that all is as isMappable() finds it.
-HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-HWY_INLINE Floats dot(const Vector3& a, const vec3& b) {
-  return dot(a, Vector3{all(b.x), all(b.y), all(b.z)});
-}
+HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) { return dotInTurn(a, b); }
+HWY_INLINE Floats dot(const Vector3& a, const vec3& b) { return dotInTurn(a, wide(b)); }
 
 // Whether the light's plane crosses the patch: there is none of its light behind it, and before it
 // it grows from nothing, which texels on both sides would round off.

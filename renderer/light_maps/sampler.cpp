@@ -4,17 +4,11 @@
 namespace lamplighter {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 constexpr hn::FixedTag<float, LightMaps::Sampler::kPoints> kTag;
 constexpr hn::FixedTag<float, 4> kTexelTag;
 using Floats = hn::Vec<decltype(kTag)>;
 
 HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
-
-// In the order in which glm adds it up.
-HWY_INLINE Floats dot(Floats x, Floats y, Floats z, const vec3& v) {
-  return hn::Add(hn::Add(hn::Mul(x, all(v.x)), hn::Mul(y, all(v.y))), hn::Mul(z, all(v.z)));
-}
 
 // glm::mix().
 template <typename V>
@@ -51,11 +45,10 @@ LightMaps::Sampler::Sampler(const LightMaps& maps, const ObjectPatches& patches,
 
 void LightMaps::Sampler::irradiance(const float* x, const float* y, const float* z,
                                     std::span<vec4, kPoints> e) const {
-  const Floats px = hn::Sub(hn::LoadU(kTag, x), all(chart_.origin.x)),
-               py = hn::Sub(hn::LoadU(kTag, y), all(chart_.origin.y)),
-               pz = hn::Sub(hn::LoadU(kTag, z), all(chart_.origin.z));
-  const Along column(dot(px, py, pz, chart_.tangent), min_.x, size_.x, last_.x),
-      row(dot(px, py, pz, chart_.bitangent), min_.y, size_.y, last_.y);
+  const Wide3<Floats> p{hn::LoadU(kTag, x), hn::LoadU(kTag, y), hn::LoadU(kTag, z)};
+  const Wide3<Floats> way = p - wide(chart_.origin);
+  const Along column(dotInTurn(way, wide(chart_.tangent)), min_.x, size_.x, last_.x),
+      row(dotInTurn(way, wide(chart_.bitangent)), min_.y, size_.y, last_.y);
   const Floats first = hn::MulAdd(row.low, all(static_cast<float>(columns_)), column.low);
   alignas(32) int32_t texels[kPoints];
   alignas(32) float across[kPoints], down[kPoints];

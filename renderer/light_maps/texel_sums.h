@@ -6,7 +6,6 @@
 
 namespace lamplighter::texels {
 
-namespace hn = hwy::HWY_NAMESPACE;
 constexpr size_t kLanes = 8;
 using Tag = hn::FixedTag<float, kLanes>;
 using IntTag = hn::FixedTag<int32_t, kLanes>;

@@ -1,6 +1,3 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include "renderer/raycast/ray_caster.h"
 
 #include <algorithm>
@@ -10,9 +7,9 @@
 #include <utility>
 
 #include <embree3/rtcore.h>
-#include <hwy/highway.h>
 
 #include "renderer/scene/surface.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 
@@ -54,7 +51,6 @@ RTCRay toEmbree(const Ray& r) {
 
 // Of eight rays as far as they have come, −1 for those of `valid` that touch the box, or nearly.
 void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
-  namespace hn = hwy::HWY_NAMESPACE;
   constexpr hn::FixedTag<float, 8> tag;
   constexpr hn::FixedTag<int32_t, 8> ints;
   // A direction that is almost across an axis is as if it were a little less so: what is outside

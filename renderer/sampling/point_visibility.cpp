@@ -13,24 +13,14 @@
 namespace lamplighter {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::FixedTag<float, 8>;
 using Floats = hn::Vec<Tag>;
 constexpr Tag kTag;
 
-Floats all(float v) { return hn::Set(kTag, v); }
+using Wide = Wide3<Floats>;
 
-struct Wide {
-  Floats x, y, z;
-};
-Wide wide(const vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
-Wide operator-(const Wide& a, const Wide& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-// The bits of glm's.
-Floats dot(const Wide& a, const Wide& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
+Floats all(float v) { return wide(v); }
+Floats dot(const Wide& a, const Wide& b) { return dotInTurn(a, b); }
 
 Ray rayFrom(const vec3& point, const shared::Vpl& vpl) {
   Ray ray{point, 0.0f, vec3(vpl.normal)};

@@ -1,6 +1,3 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include "renderer/sampling/view_importance.h"
 
 #include <algorithm>
@@ -9,13 +6,13 @@
 #include <map>
 #include <numeric>
 
-#include <hwy/highway.h>
 #include <tbb/parallel_for.h>
 
 #include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/random.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
@@ -35,7 +32,6 @@ constexpr float kTurnGrid = 15.0f * kPi / 180.0f;
 constexpr int kSteadyHeight = 1024;  // a picture of another size and the same ratio is the same
 constexpr uint32_t kPointSet = 0x5d, kRankSet = 0x6d;
 
-namespace hn = hwy::HWY_NAMESPACE;
 constexpr hn::FixedTag<double, 4> kDoubles;
 constexpr hn::FixedTag<float, 4> kFloats;
 

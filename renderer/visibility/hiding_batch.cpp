@@ -1,8 +1,7 @@
-#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
-
 #include "renderer/visibility/hiding_batch.h"
 
 #include "renderer/visibility/lane_sums.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 
@@ -44,7 +43,7 @@ HidingBatch::Mask HidingBatch::cut(const HidingPolygon& polygon, Mask of) const 
   const vec3 &on = polygon.corners[0], &n = polygon.normal;
   const Vec3 apex = load(lights_.position);
   const Vec inset = load(inset_), zero = hn::Zero(kTag);
-  const Vec lightSide = dot(set(n), sub(apex, set(on)));
+  const Vec lightSide = dot(set(n), apex - set(on));
   Mask cut = of & bitsOf(hn::Gt(hn::Abs(lightSide), inset));
   const auto keepThoseCutAt = [&](const vec3& corner) {
     const float cornerSide = glm::dot(n, corner - on);
@@ -52,12 +51,12 @@ HidingBatch::Mask HidingBatch::cut(const HidingPolygon& polygon, Mask of) const 
     cut &= bitsOf(hn::And(hn::Lt(hn::Mul(side, lightSide), zero), hn::Gt(hn::Abs(side), inset)));
     if (cut == 0) return;
     const Vec part = hn::Div(lightSide, hn::Sub(lightSide, side));
-    const Vec3 way = sub(set(corner), apex);
+    const Vec3 way = set(corner) - apex;
     const Vec3 across{hn::Add(apex.x, hn::Mul(part, way.x)), hn::Add(apex.y, hn::Mul(part, way.y)),
                       hn::Add(apex.z, hn::Mul(part, way.z))};
     for (size_t i = 0; i < polygon.edges.size() && cut != 0; ++i) {
       const HidingPolygon::Edge& edge = polygon.edges[i];
-      const Vec inwards = dot(set(edge.inwards), sub(across, set(polygon.corners[i])));
+      const Vec inwards = dot(set(edge.inwards), across - set(polygon.corners[i]));
       cut &= bitsOf(hn::Ge(inwards, hn::Mul(inset, set(edge.length))));
     }
   };

@@ -1,8 +1,7 @@
-#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
-
 #include "renderer/visibility/light_sides.h"
 
 #include "renderer/visibility/lane_sums.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 
@@ -14,12 +13,12 @@ LightSides::LightSides(const LightLanes& lights, const PatchRegion& region) {
   const Vec slab = hn::Add(set(region.thickness), margin);
   const Vec behind = hn::Neg(hn::Add(set(region.thickness), hn::Mul(set(kSumsRounding), margin)));
 
-  auto isBehind = hn::Le(dot(sub(set(region.corners[0]), apex), towards), behind);
+  auto isBehind = hn::Le(dot(set(region.corners[0]) - apex, towards), behind);
   for (size_t i = 1; i < 4; ++i)
-    isBehind = hn::And(isBehind, hn::Le(dot(sub(set(region.corners[i]), apex), towards), behind));
+    isBehind = hn::And(isBehind, hn::Le(dot(set(region.corners[i]) - apex, towards), behind));
 
   const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
-  const Vec3 way = sub(apex, set(middle));
+  const Vec3 way = apex - set(middle);
   const Vec height = dot(way, set(region.normal));
   if (region.frontOnly) {
     Vec least = behind;

@@ -1,5 +1,3 @@
-#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
-
 #include "renderer/visibility/occlusion_pyramid.h"
 
 #include <algorithm>
@@ -8,11 +6,11 @@
 
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/visibility/pyramid_sides.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kLanes = 8;
 using Tag = hn::FixedTag<float, kLanes>;
 constexpr Tag kTag;
@@ -131,16 +129,16 @@ void OcclusionPyramid::addSides(const vec3& middle, const vec3& up) {
   const hn::FixedTag<float, 4> tag;
   using Vec = hn::Vec<decltype(tag)>;
   const auto set = [&](const vec3& v) {
-    return Lanes3<Vec>{hn::Set(tag, v.x), hn::Set(tag, v.y), hn::Set(tag, v.z)};
+    return Wide3<Vec>{hn::Set(tag, v.x), hn::Set(tag, v.y), hn::Set(tag, v.z)};
   };
   const auto load = [&](const std::array<std::array<float, 4>, 3>& v) {
-    return Lanes3<Vec>{hn::LoadU(tag, v[0].data()), hn::LoadU(tag, v[1].data()),
-                       hn::LoadU(tag, v[2].data())};
+    return Wide3<Vec>{hn::LoadU(tag, v[0].data()), hn::LoadU(tag, v[1].data()),
+                      hn::LoadU(tag, v[2].data())};
   };
-  const Lanes3<Vec> from = load(region_.from), apex = set(apex_);
-  const Lanes3<Vec> way = parallel_ ? set(towards_)
-                                    : Lanes3<Vec>{hn::Sub(from.x, apex.x), hn::Sub(from.y, apex.y),
-                                                  hn::Sub(from.z, apex.z)};
+  const Wide3<Vec> from = load(region_.from), apex = set(apex_);
+  const Wide3<Vec> way = parallel_ ? set(towards_)
+                                   : Wide3<Vec>{hn::Sub(from.x, apex.x), hn::Sub(from.y, apex.y),
+                                                hn::Sub(from.z, apex.z)};
   const SidePlanes<Vec> planes =
       sidePlanes(tag, from, load(region_.sides), way, set(middle), set(up),
                  hn::Set(tag, region_.thickness), hn::Set(tag, margin_), parallel_);

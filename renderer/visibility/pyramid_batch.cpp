@@ -1,5 +1,3 @@
-#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
-
 #include "renderer/visibility/pyramid_batch.h"
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <limits>
 
 #include "renderer/visibility/lane_sums.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
@@ -15,13 +14,13 @@ using namespace lanes;
 constexpr size_t kLanes = PyramidBatch::kLights;
 
 template <typename Plane>
-Lanes3<Vec> normalOf(const Plane& p) {
+Wide3<Vec> normalOf(const Plane& p) {
   return {load(p.x), load(p.y), load(p.z)};
 }
 
 // By how much boxes are inside of planes, as OcclusionPyramid::mayMeet() adds it up.
-Vec depthOf(const Lanes3<Vec>& normal, Vec offset, const Lanes3<Vec>& centre,
-            const Lanes3<Vec>& half) {
+Vec depthOf(const Wide3<Vec>& normal, Vec offset, const Wide3<Vec>& centre,
+            const Wide3<Vec>& half) {
   auto farthest = hn::MulAdd(normal.x, centre.x, offset);
   farthest = hn::MulAdd(normal.y, centre.y, farthest);
   farthest = hn::MulAdd(normal.z, centre.z, farthest);
@@ -31,7 +30,7 @@ Vec depthOf(const Lanes3<Vec>& normal, Vec offset, const Lanes3<Vec>& centre,
 }
 
 // By how much points are, as OcclusionPyramid::meets() adds it up.
-HWY_INLINE Vec distanceOf(const Lanes3<Vec>& normal, Vec offset, const Lanes3<Vec>& point) {
+HWY_INLINE Vec distanceOf(const Wide3<Vec>& normal, Vec offset, const Wide3<Vec>& point) {
   auto distance = hn::MulAdd(normal.x, point.x, offset);
   distance = hn::MulAdd(normal.y, point.y, distance);
   return hn::MulAdd(normal.z, point.z, distance);
@@ -72,10 +71,10 @@ BoxBatches::BoxBatches(std::span<const Bounds> boxes) {
 
 PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
     : all_(lights.all()) {
-  const Lanes3<Vec> apex = load(lights.position), towards = load(lights.normal);
+  const Wide3<Vec> apex = load(lights.position), towards = load(lights.normal);
   const auto margin = hn::Max(load(lights.rounding), set(region.rounding));
   hn::Store(margin, kTag, margin_.data());
-  const auto store = [&](Plane& plane, const Lanes3<Vec>& normal, Vec offset) {
+  const auto store = [&](Plane& plane, const Wide3<Vec>& normal, Vec offset) {
     hn::Store(normal.x, kTag, plane.x.data());
     hn::Store(normal.y, kTag, plane.y.data());
     hn::Store(normal.z, kTag, plane.z.data());
@@ -84,11 +83,11 @@ PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
   store(planes_[0], towards, hn::Sub(hn::Neg(margin), dot(towards, apex)));
 
   const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
-  const Lanes3<Vec> centre = set(middle), normal = set(region.normal);
-  const auto height = dot(sub(apex, centre), normal);
+  const Wide3<Vec> centre = set(middle), normal = set(region.normal);
+  const auto height = dot(apex - centre, normal);
   const auto above = hn::Gt(height, hn::Zero(kTag));
   const auto turn = [&](Vec v) { return hn::IfThenElse(above, v, hn::Neg(v)); };
-  const Lanes3<Vec> up{turn(normal.x), turn(normal.y), turn(normal.z)};
+  const Wide3<Vec> up{turn(normal.x), turn(normal.y), turn(normal.z)};
   const auto thickness = set(region.thickness);
   const auto slab = hn::Add(thickness, margin);
   const auto slack = region.chart != kNone ? slab : hn::Mul(set(-3.0f), slab);
@@ -96,15 +95,15 @@ PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
 
   for (size_t i = 0; i < 4; ++i) {
     const auto at = [&](const auto& v) { return set(vec3(v[0][i], v[1][i], v[2][i])); };
-    const Lanes3<Vec> from = at(region.from);
-    const SidePlanes<Vec> side = sidePlanes(kTag, from, at(region.sides), sub(from, apex), centre,
-                                            up, thickness, margin, false);
+    const Wide3<Vec> from = at(region.from);
+    const SidePlanes<Vec> side =
+        sidePlanes(kTag, from, at(region.sides), from - apex, centre, up, thickness, margin, false);
     store(planes_[2 + i], side.normal, side.offset);
   }
 }
 
 PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box, Depths& depths) const {
-  const Lanes3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
+  const Wide3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_)
     least = hn::Min(depthOf(normalOf(p), load(p.offset), centre, half), least);
@@ -133,7 +132,7 @@ PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius)
 }
 
 PyramidBatch::Mask PyramidBatch::hold(const vec3& point) const {
-  const Lanes3<Vec> p = set(point);
+  const Wide3<Vec> p = set(point);
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& plane : planes_)
     least = hn::Min(distanceOf(normalOf(plane), load(plane.offset), p), least);
@@ -141,11 +140,11 @@ PyramidBatch::Mask PyramidBatch::hold(const vec3& point) const {
 }
 
 PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const {
-  const Lanes3<Vec> a = set(triangle[0]), b = set(triangle[1]), c = set(triangle[2]);
+  const Wide3<Vec> a = set(triangle[0]), b = set(triangle[1]), c = set(triangle[2]);
   auto leastA = set(std::numeric_limits<float>::max()), leastB = leastA, leastC = leastA;
   auto leastOfMost = leastA;  // of the corner farthest inside of each plane
   for (const Plane& p : planes_) {
-    const Lanes3<Vec> normal = normalOf(p);
+    const Wide3<Vec> normal = normalOf(p);
     const auto offset = load(p.offset);
     const auto da = distanceOf(normal, offset, a), db = distanceOf(normal, offset, b),
                dc = distanceOf(normal, offset, c);
@@ -207,10 +206,10 @@ PyramidPlanes PyramidBatch::planesOf(size_t light) const {
 
 PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, size_t first) const {
   const auto depthsIn = [&](const BoxBatch& batch) {
-    const Lanes3<Vec> centre = load(batch.centre), half = load(batch.half);
+    const Wide3<Vec> centre = load(batch.centre), half = load(batch.half);
     auto least = set(std::numeric_limits<float>::max());
     for (const Plane& p : planes_) {
-      const Lanes3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
+      const Wide3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
       least = hn::Min(depthOf(normal, set(p.offset[light]), centre, half), least);
     }
     return least;

@@ -1,16 +1,12 @@
-#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
-
 #include "renderer/visibility/pyramid_planes.h"
 
 #include <algorithm>
 #include <bit>
 
-#include <hwy/highway.h>
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 // A triangle clipped by each plane gains a corner at most.
 constexpr size_t kMostCorners = 3 + PyramidPlanes::kMost;

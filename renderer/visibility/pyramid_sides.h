@@ -1,11 +1,9 @@
 // The planes of an occlusion pyramid through its light and the sides of its patch, for
 // occlusion_pyramid.cpp, the four sides of one light at a time, and pyramid_batch.cpp, one side of
-// eight lights: the same operations, so that both get the same bits. Files that include it define
-// HWY_DISABLE_PCLMUL_AES first: x86-64-v3 has no AES instructions, which Highway wants of its AVX2
-// target unless told otherwise.
+// eight lights: the same operations, so that both get the same bits.
 #pragma once
 
-#include <hwy/highway.h>
+#include "renderer/wide.h"
 
 namespace lamplighter {
 
@@ -14,13 +12,9 @@ namespace lamplighter {
 inline constexpr float kSumsRounding = 0.125f;
 
 template <typename V>
-struct Lanes3 {
-  V x, y, z;
-};
-template <typename V>
 struct SidePlanes {
-  Lanes3<V> normal;  // unit, inwards; zero: it is left out
-  V offset;          // inside: dot(normal, x) + offset >= 0
+  Wide3<V> normal;  // unit, inwards; zero: it is left out
+  V offset;         // inside: dotFused(normal, x) + offset >= 0
 };
 
 // `from`: a corner of the patch, `side`: from it to the next, `way`: to the corner from the light,
@@ -32,41 +26,37 @@ struct SidePlanes {
 // inwards. There is no more slack than that at the patch, and what is hardly higher is not between:
 // a wall that the patch ends at would be, for all lights.
 template <typename Tag, typename V = hwy::HWY_NAMESPACE::Vec<Tag>>
-HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const Lanes3<V>& from, const Lanes3<V>& side,
-                                    const Lanes3<V>& way, const Lanes3<V>& middle,
-                                    const Lanes3<V>& up, V thickness, V margin, bool parallel) {
-  namespace hn = hwy::HWY_NAMESPACE;
+HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const Wide3<V>& from, const Wide3<V>& side,
+                                    const Wide3<V>& way, const Wide3<V>& middle, const Wide3<V>& up,
+                                    V thickness, V margin, bool parallel) {
   const auto all = [&](float v) { return hn::Set(tag, v); };
-  const auto cross = [](const Lanes3<V>& a, const Lanes3<V>& b) {
-    return Lanes3<V>{hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-                     hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-                     hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+  const auto cross = [](const Wide3<V>& a, const Wide3<V>& b) {
+    return Wide3<V>{hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+                    hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+                    hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
   };
-  const auto dot = [](const Lanes3<V>& a, const Lanes3<V>& b) {
-    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-  };
-  Lanes3<V> n = cross(way, side);
-  auto length = hn::Sqrt(hn::Max(dot(n, n), all(1e-30f)));
-  const Lanes3<V> across{hn::Sub(middle.x, from.x), hn::Sub(middle.y, from.y),
-                         hn::Sub(middle.z, from.z)};
-  const auto inside = hn::Div(dot(n, across), length);
+  Wide3<V> n = cross(way, side);
+  auto length = hn::Sqrt(hn::Max(dotFused(n, n), all(1e-30f)));
+  const Wide3<V> across{hn::Sub(middle.x, from.x), hn::Sub(middle.y, from.y),
+                        hn::Sub(middle.z, from.z)};
+  const auto inside = hn::Div(dotFused(n, across), length);
   const auto known = hn::Gt(hn::Abs(inside), margin);
   const auto slab = hn::Add(thickness, margin);
   if (!parallel) {
     // Through a place three margins farther out than the light: n·|n| + 3 m (n × side) / |n|, and
     // the way out is the other one where n points outwards.
     const auto slack = hn::CopySign(hn::Div(hn::Mul(all(3.0f), slab), length), inside);
-    const Lanes3<V> t = cross(n, side);
+    const Wide3<V> t = cross(n, side);
     n = {hn::MulAdd(t.x, slack, n.x), hn::MulAdd(t.y, slack, n.y), hn::MulAdd(t.z, slack, n.z)};
-    length = hn::Sqrt(dot(n, n));
+    length = hn::Sqrt(dotFused(n, n));
   }
   const auto scale = hn::IfThenElseZero(known, hn::CopySign(hn::Div(all(1.0f), length), inside));
   n = {hn::Mul(n.x, scale), hn::Mul(n.y, scale), hn::Mul(n.z, scale)};
-  const auto leaning = dot(n, up);
+  const auto leaning = dotFused(n, up);
   const auto atPatch =
       hn::Add(hn::MulAdd(hn::Abs(leaning), thickness, hn::Mul(all(kSumsRounding), margin)),
               hn::Mul(hn::Max(hn::Neg(leaning), hn::Zero(tag)), hn::Mul(all(2.0f), slab)));
-  return {n, hn::Sub(atPatch, dot(n, from))};
+  return {n, hn::Sub(atPatch, dotFused(n, from))};
 }
 
 }  // namespace lamplighter

@@ -1,15 +1,12 @@
-#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
-
 #include "renderer/visibility/shadow_reaches.h"
 
 #include <limits>
 
-#include <hwy/highway.h>
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 constexpr hn::FixedTag<float, ShadowReaches::kLanes> kTag;
 
 }  // namespace

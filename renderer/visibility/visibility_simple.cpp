@@ -1,21 +1,16 @@
 // Most of what a drag asks of the visibility database: columns that know what all others do at a
 // patch and only wait for the movers, many at a time and without a task for each.
-#define HWY_DISABLE_PCLMUL_AES 1  // see pyramid_sides.h
-
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <optional>
 
-#include <hwy/highway.h>
-
 #include "renderer/visibility/bits.h"
 #include "renderer/visibility/visibility_update.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::FixedTag<uint8_t, 32> kBytes;
 

@@ -1,17 +1,12 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include "renderer/visibility/visibility_update.h"
 
-#include <hwy/highway.h>
 #include <tbb/parallel_for.h>
 
 #include "renderer/visibility/visibility_piece.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 // Lights to be looked at that are one piece of work for a thread, at least: some times as many as
 // are looked at together.

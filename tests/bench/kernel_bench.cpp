@@ -1,12 +1,9 @@
 // The inner loop on one core: what a light with a shadow map costs a pixel, beside the least that
 // such a loop can do: the bare kernel of the trials that this machine's worth was judged by, with
 // one normal, without the test in the receiver's plane, sums in floating point.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include <filesystem>
 
 #include <benchmark/benchmark.h>
-#include <hwy/highway.h>
 #include <tbb/global_control.h>
 
 #include "renderer/backends/cpu/light_sums.h"
@@ -14,11 +11,11 @@
 #include "renderer/sampling/lights.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf_io.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 constexpr int kResolution = 64;
 constexpr float kClamp2 = 0.25f, kBias = 0.002f;
 constexpr int kTilesAtOnce = 16, kLightsAtOnce = 32;  // as the product has them

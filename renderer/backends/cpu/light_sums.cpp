@@ -15,8 +15,6 @@
 namespace lamplighter::cpu {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 // Of shadow maps, in the second-level cache beside the tiles.
 constexpr size_t kMapBytesAtOnce = size_t{512} << 10;
 // Of maps as they were, which are kept from their change to the next sum.

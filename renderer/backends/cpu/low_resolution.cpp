@@ -1,20 +1,16 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include "renderer/backends/cpu/low_resolution.h"
 
 #include <algorithm>
 #include <atomic>
 
-#include <hwy/highway.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/wide.h"
 #include "shaders/shared/low_resolution.h"
 
 namespace lamplighter::cpu {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::FixedTag<float, kLanes>;
 using Floats = hn::Vec<Tag>;
 constexpr Tag kTag;

@@ -1,21 +1,17 @@
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
-#define HWY_DISABLE_PCLMUL_AES 1
-
 #include "renderer/backends/cpu/raster.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include <hwy/highway.h>
 #include <tbb/parallel_for.h>
 
 #include "renderer/scene/surface.h"
+#include "renderer/wide.h"
 
 namespace lamplighter::cpu {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::FixedTag<float, kLanes>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;

@@ -12,7 +12,6 @@
 namespace lamplighter::cpu {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 constexpr size_t kLanes = 8;
 using Tag = hn::FixedTag<float, kLanes>;
 using HalfTag = hn::FixedTag<float, kLanes / 2>;

@@ -9,7 +9,6 @@
 namespace lamplighter::cpu {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::FixedTag<float, ShadowTriangles::kLanes>;
 using Floats = hn::Vec<Tag>;
 constexpr Tag kTag;

@@ -11,7 +11,6 @@
 
 namespace lamplighter::cpu {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::FixedTag<float, kLanes>;
 using IntTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
@@ -35,16 +34,12 @@ inline float mostWeight(LightRecord::Kind kind, float clampDistance2) {
   return 1.0f;
 }
 
-struct Vector3 {
-  Floats x, y, z;
-};
+using Vector3 = Wide3<Floats>;
 
 using Ints = hn::Vec<IntTag>;
 
 HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
-HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
+HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) { return dotFused(a, b); }
 // Three arrays; as pointers of its own, which stores elsewhere don't change.
 struct Vectors {
   Vectors(const std::vector<float>& vx, const std::vector<float>& vy, const std::vector<float>& vz)
