@@ -55,12 +55,12 @@ Points pointsAt(const GBuffer& g, const vec3& from, size_t first, uint8_t lanes,
 HWY_INLINE void addLobe(const Points& p, const Vector3& colour, Floats weight, Floats nl, Floats lv,
                         Floats solidAngle, Vector3& sum) {
   const Floats one = all(1.0f), half = all(0.5f);
-  const Floats vh2 = hn::Max(hn::MulAdd(half, lv, half), all(1e-6f)), vh = hn::Sqrt(vh2);
+  const Floats vh = hn::Sqrt(hn::Max(hn::MulAdd(half, lv, half), all(1e-6f)));
+  const Floats inverse = hn::Div(one, vh);
   const Floats a2 = hn::Min(
-      hn::Add(p.alpha2, hn::Div(hn::Mul(solidAngle, all(shared::kSpread / (4.0f * kPi))), vh)),
-      one);
-  const Floats both = hn::Add(nl, p.nv);
-  const Floats nh2 = hn::Min(hn::Div(hn::Mul(both, both), hn::Mul(all(4.0f), vh2)), one);
+      hn::MulAdd(hn::Mul(solidAngle, all(shared::kSpread / (4.0f * kPi))), inverse, p.alpha2), one);
+  const Floats nh = hn::Mul(hn::Mul(half, hn::Add(nl, p.nv)), inverse);
+  const Floats nh2 = hn::Min(hn::Mul(nh, nh), one);
   const Floats d = hn::MulAdd(nh2, hn::Sub(a2, one), one);
   const auto side = [&](Floats a, Floats b) {
     const Floats rest = hn::MulAdd(hn::Mul(b, b), hn::Sub(one, a2), a2);
@@ -80,10 +80,10 @@ HWY_INLINE void addLobe(const Points& p, const Vector3& colour, Floats weight, F
   add(p.straight.z, colour.z, sum.z);
 }
 
+// Adds what the light gives the eye.
 template <LightRecord::Kind kKind>
-HWY_INLINE void addSpecular(const Points& p, const SpecularLight& record, bool looksUp,
-                            const SumConstants& constants, const WideConstants& c, Vector3& sum) {
-  const WideLight light(record.record, false, constants);
+HWY_INLINE void addSpecular(const Points& p, const WideLight& light, float footprint, bool looksUp,
+                            const WideConstants& c, Vector3& sum) {
   const Floats zero = hn::Zero(kTag);
   const Vector3 v{hn::Sub(p.position.x, light.position.x), hn::Sub(p.position.y, light.position.y),
                   hn::Sub(p.position.z, light.position.z)};
@@ -101,7 +101,7 @@ HWY_INLINE void addSpecular(const Points& p, const SpecularLight& record, bool l
     if (hn::AllFalse(kTag, lit)) return;
     lv = dot(light.normal, p.toEye);
     weight = nl;
-    solidAngle = all(record.footprint);
+    solidAngle = all(footprint);
     if (looksUp) occluded = directionalOccluded(light, c, q, geometric, facing);
   } else {
     const Floats z = dot(v, light.normal);
@@ -120,9 +120,9 @@ HWY_INLINE void addSpecular(const Points& p, const SpecularLight& record, bool l
     // Cosine at the light. Behind it, in lanes that it does not reach, no lobe must be without end.
     const Floats away = hn::Max(hn::Mul(z, inverse), zero);
     if constexpr (kKind == LightRecord::Kind::cosine) {
-      const Floats perArea = hn::Div(away, hn::Max(d2, c.clampDistance2));
+      const Floats perArea = hn::Mul(away, hn::Min(hn::Mul(inverse, inverse), c.perClampDistance2));
       weight = hn::Mul(nl, perArea);
-      solidAngle = hn::Mul(all(record.footprint), perArea);
+      solidAngle = hn::Mul(all(footprint), perArea);
     } else {
       const Floats ramp = hn::MulAdd(away, light.coneScale, light.coneOffset);
       const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
@@ -132,52 +132,87 @@ HWY_INLINE void addSpecular(const Points& p, const SpecularLight& record, bool l
   }
   lit = hn::AndNot(occluded, lit);
   if (hn::AllFalse(kTag, lit)) return;
-  const Floats share =
-      hn::Min(hn::Div(all(shared::kMostSolidAngle), hn::Max(solidAngle, all(1e-6f))), all(1.0f));
+  // Hardly any.
+  const Mask isLarge = hn::Gt(solidAngle, all(shared::kMostSolidAngle));
+  if (!hn::AllFalse(kTag, isLarge)) {
+    const Floats share = hn::Div(all(shared::kMostSolidAngle), solidAngle);
+    weight = hn::IfThenElse(isLarge, hn::Mul(weight, share), weight);
+  }
   // In the other lanes a light from above the surface, of weight nothing: no division by nothing.
-  addLobe(p, light.units, hn::IfThenElseZero(lit, hn::Mul(weight, share)),
-          hn::IfThenElse(lit, nl, all(1.0f)), lv, solidAngle, sum);
+  addLobe(p, light.units, hn::IfThenElseZero(lit, weight), hn::IfThenElse(lit, nl, all(1.0f)), lv,
+          solidAngle, sum);
 }
 
 }  // namespace
 
-void specularRadiance(const GBuffer& gbuffer, const vec3& eye, size_t first, uint8_t lanes,
-                      std::span<const Gloss, kLanes> gloss, std::span<const SpecularLight> lights,
-                      const LightUse* uses, uint32_t leftOutBy, const SumConstants& constants,
-                      float leastRoughness, std::span<vec3, kLanes> out) {
-  using Kind = LightRecord::Kind;
-  const Points points = pointsAt(gbuffer, eye, first, lanes, gloss, leastRoughness);
-  SumConstants ofLight = constants;
-  ofLight.unitsPerIrradiance = 1.0f;
-  const WideConstants wide(constants);
-  Vector3 sum{hn::Zero(kTag), hn::Zero(kTag), hn::Zero(kTag)};
-  for (const SpecularLight& light : lights) {
-    const LightRecord& record = light.record;
-    if (isLeftOut(leftOutBy, record.link)) continue;
+struct SpecularBlock::Place {
+  Points points;
+  Vector3 sum;
+  uint8_t lanes;
+  const LightUse* uses;
+  uint32_t leftOutBy;
+};
+
+SpecularBlock::SpecularBlock(const GBuffer& gbuffer, const vec3& eye, const SumConstants& constants,
+                             float leastRoughness)
+    : gbuffer_(gbuffer), eye_(eye), constants_(constants), leastRoughness_(leastRoughness) {
+  constants_.unitsPerIrradiance = 1.0f;
+  places_.reserve(kMost);
+}
+SpecularBlock::~SpecularBlock() = default;
+
+void SpecularBlock::add(size_t first, uint8_t lanes, std::span<const Gloss, kLanes> gloss,
+                        const LightUse* uses, uint32_t leftOutBy) {
+  const Floats zero = hn::Zero(kTag);
+  places_.push_back({pointsAt(gbuffer_, eye_, first, lanes, gloss, leastRoughness_),
+                     {zero, zero, zero},
+                     lanes,
+                     uses,
+                     leftOutBy});
+}
+
+template <LightRecord::Kind kKind>
+void SpecularBlock::addLight(const SpecularLight& specular) {
+  const LightRecord& record = specular.record;
+  const WideLight light(record, false, constants_);
+  const WideConstants c(constants_);
+  for (Place& place : places_) {
+    if (isLeftOut(place.leftOutBy, record.link)) continue;
     bool looksUp = record.map != nullptr;
-    if (uses != nullptr && record.slot >= 0) {
-      const LightUse use = uses[record.slot];
+    if (place.uses != nullptr && record.slot >= 0) {
+      const LightUse use = place.uses[record.slot];
       if (use == LightUse::skip) continue;
       looksUp = looksUp && use != LightUse::add;
     }
-    switch (record.kind) {
+    addSpecular<kKind>(place.points, light, specular.footprint, looksUp, c, place.sum);
+  }
+}
+
+void SpecularBlock::sum(std::span<const SpecularLight> lights) {
+  using Kind = LightRecord::Kind;
+  for (const SpecularLight& light : lights) {
+    switch (light.record.kind) {
       case Kind::cosine:
-        addSpecular<Kind::cosine>(points, light, looksUp, ofLight, wide, sum);
+        addLight<Kind::cosine>(light);
         break;
       case Kind::uniform:
-        addSpecular<Kind::uniform>(points, light, looksUp, ofLight, wide, sum);
+        addLight<Kind::uniform>(light);
         break;
       case Kind::directional:
-        addSpecular<Kind::directional>(points, light, looksUp, ofLight, wide, sum);
+        addLight<Kind::directional>(light);
         break;
     }
   }
+}
+
+void SpecularBlock::read(size_t k, std::span<vec3, kLanes> out) const {
+  const Place& place = places_[k];
   HWY_ALIGN float r[kLanes], g[kLanes], b[kLanes];
-  hn::Store(sum.x, kTag, r);
-  hn::Store(sum.y, kTag, g);
-  hn::Store(sum.z, kTag, b);
+  hn::Store(place.sum.x, kTag, r);
+  hn::Store(place.sum.y, kTag, g);
+  hn::Store(place.sum.z, kTag, b);
   for (size_t lane = 0; lane < kLanes; ++lane)
-    if ((lanes >> lane & 1) != 0) out[lane] = vec3(r[lane], g[lane], b[lane]);
+    if ((place.lanes >> lane & 1) != 0) out[lane] = vec3(r[lane], g[lane], b[lane]);
 }
 
 }  // namespace lamplighter::cpu

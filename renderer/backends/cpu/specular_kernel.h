@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "renderer/backends/cpu/light_kernel.h"
 #include "renderer/scene/surface.h"
@@ -16,14 +17,37 @@ struct SpecularLight {
   bool operator==(const SpecularLight&) const = default;
 };
 
-// The radiance [W/(m² sr)] that all lights together give by the lobes of some pixels of a packet;
-// those of the other lanes stay as they are.
-//   uses: by slot, skip, add or addShadowed; null: with a look-up, or without where a light has no
-//   map. first: the packet's first pixel; gloss, out: of the same packet. leftOutBy: the links of
-//   lights that do not light these pixels.
-void specularRadiance(const GBuffer& gbuffer, const vec3& eye, size_t first, uint8_t lanes,
-                      std::span<const Gloss, kLanes> gloss, std::span<const SpecularLight> lights,
-                      const LightUse* uses, uint32_t leftOutBy, const SumConstants& constants,
-                      float leastRoughness, std::span<vec3, kLanes> out);
+// Glossy places that are summed together, light after light, so that what is made of a light and
+// its shadow map serve for all of them.
+class SpecularBlock {
+ public:
+  static constexpr size_t kMost = 128;
+
+  // Of a G-buffer seen from `eye`.
+  SpecularBlock(const GBuffer& gbuffer, const vec3& eye, const SumConstants& constants,
+                float leastRoughness);
+  ~SpecularBlock();
+
+  // Some lanes of the packet that begins at the pixel `first`, and their gloss.
+  //   uses: by slot, skip, add or addShadowed; null: with a look-up, or without where a light has
+  //   no map. leftOutBy: the links of lights that do not light them.
+  void add(size_t first, uint8_t lanes, std::span<const Gloss, kLanes> gloss, const LightUse* uses,
+           uint32_t leftOutBy);
+
+  void sum(std::span<const SpecularLight> lights);
+  // The radiance that the k-th place has of them [W/(m² sr)], into its lanes.
+  void read(size_t k, std::span<vec3, kLanes> out) const;
+
+ private:
+  struct Place;
+  template <LightRecord::Kind kKind>
+  void addLight(const SpecularLight& light);
+
+  const GBuffer& gbuffer_;
+  const vec3 eye_;
+  SumConstants constants_;
+  const float leastRoughness_;
+  std::vector<Place> places_;
+};
 
 }  // namespace lamplighter::cpu

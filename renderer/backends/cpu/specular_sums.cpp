@@ -12,6 +12,9 @@ namespace lamplighter::cpu {
 
 namespace {
 
+// Whose shadow maps' texels are read together.
+constexpr size_t kTilesATask = 8;
+
 // The texture is looked up where the pixel's point lies in its triangle.
 Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
   const RenderObject& object = scene.objects[g.object[i]];
@@ -123,17 +126,32 @@ uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const 
   }
   isKnown_ = false;  // until all is done
   std::atomic<uint64_t> pixels = 0;
-  tbb::parallel_for(size_t{0}, stale.size(), [&](size_t k) {
-    Tile& tile = tiles_[stale[k]];
+  const size_t tasks = (stale.size() + kTilesATask - 1) / kTilesATask;
+  tbb::parallel_for(size_t{0}, tasks, [&](size_t task) {
+    std::vector<std::pair<size_t, const Part*>> parts;  // and their tiles
+    for (size_t k = task * kTilesATask; k < std::min((task + 1) * kTilesATask, stale.size()); ++k)
+      for (const Part& part : tiles_[stale[k]].parts) parts.emplace_back(stale[k], &part);
     uint64_t here = 0;
-    for (const Part& part : tile.parts) {
-      const size_t inTile = static_cast<size_t>(part.packet) * kLanes;
-      const LightUse* uses = hasPatches ? &uses_[part.row * slots_] : nullptr;
-      specularRadiance(g, eye, stale[k] * kTilePixels + inTile, part.lanes,
-                       std::span<const Gloss, kLanes>(&tile.gloss[inTile], kLanes), lights, uses,
-                       scene.hasLinks ? scene.objects[part.patch.first].leftOutBy : 0, constants,
-                       leastRoughness, std::span<vec3, kLanes>(&tile.radiance[inTile], kLanes));
-      here += static_cast<uint64_t>(std::popcount(part.lanes));
+    for (size_t first = 0; first < parts.size(); first += SpecularBlock::kMost) {
+      const auto some =
+          std::span(parts).subspan(first, std::min(SpecularBlock::kMost, parts.size() - first));
+      SpecularBlock block(g, eye, constants, leastRoughness);
+      const auto packetOf = [](const Part& part) {
+        return static_cast<size_t>(part.packet) * kLanes;
+      };
+      for (const auto& [tile, part] : some) {
+        const Gloss* gloss = &tiles_[tile].gloss[packetOf(*part)];
+        block.add(tile * kTilePixels + packetOf(*part), part->lanes,
+                  std::span<const Gloss, kLanes>(gloss, kLanes),
+                  hasPatches ? &uses_[part->row * slots_] : nullptr,
+                  scene.hasLinks ? scene.objects[part->patch.first].leftOutBy : 0);
+        here += static_cast<uint64_t>(std::popcount(part->lanes));
+      }
+      block.sum(lights);
+      for (size_t k = 0; k < some.size(); ++k) {
+        vec3* radiance = &tiles_[some[k].first].radiance[packetOf(*some[k].second)];
+        block.read(k, std::span<vec3, kLanes>(radiance, kLanes));
+      }
     }
     pixels += here;
   });

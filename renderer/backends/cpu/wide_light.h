@@ -92,13 +92,14 @@ struct WideConstants {
         first(all(1.0f / static_cast<float>(c.resolution) - 1.0f)),
         beforePlane(all(1.0f + c.bias)),
         beforePoint(all(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(c.resolution))),
-        clampDistance2(all(c.clampDistance2)) {}
+        clampDistance2(all(c.clampDistance2)),
+        perClampDistance2(all(1.0f / c.clampDistance2)) {}
 
   Floats resolution, middle, half;
   hn::Vec<hn::RebindToUnsigned<Tag>> lastTexel;
   Floats step, steep, first;
   Floats beforePlane, beforePoint;
-  Floats clampDistance2;
+  Floats clampDistance2, perClampDistance2;
 };
 
 // The texel's column or row of a square coordinate in [-1, 1]; `half` is a little less than it is,
