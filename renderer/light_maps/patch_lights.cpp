@@ -4,12 +4,22 @@
 
 namespace lamplighter {
 
-void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot,
-                       bool groups) const {
+void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const {
   usesOfAll(object, leaf, mapped, bySlot.first(visibility_.slots()));
+  standIn(object, leaf, nullptr, bySlot);
+}
+
+void PatchLights::uses(uint32_t object, int leaf, const StandIns::Lobes& lobes,
+                       std::span<LightUse> bySlot) const {
+  usesOfAll(object, leaf, false, bySlot.first(visibility_.slots()));
+  standIn(object, leaf, &lobes, bySlot);
+}
+
+void PatchLights::standIn(uint32_t object, int leaf, const StandIns::Lobes* lobes,
+                          std::span<LightUse> bySlot) const {
   if (standIns_ == nullptr) return;
   const Patch& patch = patches(object).patches[static_cast<size_t>(leaf)];
-  standIns_->apply(patch.centre, patch.radius, groups, bySlot);
+  standIns_->apply(patch.centre, patch.radius, lobes, bySlot);
 }
 
 // As if all had their maps.

@@ -51,11 +51,15 @@ class PatchLights {
     return prt_ != nullptr && prt_->covers(patches(object), object, leaf);
   }
   // By slot, slots() of them. `mapped`: for pixels that begin with the light map, or with light by
-  // transfer. `groups`: one light may stand for several, which is not for speculars.
-  void uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot,
-            bool groups = true) const;
+  // transfer.
+  void uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
+  // The same for lobes of glossy pixels.
+  void uses(uint32_t object, int leaf, const StandIns::Lobes& lobes,
+            std::span<LightUse> bySlot) const;
 
  private:
+  void standIn(uint32_t object, int leaf, const StandIns::Lobes* lobes,
+               std::span<LightUse> bySlot) const;
   void usesOfAll(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
 
   const VisibilityDatabase& visibility_;

@@ -19,6 +19,8 @@ constexpr float kCoarsest = 2.0f;
 // A patch is far from a group that is within this share of its distance about its place. The error
 // of the VPLs' distances is of second order, for that place is in their middle.
 constexpr float kFar = 0.3f;
+// The same for lobes, times their width: what a group is seen under is less than half of a lobe.
+constexpr float kFarForLobes = 0.5f;
 // VPLs of a group look the same way, but for this cosine.
 constexpr float kSameWay = 0.95f;
 // Of the median of all lights' brightness: what is brighter counts as so bright.
@@ -187,13 +189,14 @@ void StandIns::standForGroups(Numbers& numbers, const Groups& groups) {
     for (uint32_t i = 0; i < lights.size(); ++i) cells[i] = {cellOf(*lights[i], grid), i};
     std::sort(cells.begin(), cells.end());
     for (size_t first = 0, last = 0; first < cells.size(); first = last) {
-      float bright = 0.0f;
+      float bright = 0.0f, footprint = 0.0f;
       vec3 middle(0.0f), intensity(0.0f);
       for (last = first; last < cells.size() && cells[last].first == cells[first].first; ++last) {
         const shared::Vpl& v = *lights[cells[last].second];
         bright += brightness(v);
         middle += brightness(v) * vec3(v.position);
         intensity += vec3(v.intensity);
+        footprint += v.footprint.x;
       }
       if (last - first < 2 || !(bright > 0.0f) || bright > most) continue;
       middle /= bright;
@@ -220,13 +223,14 @@ void StandIns::standForGroups(Numbers& numbers, const Groups& groups) {
       for (size_t i = first; i < last; ++i)
         members_.push_back(static_cast<int>(lights[cells[i].second]->intensity.w));
       add(numbers, cells[first].first, *at, intensity, true);
+      lights_.back().footprint.x = footprint;
       group.slot = static_cast<int>(lights_.back().intensity.w);
       groups_.push_back(group);
     }
   }
 }
 
-void StandIns::apply(const vec3& centre, float radius, bool groups,
+void StandIns::apply(const vec3& centre, float radius, const Lobes* lobes,
                      std::span<LightUse> bySlot) const {
   const auto looksUp = [](LightUse use) {
     return use == LightUse::addShadowed || use == LightUse::takeShadow;
@@ -237,12 +241,13 @@ void StandIns::apply(const vec3& centre, float radius, bool groups,
     if (standIn_[i] >= 0) bySlot[static_cast<size_t>(standIn_[i])] = bySlot[i];
     bySlot[i] = LightUse::skip;
   }
-  if (!groups) return;
+  const float far = lobes == nullptr ? kFar : std::min(kFar, kFarForLobes * lobes->alpha);
   for (const Group& group : groups_) {
     const int* members = &members_[group.first];
     const LightUse use = bySlot[static_cast<size_t>(members[0])];
-    if (!looksUp(use)) continue;
-    if (group.radius > kFar * (glm::distance(group.place, centre) - radius)) continue;
+    // Of irradiance what has no shadow is in light maps.
+    if (lobes == nullptr ? !looksUp(use) : use == LightUse::skip) continue;
+    if (group.radius > far * (glm::distance(group.place, centre) - radius)) continue;
     if (!std::all_of(members + 1, members + group.count,
                      [&](int slot) { return bySlot[static_cast<size_t>(slot)] == use; }))
       continue;

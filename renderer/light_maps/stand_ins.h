@@ -3,7 +3,8 @@
 //   the place of the nearest that has;
 // - for a group of VPLs near each other, one as bright as all of them at the place of one of them
 //   (Walter et al., Lightcuts, 2005), for patches that are far from the group and on which all its
-//   VPLs would look their maps up.
+//   VPLs would look their maps up; and for lobes that are wide beside it, with maps or without. It
+//   stands for the area of all of them, which blurs what a lobe shows of it.
 //
 // A stand-in is a light as any other for the backends: it has a slot, behind those of the VPLs, and
 // looks up the map of the VPL at whose place it is.
@@ -30,6 +31,10 @@ class StandIns {
     std::function<bool(const vec3&, const vec3&)> sees;
     bool sceneChanged = false;  // places may see others than in the last call
   };
+  // Of glossy pixels of a patch.
+  struct Lobes {
+    float alpha = 0.0f;  // the square of the roughness, at least
+  };
   // `shown`: the VPLs, with their slots in intensity.w; by slot whether it has a map, and whether
   // the view wants it to have one.
   void update(std::span<const shared::Vpl> shown, size_t slots, const std::vector<uint8_t>& hasMap,
@@ -50,8 +55,9 @@ class StandIns {
   }
 
   // Makes of how the pixels of a patch would use each VPL, if all had maps, how they use VPLs and
-  // stand-ins. `groups`: whether any may stand for several.
-  void apply(const vec3& centre, float radius, bool groups, std::span<LightUse> bySlot) const;
+  // stand-ins. `lobes`: null: for irradiance; else for these.
+  void apply(const vec3& centre, float radius, const Lobes* lobes,
+             std::span<LightUse> bySlot) const;
 
  private:
   struct Group {

@@ -30,6 +30,14 @@ Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
   return glossAt(scene, g.object[i], g.triangle[i], u, v);
 }
 
+// All that a texture may say is taken for possible.
+StandIns::Lobes lobesOf(const RenderScene& scene, uint32_t object, float leastRoughness) {
+  const Material& m = scene.materials[static_cast<size_t>(scene.objects[object].material)];
+  const bool isKnown = m.metallicRoughnessTexture.texture == kNone;
+  const float roughness = std::max(isKnown ? m.roughness : 0.0f, leastRoughness);
+  return {roughness * roughness};
+}
+
 // By object, whether any of it may be.
 std::vector<uint8_t> findGlossy(const RenderScene& scene) {
   std::vector<uint8_t> mayBe;
@@ -76,7 +84,8 @@ void SpecularSums::findParts(const RenderScene& scene, const GBuffer& g, size_t 
 }
 
 // By row, whether it says something else than before.
-std::vector<bool> SpecularSums::findUses(const PatchLights& patches) {
+std::vector<bool> SpecularSums::findUses(const RenderScene& scene, float leastRoughness,
+                                         const PatchLights& patches) {
   rows_.clear();
   for (Tile& tile : tiles_)
     for (Part& part : tile.parts) {
@@ -86,7 +95,8 @@ std::vector<bool> SpecularSums::findUses(const PatchLights& patches) {
   slots_ = patches.slots();
   uses_.assign(rows_.size() * slots_, LightUse::skip);
   for (const auto& [patch, row] : rows_)
-    patches.uses(patch.first, patch.second, false, {&uses_[row * slots_], slots_}, false);
+    patches.uses(patch.first, patch.second, lobesOf(scene, patch.first, leastRoughness),
+                 {&uses_[row * slots_], slots_});
   std::vector<bool> isOther(rows_.size(), true);
   if (last.size() == uses_.size())
     for (size_t row = 0; row < rows_.size(); ++row)
@@ -113,7 +123,7 @@ uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const 
   tbb::parallel_for(size_t{0}, found.size(),
                     [&](size_t i) { findParts(scene, g, found[i], mayBeGlossy, patches); });
   std::vector<bool> isOther;
-  if (hasPatches) isOther = findUses(*patches);
+  if (hasPatches) isOther = findUses(scene, leastRoughness, *patches);
 
   std::vector<size_t> stale;
   for (size_t i = 0; i < tiles_.size(); ++i) {

@@ -54,7 +54,8 @@ class SpecularSums {
   };
   void findParts(const RenderScene& scene, const GBuffer& gbuffer, size_t tile,
                  std::span<const uint8_t> mayBeGlossy, const PatchLights* patches);
-  std::vector<bool> findUses(const PatchLights& patches);
+  std::vector<bool> findUses(const RenderScene& scene, float leastRoughness,
+                             const PatchLights& patches);
 
   bool isOn_ = false, isKnown_ = false, knowsPlaces_ = false, hasPatches_ = false;
   SumConstants constants_;

@@ -121,7 +121,8 @@ const ParameterSpec& groupShare() {
       "%",
       "Where shadow maps are looked up, one look-up may do for a group of light samples near each "
       "other that is far away, as long as the group has no more than this share of all light. So "
-      "that more light samples cost less than their number. 0: a look-up for each. Nothing for "
+      "that more light samples cost less than their number. Highlights of the cpu backend show "
+      "such a group as one light where it is small beside them. 0: a look-up for each. Nothing for "
       "naive, and with fewer than 800 light samples.",
       0.2f,
       0.0,

@@ -108,7 +108,7 @@ TEST(StandIns, OneWithoutMapLooksUpThatOfItsNeighbour) {
   uses[0] = LightUse::takeShadow;
   uses[1] = LightUse::add;
   uses[3] = LightUse::addShadowed;
-  standIns.apply(vec3(0, -5, 0), 1.0f, true, uses);
+  standIns.apply(vec3(0, -5, 0), 1.0f, nullptr, uses);
   EXPECT_EQ(uses[0], LightUse::takeShadow);
   EXPECT_EQ(uses[1], LightUse::add);
   EXPECT_EQ(uses[3], LightUse::skip);
@@ -124,25 +124,63 @@ TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
   const auto slot = static_cast<size_t>(group.intensity.w);
   EXPECT_EQ(group.intensity.r, 4.0f);
   EXPECT_TRUE(standIns.isGroup(static_cast<int>(slot)));
-  const auto usesAt = [&](float y, bool groups, LightUse second) {
+  const auto usesAt = [&](float y, LightUse second) {
     std::vector<LightUse> uses(standIns.slots(), LightUse::skip);
     for (size_t i = 0; i < 4; ++i) uses[i] = LightUse::takeShadow;
     uses[1] = second;
-    standIns.apply(vec3(0, -y, 0), 0.5f, groups, uses);
+    standIns.apply(vec3(0, -y, 0), 0.5f, nullptr, uses);
     return uses;
   };
-  const auto far = usesAt(5.0f, true, LightUse::takeShadow);
+  const auto far = usesAt(5.0f, LightUse::takeShadow);
   EXPECT_EQ(far[slot], LightUse::takeShadow);
   EXPECT_EQ(std::count(far.begin(), far.end(), LightUse::skip),
             static_cast<std::ptrdiff_t>(far.size() - 1));
-  for (const auto& uses : {usesAt(0.5f, true, LightUse::takeShadow),   // near
-                           usesAt(5.0f, false, LightUse::takeShadow),  // not wanted
-                           usesAt(5.0f, true, LightUse::skip)}) {      // not all are looked up
+  for (const auto& uses : {usesAt(0.5f, LightUse::takeShadow),  // near
+                           usesAt(5.0f, LightUse::skip)}) {     // not all are looked up
     EXPECT_EQ(uses[slot], LightUse::skip);
     EXPECT_EQ(uses[0], LightUse::takeShadow);
   }
   standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 0.3f, .sees = {}});  // too bright
   EXPECT_EQ(standIns.groups(), 0u);
+}
+
+// With a shadow or without, where it is small beside the lobe.
+TEST(StandIns, AGroupIsOneLightForWideLobes) {
+  auto vpls = row(4, vec3(0.1f, 0, 0));
+  for (shared::Vpl& vpl : vpls) vpl.footprint.x = 0.25f;
+  StandIns standIns;
+  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  const auto groupUse = [&](float alpha, LightUse use) {
+    std::vector<LightUse> uses(standIns.slots(), LightUse::skip);
+    std::fill_n(uses.begin(), 4, use);
+    const StandIns::Lobes lobes{alpha};
+    standIns.apply(vec3(0, -5, 0), 0.5f, &lobes, uses);
+    const shared::Vpl& coarsest = standIns.lights()[0];
+    EXPECT_EQ(coarsest.footprint.x, 1.0f);
+    return uses[static_cast<size_t>(coarsest.intensity.w)];
+  };
+  for (const LightUse use : {LightUse::add, LightUse::addShadowed}) {
+    EXPECT_EQ(groupUse(0.3f, use), use);
+    EXPECT_EQ(groupUse(0.02f, use), LightUse::skip);  // narrow
+    EXPECT_EQ(groupUse(0.0f, use), LightUse::skip);
+  }
+}
+
+// Among them one whose lobes show the light samples, and a rough one.
+TEST(GroupedLights, ShowTheSameInLobes) {
+  Room room("table_room");
+  int i = 0;
+  for (Material& m : room.scene.materials) {
+    m.metallic = 0.6f;
+    m.roughness = i++ % 2 == 0 ? 0.25f : 0.6f;
+  }
+  const Result each = render(room, settingsOf("light_maps", 1500, 0.0f));
+  const Result grouped = render(room, settingsOf("light_maps", 1500, 0.4f));
+  const auto difference = compareImages(grouped.image, each.image);
+  std::cout << "lobes: relRMSE " << 100.0 * difference.relRmse << "%\n";
+  EXPECT_GT(difference.relRmse, 0.0);
+  EXPECT_LT(difference.relRmse, 0.03);
+  EXPECT_NEAR(difference.bias, 1.0, 0.003);
 }
 
 // On both sides of a wall, for which there is one shadow less.
