@@ -57,7 +57,7 @@ class LightMaps {
   Held held(uint32_t object, int leaf) const {
     const size_t index =
         static_cast<size_t>(objects_[object].tileOfPatch[static_cast<size_t>(leaf)]);
-    return Held(&objects_[object].held[index * words_]);
+    return Held(objects_[object].held.data() + index * words_);
   }
   // A leaf's tile, to be read at many points; until the maps or patches change.
   class Sampler {

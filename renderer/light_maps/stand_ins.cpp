@@ -42,7 +42,7 @@ float unlikeness(const shared::Vpl& a, const shared::Vpl& b) {
 uint64_t sideOf(const vec3& n) {
   const vec3 a = glm::abs(n);
   const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return static_cast<uint64_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
+  return 2 * static_cast<uint64_t>(axis) + (n[axis] < 0.0f ? 1 : 0);
 }
 
 // The cell of grid `grid`, 0 the coarsest; parts of a key that differ in no bit below 2^62.
@@ -77,7 +77,8 @@ float allLight(std::span<const shared::Vpl> lights) {
 constexpr uint64_t kIsOfOne = uint64_t{1} << 62;
 
 bool sameBits(std::span<const shared::Vpl> a, std::span<const shared::Vpl> b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size_bytes()) == 0;
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ class PrtLights {
   uint64_t raysPerLight() const;
 
  private:
-  static constexpr size_t kSums = 3 * kShCoefficients;  // a light point: all r, then g, then b
+  static constexpr size_t kSums = size_t{3} * kShCoefficients;  // a light point: all r, then g, then b
   // How an object takes the light in a slot.
   enum class Take : uint8_t { none, add, toPixels };
   struct Object {

@@ -50,7 +50,7 @@ struct GBuffer {
     const int tx = x % kTileSize, ty = y % kTileSize;
     const int packet = (ty / kPacketHeight) * kPacketsPerRow + tx / kPacketWidth;
     const int lane = (ty % kPacketHeight) * kPacketWidth + tx % kPacketWidth;
-    return tile * kTilePixels + packet * kLanes + lane;
+    return tile * kTilePixels + static_cast<size_t>(packet * kLanes + lane);
   }
   vec3 albedo(size_t i) const { return {ar[i], ag[i], ab[i]}; }
   vec3 emission(size_t i) const { return {er[i], eg[i], eb[i]}; }

@@ -46,7 +46,7 @@ HWY_INLINE Floats weightOf(const WideLight& light, const WideConstants& c, const
 
 HWY_INLINE Vector3 loadNormals(const float* from) {
   return {hn::LoadU(kTag, from), hn::LoadU(kTag, from + kLanes),
-          hn::LoadU(kTag, from + 2 * kLanes)};
+          hn::LoadU(kTag, from + size_t{2} * kLanes)};
 }
 
 HWY_INLINE Vector3 fromLight(const Vector3& p, const WideLight& light) {

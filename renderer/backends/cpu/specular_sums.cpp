@@ -96,12 +96,12 @@ std::vector<bool> SpecularSums::findUses(const RenderScene& scene, float leastRo
   uses_.assign(rows_.size() * slots_, LightUse::skip);
   for (const auto& [patch, row] : rows_)
     patches.uses(patch.first, patch.second, lobesOf(scene, patch.first, leastRoughness),
-                 {&uses_[row * slots_], slots_});
+                 {uses_.data() + row * slots_, slots_});
   std::vector<bool> isOther(rows_.size(), true);
   if (last.size() == uses_.size())
     for (size_t row = 0; row < rows_.size(); ++row)
-      isOther[row] =
-          !std::equal(&uses_[row * slots_], &uses_[row * slots_] + slots_, &last[row * slots_]);
+      isOther[row] = !std::equal(uses_.data() + row * slots_, uses_.data() + (row + 1) * slots_,
+                                 last.data() + row * slots_);
   return isOther;
 }
 
@@ -153,7 +153,7 @@ uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const 
         const Gloss* gloss = &tiles_[tile].gloss[packetOf(*part)];
         block.add(tile * kTilePixels + packetOf(*part), part->lanes,
                   std::span<const Gloss, kLanes>(gloss, kLanes),
-                  hasPatches ? &uses_[part->row * slots_] : nullptr,
+                  hasPatches ? uses_.data() + part->row * slots_ : nullptr,
                   scene.hasLinks ? scene.objects[part->patch.first].leftOutBy : 0);
         here += static_cast<uint64_t>(std::popcount(part->lanes));
       }

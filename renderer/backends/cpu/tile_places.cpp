@@ -1,7 +1,6 @@
 #include "renderer/backends/cpu/tile_places.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include <tbb/parallel_for.h>
 
@@ -45,12 +44,12 @@ void PlaceTable::update(const PatchLights& lights, const std::vector<bool>& inUs
     isKnown_[row] = inUse[row] ? 1 : 0;
     if (!inUse[row]) return;
     const Place& place = places_[row];
-    LightUse* uses = &now_[row * slots_];
-    LightUse* last = &before_[row * slots_];
+    LightUse* uses = now_.data() + row * slots_;
+    LightUse* last = before_.data() + row * slots_;
     lights.uses(place.object, place.leaf, place.isMapped, {uses, slots_});
     if (!wasKnown) {
       std::copy_n(uses, slots_, last);
-    } else if (std::memcmp(uses, last, slots_) != 0) {
+    } else if (!std::equal(uses, uses + slots_, last)) {
       for (size_t slot = 0; slot < slots_; ++slot)
         if (uses[slot] != last[slot]) changed_[row].push_back(static_cast<int>(slot));
     }

@@ -31,8 +31,8 @@ class PlaceTable {
 
   // Brings the rows in use up to date. The others are forgotten: their patches may be gone.
   void update(const PatchLights& lights, const std::vector<bool>& inUse);
-  const LightUse* now(uint32_t row) const { return &now_[row * slots_]; }
-  const LightUse* before(uint32_t row) const { return &before_[row * slots_]; }
+  const LightUse* now(uint32_t row) const { return now_.data() + row * slots_; }
+  const LightUse* before(uint32_t row) const { return before_.data() + row * slots_; }
   // Slots that are used in another way than before.
   std::span<const int> changed(uint32_t row) const { return changed_[row]; }
   // What is now is what was summed.

@@ -47,7 +47,8 @@ class World {
     other.show(vpls);
     for (uint32_t i = 0; i < prt.objects(); ++i) {
       const auto a = prt.irradiance(i), b = other.prt.irradiance(i);
-      if (a.size() != b.size() || std::memcmp(a.data(), b.data(), a.size_bytes()) != 0)
+      if (a.size() != b.size() ||
+          (!a.empty() && std::memcmp(a.data(), b.data(), a.size_bytes()) != 0))
         return false;
       const auto heldA = prt.held(i), heldB = other.prt.held(i);
       if (!a.empty() && !std::equal(heldA.begin(), heldA.end(), heldB.begin(), heldB.end()))
