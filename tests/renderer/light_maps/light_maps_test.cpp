@@ -206,6 +206,37 @@ TEST(LightMaps, HoldTheSumOfTheirLights) {
   EXPECT_GT(heldLights, 20 * tiles);
 }
 
+// Beyond the borders of a tile too, where it is as at them.
+TEST(LightMaps, EightPointsAreReadAsEachIs) {
+  Kept kept;
+  kept.update(litBoxes(), SceneChanges::all());
+  constexpr size_t kPoints = LightMaps::Sampler::kPoints;
+  int lit = 0;
+  for (uint32_t object = 0; object < kept.scene.objects.size(); ++object) {
+    const ObjectPatches& patches = kept.visibility.patches(object);
+    for (size_t p = 0; p < patches.patches.size(); ++p) {
+      const Patch& patch = patches.patches[p];
+      const int leaf = static_cast<int>(p);
+      if (!patch.isLeaf() || kept.maps.tile(object, leaf) == nullptr) continue;
+      const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
+      std::array<float, kPoints> x, y, z;
+      for (size_t i = 0; i < kPoints; ++i) {
+        const float share = 0.2f * static_cast<float>(i) - 0.2f;
+        const vec3 at = chart.at(glm::mix(patch.min, patch.max, vec2(share, 0.9f - share)));
+        x[i] = at.x, y[i] = at.y, z[i] = at.z;
+      }
+      std::array<vec4, kPoints> e;
+      const LightMaps::Sampler map(kept.maps, patches, object, leaf);
+      map.irradiance(x.data(), y.data(), z.data(), e);
+      for (size_t i = 0; i < kPoints; ++i) {
+        EXPECT_EQ(vec3(e[i]), map.irradiance(vec3(x[i], y[i], z[i])));
+        lit += e[i].g > 0.0f;
+      }
+    }
+  }
+  EXPECT_GT(lit, 300);
+}
+
 TEST(LightMaps, TheSameBitsAtAnyNumberOfThreads) {
   std::vector<uint64_t> hashes;
   for (const size_t threads : {1u, 2u, 5u}) {
