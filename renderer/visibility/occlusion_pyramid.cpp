@@ -136,9 +136,7 @@ void OcclusionPyramid::addSides(const vec3& middle, const vec3& up) {
                       hn::LoadU(tag, v[2].data())};
   };
   const Wide3<Vec> from = load(region_.from), apex = set(apex_);
-  const Wide3<Vec> way = parallel_ ? set(towards_)
-                                   : Wide3<Vec>{hn::Sub(from.x, apex.x), hn::Sub(from.y, apex.y),
-                                                hn::Sub(from.z, apex.z)};
+  const Wide3<Vec> way = parallel_ ? set(towards_) : from - apex;
   const SidePlanes<Vec> planes =
       sidePlanes(tag, from, load(region_.sides), way, set(middle), set(up),
                  hn::Set(tag, region_.thickness), hn::Set(tag, margin_), parallel_);

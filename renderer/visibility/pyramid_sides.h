@@ -14,7 +14,7 @@ inline constexpr float kSumsRounding = 0.125f;
 template <typename V>
 struct SidePlanes {
   Wide3<V> normal;  // unit, inwards; zero: it is left out
-  V offset;         // inside: dotFused(normal, x) + offset >= 0
+  V offset;         // inside: dot(normal, x) + offset >= 0
 };
 
 // `from`: a corner of the patch, `side`: from it to the next, `way`: to the corner from the light,
@@ -37,9 +37,7 @@ HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const Wide3<V>& from, const Wide3<V
   };
   Wide3<V> n = cross(way, side);
   auto length = hn::Sqrt(hn::Max(dotFused(n, n), all(1e-30f)));
-  const Wide3<V> across{hn::Sub(middle.x, from.x), hn::Sub(middle.y, from.y),
-                        hn::Sub(middle.z, from.z)};
-  const auto inside = hn::Div(dotFused(n, across), length);
+  const auto inside = hn::Div(dotFused(n, middle - from), length);
   const auto known = hn::Gt(hn::Abs(inside), margin);
   const auto slab = hn::Add(thickness, margin);
   if (!parallel) {
