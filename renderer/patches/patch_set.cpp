@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "renderer/patches/triangle_bounds.h"
+
 namespace lamplighter {
 namespace {
 
@@ -29,13 +31,6 @@ void splitRectangle(ObjectPatches& out, int index, int splits) {
   out.patches.push_back(half);
   splitRectangle(out, first, splits - 1);
   splitRectangle(out, first + 1, splits - 1);
-}
-
-Bounds boundsOf(const RenderScene& s, const RenderObject& o, std::span<const uint32_t> triangles) {
-  Bounds b;
-  for (const uint32_t t : triangles)
-    for (uint32_t c = 0; c < 3; ++c) b.add(s.positions[s.indices[o.firstIndex + 3 * t + c]]);
-  return b;
 }
 
 // Children stand after their parents.
@@ -102,9 +97,10 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
   ObjectPatches out;
   out.revision.advance();
   out.bounds = o.bounds;
+  const vec3 centre = o.bounds.centre();
   float radius2 = 0.0f;
   for (uint32_t i = 0; i < o.vertexCount; ++i) {
-    const vec3 v = scene.positions[o.firstVertex + i] - o.bounds.centre();
+    const vec3 v = scene.positions[o.firstVertex + i] - centre;
     radius2 = std::max(radius2, glm::dot(v, v));
   }
   out.radius = std::sqrt(radius2);
@@ -127,13 +123,17 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
     const int index = static_cast<int>(out.patches.size());
     const std::span<const uint32_t> triangles(&topology.loose[cluster.first], cluster.count);
     Patch& patch = out.patches.emplace_back();
-    patch.box = boundsOf(scene, o, triangles);
     if (cluster.firstChild != kNone) {
       patch.firstChild = first + cluster.firstChild;
     } else {
+      patch.box = boundsOf(scene, o, triangles);
       for (const uint32_t t : triangles) out.patchOfTriangle[t] = index;
     }
   }
+  for (size_t i = out.patches.size(); i-- > static_cast<size_t>(first);)
+    if (const Patch& p = out.patches[i]; !p.isLeaf())
+      for (int child = p.firstChild; child < p.firstChild + 2; ++child)
+        out.patches[i].box.add(out.patches[static_cast<size_t>(child)].box);
   findLevels(out);
   surround(out);
   return out;

@@ -1,5 +1,7 @@
 #include "renderer/visibility/object_identity.h"
 
+#include <array>
+#include <concepts>
 #include <cstring>
 #include <map>
 #include <tuple>
@@ -9,22 +11,39 @@
 namespace lamplighter {
 namespace {
 
-// FNV-1a over words.
+// FNV-1a over words, in some sums of their own, for one has to wait for each multiplication.
 class Hash {
  public:
   template <typename T>
   void add(const T* values, size_t count) {
     static_assert(sizeof(T) % sizeof(uint32_t) == 0);
-    for (size_t i = 0; i < count * (sizeof(T) / sizeof(uint32_t)); ++i) {
+    const auto* bytes = reinterpret_cast<const char*>(values);
+    add(count * (sizeof(T) / sizeof(uint32_t)), [&](size_t i) {
       uint32_t word;
-      std::memcpy(&word, reinterpret_cast<const char*>(values) + i * sizeof word, sizeof word);
-      value_ = (value_ ^ word) * 1099511628211u;
-    }
+      std::memcpy(&word, bytes + i * sizeof word, sizeof word);
+      return word;
+    });
   }
-  uint64_t value() const { return value_; }
+  // wordAt(i) for each below count.
+  template <typename WordAt>
+  void add(size_t count, const WordAt& wordAt) requires std::invocable<WordAt, size_t> {
+    size_t i = 0;
+    for (; i + kSums <= count; i += kSums)
+      for (size_t s = 0; s < kSums; ++s) take(sums_[s], wordAt(i + s));
+    for (; i < count; ++i) take(sums_[0], wordAt(i));
+  }
+  uint64_t value() const {
+    uint64_t value = kFirst;
+    for (const uint64_t sum : sums_) take(value, sum);
+    return value;
+  }
 
  private:
-  uint64_t value_ = 14695981039346656037u;
+  static constexpr size_t kSums = 8;
+  static constexpr uint64_t kFirst = 14695981039346656037u;
+  static void take(uint64_t& sum, uint64_t word) { sum = (sum ^ word) * 1099511628211u; }
+
+  std::array<uint64_t, kSums> sums_{kFirst, kFirst, kFirst, kFirst, kFirst, kFirst, kFirst, kFirst};
 };
 
 }  // namespace
@@ -43,10 +62,7 @@ ObjectIdentity identify(const RenderScene& s, uint32_t index) {
   Hash hash;
   hash.add(&s.positions[o.firstVertex], o.vertexCount);
   hash.add(&s.normals[o.firstVertex], o.vertexCount);
-  std::vector<uint32_t> indices(o.indexCount);
-  for (uint32_t i = 0; i < o.indexCount; ++i)
-    indices[i] = s.indices[o.firstIndex + i] - o.firstVertex;
-  hash.add(indices.data(), indices.size());
+  hash.add(o.indexCount, [&](size_t i) { return s.indices[o.firstIndex + i] - o.firstVertex; });
   id.geometry = hash.value();
   return id;
 }

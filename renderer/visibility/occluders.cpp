@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/patches/triangle_bounds.h"
+
 namespace lamplighter {
 namespace {
 
@@ -21,12 +23,6 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
   object.caster = Caster(patches.bounds, patches.radius);
   const Material& material = s.materials[static_cast<size_t>(o.material)];
   if (material.isClear()) return;
-  const auto boundsOf = [&](std::span<const uint32_t> triangles) {
-    Bounds box;
-    for (const uint32_t t : triangles)
-      for (uint32_t c = 0; c < 3; ++c) box.add(s.positions[s.indices[o.firstIndex + 3 * t + c]]);
-    return box;
-  };
   object.flat = topology.flat;
   if (std::any_of(patches.charts.begin(), patches.charts.end(),
                   [](const Chart& c) { return c.isRough; })) {
@@ -35,11 +31,11 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
                                patches.charts[c].isRough ? static_cast<int>(c) : kNone);
   }
   std::vector<Bounds> boxes;
-  for (const uint32_t t : object.flat) boxes.push_back(boundsOf({&t, 1}));
+  for (const uint32_t t : object.flat) boxes.push_back(boundsOf(s, o, {&t, 1}));
   const std::span<const uint32_t> loose(topology.loose);
   for (size_t first = 0; first < loose.size(); first += kGroupTriangles) {
     const size_t count = std::min(kGroupTriangles, loose.size() - first);
-    object.groups.push_back(boundsOf(loose.subspan(first, count)));
+    object.groups.push_back(boundsOf(s, o, loose.subspan(first, count)));
   }
   boxes.insert(boxes.end(), object.groups.begin(), object.groups.end());
   object.tree = topology.occluders;
