@@ -13,7 +13,7 @@ HidingBatch::HidingBatch(const LightLanes& lights, const PatchRegion& region)
   const Vec thickness = set(region.thickness), eight = set(8.0f);
   const Vec margin = hn::Mul(eight, hn::Add(rounding, thickness));
   hn::Store(hn::Add(hn::Mul(eight, rounding), thickness), kTag, inset_.data());
-  const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
+  const vec3 middle = region.middle();
   const Vec least = set(1e-20f);
   for (int c = 0; c < 3; ++c) {
     const auto axis = static_cast<size_t>(c);

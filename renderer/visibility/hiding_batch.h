@@ -1,4 +1,4 @@
-// From which of up to eight lights one polygon hides all of a rectangle: the same bits as
+// From which of up to eight lights one polygon hides all of a patch: the same bits as
 // OcclusionPyramid says of each.
 #pragma once
 
@@ -11,7 +11,7 @@ class HidingBatch {
  public:
   using Mask = LightLanes::Mask;
 
-  // Of lights for which the rectangle is neither dark nor degenerate. Refers to both, which must
+  // Of lights for which the patch is neither dark nor degenerate. Refers to both, which must
   // outlive it.
   HidingBatch(const LightLanes& lights, const PatchRegion& region);
   HidingBatch(const LightLanes& lights, PatchRegion&& region) = delete;

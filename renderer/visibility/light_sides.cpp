@@ -14,10 +14,22 @@ LightSides::LightSides(const LightLanes& lights, const PatchRegion& region) {
   const Vec behind = hn::Neg(hn::Add(set(region.thickness), hn::Mul(set(kSumsRounding), margin)));
 
   auto isBehind = hn::Le(dot(set(region.corners[0]) - apex, towards), behind);
-  for (size_t i = 1; i < 4; ++i)
-    isBehind = hn::And(isBehind, hn::Le(dot(set(region.corners[i]) - apex, towards), behind));
+  for (const vec3& corner : region.points().subspan(1))
+    isBehind = hn::And(isBehind, hn::Le(dot(set(corner) - apex, towards), behind));
+  if (region.isBox()) {
+    dark = lights.all() & bitsOf(isBehind);
+    const Vec3 low = set(region.corners[0]), high = set(region.corners[7]);
+    const auto isWithin = [&](Vec at, Vec from, Vec to) {
+      return hn::And(hn::Ge(at, hn::Sub(from, margin)), hn::Le(at, hn::Add(to, margin)));
+    };
+    degenerate =
+        lights.all() & ~dark &
+        bitsOf(hn::And(isWithin(apex.x, low.x, high.x),
+                       hn::And(isWithin(apex.y, low.y, high.y), isWithin(apex.z, low.z, high.z))));
+    return;
+  }
 
-  const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
+  const vec3 middle = region.middle();
   const Vec3 way = apex - set(middle);
   const Vec height = dot(way, set(region.normal));
   if (region.frontOnly) {

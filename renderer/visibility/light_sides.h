@@ -1,4 +1,4 @@
-// Which lights need no pyramid on a rectangle, eight at a time: as OcclusionPyramid says of each.
+// Which lights need no pyramid on a patch, eight at a time: as OcclusionPyramid says of each.
 #pragma once
 
 #include "renderer/visibility/light_lanes.h"

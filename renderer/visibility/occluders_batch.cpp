@@ -202,9 +202,13 @@ Occluders::States Occluders::occlusionsWithout(const RenderScene& s, const Light
   const LightLanes lanes({pointers.data(), lights.vpls.size()});
   States states;
   states.fill(Occlusion::none);
-  Search search(*this, s, lights, lanes, first);
-  const Mask met = search.run(objects);
-  std::copy_n(search.first().begin(), first.size(), first.begin());
+  // A cluster of a complex mesh stands in its own light.
+  Mask met = lanes.all();
+  if (!lights.region.isBox()) {
+    Search search(*this, s, lights, lanes, first);
+    met = search.run(objects);
+    std::copy_n(search.first().begin(), first.size(), first.begin());
+  }
   if (met == 0) return states;
   const Mask hidden = hiddenWithout(HidingBatch(lanes, lights.region), met, objects);
   forEachBit(met, [&](size_t i) {

@@ -50,14 +50,16 @@ PatchRegion::PatchRegion(const RenderScene& scene, uint32_t index, const ObjectP
     object = static_cast<int>(index);
     chart = patch.chart;
   }
-  rounding = roundingAt(points());
-  for (size_t i = 0; i < 4; ++i) {
-    const vec3 side = corners[(i + 1) % 4] - corners[i];
-    for (int c = 0; c < 3; ++c) {
-      from[static_cast<size_t>(c)][i] = corners[i][c];
-      sides[static_cast<size_t>(c)][i] = side[c];
-    }
+  vec3 farthest;
+  for (int c = 0; c < 3; ++c) {
+    const auto i = static_cast<size_t>(c);
+    const hn::FixedTag<float, 4> tag;
+    from[i] = {corners[0][c], corners[1][c], corners[2][c], corners[3][c]};
+    sides[i] = {from[i][1] - from[i][0], from[i][2] - from[i][1], from[i][3] - from[i][2],
+                from[i][0] - from[i][3]};
+    farthest[c] = hn::GetLane(hn::MaxOfLanes(tag, hn::Abs(hn::LoadU(tag, from[i].data()))));
   }
+  rounding = rayEpsilon(farthest);
 }
 
 OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& region)
@@ -82,8 +84,8 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
   }
 
   const bool isRough = region_.chart != kNone;
-  if (region_.count == 4) {
-    const vec3 middle = 0.5f * (region_.corners[0] + region_.corners[2]);
+  if (!region_.isBox()) {
+    const vec3 middle = region_.middle();
     const float height =
         parallel_ ? glm::dot(towards_, region_.normal) : glm::dot(apex_ - middle, region_.normal);
     // The bumps of a rough patch are turned to the light before the patch is.
@@ -188,7 +190,7 @@ bool OcclusionPyramid::mayBeOutside(const vec3& point, float margin) const {
 OcclusionPyramid::Axis::Axis(const OcclusionPyramid& p)
     : last_(p.parallel_ ? std::numeric_limits<float>::max() : 1.0f) {
   const PatchRegion& region = p.region_;
-  const vec3 middle = 0.5f * (region.corners[0] + region.corners[region.count == 4 ? 2 : 7]);
+  const vec3 middle = region.middle();
   const float margin = 8.0f * (p.margin_ + region.thickness);
   low_ = middle - margin;
   high_ = middle + margin;

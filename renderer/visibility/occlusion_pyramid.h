@@ -38,7 +38,9 @@ struct PatchRegion {
   explicit PatchRegion(const Bounds& box);
   PatchRegion(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
               const Patch& patch);
+  bool isBox() const { return count == 8; }
   std::span<const vec3> points() const { return {corners.data(), static_cast<size_t>(count)}; }
+  vec3 middle() const { return 0.5f * (corners[0] + corners[isBox() ? 7 : 2]); }
 };
 
 // A convex polygon that may hide whole patches, with what is asked of it for every pyramid.
@@ -78,7 +80,7 @@ class OcclusionPyramid {
   }
 
   // Its patch is a box around triangles, not a rectangle.
-  bool isOfBox() const { return region_.count == 8; }
+  bool isOfBox() const { return region_.isBox(); }
 
   // Whether it may be met; exact for triangles but for a margin of rounding.
   bool mayMeet(const Bounds& box) const;

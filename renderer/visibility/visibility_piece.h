@@ -35,8 +35,7 @@ class VisibilityDatabase::Update::Piece {
   // Whether the entry is decided without a pyramid, and how.
   bool settle(Task& task, uint8_t& others) const;
   bool mayBeTogether(const Task& task) const {
-    return db_.useClusters_ && region_.count == 4 &&
-           lightOf(task).position.w != shared::kVplDirectional;
+    return db_.useClusters_ && lightOf(task).position.w != shared::kVplDirectional;
   }
   // Where nothing is known of all but the movers, many entries are looked at together: first which
   // lights need a pyramid at all, then eight of these at a time.
