@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/visibility/mover_path.h"
 #include "renderer/visibility/occluders.h"
 #include "renderer/visibility/pyramid_batch.h"
 #include "renderer/visibility/shadow_reaches.h"
@@ -25,24 +26,17 @@ class MoverShadows {
   struct Answer {
     PyramidBatch::Mask met = 0;       // bit i: the light asked for with index i
     std::array<Hint, kLights> hints;  // of those that are met
-    // While no box of the movers goes or grows by as much, the answer is the same [m]; 0: unknown.
+    // While no box of the movers goes or grows by as much, as the way counts it, the answer is the
+    // same [m]; 0: unknown.
     PyramidBatch::Depths slack;
   };
 
-  // The movers as they are placed; lights by slot.
+  // The movers as they are placed; lights by slot; the path that they go.
   MoverShadows(const Occluders& occluders, std::span<const uint32_t> movers,
-               std::span<const shared::Vpl> lights);
+               std::span<const shared::Vpl> lights, const MoverPath& path);
 
   // Not those that are parallel; none where a mover may hide whole patches, or is not of groups.
   bool isAbout(size_t slot) const { return isUseful_ && !lights_[slot].isParallel; }
-  // Of lights wanted, those of which the shadow of a mover may fall on the sphere around a patch:
-  // bit i is that of slot 64 * word + i.
-  uint64_t mayFallOn(size_t word, uint64_t wanted, const vec3& centre, float radius) const {
-    uint64_t mask = 0;
-    for (const ShadowReaches& reaches : allReaches_)
-      mask |= reaches.mayFallOn(word, wanted, centre, radius);
-    return mask;
-  }
   // Of lights it is about, those, for which the patch, a rectangle, is neither dark nor degenerate:
   // what Occluders::occlusionBy() says, partial where met, else none.
   Answer of(const PatchRegion& region, std::span<const Question> lights) const;
@@ -55,22 +49,28 @@ class MoverShadows {
   struct Mover {
     Caster caster;
     BoxBatches groups;
-    size_t firstHint = 0;  // of all movers' batches one after the other
+    size_t firstHint = 0;  // of all movers' hints one after the other
   };
-  // The batch of a mover that a hint is of; none of it: past all.
-  size_t hinted(size_t mover, Hint hint) const {
-    return hint >= movers_[mover].firstHint ? hint - movers_[mover].firstHint : kNoHint;
-  }
-  const ShadowReach& reachOf(size_t slot, size_t mover) const {
-    return reaches_[slot * movers_.size() + mover];
-  }
+  // Some in each step: most that are not met deep enough never are.
+  bool looksFurther(size_t slot) const { return (slot + turn_) % kTurns == 0; }
+
+  static constexpr size_t kTurns = 4;
+
+  struct Asked;
+  void ask(const Asked& asked, size_t mover, Answer& answer) const;
+  PyramidBatch::Mask askWhereHinted(const Asked& asked, size_t mover, PyramidBatch::Mask open,
+                                    PyramidBatch::Depths& depths, Answer& answer) const;
+  Hint hintOf(size_t mover, int box) const;
 
   std::vector<Mover> movers_;
   bool isUseful_;
+  Way way_;
+  float enough_;  // what answers are to stand for, if that is easily had [m]
+  size_t turn_;
   std::vector<Light> lights_;
-  std::vector<ShadowReach> reaches_;       // by light and mover
-  std::vector<ShadowReaches> allReaches_;  // by mover
-  float rounding_ = 0.0f;                  // of places of movers [m]
+  std::vector<ShadowReach::Cone> cones_;  // of shadows, by light and mover
+  size_t boxesAHint_ = 1;                 // as few as fit what a hint can say
+  float rounding_ = 0.0f;                 // of places of movers [m]
 };
 
 }  // namespace lamplighter

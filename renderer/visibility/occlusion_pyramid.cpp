@@ -53,11 +53,11 @@ PatchRegion::PatchRegion(const RenderScene& scene, uint32_t index, const ObjectP
   vec3 farthest;
   for (int c = 0; c < 3; ++c) {
     const auto i = static_cast<size_t>(c);
-    const hn::FixedTag<float, 4> tag;
     from[i] = {corners[0][c], corners[1][c], corners[2][c], corners[3][c]};
     sides[i] = {from[i][1] - from[i][0], from[i][2] - from[i][1], from[i][3] - from[i][2],
                 from[i][0] - from[i][3]};
-    farthest[c] = hn::GetLane(hn::MaxOfLanes(tag, hn::Abs(hn::LoadU(tag, from[i].data()))));
+    farthest[c] = std::max(std::max(std::abs(from[i][0]), std::abs(from[i][1])),
+                           std::max(std::abs(from[i][2]), std::abs(from[i][3])));
   }
   rounding = rayEpsilon(farthest);
 }

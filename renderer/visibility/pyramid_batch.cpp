@@ -37,11 +37,7 @@ HWY_INLINE Vec distanceOf(const Wide3<Vec>& normal, Vec offset, const Wide3<Vec>
 }
 uint32_t outside(Vec depths) { return bitsOf(hn::Lt(depths, hn::Zero(kTag))); }
 
-// Keeps those of the planes; which are inside of all.
-uint32_t take(Vec depths, PyramidBatch::Depths& out) {
-  hn::StoreU(depths, kTag, out.data());
-  return 0xff & ~bitsOf(hn::Lt(depths, hn::Zero(kTag)));
-}
+uint32_t inside(Vec depths) { return 0xff & ~outside(depths); }
 
 }  // namespace
 
@@ -54,7 +50,7 @@ void BoxBatch::set(size_t i, const Bounds& box) {
 }
 
 // The last is filled up with its last box.
-BoxBatches::BoxBatches(std::span<const Bounds> boxes) {
+BoxBatches::BoxBatches(std::span<const Bounds> boxes) : size_(boxes.size()) {
   constexpr size_t kBoxes = BoxBatch::kBoxes;
   const auto batchesOf = [](std::span<const Bounds> some) {
     std::vector<BoxBatch> batches((some.size() + kBoxes - 1) / kBoxes);
@@ -82,7 +78,7 @@ PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
   };
   store(planes_[0], towards, hn::Sub(hn::Neg(margin), dot(towards, apex)));
 
-  const vec3 middle = 0.5f * (region.corners[0] + region.corners[2]);
+  const vec3 middle = region.middle();
   const Wide3<Vec> centre = set(middle), normal = set(region.normal);
   const auto height = dot(apex - centre, normal);
   const auto above = hn::Gt(height, hn::Zero(kTag));
@@ -102,33 +98,55 @@ PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
   }
 }
 
+// What moves by a vector d gets nearer to a plane with the normal n by n·d, which is no more than
+// the larger of |n·axis| and |n×axis| / across times its length.
+void PyramidBatch::weighBy(const Way& way) {
+  const Wide3<Vec> axis = set(way.axis);
+  const auto one = set(1.0f), across = set(1.0f / way.across);
+  for (Plane& p : planes_) {
+    const Wide3<Vec> normal = normalOf(p);
+    const auto along = dot(normal, axis), squared = dot(normal, normal);
+    const auto sideways = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, squared), hn::Zero(kTag)));
+    // Nothing is outside of a plane that is left out.
+    const auto most = hn::Max(hn::Max(hn::Abs(along), hn::Mul(sideways, across)), set(1e-20f));
+    hn::Store(hn::Max(hn::Div(one, most), one), kTag, p.weight.data());
+  }
+}
+
 PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box, Depths& depths) const {
   const Wide3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_)
-    least = hn::Min(depthOf(normalOf(p), load(p.offset), centre, half), least);
-  return all_ & take(least, depths);
+    least =
+        hn::Min(hn::Mul(depthOf(normalOf(p), load(p.offset), centre, half), load(p.weight)), least);
+  hn::StoreU(least, kTag, depths.data());
+  return all_ & inside(least);
 }
 
 PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius,
                                                Depths& depths) const {
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_) {
-    least = hn::Min(distanceOf(normalOf(p), load(p.offset), set(centre)), least);
+    const auto depth = hn::Add(distanceOf(normalOf(p), load(p.offset), set(centre)), set(radius));
+    least = hn::Min(hn::Mul(depth, load(p.weight)), least);
   }
-  const Mask met = all_ & ~bitsOf(hn::Lt(least, set(-radius)));
-  hn::StoreU(hn::Add(least, set(radius)), kTag, depths.data());
-  return met;
+  hn::StoreU(least, kTag, depths.data());
+  return all_ & inside(least);
 }
 
 PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box) const {
-  Depths unused;
-  return mayMeet(box, unused);
+  const Wide3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
+  auto least = set(std::numeric_limits<float>::max());
+  for (const Plane& p : planes_)
+    least = hn::Min(depthOf(normalOf(p), load(p.offset), centre, half), least);
+  return all_ & inside(least);
 }
 
 PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius) const {
-  Depths unused;
-  return mayMeetSphere(centre, radius, unused);
+  auto least = set(std::numeric_limits<float>::max());
+  for (const Plane& p : planes_)
+    least = hn::Min(distanceOf(normalOf(p), load(p.offset), set(centre)), least);
+  return all_ & ~outside(hn::Add(least, set(radius)));
 }
 
 PyramidBatch::Mask PyramidBatch::hold(const vec3& point) const {
@@ -204,40 +222,62 @@ PyramidPlanes PyramidBatch::planesOf(size_t light) const {
   return planes;
 }
 
-PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, size_t first) const {
+PyramidBatch::Mask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indices& which,
+                                             Depths& depths) const {
+  static_assert(sizeof(BoxBatch) == 6 * kLanes * sizeof(float));
+  const float* all = boxes.boxes()[0].centre[0].data();
+  const hn::FixedTag<int32_t, kLanes> ints;
+  const auto box = hn::LoadU(ints, which.data());
+  // 48 floats for each eight of them.
+  const auto lane = hn::And(box, hn::Set(ints, 7));
+  const auto eights = hn::Sub(box, lane);
+  const auto at = hn::Add(hn::Add(hn::ShiftLeft<2>(eights), hn::ShiftLeft<1>(eights)), lane);
+  const auto take = [&](size_t i) { return hn::GatherIndex(kTag, all + i * kLanes, at); };
+  const Wide3<Vec> centre{take(0), take(1), take(2)}, half{take(3), take(4), take(5)};
+  auto least = set(std::numeric_limits<float>::max());
+  for (const Plane& p : planes_)
+    least =
+        hn::Min(hn::Mul(depthOf(normalOf(p), load(p.offset), centre, half), load(p.weight)), least);
+  hn::StoreU(least, kTag, depths.data());
+  return all_ & inside(least);
+}
+
+PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, float enough) const {
   const auto depthsIn = [&](const BoxBatch& batch) {
     const Wide3<Vec> centre = load(batch.centre), half = load(batch.half);
     auto least = set(std::numeric_limits<float>::max());
     for (const Plane& p : planes_) {
       const Wide3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
-      least = hn::Min(depthOf(normal, set(p.offset[light]), centre, half), least);
+      const auto depth = depthOf(normal, set(p.offset[light]), centre, half);
+      least = hn::Min(hn::Mul(depth, set(p.weight[light])), least);
     }
     return least;
   };
-  const auto zero = hn::Zero(kTag);
-  const auto found = [&](size_t batch, Vec depths) {
-    return Found{static_cast<int>(batch), hn::GetLane(hn::MaxOfLanes(kTag, depths))};
-  };
-  auto outside = set(-std::numeric_limits<float>::max());
-  if (first < boxes.size()) {
-    const auto depths = depthsIn(boxes.boxes()[first]);
-    if (!hn::AllTrue(kTag, hn::Lt(depths, zero))) return found(first, depths);
-    outside = depths;
-  }
+  Found found{kNone, -std::numeric_limits<float>::max()};
+  auto outside = set(found.depth);
   for (size_t a = 0; a < boxes.around().size(); ++a) {
     const auto around = depthsIn(boxes.around()[a]);
-    const auto isOutside = hn::Lt(around, zero);
+    const auto isOutside = hn::Lt(around, hn::Zero(kTag));
     outside = hn::Max(outside, hn::IfThenElse(isOutside, around, outside));
+    alignas(32) std::array<float, kLanes> most;  // that one of its boxes may have
+    hn::Store(around, kTag, most.data());
     for (uint32_t some = 0xff & ~bitsOf(isOutside); some != 0; some &= some - 1) {
-      const size_t batch = a * kLanes + static_cast<size_t>(std::countr_zero(some));
-      if (batch >= boxes.size()) break;
-      if (batch == first) continue;
+      const auto lane = static_cast<size_t>(std::countr_zero(some));
+      const size_t batch = a * kLanes + lane;
+      if (batch >= boxes.boxes().size()) break;
+      if (most[lane] <= found.depth) continue;
       const auto depths = depthsIn(boxes.boxes()[batch]);
-      if (!hn::AllTrue(kTag, hn::Lt(depths, zero))) return found(batch, depths);
-      outside = hn::Max(outside, depths);
+      const auto deepest = hn::MaxOfLanes(kTag, depths);
+      if (hn::GetLane(deepest) <= found.depth) continue;
+      const auto first = static_cast<size_t>(std::countr_zero(bitsOf(hn::Eq(depths, deepest))));
+      // The last eight end with its last box again.
+      const size_t box = std::min(batch * kLanes + first, boxes.size() - 1);
+      found = {static_cast<int>(box), hn::GetLane(deepest)};
+      if (found.depth >= enough) return found;
     }
   }
-  return {kNone, hn::GetLane(hn::MaxOfLanes(kTag, outside))};
+  if (found.depth >= 0.0f) return found;
+  return {kNone, std::max(found.depth, hn::GetLane(hn::MaxOfLanes(kTag, outside)))};
 }
 
 }  // namespace lamplighter

@@ -9,6 +9,7 @@
 
 #include "renderer/visibility/light_lanes.h"
 #include "renderer/visibility/occlusion_pyramid.h"
+#include "renderer/visibility/way.h"
 
 namespace lamplighter {
 
@@ -23,12 +24,13 @@ struct BoxBatch {
 class BoxBatches {
  public:
   explicit BoxBatches(std::span<const Bounds> boxes);
-  size_t size() const { return boxes_.size(); }  // batches
+  size_t size() const { return size_; }
   std::span<const BoxBatch> boxes() const { return boxes_; }
   std::span<const BoxBatch> around() const { return around_; }
   const Bounds& bounds() const { return bounds_; }
 
  private:
+  size_t size_;
   std::vector<BoxBatch> boxes_, around_;
   Bounds bounds_;
 };
@@ -38,12 +40,14 @@ class PyramidBatch {
   static constexpr size_t kLights = LightLanes::kLights;
   static_assert(kLights == BoxBatch::kBoxes);
   using Mask = LightLanes::Mask;
-  // By how much what is asked about is inside of the plane that it is least inside of, so that it
-  // may move as far and still is met; negative: by how much it is outside. By light [m].
+  // How far what is asked about may move, as the way counts it, and still is met, for it is inside
+  // of all planes by as much; negative: and still is not, outside of one. By light [m].
   using Depths = LightLanes::Floats;
 
   // Of lights for which the rectangle is neither dark nor degenerate.
   PyramidBatch(const LightLanes& lights, const PatchRegion& region);
+  // Before depths are asked for.
+  void weighBy(const Way& way);
 
   Mask all() const { return all_; }
   Mask mayMeet(const Bounds& box, Depths& depths) const;
@@ -63,18 +67,22 @@ class PyramidBatch {
   // triangle's corners [m].
   Mask surelyMiss(const std::array<vec3, 3>& triangle, float rounding) const;
   PyramidPlanes planesOf(size_t light) const;
-  // Whether the pyramid of one light may meet any of some boxes. `first`: the batch that is asked
-  // first.
+  // Of each light one box, and of lights that are not asked about any of them.
+  using Indices = std::array<int32_t, kLights>;
+  Mask mayMeetEach(const BoxBatches& boxes, const Indices& which, Depths& depths) const;
+  // Whether the pyramid of one light may meet any of some boxes: the deepest, or one that is met
+  // deep enough.
   struct Found {
-    int batch = kNone;   // the first where one is met
-    float depth = 0.0f;  // of the one there that is deepest inside; else of the one least outside
+    int box = kNone;
+    float depth = 0.0f;  // where none is met that of the one least outside
   };
-  Found find(size_t light, const BoxBatches& boxes, size_t first) const;
+  Found find(size_t light, const BoxBatches& boxes, float enough) const;
 
  private:
   static constexpr size_t kPlanes = 6;
   struct Plane {
     LightLanes::Floats x, y, z, offset;
+    LightLanes::Floats weight;  // of a metre towards it, at least one
   };
   alignas(32) std::array<Plane, kPlanes> planes_;
   alignas(32) LightLanes::Floats margin_;  // what rounding may make of a place here [m]

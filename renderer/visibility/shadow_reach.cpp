@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "renderer/raycast/ray_caster.h"
 
@@ -48,21 +49,13 @@ ShadowReach::ShadowReach(const shared::Vpl& vpl, const Caster& caster) {
   sine_ = std::min(1.0f, 1.0001f * sine_ + 1e-6f);
 }
 
-// By the sphere of the caster made smaller: what that reaches, one as large as before does that
-// still holds it. Only the sine is other then, by what is taken off over the distance, and the
-// cosine grows by less than the tangent times as much.
-float ShadowReach::slack(const vec3& centre, float radius) const {
-  if (kind_ == Kind::everywhere) return std::max(0.0f, std::min(-nearest_, before_));
-  if (kind_ != Kind::cone) return 0.0f;
-  const vec3 v = centre - apex_;
-  const float distance2 = glm::dot(v, v), along = glm::dot(v, axis_);
-  if (along <= 0.0f) return 0.0f;
-  const float across = std::sqrt(std::max(distance2 - along * along, 0.0f));
-  const float inside = radius + along * sine_ - across * cosine_;
-  const float casterAway = nearest_ + radius_;
-  const float sideways = inside * casterAway * cosine_ / (along * cosine_ + across * sine_);
-  const float past = std::sqrt(distance2) + radius - nearest_;
-  return std::max(0.0f, std::min({sideways, past, before_, radius_}));
+ShadowReach::Cone ShadowReach::cone() const {
+  constexpr float kFar = std::numeric_limits<float>::infinity();
+  if (kind_ == Kind::cone) return {apex_, axis_, nearest_, sine_, cosine_, before_, radius_};
+  // All of space, or what nothing is as far off as.
+  const bool isNone = kind_ == Kind::none;
+  const float over = isNone ? 0.0f : std::min(-nearest_, before_);
+  return {apex_, vec3(0.0f), isNone ? kFar : -kFar, 0.0f, 0.0f, over, radius_};
 }
 
 }  // namespace lamplighter

@@ -2,8 +2,6 @@
 // from a light. A cheap sieve before occlusion pyramids, the other way round than these look.
 #pragma once
 
-#include <limits>
-
 #include "renderer/math.h"
 #include "shaders/shared/vpl.h"
 
@@ -28,17 +26,14 @@ class ShadowReach {
   ShadowReach(const shared::Vpl& vpl, const Caster& caster);
 
   bool isEmpty() const { return kind_ == Kind::none; }
-  // What mayFallOn() goes by where the light is not parallel.
+  // What mayFallOn() goes by where the light is not parallel, and what says by how much [m].
   struct Cone {
     vec3 apex, axis;
-    float nearest, sine, cosine;
+    float nearest, sine, cosine;  // nearest: from the apex; -infinity: the caster is over the light
+    float before;                 // how far it reaches before the light's plane, and is over it
+    float radius;                 // of the caster
   };
-  Cone cone() const {
-    constexpr float kFar = std::numeric_limits<float>::infinity();
-    if (kind_ == Kind::cone) return {apex_, axis_, nearest_, sine_, cosine_};
-    // All of space, or what nothing is as far off as.
-    return {apex_, vec3(0.0f), kind_ == Kind::none ? kFar : -kFar, 0.0f, 0.0f};
-  }
+  Cone cone() const;
   // Whether the shadow may fall on some of a sphere: one no nearer than the caster's near side, and
   // no farther from the cone or cylinder than its radius. Conservative; and where it may, it may on
   // a sphere around that sphere, and that of a caster around this one may.
@@ -71,9 +66,6 @@ class ShadowReach {
     }
     return true;
   }
-  // How far the caster may go or shrink and still reach a sphere that it may fall on; 0 where that
-  // is not known.
-  float slack(const vec3& centre, float radius) const;
 
  private:
   enum class Kind : uint8_t { none, everywhere, cone, cylinder };
@@ -82,7 +74,7 @@ class ShadowReach {
   float nearest_ = 0.0f;          // of the caster: from the apex; a cylinder: along the axis [m]
   float sine_ = 0.0f, cosine_ = 1.0f;
   float radius_ = 0.0f;
-  float before_ = 0.0f;  // of a cone: how far the caster reaches before the light's plane [m]
+  float before_ = 0.0f;  // how far the caster reaches before the light's plane [m]
 };
 
 }  // namespace lamplighter

@@ -1,7 +1,6 @@
 #include "renderer/visibility/visibility_database.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -151,13 +150,9 @@ void VisibilityDatabase::takeMoved(const RenderScene& scene, const RenderSceneCh
                            occluders_.place(scene, object, topologies_[object], patches_[object]);
                          });
   });
-  float step = 0.0f, size = std::numeric_limits<float>::max();
-  for (size_t m = 0; m < movers_.size(); ++m) {
-    const MoverPlace now = placeOf(movers_[m]);
-    step = std::max(step, farthestStep(before[m], now));
-    size = std::min(size, now.caster.radius);
-  }
-  if (const MoverPath::Mark by = path_.advance(step, size); by > 0) lowerMarks(by);
+  std::vector<MoverPlace> now;
+  for (const uint32_t i : movers_) now.push_back(placeOf(i));
+  if (const MoverPath::Mark by = path_.advance(before, now); by > 0) lowerMarks(by);
 }
 
 void VisibilityDatabase::setScene(const RenderScene& scene, const RenderSceneChanges& changes) {

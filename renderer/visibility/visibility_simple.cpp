@@ -2,7 +2,6 @@
 // patch and only wait for the movers, many at a time and without a task for each.
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <optional>
 
 #include "renderer/visibility/bits.h"
@@ -17,15 +16,8 @@ constexpr hn::FixedTag<uint8_t, 32> kBytes;
 // Of which of 64 bytes something is so.
 template <typename Is>
 uint64_t which(const uint8_t* bytes, const Is& is) {
-  uint64_t mask = 0;
-  for (size_t i = 0; i < 64; i += 32) {
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(kBytes, is(hn::LoadU(kBytes, bytes + i)), bits);
-    uint32_t some;
-    std::memcpy(&some, bits, sizeof some);
-    mask |= uint64_t{some} << i;
-  }
-  return mask;
+  return bitsOf(is(hn::LoadU(kBytes, bytes))) | uint64_t{bitsOf(is(hn::LoadU(kBytes, bytes + 32)))}
+                                                    << 32;
 }
 
 uint64_t equal(const uint8_t* bytes, uint8_t value) {
@@ -96,34 +88,30 @@ void VisibilityDatabase::Update::checkSimple(uint32_t object, int patch, size_t 
   const bool passesDown = db_.isDivided(object, patch);
   for (size_t w = 0; w < simple.size(); ++w) {
     if (simple[w] == 0) continue;
-    uint64_t unknown = simple[w], open = 0, cleared = 0;
+    uint64_t unknown = simple[w], none = 0;
     if (isKnown) {
       static_assert(kSlotsAStep % 64 == 0, "rows have room for whole words");
       const uint8_t* without = &row.withoutMovers[64 * w];
-      uint64_t some = simple[w] & ~equal(without, static_cast<uint8_t>(Occlusion::full));
+      const uint64_t some = simple[w] & ~equal(without, static_cast<uint8_t>(Occlusion::full));
+      const uint64_t partial = some & equal(without, static_cast<uint8_t>(Occlusion::partial));
       unknown = some & equal(without, kUnknown);
-      const uint64_t partial = equal(without, static_cast<uint8_t>(Occlusion::partial));
+      none = some & ~unknown & ~partial;
+      unknown &= simpleColumns_->reaches.mayFallOn(w, unknown, p.centre, p.radius);
       // What stands is as it was.
       uint64_t stands = 0;
       if (!row.standsTill.empty())
-        stands = some & ~unknown & ~partial & atLeast(&row.standsTill[64 * w], db_.path_.now());
-      const uint64_t none = some & ~unknown & ~partial & ~stands;
-      open = simpleColumns_->shadows.mayFallOn(w, none, p.centre, p.radius);
-      // Where no shadow can fall nothing is met.
+        stands = none & atLeast(&row.standsTill[64 * w], db_.path_.now());
+      none &= ~stands;
       const uint64_t isNone = equal(&row.states[64 * w], static_cast<uint8_t>(Occlusion::none));
-      cleared = none & ~open & ~isNone;
-      // What is partial whatever moves is only asked for its parts.
-      const uint64_t others = some & (passesDown ? unknown | partial : unknown);
-      simple[w] = simpleColumns_->reaches.mayFallOn(w, others, p.centre, p.radius);
-      unknown &= simple[w];
-      simple[w] |= open | cleared | (stands & ~isNone);
+      // What is partial whatever moves is only there for its parts, of which shadows nearly always
+      // reach one.
+      simple[w] = (passesDown ? partial : 0) | unknown | none | (stands & ~isNone);
     }
-    forEachBit(open, [&](size_t i) {
+    forEachBit(none, [&](size_t i) {
       const size_t slot = 64 * w + i;
       questions[count] = {slot, hintOf(row.withoutMovers[slot])};
       if (++count == questions.size()) ask();
     });
-    forEachBit(cleared, [&](size_t i) { makeFound(64 * w + i, Occlusion::none); });
     forEachBit(unknown, [&](size_t i) { makeTask(64 * w + i); });
   }
   if (count > 0) ask();
