@@ -19,6 +19,12 @@ constexpr int kMostPartial = 4;
 // Of work for a thread, at least: rooms have few, but large ones.
 constexpr size_t kRootsAPiece = 2;
 
+constexpr size_t kColumnsAPiece = 64;
+
+// Objects of no more roots than this have them looked at one by one, by whichever thread; those of
+// more by their tree first.
+constexpr size_t kFewRoots = 16;
+
 // Where an object is and was before are looked at as one if the sphere around both is no larger
 // than this times its own.
 constexpr float kOneReach = 1.3f;
@@ -98,12 +104,18 @@ VisibilityDatabase::Column VisibilityDatabase::takeWaiting(int slot) {
 
 // Whole objects are left out where no shadow of what moved may fall on them, and then their roots.
 void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<const int> slots) {
-  std::vector<Column> columns;
+  std::vector<int> taken;
   for (const int slot : slots)
-    if (isLight(lights_[static_cast<size_t>(slot)])) columns.push_back(takeWaiting(slot));
-  std::sort(columns.begin(), columns.end(),
-            [](const Column& a, const Column& b) { return a.slot < b.slot; });
-  SimpleColumns simple{MoverShadows(occluders_, movers_, lights_), ShadowReaches(lights_.size()),
+    if (isLight(lights_[static_cast<size_t>(slot)])) taken.push_back(slot);
+  std::sort(taken.begin(), taken.end());
+  std::vector<Column> columns(taken.size());
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, taken.size(), kColumnsAPiece),
+                    [&](const tbb::blocked_range<size_t>& range) {
+                      for (size_t i = range.begin(); i < range.end(); ++i)
+                        columns[i] = takeWaiting(taken[i]);
+                    });
+  SimpleColumns simple{MoverShadows(occluders_, movers_, lights_, path_),
+                       ShadowReaches(lights_.size()),
                        std::vector<const Column*>(lights_.size(), nullptr)};
   for (const Column& c : columns) {
     const auto slot = static_cast<size_t>(c.slot);
@@ -164,25 +176,24 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
     }
   };
   std::vector<Job> jobs;
+  const auto addJob = [&](uint32_t object, int root) {
+    const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
+    Job& job = jobs.emplace_back(Job{object, root, {}, {}});
+    job.simple.assign(reachingSimple.end() - static_cast<ptrdiff_t>(words), reachingSimple.end());
+    for (size_t i = begins.back(); i < reaching.size(); ++i)
+      if (columns[reaching[i]].mayFallOn(p.centre, p.radius)) job.add(columns[reaching[i]], false);
+  };
   tree_.descend(
       narrowToBox,
       [&](uint32_t object) {
         if (isWaitedFor[object]) return;
-        patches_[object].tree.descend(
-            narrowToBox,
-            [&](uint32_t r) {
-              const int root = patches_[object].roots[r];
-              const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
-              if (narrow(p.centre, p.radius)) {
-                Job& job = jobs.emplace_back(Job{object, root, {}, {}});
-                job.simple.assign(reachingSimple.end() - static_cast<ptrdiff_t>(words),
-                                  reachingSimple.end());
-                for (size_t i = begins.back(); i < reaching.size(); ++i)
-                  job.add(columns[reaching[i]], false);
-              }
-              widen();
-            },
-            widen);
+        const std::vector<int>& roots = patches_[object].roots;
+        if (roots.size() <= kFewRoots) {
+          for (const int root : roots) addJob(object, root);
+        } else {
+          patches_[object].tree.descend(
+              narrowToBox, [&](uint32_t r) { addJob(object, roots[r]); }, widen);
+        }
       },
       widen);
   for (uint32_t object = 0; object < patches_.size(); ++object) {

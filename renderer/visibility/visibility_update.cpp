@@ -33,21 +33,39 @@ void VisibilityDatabase::Update::run(uint32_t object, int root, std::span<const 
   tasks_.assign(tasks.begin(), tasks.end());
   simple_.assign(simple.begin(), simple.end());
   simpleWords_ = simple.size();
-  visit(object, root, 0, 0);
+  const Patch& p = db_.patches_[object].patches[static_cast<size_t>(root)];
+  bool any = !tasks.empty();
+  for (size_t w = 0; w < simpleWords_; ++w) {
+    simple_[w] = simpleColumns_->reaches.mayFallOn(w, simple_[w], p.centre, p.radius);
+    any = any || simple_[w] != 0;
+  }
+  if (!any && !allMayDivide_) return;
+  visit(object, root, 0, 0, allMayDivide_);
 }
 
-// One that is looked at, and all below it that are.
-void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level, size_t first) {
+// One that is looked at, and all below it that are. Where neither it nor a light is new and no
+// entry is other than before it is divided as it was.
+void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level, size_t first,
+                                       bool mayDivide) {
   const auto index = static_cast<size_t>(patch);
   if (simpleWords_ > 0) checkSimple(object, patch, first, simpleAt(level));
   const size_t last = tasks_.size();
   const bool changedBefore = db_.changed_[object][index] != 0;
-  if (compute(object, patch, std::span(tasks_).subspan(first))) db_.changed_[object][index] = 1;
+  const std::span<Task> tasks = std::span(tasks_).subspan(first);
+  // A new light counts also where its entry is what the slot had, and so does each light on what
+  // was placed anew.
+  mayDivide = mayDivide || std::any_of(tasks.begin(), tasks.end(),
+                                       [](const Task& t) { return t.isNew || t.isOfMover; });
+  if (compute(object, patch, tasks)) {
+    db_.changed_[object][index] = 1;
+    mayDivide = true;
+  }
   const Patch& p = db_.patches_[object].patches[index];
   if (p.isLeaf()) return;
   const bool was = db_.isDivided(object, patch);
-  const bool is =
-      level + 1 < db_.levels_ && countPartial(db_.row(object, patch), db_.isLive_) > db_.most_;
+  const bool is = mayDivide ? level + 1 < db_.levels_ &&
+                                  countPartial(db_.row(object, patch), db_.isLive_) > db_.most_
+                            : was;
   if (was && !is) forgetParts(object, patch);
   if (!is) return;
   if (!was) beginParts(object, patch, std::span(tasks_).subspan(first), changedBefore);
@@ -55,7 +73,7 @@ void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level,
     passDown(object, patch, child, was, first, last);
     const bool isSimple = simpleWords_ > 0 && passSimpleDown(level, was);
     if (tasks_.size() > last || isSimple || !was || allMayDivide_)
-      visit(object, child, level + 1, last);
+      visit(object, child, level + 1, last, !was || allMayDivide_);
     tasks_.resize(last);
   }
 }

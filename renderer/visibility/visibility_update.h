@@ -75,12 +75,12 @@ class VisibilityDatabase::Update {
   void useSimple(const SimpleColumns& columns) { simpleColumns_ = &columns; }
 
   // The root and all below it; tasks in the order of slots. `simple`: besides, a bit for each slot
-  // of a simple column that is to be checked there, or empty.
+  // of a simple column that is to be checked there if its shadow may fall there, or empty.
   void run(uint32_t object, int root, std::span<const Task> tasks,
            std::span<const uint64_t> simple);
 
  private:
-  void visit(uint32_t object, int patch, size_t level, size_t first);
+  void visit(uint32_t object, int patch, size_t level, size_t first, bool mayDivide);
   // Simple columns at a patch, and at a part of it; whether any are left there.
   void checkSimple(uint32_t object, int patch, size_t first, std::span<uint64_t> simple);
   bool passSimpleDown(size_t level, bool wasDivided);

@@ -1,5 +1,6 @@
 // What is kept of visibility from edit to edit of a level, against what is found from nothing:
 // entry for entry, else a picture would hang on what was before.
+#include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -18,13 +19,14 @@ RenderSceneChanges everything() {
   return all;
 }
 
-// Entries that differ; all of them if their numbers do.
-int differences(const VisibilityDatabase& a, const VisibilityDatabase& b) {
+// Entries of the first slots that differ.
+int differences(const VisibilityDatabase& a, const VisibilityDatabase& b,
+                size_t slots = std::numeric_limits<size_t>::max()) {
   int count = 0;
   for (uint32_t object = 0; object < a.objects(); ++object) {
     for (size_t p = 0; p < a.patches(object).patches.size(); ++p) {
       const auto ra = a.row(object, static_cast<int>(p)), rb = b.row(object, static_cast<int>(p));
-      for (size_t i = 0; i < ra.size(); ++i) count += ra[i] != rb[i];
+      for (size_t i = 0; i < std::min(ra.size(), slots); ++i) count += ra[i] != rb[i];
     }
   }
   return count;
@@ -57,6 +59,7 @@ bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
     fresh.setScene(scene, everything());
     fresh.setLights(scene, lights);
     if (kept.objects() != fresh.objects() || differences(kept, fresh) != 0) return false;
+    if (kept.counts().divided != fresh.counts().divided) return false;
     if (kept.bytes() > mostBytes) return false;
   }
   return true;
@@ -77,6 +80,30 @@ TEST_P(EditsOfALevel, LeaveNoEntryOtherThanFromNothingWithLittleMemory) {
   EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), check), test::EditSequence());
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, EditsOfALevel, testing::Range(1u, 11u));
+
+// Where slots are used again, a new light's entries may be what the slot had before.
+TEST(VisibilityOfLights, IsWhatItIsFromNothingAfterMoreAndFewer) {
+  Scene level =
+      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf").scene;
+  RenderScene scene;
+  update(scene, level, SceneChanges::all());
+  std::vector<shared::Vpl> all;
+  for (const SceneVpl& v :
+       generateVpls(scene, RayCaster(scene), LightSet(scene), {70, 0.3f, 3, 1}).vpls)
+    all.push_back(v.vpl);
+  VisibilityDatabase kept;
+  kept.setScene(scene, everything());
+  for (const size_t used : {size_t{70}, size_t{60}, size_t{70}, size_t{20}, size_t{65}}) {
+    std::vector<shared::Vpl> lights(all.begin(), all.begin() + static_cast<ptrdiff_t>(used));
+    lights.resize(all.size(), shared::Vpl{});  // slots stay
+    kept.setLights(scene, lights);
+    VisibilityDatabase fresh;
+    fresh.setScene(scene, everything());
+    fresh.setLights(scene, lights);
+    EXPECT_EQ(differences(kept, fresh, used), 0) << used;
+    EXPECT_EQ(kept.counts().divided, fresh.counts().divided) << used;
+  }
+}
 
 }  // namespace
 }  // namespace lamplighter
