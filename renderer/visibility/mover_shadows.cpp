@@ -11,7 +11,7 @@ namespace {
 
 using Mask = PyramidBatch::Mask;
 
-// How many steps more an answer is to stand.
+// How many steps more an answer is to stand where the path is straight: else few boxes are so deep.
 constexpr float kStepsToStand = 1.05f;
 
 Mask bit(size_t i) { return Mask{1} << i; }
@@ -32,7 +32,7 @@ MoverShadows::MoverShadows(const Occluders& occluders, std::span<const uint32_t>
                                                         !occluders.mayHide(mover);
                                                })),
       way_(path.way()),
-      enough_(kStepsToStand * path.lastStep()),
+      enough_(path.way() == Way() ? 0.0f : kStepsToStand * path.lastStep()),
       turn_(path.steps()) {
   if (!isUseful_) return;
   lights_.reserve(lights.size());

@@ -1,9 +1,11 @@
 // The visibility database: building it, and bringing it up to date after an object or a light
 // moved; and what it spares the sums (figure 5-3's "VD" against its "Naïve").
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include <benchmark/benchmark.h>
+#include <glm/gtc/constants.hpp>
 
 #include "renderer/frame.h"
 #include "renderer/light_maps/pass_merging.h"
@@ -112,16 +114,21 @@ void buildMany(benchmark::State& state, Case c, bool clusters) {
   }
 }
 
-void moveObject(benchmark::State& state, const Case& c) {
+// Steps of 5 cm: to and fro along an axis, or around a circle, so that no two go the same way.
+void moveObject(benchmark::State& state, const Case& c, bool inCircles) {
   if (skip(state, c)) return;
   World w(c);
   VisibilityDatabase database;
   fill(database, w);
-  float step = 0.05f;
+  constexpr float kStep = 0.05f;
+  int step = 0;
   const auto move = [&] {
     Scene moved = w.scene;
-    moved.find(w.mover)->local.translation.x += step;
-    step = -step;
+    const float angle = inCircles ? glm::radians(20.0f * static_cast<float>(step))
+                                  : glm::pi<float>() * static_cast<float>(step % 2);
+    moved.find(w.mover)->local.translation +=
+        kStep * vec3(std::cos(angle), 0.0f, inCircles ? std::sin(angle) : 0.0f);
+    ++step;
     const RenderSceneChanges changes = update(w.render, moved, compare(w.scene, moved));
     w.scene = moved;
     return changes;
@@ -261,7 +268,8 @@ void add(const std::string& name, F function, More... more) {
           ->Arg(1000)
           ->Arg(4096);
     }
-    add("visibility/object_moves/" + name, moveObject, c);
+    add("visibility/object_moves/" + name, moveObject, c, false);
+    add("visibility/object_circles/" + name, moveObject, c, true);
     add("visibility/one_light_moves/" + name, moveOneLight, c);
     add("visibility/lights_move/" + name, moveLights, c);
     for (const int most : {6, 64, 1024})
