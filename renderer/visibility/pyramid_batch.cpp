@@ -61,7 +61,6 @@ BoxBatches::BoxBatches(std::span<const Bounds> boxes) : size_(boxes.size()) {
   boxes_ = batchesOf(boxes);
   std::vector<Bounds> around(boxes_.size());
   for (size_t i = 0; i < boxes.size(); ++i) around[i / kBoxes].add(boxes[i]);
-  for (const Bounds& b : around) bounds_.add(b);
   around_ = batchesOf(around);
 }
 
@@ -111,16 +110,6 @@ void PyramidBatch::weighBy(const Way& way) {
     const auto most = hn::Max(hn::Max(hn::Abs(along), hn::Mul(sideways, across)), set(1e-20f));
     hn::Store(hn::Max(hn::Div(one, most), one), kTag, p.weight.data());
   }
-}
-
-PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box, Depths& depths) const {
-  const Wide3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
-  auto least = set(std::numeric_limits<float>::max());
-  for (const Plane& p : planes_)
-    least =
-        hn::Min(hn::Mul(depthOf(normalOf(p), load(p.offset), centre, half), load(p.weight)), least);
-  hn::StoreU(least, kTag, depths.data());
-  return all_ & inside(least);
 }
 
 PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius,

@@ -27,12 +27,10 @@ class BoxBatches {
   size_t size() const { return size_; }
   std::span<const BoxBatch> boxes() const { return boxes_; }
   std::span<const BoxBatch> around() const { return around_; }
-  const Bounds& bounds() const { return bounds_; }
 
  private:
   size_t size_;
   std::vector<BoxBatch> boxes_, around_;
-  Bounds bounds_;
 };
 
 class PyramidBatch {
@@ -50,7 +48,6 @@ class PyramidBatch {
   void weighBy(const Way& way);
 
   Mask all() const { return all_; }
-  Mask mayMeet(const Bounds& box, Depths& depths) const;
   Mask mayMeetSphere(const vec3& centre, float radius, Depths& depths) const;
   Mask mayMeet(const Bounds& box) const;
   Mask mayMeetSphere(const vec3& centre, float radius) const;
