@@ -19,6 +19,19 @@ RenderSceneChanges everything() {
   return all;
 }
 
+Scene defaultLevel() {
+  return loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf")
+      .scene;
+}
+
+std::vector<shared::Vpl> lightsOf(const RenderScene& scene, int count) {
+  std::vector<shared::Vpl> lights;
+  for (const SceneVpl& v :
+       generateVpls(scene, RayCaster(scene), LightSet(scene), {count, 0.3f, 3, 1}).vpls)
+    lights.push_back(v.vpl);
+  return lights;
+}
+
 // Entries of the first slots that differ.
 int differences(const VisibilityDatabase& a, const VisibilityDatabase& b,
                 size_t slots = std::numeric_limits<size_t>::max()) {
@@ -37,14 +50,10 @@ constexpr size_t kLittle = 150000;  // bytes
 // The lights stay where they are, so that all entries are only brought up to date. mostBytes: that
 // they may take.
 bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
-  Scene level =
-      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf").scene;
+  Scene level = defaultLevel();
   RenderScene scene;
   update(scene, level, SceneChanges::all());
-  std::vector<shared::Vpl> lights;
-  for (const SceneVpl& v :
-       generateVpls(scene, RayCaster(scene), LightSet(scene), {150, 0.3f, 3, 1}).vpls)
-    lights.push_back(v.vpl);
+  const std::vector<shared::Vpl> lights = lightsOf(scene, 150);
   VisibilityDatabase kept;
   kept.limitMemory(mostBytes);
   kept.setScene(scene, everything());
@@ -83,14 +92,10 @@ INSTANTIATE_TEST_SUITE_P(Seeds, EditsOfALevel, testing::Range(1u, 11u));
 
 // Where slots are used again, a new light's entries may be what the slot had before.
 TEST(VisibilityOfLights, IsWhatItIsFromNothingAfterMoreAndFewer) {
-  Scene level =
-      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf").scene;
+  const Scene level = defaultLevel();
   RenderScene scene;
   update(scene, level, SceneChanges::all());
-  std::vector<shared::Vpl> all;
-  for (const SceneVpl& v :
-       generateVpls(scene, RayCaster(scene), LightSet(scene), {70, 0.3f, 3, 1}).vpls)
-    all.push_back(v.vpl);
+  const std::vector<shared::Vpl> all = lightsOf(scene, 70);
   VisibilityDatabase kept;
   kept.setScene(scene, everything());
   for (const size_t used : {size_t{70}, size_t{60}, size_t{70}, size_t{20}, size_t{65}}) {
