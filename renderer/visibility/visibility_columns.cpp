@@ -108,6 +108,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
   for (const int slot : slots)
     if (isLight(lights_[static_cast<size_t>(slot)])) taken.push_back(slot);
   std::sort(taken.begin(), taken.end());
+  taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
   std::vector<Column> columns(taken.size());
   tbb::parallel_for(tbb::blocked_range<size_t>(0, taken.size(), kColumnsAPiece),
                     [&](const tbb::blocked_range<size_t>& range) {
