@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/shadow_maps.h"
-#include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf_io.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/room_lights.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -40,14 +40,6 @@ Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, in
   return all;
 }
 
-std::vector<shared::Vpl> lightsOf(const RenderScene& scene, int count) {
-  std::vector<shared::Vpl> lights;
-  for (const SceneVpl& v :
-       generateVpls(scene, RayCaster(scene), LightSet(scene), {count, 0.3f, 3, 1}).vpls)
-    lights.push_back(v.vpl);
-  return lights;
-}
-
 // A texel may fall to either side of an edge.
 TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
   for (const char* name : {"pillar_room", "area_light_room", "cornell_style", "table_room"}) {
@@ -58,7 +50,7 @@ TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
                .scene,
            SceneChanges::all());
     for (const int resolution : {8, 24, 64, 96, 256}) {
-      const Compared c = compare(scene, lightsOf(scene, 8192 / resolution), resolution);
+      const Compared c = compare(scene, test::lightsOf(scene, 8192 / resolution), resolution);
       std::cout << name << " " << resolution << ": " << c.others << " of " << c.texels
                 << " texels differ, " << 100 * c.rays / c.texels << "% by rays\n";
       EXPECT_LE(c.others, c.texels / 20000);

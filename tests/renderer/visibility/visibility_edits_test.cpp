@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/edit_sequence.h"
+#include "tests/support/room_lights.h"
 
 namespace lamplighter {
 namespace {
@@ -22,14 +22,6 @@ RenderSceneChanges everything() {
 Scene defaultLevel() {
   return loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf")
       .scene;
-}
-
-std::vector<shared::Vpl> lightsOf(const RenderScene& scene, int count) {
-  std::vector<shared::Vpl> lights;
-  for (const SceneVpl& v :
-       generateVpls(scene, RayCaster(scene), LightSet(scene), {count, 0.3f, 3, 1}).vpls)
-    lights.push_back(v.vpl);
-  return lights;
 }
 
 // Entries of the first slots that differ.
@@ -53,7 +45,7 @@ bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
   Scene level = defaultLevel();
   RenderScene scene;
   update(scene, level, SceneChanges::all());
-  const std::vector<shared::Vpl> lights = lightsOf(scene, 150);
+  const std::vector<shared::Vpl> lights = test::lightsOf(scene, 150);
   VisibilityDatabase kept;
   kept.limitMemory(mostBytes);
   kept.setScene(scene, everything());
@@ -95,7 +87,7 @@ TEST(VisibilityOfLights, IsWhatItIsFromNothingAfterMoreAndFewer) {
   const Scene level = defaultLevel();
   RenderScene scene;
   update(scene, level, SceneChanges::all());
-  const std::vector<shared::Vpl> all = lightsOf(scene, 70);
+  const std::vector<shared::Vpl> all = test::lightsOf(scene, 70);
   VisibilityDatabase kept;
   kept.setScene(scene, everything());
   for (const size_t used : {size_t{70}, size_t{60}, size_t{70}, size_t{20}, size_t{65}}) {
