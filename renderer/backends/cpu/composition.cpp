@@ -50,9 +50,17 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
       }
       const int columns = std::min(kPacketWidth, g.width - x),
                 rows = std::min(kPacketHeight, g.height - y);
-      for (int row = 0; row < rows; ++row)
+      const auto copy = [&](int row, size_t bytes) {
         std::memcpy(static_cast<void*>(&out.at(x, y + row)), &pixels[3 * kPacketWidth * row],
-                    static_cast<size_t>(columns) * sizeof(vec3));
+                    bytes);
+      };
+      for (int row = 0; row < rows; ++row) {
+        if (columns == kPacketWidth) {
+          copy(row, kPacketWidth * sizeof(vec3));  // a constant, so that nothing is called
+        } else {
+          copy(row, static_cast<size_t>(columns) * sizeof(vec3));
+        }
+      }
     }
   });
 }

@@ -53,8 +53,8 @@ void LightAdder::addAll(std::span<const LightRecord* const> lights, Sign sign,
     const bool isListed = table_ != nullptr && light->slot >= 0;
     order_.emplace_back(isListed ? findUses(light->slot, when) : kManyRows, light);
   }
-  std::stable_sort(order_.begin(), order_.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::sort(order_.begin(), order_.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
   for (const auto& [uses, light] : order_) addAs(uses, *light, sign, when);
 }
 

@@ -57,7 +57,9 @@ void SpecularSums::findParts(const RenderScene& scene, const GBuffer& g, size_t 
   Tile& tile = tiles_[index];
   tile.parts.clear();
   tile.gloss.clear();
-  for (size_t in = 0; in < kTilePixels; ++in) {
+  const uint64_t only = g.onlyTriangle[index];
+  const bool mayBeSome = only == GBuffer::kMany || mayBeGlossy[only >> 32] != 0;
+  for (size_t in = 0; mayBeSome && in < kTilePixels; ++in) {
     const size_t i = index * kTilePixels + in;
     if (g.hit[i] == 0 || mayBeGlossy[g.object[i]] == 0) continue;
     const Gloss gloss = glossOf(scene, g, i);

@@ -1,8 +1,11 @@
 #include "renderer/backends/cpu/tile_places.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include <tbb/parallel_for.h>
+
+#include "renderer/wide.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -13,6 +16,36 @@ bool liesIn(const ObjectPatches& patches, int leaf, const vec3& position) {
   if (patch.chart == kNone) return true;
   const vec2 p = patches.charts[static_cast<size_t>(patch.chart)].project(position);
   return p.x >= patch.min.x && p.x < patch.max.x && p.y >= patch.min.y && p.y < patch.max.y;
+}
+
+// The same of all pixels of a packet.
+bool lieIn(const ObjectPatches& patches, int leaf, const GBuffer& g, size_t first) {
+  const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
+  if (patch.chart == kNone) return true;
+  const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
+  const WideTag tag;
+  const auto load = [&](const std::vector<float>& v) { return hn::LoadU(tag, &v[first]); };
+  const auto way = Wide3<WideFloats>{load(g.px), load(g.py), load(g.pz)} - wide(chart.origin);
+  const WideFloats x = dotInTurn(way, wide(chart.tangent));
+  const WideFloats y = dotInTurn(way, wide(chart.bitangent));
+  const auto within = [](WideFloats v, float low, float high) {
+    return hn::And(hn::Ge(v, wide(low)), hn::Lt(v, wide(high)));
+  };
+  return hn::AllTrue(
+      tag, hn::And(within(x, patch.min.x, patch.max.x), within(y, patch.min.y, patch.max.y)));
+}
+
+// Whether all pixels of a packet show what this one does.
+bool showSame(const GBuffer& g, size_t first, size_t pixel) {
+  uint64_t hits = 0;
+  static_assert(sizeof(hits) == kLanes);
+  std::memcpy(&hits, &g.hit[first], sizeof(hits));
+  if (hits != 0x0101010101010101) return false;
+  const hn::FixedTag<uint32_t, kLanes> tag;
+  const auto are = [&](const std::vector<uint32_t>& v) {
+    return hn::Eq(hn::LoadU(tag, &v[first]), hn::Set(tag, v[pixel]));
+  };
+  return hn::AllTrue(tag, hn::And(are(g.object), are(g.triangle)));
 }
 
 }  // namespace
@@ -109,8 +142,16 @@ void TilePlaces::find(const GBuffer& g, int tile, const PatchLights* patches, ui
     const int packet = std::countr_zero(packets);
     known_ |= uint32_t{1} << packet;
     parts.clear();
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const size_t i = first_ + static_cast<size_t>(packet * kLanes + lane);
+    const size_t of = first_ + static_cast<size_t>(packet * kLanes);
+    const bool isPlaced =
+        lastPlace != kNone && showSame(g, of, last) &&
+        lieIn(patches->patches(g.object[of]), places_[static_cast<size_t>(lastPlace)].leaf, g, of);
+    if (isPlaced) {
+      parts.push_back({static_cast<uint16_t>(lastPlace), 0xff});
+      last = of + kLanes - 1;
+    }
+    for (int lane = isPlaced ? kLanes : 0; lane < kLanes; ++lane) {
+      const size_t i = of + static_cast<size_t>(lane);
       if (g.hit[i] == 0) continue;
       if (patches != nullptr && !isAsLast(i)) lastPlace = placeOf(g, *patches, i);
       last = i;
