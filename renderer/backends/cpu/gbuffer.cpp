@@ -24,6 +24,7 @@ void GBuffer::resize(int w, int h) {
   object.assign(n, 0);
   triangle.assign(n, 0);
   isFlat.assign(n / kLanes, 0);
+  packetTriangle.assign(n / kLanes, kMany);
   onlyTriangle.assign(static_cast<size_t>(tiles()), kMany);
   const uint64_t last = revision.empty() ? 0 : *std::max_element(revision.begin(), revision.end());
   revision.assign(static_cast<size_t>(tiles()), last);
@@ -43,20 +44,23 @@ int GBuffer::pixelsOf(int tile, uint32_t packets) const {
 }
 
 void GBuffer::setSurface(size_t i, const Surface& s, bool isFront) {
-  const float side = isFront ? 1.0f : -1.0f;
-  sx[i] = side * s.normal.x;
-  sy[i] = side * s.normal.y;
-  sz[i] = side * s.normal.z;
-  gx[i] = side * s.geometricNormal.x;
-  gy[i] = side * s.geometricNormal.y;
-  gz[i] = side * s.geometricNormal.z;
-  ar[i] = s.albedo.r;
-  ag[i] = s.albedo.g;
-  ab[i] = s.albedo.b;
-  const vec3 emission = isFront || s.emitsBothSides ? s.emission : vec3(0.0f);
-  er[i] = emission.r;
-  eg[i] = emission.g;
-  eb[i] = emission.b;
+  const Seen seen(s, isFront);
+  const auto set = [i](const vec3& v, auto& x, auto& y, auto& z) {
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  };
+  set(seen.normal, sx, sy, sz);
+  set(seen.geometricNormal, gx, gy, gz);
+  set(s.albedo, ar, ag, ab);
+  set(seen.emission, er, eg, eb);
+}
+
+bool GBuffer::shows(size_t i, const Surface& s, bool isFront) const {
+  const Seen seen(s, isFront);
+  return vec3(sx[i], sy[i], sz[i]) == seen.normal &&
+         vec3(gx[i], gy[i], gz[i]) == seen.geometricNormal && albedo(i) == s.albedo &&
+         emission(i) == seen.emission;
 }
 
 void GBuffer::findFlat(int tile, int packet) {
@@ -67,7 +71,7 @@ void GBuffer::findFlat(int tile, int packet) {
   isFlat[first / kLanes] = same(sx, gx) && same(sy, gy) && same(sz, gz) ? 1 : 0;
 }
 
-size_t GBuffer::bytes() const { return px.size() * (15 * sizeof(float) + 9); }
+size_t GBuffer::bytes() const { return px.size() * (15 * sizeof(float) + 10); }
 
 namespace {
 
@@ -92,6 +96,8 @@ void trace(const RenderScene& scene, const RayCaster& rays, const View& view, ve
            GBuffer& out) {
   const vec3 forward = view.forward();
   out.onlyTriangle[static_cast<size_t>(tile)] = GBuffer::kMany;
+  std::fill_n(&out.packetTriangle[static_cast<size_t>(tile) * kPacketsPerTile], kPacketsPerTile,
+              GBuffer::kMany);
   const int x0 = (tile % out.tilesX) * kTileSize, y0 = (tile / out.tilesX) * kTileSize;
   for (int packet = 0; packet < kPacketsPerTile; ++packet) {
     std::array<Ray, kLanes> ray;

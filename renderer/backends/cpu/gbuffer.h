@@ -35,9 +35,10 @@ struct GBuffer {
   std::vector<uint8_t> hit;
   std::vector<uint32_t> object, triangle;  // where something was hit
   std::vector<uint8_t> isFlat;             // of each packet: both normals are the same
-  // Of each tile: all of its pixels are on one flat triangle, object << 32 | triangle; else kMany.
+  // Of each packet and of each tile: all of its pixels are on one flat triangle of one colour,
+  // object << 32 | triangle; else, or where it was not looked for, kMany.
   static constexpr uint64_t kMany = ~uint64_t{0};
-  std::vector<uint64_t> onlyTriangle;
+  std::vector<uint64_t> packetTriangle, onlyTriangle;
   std::vector<uint64_t> revision;  // of each tile, more each time it is traced
 
   // Everything is a miss then, and no revision is one that was before.
@@ -46,17 +47,30 @@ struct GBuffer {
   // Of the image, that a tile holds, or these of its packets (a bit each).
   int pixelsOf(int tile, uint32_t packets = ~uint32_t{0}) const;
   size_t index(int x, int y) const {
-    const size_t tile = static_cast<size_t>(y / kTileSize) * tilesX + x / kTileSize;
-    const int tx = x % kTileSize, ty = y % kTileSize;
-    const int packet = (ty / kPacketHeight) * kPacketsPerRow + tx / kPacketWidth;
-    const int lane = (ty % kPacketHeight) * kPacketWidth + tx % kPacketWidth;
-    return tile * kTilePixels + static_cast<size_t>(packet * kLanes + lane);
+    const auto column = static_cast<unsigned>(x), row = static_cast<unsigned>(y);
+    constexpr unsigned kSide = kTileSize, kWide = kPacketWidth, kHigh = kPacketHeight;
+    // What a row's pixels share, and what a column's do.
+    const size_t across =
+        size_t{column / kSide} * kTilePixels + column % kSide / kWide * kLanes + column % kWide;
+    const size_t down = size_t{row / kSide} * static_cast<size_t>(tilesX) * kTilePixels +
+                        row % kSide / kHigh * kPacketsPerRow * kLanes + row % kHigh * kWide;
+    return down + across;
   }
   vec3 albedo(size_t i) const { return {ar[i], ag[i], ab[i]}; }
   vec3 emission(size_t i) const { return {er[i], eg[i], eb[i]}; }
 
-  // What is seen from its front or back; all but where it is.
+  // A surface, from its front or back.
+  struct Seen {
+    vec3 normal, geometricNormal, emission;
+    Seen(const Surface& s, bool isFront)
+        : normal((isFront ? 1.0f : -1.0f) * s.normal),
+          geometricNormal((isFront ? 1.0f : -1.0f) * s.geometricNormal),
+          emission(isFront || s.emitsBothSides ? s.emission : vec3(0.0f)) {}
+  };
+  // What is seen; all but where it is.
   void setSurface(size_t i, const Surface& surface, bool isFront);
+  // Whether that is there already.
+  bool shows(size_t i, const Surface& surface, bool isFront) const;
   // Sets isFlat of a packet that was written.
   void findFlat(int tile, int packet);
   size_t bytes() const;

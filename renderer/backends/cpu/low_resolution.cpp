@@ -69,6 +69,18 @@ class SurfaceTest {
   Floats x_, y_, z_, nx_, ny_, nz_, sx_, sy_, sz_;
 };
 
+// Whether the packets with the pixels from (x0, y0) to (x1, y1), both among them, show one flat
+// triangle.
+bool isOneTriangle(const GBuffer& g, int x0, int y0, int x1, int y1) {
+  const auto at = [&](int x, int y) { return g.packetTriangle[g.index(x, y) / kLanes]; };
+  const uint64_t first = at(x0, y0);
+  if (first == GBuffer::kMany) return false;
+  for (int y = y0 / kPacketHeight * kPacketHeight; y <= y1; y += kPacketHeight)
+    for (int x = x0 / kPacketWidth * kPacketWidth; x <= x1; x += kPacketWidth)
+      if (at(x, y) != first) return false;
+  return true;
+}
+
 // Whether all pixels from (x0, y0) to (x1, y1), both among them, lie on the surface at the first.
 bool isOnOneSurface(const GBuffer& g, int x0, int y0, int x1, int y1) {
   const SurfaceTest surface(g, g.index(x0, y0));
@@ -175,9 +187,9 @@ void LowResolution::findPlanes(const GBuffer& g, int tile, std::span<const uint3
     for (int x = x0; x < std::min(x0 + kTileSize, width_); x += block_) {
       const int right = std::min(x + block_, width_ - 1),
                 bottom = std::min(y + block_, height_ - 1);
-      const bool isOne =
-          isOnly || (isOnOneSurface(g, x, y, right, bottom) &&
-                     (leftOutBy.empty() || isLitAlike(g, leftOutBy, x, y, right, bottom)));
+      const bool isOne = isOnly || isOneTriangle(g, x, y, right, bottom) ||
+                         (isOnOneSurface(g, x, y, right, bottom) &&
+                          (leftOutBy.empty() || isLitAlike(g, leftOutBy, x, y, right, bottom)));
       const size_t cell = cellAt(x / block_, y / block_);
       planes_[cell] = isOne ? 0 : kNoPlane;
       pairs_[cell] = isOne ? kAllPairs
@@ -195,6 +207,7 @@ void LowResolution::update(const GBuffer& g, int block, std::span<const uint32_t
     tilesX_ = g.tilesX;
     tilesY_ = g.tilesY;
     block_ = block;
+    perBlock_ = 1.0f / static_cast<float>(block);
     samples_.resize(shared::lowResolutionSamples(width_, block),
                     shared::lowResolutionSamples(height_, block));
     sampleRevisions_.assign(static_cast<size_t>(samples_.tiles()), 0);
@@ -332,6 +345,7 @@ void LowResolution::interpolate(int tile, int packet, Irradiance& out) const {
   // 1 / the distance of a cell's samples; the last of a row or column may be narrower.
   const auto inverse = [&](int cell, int size) {
     const int width = std::min((cell + 1) * block_, size - 1) - cell * block_;
+    if (width == block_) return perBlock_;
     return width > 0 ? 1.0f / static_cast<float>(width) : 0.0f;
   };
   const int i = x0 / block_, j = y0 / block_;

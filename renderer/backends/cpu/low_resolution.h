@@ -57,6 +57,7 @@ class LowResolution {
 
   int width_ = 0, height_ = 0, tilesX_ = 0, tilesY_ = 0;  // of the picture
   int block_ = 0;
+  float perBlock_ = 0.0f;
   int cellsX_ = 0, cellsY_ = 0;
   GBuffer samples_;
   std::vector<uint64_t> sampleRevisions_;  // of the picture's tiles, as sampled, by samples' tile

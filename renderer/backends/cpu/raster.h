@@ -34,15 +34,35 @@ class Raster {
   struct Entry {
     uint32_t object, triangle;
     uint16_t x0, y0, x1, y1;
+    int large = kNone;  // in large_
+  };
+  // d·normals[i] ≥ 0 for a ray that meets it. det: of its corners, less than 0 from its front.
+  struct Edges {
+    dvec3 normals[3];
+    double det;
+  };
+  // What is the same all over a triangle, if it is.
+  struct Plain {
+    bool isKnown = false, isPlain = false;
+    Surface surface;
+    bool isFlat() const { return isPlain && surface.normal == surface.geometricNormal; }
+  };
+  struct Large {
+    Edges edges;
+    Plain plain;
   };
   struct Candidate;
   struct TileHits;
 
   bool makeEntry(uint32_t object, uint32_t triangle, Entry& out) const;
+  Edges edgesOf(const Entry& entry) const;
+  Plain plainOf(uint32_t object, uint32_t triangle) const;
   bool makeCandidate(const Entry& entry, int tile, Candidate& out) const;
   void intersect(const Candidate& candidate, int index, TileHits& hits) const;
   void write(std::span<const Candidate> candidates, const TileHits& hits, int tile,
              GBuffer& out) const;
+  void writeFlat(const Candidate& candidate, const Surface& surface, int tile, int packet,
+                 int count, GBuffer& out) const;
   dvec3 toCamera(uint32_t vertex) const;
 
   const RenderScene& scene_;
@@ -55,6 +75,7 @@ class Raster {
   double znear_;
   std::vector<Entry> entries_;        // bin after bin
   std::vector<uint32_t> firstOfBin_;  // and one past the last
+  std::vector<Large> large_;          // what is in many bins
 };
 
 }  // namespace lamplighter::cpu

@@ -1,6 +1,7 @@
 // The rasterised G-buffer against a ray a pixel.
 #include "renderer/backends/cpu/gbuffer.h"
 
+#include <array>
 #include <filesystem>
 #include <ostream>
 
@@ -103,6 +104,73 @@ TEST(RasterisedGBuffer, IsTightAtSharedEdges) {
     for (int y = 0; y < view.height; ++y)
       for (int x = 0; x < view.width; ++x) ASSERT_EQ(g.hit[g.index(x, y)], 1) << x << ", " << y;
   }
+}
+
+// All that is seen there, and what is said of packets and tiles.
+void expectSame(const cpu::GBuffer& a, const cpu::GBuffer& b) {
+  ASSERT_EQ(a.hit, b.hit);
+  EXPECT_EQ(a.isFlat, b.isFlat);
+  EXPECT_EQ(a.packetTriangle, b.packetTriangle);
+  EXPECT_EQ(a.onlyTriangle, b.onlyTriangle);
+  int differ = 0;
+  for (size_t i = 0; i < a.hit.size(); ++i) {
+    if (a.hit[i] == 0) continue;
+    const auto at = [i](const cpu::GBuffer& g) {
+      return std::array{g.px[i], g.py[i], g.pz[i], g.sx[i], g.sy[i], g.sz[i], g.gx[i], g.gy[i],
+                        g.gz[i], g.ar[i], g.ag[i], g.ab[i], g.er[i], g.eg[i], g.eb[i]};
+    };
+    differ += at(a) != at(b) || a.object[i] != b.object[i] || a.triangle[i] != b.triangle[i];
+  }
+  EXPECT_EQ(differ, 0);
+}
+
+// Where packets are said to show one flat triangle they do.
+void expectOneTriangleEach(const cpu::GBuffer& g, int least) {
+  int packets = 0;
+  for (size_t i = 0; i < g.hit.size(); ++i) {
+    const size_t first = i / cpu::kLanes * cpu::kLanes;
+    const uint64_t of = g.packetTriangle[first / cpu::kLanes];
+    const uint64_t only = g.onlyTriangle[i / cpu::kTilePixels];
+    ASSERT_TRUE(only == cpu::GBuffer::kMany || only == of);
+    if (of == cpu::GBuffer::kMany) continue;
+    packets += i == first;
+    ASSERT_EQ(g.hit[i], 1);
+    ASSERT_EQ(of, uint64_t{g.object[i]} << 32 | g.triangle[i]);
+    ASSERT_EQ(g.isFlat[first / cpu::kLanes], 1);
+    ASSERT_EQ(g.albedo(i), g.albedo(first));
+    ASSERT_EQ(vec3(g.gx[i], g.gy[i], g.gz[i]), vec3(g.gx[first], g.gy[first], g.gz[first]));
+  }
+  EXPECT_GT(packets, least);
+}
+
+// What is there already is not written: nothing of another view, nor of how surfaces were.
+TEST(RasterisedGBuffer, OverAnotherIsAsAnew) {
+  Scene scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/table_room.gltf").scene;
+  constexpr int kWidth = 203, kHeight = 150;
+  cpu::GBuffer kept;
+  const auto look = [&](const View& view) {
+    const World world(scene);
+    cpu::renderGBuffer(world.render, *world.rays, view, vec2(0.0f), kept);
+    cpu::GBuffer anew;
+    cpu::renderGBuffer(world.render, *world.rays, view, vec2(0.0f), anew);
+    expectSame(kept, anew);
+    expectOneTriangleEach(kept, kWidth * kHeight / cpu::kLanes / 3);
+  };
+  View view = viewOfBounds(World(scene).render.bounds, kWidth, kHeight);
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) view = viewOfCamera(scene, node, kWidth, kHeight);
+  look(view);
+  view.eye += vec3(0.002f, 0.001f, 0.0f);
+  look(view);
+  for (Material& m : scene.materials) m.baseColor = vec4(0.9f, 0.1f, 0.2f, 1.0f);
+  look(view);
+  for (Node& node : scene.nodes)
+    if (node.mesh != kNone) node.local.translation.y += 0.03f;
+  look(view);
+  view.eye.x += 0.7f;
+  look(view);
+  scene.materials[0].emissive = vec3(2.0f);
+  look(view);
 }
 
 }  // namespace
