@@ -2,11 +2,13 @@
 // a light that is new, and those that a shadow may reach for one that waits.
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <numeric>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/visibility/jobs.h"
 #include "renderer/visibility/visibility_update.h"
 
 namespace lamplighter {
@@ -168,6 +170,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
     int root;
     std::vector<Task> tasks;
     std::vector<uint64_t> simple;  // by slot, a bit each
+    float size = 0.0f;             // about how much there is to do
     void add(const Column& column, bool isOfMover) {
       Task& task = tasks.emplace_back();
       task.column = &column;
@@ -211,14 +214,23 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
   }
   std::vector<int> order(lights_.size());
   std::iota(order.begin(), order.end(), 0);
+  // Large patches are divided more, and more is to be looked at where more columns reach.
+  for (Job& job : jobs) {
+    size_t reached = job.tasks.size();
+    for (const uint64_t word : job.simple) reached += static_cast<size_t>(std::popcount(word));
+    const float radius = patches_[job.object].patches[static_cast<size_t>(job.root)].radius;
+    job.size = static_cast<float>(reached) * radius * radius;
+  }
+  std::stable_sort(jobs.begin(), jobs.end(),
+                   [](const Job& a, const Job& b) { return a.size > b.size; });
   std::atomic<uint64_t> tests = 0;
-  tbb::parallel_for(tbb::blocked_range<size_t>(0, jobs.size()),
-                    [&](const tbb::blocked_range<size_t>& range) {
-                      Update update(*this, scene, false, order, tests);
-                      update.useSimple(simple);
-                      for (size_t i = range.begin(); i < range.end(); ++i)
-                        update.run(jobs[i].object, jobs[i].root, jobs[i].tasks, jobs[i].simple);
-                    });
+  doInTurn(jobs.size(), [&] {
+    return [&, update = Update(*this, scene, false, order, tests)](size_t i) mutable {
+      const Job& job = jobs[i];
+      update.useSimple(simple);
+      update.run(job.object, job.root, job.tasks, job.simple);
+    };
+  });
   tests_ += tests;
 }
 
