@@ -117,6 +117,10 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
     for (const uint32_t t : out.charts[i].triangles) out.patchOfTriangle[t] = root;
     splitRectangle(out, root, kMostSplits);
   }
+  const std::span<const uint32_t> loose(topology.loose);
+  for (size_t i = 0; i < loose.size(); i += kGroupTriangles)
+    out.groups.push_back(
+        boundsOf(scene, o, loose.subspan(i, std::min(kGroupTriangles, loose.size() - i))));
   const int first = static_cast<int>(out.patches.size());
   if (!topology.clusters.empty()) out.roots.push_back(first);
   for (const ClusterTopology& cluster : topology.clusters) {
@@ -126,7 +130,9 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
     if (cluster.firstChild != kNone) {
       patch.firstChild = first + cluster.firstChild;
     } else {
-      patch.box = boundsOf(scene, o, triangles);
+      // It is of whole groups.
+      for (size_t i = 0; i < cluster.count; i += kGroupTriangles)
+        patch.box.add(out.groups[(cluster.first + i) / kGroupTriangles]);
       for (const uint32_t t : triangles) out.patchOfTriangle[t] = index;
     }
   }

@@ -32,6 +32,7 @@ struct ObjectPatches {
   std::vector<Patch> patches;        // children after their parents
   std::vector<int> roots;            // into patches
   std::vector<size_t> countAtLevel;  // patches whose root was divided so many times for them
+  std::vector<Bounds> groups;        // around kGroupTriangles of MeshTopology::loose each
   BoundsTree tree;                   // over boxes around the roots' spheres, in their order
   std::vector<int> patchOfTriangle;  // the root of its chart, or the leaf of its cluster
 

@@ -32,11 +32,7 @@ void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& 
   }
   std::vector<Bounds> boxes;
   for (const uint32_t t : object.flat) boxes.push_back(boundsOf(s, o, {&t, 1}));
-  const std::span<const uint32_t> loose(topology.loose);
-  for (size_t first = 0; first < loose.size(); first += kGroupTriangles) {
-    const size_t count = std::min(kGroupTriangles, loose.size() - first);
-    object.groups.push_back(boundsOf(s, o, loose.subspan(first, count)));
-  }
+  object.groups = patches.groups;
   boxes.insert(boxes.end(), object.groups.begin(), object.groups.end());
   object.tree = topology.occluders;
   object.tree.refit(boxes);

@@ -1,8 +1,12 @@
 // What the visibility database has entries for, within bounds.
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "renderer/visibility/visibility_database.h"
+#include "renderer/wide.h"
 
 namespace lamplighter {
 
@@ -87,10 +91,17 @@ void VisibilityDatabase::forgetOthers() {
 }
 
 void VisibilityDatabase::lowerMarks(MoverPath::Mark by) {
-  for (auto& rows : rows_)
-    for (Row& row : rows)
-      for (MoverPath::Mark& mark : row.standsTill)
-        mark = static_cast<MoverPath::Mark>(std::max(mark, by) - by);
+  const hn::FixedTag<uint8_t, 32> bytes;
+  constexpr size_t kBytes = hn::MaxLanes(bytes);
+  static_assert(std::is_same_v<MoverPath::Mark, uint8_t> && kSlotsAStep % kBytes == 0);
+  const auto down = hn::Set(bytes, by);
+  tbb::parallel_for(size_t{0}, rows_.size(), [&](size_t object) {
+    for (Row& row : rows_[object])
+      for (size_t i = 0; i < row.standsTill.size(); i += kBytes) {
+        uint8_t* const marks = &row.standsTill[i];
+        hn::StoreU(hn::SaturatedSub(hn::LoadU(bytes, marks), down), bytes, marks);
+      }
+  });
 }
 
 size_t VisibilityDatabase::bytes() const {
