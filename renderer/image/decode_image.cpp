@@ -8,6 +8,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include "renderer/image/image_io.h"
+#include "renderer/image/open_picture.h"
 
 namespace lamplighter {
 
@@ -75,7 +76,11 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
   }
   input->set_ioproxy(opened.memory.get());
   OIIO::ImageSpec spec;
-  if (!input->open("image." + name, spec, config)) {
+  const bool isOpen = [&] {
+    const auto lock = openingAPicture();
+    return input->open("image." + name, spec, config);
+  }();
+  if (!isOpen) {
     why = "cannot be decoded (" + oneLine(input->geterror()) + ")";
     return opened;
   }

@@ -9,6 +9,7 @@
 
 #include "renderer/atomic_file.h"
 #include "renderer/error.h"
+#include "renderer/image/open_picture.h"
 
 namespace lamplighter {
 
@@ -53,7 +54,10 @@ Image readImage(const std::filesystem::path& path) {
                      "name an EXR, PNG, JPEG or HDR file");
   };
   if (!std::filesystem::is_regular_file(path)) fail("there is no such file");
-  const auto in = OIIO::ImageInput::open(path.string());
+  const auto in = [&] {
+    const auto lock = openingAPicture();
+    return OIIO::ImageInput::open(path.string());
+  }();
   if (!in) fail(OIIO::geterror());
   const OIIO::ImageSpec& spec = in->spec();
   if (spec.width <= 0 || spec.height <= 0 || spec.width > 65536 || spec.height > 65536 ||

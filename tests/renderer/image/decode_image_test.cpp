@@ -1,8 +1,13 @@
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
 #include "renderer/image/image_io.h"
 #include "tests/support/shared_files.h"
@@ -103,6 +108,57 @@ TEST(DecodeImage, JpegAndGreyAreExpanded) {
     ++count;
   }
   EXPECT_GT(count, 0);
+}
+
+// A JPEG with a colour profile of tags that nobody knows.
+std::vector<uint8_t> withProfile(const std::vector<uint8_t>& jpeg, uint32_t firstTag) {
+  constexpr size_t kHeader = 128, kTags = 24, kATag = 12;
+  std::vector<uint8_t> profile(kHeader + 4 + kTags * kATag + 16, 0);
+  const auto put = [&](size_t at, uint32_t value) {
+    for (size_t i = 0; i < 4; ++i) profile[at + i] = static_cast<uint8_t>(value >> (24 - 8 * i));
+  };
+  const auto text = [&](size_t at, std::string_view of) {
+    std::copy(of.begin(), of.end(), profile.begin() + static_cast<ptrdiff_t>(at));
+  };
+  put(0, static_cast<uint32_t>(profile.size()));
+  text(36, "acsp");
+  put(kHeader, kTags);
+  const size_t data = profile.size() - 16;
+  text(data, "text");
+  text(data + 8, "unknown");
+  for (size_t tag = 0; tag < kTags; ++tag) {
+    const size_t at = kHeader + 4 + tag * kATag;
+    put(at, firstTag + static_cast<uint32_t>(tag));
+    put(at + 4, static_cast<uint32_t>(data));
+    put(at + 8, 16);
+  }
+  // After the first marker, a second application segment.
+  const std::string_view name("ICC_PROFILE\0\1\1", 14);
+  const size_t length = 2 + name.size() + profile.size();
+  std::vector<uint8_t> segment{0xff, 0xe2, static_cast<uint8_t>(length >> 8),
+                               static_cast<uint8_t>(length & 0xff)};
+  segment.insert(segment.end(), name.begin(), name.end());
+  segment.insert(segment.end(), profile.begin(), profile.end());
+  std::vector<uint8_t> out = jpeg;
+  out.insert(out.begin() + 2, segment.begin(), segment.end());
+  return out;
+}
+
+// Each of so many tags is new to the library, which remembers them for all threads. Without
+// open_picture.h two runs of six crashed.
+TEST(DecodeImage, ColourProfilesAreReadByManyThreads) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "profile.jpg";
+  writePng(gradient(), path);  // its ending says what it is
+  std::ifstream file(path, std::ios::binary);
+  const std::vector<uint8_t> jpeg{std::istreambuf_iterator<char>(file), {}};
+  ASSERT_GT(jpeg.size(), 2u);
+  constexpr uint32_t kPictures = 600;
+  std::atomic<uint32_t> decoded = 0;
+  tbb::parallel_for(0u, kPictures, [&](uint32_t i) {
+    std::string why;
+    decoded += decodeImage8(withProfile(jpeg, 0x61000000u + 64 * i), why).has_value() ? 1 : 0;
+  });
+  EXPECT_EQ(decoded, kPictures);
 }
 
 }  // namespace
