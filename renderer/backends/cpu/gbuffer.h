@@ -47,12 +47,12 @@ struct GBuffer {
   // Of the image, that a tile holds, or these of its packets (a bit each).
   int pixelsOf(int tile, uint32_t packets = ~uint32_t{0}) const;
   size_t index(int x, int y) const {
-    const auto column = static_cast<unsigned>(x), row = static_cast<unsigned>(y);
-    constexpr unsigned kSide = kTileSize, kWide = kPacketWidth, kHigh = kPacketHeight;
+    const auto column = static_cast<size_t>(x), row = static_cast<size_t>(y);
+    constexpr size_t kSide = kTileSize, kWide = kPacketWidth, kHigh = kPacketHeight;
     // What a row's pixels share, and what a column's do.
     const size_t across =
-        size_t{column / kSide} * kTilePixels + column % kSide / kWide * kLanes + column % kWide;
-    const size_t down = size_t{row / kSide} * static_cast<size_t>(tilesX) * kTilePixels +
+        column / kSide * kTilePixels + column % kSide / kWide * kLanes + column % kWide;
+    const size_t down = row / kSide * static_cast<size_t>(tilesX) * kTilePixels +
                         row % kSide / kHigh * kPacketsPerRow * kLanes + row % kHigh * kWide;
     return down + across;
   }

@@ -18,11 +18,11 @@ HWY_ALIGN inline constexpr float kLaneY[kLanes] = {0, 0, 0, 0, 1, 1, 1, 1};
 // Where the pixels of a packet are in their tile.
 struct Pixels {
   Floats x, y;
-  explicit Pixels(int packet)
-      : x(hn::Add(hn::Load(kTag, kLaneX),
-                  wide(static_cast<float>(packet % kPacketsPerRow * kPacketWidth)))),
-        y(hn::Add(hn::Load(kTag, kLaneY),
-                  wide(static_cast<float>(packet / kPacketsPerRow * kPacketHeight)))) {}
+  explicit Pixels(int packet) {
+    const int column = packet % kPacketsPerRow, row = packet / kPacketsPerRow;
+    x = hn::Add(hn::Load(kTag, kLaneX), wide(static_cast<float>(column * kPacketWidth)));
+    y = hn::Add(hn::Load(kTag, kLaneY), wide(static_cast<float>(row * kPacketHeight)));
+  }
 };
 
 }  // namespace raster
