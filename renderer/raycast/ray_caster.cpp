@@ -80,13 +80,17 @@ void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
   hn::Store(hn::IfThenZeroElse(hn::RebindMask(ints, misses), all), ints, valid);
 }
 
+// Triangles of a scene whose tree is built in some 10 ms, which an edit may take once in a while.
+constexpr size_t kQuicklyBuilt = 50000;
+
 }  // namespace
 
 // One geometry an object, with the object's number as its id, in two scenes: one tree over all
 // triangles, which is built at medium quality (by the surface area heuristic) and whose packets may
 // be told coherent; and a small one for what has moved since, a tree an object and one above them,
-// which is brought up to date quickly. A mover's old place in the first is passed over by a filter.
-// What a ray hits does not depend on which of them an object is in.
+// which is brought up to date quickly. Movers are taken out of the first where that is built anew
+// quickly, and else passed over by a filter. What a ray hits does not depend on which of them an
+// object is in.
 //
 // In Embree 3.13 packets that are told coherent never come back from a tree of trees.
 struct RayCaster::Impl {
@@ -207,12 +211,15 @@ struct RayCaster::Impl {
       return;
     }
     if (changes.movedObjects.empty()) return;
+    bool hasMore = false;
     for (const uint32_t i : changes.movedObjects) {
       if (passing[i].isClear) continue;
       if (isMoving[i] == 0) {
         isMoving[i] = 1;
         movers.push_back(i);
         add(moving, i);
+        hasMore = true;
+        if (isQuicklyBuilt()) rtcDisableGeometry(rtcGetGeometry(still, i));
         continue;
       }
       RTCGeometry geometry = rtcGetGeometry(moving, i);
@@ -222,6 +229,7 @@ struct RayCaster::Impl {
       rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0);
       rtcCommitGeometry(geometry);
     }
+    if (hasMore && isQuicklyBuilt()) commit(still);
     commit(moving);
     movingBounds = Bounds();
     for (const uint32_t i : movers) movingBounds.add(scene.objects[i].bounds);
@@ -229,6 +237,9 @@ struct RayCaster::Impl {
     movingBounds.min -= slack;
     movingBounds.max += slack;
   }
+  // Else rays that meet what moved where it was are told to go on, at a cost for each.
+  bool isQuicklyBuilt() const { return scene.triangleCount() <= kQuicklyBuilt; }
+
   // Whether a ray may meet what moved: most pass it by, and are not asked.
   bool mayMeetMovers(const Ray& ray) const {
     return !movers.empty() && mayTouch(ray, movingBounds);
@@ -244,7 +255,7 @@ struct RayCaster::Impl {
     Query q{{}, this, ofStill, which == Surfaces::seen};
     rtcInitIntersectContext(&q.embree);
     if (isCoherent) q.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    if (q.seenOnly || (ofStill && !movers.empty())) q.embree.filter = passOver;
+    if (q.seenOnly || (ofStill && !movers.empty() && !isQuicklyBuilt())) q.embree.filter = passOver;
     return q;
   }
 

@@ -18,6 +18,12 @@ RenderScene worldOf(const Scene& scene) {
   return render;
 }
 
+// Makes a scene so large, well away from the origin, that its tree is not built anew where
+// something moves.
+void enlarge(Scene& scene) {
+  test::addMesh(scene, test::sphereMesh(1.0f, 120), vec3(0.0f, -50.0f, 0.0f));
+}
+
 Ray down(float x, float z) { return {vec3(x, 10.0f, z), 0.0f, vec3(0, -1, 0)}; }
 
 TEST(RayCaster, HitsTheNearestAndSaysWhere) {
@@ -109,15 +115,18 @@ TEST(RayCaster, SeesAMovedObjectWhereItIs) {
   EXPECT_FLOAT_EQ(rays.intersect(down(5, 0)).t, 9.5f);
 }
 
+class MovesIn : public testing::TestWithParam<bool> {};
+
 // What is hit, distance and weights included, must not tell where things were before: recordings
 // compare bits after an undo.
-TEST(RayCaster, AnUpdatedTreeGivesTheBitsOfANewOne) {
+TEST_P(MovesIn, LeaveATreeThatGivesTheBitsOfANewOne) {
   Scene before;
   for (int i = 0; i < 40; ++i) {
     const float x = static_cast<float>(i);
     test::addMesh(before, test::boxMesh(vec3(1.0f, 0.3f + 0.02f * x, 0.7f)),
                   vec3(std::fmod(x * 0.37f, 4.0f) - 2.0f, 0.0f, std::fmod(x * 0.73f, 4.0f) - 2.0f));
   }
+  if (GetParam()) enlarge(before);
   Scene after = before;
   for (const int i : {3, 17, 18, 30}) after.nodes[i].local.translation.y += 0.25f;
   RenderScene world = worldOf(before);
@@ -140,6 +149,8 @@ TEST(RayCaster, AnUpdatedTreeGivesTheBitsOfANewOne) {
   }
   EXPECT_GT(hits, 5000);
 }
+
+INSTANTIATE_TEST_SUITE_P(LargeScenesToo, MovesIn, testing::Bool());
 
 // Rays that surely pass by what moved are not asked about it: none that meets it may be, be it at
 // an edge, along an axis or far from the origin.
