@@ -12,4 +12,8 @@ enum class LightUse : uint8_t {
   takeShadow    // the light map has it without shadow: what its shadow map hides is taken away
 };
 
+constexpr bool looksUp(LightUse use) {
+  return use == LightUse::addShadowed || use == LightUse::takeShadow;
+}
+
 }  // namespace lamplighter

@@ -233,9 +233,6 @@ void StandIns::standForGroups(Numbers& numbers, const Groups& groups) {
 
 void StandIns::apply(const vec3& centre, float radius, const Lobes* lobes,
                      std::span<LightUse> bySlot) const {
-  const auto looksUp = [](LightUse use) {
-    return use == LightUse::addShadowed || use == LightUse::takeShadow;
-  };
   std::fill(bySlot.begin() + static_cast<ptrdiff_t>(slots_), bySlot.end(), LightUse::skip);
   for (size_t i = 0; i < slots_; ++i) {
     if (hasMap_[i] != 0 || !looksUp(bySlot[i])) continue;

@@ -1,9 +1,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 
 #include <algorithm>
-#include <atomic>
-#include <new>
-#include <stdexcept>
 
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
@@ -12,17 +9,13 @@
 #include "renderer/backends/cpu/gbuffer.h"
 #include "renderer/backends/cpu/light_sums.h"
 #include "renderer/backends/cpu/low_resolution.h"
+#include "renderer/backends/cpu/map_store.h"
 #include "renderer/backends/cpu/sample_sharing.h"
-#include "renderer/backends/cpu/shadow_raster.h"
 #include "renderer/backends/cpu/specular_sums.h"
 #include "renderer/backends/image_pool.h"
-#include "renderer/error.h"
 
 namespace lamplighter {
 namespace {
-
-// Rows of a shadow map that are one task: what is found once for a map is found for each of them.
-constexpr int kRowsPerTask = 2 * cpu::ShadowRaster::kBand;
 
 // What a view shows, and the light there.
 struct Picture {
@@ -57,8 +50,8 @@ class CpuBackend final : public Backend {
 
   KernelCounts counts() const override {
     KernelCounts counts = counts_;
-    counts.mapsHeld = held_;
-    counts.mapBytes = held_ * texels() * sizeof(float);
+    counts.mapsHeld = maps_.held();
+    counts.mapBytes = maps_.bytes();
     counts.memoryBytes = counts.mapBytes;
     for (const Picture* p : {&still_, &shifted_}) counts.memoryBytes += p->bytes();
     return counts;
@@ -69,7 +62,10 @@ class CpuBackend final : public Backend {
     const bool isOther = changes.rebuilt || scene_ != &scene;
     scene_ = &scene;
     rays_ = &rays;
-    castersMoved_ = castersMoved_ || isOther || changes.materials || !changes.movedObjects.empty();
+    if (isOther || changes.rebuilt || changes.materials)
+      maps_.castersChange();
+    else
+      maps_.castersMove(scene, changes);
     if (isOther) {
       leftOutBy_.clear();
       for (const RenderObject& o : scene.objects)
@@ -88,55 +84,39 @@ class CpuBackend final : public Backend {
   }
 
   void reserveShadowMaps(int slots, int resolution, int maps) override {
-    if (static_cast<size_t>(slots) == maps_.size() && resolution == resolution_ && maps == most_)
-      return;
+    if (!maps_.reserve(slots, resolution, maps)) return;
     for (Picture* p : {&still_, &shifted_}) {
       p->forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
       p->speculars.mapsChange();
     }
-    maps_.clear();
-    maps_.resize(static_cast<size_t>(slots));
-    held_ = 0;
-    most_ = maps;
-    resolution_ = resolution;
   }
 
   void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
-    const size_t texels = this->texels();
     shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
     for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
+    const auto slotOf = [](const shared::Vpl& vpl) { return static_cast<int>(vpl.intensity.w); };
     const auto tellOfOld = [&](cpu::LightSums& sums) {
       for (const shared::Vpl& vpl : vpls)
-        if (const float* map = mapOf(vpl))
-          sums.mapChanges(static_cast<int>(vpl.intensity.w), {map, texels});
+        if (const auto map = maps_.map(slotOf(vpl)); !map.empty())
+          sums.mapChanges(slotOf(vpl), map);
     };
     tbb::parallel_invoke([&] { tellOfOld(still_.sums); }, [&] { tellOfOld(still_.sampleSums); });
-    for (const shared::Vpl& vpl : vpls)
-      if (mapOf(vpl) == nullptr) makeMap(vpl);
-    const int tasks = (resolution_ + kRowsPerTask - 1) / kRowsPerTask;
-    if (castersMoved_) raster_.setScene(*scene_);
-    castersMoved_ = false;
-    raster_.setResolution(resolution_);
-    std::atomic<uint64_t> rays = 0;
-    tbb::parallel_for(0, static_cast<int>(vpls.size()) * tasks, [&](int task) {
-      const shared::Vpl& vpl = vpls[task / tasks];
-      const int firstRow = (task % tasks) * kRowsPerTask;
-      const int lastRow = std::min(firstRow + kRowsPerTask, resolution_);
-      rays += raster_.render(*rays_, vpl, firstRow, lastRow, {mapOf(vpl), texels});
-    });
+    std::vector<cpu::MapChange> changes(vpls.size());
+    counts_.rays += maps_.render(*scene_, *rays_, vpls, changes);
     counts_.shadowMaps += vpls.size();
-    counts_.rays += rays;
+    still_.forEachSums([&](cpu::LightSums& sums) {
+      for (size_t i = 0; i < vpls.size(); ++i) sums.mapChanged(slotOf(vpls[i]), changes[i]);
+    });
   }
 
   void dropShadowMaps(std::span<const int> slots) override {
     for (const int slot : slots) {
-      std::vector<float>& map = maps_[static_cast<size_t>(slot)];
+      const std::span<const float> map = maps_.map(slot);
       if (map.empty()) continue;
       still_.forEachSums([&](cpu::LightSums& sums) { sums.mapChanges(slot, map); });
       shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
       for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
-      std::vector<float>().swap(map);
-      --held_;
+      maps_.drop(slot);
     }
   }
 
@@ -169,7 +149,7 @@ class CpuBackend final : public Backend {
       lights.back().mapSlot = mapSlot;
     }
     const float d0 = params.clampAndBias.x;
-    const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, resolution_, 1.0f};
+    const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, maps_.resolution(), 1.0f};
     const auto update = [&](cpu::LightSums& sums, const cpu::GBuffer& gbuffer,
                             std::span<const uint32_t> wanted) {
       const cpu::SumCounts counts =
@@ -221,7 +201,10 @@ class CpuBackend final : public Backend {
     return image;
   }
 
-  std::vector<float> readShadowMap(int slot) override { return maps_[static_cast<size_t>(slot)]; }
+  std::vector<float> readShadowMap(int slot) override {
+    const std::span<const float> map = maps_.map(slot);
+    return {map.begin(), map.end()};
+  }
 
   Image readNormals() override {
     const cpu::GBuffer& g = shown_->gbuffer;
@@ -252,8 +235,6 @@ class CpuBackend final : public Backend {
   void finish() override {}
 
  private:
-  size_t texels() const { return static_cast<size_t>(resolution_) * resolution_; }
-
   // Whether a picture with pixels moved has the same light as that of their middles.
   bool isStillOf(std::span<const cpu::LightRecord> lights, const cpu::SumConstants& constants,
                  const PatchLights* patches) const {
@@ -263,23 +244,9 @@ class CpuBackend final : public Backend {
   }
 
   // Null: there is none.
-  float* mapOf(int slot) {
-    if (slot < 0 || maps_[static_cast<size_t>(slot)].empty()) return nullptr;
-    return maps_[static_cast<size_t>(slot)].data();
-  }
-  float* mapOf(const shared::Vpl& vpl) { return mapOf(static_cast<int>(vpl.intensity.w)); }
-
-  void makeMap(const shared::Vpl& vpl) {
-    if (held_ >= static_cast<size_t>(most_)) throw std::length_error("more maps than reserved");
-    try {
-      maps_[static_cast<size_t>(vpl.intensity.w)].resize(texels());
-    } catch (const std::bad_alloc&) {
-      throw InputError(
-          "many_lights",
-          "no memory for another shadow map of " + std::to_string(resolution_) + "² texels",
-          "lower map_memory or map_resolution");
-    }
-    ++held_;
+  const float* mapOf(int slot) const {
+    const std::span<const float> map = maps_.map(slot);
+    return map.empty() ? nullptr : map.data();
   }
 
   // Of f(index into the G-buffer) at each pixel.
@@ -301,11 +268,7 @@ class CpuBackend final : public Backend {
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;
-  cpu::ShadowRaster raster_;
-  bool castersMoved_ = true;  // since raster_ knows of them
-  int resolution_ = 0, most_ = 0;
-  std::vector<std::vector<float>> maps_;  // by slot; row after row; empty: none
-  size_t held_ = 0;
+  cpu::MapStore maps_;
   Picture still_, shifted_;           // pixels in their places, and moved for antialiasing
   Picture* shown_ = &still_;          // the one that was rendered last
   cpu::SampleSharing sharing_;        // of still_

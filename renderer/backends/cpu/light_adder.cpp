@@ -76,6 +76,29 @@ void LightAdder::addAs(uint64_t uses, const LightRecord& light, Sign sign, TileP
   sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
 }
 
+void LightAdder::replace(const PlaceTable::Staying& light) {
+  const LightRecord& is = *light.is;
+  counts_.lightPixels += pixels_;
+  if (!listAs(findUses(is.slot, TilePlaces::When::untouched))) return;
+  for (const LightUse use : {LightUse::addShadowed, LightUse::takeShadow}) {
+    const PacketList& packets = lists_[static_cast<size_t>(use)];
+    LitOfList lit;
+    findLit(packets, is.slot, lit);
+    replaceLit(block_, packets, use, *light.was, is, constants_, lit);
+  }
+}
+
+uint8_t& LightAdder::noteOf(size_t packet, int slot) const {
+  const Lit& of = lit_[packet];
+  return of.ofSlot0[static_cast<size_t>(slot) * of.stride];
+}
+
+// Where it was summed, of these lanes.
+void LightAdder::findLit(const PacketList& packets, int slot, LitOfList& lit) const {
+  for (size_t k = 0; k < packets.count(); ++k)
+    lit[k] = static_cast<uint8_t>(noteOf(packets.packet(k), slot) & *packets.lanes(k));
+}
+
 // Takes out what shows something that gets no light of the link.
 void LightAdder::leaveOut(uint32_t link, PacketLanes& lanes) const {
   for (size_t k = 0; k < block_.count(); ++k) {
@@ -89,12 +112,15 @@ void LightAdder::leaveOut(uint32_t link, PacketLanes& lanes) const {
 // How the light is used in each of the rows: into uses_, and in two bits for each, after one that
 // is always set.
 uint64_t LightAdder::findUses(int slot, TilePlaces::When when) {
+  using When = TilePlaces::When;
+  const uint8_t* touched = when == When::now ? nullptr : table_->touched(slot);
   uint64_t uses = 1;
   for (size_t i = 0; i < rows_.size(); ++i) {
     const uint32_t row = rows_[i];
-    const LightUse* of = when == TilePlaces::When::now ? table_->now(row) : table_->before(row);
-    uses_[i] = of[slot];
-    uses = uses << 2 | static_cast<uint64_t>(of[slot]);
+    const LightUse* of = when == When::before ? table_->before(row) : table_->now(row);
+    const bool isMeant = touched == nullptr || (touched[row] != 0) != (when == When::untouched);
+    uses_[i] = isMeant ? of[slot] : LightUse::skip;
+    uses = uses << 2 | static_cast<uint64_t>(uses_[i]);
   }
   return rows_.size() > kMostRows ? kManyRows : uses;
 }
@@ -117,19 +143,16 @@ void LightAdder::sum(const PacketList& packets, LightUse use, Sign sign, const L
   if (packets.count() == 0) return;
   LitOfList lit;
   const bool isKept = use != LightUse::add && light.slot >= 0 && !lit_.empty();
-  const auto noted = [&](size_t k) -> uint8_t& {
-    const Lit& of = lit_[packets.packet(k)];
-    return of.ofSlot0[static_cast<size_t>(light.slot) * of.stride];
-  };
   if (isKept && sign == Sign::takeAway) {
-    for (size_t k = 0; k < packets.count(); ++k)
-      lit[k] = static_cast<uint8_t>(noted(k) & *packets.lanes(k));
+    findLit(packets, light.slot, lit);
     return addLit(block_, packets, use, sign, light, constants_, lit);
   }
   addLight(block_, packets, use, sign, light, constants_, lit);
   if (use != LightUse::add) counts_.lookUps += packets.count() * kLanes;
-  for (size_t k = 0; isKept && k < packets.count(); ++k)
-    noted(k) = static_cast<uint8_t>((noted(k) & ~*packets.lanes(k)) | lit[k]);
+  for (size_t k = 0; isKept && k < packets.count(); ++k) {
+    uint8_t& note = noteOf(packets.packet(k), light.slot);
+    note = static_cast<uint8_t>((note & ~*packets.lanes(k)) | lit[k]);
+  }
 }
 
 }  // namespace lamplighter::cpu

@@ -37,6 +37,10 @@ class LightAdder {
   // All of these, those that are used alike one after the other.
   void addAll(std::span<const LightRecord* const> lights, Sign sign, TilePlaces::When when);
 
+  // Where it is not touched by what changed of its map. One that is as bright as before need not
+  // be.
+  void replace(const PlaceTable::Staying& light);
+
   // Once all is added and taken away.
   void finish(FixedSums& sums) const { block_.addTo(sums); }
 
@@ -50,6 +54,8 @@ class LightAdder {
   void leaveOut(uint32_t link, PacketLanes& lanes) const;
   uint64_t findUses(int slot, TilePlaces::When when);
   bool listAs(uint64_t uses);
+  uint8_t& noteOf(size_t packet, int slot) const;
+  void findLit(const PacketList& packets, int slot, LitOfList& lit) const;
   void sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light);
 
   const GBuffer& gbuffer_;

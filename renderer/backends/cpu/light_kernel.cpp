@@ -26,6 +26,18 @@ HWY_INLINE void addTo(int32_t (&sum)[3][kLanes], Floats weight, const Vector3& u
   add(sum[2], hn::Mul(weight, units.z));
 }
 
+// What it is instead of what it was.
+HWY_INLINE void replaceIn(int32_t (&sum)[3][kLanes], Floats weight, const Vector3& now,
+                          const Vector3& before) {
+  const auto replace = [&](int32_t* to, Floats is, Floats was) {
+    const Ints more = hn::Sub(roundToInts(hn::Mul(weight, is)), roundToInts(hn::Mul(weight, was)));
+    hn::Store(hn::Add(hn::Load(IntTag(), to), more), IntTag(), to);
+  };
+  replace(sum[0], now.x, before.x);
+  replace(sum[1], now.y, before.y);
+  replace(sum[2], now.z, before.z);
+}
+
 // What it gives where it arrives [1/m² of its intensity]. v: from the light to the point; z: its
 // height over the light's plane; s: −n·v, or n·(the light's direction) of a parallel one.
 template <LightRecord::Kind kKind>
@@ -108,11 +120,10 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
   }
 }
 
-// In those lanes.
-template <LightRecord::Kind kKind>
-void addLit(PacketBlock& block, const PacketList& packets, bool isNegative,
-            const LightRecord& record, const SumConstants& constants, const LitOfList& lit) {
-  const WideLight light(record, isNegative, constants);
+// Calls add(sum, weight) in those lanes.
+template <LightRecord::Kind kKind, typename F>
+void forEachLit(PacketBlock& block, const PacketList& packets, const WideLight& light,
+                const SumConstants& constants, const LitOfList& lit, F&& add) {
   const WideConstants c(constants);
   // Which packets there are is found first, without a branch that nobody can foretell.
   std::array<uint8_t, PacketBlock::kMost> some;
@@ -135,8 +146,17 @@ void addLit(PacketBlock& block, const PacketList& packets, bool isNegative,
     }
     const Floats weight =
         hn::IfThenElseZero(hn::LoadMaskBits(kTag, &lit[k]), weightOf<kKind>(light, c, v, z, s));
-    addTo(packet.sum, hn::Min(weight, light.mostWeight), light.units);
+    add(packet.sum, hn::Min(weight, light.mostWeight));
   }
+}
+
+template <LightRecord::Kind kKind>
+void addLit(PacketBlock& block, const PacketList& packets, bool isNegative,
+            const LightRecord& record, const SumConstants& constants, const LitOfList& lit) {
+  const WideLight light(record, isNegative, constants);
+  forEachLit<kKind>(
+      block, packets, light, constants, lit,
+      [&](int32_t(&sum)[3][kLanes], Floats weight) { addTo(sum, weight, light.units); });
 }
 
 bool isNegative(LightUse use, Sign sign) {
@@ -225,6 +245,20 @@ void addLit(PacketBlock& block, const PacketList& packets, LightUse use, Sign si
   if (packets.count() == 0) return;
   byKind(light.kind, [&]<LightRecord::Kind kKind>() {
     addLit<kKind>(block, packets, isNegative(use, sign), light, constants, lit);
+  });
+}
+
+void replaceLit(PacketBlock& block, const PacketList& packets, LightUse use,
+                const LightRecord& before, const LightRecord& now, const SumConstants& constants,
+                const LitOfList& lit) {
+  if (packets.count() == 0) return;
+  const bool negative = isNegative(use, Sign::add);
+  const WideLight light(now, negative, constants), was(before, negative, constants);
+  byKind(now.kind, [&]<LightRecord::Kind kKind>() {
+    forEachLit<kKind>(block, packets, light, constants, lit,
+                      [&](int32_t(&sum)[3][kLanes], Floats weight) {
+                        replaceIn(sum, weight, light.units, was.units);
+                      });
   });
 }
 

@@ -29,6 +29,11 @@ struct LightRecord {
   float radius = 0.0f, side = 1.0f;  // directional: R and S
   uint32_t link = 0;                 // renderer/scene/light_linking.h
   bool operator==(const LightRecord&) const = default;
+  // But for its intensity.
+  bool isInPlaceOf(LightRecord other) const {
+    other.intensity = intensity;
+    return *this == other;
+  }
 };
 
 LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map);
@@ -75,5 +80,11 @@ void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign 
 // The same, for a light that adds or takes its shadow in those lanes, without a look-up.
 void addLit(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
             const LightRecord& light, const SumConstants& constants, const LitOfList& lit);
+
+// Takes it away in those lanes as it was before, and adds it as it is now: it differs in nothing
+// but its intensity.
+void replaceLit(PacketBlock& block, const PacketList& packets, LightUse use,
+                const LightRecord& before, const LightRecord& now, const SumConstants& constants,
+                const LitOfList& lit);
 
 }  // namespace lamplighter::cpu

@@ -22,6 +22,7 @@ constexpr size_t kMostOldBytes = size_t{16} << 20;
 // Of notes of what is lit; of more none are kept. Slots are added in such steps.
 constexpr size_t kMostLitBytes = size_t{32} << 20;
 constexpr size_t kLitStep = 64;
+constexpr MapChange kNoChange{MapChange::Extent::nothing};
 // Tiles that are summed together, so that each shadow map is fetched from memory once for all.
 constexpr int kTilesPerTask = 16;
 // The same where few of their packets are wanted.
@@ -73,20 +74,30 @@ struct LightSums::Frame {
   std::vector<const LightRecord*> all;           // the lights
   std::vector<const LightRecord*> taken, added;  // of these and their maps, as they were and are
   std::vector<bool> isChanged;                   // by slot
+  std::vector<PlaceTable::Staying> staying;      // of these
 };
 
 void LightSums::mapChanges(int slot, std::span<const float> map) {
-  if (!knowsSums_ || oldMaps_.contains(slot)) return;
+  if (!knowsSums_) return;
+  if (const auto old = oldMaps_.find(slot); old != oldMaps_.end()) {
+    old->second.isChangedOnce = false;
+    return;
+  }
   const bool isSummed = std::any_of(lights_.begin(), lights_.end(),
                                     [&](const LightRecord& l) { return l.mapSlot == slot; });
   if (!isSummed) return;
-  if (isMost(oldMaps_.size() + 1, lights_.size())) return forgetMaps();
   if (litIsKept_) {
-    oldMaps_.emplace(slot, std::vector<float>());
+    oldMaps_.emplace(slot, OldMap());
     return;
   }
+  if (isMost(oldMaps_.size() + 1, lights_.size())) return forgetMaps();
   if ((oldMaps_.size() + 1) * map.size_bytes() > kMostOldBytes) return forgetMaps();
-  oldMaps_.emplace(slot, std::vector<float>(map.begin(), map.end()));
+  oldMaps_.emplace(slot, OldMap{std::vector<float>(map.begin(), map.end()), {}});
+}
+
+void LightSums::mapChanged(int slot, const MapChange& change) {
+  const auto old = oldMaps_.find(slot);
+  if (old != oldMaps_.end() && old->second.isChangedOnce) old->second.change = change;
 }
 
 // Whether to take away so many lights and add them anew is more work than to begin with all.
@@ -154,8 +165,9 @@ void LightSums::keepLit() {
 void LightSums::findChanges(Frame& frame) {
   for (LightRecord& light : lights_) {
     const auto old = oldMaps_.find(light.mapSlot);
-    if (old != oldMaps_.end() && !litIsKept_) light.map = old->second.data();
+    if (old != oldMaps_.end() && !litIsKept_) light.map = old->second.texels.data();
   }
+  const bool hasPatches = frame.patches != nullptr && hasPatches_;
   const auto before = bySlot(lights_);
   const auto& now = frame.slots;
   frame.isChanged.assign(std::max(before.size(), now.size()), false);
@@ -163,8 +175,14 @@ void LightSums::findChanges(Frame& frame) {
     const LightRecord* was = slot < before.size() ? before[slot] : nullptr;
     const LightRecord* is = slot < now.size() ? now[slot] : nullptr;
     if (was == is) continue;  // there is none
-    if (was != nullptr && is != nullptr && *was == *is && !oldMaps_.contains(was->mapSlot))
-      continue;
+    if (was != nullptr && is != nullptr && was->isInPlaceOf(*is)) {
+      const auto old = oldMaps_.find(is->mapSlot);
+      const PlaceTable::Staying light{was, is,
+                                      old == oldMaps_.end() ? kNoChange : old->second.change};
+      if (light.change.extent == MapChange::Extent::nothing && !light.isReplaced()) continue;
+      if (light.change.extent != MapChange::Extent::everything && litIsKept_ && hasPatches)
+        frame.staying.push_back(light);
+    }
     if (was != nullptr) frame.taken.push_back(was);
     if (is != nullptr) frame.added.push_back(is);
     frame.isChanged[slot] = true;
@@ -201,7 +219,7 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
                             SumConstants constants, const PatchLights* patches,
                             std::span<const uint32_t> wanted, std::span<const uint32_t> leftOutBy) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
-  Frame frame{gbuffer, bySlot(lights), patches, wanted, leftOutBy, {}, {}, {}, {}};
+  Frame frame{gbuffer, bySlot(lights), patches, wanted, leftOutBy, {}, {}, {}, {}, {}};
   for (const LightRecord& light : lights) frame.all.push_back(&light);
   const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
   // Lights that cast no shadow have no slot to tell them by.
@@ -211,12 +229,15 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   if (!fitLit(frame)) knowsSums_ = false;
   if (knowsSums_) {
     findChanges(frame);
-    if (isMost(std::max(frame.taken.size(), frame.added.size()), lights.size())) knowsSums_ = false;
+    // What stays is mostly left or replaced.
+    const size_t changed = std::max(frame.taken.size(), frame.added.size());
+    if (isMost(changed - frame.staying.size() / 2, lights.size())) knowsSums_ = false;
   }
   constants_ = constants;
   compareWithLast(frame);
   keepLit();
   findPlaces(frame);
+  if (patches != nullptr && knowsSums_) table_.findTouched(frame.staying);
   frame.isChanged.resize(std::max(frame.isChanged.size(), table_.slots()), false);
 
   knowsSums_ = false;  // until all is done
@@ -300,7 +321,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
       const LightRecord* light = frame.slots[static_cast<size_t>(slot)];
       if (light == nullptr) continue;
       here.add(*light, Sign::takeAway, When::before);
-      here.add(*light, Sign::add, When::now);
+      here.add(*light, Sign::add, When::after);
     }
     here.finish(sums_);
   }
@@ -315,7 +336,10 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
         tiles.addAll(lights.subspan(i, std::min(atOnce, lights.size() - i)), sign, when);
   };
   addAll(kept, frame.taken, Sign::takeAway, When::before);
-  addAll(kept, frame.added, Sign::add, When::now);
+  addAll(kept, frame.added, Sign::add, When::after);
+  for (LightAdder& tiles : kept)
+    for (const PlaceTable::Staying& light : frame.staying)
+      if (light.isReplaced()) tiles.replace(light);
   addAll(begun, frame.all, Sign::add, When::now);
   for (const std::vector<LightAdder>* adders : {&kept, &begun})
     for (const LightAdder& tiles : *adders) tiles.finish(sums_);
@@ -380,9 +404,8 @@ LightSums::HardShadows LightSums::findHardShadows() const {
   for (uint32_t row = 0; row < isHard.size(); ++row) {
     if (isHard[row] == 0) continue;
     const LightUse* uses = table_.now(row);
-    isHard[row] = std::any_of(slots.begin(), slots.end(), [&](int slot) {
-      return uses[slot] == LightUse::addShadowed || uses[slot] == LightUse::takeShadow;
-    });
+    isHard[row] =
+        std::any_of(slots.begin(), slots.end(), [&](int slot) { return looksUp(uses[slot]); });
   }
   for (const Tile& tile : tiles_)
     tile.places.forEachRow([&](size_t packet, uint8_t lanes, uint32_t row) {
@@ -396,7 +419,7 @@ LightSums::HardShadows LightSums::findHardShadows() const {
 size_t LightSums::bytes() const {
   size_t bytes = sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) + table_.bytes();
   for (const Tile& tile : tiles_) bytes += tile.lit.bytes();
-  for (const auto& [slot, map] : oldMaps_) bytes += map.size() * sizeof(float);
+  for (const auto& [slot, old] : oldMaps_) bytes += old.texels.size() * sizeof(float);
   return bytes;
 }
 

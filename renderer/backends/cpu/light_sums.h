@@ -32,6 +32,8 @@ class LightSums {
   // To be called before a shadow map changes, with what it holds: its light may have to be taken
   // away with it.
   void mapChanges(int slot, std::span<const float> map);
+  // After that, where it is rendered anew: what changed. Else all of it did.
+  void mapChanged(int slot, const MapChange& change);
   // All maps are lost.
   void forgetMaps();
   // Objects are numbered anew, or have other patches though they stayed where they were.
@@ -81,8 +83,12 @@ class LightSums {
   bool hasPatches_ = false, hasMaps_ = false, hasTransfer_ = false;
   SumConstants constants_;
   std::vector<LightRecord> lights_;  // as summed
-  // By slot, as summed, of those that changed since; empty where notes of what is lit are kept.
-  std::map<int, std::vector<float>> oldMaps_;
+  struct OldMap {
+    std::vector<float> texels;  // as summed; none where notes of what is lit are kept
+    MapChange change;
+    bool isChangedOnce = true;
+  };
+  std::map<int, OldMap> oldMaps_;  // by slot, of those that changed since
   bool keepsLit_ = false;
   bool litIsKept_ = false;
   size_t litSlots_ = 0;

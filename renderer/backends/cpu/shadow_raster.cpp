@@ -33,6 +33,22 @@ static_assert(kRow >= kMostTiles + kLanes);
 Floats all(float v) { return hn::Set(kTag, v); }
 Floats load(const std::vector<float>& v, size_t at) { return hn::LoadU(kTag, &v[at]); }
 
+// An object's triangles in runs, as their indices follow each other: they mostly lie side by side.
+constexpr uint32_t kMostParts = 32, kLeastOfPart = 16;
+
+std::vector<Sphere> partsOfMesh(const RenderScene& scene, const RenderObject& o) {
+  const uint32_t parts = std::clamp(o.triangleCount() / kLeastOfPart, 1u, kMostParts);
+  std::vector<Sphere> spheres;
+  for (uint32_t i = 0; i < parts; ++i) {
+    Bounds box;
+    const uint32_t first = o.triangleCount() * i / parts, end = o.triangleCount() * (i + 1) / parts;
+    for (uint32_t k = 3 * first; k < 3 * end; ++k)
+      box.add(scene.positions[scene.indices[o.firstIndex + k]]);
+    spheres.push_back({box.centre(), box.radius()});
+  }
+  return spheres;
+}
+
 // A map's rows are four texels of a block's upper row, and of its lower one.
 Floats loadBlock(const float* map, size_t resolution) {
   return hn::Combine(kTag, hn::LoadU(kHalfTag, map + resolution), hn::LoadU(kHalfTag, map));
@@ -135,24 +151,43 @@ struct ShadowRaster::Band {
   int bottom(int row, int tile) const { return std::min(lastRow, (row + 1) * tile); }
 };
 
-void ShadowRaster::setScene(const RenderScene& scene) {
-  complex_.clear();
-  std::vector<ShadowTriangles::Corners> triangles;
-  for (const RenderObject& o : scene.objects) {
+void ShadowRaster::setScene(const RenderScene& scene, const std::vector<uint32_t>* moved) {
+  std::vector<uint32_t> simple, complex;
+  size_t triangles = 0;
+  for (uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const RenderObject& o = scene.objects[i];
     const Material& material = scene.materials[static_cast<size_t>(o.material)];
     if (material.isClear()) continue;
-    if (o.triangleCount() > kMostOfObject || material.alphaMode == AlphaMode::mask) {
-      complex_.push_back({o.bounds.centre(), o.bounds.radius()});
-      continue;
-    }
-    const uint32_t* const index = &scene.indices[o.firstIndex];
-    for (uint32_t i = 0; i < o.indexCount; i += 3)
-      triangles.push_back({scene.positions[index[i]], scene.positions[index[i + 1]],
-                           scene.positions[index[i + 2]]});
-    if (triangles.size() > kMostTriangles) break;
+    const bool isSimple =
+        o.triangleCount() <= kMostOfObject && material.alphaMode != AlphaMode::mask;
+    (isSimple ? simple : complex).push_back(i);
+    triangles += isSimple ? o.triangleCount() : 0;
   }
-  isUseful_ = triangles.size() <= kMostTriangles && complex_.size() <= kMostComplex;
-  triangles_.set(isUseful_ ? std::move(triangles) : std::vector<ShadowTriangles::Corners>());
+  isUseful_ = triangles <= kMostTriangles && complex.size() <= kMostComplex;
+  if (!isUseful_) {
+    complex_.clear();
+    return;
+  }
+  std::vector<ShadowTriangles::Corners> corners;
+  for (const uint32_t i : simple) {
+    const RenderObject& o = scene.objects[i];
+    const uint32_t* const index = &scene.indices[o.firstIndex];
+    for (uint32_t k = 0; k < o.indexCount; k += 3)
+      corners.push_back({scene.positions[index[k]], scene.positions[index[k + 1]],
+                         scene.positions[index[k + 2]]});
+  }
+  triangles_.set(std::move(corners));
+  std::vector<Complex> before;
+  std::swap(before, complex_);
+  for (const uint32_t i : complex) {
+    const RenderObject& o = scene.objects[i];
+    const auto known = std::ranges::lower_bound(before, i, {}, &Complex::object);
+    const bool isKnown = moved != nullptr && known != before.end() && known->object == i &&
+                         std::ranges::find(*moved, i) == moved->end();
+    complex_.push_back({i,
+                        {o.bounds.centre(), o.bounds.radius()},
+                        isKnown ? std::move(known->parts) : partsOfMesh(scene, o)});
+  }
 }
 
 void ShadowRaster::setResolution(int resolution) {
@@ -171,62 +206,85 @@ void ShadowRaster::setResolution(int resolution) {
 
 // Marks blocks that may see what is left to rays. Whether rasterising the others is worth it.
 bool ShadowRaster::markForRays(const LightSpace& light, Band& band) const {
+  using Where = SphereInMap::Where;
   const TexelDirections& d = directions(light);
   const auto across = static_cast<size_t>(resolution_ / kBlockWidth);
   const size_t first = static_cast<size_t>(band.firstRow / kBlockHeight) * across,
                count = static_cast<size_t>((band.lastRow - band.firstRow) / kBlockHeight) * across;
   std::vector<uint8_t>& marks = band.marks;
   marks.assign(count, 0);
-  for (const Sphere& sphere : complex_) {
-    const vec3 way = sphere.centre - light.origin;
-    const vec3 c(glm::dot(way, light.axes[0]), glm::dot(way, light.axes[1]),
-                 glm::dot(way, light.axes[2]));
-    const float distance = glm::length(c);
-    if (!light.isParallel && c.z < -sphere.radius) continue;
-    if (!light.isParallel && distance <= sphere.radius) return false;
-    // Within this angle of the middle: rounding is far less than the slack.
-    const float sine = sphere.radius / distance * 1.001f + 1e-4f;
-    if (!light.isParallel && sine >= 1.0f) return false;
-    const float cosine = std::sqrt(1.0f - std::min(1.0f, sine * sine));
-    const vec3 unit = c / distance;
-    const float reach = sphere.radius * light.across * 1.001f + 1e-4f;
-    for (size_t i = 0; i < count; i += kLanes) {
-      const Floats x = load(d.midX, first + i), y = load(d.midY, first + i);
-      auto meets = hn::Eq(x, x);
-      if (light.isParallel) {
-        const Floats dx = hn::Sub(x, all(c.x * light.across)),
-                     dy = hn::Sub(y, all(c.y * light.across)),
-                     most = hn::Add(load(d.cosine, first + i), all(reach));
-        meets = hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most));
-      } else {
-        const Floats cosines =
-            hn::MulAdd(x, all(unit.x),
-                       hn::MulAdd(y, all(unit.y), hn::Mul(load(d.midZ, first + i), all(unit.z))));
-        // Both angles are less than a right one: cos(a + b) falls from 1 to −1.
-        const Floats least = hn::Sub(hn::Mul(load(d.cosine, first + i), all(cosine)),
-                                     hn::Mul(load(d.sine, first + i), all(sine)));
-        meets = hn::Ge(cosines, least);
+  struct Blocks {
+    size_t first;
+    uint32_t see;  // a bit for each
+  };
+  std::vector<Blocks> near;
+  for (const Complex& object : complex_) {
+    const SphereInMap whole(light, d, object.whole);
+    if (whole.where() == Where::nowhere) continue;
+    if (whole.where() == Where::anywhere) return false;
+    near.clear();
+    for (size_t i = 0; i < count; i += kLanes)
+      if (const uint32_t see = whole.blocks(first + i); see != 0) near.push_back({i, see});
+    for (const Sphere& sphere : object.parts) {
+      const SphereInMap part(light, d, sphere);
+      if (near.empty() || part.where() == Where::nowhere) continue;
+      for (const Blocks& blocks : near) {
+        uint32_t see = blocks.see;
+        if (part.where() == Where::somewhere) see &= part.blocks(first + blocks.first);
+        for (; see != 0; see &= see - 1)
+          marks[blocks.first + static_cast<size_t>(std::countr_zero(see))] = 1;
       }
-      for (uint32_t rest = bitsOf(meets); rest != 0; rest &= rest - 1)
-        marks[i + static_cast<size_t>(std::countr_zero(rest))] = 1;
     }
   }
   const auto marked = static_cast<float>(std::count(marks.begin(), marks.end(), 1));
   return marked <= kMostOfBlocks * static_cast<float>(count);
 }
 
-// Where all blocks of a tile are left to rays nothing is nearer than what is there.
-void ShadowRaster::passOverMarked(Band& band) const {
+std::vector<uint8_t> ShadowRaster::blocksThatSee(const shared::Vpl& vpl,
+                                                 std::span<const Sphere> spheres) const {
+  if (tile_ == 0) return {};
+  const LightSpace light(vpl);
+  const auto side = static_cast<size_t>(resolution_);
+  std::vector<uint8_t> see(side / kBlockWidth * side / kBlockHeight, 0);
+  for (const Sphere& s : spheres) {
+    const SphereInMap sphere(light, directions(light), s);
+    if (sphere.where() == SphereInMap::Where::anywhere) return {};
+    if (sphere.where() == SphereInMap::Where::nowhere) continue;
+    for (size_t i = 0; i < see.size(); i += kLanes)
+      for (uint32_t rest = sphere.blocks(i); rest != 0; rest &= rest - 1)
+        see[i + static_cast<size_t>(std::countr_zero(rest))] = 1;
+  }
+  return see;
+}
+
+// Calls f(index among the band's marks) for the blocks of a tile, as far as they are in the band.
+template <typename F>
+void ShadowRaster::forEachBlock(const Band& band, int ty, int tx, F&& f) const {
   const int across = resolution_ / kBlockWidth;
+  for (int y = band.top(ty, tile_); y < band.bottom(ty, tile_); y += kBlockHeight)
+    for (int x = tx * tile_; x < (tx + 1) * tile_; x += kBlockWidth)
+      f(static_cast<size_t>((y - band.firstRow) / kBlockHeight * across + x / kBlockWidth));
+}
+
+// Makes tiles ready to be drawn into where any block is wanted (empty: all are). Where all are left
+// to rays nothing is nearer than what is there, and where none is wanted nothing is to be done.
+void ShadowRaster::prepareTiles(Band& band, std::span<const uint8_t> wanted,
+                                std::span<float> map) const {
   for (int ty = band.firstTile; ty < band.lastTile; ++ty) {
     for (int tx = 0; tx < tiles_; ++tx) {
-      bool isMarked = true;
-      for (int y = band.top(ty, tile_); y < band.bottom(ty, tile_); y += kBlockHeight)
-        for (int x = tx * tile_; x < (tx + 1) * tile_; x += kBlockWidth)
-          isMarked = isMarked &&
-                     band.marks[static_cast<size_t>((y - band.firstRow) / kBlockHeight * across +
-                                                    x / kBlockWidth)] != 0;
-      if (isMarked) band.least[ty - band.firstTile][tx] = std::numeric_limits<float>::infinity();
+      bool isWanted = wanted.empty(), isLeft = true;
+      forEachBlock(band, ty, tx, [&](size_t block) {
+        isWanted = isWanted || wanted[block] != 0;
+        isLeft = isLeft && band.marks[block] != 0;
+      });
+      if (!isWanted || isLeft)
+        band.least[ty - band.firstTile][tx] = std::numeric_limits<float>::infinity();
+      if (!isWanted) {
+        forEachBlock(band, ty, tx, [&](size_t block) { band.marks[block] = 0; });
+        continue;
+      }
+      for (int y = band.top(ty, tile_); y < band.bottom(ty, tile_); ++y)
+        std::fill_n(map.begin() + y * resolution_ + tx * tile_, tile_, 0.0f);
     }
   }
 }
@@ -270,25 +328,36 @@ void ShadowRaster::draw(const ShadowTriangles::Batch& batch, size_t lane, const 
 }
 
 uint64_t ShadowRaster::render(const RayCaster& rays, const shared::Vpl& vpl, int firstRow,
-                              int lastRow, std::span<float> map) const {
-  if (!isUseful_ || tile_ == 0)
-    return traceShadowMap(rays, vpl, resolution_, firstRow, lastRow, map);
+                              int lastRow, std::span<float> map, std::span<const uint8_t> wanted,
+                              std::span<uint8_t> isTraced) const {
+  if (tile_ == 0) return traceShadowMap(rays, vpl, resolution_, firstRow, lastRow, map);
   const LightSpace light(vpl);
+  const auto across = static_cast<size_t>(resolution_ / kBlockWidth);
   std::vector<ShadowTriangles::Batch> batches;
   uint64_t cast = 0;
   for (int row = firstRow; row < lastRow; row += kBand) {
     Band band(row, std::min(row + kBand, lastRow), tile_);
-    if (!markForRays(light, band)) {
-      cast += traceShadowMap(rays, vpl, resolution_, row, band.lastRow, map);
+    std::span<const uint8_t> part;  // of the blocks in here; empty: all of them
+    if (!wanted.empty()) {
+      const int rows = band.lastRow - row;
+      part = wanted.subspan(static_cast<size_t>(row / kBlockHeight) * across,
+                            static_cast<size_t>(rows / kBlockHeight) * across);
+      // Nothing that moved is seen in here: whether rows are drawn is as it was, too.
+      if (std::ranges::count(part, 0) == std::ssize(part)) continue;
+    }
+    const bool isDrawn = isUseful_ && markForRays(light, band);
+    uint8_t& wasTraced = isTraced[static_cast<size_t>(row / kBand)];
+    if ((wasTraced != 0) == isDrawn) part = {};
+    wasTraced = isDrawn ? 0 : 1;
+    if (!isDrawn) {
+      cast += traceShadowMap(rays, vpl, resolution_, row, band.lastRow, map, part);
       continue;
     }
     if (batches.empty()) {
       batches.resize(triangles_.batches());
       triangles_.see(light, batches);
     }
-    passOverMarked(band);
-    const auto across = static_cast<std::ptrdiff_t>(resolution_);
-    std::fill(map.begin() + row * across, map.begin() + band.lastRow * across, 0.0f);
+    prepareTiles(band, part, map);
     for (const ShadowTriangles::Batch& batch : batches)
       for (uint32_t rest = batch.lanes; rest != 0; rest &= rest - 1)
         draw(batch, static_cast<size_t>(std::countr_zero(rest)), light, band, map);

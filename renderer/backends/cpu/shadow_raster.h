@@ -5,12 +5,16 @@
 // are found on them. Objects of many triangles, and with alpha masks, are left to rays: of texels
 // that may see one of them all that is met is found by its ray, so that both ways give the same map
 // but for rounding at edges.
+//
+// Where something moved only a part of a map need be rendered anew: its bits are those of a whole
+// one.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "renderer/backends/cpu/map_blocks.h"
 #include "renderer/backends/cpu/shadow_triangles.h"
 #include "renderer/backends/cpu/texel_directions.h"
 #include "renderer/raycast/ray_caster.h"
@@ -20,34 +24,46 @@ namespace lamplighter::cpu {
 
 class ShadowRaster {
  public:
-  // What casts shadows, as it is now.
-  void setScene(const RenderScene& scene);
+  // What casts shadows, as it is now. `moved`: of its objects, those that did since the last call;
+  // null: anything may be another.
+  void setScene(const RenderScene& scene, const std::vector<uint32_t>* moved = nullptr);
   void setResolution(int resolution);
+
+  // Blocks of the light's map that may see one of these, row after row, 1 or 0 each; empty: any
+  // may.
+  std::vector<uint8_t> blocksThatSee(const shared::Vpl& vpl, std::span<const Sphere> spheres) const;
 
   // Renders rows [firstRow, lastRow) of the map of `vpl` into `map` (resolution², see
   // shaders/shared/vpl_shading.h for what is stored). Whether rows are worth rasterising is decided
-  // by kBand of them: firstRow is a multiple of it. The number of rays that were cast.
+  // by kBand of them: firstRow is a multiple of it. `wanted`: blocks of all the map that are out of
+  // date; empty: all are. `isTraced`: by kBand of all rows, whether they were traced, and then
+  // whether they are. The number of rays that were cast.
   uint64_t render(const RayCaster& rays, const shared::Vpl& vpl, int firstRow, int lastRow,
-                  std::span<float> map) const;
+                  std::span<float> map, std::span<const uint8_t> wanted,
+                  std::span<uint8_t> isTraced) const;
   static constexpr int kBand = 32;
 
  private:
   struct Band;
-  struct Sphere {
-    vec3 centre;
-    float radius;
+  // An object that is left to rays.
+  struct Complex {
+    uint32_t object;
+    Sphere whole;
+    std::vector<Sphere> parts;  // around all of it
   };
   const TexelDirections& directions(const LightSpace& light) const {
     return light.isParallel ? parallel_ : hemisphere_;
   }
   bool markForRays(const LightSpace& light, Band& band) const;
-  void passOverMarked(Band& band) const;
+  template <typename F>
+  void forEachBlock(const Band& band, int ty, int tx, F&& f) const;
+  void prepareTiles(Band& band, std::span<const uint8_t> wanted, std::span<float> map) const;
   void draw(const ShadowTriangles::Batch& batch, size_t lane, const LightSpace& light, Band& band,
             std::span<float> map) const;
 
   bool isUseful_ = false;
   ShadowTriangles triangles_;                  // of simple objects
-  std::vector<Sphere> complex_;                // around the other objects
+  std::vector<Complex> complex_;               // the other objects
   int resolution_ = 0, tile_ = 0, tiles_ = 0;  // tile_: texels [0: rays alone]
   TexelDirections hemisphere_, parallel_;
 };

@@ -58,6 +58,7 @@ void PlaceTable::reset(size_t slots) {
   before_.clear();
   changed_.clear();
   isKnown_.clear();
+  touched_.clear();
 }
 
 uint32_t PlaceTable::rowOf(const Place& place) {
@@ -71,12 +72,15 @@ void PlaceTable::update(const PatchLights& lights, const std::vector<bool>& inUs
   before_.resize(now_.size());
   changed_.resize(places_.size());
   isKnown_.resize(places_.size(), 0);
+  spheres_.resize(places_.size());
   tbb::parallel_for(size_t{0}, places_.size(), [&](size_t row) {
     changed_[row].clear();
     const bool wasKnown = isKnown_[row] != 0;
     isKnown_[row] = inUse[row] ? 1 : 0;
     if (!inUse[row]) return;
     const Place& place = places_[row];
+    const Patch& patch = lights.patches(place.object).patches[static_cast<size_t>(place.leaf)];
+    spheres_.set(row, patch.centre, patch.radius);
     LightUse* uses = now_.data() + row * slots_;
     LightUse* last = before_.data() + row * slots_;
     lights.uses(place.object, place.leaf, place.isMapped, {uses, slots_});
@@ -89,7 +93,23 @@ void PlaceTable::update(const PatchLights& lights, const std::vector<bool>& inUs
   });
 }
 
+void PlaceTable::findTouched(std::span<const Staying> lights) {
+  touched_.resize(slots_);
+  tbb::parallel_for(size_t{0}, lights.size(), [&](size_t i) {
+    const Staying& light = lights[i];
+    const auto slot = static_cast<size_t>(light.is->slot);
+    std::vector<uint8_t>& touched = touched_[slot];
+    spheres_.findReached(*light.is, light.change, touched);
+    for (size_t row = 0; row < places_.size(); ++row) {
+      const LightUse before = before_[row * slots_ + slot], now = now_[row * slots_ + slot];
+      const bool isLit = now == LightUse::add && light.isReplaced();
+      touched[row] = now != before || isLit || (looksUp(now) && touched[row] != 0) ? 1 : 0;
+    }
+  });
+}
+
 void PlaceTable::accept() {
+  for (std::vector<uint8_t>& touched : touched_) touched.clear();
   for (size_t row = 0; row < changed_.size(); ++row) {
     for (const int slot : changed_[row]) {
       const size_t at = row * slots_ + static_cast<size_t>(slot);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/light_kernel.h"
+#include "renderer/backends/cpu/map_change.h"
 
 namespace lamplighter::cpu {
 
@@ -35,6 +36,24 @@ class PlaceTable {
   const LightUse* before(uint32_t row) const { return before_.data() + row * slots_; }
   // Slots that are used in another way than before.
   std::span<const int> changed(uint32_t row) const { return changed_[row]; }
+
+  // A light that is where it was when it was summed; how bright it is and a part of its map may
+  // have changed.
+  struct Staying {
+    const LightRecord *was, *is;
+    MapChange change;  // nothing, or a part
+    bool isReplaced() const { return was->intensity != is->intensity; }
+  };
+  // Finds the rows in which these are to be taken away and added again. In others they are the same
+  // or, where they are replaced, lit as they were. Until accept().
+  void findTouched(std::span<const Staying> lights);
+  // By row, whether it is one of them, 1 or 0; null: the light is none of these, any row may be.
+  const uint8_t* touched(int slot) const {
+    return static_cast<size_t>(slot) < touched_.size() &&
+                   !touched_[static_cast<size_t>(slot)].empty()
+               ? touched_[static_cast<size_t>(slot)].data()
+               : nullptr;
+  }
   // What is now is what was summed.
   void accept();
   size_t bytes() const { return now_.size() + before_.size(); }
@@ -43,9 +62,11 @@ class PlaceTable {
   size_t slots_ = 0;
   std::map<Place, uint32_t> rowOf_;
   std::vector<Place> places_;
-  std::vector<LightUse> now_, before_;     // rows × slots
-  std::vector<std::vector<int>> changed_;  // by row
-  std::vector<uint8_t> isKnown_;           // by row: before_ is what was summed
+  std::vector<LightUse> now_, before_;         // rows × slots
+  std::vector<std::vector<int>> changed_;      // by row
+  std::vector<uint8_t> isKnown_;               // by row: before_ is what was summed
+  PlaceSpheres spheres_;                       // of rows in use
+  std::vector<std::vector<uint8_t>> touched_;  // by slot; empty: none is known
 };
 
 // The places of one tile. Packets whose lanes lie in the same ones are of one kind, and few kinds
@@ -64,7 +85,8 @@ class TilePlaces {
   // Known packets in which anything is.
   uint32_t hit() const { return hit_; }
   std::span<const uint32_t> rows() const { return rows_; }
-  enum class When : uint8_t { before, now };
+  // How a light is used: as it was or is where it is touched, where it is not, or anywhere.
+  enum class When : uint8_t { before, after, untouched, now };
   // Calls f(packet, lanes, row in the table, 0 where there is none) for all places of these.
   template <typename F>
   void forEachPart(uint32_t which, F&& f) const {

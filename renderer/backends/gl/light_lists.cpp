@@ -81,7 +81,7 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
       patches.uses(object.object, leaf, mapped, uses);
       for (const int slot : hard) {
         const LightUse use = uses[static_cast<size_t>(slot)];
-        if (use == LightUse::addShadowed || use == LightUse::takeShadow) hardPlaces_[place] = 1;
+        if (looksUp(use)) hardPlaces_[place] = 1;
       }
       for (size_t g = 0; g < groups.size(); ++g) {
         const auto lights = vpls.subspan(groups[g].first, groups[g].count);

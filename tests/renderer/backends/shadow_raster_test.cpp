@@ -31,8 +31,10 @@ Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, in
   for (const shared::Vpl& vpl : vpls) {
     std::vector<float> drawn(texels, -1.0f), traced(texels, -1.0f);
     cpu::traceShadowMap(rays, vpl, resolution, 0, resolution, traced);
+    std::vector<uint8_t> isTraced(static_cast<size_t>(resolution / 32 + 1), 0);
     for (int row = 0; row < resolution; row += 32)
-      all.rays += raster.render(rays, vpl, row, std::min(row + 32, resolution), drawn);
+      all.rays +=
+          raster.render(rays, vpl, row, std::min(row + 32, resolution), drawn, {}, isTraced);
     for (size_t i = 0; i < texels; ++i)
       all.others += std::abs(drawn[i] - traced[i]) > 1e-5f + 1e-4f * traced[i];
     all.texels += texels;

@@ -1,6 +1,7 @@
 // The picture that is kept from edit to edit, light by light and tile by tile, is the one made from
 // nothing.
 #include <filesystem>
+#include <iostream>
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -140,6 +141,36 @@ TEST(KeptSums, ADragCostsWhatItTouches) {
     const uint64_t maps = end.shadowMaps - start.shadowMaps;
     EXPECT_LT(end.rays - start.rays - maps * kResolution * kResolution, pixels / 2) << name;
     settled(renderer, room.scene, {}, room.view, settings);
+  }
+}
+
+// Lights that stay are looked up again only where what moved may be in their maps. The first edit
+// sums all of them, as what is lit is noted from then on.
+TEST(KeptSums, WhatStaysIsLookedUpWhereItsMapChanged) {
+  Room room;
+  room.view.width = 240;
+  room.view.height = 160;
+  for (const char* technique : {"visibility", "light_maps", "blocks of 4"}) {
+    Settings settings = settingsOf(technique, 100);
+    settings.set(parameters::updates().name, 1000);
+    settings.set(parameters::mapResolution().name, 64);
+    FrameRenderer renderer(makeCpuBackend());
+    settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+    std::vector<uint64_t> lookUps;  // by edit
+    for (int edit = 0; edit < 4; ++edit) {
+      const Scene before = room.scene;
+      for (Node& node : room.scene.nodes)
+        if (node.name == "mover") node.local.translation.x += 0.05f;
+      const uint64_t start = renderer.backend().counts().lookUps;
+      renderer.render(
+          {room.scene, compare(before, room.scene), room.view, "many_lights", settings});
+      lookUps.push_back(renderer.backend().counts().lookUps - start);
+    }
+    std::cout << technique << ":";
+    for (const uint64_t count : lookUps) std::cout << ' ' << count;
+    std::cout << " look-ups\n";
+    for (size_t edit = 1; edit < lookUps.size(); ++edit)
+      EXPECT_LT(lookUps[edit], lookUps[0] * 2 / 3) << technique;
   }
 }
 
