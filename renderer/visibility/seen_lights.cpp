@@ -47,13 +47,19 @@ class Walk {
       visit(patch.firstChild + 1);
       return;
     }
-    if (visibility_.isHiddenFromEye(scene_, eye_, object_, index)) return;
+    // Most lights are found on the first patches: whether others are hidden need not be asked.
     const auto states = visibility_.row(object_, index);
+    uint8_t isNew = 0;
     for (size_t slot = 0; slot < states.size(); ++slot)
-      found_[slot] |= states[slot] == static_cast<uint8_t>(Occlusion::partial) ? 1 : 0;
+      isNew |= isPartial(states[slot]) & ~found_[slot];
+    if (isNew == 0 || visibility_.isHiddenFromEye(scene_, eye_, object_, index)) return;
+    for (size_t slot = 0; slot < states.size(); ++slot) found_[slot] |= isPartial(states[slot]);
   }
 
  private:
+  static uint8_t isPartial(uint8_t state) {
+    return state == static_cast<uint8_t>(Occlusion::partial) ? 1 : 0;
+  }
   bool isTurnedAway(const Patch& patch) const {
     if (!backIsUnseen_ || patch.chart == kNone) return false;
     const Chart& chart = patches_.charts[static_cast<size_t>(patch.chart)];
@@ -82,10 +88,17 @@ std::vector<uint8_t> lightsToLookUp(const VisibilityDatabase& visibility, const 
                         vec4(view.right(), 1.0f), vec4(0.0f)};
   tbb::enumerable_thread_specific<std::vector<uint8_t>> found(
       [&] { return std::vector<uint8_t>(slots, 0); });
-  tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(visibility.objects()), [&](uint32_t i) {
-    if (!frustum.mayMeet(visibility.patches(i).bounds)) return;
-    Walk walk(visibility, scene, frustum, eye, i, found.local());
-    for (const int root : visibility.patches(i).roots) walk.visit(root);
+  // A level may be one object.
+  struct Root {
+    uint32_t object;
+    int patch;
+  };
+  std::vector<Root> roots;
+  for (uint32_t i = 0; i < visibility.objects(); ++i)
+    if (frustum.mayMeet(visibility.patches(i).bounds))
+      for (const int root : visibility.patches(i).roots) roots.push_back({i, root});
+  tbb::parallel_for(size_t{0}, roots.size(), [&](size_t i) {
+    Walk(visibility, scene, frustum, eye, roots[i].object, found.local()).visit(roots[i].patch);
   });
   std::vector<uint8_t> all(slots, 0);
   for (const std::vector<uint8_t>& some : found)

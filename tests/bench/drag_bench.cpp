@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "editor/cli/options.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/frame.h"
@@ -15,6 +16,7 @@
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/shadow_maps/frame_time_control.h"
+#include "tests/bench/ball.h"
 
 namespace lamplighter {
 namespace {
@@ -26,14 +28,17 @@ double seconds() {
 }
 
 struct Case {
-  const char* scene;
-  const char* node;
+  std::string scene;  // a path
+  const char* node;   // "ball": one is put into the level
   const char* technique;
   const char* backend;
   int width = 640, height = 360;
   bool byTime = true;  // else 100 updates a frame
   bool prt = false;    // the mover, which is complex, has its transfer
+  int vpls = 300;
 };
+
+std::string roomPath(const std::string& name) { return "assets/scenes/" + name + ".gltf"; }
 
 std::unique_ptr<Backend> backendOf(const std::string& name) {
   if (name == "cpu") return makeCpuBackend();
@@ -41,17 +46,16 @@ std::unique_ptr<Backend> backendOf(const std::string& name) {
 }
 
 void drag(benchmark::State& state, const Case& c) {
-  Scene scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                         (std::string(c.scene) + ".gltf"))
-                    .scene;
-  View view;
+  const fs::path path = fs::path(LAMPLIGHTER_SOURCE_DIR) / c.scene;
+  if (!fs::exists(path)) return state.SkipWithError("the scene is not there");
+  Scene scene = loadGltf(path).scene;
+  const View view = cli::chooseView(scene, "", c.width, c.height);
+  if (c.node == std::string("ball")) addBall(scene);
   Node* dragged = nullptr;
-  for (Node& node : scene.nodes) {
-    if (node.camera != kNone) view = viewOfCamera(scene, node, c.width, c.height);
+  for (Node& node : scene.nodes)
     if (node.name == c.node) dragged = &node;
-  }
   Settings settings;
-  settings.set(parameters::vpls().name, 300);
+  settings.set(parameters::vpls().name, c.vpls);
   settings.set(parameters::technique().name, std::string(c.technique));
   settings.set(parameters::antialias().name, 1);
   settings.set(parameters::prt().name, c.prt);
@@ -118,22 +122,31 @@ void add(const std::string& name, const Case& c) {
     for (const char* technique : {"naive", "visibility", "light_maps"}) {
       for (const auto& [scene, node] :
            {std::pair("pillar_room", "ceiling light"), std::pair("pillar_room", "mover")}) {
-        const Case c{scene, node, technique, backend};
+        const Case c{roomPath(scene), node, technique, backend};
         const std::string name =
             std::string("drag/") + scene + "/" + node + "/" + technique + "/" + backend;
         add(name, c);
       }
     }
     for (const char* node : {"ceiling light", "mover"}) {
-      const Case c{"pillar_room", node, "light_maps", backend, 640, 360, true, true};
+      const Case c{roomPath("pillar_room"), node, "light_maps", backend, 640, 360, true, true};
       add(std::string("drag/pillar_room/") + node + "/light_maps+prt/" + backend, c);
     }
   }
   for (const auto& [width, height] : {std::pair(640, 360), std::pair(1024, 768)}) {
-    const Case c{"pillar_room", "ceiling light", "light_maps", "cpu", width, height, false};
+    const Case c{
+        roomPath("pillar_room"), "ceiling light", "light_maps", "cpu", width, height, false};
     add("drag_100/pillar_room/ceiling light/" + std::to_string(width) + "x" +
             std::to_string(height) + "/cpu",
         c);
+  }
+  const Case knot{roomPath("pillar_room"), "mover", "light_maps", "cpu", 640, 360, false};
+  add("drag_100/pillar_room/mover/640x360/cpu", knot);
+  for (const auto& [name, path] :
+       {std::pair("kenney", "../shared/scenes/kenney-fps-level/kenney-fps-level.gltf"),
+        std::pair("zdm2", "../shared/scenes/zdm2-map/zdm2.glb")}) {
+    const Case c{path, "ball", "light_maps", "cpu", 640, 360, false, false, 100};
+    add(std::string("drag_100/") + name + "/ball/640x360/cpu", c);
   }
   return true;
 }();

@@ -16,6 +16,7 @@
 #include "renderer/scene/light_shapes.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/bench/backend_benches.h"
+#include "tests/bench/ball.h"
 
 namespace lamplighter {
 namespace {
@@ -43,7 +44,7 @@ struct World {
 
   explicit World(const Case& c) {
     scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / c.path).scene;
-    if (std::string(c.mover).empty()) addBall();
+    if (std::string(c.mover).empty()) mover = addBall(scene);
     update(render, scene, SceneChanges::all());
     rays = std::make_unique<RayCaster>(render);
     for (const SceneVpl& v :
@@ -51,22 +52,6 @@ struct World {
       lights.push_back(v.vpl);
     for (const Node& n : scene.nodes)
       if (mover == kNoNode && n.name == c.mover) mover = n.id;
-  }
-
-  void addBall() {
-    RenderScene level;
-    update(level, scene, SceneChanges::all());
-    AreaLight ball;
-    ball.shape = AreaShape::sphere;
-    ball.size = vec2(1.0f);
-    auto mesh = std::make_shared<Mesh>();
-    mesh->primitives.push_back(tessellate(ball));
-    Node node;
-    node.id = mover = scene.nextId++;
-    node.mesh = static_cast<int>(scene.meshes.size());
-    node.local.translation = level.bounds.centre();
-    scene.meshes.push_back(mesh);
-    scene.nodes.push_back(node);
   }
 };
 
