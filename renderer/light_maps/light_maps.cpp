@@ -5,12 +5,15 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
 #include "renderer/light_maps/accumulate.h"
 #include "renderer/light_maps/mappable.h"
 #include "renderer/light_maps/texel_grid.h"
+#include "renderer/visibility/seen_patches.h"
 
 namespace lamplighter {
 namespace {
@@ -102,7 +105,8 @@ void LightMaps::resize(size_t slots) {
 }
 
 void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visibility,
-                       std::span<const shared::Vpl> given, const Options& options) {
+                       std::span<const shared::Vpl> given, const Options& options,
+                       const View* view) {
   // Slots that are no longer given are empty.
   std::vector<shared::Vpl> bySlot(given.begin(), given.end());
   bySlot.resize(std::max(bySlot.size(), lights_.size()));
@@ -125,6 +129,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     o = makeObject(scene, visibility.patches(fresh[i]), options.texel);
     o.held.assign(o.tiles.size() * words_, 0);
     o.refused = o.held;
+    o.isLeftOut.assign(o.tiles.size(), 0);
   });
   std::vector<bool> isFresh(objects_.size(), false);
   for (const uint32_t i : fresh) isFresh[i] = true;
@@ -147,10 +152,20 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     uint32_t object, tile;
   };
   std::vector<Job> jobs;
+  std::optional<SeenPatches> seen;
+  if (view != nullptr) seen.emplace(*view);
   for (uint32_t object = 0; object < objects_.size(); ++object) {
-    const Object& o = objects_[object];
+    Object& o = objects_[object];
+    const ObjectPatches& patches = visibility.patches(object);
     for (uint32_t t = 0; t < o.tiles.size(); ++t) {
-      if (anyIsNew || isFresh[object] || visibility.rowChanged(object, o.tiles[t].patch))
+      const Patch& patch = patches.patches[static_cast<size_t>(o.tiles[t].patch)];
+      const bool isOutdated = anyIsNew || isFresh[object] ||
+                              visibility.rowChanged(object, o.tiles[t].patch) ||
+                              o.isLeftOut[t] != 0;
+      if (!isOutdated) continue;
+      if (seen && !seen->mayShowFront(patches.charts[static_cast<size_t>(patch.chart)], patch))
+        o.isLeftOut[t] = 1;
+      else
         jobs.push_back({object, t});
     }
   }
@@ -173,6 +188,12 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     const TilePlace place(chart, patch, spacingOf(tile, patch));
     const size_t count = paddedCount(tile);
     double* sums = &o.sums[size_t{3} * tile.first];
+    const bool isAnew = std::exchange(o.isLeftOut[job.tile], uint8_t{0}) != 0;
+    if (isAnew) {
+      std::fill_n(sums, 3 * count, 0.0);
+      for (std::vector<uint64_t>* bits : {&o.held, &o.refused})
+        std::fill_n(bits->begin() + static_cast<ptrdiff_t>(job.tile * words_), words_, 0);
+    }
     std::vector<const TexelLight*> changes;
     std::vector<uint64_t> newMappable(words_, 0);
     newOnes.find(place, newMappable);
@@ -197,7 +218,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
         held = wants ? held | bit : held & ~bit;
       }
     }
-    if (changes.empty()) return;
+    if (changes.empty() && !isAnew) return;
     const TexelGrid texels(chart, patch, tile.columns, tile.rows);
     accumulate(changes, texels.places(), options.clampDistance, sums, sums + count,
                sums + 2 * count);

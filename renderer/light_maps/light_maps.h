@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "renderer/view.h"
 #include "renderer/visibility/visibility_database.h"
 #include "shaders/shared/vpl.h"
 
@@ -35,9 +36,11 @@ class LightMaps {
 
   // Takes in what changed; once after each setScene() of the database. `bySlot`: the lights as the
   // database has them, with their intensities. Afterwards the maps are those that would be made
-  // from nothing.
+  // from nothing; with a view, those of tiles whose fronts that may show. Others are not brought up
+  // to date until it may, and until then not to be read.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
-              std::span<const shared::Vpl> bySlot, const Options& options);
+              std::span<const shared::Vpl> bySlot, const Options& options,
+              const View* view = nullptr);
 
   // A leaf's tile; null where pixels have to sum all lights themselves: its chart is not shaded
   // flat, or it is in no chart.
@@ -111,7 +114,8 @@ class LightMaps {
     // Tiles × words_, a bit a slot: lights in the sums, and those that are known not to be smooth
     // enough for them.
     std::vector<uint64_t> held, refused;
-    Revision revision;  // of tiles and texels
+    std::vector<uint8_t> isLeftOut;  // by tile: it was not seen when something changed
+    Revision revision;               // of tiles and texels
   };
   static Object makeObject(const RenderScene& scene, const ObjectPatches& patches, float texel);
   void resize(size_t slots);

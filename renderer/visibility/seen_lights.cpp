@@ -1,39 +1,21 @@
 #include "renderer/visibility/seen_lights.h"
 
-#include <cmath>
-#include <functional>
-
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-#include "renderer/frustum.h"
+#include "renderer/visibility/seen_patches.h"
 
 namespace lamplighter {
 namespace {
 
-// Pixels are shifted for smooth edges, by less than one.
-constexpr float kShift = 1.0f;
-
-// Around a patch, with room for rounding.
-Bounds boxOf(const Patch& patch) {
-  const vec3 half(1.01f * patch.radius + 0.001f);
-  return {patch.centre - half, patch.centre + half};
-}
-
-Frustum frustumOf(View view) {
-  const float pixels = static_cast<float>(view.height);
-  view.yfov = 2.0f * std::atan(std::tan(0.5f * view.yfov) * (1.0f + 2.0f * kShift / pixels));
-  return Frustum(view.worldToClip());
-}
-
 class Walk {
  public:
-  Walk(const VisibilityDatabase& visibility, const RenderScene& scene, const Frustum& frustum,
+  Walk(const VisibilityDatabase& visibility, const RenderScene& scene, const SeenPatches& seen,
        const shared::Vpl& eye, uint32_t object, std::vector<uint8_t>& found)
       : visibility_(visibility),
         scene_(scene),
         patches_(visibility.patches(object)),
-        frustum_(frustum),
+        seen_(seen),
         eye_(eye),
         object_(object),
         backIsUnseen_(scene.backIsUnseen(object)),
@@ -41,7 +23,7 @@ class Walk {
 
   void visit(int index) {
     const Patch& patch = patches_.patches[static_cast<size_t>(index)];
-    if (!frustum_.mayMeet(boxOf(patch)) || isTurnedAway(patch)) return;
+    if (!seen_.mayShow(patch) || isTurnedAway(patch)) return;
     if (!patch.isLeaf() && visibility_.isDivided(object_, index)) {
       visit(patch.firstChild);
       visit(patch.firstChild + 1);
@@ -71,7 +53,7 @@ class Walk {
   const VisibilityDatabase& visibility_;
   const RenderScene& scene_;
   const ObjectPatches& patches_;
-  const Frustum& frustum_;
+  const SeenPatches& seen_;
   const shared::Vpl& eye_;
   const uint32_t object_;
   const bool backIsUnseen_;
@@ -82,7 +64,7 @@ class Walk {
 
 std::vector<uint8_t> lightsToLookUp(const VisibilityDatabase& visibility, const RenderScene& scene,
                                     const View& view) {
-  const Frustum frustum = frustumOf(view);
+  const SeenPatches seen(view);
   const size_t slots = visibility.slots();
   const shared::Vpl eye{vec4(view.eye, shared::kVplUniform), vec4(view.forward(), 0.0f),
                         vec4(view.right(), 1.0f), vec4(0.0f)};
@@ -95,10 +77,10 @@ std::vector<uint8_t> lightsToLookUp(const VisibilityDatabase& visibility, const 
   };
   std::vector<Root> roots;
   for (uint32_t i = 0; i < visibility.objects(); ++i)
-    if (frustum.mayMeet(visibility.patches(i).bounds))
+    if (seen.mayShow(visibility.patches(i).bounds))
       for (const int root : visibility.patches(i).roots) roots.push_back({i, root});
   tbb::parallel_for(size_t{0}, roots.size(), [&](size_t i) {
-    Walk(visibility, scene, frustum, eye, roots[i].object, found.local()).visit(roots[i].patch);
+    Walk(visibility, scene, seen, eye, roots[i].object, found.local()).visit(roots[i].patch);
   });
   std::vector<uint8_t> all(slots, 0);
   for (const std::vector<uint8_t>& some : found)

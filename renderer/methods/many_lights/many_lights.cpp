@@ -311,7 +311,7 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
     if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
     const uint64_t before = lightMaps_->texelsWritten();
     lightMaps_->update(in.scene, *visibility_, shownBySlot(),
-                       {options.lightMapTexel, options.clampDistance});
+                       {options.lightMapTexel, options.clampDistance}, &in.view);
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
   }
 }

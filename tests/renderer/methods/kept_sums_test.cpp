@@ -174,6 +174,33 @@ TEST(KeptSums, WhatStaysIsLookedUpWhereItsMapChanged) {
   }
 }
 
+// What is not seen while things change is brought up to date when the camera turns to it, at once.
+TEST(KeptSums, FollowACameraThatTurns) {
+  Room room;
+  for (const char* technique : {"light_maps", "blocks of 4"}) {
+    const Settings settings = settingsOf(technique, 60);
+    FrameRenderer renderer(makeCpuBackend());
+    settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+    const quat way = room.view.orientation;
+    uint32_t turn = 0;
+    for (const test::EditSequence& edit : {test::randomEdits(3, 21), test::randomEdits(3, 22),
+                                           test::randomEdits(3, 23), test::randomEdits(3, 24)}) {
+      for (const auto& one : edit) {
+        const Scene before = room.scene;
+        apply(room.scene, one);
+        renderer.render(
+            {room.scene, compare(before, room.scene), room.view, "many_lights", settings});
+      }
+      settled(renderer, room.scene, {}, room.view, settings);
+      room.view.orientation =
+          glm::angleAxis(1.3f * static_cast<float>(++turn), vec3(0.0f, 1.0f, 0.0f)) * way;
+      const Image kept = settled(renderer, room.scene, {}, room.view, settings);
+      EXPECT_TRUE(test::sameBits(kept, settledWith(room, settings))) << technique << ", " << turn;
+    }
+    room.view.orientation = way;
+  }
+}
+
 // Coarser light maps leave out other lights: the same lights are used in another way.
 TEST(KeptSums, FollowHowPatchesUseTheSameLights) {
   Room room;

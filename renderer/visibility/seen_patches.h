@@ -1,0 +1,26 @@
+// Which patches a view may show.
+#pragma once
+
+#include "renderer/frustum.h"
+#include "renderer/patches/patch_set.h"
+#include "renderer/view.h"
+
+namespace lamplighter {
+
+class SeenPatches {
+ public:
+  // Pixels may be shifted for smooth edges.
+  explicit SeenPatches(const View& view);
+
+  bool mayShow(const Bounds& box) const { return frustum_.mayMeet(box); }
+  bool mayShow(const Patch& patch) const;
+  // Whether it may show the side of the chart's patch that its normal points to. Triangles that are
+  // turned a little otherwise than the chart are allowed for.
+  bool mayShowFront(const Chart& chart, const Patch& patch) const;
+
+ private:
+  vec3 eye_;
+  Frustum frustum_;
+};
+
+}  // namespace lamplighter
