@@ -113,16 +113,19 @@ void LightAdder::leaveOut(uint32_t link, PacketLanes& lanes) const {
 // is always set.
 uint64_t LightAdder::findUses(int slot, TilePlaces::When when) {
   using When = TilePlaces::When;
+  const auto find = [&](auto&& isMeant) {
+    uint64_t uses = 1;
+    for (size_t i = 0; i < rows_.size(); ++i) {
+      const uint32_t row = rows_[i];
+      const LightUse* of = when == When::before ? table_->before(row) : table_->now(row);
+      uses_[i] = isMeant(row) ? of[slot] : LightUse::skip;
+      uses = uses << 2 | static_cast<uint64_t>(uses_[i]);
+    }
+    return rows_.size() > kMostRows ? kManyRows : uses;
+  };
   const uint8_t* touched = when == When::now ? nullptr : table_->touched(slot);
-  uint64_t uses = 1;
-  for (size_t i = 0; i < rows_.size(); ++i) {
-    const uint32_t row = rows_[i];
-    const LightUse* of = when == When::before ? table_->before(row) : table_->now(row);
-    const bool isMeant = touched == nullptr || (touched[row] != 0) != (when == When::untouched);
-    uses_[i] = isMeant ? of[slot] : LightUse::skip;
-    uses = uses << 2 | static_cast<uint64_t>(uses_[i]);
-  }
-  return rows_.size() > kMostRows ? kManyRows : uses;
+  if (touched == nullptr) return find([](uint32_t) { return true; });
+  return find([&](uint32_t row) { return (touched[row] != 0) != (when == When::untouched); });
 }
 
 // Lights that are used alike have the same lists. Of kManyRows, those of uses_. Returns whether
