@@ -10,7 +10,10 @@ namespace lamplighter {
 namespace {
 
 constexpr int kMostSplits = 7;
-constexpr float kSmallest = 0.4f;  // m
+// Side of a patch that is not halved any more [m]. Halves would spare look-ups of shadows, but a row
+// of entries more costs a light that moves more than that: docs/performance.md, the visibility
+// database.
+constexpr float kSmallest = 0.6f;
 // By which a sphere is larger than those that it holds: more than sums are rounded.
 constexpr float kNested = 1.0001f;
 

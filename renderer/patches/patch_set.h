@@ -40,7 +40,7 @@ struct ObjectPatches {
   int leafAt(uint32_t triangle, const vec3& position) const;
 };
 
-// Rectangles are halved seven times at most, and only where both halves are at least 0.4 m long.
+// Rectangles are halved seven times at most, and only where both halves are at least 0.6 m long.
 ObjectPatches placePatches(const RenderScene& scene, uint32_t object, const MeshTopology& topology);
 
 }  // namespace lamplighter

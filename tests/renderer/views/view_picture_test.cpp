@@ -29,16 +29,16 @@ class Views : public testing::Test {
  protected:
   Views() {
     const int grey = test::addMaterial(scene_, kAlbedo);
-    hidden_ = test::addMesh(scene_, test::squareMesh(1.0f, grey));
-    half_ = test::addMesh(scene_, test::squareMesh(1.0f, grey), vec3(2.7f, 0, 0));
-    open_ = test::addMesh(scene_, test::squareMesh(1.0f, grey), vec3(6, 0, 0));
+    hidden_ = test::addMesh(scene_, test::squareMesh(1.5f, grey));
+    half_ = test::addMesh(scene_, test::squareMesh(1.5f, grey), vec3(2.7f, 0, 0));
+    open_ = test::addMesh(scene_, test::squareMesh(1.5f, grey), vec3(6, 0, 0));
     plate_ = test::addMesh(scene_, test::boxMesh(vec3(4.0f, 0.4f, 4.0f), grey), vec3(0, 1, 0));
     test::addRectangleLight(scene_, vec3(0, 4, 0), vec2(0.2f), vec3(100.0f));
     settings_.set("technique", std::string("light_maps"));
     settings_.set("vpls", 24);
     settings_.set("map_resolution", 16);
     settings_.set("antialias", 1);
-    settings_.set("light_map_texel", 2.0f);
+    settings_.set("light_map_texel", 0.5f);
   }
 
   void settle(const SceneChanges& changes = SceneChanges::all()) {
@@ -117,7 +117,7 @@ TEST_F(Views, PatchesDifferAndLookAlikeWithin) {
   EXPECT_GT(glm::length(glm::normalize(open) - glm::normalize(half)), 0.05f);
   EXPECT_TRUE(isHue(colourAt(picture, kOpen + vec3(0.1f, 0, -0.1f)), open));
   // Its border is darker: the last row of the front edge.
-  const vec3 p = view_.project(vec3(6.25f, 0, 0.5f));
+  const vec3 p = view_.project(vec3(6.25f, 0, 0.75f));
   bool darker = false;
   for (int y = -2; y <= 2; ++y)
     darker |=
@@ -181,7 +181,7 @@ TEST_F(Views, LightMapsShowTheirTexels) {
   view_ = test::lookAt(vec3(6.25f, 1.5f, 0.26f), kOpen, 200, 200);
   settle();
   const ViewPicture picture = draw(DebugView::lightMaps, 0, 1.5f);
-  // Texels every 0.25 m from the corner at 5.5.
+  // Texels every 0.25 m from the corner at 5.25.
   const vec3 on = colourAt(picture, vec3(6.25f, 0, 0.125f)),
              beside = colourAt(picture, vec3(6.375f, 0, 0.125f));
   EXPECT_GT(glm::length(on - beside), 0.1f * glm::length(beside));
