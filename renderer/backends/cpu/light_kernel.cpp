@@ -76,6 +76,9 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
   const WideLight light(record, isNegative, constants);
   const WideConstants c(constants);
   const Floats zero = hn::Zero(kTag);
+  // Of the packets' plane, in the light's frame; most have that of the packet before them.
+  Vector3 normal{zero, zero, zero};
+  size_t plane = PacketBlock::kMost;
   for (size_t k = 0; k < packets.count(); ++k) {
     const size_t i = packets.packet(k);
     PacketBlock::Packet& packet = block.at(i);
@@ -107,8 +110,14 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
       if (kSums && hn::AllFalse(kTag, reached)) continue;
       // A height above zero keeps 1/w finite in the lanes that the light does not reach.
       if constexpr (kLooksUp)
-        occluded = hemisphereOccluded<!kSums>(light, c, v, hn::IfThenElse(reached, z, all(1.0f)),
-                                              geometric, facing);
+        occluded = hemisphereOccluded<!kSums>(
+            light, c, v, hn::IfThenElse(reached, z, all(1.0f)),
+            [&]() -> const Vector3& {
+              if (block.plane(i) != plane) normal = inFrameOf(light, geometric);
+              plane = block.plane(i);
+              return normal;
+            },
+            facing);
     }
     if constexpr (kUse == LightUse::addShadowed) reached = hn::AndNot(occluded, reached);
     if constexpr (kUse == LightUse::takeShadow) reached = hn::And(occluded, reached);

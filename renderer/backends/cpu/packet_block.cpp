@@ -3,6 +3,15 @@
 #include <algorithm>
 
 namespace lamplighter::cpu {
+namespace {
+
+bool haveSameNormals(const PacketBlock::Packet& a, const PacketBlock::Packet& b) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!std::ranges::equal(a.shading[axis], b.shading[axis])) return false;
+  return true;
+}
+
+}  // namespace
 
 void PacketBlock::add(const GBuffer& g, size_t first) {
   Packet& p = packets_.emplace_back();
@@ -17,7 +26,12 @@ void PacketBlock::add(const GBuffer& g, size_t first) {
   copy(g.sz, p.shading[2]);
   for (auto& channel : p.sum) std::fill_n(channel, kLanes, 0);
   first_.push_back(first);
-  if (g.isFlat[first / kLanes] != 0) {
+  const size_t k = packets_.size() - 1;
+  const bool isFlat = g.isFlat[first / kLanes] != 0;
+  const bool goesOn = k > 0 && isFlat && geometric_.back() == kFlat &&
+                      haveSameNormals(packets_[k - 1], packets_[k]);
+  plane_.push_back(goesOn ? plane_.back() : static_cast<uint8_t>(k));
+  if (isFlat) {
     geometric_.push_back(kFlat);
     return;
   }

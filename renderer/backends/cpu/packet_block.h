@@ -21,6 +21,7 @@ class PacketBlock {
   // Few enough that they fit the first-level cache beside a shadow map; and several tiles', so that
   // making a light ready is worth it where few of a tile are meant.
   static constexpr size_t kMost = 96;
+  static_assert(kMost <= 256);  // numbers of packets and planes are bytes
 
   // By coordinate or channel and lane.
   struct alignas(32) Packet {
@@ -40,6 +41,8 @@ class PacketBlock {
   const float* geometric(size_t k) const {
     return geometric_[k] == kFlat ? nullptr : &normals_[geometric_[k]];
   }
+  // The same of packets one after another whose normals are the same and that are flat.
+  uint8_t plane(size_t k) const { return plane_[k]; }
   // Adds what was summed to the sums of the G-buffer. Once.
   void addTo(FixedSums& sums) const;
 
@@ -49,6 +52,7 @@ class PacketBlock {
   std::vector<Packet> packets_;
   std::vector<size_t> first_;
   std::vector<uint32_t> geometric_;  // where in normals_
+  std::vector<uint8_t> plane_;
   std::vector<float> normals_;
 };
 

@@ -111,8 +111,9 @@ HWY_INLINE void addSpecular(const Points& p, const WideLight& light, float footp
         hn::And(hn::And(p.meant, hn::Gt(z, zero)), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
     if (hn::AllFalse(kTag, lit)) return;
     if (looksUp)
-      occluded =
-          hemisphereOccluded(light, c, v, hn::IfThenElse(lit, z, all(1.0f)), geometric, facing);
+      occluded = hemisphereOccluded(
+          light, c, v, hn::IfThenElse(lit, z, all(1.0f)),
+          [&] { return inFrameOf(light, geometric); }, facing);
     const Floats d2 = hn::Max(dot(v, v), all(1e-12f));
     const Floats inverse = hn::Div(all(1.0f), hn::Sqrt(d2));
     nl = hn::Mul(s, inverse);

@@ -120,12 +120,17 @@ HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const WideConstant
   return hn::GatherIndex(kTag, map, hn::BitCast(IntTag(), bounded));
 }
 
-// v: from the light to the point; z: its height over the light's plane, > 0. kIsMostly: something
-// is mostly occluded, so that to leave out what is asked of those that are costs more than it
-// spares.
-template <bool kIsMostly = false>
+// A normal in the light's frame: along tangent, bitangent, and its own normal.
+HWY_INLINE Vector3 inFrameOf(const WideLight& light, const Vector3& n) {
+  return {dot(n, light.tangent), dot(n, light.bitangent), dot(n, light.normal)};
+}
+
+// v: from the light to the point; z: its height over the light's plane, > 0; geometric(): the
+// normal of the point's plane in the light's frame, asked for when needed. kIsMostly: something is
+// mostly occluded, so that to leave out what is asked of those that are costs more than it spares.
+template <bool kIsMostly = false, typename F>
 HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& c, const Vector3& v,
-                                   Floats z, const Vector3& geometric, Floats facing) {
+                                   Floats z, F&& geometric, Floats facing) {
   const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
   const Floats w = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), z);
   const Floats inverse = hn::Div(all(1.0f), w);
@@ -139,9 +144,8 @@ HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& 
   const Floats ex = hn::Mul(hn::Add(cs, ct), all(0.5f));
   const Floats ey = hn::Mul(hn::Sub(cs, ct), all(0.5f));
   const Floats ez = hn::Sub(all(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
-  const Floats plane = hn::MulAdd(
-      dot(geometric, light.tangent), ex,
-      hn::MulAdd(dot(geometric, light.bitangent), ey, hn::Mul(dot(geometric, light.normal), ez)));
+  const Vector3& n = geometric();
+  const Floats plane = hn::MulAdd(n.x, ex, hn::MulAdd(n.y, ey, hn::Mul(n.z, ez)));
   // facing = −n·v > 0
   const Mask beforePlane =
       hn::Gt(hn::MulAdd(stored, facing, hn::Mul(c.beforePlane, plane)), hn::Zero(kTag));
