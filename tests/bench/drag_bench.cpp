@@ -36,6 +36,7 @@ struct Case {
   bool byTime = true;  // else 100 updates a frame
   bool prt = false;    // the mover, which is complex, has its transfer
   int vpls = 300;
+  int maps = std::get<int>(parameters::mapResolution().defaultValue);  // texels a side
 };
 
 std::string roomPath(const std::string& name) { return "assets/scenes/" + name + ".gltf"; }
@@ -56,6 +57,7 @@ void drag(benchmark::State& state, const Case& c) {
     if (node.name == c.node) dragged = &node;
   Settings settings;
   settings.set(parameters::vpls().name, c.vpls);
+  settings.set(parameters::mapResolution().name, c.maps);
   settings.set(parameters::technique().name, std::string(c.technique));
   settings.set(parameters::antialias().name, 1);
   settings.set(parameters::prt().name, c.prt);
@@ -139,6 +141,11 @@ void add(const std::string& name, const Case& c) {
     add("drag_100/pillar_room/ceiling light/" + std::to_string(width) + "x" +
             std::to_string(height) + "/cpu",
         c);
+  }
+  for (const int maps : {128, 256}) {
+    Case c{roomPath("pillar_room"), "ceiling light", "light_maps", "cpu", 640, 360, false};
+    c.maps = maps;
+    add("drag_maps/" + std::to_string(maps) + "/pillar_room/ceiling light/640x360/cpu", c);
   }
   const Case knot{roomPath("pillar_room"), "mover", "light_maps", "cpu", 640, 360, false};
   add("drag_100/pillar_room/mover/640x360/cpu", knot);

@@ -1,11 +1,12 @@
 // The tables of docs/equality.md: how far many_lights is from `naive` with the same VPLs, settled,
 // on every scene, from every camera and from outside, on both backends; its techniques `visibility`
 // and `light_maps` at full resolution, and all that is on unless it is switched off.
-//   lamplighter_equality [--pictures FOLDER] [PART_OF_A_SCENE'S_PATH...]
+//   lamplighter_equality [--pictures FOLDER] [--maps N,...] [--tables N,...] [PART_OF_A_PATH...]
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include "renderer/gl/headless_context.h"
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kBackends = {"cpu", "gl"};
-constexpr int kResolutions[] = {64, 256};
+using Resolutions = std::vector<int>;  // texels a side of shadow maps, those of all tables first
 
 constexpr int kGroupedVpls = 800;  // from which on they are grouped
 
@@ -39,10 +40,10 @@ Column column(const std::string& backend, int resolution, const std::string& nam
 }
 
 // Full resolution, and no groups.
-std::vector<Column> shadowColumns(int vpls) {
+std::vector<Column> shadowColumns(int vpls, const Resolutions& resolutions) {
   std::vector<Column> columns;
   for (const std::string& backend : kBackends)
-    for (const int resolution : kResolutions)
+    for (const int resolution : resolutions)
       for (const std::string technique : {"visibility", "light_maps"}) {
         Column c = column(backend, resolution, technique, vpls, technique);
         c.settings.set(parameters::block().name, std::string("1"));
@@ -53,24 +54,24 @@ std::vector<Column> shadowColumns(int vpls) {
 }
 
 // With the low-resolution pass.
-std::vector<Column> allColumns(int vpls) {
+std::vector<Column> allColumns(int vpls, const Resolutions& resolutions) {
   std::vector<Column> columns;
   for (const std::string& backend : kBackends)
-    for (const int resolution : kResolutions)
+    for (const int resolution : resolutions)
       columns.push_back(column(backend, resolution, "all", vpls, "light_maps"));
   return columns;
 }
 
 // With so many VPLs large maps take too long.
-std::vector<Column> groupColumns(int vpls) {
-  std::vector<Column> columns = allColumns(vpls);
-  std::erase_if(columns, [](const Column& c) { return c.resolution != kResolutions[0]; });
+std::vector<Column> groupColumns(int vpls, const Resolutions& resolutions) {
+  std::vector<Column> columns = allColumns(vpls, resolutions);
+  std::erase_if(columns, [&](const Column& c) { return c.resolution != resolutions[0]; });
   return columns;
 }
 
 // It is the cpu backend's, and looks up no maps.
-std::vector<Column> transferColumns(int vpls) {
-  Column c = column("cpu", kResolutions[0], "prt", vpls, "light_maps");
+std::vector<Column> transferColumns(int vpls, const Resolutions& resolutions) {
+  Column c = column("cpu", resolutions[0], "prt", vpls, "light_maps");
   c.settings.set(parameters::prt().name, true);
   return {c};
 }
@@ -79,7 +80,7 @@ struct Kind {
   std::string title;
   double limit;
   int (*vpls)(size_t triangles);
-  std::vector<Column> (*columns)(int vpls);
+  std::vector<Column> (*columns)(int vpls, const Resolutions&);
 };
 
 const Kind kKinds[] = {
@@ -112,8 +113,9 @@ void printOver(const std::vector<Over>& over) {
         100 * o.fromRays, 100 * o.database);
 }
 
-void print(const Kind& kind, const std::vector<fs::path>& scenes, const fs::path& folder) {
-  const std::vector<Column> header = kind.columns(1);
+void print(const Kind& kind, const std::vector<fs::path>& scenes, const Resolutions& resolutions,
+           const fs::path& folder) {
+  const std::vector<Column> header = kind.columns(1, resolutions);
   std::cout << "\n## " << kind.title << "\n\n| scene | view | VPLs |";
   for (const Column& c : header)
     std::cout << fmt::format(" {} {}² {} |", c.backend, c.resolution, c.name);
@@ -126,7 +128,8 @@ void print(const Kind& kind, const std::vector<fs::path>& scenes, const fs::path
     const Scene scene = loadGltf(path).scene;
     const std::string name = path.stem().string();
     const int vpls = kind.vpls(trianglesOf(scene));
-    const Compared compared = compare(name, scene, vpls, kind.columns(vpls), kind.limit, folder);
+    const Compared compared =
+        compare(name, scene, vpls, kind.columns(vpls, resolutions), kind.limit, folder);
     for (const Row& row : compared.rows) {
       std::cout << fmt::format("| {} | {} | {} |", name, row.view, vpls);
       for (const double error : row.errors) {
@@ -145,17 +148,14 @@ void print(const Kind& kind, const std::vector<fs::path>& scenes, const fs::path
   if (!over.empty()) printOver(over);
 }
 
-int run(const std::vector<std::string>& arguments) {
-  fs::path folder;
-  std::vector<std::string> wanted;
-  for (size_t i = 0; i < arguments.size(); ++i) {
-    if (arguments[i] == "--pictures" && i + 1 < arguments.size()) {
-      folder = arguments[++i];
-      fs::create_directories(folder);
-    } else {
-      wanted.push_back(arguments[i]);
-    }
-  }
+struct Options {
+  fs::path folder;  // for pictures; empty: none
+  Resolutions resolutions{64, 256};
+  std::vector<int> tables{1, 2, 3, 4};
+  std::vector<std::string> wanted;  // parts of paths; none: all scenes
+};
+
+void run(const Options& options) {
   std::vector<fs::path> scenes;
   for (const auto& entry :
        fs::directory_iterator(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes"))
@@ -163,23 +163,40 @@ int run(const std::vector<std::string>& arguments) {
   std::sort(scenes.begin(), scenes.end());
   for (const auto& row : test::readTable(test::sharedScenes() / "scenes.tsv"))
     scenes.push_back(test::sharedScenes() / row.at("file"));
-  if (!wanted.empty())
+  if (!options.wanted.empty())
     std::erase_if(scenes, [&](const fs::path& scene) {
-      return std::ranges::none_of(wanted, [&](const std::string& part) {
+      return std::ranges::none_of(options.wanted, [&](const std::string& part) {
         return scene.string().find(part) != std::string::npos;
       });
     });
   const gl::HeadlessContext context;
-  for (const Kind& kind : kKinds) print(kind, scenes, folder);
-  return 0;
+  for (const int table : options.tables)
+    print(kKinds[table - 1], scenes, options.resolutions, options.folder);
 }
 
 }  // namespace
 }  // namespace lamplighter::equality
 
 int main(int argc, char** argv) {
+  lamplighter::equality::Options options;
+  CLI::App app("Each technique against naive: the tables of docs/equality.md");
+  app.add_option("--pictures", options.folder, "Folder for pictures of what is over its limit");
+  app.add_option("--maps", options.resolutions, "Texels a side of the shadow maps")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(8, 1024))
+      ->capture_default_str();
+  app.add_option("--tables", options.tables, "Numbers of the tables")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 4))
+      ->capture_default_str();
+  app.add_option("scenes", options.wanted, "Parts of paths of scenes; without: all");
+  CLI11_PARSE(app, argc, argv);
   try {
-    return lamplighter::equality::run({argv + 1, argv + argc});
+    if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
+    lamplighter::equality::run(options);
+    return 0;
   } catch (const std::exception& e) {
     std::cerr << "equality: " << e.what() << '\n';
     return 2;
