@@ -116,17 +116,18 @@ BudgetCost frameTimeCost(const Timeline& timeline) {
           "smoothly."};
 }
 
-BudgetCost mapMemoryCost(const GiStats& now, const Settings& settings) {
-  const double side = settings.integer(parameters::mapResolution());
+double mebibytes(uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
+
+BudgetCost mapMemoryCost(const GiStats& now) {
+  const auto held = now.memoryBytes.find("shadow maps");
   std::string text = fmt::format("{} maps, {:.3g} MiB", now.mapsHeld,
-                                 now.mapsHeld * side * side * sizeof(float) / (1 << 20));
+                                 held == now.memoryBytes.end() ? 0.0 : mebibytes(held->second));
   if (now.mapsWithoutRoom > 0) text += fmt::format(", {} without room", now.mapsWithoutRoom);
   return {text, "More: every light sample that the view looks up has a shadow map of its own."};
 }
 
 BudgetCost visibilityMemoryCost(const GiStats& now) {
   const char* const buys = "More: patches of large levels are divided further, for fewer look-ups.";
-  const auto mebibytes = [](uint64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
   if (now.visibilityNeeds > 0)
     return {fmt::format("left out: needs {:.3g} MiB", mebibytes(now.visibilityNeeds)), buys};
   const auto held = now.memoryBytes.find("visibility");
@@ -139,7 +140,7 @@ BudgetCost visibilityMemoryCost(const GiStats& now) {
 std::optional<BudgetCost> costOf(const std::string& parameter, const Timeline& timeline,
                                  const GiStats& now, const Settings& settings) {
   if (parameter == "frame_time") return frameTimeCost(timeline);
-  if (parameter == "map_memory") return mapMemoryCost(now, settings);
+  if (parameter == "map_memory") return mapMemoryCost(now);
   if (parameter == "visibility_memory") return visibilityMemoryCost(now);
   if (parameter == "samples_per_pixel")
     return BudgetCost{fmt::format("{} so far", now.samplesPerPixel),

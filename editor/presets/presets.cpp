@@ -21,6 +21,7 @@ const std::vector<Row>& rows() {
       {p::bounces(), 1, 3},
       {p::importance(), 4, 16},
       {p::mapResolution(), 32, 128},
+      {p::settledMapScale(), 1, 6},
       {p::mapMemory(), 64, 1024},
       {p::frameTime(), 25.0f, 200.0f},
       {p::lightMapTexel(), 0.2f, 0.05f},

@@ -12,9 +12,9 @@ constexpr size_t kFramesKept = 2000;
 
 const std::vector<std::string>& Timeline::stages() {
   static const std::vector<std::string> names{
-      "light samples", "visibility", "shadow maps", "light maps",   "transfer",
-      "g-buffer",      "light sums", "composition", "antialiasing", "corners",
-      "refinement",    "paths",      "other"};
+      "light samples", "visibility", "shadow maps", "finer maps",  "light maps",
+      "transfer",      "g-buffer",   "light sums",  "composition", "antialiasing",
+      "corners",       "refinement", "paths",       "other"};
   return names;
 }
 

@@ -62,6 +62,15 @@ struct KernelCounts {
   uint64_t mapsHeld = 0;            // so many
 };
 
+// A shadow map is coarse while things change, and fine once nothing else is left to do.
+enum class MapSize : uint8_t { coarse, fine };
+
+// Room for so many shadow maps of resolution² texels at a time.
+struct MapRoom {
+  int resolution = 0, maps = 0;
+  bool operator==(const MapRoom&) const = default;
+};
+
 class Backend {
  public:
   virtual ~Backend() = default;
@@ -73,16 +82,22 @@ class Backend {
   virtual void setScene(const RenderScene& scene, const RenderSceneChanges& changes,
                         const RayCaster& rays) = 0;
 
-  // Makes room for VPLs of `slots` slots with shadow maps of resolution² texels, of which at most
-  // `maps` are held at a time; all are lost when any of the numbers changes. Throws InputError when
-  // the device can't hold so many.
-  virtual void reserveShadowMaps(int slots, int resolution, int maps) = 0;
+  // Makes room for VPLs of `slots` slots with shadow maps of either size; all are lost when any of
+  // the numbers changes. Throws InputError when the device can't hold so many.
+  virtual void reserveShadowMaps(int slots, const MapRoom& coarse, const MapRoom& fine) = 0;
+  void reserveShadowMaps(int slots, int resolution, int maps) {
+    reserveShadowMaps(slots, {resolution, maps}, {});
+  }
   void reserveShadowMaps(int slots, int resolution) { reserveShadowMaps(slots, resolution, slots); }
 
   // Renders the octahedral hemisphere shadow map of each VPL for the slot in its intensity.w
-  // (directional: an orthographic map of the scene). Slots are distinct. No more maps are held
-  // afterwards than were reserved: that is for the caller to see to.
-  virtual void renderShadowMaps(std::span<const shared::Vpl> vpls) = 0;
+  // (directional: an orthographic map of the scene), which then has one of this size alone. Slots
+  // are distinct. No more maps are held afterwards than were reserved: that is for the caller to
+  // see to.
+  virtual void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) = 0;
+  void renderShadowMaps(std::span<const shared::Vpl> vpls) {
+    renderShadowMaps(vpls, MapSize::coarse);
+  }
   // Gives back the memory of these slots' maps, if they have any.
   virtual void dropShadowMaps(std::span<const int> slots) = 0;
 
@@ -101,7 +116,8 @@ class Backend {
   virtual std::shared_ptr<RadianceImage> compose(bool white) = 0;
   std::shared_ptr<RadianceImage> compose() { return compose(false); }
 
-  // What a shadow map holds (resolution², 1/w), for tests and views; empty: the slot has none.
+  // What a shadow map holds (resolution² of its size, 1/w), for tests and views; empty: the slot
+  // has none.
   virtual std::vector<float> readShadowMap(int slot) = 0;
   // The G-buffer's world-space shading normals, albedo: for tests and views.
   virtual Image readNormals() = 0;

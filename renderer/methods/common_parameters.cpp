@@ -48,7 +48,7 @@ const ParameterSpec& mapResolution() {
   static const ParameterSpec spec{"map_resolution",
                                   "Shadow map size",
                                   "texels",
-                                  "Side of each light sample's shadow map.",
+                                  "Side of each light sample's shadow map while things change.",
                                   64,
                                   8,
                                   1024,

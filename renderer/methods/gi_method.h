@@ -46,10 +46,12 @@ struct GiStats {
   int vpls = 0;                  // shown
   int vplsPending = 0;           // not yet what the scene asks for
   int mapsPending = 0;           // of them, those whose map must be rendered
+  int mapsToSharpen = 0;         // once nothing is pending: maps that are to become fine ones
   int oldestFrames = 0;          // frames the oldest pending one has waited
   int framesUntilSettled = 0;    // at this frame's pace, if nothing else changes
   int vplsRefreshed = 0;         // this frame
-  int mapsRendered = 0;          // this frame
+  int mapsRendered = 0;          // this frame, but for fine ones
+  int mapsSharpened = 0;         // this frame: fine ones rendered
   int mapsHeld = 0;              // of VPLs that are shown
   int mapsWithoutRoom = 0;       // that are looked up and do not fit: others stand in
   uint64_t visibilityNeeds = 0;  // bytes, where it has no room and is left out; else 0

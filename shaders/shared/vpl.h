@@ -31,8 +31,8 @@ struct Vpl {
 // How shading bounds and biases; the same on both backends.
 struct ShadingParams {
   // x: least distance d0 [m], 1/d² is clamped to 1/d0²; y: shadow bias as a share of the distance;
-  // z: map resolution [texels a side]; w: VPLs that one draw of the gl backend adds to a pixel at
-  // most
+  // z: for shaders: resolution of the maps that they look up [texels a side]; w: VPLs that one draw
+  // of the gl backend adds to a pixel at most
   vec4 clampAndBias;
   // x: pixels a side of the blocks of the low-resolution pass (low_resolution.h), 1: none; yzw: 0
   vec4 block;

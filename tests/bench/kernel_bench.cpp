@@ -44,7 +44,7 @@ struct LitRoom {
       vpls[i].vpl.intensity.w = static_cast<float>(i);
       cpu::traceShadowMap(rays, vpls[i].vpl, kResolution, 0, kResolution,
                           {&maps[i * kTexels], kTexels});
-      lights.push_back(cpu::makeLightRecord(vpls[i].vpl, &maps[i * kTexels]));
+      lights.push_back(cpu::makeLightRecord(vpls[i].vpl, &maps[i * kTexels], kResolution));
     }
   }
   double lightPixels() const {
@@ -125,7 +125,7 @@ void ownKernel(benchmark::State& state) {
   cpu::LightSums sums;
   for (auto _ : state) {
     sums.forgetMaps();
-    sums.update(lit.gbuffer, lit.lights, {kClamp2, kBias, kResolution, 1.0f}, nullptr);
+    sums.update(lit.gbuffer, lit.lights, {kClamp2, kBias, 1.0f}, nullptr);
   }
   report(state);
 }

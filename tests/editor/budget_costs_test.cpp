@@ -36,5 +36,14 @@ TEST(BudgetCosts, AreMeansOverTheFramesThatDrewUponThem) {
   EXPECT_EQ(costOf("frame_time", timeline, {}, settings)->measured, "20 ms a frame, 30 ms at most");
 }
 
+TEST(BudgetCosts, MapsTakeTheMemoryThatTheyHave) {
+  GiStats stats;
+  stats.mapsHeld = 12;
+  stats.memoryBytes["shadow maps"] = 3 << 20;
+  EXPECT_EQ(costOf("map_memory", {}, stats, {})->measured, "12 maps, 3 MiB");
+  stats.mapsWithoutRoom = 2;
+  EXPECT_EQ(costOf("map_memory", {}, stats, {})->measured, "12 maps, 3 MiB, 2 without room");
+}
+
 }  // namespace
 }  // namespace lamplighter

@@ -14,13 +14,14 @@ class SmallBackend final : public Backend {
                 const RayCaster& rays) override {
     inner_->setScene(scene, changes, rays);
   }
-  void reserveShadowMaps(int slots, int resolution, int maps) override {
-    if (resolution > 32) throw InputError("many_lights", "no memory", "lower map_resolution");
-    inner_->reserveShadowMaps(slots, resolution, maps);
+  void reserveShadowMaps(int slots, const MapRoom& coarse, const MapRoom& fine) override {
+    if (coarse.resolution > 32)
+      throw InputError("many_lights", "no memory", "lower map_resolution");
+    inner_->reserveShadowMaps(slots, coarse, fine);
   }
   void dropShadowMaps(std::span<const int> slots) override { inner_->dropShadowMaps(slots); }
-  void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
-    inner_->renderShadowMaps(vpls);
+  void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
+    inner_->renderShadowMaps(vpls, size);
   }
   void renderGBuffer(const View& view, vec2 jitter) override {
     inner_->renderGBuffer(view, jitter);

@@ -88,7 +88,10 @@ bool sameLights(const std::vector<shared::Vpl>& a, const std::vector<shared::Vpl
 Settings naiveSettings(int resolution, int vpls) {
   Settings s;
   s.set(parameters::technique().name, std::string("naive"));
-  s.set(parameters::mapResolution().name, resolution);
+  const int coarse = std::get<int>(parameters::mapResolution().defaultValue);
+  const bool isMultiple = resolution % coarse == 0;
+  s.set(parameters::mapResolution().name, isMultiple ? coarse : resolution);
+  s.set(parameters::settledMapScale().name, isMultiple ? resolution / coarse : 1);
   s.set(parameters::mapMemory().name, kMapMemory);
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::updates().name, 65536);

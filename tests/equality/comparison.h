@@ -13,13 +13,14 @@ namespace lamplighter::equality {
 // One way to make a picture, on one backend.
 struct Column {
   std::string backend;  // "cpu" or "gl"
-  int resolution;       // of shadow maps
+  int resolution;       // of shadow maps at rest
   std::string name;
   Settings settings;
 };
 
 // Settings of the technique `naive`: every VPL with its own shadow map at every pixel, whatever
-// `block`, `group_share` and `prt` say.
+// `block`, `group_share` and `prt` say. resolution: of maps at rest, texels a side; those before it
+// are as by default where it is a multiple of them.
 Settings naiveSettings(int resolution, int vpls);
 
 struct Row {

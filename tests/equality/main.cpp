@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kBackends = {"cpu", "gl"};
-using Resolutions = std::vector<int>;  // texels a side of shadow maps, those of all tables first
+using Resolutions = std::vector<int>;  // texels a side of maps at rest, those of all tables first
 
 constexpr int kGroupedVpls = 800;  // from which on they are grouped
 
@@ -62,7 +62,7 @@ std::vector<Column> allColumns(int vpls, const Resolutions& resolutions) {
   return columns;
 }
 
-// With so many VPLs large maps take too long.
+// With so many VPLs more take too long.
 std::vector<Column> groupColumns(int vpls, const Resolutions& resolutions) {
   std::vector<Column> columns = allColumns(vpls, resolutions);
   std::erase_if(columns, [&](const Column& c) { return c.resolution != resolutions[0]; });
@@ -150,7 +150,7 @@ void print(const Kind& kind, const std::vector<fs::path>& scenes, const Resoluti
 
 struct Options {
   fs::path folder;  // for pictures; empty: none
-  Resolutions resolutions{64, 256};
+  Resolutions resolutions{384, 64};
   std::vector<int> tables{1, 2, 3, 4};
   std::vector<std::string> wanted;  // parts of paths; none: all scenes
 };
@@ -181,7 +181,7 @@ int main(int argc, char** argv) {
   lamplighter::equality::Options options;
   CLI::App app("Each technique against naive: the tables of docs/equality.md");
   app.add_option("--pictures", options.folder, "Folder for pictures of what is over its limit");
-  app.add_option("--maps", options.resolutions, "Texels a side of the shadow maps")
+  app.add_option("--maps", options.resolutions, "Texels a side of the shadow maps at rest")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(8, 1024))

@@ -83,15 +83,15 @@ class CpuBackend final : public Backend {
     for (const uint32_t i : changes.movedObjects) moves_.push_back(scene.objects[i].bounds);
   }
 
-  void reserveShadowMaps(int slots, int resolution, int maps) override {
-    if (!maps_.reserve(slots, resolution, maps)) return;
+  void reserveShadowMaps(int slots, const MapRoom& coarse, const MapRoom& fine) override {
+    if (!maps_.reserve(slots, coarse, fine)) return;
     for (Picture* p : {&still_, &shifted_}) {
       p->forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
       p->speculars.mapsChange();
     }
   }
 
-  void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
+  void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
     shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
     for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
     const auto slotOf = [](const shared::Vpl& vpl) { return static_cast<int>(vpl.intensity.w); };
@@ -102,7 +102,7 @@ class CpuBackend final : public Backend {
     };
     tbb::parallel_invoke([&] { tellOfOld(still_.sums); }, [&] { tellOfOld(still_.sampleSums); });
     std::vector<cpu::MapChange> changes(vpls.size());
-    counts_.rays += maps_.render(*scene_, *rays_, vpls, changes);
+    counts_.rays += maps_.render(*scene_, *rays_, vpls, size, changes);
     counts_.shadowMaps += vpls.size();
     still_.forEachSums([&](cpu::LightSums& sums) {
       for (size_t i = 0; i < vpls.size(); ++i) sums.mapChanged(slotOf(vpls[i]), changes[i]);
@@ -145,11 +145,11 @@ class CpuBackend final : public Backend {
     for (const shared::Vpl& vpl : vpls) {
       const int slot = static_cast<int>(vpl.intensity.w);
       const int mapSlot = patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot);
-      lights.push_back(cpu::makeLightRecord(vpl, mapOf(mapSlot)));
+      lights.push_back(cpu::makeLightRecord(vpl, mapOf(mapSlot), maps_.resolution(mapSlot)));
       lights.back().mapSlot = mapSlot;
     }
     const float d0 = params.clampAndBias.x;
-    const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, maps_.resolution(), 1.0f};
+    const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, 1.0f};
     const auto update = [&](cpu::LightSums& sums, const cpu::GBuffer& gbuffer,
                             std::span<const uint32_t> wanted) {
       const cpu::SumCounts counts =

@@ -74,7 +74,7 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
               const LightRecord& record, const SumConstants& constants, LitOfList& lit) {
   constexpr bool kLooksUp = kUse != LightUse::add, kSums = kUse != LightUse::takeShadow;
   const WideLight light(record, isNegative, constants);
-  const WideConstants c(constants);
+  const WideConstants c(constants, record.resolution);
   const Floats zero = hn::Zero(kTag);
   // Of the packets' plane, in the light's frame; most have that of the packet before them.
   Vector3 normal{zero, zero, zero};
@@ -133,7 +133,7 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
 template <LightRecord::Kind kKind, typename F>
 void forEachLit(PacketBlock& block, const PacketList& packets, const WideLight& light,
                 const SumConstants& constants, const LitOfList& lit, F&& add) {
-  const WideConstants c(constants);
+  const WideConstants c(constants, 1);  // no map is looked up
   // Which packets there are is found first, without a branch that nobody can foretell.
   std::array<uint8_t, PacketBlock::kMost> some;
   size_t count = 0;
@@ -222,12 +222,13 @@ void PacketList::take(const PacketLanes& lanes) {
   }
 }
 
-LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map) {
+LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map, int resolution) {
   LightRecord light;
   light.kind = vpl.position.w == shared::kVplCosine    ? LightRecord::Kind::cosine
                : vpl.position.w == shared::kVplUniform ? LightRecord::Kind::uniform
                                                        : LightRecord::Kind::directional;
   light.map = map;
+  light.resolution = map == nullptr ? 1 : resolution;
   light.slot = static_cast<int>(vpl.intensity.w);
   light.position = vec3(vpl.position);
   light.normal = vec3(vpl.normal);

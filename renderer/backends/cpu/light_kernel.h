@@ -23,7 +23,8 @@ struct LightRecord {
   Kind kind = Kind::cosine;
   const float* map = nullptr;  // null: casts no shadow
   int slot = -1;
-  int mapSlot = -1;  // whose map it is
+  int mapSlot = -1;    // whose map it is
+  int resolution = 1;  // of it, texels a side
   vec3 position, normal, tangent, bitangent, intensity;
   float coneScale = 0.0f, coneOffset = 1.0f;
   float radius = 0.0f, side = 1.0f;  // directional: R and S
@@ -36,12 +37,12 @@ struct LightRecord {
   }
 };
 
-LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map);
+// With a map of resolution², or null.
+LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map, int resolution);
 
 struct SumConstants {
   float clampDistance2 = 0.0f;  // d0² [m²]
   float bias = 0.0f;
-  int resolution = 64;
   float unitsPerIrradiance = 1.0f;  // a power of two [m²/W]
   bool operator==(const SumConstants&) const = default;
 };

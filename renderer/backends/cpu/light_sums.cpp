@@ -327,13 +327,17 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
   }
   // The maps of some lights fit the second-level cache, those of all do not: each is fetched for
   // all of the tiles at once.
-  const size_t texels = static_cast<size_t>(constants_.resolution) * constants_.resolution;
-  const size_t atOnce = std::max<size_t>(1, kMapBytesAtOnce / (texels * sizeof(float)));
+  const auto bytesOf = [](const LightRecord& light) {
+    return sizeof(float) * static_cast<size_t>(light.resolution) * light.resolution;
+  };
   const auto addAll = [&](std::vector<LightAdder>& adders,
                           std::span<const LightRecord* const> lights, Sign sign, When when) {
-    for (size_t i = 0; i < lights.size(); i += atOnce)
-      for (LightAdder& tiles : adders)
-        tiles.addAll(lights.subspan(i, std::min(atOnce, lights.size() - i)), sign, when);
+    for (size_t i = 0, end = 0; i < lights.size(); i = end) {
+      size_t bytes = 0;
+      while (end < lights.size() && (end == i || bytes + bytesOf(*lights[end]) <= kMapBytesAtOnce))
+        bytes += bytesOf(*lights[end++]);
+      for (LightAdder& tiles : adders) tiles.addAll(lights.subspan(i, end - i), sign, when);
+    }
   };
   addAll(kept, frame.taken, Sign::takeAway, When::before);
   addAll(kept, frame.added, Sign::add, When::after);

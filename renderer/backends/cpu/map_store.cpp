@@ -26,30 +26,38 @@ bool isAtPlaceOf(const shared::Vpl& a, const shared::Vpl& b) {
 
 }  // namespace
 
-bool MapStore::reserve(int slots, int resolution, int most) {
-  if (static_cast<size_t>(slots) == maps_.size() && resolution == resolution_ && most == most_)
+bool MapStore::reserve(int slots, const MapRoom& coarse, const MapRoom& fine) {
+  if (static_cast<size_t>(slots) == maps_.size() && of(MapSize::coarse).room == coarse &&
+      of(MapSize::fine).room == fine)
     return false;
   maps_.clear();
   maps_.resize(static_cast<size_t>(slots));
-  held_ = 0;
-  most_ = most;
-  resolution_ = resolution;
-  raster_.setResolution(resolution);
+  for (const MapSize size : {MapSize::coarse, MapSize::fine}) {
+    const MapRoom& room = size == MapSize::coarse ? coarse : fine;
+    if (of(size).resolution() != room.resolution) of(size).grid = ShadowMapGrid(room.resolution);
+    of(size).room = room;
+    of(size).held = 0;
+  }
   return true;
 }
 
-void MapStore::make(Map& map) {
-  if (held_ >= static_cast<size_t>(most_)) throw std::length_error("more maps than reserved");
+void MapStore::make(Map& map, MapSize size) {
+  drop(map);
+  Size& s = of(size);
+  if (s.held >= static_cast<size_t>(s.room.maps))
+    throw std::length_error("more maps than reserved");
   try {
-    map.texels.resize(texels());
-    map.isTraced.assign(static_cast<size_t>(resolution_ / ShadowRaster::kBand + 1), 0);
+    map.texels.resize(s.texels());
+    map.isTraced.assign(static_cast<size_t>(s.resolution() / ShadowRaster::kBand + 1), 0);
   } catch (const std::bad_alloc&) {
+    map = {};
     throw InputError(
         "many_lights",
-        "no memory for another shadow map of " + std::to_string(resolution_) + "² texels",
+        "no memory for another shadow map of " + std::to_string(s.resolution()) + "² texels",
         "lower map_memory or map_resolution");
   }
-  ++held_;
+  map.size = size;
+  ++s.held;
 }
 
 void MapStore::castersChange() {
@@ -90,11 +98,12 @@ std::vector<uint8_t> MapStore::outdated(const Map& map) const {
   std::vector<Sphere> spheres;
   for (const Way& way : ways)
     for (const Bounds* box : {way.from, way.to}) spheres.push_back({box->centre(), box->radius()});
-  return raster_.blocksThatSee(map.light, spheres);
+  return raster_.blocksThatSee(of(map.size).grid, map.light, spheres);
 }
 
 uint64_t MapStore::render(const RenderScene& scene, const RayCaster& rays,
-                          std::span<const shared::Vpl> lights, std::span<MapChange> changes) {
+                          std::span<const shared::Vpl> lights, MapSize size,
+                          std::span<MapChange> changes) {
   if (castersChanged_ || !movedSince_.empty())
     raster_.setScene(scene, castersChanged_ ? nullptr : &movedSince_);
   castersChanged_ = false;
@@ -105,8 +114,9 @@ uint64_t MapStore::render(const RenderScene& scene, const RayCaster& rays,
   };
   for (const shared::Vpl& light : lights) {
     Map& map = mapOf(light);
-    isNew.push_back(map.texels.empty() || !isAtPlaceOf(light, map.light));
-    if (map.texels.empty()) make(map);
+    const bool isThere = !map.texels.empty() && map.size == size;
+    isNew.push_back(!isThere || !isAtPlaceOf(light, map.light));
+    if (!isThere) make(map, size);
   }
   std::atomic<uint64_t> cast = 0;
   tbb::parallel_for(size_t{0}, lights.size(), [&](size_t i) {
@@ -126,22 +136,25 @@ uint64_t MapStore::render(const RayCaster& rays, const shared::Vpl& light, bool 
   map.light = light;
   map.moves = moveCount_;
   std::atomic<uint64_t> cast = 0;
-  const int tasks = (resolution_ + kRowsPerTask - 1) / kRowsPerTask;
+  const int resolution = of(map.size).resolution();
+  const int tasks = (resolution + kRowsPerTask - 1) / kRowsPerTask;
   tbb::parallel_for(0, tasks, [&](int task) {
-    const int first = task * kRowsPerTask, last = std::min(first + kRowsPerTask, resolution_);
-    cast += raster_.render(rays, light, first, last, map.texels, wanted, map.isTraced);
+    const int first = task * kRowsPerTask, last = std::min(first + kRowsPerTask, resolution);
+    cast += raster_.render(rays, of(map.size).grid, light, first, last, map.texels, wanted,
+                           map.isTraced);
   });
   change = isNew ? MapChange()
-                 : compareMaps(before, map.texels, resolution_,
+                 : compareMaps(before, map.texels, resolution,
                                light.position.w == shared::kVplDirectional);
   return cast;
 }
 
-void MapStore::drop(int slot) {
-  Map& map = maps_[static_cast<size_t>(slot)];
+void MapStore::drop(int slot) { drop(maps_[static_cast<size_t>(slot)]); }
+
+void MapStore::drop(Map& map) {
   if (map.texels.empty()) return;
+  --of(map.size).held;
   map = {};
-  --held_;
 }
 
 }  // namespace lamplighter::cpu

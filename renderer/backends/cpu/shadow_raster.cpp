@@ -135,20 +135,22 @@ float drawTile(const Triangle& t, const TexelDirections& d, Floats most, int x, 
 
 // Rows that are rendered at once, while what they read and write fits the first-level cache.
 struct ShadowRaster::Band {
+  const ShadowMapGrid& grid;
   int firstRow, lastRow;
   int firstTile, lastTile;     // rows of tiles that they reach into
   std::vector<uint8_t> marks;  // by block: it is left to rays
   // By tile: no less is stored in any of its texels in these rows.
   alignas(32) float least[kBand / kLeastTile][kRow] = {};
 
-  Band(int first, int last, int tile)
-      : firstRow(first),
+  Band(const ShadowMapGrid& g, int first, int last)
+      : grid(g),
+        firstRow(first),
         lastRow(last),
-        firstTile(first / tile),
-        lastTile((last + tile - 1) / tile) {}
+        firstTile(first / g.tile),
+        lastTile((last + g.tile - 1) / g.tile) {}
   // Of a row of tiles, as far as it is in here.
-  int top(int row, int tile) const { return std::max(firstRow, row * tile); }
-  int bottom(int row, int tile) const { return std::min(lastRow, (row + 1) * tile); }
+  int top(int row) const { return std::max(firstRow, row * grid.tile); }
+  int bottom(int row) const { return std::min(lastRow, (row + 1) * grid.tile); }
 };
 
 void ShadowRaster::setScene(const RenderScene& scene, const std::vector<uint32_t>* moved) {
@@ -190,25 +192,22 @@ void ShadowRaster::setScene(const RenderScene& scene, const std::vector<uint32_t
   }
 }
 
-void ShadowRaster::setResolution(int resolution) {
-  if (resolution == resolution_) return;
-  resolution_ = resolution;
-  tile_ = kLeastTile;
-  while (resolution > tile_ * kMostTiles) tile_ *= 2;
+ShadowMapGrid::ShadowMapGrid(int texels) : resolution(texels), tile(kLeastTile) {
+  while (resolution > tile * kMostTiles) tile *= 2;
   // Tiles' corners lie on the creases of the octahedron, so that directions are linear on either
   // side of a tile's diagonal.
-  if (resolution % tile_ != 0) tile_ = 0;
-  if (tile_ == 0) return;
-  tiles_ = resolution / tile_;
-  hemisphere_ = texelDirections(resolution, tile_, false);
-  parallel_ = texelDirections(resolution, tile_, true);
+  if (resolution % tile != 0) tile = 0;
+  if (tile == 0) return;
+  tiles = resolution / tile;
+  hemisphere = texelDirections(resolution, tile, false);
+  parallel = texelDirections(resolution, tile, true);
 }
 
 // Marks blocks that may see what is left to rays. Whether rasterising the others is worth it.
 bool ShadowRaster::markForRays(const LightSpace& light, Band& band) const {
   using Where = SphereInMap::Where;
-  const TexelDirections& d = directions(light);
-  const auto across = static_cast<size_t>(resolution_ / kBlockWidth);
+  const TexelDirections& d = band.grid.directions(light.isParallel);
+  const auto across = static_cast<size_t>(band.grid.resolution / kBlockWidth);
   const size_t first = static_cast<size_t>(band.firstRow / kBlockHeight) * across,
                count = static_cast<size_t>((band.lastRow - band.firstRow) / kBlockHeight) * across;
   std::vector<uint8_t>& marks = band.marks;
@@ -240,14 +239,14 @@ bool ShadowRaster::markForRays(const LightSpace& light, Band& band) const {
   return marked <= kMostOfBlocks * static_cast<float>(count);
 }
 
-std::vector<uint8_t> ShadowRaster::blocksThatSee(const shared::Vpl& vpl,
-                                                 std::span<const Sphere> spheres) const {
-  if (tile_ == 0) return {};
+std::vector<uint8_t> ShadowRaster::blocksThatSee(const ShadowMapGrid& grid, const shared::Vpl& vpl,
+                                                 std::span<const Sphere> spheres) {
+  if (grid.tile == 0) return {};
   const LightSpace light(vpl);
-  const auto side = static_cast<size_t>(resolution_);
+  const auto side = static_cast<size_t>(grid.resolution);
   std::vector<uint8_t> see(side / kBlockWidth * side / kBlockHeight, 0);
   for (const Sphere& s : spheres) {
-    const SphereInMap sphere(light, directions(light), s);
+    const SphereInMap sphere(light, grid.directions(light.isParallel), s);
     if (sphere.where() == SphereInMap::Where::anywhere) return {};
     if (sphere.where() == SphereInMap::Where::nowhere) continue;
     for (size_t i = 0; i < see.size(); i += kLanes)
@@ -259,19 +258,19 @@ std::vector<uint8_t> ShadowRaster::blocksThatSee(const shared::Vpl& vpl,
 
 // Calls f(index among the band's marks) for the blocks of a tile, as far as they are in the band.
 template <typename F>
-void ShadowRaster::forEachBlock(const Band& band, int ty, int tx, F&& f) const {
-  const int across = resolution_ / kBlockWidth;
-  for (int y = band.top(ty, tile_); y < band.bottom(ty, tile_); y += kBlockHeight)
-    for (int x = tx * tile_; x < (tx + 1) * tile_; x += kBlockWidth)
+void ShadowRaster::forEachBlock(const Band& band, int ty, int tx, F&& f) {
+  const int across = band.grid.resolution / kBlockWidth, tile = band.grid.tile;
+  for (int y = band.top(ty); y < band.bottom(ty); y += kBlockHeight)
+    for (int x = tx * tile; x < (tx + 1) * tile; x += kBlockWidth)
       f(static_cast<size_t>((y - band.firstRow) / kBlockHeight * across + x / kBlockWidth));
 }
 
 // Makes tiles ready to be drawn into where any block is wanted (empty: all are). Where all are left
 // to rays nothing is nearer than what is there, and where none is wanted nothing is to be done.
-void ShadowRaster::prepareTiles(Band& band, std::span<const uint8_t> wanted,
-                                std::span<float> map) const {
+void ShadowRaster::prepareTiles(Band& band, std::span<const uint8_t> wanted, std::span<float> map) {
+  const auto [resolution, tile] = std::pair(band.grid.resolution, band.grid.tile);
   for (int ty = band.firstTile; ty < band.lastTile; ++ty) {
-    for (int tx = 0; tx < tiles_; ++tx) {
+    for (int tx = 0; tx < band.grid.tiles; ++tx) {
       bool isWanted = wanted.empty(), isLeft = true;
       forEachBlock(band, ty, tx, [&](size_t block) {
         isWanted = isWanted || wanted[block] != 0;
@@ -283,25 +282,26 @@ void ShadowRaster::prepareTiles(Band& band, std::span<const uint8_t> wanted,
         forEachBlock(band, ty, tx, [&](size_t block) { band.marks[block] = 0; });
         continue;
       }
-      for (int y = band.top(ty, tile_); y < band.bottom(ty, tile_); ++y)
-        std::fill_n(map.begin() + y * resolution_ + tx * tile_, tile_, 0.0f);
+      for (int y = band.top(ty); y < band.bottom(ty); ++y)
+        std::fill_n(map.begin() + y * resolution + tx * tile, tile, 0.0f);
     }
   }
 }
 
 void ShadowRaster::draw(const ShadowTriangles::Batch& batch, size_t lane, const LightSpace& light,
-                        Band& band, std::span<float> map) const {
-  const TexelDirections& d = directions(light);
+                        Band& band, std::span<float> map) {
+  const TexelDirections& d = band.grid.directions(light.isParallel);
+  const int tile = band.grid.tile, tiles = band.grid.tiles;
   const Triangle t(batch, lane);
   const auto slack = [&](size_t function) { return all(batch.functions[function][3][lane]); };
   const Floats slackA = slack(0), slackB = slack(1), slackC = slack(2);
   // The tile in the middle of an odd number of them has the tip of the octahedron between its
   // corners: what is stored there may be more than at these.
-  const Floats slackStored = tiles_ % 2 == 0 ? slack(ShadowTriangles::Batch::kPlane)
-                                             : all(std::numeric_limits<float>::infinity());
+  const Floats slackStored = tiles % 2 == 0 ? slack(ShadowTriangles::Batch::kPlane)
+                                            : all(std::numeric_limits<float>::infinity());
   const Floats zero = hn::Zero(kTag), most = all(light.most);
-  for (int first = 0; first < tiles_; first += static_cast<int>(kLanes)) {
-    const uint32_t lanes = (1u << std::min(tiles_ - first, static_cast<int>(kLanes))) - 1;
+  for (int first = 0; first < tiles; first += static_cast<int>(kLanes)) {
+    const uint32_t lanes = (1u << std::min(tiles - first, static_cast<int>(kLanes))) - 1;
     AtCorners above(t, d, band.firstTile, first);
     for (int ty = band.firstTile; ty < band.lastTile; ++ty) {
       const AtCorners below(t, d, ty + 1, first);
@@ -320,23 +320,25 @@ void ShadowRaster::draw(const ShadowTriangles::Batch& batch, size_t lane, const 
       for (uint32_t rest = met; rest != 0; rest &= rest - 1) {
         const int tx = std::countr_zero(rest);
         const auto draw = (whole >> tx & 1) != 0 ? drawTile<true> : drawTile<false>;
-        least[tx] = draw(t, d, most, (first + tx) * tile_, tile_, band.top(ty, tile_),
-                         band.bottom(ty, tile_), resolution_, map.data());
+        least[tx] = draw(t, d, most, (first + tx) * tile, tile, band.top(ty), band.bottom(ty),
+                         band.grid.resolution, map.data());
       }
     }
   }
 }
 
-uint64_t ShadowRaster::render(const RayCaster& rays, const shared::Vpl& vpl, int firstRow,
-                              int lastRow, std::span<float> map, std::span<const uint8_t> wanted,
+uint64_t ShadowRaster::render(const RayCaster& rays, const ShadowMapGrid& grid,
+                              const shared::Vpl& vpl, int firstRow, int lastRow,
+                              std::span<float> map, std::span<const uint8_t> wanted,
                               std::span<uint8_t> isTraced) const {
-  if (tile_ == 0) return traceShadowMap(rays, vpl, resolution_, firstRow, lastRow, map);
+  const int resolution = grid.resolution;
+  if (grid.tile == 0) return traceShadowMap(rays, vpl, resolution, firstRow, lastRow, map);
   const LightSpace light(vpl);
-  const auto across = static_cast<size_t>(resolution_ / kBlockWidth);
+  const auto across = static_cast<size_t>(resolution / kBlockWidth);
   std::vector<ShadowTriangles::Batch> batches;
   uint64_t cast = 0;
   for (int row = firstRow; row < lastRow; row += kBand) {
-    Band band(row, std::min(row + kBand, lastRow), tile_);
+    Band band(grid, row, std::min(row + kBand, lastRow));
     std::span<const uint8_t> part;  // of the blocks in here; empty: all of them
     if (!wanted.empty()) {
       const int rows = band.lastRow - row;
@@ -350,7 +352,7 @@ uint64_t ShadowRaster::render(const RayCaster& rays, const shared::Vpl& vpl, int
     if ((wasTraced != 0) == isDrawn) part = {};
     wasTraced = isDrawn ? 0 : 1;
     if (!isDrawn) {
-      cast += traceShadowMap(rays, vpl, resolution_, row, band.lastRow, map, part);
+      cast += traceShadowMap(rays, vpl, resolution, row, band.lastRow, map, part);
       continue;
     }
     if (batches.empty()) {
@@ -361,7 +363,7 @@ uint64_t ShadowRaster::render(const RayCaster& rays, const shared::Vpl& vpl, int
     for (const ShadowTriangles::Batch& batch : batches)
       for (uint32_t rest = batch.lanes; rest != 0; rest &= rest - 1)
         draw(batch, static_cast<size_t>(std::countr_zero(rest)), light, band, map);
-    cast += traceShadowMap(rays, vpl, resolution_, row, band.lastRow, map, band.marks);
+    cast += traceShadowMap(rays, vpl, resolution, row, band.lastRow, map, band.marks);
   }
   return cast;
 }

@@ -176,7 +176,7 @@ template <LightRecord::Kind kKind>
 void SpecularBlock::addLight(const SpecularLight& specular) {
   const LightRecord& record = specular.record;
   const WideLight light(record, false, constants_);
-  const WideConstants c(constants_);
+  const WideConstants c(constants_, record.resolution);
   for (Place& place : places_) {
     if (isLeftOut(place.leftOutBy, record.link)) continue;
     bool looksUp = record.map != nullptr;

@@ -81,17 +81,17 @@ struct WideLight {
 
 // Numbers of the map's grid and of the test in every lane.
 struct WideConstants {
-  explicit WideConstants(const SumConstants& c)
-      : resolution(all(static_cast<float>(c.resolution))),
-        middle(all(0.5f * static_cast<float>(c.resolution))),
-        half(all(0.5f * static_cast<float>(c.resolution) * (1.0f - 0x1p-21f))),
-        lastTexel(hn::Set(hn::RebindToUnsigned<Tag>(),
-                          static_cast<uint32_t>(c.resolution * c.resolution - 1))),
-        step(all(2.0f / static_cast<float>(c.resolution))),
-        steep(all(shared::kSteepTexels * 2.0f / static_cast<float>(c.resolution))),
-        first(all(1.0f / static_cast<float>(c.resolution) - 1.0f)),
+  // side: of the light's map [texels].
+  WideConstants(const SumConstants& c, int side)
+      : resolution(all(static_cast<float>(side))),
+        middle(all(0.5f * static_cast<float>(side))),
+        half(all(0.5f * static_cast<float>(side) * (1.0f - 0x1p-21f))),
+        lastTexel(hn::Set(hn::RebindToUnsigned<Tag>(), static_cast<uint32_t>(side * side - 1))),
+        step(all(2.0f / static_cast<float>(side))),
+        steep(all(shared::kSteepTexels * 2.0f / static_cast<float>(side))),
+        first(all(1.0f / static_cast<float>(side) - 1.0f)),
         beforePlane(all(1.0f + c.bias)),
-        beforePoint(all(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(c.resolution))),
+        beforePoint(all(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(side))),
         clampDistance2(all(c.clampDistance2)),
         perClampDistance2(all(1.0f / c.clampDistance2)) {}
 

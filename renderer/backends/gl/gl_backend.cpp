@@ -36,12 +36,12 @@ class GlBackend final : public Backend {
     scene_.update(scene, changes);
   }
 
-  void reserveShadowMaps(int slots, int resolution, int maps) override {
-    maps_.reserve(slots, resolution, maps);
+  void reserveShadowMaps(int slots, const MapRoom& coarse, const MapRoom& fine) override {
+    maps_.reserve(slots, coarse, fine);
   }
 
-  void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
-    maps_.render(scene_, vpls, vpls_);
+  void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
+    maps_.render(scene_, vpls, size, vpls_);
     counts_.shadowMaps += vpls.size();
   }
 

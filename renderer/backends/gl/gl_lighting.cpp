@@ -10,8 +10,9 @@
 namespace lamplighter::gl {
 namespace {
 
-// The place of the map that a VPL looks up; kNone: there is none.
-int placeOf(const shared::Vpl& vpl, const GlShadowMaps& maps, const PatchLights* patches) {
+// Where the map is that a VPL looks up.
+GlShadowMaps::Place placeOf(const shared::Vpl& vpl, const GlShadowMaps& maps,
+                            const PatchLights* patches) {
   const int slot = static_cast<int>(vpl.intensity.w);
   return maps.place(patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot));
 }
@@ -98,9 +99,7 @@ GlLighting::Sum GlLighting::makeSum(const GlShadowMaps& maps, const VplBuffer& b
                                     const shared::ShadingParams& params,
                                     const PatchLights* patches) {
   const auto batchOf = [&](const shared::Vpl& vpl) {
-    const int place = placeOf(vpl, maps, patches);
-    return std::pair(static_cast<int>(vpl.position.w),
-                     place == kNone ? 0 : place / maps.placesAnArray());
+    return std::pair(static_cast<int>(vpl.position.w), placeOf(vpl, maps, patches).array);
   };
   Sum sum{maps, buffer, {vpls.begin(), vpls.end()}, {}, params.clampAndBias};
   std::stable_sort(sum.vpls.begin(), sum.vpls.end(),
@@ -138,8 +137,7 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
   // Places within their arrays.
   for (const Batch& batch : sum.batches) {
     for (shared::Vpl& vpl : std::span(sum.vpls).subspan(batch.first, batch.count)) {
-      const int place = placeOf(vpl, maps, patches);
-      vpl.intensity.w = static_cast<float>(place == kNone ? kNone : place % maps.placesAnArray());
+      vpl.intensity.w = static_cast<float>(placeOf(vpl, maps, patches).layer);
     }
   }
 
@@ -228,7 +226,9 @@ void GlLighting::add(const GlScene& scene, const Sum& sum, const SumTarget& targ
                              : patches_ ? listed_[batch.kind]
                                         : naive(batch.kind, hasLinks);
     program.use();
-    program.set(2, sum.clampAndBias);
+    vec4 clampAndBias = sum.clampAndBias;
+    clampAndBias.z = static_cast<float>(sum.maps.resolution(batch.array));
+    program.set(2, clampAndBias);
     program.set(6, block);
     glBindTextureUnit(shared::kShadowMaps,
                       sum.maps.hasArray(batch.array) ? sum.maps.array(batch.array) : 0);

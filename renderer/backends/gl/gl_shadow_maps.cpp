@@ -71,39 +71,39 @@ void GlShadowMaps::reload(const std::filesystem::path& shaders, const VplBuffer&
   directional_ = std::move(directional);
 }
 
-void GlShadowMaps::reserve(int slots, int resolution, int most) {
-  if (static_cast<size_t>(slots) == places_.size() && resolution == resolution_ && most == most_)
+void GlShadowMaps::reserve(int slots, const MapRoom& coarse, const MapRoom& fine) {
+  if (static_cast<size_t>(slots) == slots_.size() && coarse == poolOf(MapSize::coarse).room &&
+      fine == poolOf(MapSize::fine).room)
     return;
   GLint maxLayers = 1, maxSize = 1;
   glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &maxLayers);
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &maxSize);
-  arrays_.clear();
-  places_.clear();
-  free_.clear();
-  resolution_ = room_ = held_ = 0;
-  if (resolution > maxSize) {
+  slots_.clear();
+  for (Pool& pool : pools_) pool = {};
+  if (std::max(coarse.resolution, fine.resolution) > maxSize) {
     throw InputError("many_lights",
                      "OpenGL takes shadow maps of " + std::to_string(maxSize) + "² texels at most",
                      "lower map_resolution");
   }
-  const uint64_t mapBytes = uint64_t{4} * resolution * resolution;
-  const uint64_t fitting = std::max<uint64_t>(kMaxArrayBytes / mapBytes, 1);
-  placesAnArray_ = static_cast<int>(std::min<uint64_t>(maxLayers, fitting));
-  isDirectional_.assign(static_cast<size_t>(slots), false);
-  places_.assign(static_cast<size_t>(slots), kNone);
-  resolution_ = resolution;
-  most_ = most;
+  poolOf(MapSize::coarse).room = coarse;
+  poolOf(MapSize::fine).room = fine;
+  for (Pool& pool : pools_) {
+    const uint64_t fitting = kMaxArrayBytes / std::max<uint64_t>(pool.mapBytes(), 1);
+    pool.placesAnArray = static_cast<int>(std::clamp<uint64_t>(fitting, 1, maxLayers));
+  }
+  slots_.resize(static_cast<size_t>(slots));
 }
 
-Texture GlShadowMaps::makeArray(int layers) const {
+Texture GlShadowMaps::makeArray(const Pool& pool, int layers) {
+  const int resolution = pool.room.resolution;
   while (glGetError() != GL_NO_ERROR) {
   }
   Texture array = Texture::make(GL_TEXTURE_2D_ARRAY);
-  glTextureStorage3D(array.name(), 1, GL_DEPTH_COMPONENT32F, resolution_, resolution_, layers);
+  glTextureStorage3D(array.name(), 1, GL_DEPTH_COMPONENT32F, resolution, resolution, layers);
   if (glGetError() != GL_NO_ERROR) {
     throw InputError("many_lights",
                      "no video memory for " + std::to_string(layers) + " shadow maps of " +
-                         std::to_string(resolution_) + "² texels",
+                         std::to_string(resolution) + "² texels",
                      "lower map_memory or map_resolution");
   }
   glTextureParameteri(array.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -112,56 +112,73 @@ Texture GlShadowMaps::makeArray(int layers) const {
 }
 
 // The last array is made larger, with what it holds, and then others are added.
-void GlShadowMaps::grow(int places) {
-  while (room_ < places) {
-    const bool isFull = room_ % placesAnArray_ == 0;
-    const int first = isFull ? room_ : room_ / placesAnArray_ * placesAnArray_;
-    const int end = std::min(places, first + placesAnArray_);
-    Texture array = makeArray(end - first);
+void GlShadowMaps::grow(Pool& pool, int places) {
+  const int resolution = pool.room.resolution;
+  while (pool.space < places) {
+    const bool isFull = pool.space % pool.placesAnArray == 0;
+    const int first = isFull ? pool.space : pool.space / pool.placesAnArray * pool.placesAnArray;
+    const int end = std::min(places, first + pool.placesAnArray);
+    Texture array = makeArray(pool, end - first);
     if (!isFull) {
-      glCopyImageSubData(arrays_.back().name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, array.name(),
-                         GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, resolution_, resolution_, room_ - first);
-      arrays_.pop_back();
+      glCopyImageSubData(pool.arrays.back().name(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, array.name(),
+                         GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, resolution, resolution,
+                         pool.space - first);
+      pool.arrays.pop_back();
     }
-    arrays_.push_back(std::move(array));
-    room_ = end;
+    pool.arrays.push_back(std::move(array));
+    pool.space = end;
   }
 }
 
-void GlShadowMaps::givePlace(int slot) {
-  int& place = places_[static_cast<size_t>(slot)];
-  if (place != kNone) return;
-  if (held_ >= most_) throw std::length_error("more maps than reserved");
-  ++held_;
-  if (free_.empty()) {
-    place = held_ - 1;
+GlShadowMaps::Place GlShadowMaps::place(int slot) const {
+  if (slot < 0) return {};
+  const Slot& s = slots_[static_cast<size_t>(slot)];
+  if (s.place == kNone) return {};
+  const auto size = static_cast<int>(s.size);
+  const int inArray = pools_[static_cast<size_t>(size)].placesAnArray;
+  return {2 * (s.place / inArray) + size, s.place % inArray};
+}
+
+void GlShadowMaps::givePlace(Slot& slot, MapSize size) {
+  if (slot.place != kNone && slot.size == size) return;
+  drop(slot);
+  Pool& pool = poolOf(size);
+  if (pool.held >= pool.room.maps) throw std::length_error("more maps than reserved");
+  ++pool.held;
+  slot.size = size;
+  if (pool.free.empty()) {
+    slot.place = pool.held - 1;
     return;
   }
-  place = free_.back();
-  free_.pop_back();
+  slot.place = pool.free.back();
+  pool.free.pop_back();
+}
+
+void GlShadowMaps::drop(Slot& slot) {
+  if (slot.place == kNone) return;
+  Pool& pool = poolOf(slot.size);
+  pool.free.push_back(slot.place);
+  --pool.held;
+  slot.place = kNone;
 }
 
 void GlShadowMaps::drop(std::span<const int> slots) {
-  for (const int slot : slots) {
-    int& place = places_[static_cast<size_t>(slot)];
-    if (place == kNone) continue;
-    free_.push_back(place);
-    place = kNone;
-    --held_;
-  }
+  for (const int slot : slots) drop(slots_[static_cast<size_t>(slot)]);
 }
 
-void GlShadowMaps::render(const GlScene& scene, std::span<const shared::Vpl> vpls,
+void GlShadowMaps::render(const GlScene& scene, std::span<const shared::Vpl> vpls, MapSize size,
                           const VplBuffer& buffer) {
   if (vpls.empty()) return;
+  Pool& pool = poolOf(size);
   int places = 0;
   for (const shared::Vpl& vpl : vpls) {
-    const int slot = static_cast<int>(vpl.intensity.w);
-    givePlace(slot);
-    places = std::max(places, places_[static_cast<size_t>(slot)] + 1);
+    Slot& slot = slots_[static_cast<size_t>(vpl.intensity.w)];
+    givePlace(slot, size);
+    places = std::max(places, slot.place + 1);
   }
-  if (places > room_) grow(std::min(std::max(places, room_ + room_ / kGrowth), most_));
-  PassState state(framebuffer_.name(), resolution_, resolution_);
+  if (places > pool.space)
+    grow(pool, std::min(std::max(places, pool.space + pool.space / kGrowth), pool.room.maps));
+  PassState state(framebuffer_.name(), pool.room.resolution, pool.room.resolution);
   state.reversedDepth();
   state.clipDistances(4);
   glBindVertexArray(scene.vertexArray());
@@ -176,31 +193,31 @@ void GlShadowMaps::render(const GlScene& scene, std::span<const shared::Vpl> vpl
 
 void GlShadowMaps::renderMap(const GlScene& scene, const shared::Vpl& vpl, int indexInBuffer) {
   const int slot = static_cast<int>(vpl.intensity.w);
-  glNamedFramebufferTextureLayer(framebuffer_.name(), GL_DEPTH_ATTACHMENT,
-                                 array(place(slot) / placesAnArray_), 0,
-                                 place(slot) % placesAnArray_);
+  const Place at = place(slot);
+  glNamedFramebufferTextureLayer(framebuffer_.name(), GL_DEPTH_ATTACHMENT, array(at.array), 0,
+                                 at.layer);
   const float nothing = 0.0f;
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &nothing);
   const bool directional = vpl.position.w == shared::kVplDirectional;
-  isDirectional_[static_cast<size_t>(slot)] = directional;
+  slots_[static_cast<size_t>(slot)].isDirectional = directional;
   if (directional) {
-    drawFace(scene, vpl, directional_, indexInBuffer, nullptr);
+    drawFace(scene, vpl, directional_, indexInBuffer, nullptr, resolution(at.array));
     return;
   }
   for (const vec2& face : {vec2(1, 1), vec2(1, -1), vec2(-1, 1), vec2(-1, -1)}) {
-    drawFace(scene, vpl, hemisphere_, indexInBuffer, &face);
+    drawFace(scene, vpl, hemisphere_, indexInBuffer, &face, resolution(at.array));
   }
 }
 
 // face: null for a directional map, which has but one.
 void GlShadowMaps::drawFace(const GlScene& scene, const shared::Vpl& vpl, const Programs& programs,
-                            int indexInBuffer, const vec2* face) {
+                            int indexInBuffer, const vec2* face, int resolution) {
   const auto prepare = [&](const Program& program) {
     program.use();
     program.set(0, indexInBuffer);
     if (face == nullptr) return;
     program.set(1, *face);
-    program.set(2, kCreaseTexels * 2.0f / static_cast<float>(resolution_));
+    program.set(2, kCreaseTexels * 2.0f / static_cast<float>(resolution));
     program.set(3, rayEpsilon(vec3(vpl.position)));
   };
   const RenderScene& s = scene.scene();
@@ -236,17 +253,16 @@ void GlShadowMaps::drawFace(const GlScene& scene, const shared::Vpl& vpl, const 
 }
 
 std::vector<float> GlShadowMaps::read(int slot) const {
-  if (place(slot) == kNone) return {};
-  std::vector<float> map(static_cast<size_t>(resolution_) * resolution_);
-  glGetTextureSubImage(array(place(slot) / placesAnArray_), 0, 0, 0, place(slot) % placesAnArray_,
-                       resolution_, resolution_, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
-                       static_cast<GLsizei>(map.size() * sizeof(float)), map.data());
-  if (!isDirectional_[static_cast<size_t>(slot)]) {
+  const Place at = place(slot);
+  if (at.layer == kNone) return {};
+  const int side = resolution(at.array);
+  std::vector<float> map(static_cast<size_t>(side) * side);
+  glGetTextureSubImage(array(at.array), 0, 0, 0, at.layer, side, side, 1, GL_DEPTH_COMPONENT,
+                       GL_FLOAT, static_cast<GLsizei>(map.size() * sizeof(float)), map.data());
+  if (!slots_[static_cast<size_t>(slot)].isDirectional) {
     for (float& v : map) v *= 1.0f / shared::kShadowDepthUnit;
   }
   return map;
 }
-
-uint64_t GlShadowMaps::bytes() const { return uint64_t{4} * room_ * resolution_ * resolution_; }
 
 }  // namespace lamplighter::gl

@@ -1,12 +1,14 @@
 // Octahedral hemisphere shadow maps (paper 1, 4.2) by rasterisation, in depth texture arrays.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <vector>
 
 #include "renderer/backends/gl/gl_scene.h"
 #include "renderer/backends/gl/vpl_buffer.h"
+#include "renderer/backends/kernels.h"
 #include "renderer/gl/program.h"
 
 namespace lamplighter::gl {
@@ -16,43 +18,59 @@ class GlShadowMaps {
   GlShadowMaps(const std::filesystem::path& shaders, const VplBuffer& vpls);
   void reload(const std::filesystem::path& shaders, const VplBuffer& vpls);
 
-  // Of all slots at most `most` have a map at a time. Throws InputError when the device can't hold
-  // them.
-  void reserve(int slots, int resolution, int most);
-  void render(const GlScene& scene, std::span<const shared::Vpl> vpls, const VplBuffer& buffer);
+  // As Backend::reserveShadowMaps().
+  void reserve(int slots, const MapRoom& coarse, const MapRoom& fine);
+  void render(const GlScene& scene, std::span<const shared::Vpl> vpls, MapSize size,
+              const VplBuffer& buffer);
   void drop(std::span<const int> slots);
   std::vector<float> read(int slot) const;  // empty: it has no map
 
-  int resolution() const { return resolution_; }
-  // Where a slot's map is; kNone: it has none.
-  int place(int slot) const { return slot < 0 ? kNone : places_[static_cast<size_t>(slot)]; }
-  // A texture array has this many places; place p is layer p % placesAnArray() of array(p / …).
-  int placesAnArray() const { return placesAnArray_; }
-  GLuint array(int i) const { return arrays_[static_cast<size_t>(i)].name(); }
-  bool hasArray(int i) const { return static_cast<size_t>(i) < arrays_.size(); }
-  uint64_t bytes() const;  // of all places, in use or not
-  int held() const { return held_; }
+  // Where a slot's map is.
+  struct Place {
+    int array = 0, layer = kNone;  // layer: kNone: it has none
+  };
+  Place place(int slot) const;
+  // Texture arrays, those of coarse and of fine maps in turn.
+  bool hasArray(int i) const { return static_cast<size_t>(i / 2) < poolOf(i).arrays.size(); }
+  GLuint array(int i) const { return poolOf(i).arrays[static_cast<size_t>(i / 2)].name(); }
+  int resolution(int i) const { return poolOf(i).room.resolution; }  // of an array's maps
+  uint64_t bytes() const { return pools_[0].bytes() + pools_[1].bytes(); }
+  int held() const { return pools_[0].held + pools_[1].held; }
 
  private:
   struct Programs {
     Program opaque, masked;
   };
-  void givePlace(int slot);
-  void grow(int places);
-  Texture makeArray(int layers) const;
+  // Maps of one size, in places: place p is layer p % placesAnArray of array p / placesAnArray.
+  struct Pool {
+    MapRoom room;
+    int placesAnArray = 1;
+    std::vector<Texture> arrays;  // all but the last are full
+    std::vector<int> free;        // places that nobody has, the last first
+    int space = 0;                // places that the arrays have
+    int held = 0;
+    uint64_t mapBytes() const { return uint64_t{4} * room.resolution * room.resolution; }
+    uint64_t bytes() const { return mapBytes() * space; }  // of all places, in use or not
+  };
+  struct Slot {
+    MapSize size = MapSize::coarse;
+    int place = kNone;           // in the pool of that size
+    bool isDirectional = false;  // what was rendered last
+  };
+  const Pool& poolOf(int array) const { return pools_[static_cast<size_t>(array % 2)]; }
+  Pool& poolOf(MapSize size) { return pools_[static_cast<size_t>(size)]; }
+  void givePlace(Slot& slot, MapSize size);
+  void drop(Slot& slot);
+  static void grow(Pool& pool, int places);
+  static Texture makeArray(const Pool& pool, int layers);
   void renderMap(const GlScene& scene, const shared::Vpl& vpl, int indexInBuffer);
   void drawFace(const GlScene& scene, const shared::Vpl& vpl, const Programs& programs,
-                int indexInBuffer, const vec2* face);
+                int indexInBuffer, const vec2* face, int resolution);
 
   Programs hemisphere_, directional_;
   Framebuffer framebuffer_;
-  std::vector<Texture> arrays_;      // all but the last are full
-  std::vector<int> places_;          // by slot
-  std::vector<int> free_;            // places that nobody has, the last first
-  std::vector<bool> isDirectional_;  // by slot: what was rendered last
-  int resolution_ = 0, most_ = 0, placesAnArray_ = 1;
-  int room_ = 0;  // places that the arrays have
-  int held_ = 0;
+  std::array<Pool, 2> pools_;  // by MapSize
+  std::vector<Slot> slots_;
   // Kept between draws, so that drawing allocates nothing.
   std::vector<GLsizei> counts_;
   std::vector<const void*> offsets_;

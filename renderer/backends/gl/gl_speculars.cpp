@@ -65,24 +65,26 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
 
   // In their order within each kind and array, as many at a time as a block and a draw take.
   // Those that should have a map and have none are left out: others stand for them.
-  const int inArray = maps.placesAnArray();
-  std::vector<shared::Vpl> sorted;
+  struct Placed {
+    shared::Vpl vpl;  // with the layer of its map
+    int array = 0;
+  };
+  std::vector<Placed> sorted;
   sorted.reserve(vpls.size());
-  for (shared::Vpl vpl : vpls) {
+  for (const shared::Vpl& vpl : vpls) {
+    Placed placed{vpl};
     const int slot = static_cast<int>(vpl.intensity.w);
     if (slot >= 0) {
       if (patches != nullptr && patches->isGroup(slot)) continue;
-      const int place = maps.place(patches == nullptr ? slot : patches->mapSlot(slot));
-      if (place == kNone) continue;
-      vpl.intensity.w = static_cast<float>(place);
+      const auto [array, layer] = maps.place(patches == nullptr ? slot : patches->mapSlot(slot));
+      if (layer == kNone) continue;
+      placed.array = array;
+      placed.vpl.intensity.w = static_cast<float>(layer);
     }
-    sorted.push_back(vpl);
+    sorted.push_back(placed);
   }
-  const auto arrayOf = [&](const shared::Vpl& vpl) {
-    return std::max(static_cast<int>(vpl.intensity.w), 0) / inArray;
-  };
-  const auto batchOf = [&](const shared::Vpl& vpl) {
-    return std::pair(static_cast<int>(vpl.position.w), arrayOf(vpl));
+  const auto batchOf = [](const Placed& placed) {
+    return std::pair(static_cast<int>(placed.vpl.position.w), placed.array);
   };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const auto& a, const auto& b) { return batchOf(a) < batchOf(b); });
@@ -90,16 +92,15 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
   if (hasLinks) scene.bindLeftOut();
   const int aDraw = std::max(static_cast<int>(params.clampAndBias.w), 1);
   const size_t most = static_cast<size_t>(std::min(buffer.capacity(), aDraw));
+  std::vector<shared::Vpl> batch;
   for (size_t first = 0; first < sorted.size();) {
     const auto [kind, array] = batchOf(sorted[first]);
     size_t end = first;
     while (end < sorted.size() && end - first < most &&
            batchOf(sorted[end]) == std::pair(kind, array))
       ++end;
-    const std::span<shared::Vpl> batch(&sorted[first], end - first);
-    first = end;
-    for (shared::Vpl& vpl : batch)
-      if (vpl.intensity.w >= 0.0f) vpl.intensity.w -= static_cast<float>(array * inArray);
+    batch.clear();
+    for (; first < end; ++first) batch.push_back(sorted[first].vpl);
     buffer.upload(batch);
     glBindTextureUnit(shared::kShadowMaps, maps.hasArray(array) ? maps.array(array) : 0);
     if (hasLinks && !linked_[kind]) linked_[kind] = Program(shaders_, linkedFiles_[kind]);
@@ -109,7 +110,9 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
     program.set(1, leastRoughness_);
     program.set(2, 0);
     program.set(3, static_cast<int>(batch.size()));
-    program.set(4, params.clampAndBias);
+    vec4 clampAndBias = params.clampAndBias;
+    clampAndBias.z = static_cast<float>(maps.resolution(array));
+    program.set(4, clampAndBias);
     drawFullScreen(emptyVertexArray_.name());
   }
 }

@@ -176,7 +176,7 @@ void LiveLights::loseMaps() {
     e.isLive = e.mapIsStale = e.isOff = false;
     e.staleShare = 0.0f;
     if (e.wanted.id.bounce > 0) pathIsShown_[e.wanted.id.path()] = false;
-    e.hasMap = e.lacksMap = e.hasNoRoom = false;
+    e.hasMap = e.isFine = e.lacksMap = e.hasNoRoom = false;
   }
   std::fill(holds_.begin(), holds_.end(), uint8_t{0});
   changed_ = true;
@@ -356,10 +356,35 @@ int LiveLights::updateMaps(Backend& backend, const std::vector<uint8_t>& marked,
     const bool hasMap = e.hasMap;
     e.hasMap = holds_[static_cast<size_t>(e.slot)] != 0 && (e.hasMap || e.lacksMap);
     if (e.hasMap) e.lacksMap = false;
+    if (!hasMap) e.isFine = false;
     changed_ = changed_ || e.hasMap != hasMap;
   }
   if (!dropped.empty()) backend.dropShadowMaps(dropped);
   if (!maps.empty()) backend.renderShadowMaps(maps);
+  return static_cast<int>(maps.size());
+}
+
+int LiveLights::coarse(const std::vector<uint8_t>& marked) const {
+  return static_cast<int>(std::count_if(entries_.begin(), entries_.end(),
+                                        [&](const Entry& e) { return isCoarse(e, marked); }));
+}
+
+int LiveLights::sharpenMaps(Backend& backend, const std::vector<uint8_t>& marked, int most) {
+  std::vector<Entry*> next;
+  for (Entry& e : entries_)
+    if (isCoarse(e, marked)) next.push_back(&e);
+  std::stable_sort(next.begin(), next.end(), [](const Entry* a, const Entry* b) {
+    return brightness(a->current) > brightness(b->current);
+  });
+  next.resize(std::min(next.size(), static_cast<size_t>(std::max(most, 0))));
+  if (next.empty()) return 0;
+  std::vector<shared::Vpl> maps;
+  for (Entry* e : next) {
+    maps.push_back(e->current);
+    e->isFine = true;
+  }
+  changed_ = true;
+  backend.renderShadowMaps(maps, MapSize::fine);
   return static_cast<int>(maps.size());
 }
 

@@ -53,6 +53,12 @@ class LiveLights {
   // others where there would be too many: from those that were not marked for longest. Returns how
   // many were rendered.
   int updateMaps(Backend& backend, const std::vector<uint8_t>& marked, const MapLimits& limits);
+  // Once nothing is pending: renders the maps of at most `most` of those VPLs that are marked as
+  // fine ones, the brightest first. Whoever is refreshed has a coarse one again. Returns how many
+  // were rendered.
+  int sharpenMaps(Backend& backend, const std::vector<uint8_t>& marked, int most);
+  // How many it would render if it might render all.
+  int coarse(const std::vector<uint8_t>& marked) const;
   // Whether what has no map is not to be shown at all (naive).
   void showOnlyMapped(bool onlyMapped);
 
@@ -96,6 +102,7 @@ class LiveLights {
     bool isOff = false;       // its brightness is not quite what is wanted, its map is right
     float staleShare = 0.0f;  // of its map, that is out of date
     bool hasMap = false;      // of what is current
+    bool isFine = false;      // the map, if there is one
     bool lacksMap = false;    // it is to get one
     bool hasNoRoom = false;   // it is marked, and others have all the room
     int framesWaiting = 0;
@@ -116,6 +123,9 @@ class LiveLights {
   static void takeBrightness(Entry& entry);
   void fitSlots(size_t wanted);
   std::vector<uint32_t> spreadTurns() const;
+  bool isCoarse(const Entry& e, const std::vector<uint8_t>& marked) const {
+    return e.hasMap && !e.isFine && marked[static_cast<size_t>(e.slot)] != 0;
+  }
   bool isShown(const Entry& e) const { return e.isLive && (e.hasMap || !onlyMapped_); }
 
   std::vector<Entry> entries_;         // in the order wanted, those that are not behind them

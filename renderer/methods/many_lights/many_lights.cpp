@@ -48,6 +48,19 @@ StandIns::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
           !in.changes.none()};
 }
 
+// Maps that a frame may render, so many times finer than coarse ones. The share of their time that
+// does not hang on their texels (what they see, and sums) is large: a map that is twice as fine
+// counts as two rather than as four; rays are counted as they are.
+int mapsAFrame(const FrameInputs& in, const ManyLightsOptions& options, int scale) {
+  const RefreshWork& most = options.budget.work;
+  uint64_t maps = std::min<uint64_t>(most.shadowMaps, static_cast<uint64_t>(options.budget.vpls)) /
+                  static_cast<uint64_t>(scale);
+  const auto side = static_cast<uint64_t>(scale * options.mapResolution);
+  if (in.backend.info().tracesShadowMaps && most.rays != kNoLimit)
+    maps = std::min(maps, most.rays / side / side);
+  return static_cast<int>(std::max<uint64_t>(maps, 1));
+}
+
 // Rays a pixel for the light in corners, which pixels share.
 constexpr uint32_t kCornerPaths = 1;
 
@@ -94,6 +107,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   // 3. the map, if that is anywhere in view, and the light that it sheds without shadows.
   updateMaps(in, options, out.stats);
   stages.end("shadow maps");
+  sharpenMaps(in, options, out.stats);
+  stages.end("finer maps");
   updateLightMaps(in, options, out.stats);
   stages.end("light maps");
   const bool prtChanged = updatePrt(in, options, out.stats);
@@ -140,8 +155,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     corners_.outdate();
   }
   samplesWanted_ = options.antialias;
-  const bool isReady =
-      pending == 0 && paths_.isAtRest() && choiceIsCurrent_ && out.stats.transfersPending == 0;
+  const bool isReady = pending == 0 && out.stats.mapsToSharpen == 0 && paths_.isAtRest() &&
+                       choiceIsCurrent_ && out.stats.transfersPending == 0;
   if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
   out.settled = isReady && samples_ == samples;
@@ -161,11 +176,14 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.vplsPending = pending;
   out.stats.mapsPending = pending;
   out.stats.oldestFrames = lights_.oldestFrames();
-  // Frames that refresh as many as this one did, then one for each sample of the edges.
+  // Frames that refresh as many as this one did, then some for finer maps and one for each sample
+  // of the edges.
   const int aFrame = std::max({1, out.stats.vplsRefreshed, out.stats.mapsRendered});
   const int exchange = paths_.isAtRest() ? 0 : LightPaths::kRestingFrames;
-  out.stats.framesUntilSettled =
-      std::max((pending + aFrame - 1) / aFrame, exchange) + samples - samples_;
+  const int sharper = mapsAFrame(in, options, mapRooms_.scale());
+  out.stats.framesUntilSettled = std::max((pending + aFrame - 1) / aFrame, exchange) +
+                                 (out.stats.mapsToSharpen + sharper - 1) / sharper + samples -
+                                 samples_;
   // And what cannot be counted yet, such as paths that are exchanged, takes a frame at least.
   if (!out.settled) out.stats.framesUntilSettled = std::max(out.stats.framesUntilSettled, 1);
   out.stats.mergedPasses = mergedPasses_;
@@ -174,6 +192,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.samplesPerPixel = std::max(samples_, 1);
   out.stats.mapsHeld = lights_.mapsHeld();
   out.stats.mapsWithoutRoom = lights_.withoutMap();
+  out.stats.memoryBytes["shadow maps"] = in.backend.counts().mapBytes;
   if (visibility_) out.stats.memoryBytes["visibility"] = visibility_->bytes();
   if (wantsVisibility && !visibility_) out.stats.visibilityNeeds = visibilityNeeds_;
   if (lightMaps_) out.stats.memoryBytes["light maps"] = lightMaps_->bytes();
@@ -215,13 +234,13 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
       isSpared = [&](const shared::Vpl& vpl) { return visibility_->moversAreHidden(vpl); };
     stats.mapsSpared = lights_.markStale(movers, isSpared);
   }
-  if (options.mapResolution != options_.mapResolution || options.mostMaps != options_.mostMaps)
-    lights_.loseMaps();
   // The backend forgets all maps when their number changes.
-  const int refining = Refinement::slots(options.refinement);
-  if (refining != Refinement::slots(options_.refinement)) lights_.loseMaps();
-  const int slots = lights_.slots() + refining;
-  in.backend.reserveShadowMaps(slots, options.mapResolution, std::min(slots, options.mostMaps));
+  const int slots = lights_.slots() + Refinement::slots(options.refinement);
+  const Options::MapRooms rooms = options.mapRooms(slots);
+  if (slots != mapSlots_ || rooms != mapRooms_) lights_.loseMaps();
+  mapSlots_ = slots;
+  mapRooms_ = rooms;
+  in.backend.reserveShadowMaps(slots, rooms.coarse, rooms.fine);
   lights_.showOnlyMapped(!options.useVisibility);
 }
 
@@ -254,19 +273,25 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
   if (visibility_ && options.speculars && in.backend.info().specularsTakeAllMaps &&
       hasGlossy(in.scene))
     std::fill(wanted_.begin(), wanted_.end(), uint8_t{1});
-  const RefreshWork& most = options.budget.work;
-  uint64_t maps = std::min<uint64_t>(most.shadowMaps, static_cast<uint64_t>(options.budget.vpls));
-  if (in.backend.info().tracesShadowMaps && most.rays != kNoLimit)
-    maps = std::min(maps, most.rays / static_cast<uint64_t>(options.mapResolution) /
-                              static_cast<uint64_t>(options.mapResolution));
   // A path is refreshed whole, however many VPLs it has.
-  maps = std::max<uint64_t>({maps, static_cast<uint64_t>(stats.vplsRefreshed), 1});
+  const int maps = std::max(mapsAFrame(in, options, 1), stats.vplsRefreshed);
   const int refining = Refinement::slots(options.refinement);
-  stats.mapsRendered = lights_.updateMaps(
-      in.backend, wanted_, {std::max(options.mostMaps - refining, 1), static_cast<int>(maps)});
+  stats.mapsRendered =
+      lights_.updateMaps(in.backend, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
   if (visibility_)
     standIns_.update(lights_.shown(), slots, lights_.hasMap(), wanted_,
                      groupsOf(in, options.groupShare, lights_.slots()));
+}
+
+// Once all else is done: the frame that follows an edit has enough to do.
+void ManyLights::sharpenMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
+  const int scale = mapRooms_.scale();
+  if (scale == 1) return;
+  const bool isDone = lights_.pending() == 0 && stats.vplsRefreshed == 0 &&
+                      stats.mapsRendered == 0 && paths_.isAtRest() && choiceIsCurrent_;
+  if (isDone)
+    stats.mapsSharpened = lights_.sharpenMaps(in.backend, wanted_, mapsAFrame(in, options, scale));
+  stats.mapsToSharpen = lights_.coarse(wanted_);
 }
 
 void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
@@ -351,11 +376,10 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   gbufferIsCurrent_ = isMiddle;
   stages.end("g-buffer");
   std::vector<shared::Vpl> vpls = lights_.shown();
-  const shared::ShadingParams params{
-      vec4(options.clampDistance, options.shadowBias, static_cast<float>(options.mapResolution),
-           static_cast<float>(options.lightsPerPass)),
-      vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f),
-      speculars(options.speculars, options.leastRoughness)};
+  const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias, 0.0f,
+                                          static_cast<float>(options.lightsPerPass)),
+                                     vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f),
+                                     speculars(options.speculars, options.leastRoughness)};
   const KernelCounts before = in.backend.counts();
   const bool isWhole = in.part == LightPart::all;
   if (isWhole)
@@ -401,8 +425,9 @@ void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& s
                         GiOutput& out) {
   if (options.refinement.vpls == 0) return;
   gbufferIsCurrent_ = false;
+  const MapSize size = mapRooms_.scale() > 1 ? MapSize::fine : MapSize::coarse;
   out.stats.mapsRefined = refinement_.goOn(in, options.refinement, *out.radiance, lights_.live(),
-                                           lights_.slots(), in.refineUpdates);
+                                           lights_.slots(), size, in.refineUpdates);
   if (refinement_.image()) out.radiance = refinement_.image();
   out.stats.vplsRefined = refinement_.vpls();
   out.stats.vplsToRefine = options.refinement.vpls;
@@ -449,6 +474,7 @@ MethodInfo manyLightsInfo() {
            parameters::seed(),
            parameters::importance(),
            parameters::mapResolution(),
+           parameters::settledMapScale(),
            parameters::sunMaps(),
            parameters::mapMemory(),
            parameters::visibilityMemory(),

@@ -42,6 +42,7 @@ class ManyLights final : public GiMethod {
   int refreshLights(const FrameInputs& in, const Options& options);
   void updateVisibility(const FrameInputs& in, Options& options, GiStats& stats);
   void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
+  void sharpenMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
@@ -62,6 +63,8 @@ class ManyLights final : public GiMethod {
   LightPaths paths_;
   PointVisibility pointVisibility_;  // of what VPLs are chosen for
   LiveLights lights_;
+  int mapSlots_ = 0;  // that the backend has, and room for their maps
+  Options::MapRooms mapRooms_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
   size_t visibilityNeeds_ = 0;                      // bytes at least, as found last
   int neededFor_ = 0;                               // so many slots

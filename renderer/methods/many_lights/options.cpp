@@ -11,6 +11,13 @@ namespace {
 // Of all shadow maps, what refinement may have.
 constexpr int kRefinementShare = 4;
 
+// The cpu backend's look-ups number texels by floats.
+constexpr int kLargestMap = 1024;
+
+size_t bytesOfMap(int resolution) {
+  return sizeof(float) * static_cast<size_t>(resolution) * static_cast<size_t>(resolution);
+}
+
 // What is left of light after as many bounces within one object is next to nothing.
 constexpr int kMostTransferBounces = 4;
 
@@ -24,9 +31,8 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
   counts.candidates = settings.integer(parameters::importance());
   counts.sunMaps = settings.integer(parameters::sunMaps());
   mapResolution = settings.integer(parameters::mapResolution());
-  const uint64_t mapBytes = uint64_t{sizeof(float)} * mapResolution * mapResolution;
-  const auto memory = static_cast<uint64_t>(settings.integer(parameters::mapMemory())) << 20;
-  mostMaps = static_cast<int>(std::clamp<uint64_t>(memory / mapBytes, 2, 1 << 20));
+  mapScale = settings.integer(parameters::settledMapScale());
+  mapBytes = static_cast<size_t>(settings.integer(parameters::mapMemory())) << 20;
   budget.vpls = settings.integer(parameters::updates());
   const auto limit = [&](const ParameterSpec& spec) {
     const int value = settings.integer(spec);
@@ -66,7 +72,24 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
                 lightsPerPass,
                 speculars,
                 leastRoughness,
-                std::max(mostMaps / kRefinementShare, 1)};
+                std::max(mostMaps() / kRefinementShare, 1)};
+}
+
+int ManyLightsOptions::mostMaps() const {
+  return static_cast<int>(
+      std::clamp<size_t>(mapBytes / bytesOfMap(mapResolution), 2, size_t{1} << 20));
+}
+
+ManyLightsOptions::MapRooms ManyLightsOptions::mapRooms(int slots) const {
+  MapRooms rooms{{mapResolution, std::min(slots, mostMaps())}, {}};
+  const auto all = static_cast<size_t>(slots);
+  const auto fits = [&](int scale) {
+    return all * (bytesOfMap(mapResolution) + bytesOfMap(scale * mapResolution)) <= mapBytes;
+  };
+  int scale = std::min(mapScale, kLargestMap / mapResolution);
+  while (scale > 1 && !fits(scale)) --scale;
+  if (scale > 1) rooms.fine = {scale * mapResolution, slots};
+  return rooms;
 }
 
 void ManyLightsOptions::forgoVisibility() {

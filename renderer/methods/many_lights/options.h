@@ -13,13 +13,24 @@ struct ManyLightsOptions {
   ManyLightsOptions(const Settings& settings, bool refines);
   ManyLightsOptions() = default;
 
+  // Room for the maps of so many slots: fine ones as fine as memory allows if each slot had one,
+  // beside its coarse one.
+  struct MapRooms {
+    MapRoom coarse, fine;
+    int scale() const { return fine.maps == 0 ? 1 : fine.resolution / coarse.resolution; }
+    bool operator==(const MapRooms&) const = default;
+  };
+  MapRooms mapRooms(int slots) const;
+  int mostMaps() const;  // coarse ones, held at a time, those of refinement included
+
   // All that is made of visibility is left out, as in naive.
   void forgoVisibility();
 
   VplCounts counts;
   int mapResolution = 0;
+  int mapScale = 1;     // of fine maps, as wanted
+  size_t mapBytes = 0;  // of all maps at most, those of refinement included
   float groupShare = 0.0f;
-  int mostMaps = 0;      // held at a time, those of refinement included
   RefreshBudget budget;  // a frame
   int mostPaths = 0;     // likewise; 0: no limit
   float clampDistance = 0.0f;

@@ -71,6 +71,23 @@ const ParameterSpec& sunMaps() {
   return spec;
 }
 
+const ParameterSpec& settledMapScale() {
+  static const ParameterSpec spec{
+      "settled_map_scale",
+      "Finer maps at rest",
+      "",
+      "Once nothing else is left to do, shadow maps are rendered again with so many times the "
+      "texels a side, as far as map memory goes: shadows at rest are sharper and leak less. "
+      "Whatever an edit touches has a small map again at once. 1: maps stay as they are.",
+      6,
+      1,
+      16,
+      false,
+      {},
+      ParameterGroup::quality};
+  return spec;
+}
+
 const ParameterSpec& maxShadowMaps() {
   static const ParameterSpec spec =
       limitOf("max_shadow_maps", "Maps a frame", "Shadow maps rendered");

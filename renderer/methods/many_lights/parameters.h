@@ -5,9 +5,10 @@
 
 namespace lamplighter::parameters {
 
-const ParameterSpec& technique();   // which of the paper's short cuts are taken
-const ParameterSpec& sunMaps();     // int, shadow maps of each sun
-const ParameterSpec& importance();  // int, candidates for each indirect VPL; 1: all are taken
+const ParameterSpec& technique();        // which of the paper's short cuts are taken
+const ParameterSpec& sunMaps();          // int, shadow maps of each sun
+const ParameterSpec& importance();       // int, candidates for each indirect VPL; 1: all are taken
+const ParameterSpec& settledMapScale();  // int, texels a side of fine maps by those of coarse ones
 // int, the most work of each kind in a frame; 0: no limit
 const ParameterSpec& maxShadowMaps();
 const ParameterSpec& maxVisibilityTests();

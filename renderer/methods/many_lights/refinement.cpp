@@ -65,7 +65,7 @@ void Refinement::restart() {
 }
 
 int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImage& live,
-                     int liveVpls, int firstSlot, int most) {
+                     int liveVpls, int firstSlot, MapSize size, int most) {
   if (done_) return 0;
   if (!started_) {
     started_ = true;
@@ -99,7 +99,7 @@ int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImag
   const size_t left = endOfShift(batch.shift) - batch.summed;
   const size_t count =
       std::min({left, static_cast<size_t>(std::max(most, 1)), static_cast<size_t>(slots(options))});
-  addPart(in, options, firstSlot, count);
+  addPart(in, options, firstSlot, size, count);
   if (batch.summed == batch.vpls.size()) finishBatch(options.vpls);
   return static_cast<int>(count);
 }
@@ -139,7 +139,7 @@ size_t Refinement::endOfShift(int shift) const {
 
 // Some of the batch's VPLs, as bright as all: what they show counts by their
 // share. So every picture is whole, with what emits and the sky in it.
-void Refinement::addPart(const FrameInputs& in, const Options& options, int firstSlot,
+void Refinement::addPart(const FrameInputs& in, const Options& options, int firstSlot, MapSize size,
                          size_t count) {
   Batch& batch = *batch_;
   const size_t all = batch.vpls.size(), end = batch.summed + count;
@@ -151,14 +151,13 @@ void Refinement::addPart(const FrameInputs& in, const Options& options, int firs
                          static_cast<float>(static_cast<size_t>(firstSlot) + part.size()));
     part.push_back(vpl);
   }
-  in.backend.renderShadowMaps(part);
-  in.backend.sumVpls(
-      part,
-      {vec4(options.clampDistance, options.shadowBias, static_cast<float>(options.mapResolution),
-            static_cast<float>(options.lightsPerPass)),
-       vec4(1.0f, 0.0f, 0.0f, 0.0f),
-       vec4(options.speculars ? 1.0f : 0.0f, options.leastRoughness, 0.0f, 0.0f)},
-      nullptr);
+  in.backend.renderShadowMaps(part, size);
+  in.backend.sumVpls(part,
+                     {vec4(options.clampDistance, options.shadowBias, 0.0f,
+                           static_cast<float>(options.lightsPerPass)),
+                      vec4(1.0f, 0.0f, 0.0f, 0.0f),
+                      vec4(options.speculars ? 1.0f : 0.0f, options.leastRoughness, 0.0f, 0.0f)},
+                     nullptr);
   addScaled(batch.image, in.backend.compose(in.lightOnly)->pixels(), share);
   if (batch.nearLight) {
     const auto row = [&](size_t vpls) {

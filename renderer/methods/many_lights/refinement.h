@@ -35,10 +35,10 @@ class Refinement {
   // What it was to be the mean of is shown no more.
   void restart();
 
-  // Goes on by at most `most` VPLs with maps in the slots from firstSlot on. `live`, the settled
-  // picture, counts for as many VPLs as it has. Returns how many VPLs it went on by.
+  // Goes on by at most `most` VPLs with maps of this size in the slots from firstSlot on. `live`,
+  // the settled picture, counts for as many VPLs as it has. Returns how many VPLs it went on by.
   int goOn(const FrameInputs& in, const Options& options, RadianceImage& live, int liveVpls,
-           int firstSlot, int most);
+           int firstSlot, MapSize size, int most);
 
   bool done() const { return done_; }
   int vpls() const { return vpls_; }  // in the mean, the live ones included
@@ -59,7 +59,8 @@ class Refinement {
   };
   size_t endOfShift(int shift) const;
   void begin(const FrameInputs& in, const Options& options);
-  void addPart(const FrameInputs& in, const Options& options, int firstSlot, size_t count);
+  void addPart(const FrameInputs& in, const Options& options, int firstSlot, MapSize size,
+               size_t count);
   void finishBatch(int target);
 
   bool started_ = false, done_ = false;

@@ -157,6 +157,31 @@ TEST_F(GlShadowMap, MapsMaySpanSeveralArrays) {
   EXPECT_EQ(lit.backend->readShadowMap(4998), map);
 }
 
+// A slot has a map of one size, and its place is free for others when it gets the other.
+TEST_F(GlShadowMap, ASlotHasAMapOfEitherSize) {
+  LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
+  std::vector<shared::Vpl> vpls(3, test::randomVpls(1, 1)[0]);
+  for (size_t i = 0; i < vpls.size(); ++i) vpls[i].intensity.w = static_cast<float>(i);
+  Backend& backend = *lit.backend;
+  const auto textures = [&] { return backend.counts().mapBytes / sizeof(float); };
+  backend.reserveShadowMaps(3, {16, 3}, {64, 2});
+  backend.renderShadowMaps(vpls);
+  const std::vector<float> coarse = backend.readShadowMap(1);
+  EXPECT_EQ(coarse.size(), 16u * 16);
+  backend.renderShadowMaps(std::span(vpls).first(2), MapSize::fine);
+  EXPECT_EQ(backend.counts().mapsHeld, 3u);
+  EXPECT_EQ(textures(), 3u * 16 * 16 + 2 * 64 * 64);
+  EXPECT_EQ(backend.readShadowMap(1).size(), 64u * 64);
+  EXPECT_EQ(backend.readShadowMap(2), coarse);
+  EXPECT_THROW(backend.renderShadowMaps(std::span(vpls).last(1), MapSize::fine), std::length_error);
+  backend.renderShadowMaps(std::span(vpls).subspan(1, 1));
+  EXPECT_EQ(backend.readShadowMap(1), coarse);
+  backend.renderShadowMaps(std::span(vpls).last(1), MapSize::fine);
+  EXPECT_EQ(backend.readShadowMap(2), backend.readShadowMap(0));
+  EXPECT_EQ(backend.readShadowMap(1), coarse);
+  EXPECT_EQ(textures(), 3u * 16 * 16 + 2 * 64 * 64);
+}
+
 TEST_F(GlShadowMap, TooLargeIsRefused) {
   LitScene lit(test::randomBoxes(1, 3), makeGlBackend());
   EXPECT_THROW(lit.backend->reserveShadowMaps(1, 1 << 20), InputError);

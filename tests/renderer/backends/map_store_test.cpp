@@ -74,9 +74,9 @@ class Room {
 };
 
 uint64_t render(cpu::MapStore& store, const Room& room, std::span<const shared::Vpl> lights,
-                std::vector<cpu::MapChange>& changes) {
+                std::vector<cpu::MapChange>& changes, MapSize size = MapSize::coarse) {
   changes.assign(lights.size(), {});
-  return store.render(room.world, *room.rays, lights, changes);
+  return store.render(room.world, *room.rays, lights, size, changes);
 }
 
 std::vector<float> copyOf(std::span<const float> map) { return {map.begin(), map.end()}; }
@@ -90,7 +90,7 @@ TEST_P(KeptMaps, AreThoseMadeFromNothing) {
   Room room(kind, seed);
   const int slots = static_cast<int>(room.lights.size());
   cpu::MapStore kept;
-  kept.reserve(slots, resolution, slots);
+  kept.reserve(slots, {resolution, slots}, {});
   std::vector<cpu::MapChange> changes;
   render(kept, room, room.lights, changes);
   for (const cpu::MapChange& change : changes)
@@ -107,7 +107,7 @@ TEST_P(KeptMaps, AreThoseMadeFromNothing) {
       before.push_back(copyOf(kept.map(static_cast<int>(light.intensity.w))));
     rays += render(kept, room, some, changes);
     cpu::MapStore anew;
-    anew.reserve(slots, resolution, slots);
+    anew.reserve(slots, {resolution, slots}, {});
     std::vector<cpu::MapChange> ofNew;
     raysAnew += render(anew, room, some, ofNew);
     for (size_t i = 0; i < some.size(); ++i) {
@@ -133,11 +133,11 @@ TEST(KeptMaps, OfAnyResolutionAreThoseMadeFromNothing) {
   const int slots = static_cast<int>(room.lights.size()), resolution = 18;
   cpu::MapStore kept, anew;
   std::vector<cpu::MapChange> changes;
-  kept.reserve(slots, resolution, slots);
+  kept.reserve(slots, {resolution, slots}, {});
   render(kept, room, room.lights, changes);
   kept.castersMove(room.world, room.moveSomething());
   render(kept, room, room.lights, changes);
-  anew.reserve(slots, resolution, slots);
+  anew.reserve(slots, {resolution, slots}, {});
   render(anew, room, room.lights, changes);
   for (int slot = 0; slot < slots; ++slot)
     EXPECT_EQ(copyOf(kept.map(slot)), copyOf(anew.map(slot)));
@@ -149,11 +149,11 @@ TEST(KeptMaps, ForgetWhatNoLongerHolds) {
   const int slots = static_cast<int>(room.lights.size()), resolution = 32;
   cpu::MapStore kept;
   std::vector<cpu::MapChange> changes;
-  kept.reserve(slots, resolution, slots);
+  kept.reserve(slots, {resolution, slots}, {});
   render(kept, room, room.lights, changes);
   const auto expectAsNew = [&](const char* what) {
     cpu::MapStore anew;
-    anew.reserve(slots, resolution, slots);
+    anew.reserve(slots, {resolution, slots}, {});
     render(anew, room, room.lights, changes);
     render(kept, room, room.lights, changes);
     for (int slot = 0; slot < slots; ++slot)
@@ -174,6 +174,53 @@ TEST(KeptMaps, ForgetWhatNoLongerHolds) {
   expectAsNew("clear materials");
 }
 
+// Lights have maps of either size, turn by turn, while things move.
+TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
+  for (const Kind kind : {Kind::drawn, Kind::traced}) {
+    Room room(kind, 8);
+    const int slots = static_cast<int>(room.lights.size());
+    const MapRoom coarse{16, slots}, fine{64, slots};
+    cpu::MapStore kept;
+    kept.reserve(slots, coarse, fine);
+    std::vector<cpu::MapChange> changes;
+    render(kept, room, room.lights, changes);
+    std::vector<MapSize> sizes(room.lights.size(), MapSize::coarse);
+    for (int step = 0; step < 12; ++step) {
+      kept.castersMove(room.world, room.moveSomething());
+      for (const MapSize size : {MapSize::coarse, MapSize::fine}) {
+        std::vector<shared::Vpl> some;
+        for (const shared::Vpl& light : room.lights)
+          if (room.number() % 2 != 0) some.push_back(light);
+        render(kept, room, some, changes, size);
+        cpu::MapStore anew;
+        anew.reserve(slots, coarse, fine);
+        std::vector<cpu::MapChange> ofNew;
+        render(anew, room, some, ofNew, size);
+        const int resolution = size == MapSize::coarse ? 16 : 64;
+        for (size_t i = 0; i < some.size(); ++i) {
+          const int slot = static_cast<int>(some[i].intensity.w);
+          MapSize& was = sizes[static_cast<size_t>(slot)];
+          ASSERT_EQ(kept.resolution(slot), resolution);
+          ASSERT_EQ(copyOf(kept.map(slot)), copyOf(anew.map(slot))) << "step " << step;
+          if (was != size) {
+            ASSERT_EQ(changes[i].extent, cpu::MapChange::Extent::everything);
+          }
+          was = size;
+        }
+      }
+      const auto isFine = std::count(sizes.begin(), sizes.end(), MapSize::fine);
+      EXPECT_EQ(kept.held(), room.lights.size());
+      EXPECT_EQ(kept.bytes(), 4 * (isFine * 64 * 64 + (std::ssize(sizes) - isFine) * 16 * 16));
+    }
+    for (int slot = 0; slot < slots; ++slot) kept.drop(slot);
+    EXPECT_EQ(kept.bytes(), 0u);
+    // Of each size no more are held than there is room for.
+    kept.reserve(slots, coarse, {64, 1});
+    render(kept, room, room.lights, changes);
+    EXPECT_THROW(render(kept, room, room.lights, changes, MapSize::fine), std::length_error);
+  }
+}
+
 // Whatever looks up a texel that changed is in reach of the change.
 TEST(MapChange, ReachesWhateverLooksItUp) {
   constexpr int kPoints = 4000;
@@ -181,7 +228,7 @@ TEST(MapChange, ReachesWhateverLooksItUp) {
     Room room(Kind::drawn, 7);
     const int slots = static_cast<int>(room.lights.size());
     cpu::MapStore store;
-    store.reserve(slots, resolution, slots);
+    store.reserve(slots, {resolution, slots}, {});
     std::vector<cpu::MapChange> changes;
     render(store, room, room.lights, changes);
     size_t reached = 0, asked = 0, lookedUp = 0;
@@ -208,7 +255,8 @@ TEST(MapChange, ReachesWhateverLooksItUp) {
         const shared::Vpl& vpl = room.lights[k];
         const std::span<const float> now = store.map(static_cast<int>(k));
         std::vector<uint8_t> isReached;
-        spheres.findReached(cpu::makeLightRecord(vpl, now.data()), changes[k], isReached);
+        spheres.findReached(cpu::makeLightRecord(vpl, now.data(), resolution), changes[k],
+                            isReached);
         for (size_t i = 0; i < kPoints; ++i) {
           const vec3 q = shared::vplToLight(vpl, points[i] - vec3(vpl.position));
           const bool isParallel = vpl.position.w == shared::kVplDirectional;

@@ -25,7 +25,7 @@ Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, in
   const RayCaster rays(scene);
   cpu::ShadowRaster raster;
   raster.setScene(scene);
-  raster.setResolution(resolution);
+  const cpu::ShadowMapGrid grid(resolution);
   const auto texels = static_cast<size_t>(resolution) * static_cast<size_t>(resolution);
   Compared all;
   for (const shared::Vpl& vpl : vpls) {
@@ -34,7 +34,7 @@ Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, in
     std::vector<uint8_t> isTraced(static_cast<size_t>(resolution / 32 + 1), 0);
     for (int row = 0; row < resolution; row += 32)
       all.rays +=
-          raster.render(rays, vpl, row, std::min(row + 32, resolution), drawn, {}, isTraced);
+          raster.render(rays, grid, vpl, row, std::min(row + 32, resolution), drawn, {}, isTraced);
     for (size_t i = 0; i < texels; ++i)
       all.others += std::abs(drawn[i] - traced[i]) > 1e-5f + 1e-4f * traced[i];
     all.texels += texels;

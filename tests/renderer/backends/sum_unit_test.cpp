@@ -14,7 +14,7 @@ std::vector<LightRecord> randomLights(uint32_t seed) {
   std::vector<LightRecord> lights;
   for (shared::Vpl vpl : test::randomVpls(60, seed)) {
     if (lights.size() % 4 == 0) vpl.position.w = shared::kVplUniform;
-    lights.push_back(makeLightRecord(vpl, nullptr));
+    lights.push_back(makeLightRecord(vpl, nullptr, 0));
   }
   return lights;
 }

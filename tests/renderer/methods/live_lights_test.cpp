@@ -15,17 +15,21 @@ namespace {
 class RecordingBackend : public Backend {
  public:
   std::map<int, shared::Vpl> maps;
+  std::map<int, MapSize> sizes;
   int rendered = 0;
 
   const BackendInfo& info() const override { return info_; }
   KernelCounts counts() const override { return {}; }
   void setScene(const RenderScene&, const RenderSceneChanges&, const RayCaster&) override {}
-  void reserveShadowMaps(int, int, int) override {}
+  void reserveShadowMaps(int, const MapRoom&, const MapRoom&) override {}
   void dropShadowMaps(std::span<const int> slots) override {
     for (const int slot : slots) maps.erase(slot);
   }
-  void renderShadowMaps(std::span<const shared::Vpl> vpls) override {
-    for (const shared::Vpl& v : vpls) maps[static_cast<int>(v.intensity.w)] = v;
+  void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
+    for (const shared::Vpl& v : vpls) {
+      maps[static_cast<int>(v.intensity.w)] = v;
+      sizes[static_cast<int>(v.intensity.w)] = size;
+    }
     rendered += static_cast<int>(vpls.size());
   }
   void renderGBuffer(const View&, vec2) override {}
@@ -126,6 +130,38 @@ TEST_F(LiveLightsTest, BrightnessAloneNeedsNoMap) {
   lights.clearChanged();
   lights.want(samples(1, 20, 8.0f, 0.0f));
   EXPECT_FALSE(lights.changed());
+}
+
+TEST_F(LiveLightsTest, MapsBecomeFineTheBrightestFirst) {
+  std::vector<SceneVpl> wanted = samples(1, 20, 5.0f, 0.0f);
+  for (size_t i = 0; i < wanted.size(); ++i)
+    wanted[i].vpl.intensity *= vec4(vec3(1.0f + static_cast<float>(i)), 1.0f);
+  lights.want(wanted);
+  while (lights.pending() > 0) lights.refresh(backend, {20});
+  std::vector<uint8_t> marked(static_cast<size_t>(lights.slots()), 1);
+  marked[0] = 0;
+  EXPECT_EQ(lights.coarse(marked), 19);
+  EXPECT_EQ(lights.sharpenMaps(backend, marked, 5), 5);
+  float coarse = 0.0f, fine = 1e30f;
+  for (const auto& [slot, vpl] : backend.maps) {
+    const bool isFine = backend.sizes[slot] == MapSize::fine;
+    if (slot == 0) {
+      EXPECT_FALSE(isFine);
+    } else if (isFine) {
+      fine = std::min(fine, vpl.intensity.r);
+    } else {
+      coarse = std::max(coarse, vpl.intensity.r);
+    }
+  }
+  EXPECT_GT(fine, coarse);
+  EXPECT_EQ(lights.coarse(marked), 14);
+  EXPECT_EQ(lights.sharpenMaps(backend, marked, 100), 14);
+  EXPECT_EQ(lights.sharpenMaps(backend, marked, 100), 0);
+  // Those that move have coarse maps again.
+  for (size_t i = 0; i < 3; ++i) wanted[5 + i].vpl.position.x += 1.0f;
+  lights.want(wanted);
+  lights.refresh(backend, {20});
+  EXPECT_EQ(lights.coarse(marked), 3);
 }
 
 TEST_F(LiveLightsTest, TheNumberOfSamplesChangesWithoutAJump) {

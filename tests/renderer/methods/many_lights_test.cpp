@@ -83,7 +83,8 @@ TEST(ManyLights, AgreesWithThePathTracer) {
 TEST(ManyLights, KeepsTheBudgetAndSettles) {
   Room room;
   FrameRenderer renderer(makeCpuBackend());
-  const Settings settings = settingsOf(100, 1, 30);
+  Settings settings = settingsOf(100, 1, 30);
+  settings.set(parameters::settledMapScale().name, 1);
   const auto step = [&](const SceneChanges& changes) {
     return renderer.render({room.scene, changes, room.view, "many_lights", settings});
   };
@@ -125,7 +126,8 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
 TEST(ManyLights, AMoveNeverFlickers) {
   Room room;
   FrameRenderer renderer(makeCpuBackend());
-  const Settings settings = settingsOf(120, 0, 17);
+  Settings settings = settingsOf(120, 0, 17);
+  settings.set(parameters::settledMapScale().name, 1);
   const float before =
       test::meanOf(renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings)
                        .radiance->pixels())
@@ -208,6 +210,7 @@ TEST(ManyLights, SettingsThereAndBackGiveTheSameBits) {
   differs(parameters::bounces(), 3);
   differs(parameters::seed(), 7);
   differs(parameters::mapResolution(), 17);
+  differs(parameters::settledMapScale(), 2);
   differs(parameters::clampDistance(), 1.5f);
   differs(parameters::shadowBias(), 0.1f);
   differs(parameters::antialias(), 1);

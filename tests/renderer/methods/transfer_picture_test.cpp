@@ -63,6 +63,7 @@ Settings settingsOf(bool prt, int bounces) {
   s.set(parameters::updates().name, 1000);
   s.set(parameters::bounces().name, bounces);
   s.set(parameters::antialias().name, 4);
+  s.set(parameters::settledMapScale().name, 1);
   return s;
 }
 

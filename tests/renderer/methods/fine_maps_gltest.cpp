@@ -1,0 +1,97 @@
+// Shadow maps that become finer once nothing else is left to do, on the gl backend.
+#include <filesystem>
+
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/renderer/gl/gl_test.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+
+namespace lamplighter {
+namespace {
+
+struct FineMapsGl : test::GlTest {
+  Scene scene =
+      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
+          .scene;
+  View view;
+  Settings settings;
+
+  void SetUp() override {
+    test::GlTest::SetUp();
+    for (const Node& node : scene.nodes)
+      if (node.camera != kNone) view = viewOfCamera(scene, node, 93, 61);
+    settings.set(parameters::vpls().name, 40);
+    settings.set(parameters::updates().name, 16);
+    settings.set(parameters::antialias().name, 1);
+    settings.set(parameters::mapResolution().name, 32);
+    settings.set(parameters::settledMapScale().name, 4);
+  }
+  Image directly(int resolution, int scale) const {
+    Settings other = settings;
+    other.set(parameters::mapResolution().name, resolution);
+    other.set(parameters::settledMapScale().name, scale);
+    FrameRenderer fresh(makeGlBackend());
+    return test::renderSettled(fresh, scene, SceneChanges::all(), view, other).radiance->pixels();
+  }
+};
+
+// Lights are summed in another order where some have no map, which rounds otherwise.
+constexpr double kRounding = 1e-5;
+
+TEST_F(FineMapsGl, ASettledPictureIsThatOfFineMaps) {
+  for (const char* technique : {"naive", "visibility", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    settings.set(parameters::technique().name, std::string(technique));
+    const Image picture = directly(32, 4);
+    EXPECT_LT(compareImages(picture, directly(128, 1)).relRmse, kRounding);
+    EXPECT_GT(compareImages(picture, directly(32, 1)).relRmse, 100 * kRounding);
+  }
+}
+
+// Of both sizes at a time: each is looked up with its own resolution, as by the cpu backend.
+TEST_F(FineMapsGl, OnTheWayItIsAsByTheCpuBackend) {
+  for (const char* technique : {"naive", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    settings.set(parameters::technique().name, std::string(technique));
+    FrameRenderer onGl(makeGlBackend()), onCpu(makeCpuBackend());
+    int mixed = 0;
+    for (bool isFirst = true, isSettled = false; !isSettled; isFirst = false) {
+      const SceneChanges changes = isFirst ? SceneChanges::all() : SceneChanges();
+      const GiOutput gl = onGl.render({scene, changes, view, "many_lights", settings});
+      const GiOutput cpu = onCpu.render({scene, changes, view, "many_lights", settings});
+      isSettled = gl.settled;
+      ASSERT_EQ(gl.stats.mapsToSharpen, cpu.stats.mapsToSharpen);
+      mixed += gl.stats.mapsToSharpen > 0 && gl.stats.mapsToSharpen < gl.stats.mapsHeld;
+      const double error = compareImages(gl.radiance->pixels(), cpu.radiance->pixels()).relRmse;
+      EXPECT_LT(error, 0.005) << gl.stats.mapsToSharpen << " to sharpen";
+    }
+    EXPECT_GT(mixed, 3);
+  }
+}
+
+// An edit half way, and another once it is settled.
+TEST_F(FineMapsGl, AnyWayThereIsThePictureFromNothing) {
+  FrameRenderer renderer(makeGlBackend());
+  SceneChanges changes = SceneChanges::all();
+  for (const int frames : {6, 60, 2}) {
+    for (int frame = 0; frame < frames; ++frame) {
+      renderer.render({scene, changes, view, "many_lights", settings});
+      changes = {};
+    }
+    const Scene before = scene;
+    for (Node& node : scene.nodes)
+      if (node.name == "mover") node.local.translation.x += 0.1f;
+    changes = compare(before, scene);
+  }
+  const Image there =
+      test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
+  EXPECT_LT(compareImages(there, directly(32, 4)).relRmse, kRounding);
+}
+
+}  // namespace
+}  // namespace lamplighter

@@ -1,0 +1,172 @@
+// Shadow maps that become finer once nothing else is left to do, on the cpu backend.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "renderer/frame.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf_io.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+
+namespace lamplighter {
+namespace {
+
+using test::sameBits;
+
+constexpr int kCoarse = 16, kScale = 4;
+
+// The pillar room, whose mover is complex, with maps of 16² that become 64².
+struct FineMaps : testing::Test {
+  Scene scene =
+      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
+          .scene;
+  View view;
+  Settings settings;
+  FrameRenderer renderer{makeCpuBackend()};
+
+  FineMaps() {
+    for (const Node& node : scene.nodes)
+      if (node.camera != kNone) view = viewOfCamera(scene, node, 93, 61);
+    settings.set(parameters::vpls().name, 60);
+    settings.set(parameters::updates().name, 20);
+    settings.set(parameters::antialias().name, 1);
+    settings.set(parameters::mapResolution().name, kCoarse);
+    settings.set(parameters::settledMapScale().name, kScale);
+  }
+  GiOutput step(const SceneChanges& changes = {}) {
+    return renderer.render({scene, changes, view, "many_lights", settings});
+  }
+  GiOutput settle(const SceneChanges& changes = {}) {
+    return test::renderSettled(renderer, scene, changes, view, settings);
+  }
+  Node& nodeOf(const std::string& name) {
+    return *std::find_if(scene.nodes.begin(), scene.nodes.end(),
+                         [&](const Node& node) { return node.name == name; });
+  }
+  SceneChanges move(const std::string& name, const vec3& by) {
+    const Scene before = scene;
+    nodeOf(name).local.translation += by;
+    return compare(before, scene);
+  }
+  Image directly(int resolution, int scale) const {
+    Settings other = settings;
+    other.set(parameters::mapResolution().name, resolution);
+    other.set(parameters::settledMapScale().name, scale);
+    FrameRenderer fresh(makeCpuBackend());
+    return test::renderSettled(fresh, scene, SceneChanges::all(), view, other).radiance->pixels();
+  }
+  // How many of the maps that are held are fine.
+  uint64_t fine() {
+    const KernelCounts counts = renderer.backend().counts();
+    const uint64_t coarse = 4 * kCoarse * kCoarse;
+    return (counts.mapBytes - counts.mapsHeld * coarse) / (coarse * (kScale * kScale - 1));
+  }
+};
+
+TEST_F(FineMaps, ASettledPictureIsThatOfFineMaps) {
+  for (const char* technique : {"naive", "visibility", "light_maps"}) {
+    for (const char* block : {"1", "4"}) {
+      SCOPED_TRACE(std::string(technique) + ", blocks of " + block);
+      settings.set(parameters::technique().name, std::string(technique));
+      settings.set(parameters::block().name, std::string(block));
+      const Image picture = settle(SceneChanges::all()).radiance->pixels();
+      EXPECT_EQ(fine(), renderer.backend().counts().mapsHeld);
+      EXPECT_TRUE(sameBits(picture, directly(kCoarse * kScale, 1)));
+      EXPECT_FALSE(sameBits(picture, directly(kCoarse, 1)));
+    }
+  }
+}
+
+// As many a frame as the budget has for, and none before all else is done.
+TEST_F(FineMaps, ComeLastAndByTheBudget) {
+  GiOutput out = step(SceneChanges::all());
+  while (out.stats.vplsPending > 0) {
+    EXPECT_EQ(fine(), 0u);
+    EXPECT_FALSE(out.settled);
+    out = step();
+  }
+  int left = out.stats.mapsToSharpen;
+  EXPECT_EQ(left, out.stats.mapsHeld);
+  while (left > 0) {
+    EXPECT_FALSE(out.settled);
+    const int told = out.stats.framesUntilSettled;
+    EXPECT_EQ(told, (left + 4) / 5);
+    out = step();
+    EXPECT_EQ(out.stats.mapsSharpened, std::min(left, 20 / kScale));
+    EXPECT_EQ(out.stats.mapsToSharpen, left - out.stats.mapsSharpened);
+    left = out.stats.mapsToSharpen;
+  }
+  EXPECT_TRUE(out.settled);
+  const uint64_t rendered = renderer.backend().counts().shadowMaps;
+  const auto picture = out.radiance;
+  EXPECT_EQ(step().radiance, picture);
+  EXPECT_EQ(renderer.backend().counts().shadowMaps, rendered);
+
+  // Rays are counted one by one.
+  settings.set(parameters::maxRays().name, 3 * kCoarse * kScale * kCoarse * kScale);
+  out = step(move("mover", vec3(0.2f, 0.0f, 0.0f)));
+  while (out.stats.mapsSharpened == 0) out = step();
+  EXPECT_EQ(out.stats.mapsSharpened, std::min(3, 3 + out.stats.mapsToSharpen));
+}
+
+// What an object's move touches is coarse in the next frame, the rest stays fine; what a light's
+// move touches is all of its own.
+TEST_F(FineMaps, WhatAnEditTouchesIsCoarse) {
+  settle(SceneChanges::all());
+  const uint64_t held = renderer.backend().counts().mapsHeld;
+  ASSERT_EQ(fine(), held);
+  GiOutput out = step(move("mover", vec3(0.1f, 0.0f, 0.0f)));
+  EXPECT_GT(out.stats.mapsRendered, 0);
+  EXPECT_EQ(out.stats.mapsSharpened, 0);
+  EXPECT_EQ(held - fine(), static_cast<uint64_t>(out.stats.mapsRendered));
+  settle();
+  const uint64_t now = renderer.backend().counts().mapsHeld;
+  EXPECT_EQ(fine(), now);
+  settings.set(parameters::updates().name, 60);
+  out = step(move("ceiling light", vec3(0.3f, 0.0f, 0.0f)));
+  EXPECT_LT(fine(), now / 2);
+}
+
+// Turned away, edited half way, turned back: it is the picture made from nothing.
+TEST_F(FineMaps, AnyWayThereIsThePictureFromNothing) {
+  for (const char* technique : {"naive", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    settings.set(parameters::technique().name, std::string(technique));
+    const Image first = settle(SceneChanges::all()).radiance->pixels();
+    const View front = view;
+    for (int i = 0; i < 12; ++i) {
+      if (i % 3 == 1) view.eye.x += 0.2f;
+      step(move(i % 4 == 3 ? "ceiling light" : "mover", vec3(i < 6 ? 0.1f : -0.1f, 0.0f, 0.0f)));
+      for (int frame = 0; frame < i; ++frame) step();
+    }
+    EXPECT_TRUE(sameBits(settle().radiance->pixels(), directly(kCoarse, kScale)));
+    view = front;
+    move("ceiling light", vec3(0.0f));
+    nodeOf("mover").local.translation.x += 0.1f;
+    const Image there = settle(SceneChanges::all()).radiance->pixels();
+    EXPECT_FALSE(sameBits(first, there));
+    EXPECT_TRUE(sameBits(there, directly(kCoarse, kScale)));
+  }
+}
+
+// They are as fine as the memory lets all of them be.
+TEST_F(FineMaps, TakeNoMoreMemoryThanTheyMay) {
+  settings.set(parameters::mapMemory().name, 1);
+  for (const auto& [vpls, scale] : {std::pair(20, 4), {120, 2}, {600, 1}}) {
+    SCOPED_TRACE(vpls);
+    settings.set(parameters::vpls().name, vpls);
+    GiOutput out = step(SceneChanges::all());
+    while (!out.settled) {
+      EXPECT_LE(renderer.backend().counts().mapBytes, uint64_t{1} << 20);
+      out = step();
+    }
+    const KernelCounts counts = renderer.backend().counts();
+    EXPECT_EQ(counts.mapBytes,
+              counts.mapsHeld * 4u * static_cast<uint64_t>(kCoarse * kCoarse * scale * scale));
+  }
+}
+
+}  // namespace
+}  // namespace lamplighter
