@@ -36,7 +36,8 @@ bool MapStore::reserve(int slots, const MapRoom& coarse, const MapRoom& fine) {
     const MapRoom& room = size == MapSize::coarse ? coarse : fine;
     if (of(size).resolution() != room.resolution) of(size).grid = ShadowMapGrid(room.resolution);
     of(size).room = room;
-    of(size).held = 0;
+    const auto side = static_cast<size_t>(room.resolution);
+    of(size).memory = MapMemory(side * side, static_cast<size_t>(room.maps));
   }
   return true;
 }
@@ -44,20 +45,16 @@ bool MapStore::reserve(int slots, const MapRoom& coarse, const MapRoom& fine) {
 void MapStore::make(Map& map, MapSize size) {
   drop(map);
   Size& s = of(size);
-  if (s.held >= static_cast<size_t>(s.room.maps))
-    throw std::length_error("more maps than reserved");
   try {
-    map.texels.resize(s.texels());
+    map.texels = s.memory.take();
     map.isTraced.assign(static_cast<size_t>(s.resolution() / ShadowRaster::kBand + 1), 0);
   } catch (const std::bad_alloc&) {
-    map = {};
     throw InputError(
         "many_lights",
         "no memory for another shadow map of " + std::to_string(s.resolution()) + "² texels",
         "lower map_memory or map_resolution");
   }
   map.size = size;
-  ++s.held;
 }
 
 void MapStore::castersChange() {
@@ -114,7 +111,7 @@ uint64_t MapStore::render(const RenderScene& scene, const RayCaster& rays,
   };
   for (const shared::Vpl& light : lights) {
     Map& map = mapOf(light);
-    const bool isThere = !map.texels.empty() && map.size == size;
+    const bool isThere = map.texels != nullptr && map.size == size;
     isNew.push_back(!isThere || !isAtPlaceOf(light, map.light));
     if (!isThere) make(map, size);
   }
@@ -127,10 +124,11 @@ uint64_t MapStore::render(const RenderScene& scene, const RayCaster& rays,
 
 uint64_t MapStore::render(const RayCaster& rays, const shared::Vpl& light, bool isNew, Map& map,
                           MapChange& change) {
+  const std::span<float> texels = texelsOf(map);
   std::vector<float> before;
   std::vector<uint8_t> wanted;
   if (!isNew) {
-    before = map.texels;
+    before.assign(texels.begin(), texels.end());
     wanted = outdated(map);
   }
   map.light = light;
@@ -140,20 +138,20 @@ uint64_t MapStore::render(const RayCaster& rays, const shared::Vpl& light, bool 
   const int tasks = (resolution + kRowsPerTask - 1) / kRowsPerTask;
   tbb::parallel_for(0, tasks, [&](int task) {
     const int first = task * kRowsPerTask, last = std::min(first + kRowsPerTask, resolution);
-    cast += raster_.render(rays, of(map.size).grid, light, first, last, map.texels, wanted,
-                           map.isTraced);
+    cast +=
+        raster_.render(rays, of(map.size).grid, light, first, last, texels, wanted, map.isTraced);
   });
-  change = isNew ? MapChange()
-                 : compareMaps(before, map.texels, resolution,
-                               light.position.w == shared::kVplDirectional);
+  change =
+      isNew ? MapChange()
+            : compareMaps(before, texels, resolution, light.position.w == shared::kVplDirectional);
   return cast;
 }
 
 void MapStore::drop(int slot) { drop(maps_[static_cast<size_t>(slot)]); }
 
 void MapStore::drop(Map& map) {
-  if (map.texels.empty()) return;
-  --of(map.size).held;
+  if (map.texels == nullptr) return;
+  of(map.size).memory.giveBack(map.texels);
   map = {};
 }
 

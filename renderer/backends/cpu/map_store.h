@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/map_change.h"
+#include "renderer/backends/cpu/map_memory.h"
 #include "renderer/backends/cpu/shadow_raster.h"
 #include "renderer/backends/kernels.h"
 
@@ -30,18 +31,19 @@ class MapStore {
 
   // Row after row; empty: there is none.
   std::span<const float> map(int slot) const {
-    return slot < 0 ? std::span<const float>() : maps_[static_cast<size_t>(slot)].texels;
+    return slot < 0 ? std::span<const float>() : texelsOf(maps_[static_cast<size_t>(slot)]);
   }
   // Of the map that a slot has, texels a side.
   int resolution(int slot) const {
     return slot < 0 ? 0 : of(maps_[static_cast<size_t>(slot)].size).resolution();
   }
-  size_t held() const { return sizes_[0].held + sizes_[1].held; }
+  size_t held() const { return sizes_[0].memory.taken() + sizes_[1].memory.taken(); }
+  // Of those. What those that were dropped had is kept for others.
   size_t bytes() const { return sizes_[0].bytes() + sizes_[1].bytes(); }
 
  private:
   struct Map {
-    std::vector<float> texels;  // none: there is no map
+    float* texels = nullptr;  // null: there is no map
     MapSize size = MapSize::coarse;
     shared::Vpl light;  // whose it is
     std::vector<uint8_t> isTraced;
@@ -55,14 +57,17 @@ class MapStore {
   // Maps of one size.
   struct Size {
     MapRoom room;
-    size_t held = 0;
+    MapMemory memory;
     ShadowMapGrid grid;
     int resolution() const { return room.resolution; }
-    size_t texels() const { return static_cast<size_t>(resolution()) * resolution(); }
-    size_t bytes() const { return held * texels() * sizeof(float); }
+    size_t bytes() const { return memory.taken() * memory.texelsOfMap() * sizeof(float); }
   };
   const Size& of(MapSize size) const { return sizes_[static_cast<size_t>(size)]; }
   Size& of(MapSize size) { return sizes_[static_cast<size_t>(size)]; }
+  std::span<float> texelsOf(const Map& map) const {
+    return map.texels == nullptr ? std::span<float>()
+                                 : std::span<float>(map.texels, of(map.size).memory.texelsOfMap());
+  }
   void make(Map& map, MapSize size);
   void drop(Map& map);
   std::vector<uint8_t> outdated(const Map& map) const;
