@@ -92,9 +92,9 @@ TEST_F(FineMaps, ComeLastAndByTheBudget) {
   while (left > 0) {
     EXPECT_FALSE(out.settled);
     const int told = out.stats.framesUntilSettled;
-    EXPECT_EQ(told, (left + 4) / 5);
+    EXPECT_EQ(told, (left + 9) / 10);
     out = step();
-    EXPECT_EQ(out.stats.mapsSharpened, std::min(left, 20 / kScale));
+    EXPECT_EQ(out.stats.mapsSharpened, std::min(left, 10));
     EXPECT_EQ(out.stats.mapsToSharpen, left - out.stats.mapsSharpened);
     left = out.stats.mapsToSharpen;
   }
