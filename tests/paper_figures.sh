@@ -25,7 +25,8 @@ edit() {  # edit SCENE OUT FILTER : a scene changed by a jq filter
   jq "$3" "$scenes/$1.gltf" > "$work/$2.gltf"
 }
 # 25 direct and 275 indirect light samples and five bounces, as in the paper.
-many=(--vpls 300 --bounces 5 --set direct_share=0.0834 --set map_resolution=128 --set antialias=8)
+many=(--vpls 300 --bounces 5 --set direct_share=0.0834 --set map_resolution=128
+  --set settled_map_scale=1 --set antialias=8)
 
 # 5-8: direct light alone; maps of 64², 128², 256² and 512² by rows, 25, 50, 100 light samples by
 # columns.
@@ -33,7 +34,7 @@ names=()
 for resolution in 64 128 256 512; do
   for vpls in 25 50 100; do
     picture "8-$resolution-$vpls" $scenes/table_room.gltf --size 320x200 --bounces 0 --vpls $vpls \
-      --set map_resolution=$resolution --set block=1
+      --set map_resolution=$resolution --set settled_map_scale=1 --set block=1
     names+=("8-$resolution-$vpls")
   done
 done
