@@ -1,5 +1,4 @@
 // Shadow maps that become finer once nothing else is left to do, on the gl backend.
-#include <filesystem>
 #include <map>
 
 #include "renderer/backends/gl/gl_backend.h"
@@ -7,25 +6,20 @@
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
-#include "renderer/scene/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 
 namespace lamplighter {
 namespace {
 
-struct FineMapsGl : test::GlTest {
-  Scene scene =
-      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
-          .scene;
-  View view;
+struct FineMapsGl : test::GlTest, test::AssetRoom {
   Settings settings;
 
+  FineMapsGl() : AssetRoom("pillar_room", 93, 61) {}
   void SetUp() override {
     test::GlTest::SetUp();
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 93, 61);
     settings.set(parameters::vpls().name, 40);
     settings.set(parameters::updates().name, 16);
     settings.set(parameters::antialias().name, 1);

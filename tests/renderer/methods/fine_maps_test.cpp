@@ -1,12 +1,12 @@
 // Shadow maps that become finer once nothing else is left to do, on the cpu backend.
-#include <filesystem>
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "renderer/frame.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
-#include "renderer/scene/gltf_io.h"
+#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 
@@ -18,17 +18,11 @@ using test::sameBits;
 constexpr int kCoarse = 16, kScale = 4;
 
 // The pillar room, whose mover is complex, with maps of 16² that become 64².
-struct FineMaps : testing::Test {
-  Scene scene =
-      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
-          .scene;
-  View view;
+struct FineMaps : testing::Test, test::AssetRoom {
   Settings settings;
   FrameRenderer renderer{makeCpuBackend()};
 
-  FineMaps() {
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 93, 61);
+  FineMaps() : AssetRoom("pillar_room", 93, 61) {
     settings.set(parameters::vpls().name, 60);
     settings.set(parameters::updates().name, 20);
     settings.set(parameters::antialias().name, 1);
@@ -143,7 +137,6 @@ TEST_F(FineMaps, AnyWayThereIsThePictureFromNothing) {
     }
     EXPECT_TRUE(sameBits(settle().radiance->pixels(), directly(kCoarse, kScale)));
     view = front;
-    move("ceiling light", vec3(0.0f));
     nodeOf("mover").local.translation.x += 0.1f;
     const Image there = settle(SceneChanges::all()).radiance->pixels();
     EXPECT_FALSE(sameBits(first, there));
