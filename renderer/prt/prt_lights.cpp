@@ -113,7 +113,8 @@ void PrtLights::placeObject(const Frame& frame, uint32_t object) {
   o.places.clear();
   for (const vec3& p : o.points.places)
     o.places.push_back(o.space.scale * (o.space.rotation * p) + o.space.translation);
-  o.sums.assign(o.places.size() * kSums, 0.0);
+  o.sums.assign(o.places.size() * 2 * kSums, 0.0);
+  o.checked.assign(lights_.size() * o.checks.size(), CheckedLight{});
   o.takes.assign(lights_.size(), Take::none);
   o.held.assign(lights_.size(), 0);
   o.hidden.assign(lights_.size() * o.places.size(), 0);
@@ -124,7 +125,6 @@ PrtLights::Take PrtLights::takeOf(const Frame& frame, uint32_t object, size_t sl
   const Object& o = objects_[object];
   const shared::Vpl& vpl = frame.bySlot[slot];
   if (!isLight(vpl)) return Take::none;
-  if (isHard_[slot]) return Take::toPixels;
   if (vpl.position.w != shared::kVplDirectional) {
     const Bounds& box = frame.scene.objects[object].bounds;
     const vec3 position(vpl.position);
@@ -136,87 +136,127 @@ PrtLights::Take PrtLights::takeOf(const Frame& frame, uint32_t object, size_t sl
   return Take::add;
 }
 
-void PrtLights::addLight(Object& o, const shared::Vpl& vpl, size_t slot, size_t point,
-                         double sign) {
-  if (o.hidden[slot * o.places.size() + point] != 0) return;
+void PrtLights::addLight(Object& o, const shared::Vpl& vpl, Take take, size_t point, double sign) {
   const auto light = incidentLight(vpl, o.places[point], options_.clampDistance);
   if (!light) return;
   const ShVector y = shBasis(glm::transpose(o.space.rotation) * light->direction);
-  double* sums = &o.sums[point * kSums];
-  for (int channel = 0; channel < 3; ++channel)
-    for (size_t i = 0; i < kShCoefficients; ++i, ++sums)
-      *sums += sign * kUnit * std::round(double{y[i]} * double{light->irradiance[channel]} / kUnit);
+  double* all = &o.sums[point * 2 * kSums];
+  double* left = all + kSums;
+  for (int channel = 0; channel < 3; ++channel) {
+    for (size_t i = 0; i < kShCoefficients; ++i, ++all, ++left) {
+      const double part =
+          sign * kUnit * std::round(double{y[i]} * double{light->irradiance[channel]} / kUnit);
+      *all += part;
+      if (take == Take::reflect) *left += part;
+    }
+  }
+}
+
+// What others hide of the lights in some slots, and what transfer gets wrong of them.
+PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
+                                  std::span<const uint32_t> slots) {
+  Object& o = objects_[object];
+  const size_t points = o.places.size(), checks = o.checks.size();
+  const bool isChecked = options_.mostError < 1.0f;
+  Looked out{std::vector<Take>(slots.size()), std::vector<uint8_t>(slots.size() * points, 0)};
+  std::atomic<uint64_t> traced = 0, spared = 0;
+  tbb::parallel_for(size_t{0}, slots.size(), [&](size_t i) {
+    const size_t slot = slots[i];
+    const shared::Vpl& vpl = frame.bySlot[slot];
+    const Take take = out.takes[i] = takeOf(frame, object, slot);
+    // The light of a hidden object is known without rays.
+    bool isFull = true;
+    for (const int root : o.looseRoots)
+      if (frame.visibility.state(object, root, static_cast<int>(slot)) != Occlusion::full)
+        isFull = false;
+    const auto hidden = std::span(out.hidden).subspan(i * points, points);
+    uint64_t rays = 0;
+    if (isSummed(take) && isFull) {
+      std::fill(hidden.begin(), hidden.end(), uint8_t{1});
+      spared += points;
+    } else if (isSummed(take)) {
+      for (size_t point = 0; point < points; ++point) {
+        const auto light = incidentLight(vpl, o.places[point], options_.clampDistance);
+        hidden[point] = light && isHiddenByOthers(frame.rays, object, o.places[point], *light);
+        if (light) ++rays;
+      }
+    }
+    if (isChecked)
+      rays += checkLight(o.checks, o.space, frame.rays, vpl, o.places, hidden,
+                         options_.clampDistance, take == Take::none || isFull,
+                         std::span(o.checked).subspan(slot * checks, checks));
+    traced += rays;
+  });
+  raysTraced_ += traced;
+  raysSpared_ += spared;
+  return out;
 }
 
 // Whether anything changed.
 bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const uint32_t> slots) {
   Object& o = objects_[object];
   const size_t points = o.places.size();
-  std::vector<Take> takes(slots.size());
-  std::vector<uint8_t> isFull(slots.size(), 1);
-  tbb::parallel_for(size_t{0}, slots.size(), [&](size_t i) {
-    takes[i] = takeOf(frame, object, slots[i]);
-    // The light of a hidden object is known without rays.
-    for (const int root : o.looseRoots)
-      if (frame.visibility.state(object, root, static_cast<int>(slots[i])) != Occlusion::full)
-        isFull[i] = 0;
-  });
-  std::atomic<uint64_t> traced = 0, spared = 0;
+  const Looked looked = look(frame, object, slots);
+
+  // All lights as they are to be taken; those that were looked at may be hidden otherwise.
+  constexpr size_t kKept = static_cast<size_t>(-1);
+  std::vector<Take> takes = o.takes;
+  std::vector<size_t> lookedAt(takes.size(), kKept);
+  for (size_t i = 0; i < slots.size(); ++i) {
+    takes[slots[i]] = looked.takes[i];
+    lookedAt[slots[i]] = i;
+  }
+  std::vector<bool> mayHold(takes.size());
+  for (size_t slot = 0; slot < takes.size(); ++slot)
+    mayHold[slot] = isSummed(takes[slot]) && !isHard_[slot];
+  const std::vector<bool> leaves =
+      lightsToLeave(o.checked, o.checks.size(), mayHold, options_.mostError);
+  for (size_t slot = 0; slot < takes.size(); ++slot)
+    if (isSummed(takes[slot]))
+      takes[slot] = mayHold[slot] && !leaves[slot] ? Take::add : Take::reflect;
+
   std::atomic<bool> changed = false;
   tbb::parallel_for(size_t{0}, points, [&](size_t point) {
-    uint64_t rays = 0, without = 0;
-    for (size_t i = 0; i < slots.size(); ++i) {
-      const size_t slot = slots[i];
+    for (size_t slot = 0; slot < takes.size(); ++slot) {
+      const size_t i = lookedAt[slot];
       uint8_t& hidden = o.hidden[slot * points + point];
-      uint8_t now = 0;
-      const bool adds = takes[i] == Take::add;
-      if (adds && isFull[i] != 0) {
-        now = 1;
-        ++without;
-      } else if (adds) {
-        const auto light =
-            incidentLight(frame.bySlot[slot], o.places[point], options_.clampDistance);
-        now = light && isHiddenByOthers(frame.rays, object, o.places[point], *light) ? 1 : 0;
-        if (light) ++rays;
-      }
-      const bool added = o.takes[slot] == Take::add;
-      const bool isOther = !isSame(lights_[slot], frame.bySlot[slot]);
-      if (added == adds && hidden == now && (!adds || !isOther)) continue;
-      if (added) addLight(o, lights_[slot], slot, point, -1.0);
+      const uint8_t now = i == kKept ? hidden : looked.hidden[i * points + point];
+      const bool isOther = i != kKept && !isSame(lights_[slot], frame.bySlot[slot]);
+      const Take before = o.takes[slot], after = takes[slot];
+      if (before == after && hidden == now && !(isSummed(after) && isOther)) continue;
+      if (isSummed(before) && hidden == 0) addLight(o, lights_[slot], before, point, -1.0);
       hidden = now;
-      if (adds) addLight(o, frame.bySlot[slot], slot, point, 1.0);
+      const shared::Vpl& vpl = i == kKept ? lights_[slot] : frame.bySlot[slot];
+      if (isSummed(after) && hidden == 0) addLight(o, vpl, after, point, 1.0);
       changed = true;
     }
-    traced += rays;
-    spared += without;
   });
-  for (size_t i = 0; i < slots.size(); ++i) {
-    o.takes[slots[i]] = takes[i];
-    o.held[slots[i]] = takes[i] == Take::toPixels ? 0 : 1;
-  }
-  raysTraced_ += traced;
-  raysSpared_ += spared;
+  o.takes = takes;
+  for (size_t slot = 0; slot < takes.size(); ++slot)
+    o.held[slot] = takes[slot] == Take::none || takes[slot] == Take::add ? 1 : 0;
   return changed;
 }
 
 void PrtLights::lightVertices(Object& o) {
-  std::vector<std::array<float, kSums>> light(o.places.size());
+  std::vector<std::array<float, 2 * kSums>> light(o.places.size());
   for (size_t p = 0; p < light.size(); ++p)
-    for (size_t i = 0; i < kSums; ++i) light[p][i] = static_cast<float>(o.sums[p * kSums + i]);
+    for (size_t i = 0; i < 2 * kSums; ++i)
+      light[p][i] = static_cast<float>(o.sums[p * 2 * kSums + i]);
   tbb::parallel_for(size_t{0}, o.irradiance.size(), [&](size_t v) {
     const LightPoints::Blend& blend = o.points.ofVertex[v];
-    std::array<float, kSums> here{};
+    std::array<float, 2 * kSums> here{};
     for (size_t k = 0; k < LightPoints::kBlended; ++k) {
       if (!(blend.weight[k] > 0.0f)) continue;
-      const std::array<float, kSums>& from = light[blend.point[k]];
-      for (size_t i = 0; i < kSums; ++i) here[i] += blend.weight[k] * from[i];
+      const std::array<float, 2 * kSums>& from = light[blend.point[k]];
+      for (size_t i = 0; i < here.size(); ++i) here[i] += blend.weight[k] * from[i];
     }
     const Transfer::Vertex& t = o.transfer->vertices[v];
     vec3 e(0.0f);
     for (size_t i = 0; i < kShCoefficients; ++i) {
-      e.r += t.r[i] * here[i];
-      e.g += t.g[i] * here[kShCoefficients + i];
-      e.b += t.b[i] * here[2 * kShCoefficients + i];
+      const float* left = &here[kSums + i];
+      e.r += t.r[i] * here[i] - t.direct[i] * left[0];
+      e.g += t.g[i] * here[kShCoefficients + i] - t.direct[i] * left[kShCoefficients];
+      e.b += t.b[i] * here[2 * kShCoefficients + i] - t.direct[i] * left[2 * kShCoefficients];
     }
     o.irradiance[v] = glm::max(e, 0.0f);  // what is cut off rings below zero
   });
@@ -251,6 +291,11 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
     const auto space = ownSpaceOf(scene.objects[i]);
     const float size = std::max({extent.x, extent.y, extent.z}) * (space ? space->scale : 1.0f);
     o.points = placeLightPoints(*o.own, lightPointsFor(size, options.mostPoints));
+    const ObjectPatches& patches = visibility.patches(i);
+    std::vector<bool> isLit(patches.patchOfTriangle.size());
+    for (size_t t = 0; t < isLit.size(); ++t)
+      isLit[t] = patches.patches[static_cast<size_t>(patches.patchOfTriangle[t])].chart == kNone;
+    o.checks = placeCheckPoints(*o.own, *o.transfer, o.points, isLit);
     o.own.reset();
     isFresh[i] = true;
     coverage_.advance();
@@ -284,10 +329,18 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
   return shows;
 }
 
+std::vector<uint8_t> PrtLights::reflecting() const {
+  std::vector<uint8_t> out(objects_.size(), 0);
+  for (size_t i = 0; i < out.size(); ++i)
+    out[i] = options_.transfer.bounces > 0 && objects_[i].transfer ? 1 : 0;
+  return out;
+}
+
 uint64_t PrtLights::raysPerLight() const {
   uint64_t rays = 0;
   for (const Object& o : objects_)
-    if (o.transfer) rays += o.places.size();
+    if (o.transfer)
+      rays += o.places.size() + (options_.mostError < 1.0f ? o.checks.size() : size_t{0});
   return rays;
 }
 

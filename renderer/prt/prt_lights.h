@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/prt/light_points.h"
+#include "renderer/prt/check_points.h"
 #include "renderer/prt/transfers.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/visibility/visibility_database.h"
@@ -25,6 +25,7 @@ class PrtLights {
     TransferOptions transfer;
     int mostPoints = 128;        // light points an object, kMostLightPoints at most
     float clampDistance = 0.0f;  // of ShadingParams [m]
+    float mostError = 1.0f;      // of lightsToLeave(); from 1 on no light is left for its error
     bool operator==(const Options&) const = default;
   };
 
@@ -46,12 +47,15 @@ class PrtLights {
            patches.patches[static_cast<size_t>(leaf)].chart == kNone;
   }
   bool hasTransfer(uint32_t object) const { return objects_[object].transfer != nullptr; }
+  // By object, whether its transfer has what its parts reflect onto each other.
+  std::vector<uint8_t> reflecting() const;
   // Whether it is to have one, ready or not.
   bool wantsTransfer(uint32_t object) const { return objects_[object].isWanted; }
   // Whether the normal is on the front of the object's triangle.
   bool isFront(uint32_t object, uint32_t triangle, const vec3& normal) const;
-  // Whether irradiance here holds the light in each slot; pixels sum the others, which are too near
-  // to be blended between light points. Only for objects with transfer.
+  // Whether irradiance here holds the light in each slot; pixels sum the others: those that are too
+  // near to be blended between light points, those that make hard shadows, and those of which
+  // transfer would get too much wrong. Only for objects with transfer.
   std::span<const uint8_t> held(uint32_t object) const { return objects_[object].held; }
   // E at a point of a triangle of the object [W/m²].
   vec3 irradiance(uint32_t object, uint32_t triangle, const vec3& position) const;
@@ -70,9 +74,13 @@ class PrtLights {
   uint64_t raysPerLight() const;
 
  private:
-  static constexpr size_t kSums = size_t{3} * kShCoefficients;  // a light point: all r, then g, then b
-  // How an object takes the light in a slot.
-  enum class Take : uint8_t { none, add, toPixels };
+  // A light point: all r, then g, then b of all light; then the same of the part whose direct light
+  // is left to pixels.
+  static constexpr size_t kSums = size_t{3} * kShCoefficients;
+  // How an object takes the light in a slot: not at all, by transfer, only what its parts reflect
+  // of it, or not even that.
+  enum class Take : uint8_t { none, add, reflect, toPixels };
+  static bool isSummed(Take take) { return take == Take::add || take == Take::reflect; }
   struct Object {
     bool isWanted = false;  // it may have transfer
     TransferKey key{};
@@ -80,21 +88,29 @@ class PrtLights {
     std::shared_ptr<const Transfer> transfer;
     OwnSpace space;
     LightPoints points;
-    std::vector<vec3> places;      // of the points, in the world
-    std::vector<int> looseRoots;   // patches
-    std::vector<double> sums;      // points × kSums
-    std::vector<Take> takes;       // by slot, as summed
-    std::vector<uint8_t> hidden;   // slots × points, as summed
-    std::vector<uint8_t> held;     // by slot
-    std::vector<vec3> irradiance;  // by vertex
+    std::vector<vec3> places;     // of the points, in the world
+    std::vector<int> looseRoots;  // patches
+    std::vector<CheckPoint> checks;
+    std::vector<double> sums;           // points × 2 · kSums
+    std::vector<Take> takes;            // by slot, as summed
+    std::vector<CheckedLight> checked;  // slots × checks
+    std::vector<uint8_t> hidden;        // slots × points, as summed
+    std::vector<uint8_t> held;          // by slot
+    std::vector<vec3> irradiance;       // by vertex
     Revision revision;
   };
   struct Frame;
 
   void findObjects(const Frame& frame);
   void placeObject(const Frame& frame, uint32_t object);
+  // At some slots: how each is taken but for hardness and error, and slots × points whether hidden.
+  struct Looked {
+    std::vector<Take> takes;
+    std::vector<uint8_t> hidden;
+  };
+  Looked look(const Frame& frame, uint32_t object, std::span<const uint32_t> slots);
   bool sumLights(const Frame& frame, uint32_t object, std::span<const uint32_t> slots);
-  void addLight(Object& object, const shared::Vpl& vpl, size_t slot, size_t point, double sign);
+  void addLight(Object& object, const shared::Vpl& vpl, Take take, size_t point, double sign);
   Take takeOf(const Frame& frame, uint32_t object, size_t slot) const;
   void lightVertices(Object& object);
 

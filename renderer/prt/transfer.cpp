@@ -253,7 +253,7 @@ std::optional<Transfer> computeTransfer(const RenderScene& own, const TransferOp
   std::vector<ShVector> direct(vertices);
   if (!computation.direct(direct)) return std::nullopt;
   Transfer out;
-  for (const ShVector& v : direct) out.vertices.push_back({v, v, v});
+  for (const ShVector& v : direct) out.vertices.push_back({v, v, v, v});
   std::vector<Transfer::Vertex> last = out.vertices, next(vertices);
   for (int bounce = 0; bounce < options.bounces; ++bounce) {
     if (!computation.reflected(last, next)) return std::nullopt;

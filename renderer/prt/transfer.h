@@ -44,6 +44,7 @@ struct TransferOptions {
 struct Transfer {
   struct Vertex {
     ShVector r{}, g{}, b{};
+    ShVector direct{};  // the part of each of them that comes straight, without reflections
     bool operator==(const Vertex&) const = default;
   };
   std::vector<Vertex> vertices;

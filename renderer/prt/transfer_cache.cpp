@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Another number whenever the computation or the file's form changes.
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 
 // As it lies in the file: little-endian, as all machines are that this runs on (x86-64).
 struct Header {
@@ -32,7 +32,7 @@ struct Header {
   uint64_t checksum = 0;  // of what follows
 };
 static_assert(sizeof(Header) == 48 && std::is_trivially_copyable_v<Header>);
-static_assert(sizeof(Transfer::Vertex) == 3 * kShCoefficients * sizeof(float));
+static_assert(sizeof(Transfer::Vertex) == 4 * kShCoefficients * sizeof(float));
 static_assert(std::endian::native == std::endian::little);
 
 // FNV-1a over 64-bit words, with a last mix; two of them from two starts are a key.
@@ -118,9 +118,10 @@ bool isFinite(const Transfer& transfer) {
   const auto finite = [](const ShVector& v) {
     return std::all_of(v.begin(), v.end(), [](float f) { return std::isfinite(f); });
   };
-  return std::all_of(
-      transfer.vertices.begin(), transfer.vertices.end(),
-      [&](const Transfer::Vertex& v) { return finite(v.r) && finite(v.g) && finite(v.b); });
+  return std::all_of(transfer.vertices.begin(), transfer.vertices.end(),
+                     [&](const Transfer::Vertex& v) {
+                       return finite(v.r) && finite(v.g) && finite(v.b) && finite(v.direct);
+                     });
 }
 
 }  // namespace

@@ -69,11 +69,25 @@ std::vector<Column> groupColumns(int vpls, const Resolutions& resolutions) {
   return columns;
 }
 
-// It is the cpu backend's, and looks up no maps.
-std::vector<Column> transferColumns(int vpls, const Resolutions& resolutions) {
-  Column c = column("cpu", resolutions[0], "prt", vpls, "light_maps");
+Column transferColumn(const std::string& backend, int vpls, const Resolutions& resolutions) {
+  Column c = column(backend, resolutions[0], "prt", vpls, "light_maps");
   c.settings.set(parameters::prt().name, true);
-  return {c};
+  return c;
+}
+
+// The light of the same samples: those on a mesh light it, as in `naive`.
+std::vector<Column> transferColumns(int vpls, const Resolutions& resolutions) {
+  std::vector<Column> columns;
+  for (const std::string& backend : kBackends) {
+    columns.push_back(transferColumn(backend, vpls, resolutions));
+    columns.back().settings.set(parameters::prtBounces().name, 0);
+  }
+  return columns;
+}
+
+// What a mesh's parts reflect onto each other is another light than that of samples on it.
+std::vector<Column> reflectionColumns(int vpls, const Resolutions& resolutions) {
+  return {transferColumn("cpu", vpls, resolutions)};
 }
 
 struct Kind {
@@ -87,7 +101,8 @@ const Kind kKinds[] = {
     {"Visibility and light maps, at full resolution", 0.01, fewVpls, shadowColumns},
     {"All as it is by default", 0.03, defaultVpls, allColumns},
     {"All, with groups", 0.03, groupedVpls, groupColumns},
-    {"All, with transfer", 0.03, defaultVpls, transferColumns}};
+    {"All, with transfer", 0.03, defaultVpls, transferColumns},
+    {"All, with transfer and its reflections", 0.03, defaultVpls, reflectionColumns}};
 
 size_t trianglesOf(const Scene& scene) {
   RenderScene render;

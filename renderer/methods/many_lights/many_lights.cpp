@@ -442,12 +442,14 @@ std::shared_ptr<RadianceImage> ManyLights::fillCorners(
     bool isSmooth, Stages& stages) {
   if (isSmooth && !corners_.isWhole(in.view)) {
     const VplCounts& counts = options.counts;
+    const auto reflecting =
+        prt_ && in.part == LightPart::all ? prt_->reflecting() : std::vector<uint8_t>();
     corners_.goOn(
         in, lights_.inspect(),
         {counts.directShare < 1.0f && in.part != LightPart::direct ? counts.bounces : 0,
          (counts.directShare > 0.0f || counts.bounces == 0) && in.part != LightPart::indirect,
          options.clampDistance, kCornerPaths, counts.seed, 0, in.lightOnly, options.speculars,
-         options.leastRoughness});
+         options.leastRoughness, reflecting});
     if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
     stages.end("corners");
   }
@@ -498,6 +500,8 @@ MethodInfo manyLightsInfo() {
            parameters::block(),
            parameters::prt(),
            parameters::prtPoints(),
+           parameters::prtBounces(),
+           parameters::prtError(),
            parameters::speculars(),
            parameters::leastRoughness(),
            parameters::antialias(),

@@ -17,6 +17,7 @@ namespace {
 // VPLs that are tried for a point where such a ray arrives, and rays to the best of them: what is
 // too few here shows as noise along edges.
 constexpr int kVplsTried = 32, kRaysAPoint = 2;
+constexpr uint32_t kNoObject = 0xffffffffu;
 // Share of the choice that does not look at how bright they are: a sun's irradiance and a lamp's
 // intensity cannot be compared.
 constexpr float kEvenShare = 0.5f;
@@ -115,10 +116,13 @@ NearLight::Pixel NearLight::pixel(const vec3& direction, const Hit& hit, uint32_
     albedo *= shared::diffuseShare(gloss.metallic, gloss.roughness, options_.leastRoughness,
                                    -side * glm::dot(s.normal, direction));
   }
+  const bool isWhole =
+      hit.object < options_.reflectsWithin.size() && options_.reflectsWithin[hit.object] != 0;
+  const uint32_t whole = isWhole ? hit.object : kNoObject;
   vec3 sum(0.0f);
   for (uint32_t path = 0; path < options_.paths; ++path) {
     PathSampler sampler(index, options_.sample * options_.paths + path, options_.seed);
-    sum += gather(from, side * s.normal, sampler);
+    sum += gather(from, whole, side * s.normal, sampler);
   }
   return {sum / static_cast<float>(options_.paths), albedo, s.position, normal};
 }
@@ -126,7 +130,8 @@ NearLight::Pixel NearLight::pixel(const vec3& direction, const Hit& hit, uint32_
 // By directions in proportion to the cosine, the true light less the clamped is
 //   mean of L(y) (1 − d²/d0²) over those whose surface y is nearer than d0, times π,
 // and L(y) is what y emits, and reflects of the VPLs' clamped light and, walking on, of the rest.
-vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const {
+vec3 NearLight::gather(Place from, uint32_t whole, const vec3& shadingNormal,
+                       PathSampler& sampler) const {
   const float reach = options_.clampDistance;
   vec3 sum(0.0f), throughput(1.0f), about = shadingNormal;
   for (int bounces = options_.bounces; bounces >= 0; --bounces) {
@@ -134,7 +139,7 @@ vec3 NearLight::gather(Place from, const vec3& shadingNormal, PathSampler& sampl
     const vec2 u = sampler.next2();
     if (glm::dot(direction, from.normal) <= 0.0f) break;
     const Hit hit = rays_.intersect({from.position, 0.0f, direction, reach});
-    if (!hit) break;
+    if (!hit || (bounces == options_.bounces && hit.object == whole)) break;
     const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
     const bool front = glm::dot(direction, s.geometricNormal) < 0.0f;
     throughput *= std::max(0.0f, 1.0f - hit.t * hit.t / (reach * reach));

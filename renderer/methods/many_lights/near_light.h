@@ -29,6 +29,9 @@ class NearLight {
     // What is seen has speculars: the diffuse part of it gets this light, the lobe does without.
     bool speculars = false;
     float leastRoughness = 0.1f;
+    // By object, whether what its parts give to each other is known otherwise: no pixel on it lacks
+    // that. Empty: of none. Must outlive this.
+    std::span<const uint8_t> reflectsWithin = {};
   };
   NearLight(const RenderScene& scene, const RayCaster& rays, std::span<const SceneVpl> vpls,
             const Options& options);
@@ -69,7 +72,8 @@ class NearLight {
     uint32_t leftOutBy;     // light_linking.h
   };
   Pixel pixel(const vec3& direction, const Hit& hit, uint32_t index) const;
-  vec3 gather(Place from, const vec3& shadingNormal, PathSampler& sampler) const;
+  // `whole`: the object whose light upon itself is known; none: 0xffffffff.
+  vec3 gather(Place from, uint32_t whole, const vec3& shadingNormal, PathSampler& sampler) const;
   vec3 irradianceOfSuns(const Place& at) const;
   vec3 irradiance(const Place& at, const Choice& choice, vec2 u) const;
   bool sees(const Place& at, const shared::Vpl& vpl) const;

@@ -18,9 +18,6 @@ size_t bytesOfMap(int resolution) {
   return sizeof(float) * static_cast<size_t>(resolution) * static_cast<size_t>(resolution);
 }
 
-// What is left of light after as many bounces within one object is next to nothing.
-constexpr int kMostTransferBounces = 4;
-
 }  // namespace
 
 ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
@@ -56,11 +53,11 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
   speculars = settings.boolean(parameters::speculars());
   leastRoughness = settings.real(parameters::leastRoughness());
   usePrt = useVisibility && settings.boolean(parameters::prt());
-  // What parts of an object reflect onto each other is in its transfer.
-  fillsCorners = settings.boolean(parameters::cornerLight()) && clampDistance > 0.0f && !usePrt;
+  fillsCorners = settings.boolean(parameters::cornerLight()) && clampDistance > 0.0f;
   // Light between parts of an object is one bounce more each time, as VPLs of later bounces are.
-  prt.transfer.bounces = std::min(counts.bounces, kMostTransferBounces);
+  prt.transfer.bounces = std::min(counts.bounces, settings.integer(parameters::prtBounces()));
   prt.mostPoints = settings.integer(parameters::prtPoints());
+  prt.mostError = settings.real(parameters::prtError());
   prt.clampDistance = clampDistance;
   VplCounts refined = counts;
   refined.candidates = 1;

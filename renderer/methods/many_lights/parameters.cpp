@@ -303,6 +303,39 @@ const ParameterSpec& prtPoints() {
   return spec;
 }
 
+const ParameterSpec& prtBounces() {
+  static const ParameterSpec spec{
+      "prt_bounces",
+      "Transfer bounces",
+      "",
+      "With transfer, how often light goes between the parts of a mesh within its transfer, as far "
+      "as there are bounces at all. 0: light samples on the mesh light it, as they do elsewhere.",
+      4,
+      0,
+      4,
+      false,
+      {},
+      ParameterGroup::quality};
+  return spec;
+}
+
+const ParameterSpec& prtError() {
+  static const ParameterSpec spec{
+      "prt_error",
+      "Transfer error",
+      "",
+      "With transfer, how much of the light that falls straight on a mesh it may get wrong: lights "
+      "of which it gets more wrong are summed at pixels, with their shadow maps, those first of "
+      "which it gets most wrong. 1: none is.",
+      0.1f,
+      0.0f,
+      1.0f,
+      false,
+      {},
+      ParameterGroup::quality};
+  return spec;
+}
+
 const ParameterSpec& antialias() {
   static const ParameterSpec spec{
       "antialias",

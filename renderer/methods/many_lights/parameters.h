@@ -25,6 +25,8 @@ const ParameterSpec& mergePasses();       // bool, gl backend: by merged passes
 const ParameterSpec& block();        // choice, pixels a side of the low-resolution pass's blocks
 const ParameterSpec& prt();          // bool, cpu backend: complex meshes by transfer
 const ParameterSpec& prtPoints();    // int, light points an object
+const ParameterSpec& prtBounces();   // int, of light within a mesh
+const ParameterSpec& prtError();     // float, share of light that transfer may get wrong
 const ParameterSpec& antialias();    // int, G-buffers averaged once the lights are settled
 const ParameterSpec& cornerLight();  // bool
 const ParameterSpec& refine();       // int, VPLs in all; heeded where the caller lets it

@@ -52,9 +52,11 @@ struct BumpyRoom {
   }
 };
 
-Settings settingsOf(bool prt, int bounces) {
+// With transfer for all light, unless it is told how much of it may be wrong.
+Settings settingsOf(bool prt, int bounces, float error = 1.0f) {
   Settings s;
   s.set(parameters::prt().name, prt);
+  s.set(parameters::prtError().name, error);
   s.set(parameters::block().name, std::string("1"));
   // It is found from the light of the whole picture, transfer's too.
   s.set(parameters::cornerLight().name, false);
@@ -91,6 +93,8 @@ void PrintTo(const Case& c, std::ostream* out) {
   *out << (c.hasPlate ? "plate" : "open") << ", bounces " << c.bounces;
 }
 
+constexpr float kError = 0.05f;
+
 class TransferPictures : public testing::TestWithParam<Case> {};
 
 TEST_P(TransferPictures, AreNearTheReference) {
@@ -102,6 +106,7 @@ TEST_P(TransferPictures, AreNearTheReference) {
   const Rendered without = rendered(room, settingsOf(false, c.bounces));
   Settings one = settingsOf(true, c.bounces);
   one.set(parameters::prtPoints().name, 1);
+  const Rendered careful = rendered(room, settingsOf(true, c.bounces, kError));
   const Metrics a = compareImages(with.image, reference, &mask);
   const Metrics b = compareImages(without.image, reference, &mask);
   const Metrics paper = compareImages(rendered(room, one).image, reference, &mask);
@@ -115,6 +120,12 @@ TEST_P(TransferPictures, AreNearTheReference) {
   }
   EXPECT_LT(2.0 * a.relRmse, paper.relRmse) << "with the paper's one point (figure 4-14)";
   EXPECT_LT(with.lookUps, without.lookUps);
+  // Without what it gets wrong of direct light it is not behind pixels.
+  const double carefulError = compareImages(careful.image, reference, &mask).relRmse;
+  RecordProperty("careful", std::to_string(carefulError));
+  EXPECT_LT(carefulError, a.relRmse);
+  EXPECT_LE(carefulError, b.relRmse);
+  EXPECT_LE(careful.lookUps, without.lookUps);
   // Elsewhere it is the very picture.
   for (int y = 0; y < mask.height; ++y) {
     for (int x = 0; x < mask.width; ++x) {
@@ -132,6 +143,23 @@ INSTANTIATE_TEST_SUITE_P(Rooms, TransferPictures,
                          testing::Values(Case{false, 0, 0.14, 0.02, false},
                                          Case{false, 2, 0.09, 0.02, false},
                                          Case{true, 2, 0.21, 0.08, true}));
+
+// Where reflections are left to light samples, too, it is the light of the same samples, but for
+// what of it may be wrong.
+TEST(TransferPicture, IsThatOfPixelsButForTheError) {
+  for (const bool hasPlate : {false, true}) {
+    const BumpyRoom room(hasPlate);
+    const Image mask = room.mask();
+    const Image pixels = rendered(room, settingsOf(false, 2)).image;
+    for (const float error : {0.2f, 0.1f}) {
+      Settings settings = settingsOf(true, 2, error);
+      settings.set(parameters::prtBounces().name, 0);
+      const Metrics m = compareImages(rendered(room, settings).image, pixels, &mask);
+      EXPECT_LT(m.relRmse, error) << hasPlate;
+      EXPECT_GT(m.relRmse, 0.0) << "it is another model of light";
+    }
+  }
+}
 
 // What is prepared in the background comes in some frame, and then the picture is that of one that
 // has waited.

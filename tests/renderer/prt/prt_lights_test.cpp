@@ -244,8 +244,11 @@ TEST(PrtLights, LeaveOutWhatTheyWouldGetWrong) {
   EXPECT_FALSE(world.prt.irradiance(3).empty());
 }
 
-TEST(PrtLights, LeaveNoTraceOfWhatWas) {
+class PrtLightsOfError : public testing::TestWithParam<float> {};
+
+TEST_P(PrtLightsOfError, LeaveNoTraceOfWhatWas) {
   World world(1);
+  world.options.mostError = GetParam();
   Scene& scene = world.scene;
   const NodeId bumpy = addComplex(scene, test::sphereMesh(0.5f, 12, 0.1f), vec3(0.0f));
   addComplex(scene, test::sphereMesh(0.4f, 10), vec3(2, 0, 0));
@@ -281,6 +284,41 @@ TEST(PrtLights, LeaveNoTraceOfWhatWas) {
   EXPECT_TRUE(world.isAsFromNothing(vpls)) << "one came";
 }
 
+INSTANTIATE_TEST_SUITE_P(Errors, PrtLightsOfError, testing::Values(1.0f, 0.3f, 0.15f, 0.0f));
+
+// What is left to pixels is what light points cannot tell; what the object's parts reflect of it
+// stays.
+TEST_F(HalfShadowedBar, IsLeftToPixelsWhereItMayNotBeWrong) {
+  for (const int bounces : {0, 2}) {
+    World all(bounces), direct(0), some(bounces);
+    some.options.mostError = 0.1f;
+    light(all), light(direct), light(some);
+    EXPECT_EQ(all.prt.held(0)[0], 1);
+    EXPECT_EQ(some.prt.held(0)[0], 0);
+    const auto a = all.prt.irradiance(0), d = direct.prt.irradiance(0), s = some.prt.irradiance(0);
+    for (size_t v = 0; v < s.size(); ++v) {
+      if (d[v].g > 0.0f) {
+        EXPECT_NEAR(s[v].g, std::max(a[v].g - d[v].g, 0.0f), 1e-5f);
+      }
+    }
+  }
+}
+
+TEST(PrtLights, LeaveASphereInTheOpenNothing) {
+  World world;
+  world.options.mostError = 0.05f;
+  addComplex(world.scene, test::sphereMesh(0.5f, 32), vec3(0.0f));
+  std::vector<Vpl> vpls;
+  for (int i = 0; i < 32; ++i) {
+    const float phi = 2.4f * static_cast<float>(i), y = static_cast<float>(2 * i - 31) / 32.0f;
+    const vec3 to(std::sqrt(1.0f - y * y) * std::cos(phi), y,
+                  std::sqrt(1.0f - y * y) * std::sin(phi));
+    vpls.push_back(brightVpl(20.0f * to, -to, 100.0f));
+  }
+  world.show(vpls);
+  for (const uint8_t held : world.prt.held(0)) EXPECT_EQ(held, 1);
+}
+
 TEST(PrtLights, KeepTheShadowsOfLightsThatWait) {
   World world;
   addComplex(world.scene, test::sphereMesh(0.5f, 12), vec3(0.0f));
@@ -310,6 +348,7 @@ TEST(PrtLights, HaveTheSameBitsAtAnyNumberOfThreads) {
   const auto lit = [](int threads) {
     const ThreadLimit limit(threads);
     World world(1);
+    world.options.mostError = 0.2f;
     addComplex(world.scene, test::sphereMesh(0.5f, 16, 0.1f), vec3(0.0f));
     world.show({brightVpl(vec3(0, 3, 1), vec3(0, -1, 0), 40.0f),
                 brightVpl(vec3(3, 1, 0), vec3(-1, 0, 0), 20.0f)});

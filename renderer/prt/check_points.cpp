@@ -1,0 +1,167 @@
+#include "renderer/prt/check_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "renderer/sampling/low_discrepancy.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr uint32_t kScramble = 0x5eed0002u;
+constexpr int kFewest = 64;
+constexpr double kDark = 0.25;  // of the object's mean
+// Of the lights that it says anything of, or should, one in so many may be left: more, and it is
+// not worth its while.
+constexpr size_t kMostLeft = 3;
+
+// The transfer of a vertex, by the light points that it blends.
+void addVertex(const Transfer::Vertex& vertex, const LightPoints::Blend& blend, float weight,
+               std::vector<CheckPoint::Term>& terms) {
+  for (size_t k = 0; k < LightPoints::kBlended; ++k) {
+    if (!(blend.weight[k] > 0.0f)) continue;
+    const uint8_t point = blend.point[k];
+    auto term = std::find_if(terms.begin(), terms.end(),
+                             [&](const CheckPoint::Term& t) { return t.point == point; });
+    if (term == terms.end()) term = terms.insert(terms.end(), {point, ShVector{}});
+    for (size_t i = 0; i < kShCoefficients; ++i)
+      term->direct[i] += weight * blend.weight[k] * vertex.direct[i];
+  }
+}
+
+}  // namespace
+
+std::vector<CheckPoint> placeCheckPoints(const RenderScene& own, const Transfer& transfer,
+                                         const LightPoints& points,
+                                         const std::vector<bool>& isLit) {
+  const size_t triangles = own.triangleCount();
+  std::vector<double> areas(triangles);  // up to and with each
+  double area = 0.0;
+  for (size_t t = 0; t < triangles; ++t) {
+    const uint32_t* corner = &own.indices[3 * t];
+    const vec3& a = own.positions[corner[0]];
+    if (isLit[t])
+      area += double{
+          glm::length(glm::cross(own.positions[corner[1]] - a, own.positions[corner[2]] - a))};
+    areas[t] = area;
+  }
+  std::vector<CheckPoint> out;
+  if (!(area > 0.0)) return out;
+  const int count = std::max(kFewest, 2 * static_cast<int>(points.places.size()));
+  for (int i = 0; i < count; ++i) {
+    const double at = area * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    const auto t =
+        static_cast<size_t>(std::upper_bound(areas.begin(), areas.end() - 1, at) - areas.begin());
+    const uint32_t* corner = &own.indices[3 * t];
+    const vec2 u = sobol2(static_cast<uint32_t>(i), kScramble);
+    const float root = std::sqrt(u.x);
+    const float weights[3] = {1.0f - root, root * (1.0f - u.y), root * u.y};
+    CheckPoint check{};
+    for (size_t k = 0; k < 3; ++k) {
+      check.place += weights[k] * own.positions[corner[k]];
+      check.normal += weights[k] * own.normals[corner[k]];
+      addVertex(transfer.vertices[corner[k]], points.ofVertex[corner[k]], weights[k], check.terms);
+    }
+    const vec3& a = own.positions[corner[0]];
+    check.plane = glm::cross(own.positions[corner[1]] - a, own.positions[corner[2]] - a);
+    const float side = glm::length(check.plane), length = glm::length(check.normal);
+    if (!(side > 0.0f) || !(length > 0.0f)) continue;
+    check.plane /= side;
+    check.normal /= length;
+    // Normals that disagree with the winding are turned, as surfaceAt() does.
+    if (glm::dot(check.plane, check.normal) < 0.0f) check.normal = -check.normal;
+    out.push_back(std::move(check));
+  }
+  return out;
+}
+
+uint64_t checkLight(const std::vector<CheckPoint>& checks, const OwnSpace& space,
+                    const RayCaster& rays, const shared::Vpl& vpl, std::span<const vec3> places,
+                    std::span<const uint8_t> hidden, float clampDistance, bool isDark,
+                    std::span<CheckedLight> out) {
+  std::fill(out.begin(), out.end(), CheckedLight{});
+  if (isDark) return 0;
+  uint64_t traced = 0;
+  // What arrives at the light points.
+  std::vector<ShVector> light(places.size(), ShVector{});
+  for (size_t p = 0; p < places.size(); ++p) {
+    if (hidden[p] != 0) continue;
+    const auto incident = incidentLight(vpl, places[p], clampDistance);
+    if (!incident) continue;
+    const float scale = luminance(incident->irradiance);
+    light[p] = shBasis(glm::transpose(space.rotation) * incident->direction);
+    for (float& y : light[p]) y *= scale;
+  }
+  for (size_t c = 0; c < checks.size(); ++c) {
+    const CheckPoint& check = checks[c];
+    float byTransfer = 0.0f;
+    for (const CheckPoint::Term& term : check.terms)
+      byTransfer += shDot(term.direct, light[term.point]);
+    const vec3 plane = space.rotation * check.plane, normal = space.rotation * check.normal;
+    const vec3 surface = space.scale * (space.rotation * check.place) + space.translation;
+    const vec3 place = surface + rayEpsilon(surface) * plane;
+    const float geometry = shared::vplGeometry(vpl, place, normal, plane, clampDistance);
+    if (geometry > 0.0f) {
+      const auto incident = incidentLight(vpl, place, clampDistance);
+      if (incident) ++traced;
+      if (incident && !rays.occluded({place, 0.0f, incident->direction,
+                                      incident->distance - 2.0f * rayEpsilon(place)}))
+        out[c].exact = geometry * luminance(vec3(vpl.intensity));
+    }
+    out[c].error = byTransfer - out[c].exact;
+  }
+  return traced;
+}
+
+std::vector<bool> lightsToLeave(std::span<const CheckedLight> lights, size_t checks,
+                                const std::vector<bool>& isHeld, float mostError) {
+  const size_t slots = isHeld.size();
+  std::vector<bool> leaves(slots, false);
+  if (checks == 0 || slots == 0) return leaves;
+  std::vector<double> light(checks, 0.0), error(checks, 0.0);
+  for (size_t slot = 0; slot < slots; ++slot) {
+    for (size_t c = 0; c < checks; ++c) {
+      const CheckedLight& l = lights[slot * checks + c];
+      light[c] += double{l.exact};
+      if (isHeld[slot]) error[c] += double{l.error};
+    }
+  }
+  const double mean = std::accumulate(light.begin(), light.end(), 0.0) / double(checks);
+  if (!(mean > 0.0)) {  // all that transfer says is wrong
+    for (size_t slot = 0; slot < slots; ++slot)
+      for (size_t c = 0; c < checks; ++c)
+        if (isHeld[slot] && lights[slot * checks + c].error != 0.0f) leaves[slot] = true;
+    return leaves;
+  }
+  std::vector<double> weight(checks);
+  for (size_t c = 0; c < checks; ++c) weight[c] = 1.0 / std::clamp(light[c], kDark * mean, mean);
+  const auto square = [&](const auto& errorAt) {
+    double sum = 0.0;
+    for (size_t c = 0; c < checks; ++c) {
+      const double e = weight[c] * errorAt(c);
+      sum += e * e;
+    }
+    return sum / double(checks);
+  };
+  std::vector<std::pair<double, size_t>> order;
+  for (size_t slot = 0; slot < slots; ++slot)
+    if (isHeld[slot])
+      order.emplace_back(-square([&](size_t c) { return double{lights[slot * checks + c].error}; }),
+                         slot);
+  std::sort(order.begin(), order.end());
+  const double most = double{mostError} * double{mostError};
+  const auto wrong = static_cast<size_t>(
+      std::count_if(order.begin(), order.end(), [](const auto& o) { return o.first < 0.0; }));
+  size_t left = 0;
+  for (const auto& [own, slot] : order) {
+    if (!(square([&](size_t c) { return error[c]; }) > most)) break;
+    if (++left * kMostLeft > wrong) return isHeld;
+    leaves[slot] = true;
+    for (size_t c = 0; c < checks; ++c) error[c] -= double{lights[slot * checks + c].error};
+  }
+  return leaves;
+}
+
+}  // namespace lamplighter
