@@ -166,7 +166,7 @@ void print(const Kind& kind, const std::vector<fs::path>& scenes, const Resoluti
 struct Options {
   fs::path folder;  // for pictures; empty: none
   Resolutions resolutions{384, 64};
-  std::vector<int> tables{1, 2, 3, 4};
+  std::vector<int> tables{1, 2, 3, 4, 5};
   std::vector<std::string> wanted;  // parts of paths; none: all scenes
 };
 
@@ -204,7 +204,7 @@ int main(int argc, char** argv) {
   app.add_option("--tables", options.tables, "Numbers of the tables")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(1, 4))
+      ->check(CLI::Range(1, 5))
       ->capture_default_str();
   app.add_option("scenes", options.wanted, "Parts of paths of scenes; without: all");
   CLI11_PARSE(app, argc, argv);
