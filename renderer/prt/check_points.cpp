@@ -11,11 +11,11 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kScramble = 0x5eed0002u;
-constexpr int kFewest = 64;
+constexpr int kFewest = 32;
 constexpr double kDark = 0.25;  // of the object's mean
 // Of the lights that it says anything of, or should, one in so many may be left: more, and it is
 // not worth its while.
-constexpr size_t kMostLeft = 3;
+constexpr size_t kMostLeft = 6;
 
 // The transfer of a vertex, by the light points that it blends.
 void addVertex(const Transfer::Vertex& vertex, const LightPoints::Blend& blend, float weight,
@@ -77,13 +77,12 @@ std::vector<CheckPoint> placeCheckPoints(const RenderScene& own, const Transfer&
   return out;
 }
 
-uint64_t checkLight(const std::vector<CheckPoint>& checks, const OwnSpace& space,
-                    const RayCaster& rays, const shared::Vpl& vpl, std::span<const vec3> places,
-                    std::span<const uint8_t> hidden, float clampDistance, bool isDark,
-                    std::span<CheckedLight> out) {
-  std::fill(out.begin(), out.end(), CheckedLight{});
-  if (isDark) return 0;
-  uint64_t traced = 0;
+CheckedLights checkLight(const std::vector<CheckPoint>& checks, const OwnSpace& space,
+                         const RayCaster& rays, const shared::Vpl& vpl,
+                         std::span<const vec3> places, std::span<const uint8_t> hidden,
+                         float clampDistance, uint64_t& traced) {
+  CheckedLights out(checks.size());
+  bool isAny = false;
   // What arrives at the light points.
   std::vector<ShVector> light(places.size(), ShVector{});
   for (size_t p = 0; p < places.size(); ++p) {
@@ -111,45 +110,47 @@ uint64_t checkLight(const std::vector<CheckPoint>& checks, const OwnSpace& space
         out[c].exact = geometry * luminance(vec3(vpl.intensity));
     }
     out[c].error = byTransfer - out[c].exact;
+    isAny = isAny || out[c].exact != 0.0f || out[c].error != 0.0f;
   }
-  return traced;
+  if (!isAny) out = {};
+  return out;
 }
 
-std::vector<bool> lightsToLeave(std::span<const CheckedLight> lights, size_t checks,
+std::vector<bool> lightsToLeave(std::span<const CheckedLights> lights,
                                 const std::vector<bool>& isHeld, float mostError) {
   const size_t slots = isHeld.size();
   std::vector<bool> leaves(slots, false);
-  if (checks == 0 || slots == 0) return leaves;
+  size_t checks = 0;
+  for (const CheckedLights& light : lights) checks = std::max(checks, light.size());
   std::vector<double> light(checks, 0.0), error(checks, 0.0);
+  double sum = 0.0;
   for (size_t slot = 0; slot < slots; ++slot) {
-    for (size_t c = 0; c < checks; ++c) {
-      const CheckedLight& l = lights[slot * checks + c];
-      light[c] += double{l.exact};
-      if (isHeld[slot]) error[c] += double{l.error};
+    for (size_t c = 0; c < lights[slot].size(); ++c) {
+      light[c] += double{lights[slot][c].exact};
+      sum += double{lights[slot][c].exact};
+      if (isHeld[slot]) error[c] += double{lights[slot][c].error};
     }
   }
-  const double mean = std::accumulate(light.begin(), light.end(), 0.0) / double(checks);
-  if (!(mean > 0.0)) {  // all that transfer says is wrong
+  if (!(sum > 0.0)) {  // all that transfer says is wrong
     for (size_t slot = 0; slot < slots; ++slot)
-      for (size_t c = 0; c < checks; ++c)
-        if (isHeld[slot] && lights[slot * checks + c].error != 0.0f) leaves[slot] = true;
+      leaves[slot] = isHeld[slot] && !lights[slot].empty();
     return leaves;
   }
+  const double mean = sum / static_cast<double>(checks);
   std::vector<double> weight(checks);
   for (size_t c = 0; c < checks; ++c) weight[c] = 1.0 / std::clamp(light[c], kDark * mean, mean);
   const auto square = [&](const auto& errorAt) {
-    double sum = 0.0;
+    double squares = 0.0;
     for (size_t c = 0; c < checks; ++c) {
       const double e = weight[c] * errorAt(c);
-      sum += e * e;
+      squares += e * e;
     }
-    return sum / double(checks);
+    return squares / static_cast<double>(checks);
   };
   std::vector<std::pair<double, size_t>> order;
   for (size_t slot = 0; slot < slots; ++slot)
-    if (isHeld[slot])
-      order.emplace_back(-square([&](size_t c) { return double{lights[slot * checks + c].error}; }),
-                         slot);
+    if (isHeld[slot] && !lights[slot].empty())
+      order.emplace_back(-square([&](size_t c) { return double{lights[slot][c].error}; }), slot);
   std::sort(order.begin(), order.end());
   const double most = double{mostError} * double{mostError};
   const auto wrong = static_cast<size_t>(
@@ -159,7 +160,7 @@ std::vector<bool> lightsToLeave(std::span<const CheckedLight> lights, size_t che
     if (!(square([&](size_t c) { return error[c]; }) > most)) break;
     if (++left * kMostLeft > wrong) return isHeld;
     leaves[slot] = true;
-    for (size_t c = 0; c < checks; ++c) error[c] -= double{lights[slot * checks + c].error};
+    for (size_t c = 0; c < checks; ++c) error[c] -= double{lights[slot][c].error};
   }
   return leaves;
 }

@@ -22,7 +22,7 @@ struct CheckPoint {
 };
 
 // By area, as a pixel there comes by its light: the transfer of its triangle's vertices, each
-// with the light points that it blends; twice as many as there are of those, 64 at least. `own`: as
+// with the light points that it blends; twice as many as there are of those, 32 at least. `own`: as
 // the transfer was computed of; `isLit`: by triangle, whether transfer lights it. Deterministic;
 // none where the object has no such surface.
 std::vector<CheckPoint> placeCheckPoints(const RenderScene& own, const Transfer& transfer,
@@ -34,20 +34,22 @@ struct CheckedLight {
   float error = 0.0f;  // of what transfer says, from that
 };
 
-// Straight from a light at each check point. `places`: of the light points, in the world;
-// `hidden`: of those, whether others hide the light; `isDark`: it is known that nothing arrives
-// at the object, and no ray is asked. Returns how many rays were.
-uint64_t checkLight(const std::vector<CheckPoint>& checks, const OwnSpace& space,
-                    const RayCaster& rays, const shared::Vpl& vpl, std::span<const vec3> places,
-                    std::span<const uint8_t> hidden, float clampDistance, bool isDark,
-                    std::span<CheckedLight> out);
+// By check point; none where nothing arrives at any, and nothing is wrong.
+using CheckedLights = std::vector<CheckedLight>;
+
+// Straight from a light. `places`: of the light points, in the world; `hidden`: of those, whether
+// others hide the light. Adds to `traced` how many rays it took.
+CheckedLights checkLight(const std::vector<CheckPoint>& checks, const OwnSpace& space,
+                         const RayCaster& rays, const shared::Vpl& vpl,
+                         std::span<const vec3> places, std::span<const uint8_t> hidden,
+                         float clampDistance, uint64_t& traced);
 
 // Which lights to leave to pixels, so that what transfer gets wrong of the others stays, as the
 // root of the mean square over the check points, below a share `mostError` of the light there: at
 // most of the object's mean, where it is dark of a quarter of that. One by one, that of the largest
-// error first; if these were more than a third of those that matter, all. `lights`: slots × checks;
-// `isHeld`: by slot, whether transfer has it otherwise.
-std::vector<bool> lightsToLeave(std::span<const CheckedLight> lights, size_t checks,
+// error first; if these were more than one in six of those that matter, all. By slot; `isHeld`:
+// whether transfer has it otherwise.
+std::vector<bool> lightsToLeave(std::span<const CheckedLights> lights,
                                 const std::vector<bool>& isHeld, float mostError);
 
 }  // namespace lamplighter

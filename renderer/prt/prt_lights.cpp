@@ -114,7 +114,7 @@ void PrtLights::placeObject(const Frame& frame, uint32_t object) {
   for (const vec3& p : o.points.places)
     o.places.push_back(o.space.scale * (o.space.rotation * p) + o.space.translation);
   o.sums.assign(o.places.size() * 2 * kSums, 0.0);
-  o.checked.assign(lights_.size() * o.checks.size(), CheckedLight{});
+  o.checked.assign(lights_.size(), {});
   o.takes.assign(lights_.size(), Take::none);
   o.held.assign(lights_.size(), 0);
   o.hidden.assign(lights_.size() * o.places.size(), 0);
@@ -156,7 +156,7 @@ void PrtLights::addLight(Object& o, const shared::Vpl& vpl, Take take, size_t po
 PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
                                   std::span<const uint32_t> slots) {
   Object& o = objects_[object];
-  const size_t points = o.places.size(), checks = o.checks.size();
+  const size_t points = o.places.size();
   const bool isChecked = options_.mostError < 1.0f;
   Looked out{std::vector<Take>(slots.size()), std::vector<uint8_t>(slots.size() * points, 0)};
   std::atomic<uint64_t> traced = 0, spared = 0;
@@ -181,10 +181,11 @@ PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
         if (light) ++rays;
       }
     }
-    if (isChecked)
-      rays += checkLight(o.checks, o.space, frame.rays, vpl, o.places, hidden,
-                         options_.clampDistance, take == Take::none || isFull,
-                         std::span(o.checked).subspan(slot * checks, checks));
+    // What is too near says little of the light elsewhere.
+    o.checked[slot] = isChecked && isSummed(take) && !isFull
+                          ? checkLight(o.checks, o.space, frame.rays, vpl, o.places, hidden,
+                                       options_.clampDistance, rays)
+                          : CheckedLights();
     traced += rays;
   });
   raysTraced_ += traced;
@@ -209,8 +210,7 @@ bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const u
   std::vector<bool> mayHold(takes.size());
   for (size_t slot = 0; slot < takes.size(); ++slot)
     mayHold[slot] = isSummed(takes[slot]) && !isHard_[slot];
-  const std::vector<bool> leaves =
-      lightsToLeave(o.checked, o.checks.size(), mayHold, options_.mostError);
+  const std::vector<bool> leaves = lightsToLeave(o.checked, mayHold, options_.mostError);
   for (size_t slot = 0; slot < takes.size(); ++slot)
     if (isSummed(takes[slot]))
       takes[slot] = mayHold[slot] && !leaves[slot] ? Take::add : Take::reflect;
@@ -342,6 +342,21 @@ uint64_t PrtLights::raysPerLight() const {
     if (o.transfer)
       rays += o.places.size() + (options_.mostError < 1.0f ? o.checks.size() : size_t{0});
   return rays;
+}
+
+size_t PrtLights::bytes() const {
+  size_t bytes = 0;
+  for (const Object& o : objects_) {
+    if (!o.transfer) continue;
+    bytes += o.transfer->vertices.size() *
+                 (sizeof(Transfer::Vertex) + sizeof(LightPoints::Blend) + sizeof(vec3)) +
+             o.sums.size() * sizeof(double) + o.hidden.size();
+    for (const CheckPoint& check : o.checks)
+      bytes += sizeof(CheckPoint) + check.terms.size() * sizeof(CheckPoint::Term);
+    for (const CheckedLights& lights : o.checked)
+      bytes += sizeof(CheckedLights) + lights.size() * sizeof(CheckedLight);
+  }
+  return bytes;
 }
 
 bool PrtLights::isFront(uint32_t object, uint32_t triangle, const vec3& normal) const {

@@ -62,6 +62,9 @@ class PrtLights {
   // At each vertex of the object; empty: it has no transfer (yet).
   std::span<const vec3> irradiance(uint32_t object) const { return objects_[object].irradiance; }
 
+  // What is held by all objects, transfer and light.
+  size_t bytes() const;
+
   size_t objects() const { return objects_.size(); }
   const Revision& revision(uint32_t object) const { return objects_[object].revision; }
   const Revision& coverage() const { return coverage_; }  // of what covers() says
@@ -91,12 +94,12 @@ class PrtLights {
     std::vector<vec3> places;     // of the points, in the world
     std::vector<int> looseRoots;  // patches
     std::vector<CheckPoint> checks;
-    std::vector<double> sums;           // points × 2 · kSums
-    std::vector<Take> takes;            // by slot, as summed
-    std::vector<CheckedLight> checked;  // slots × checks
-    std::vector<uint8_t> hidden;        // slots × points, as summed
-    std::vector<uint8_t> held;          // by slot
-    std::vector<vec3> irradiance;       // by vertex
+    std::vector<double> sums;            // points × 2 · kSums
+    std::vector<Take> takes;             // by slot, as summed
+    std::vector<CheckedLights> checked;  // by slot
+    std::vector<uint8_t> hidden;         // slots × points, as summed
+    std::vector<uint8_t> held;           // by slot
+    std::vector<vec3> irradiance;        // by vertex
     Revision revision;
   };
   struct Frame;

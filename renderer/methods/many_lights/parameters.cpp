@@ -327,7 +327,7 @@ const ParameterSpec& prtError() {
       "With transfer, how much of the light that falls straight on a mesh it may get wrong: lights "
       "of which it gets more wrong are summed at pixels, with their shadow maps, those first of "
       "which it gets most wrong. 1: none is.",
-      0.1f,
+      0.15f,
       0.0f,
       1.0f,
       false,

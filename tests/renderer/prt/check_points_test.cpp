@@ -13,15 +13,13 @@ namespace {
 
 // Lights over two check points: exact light and error at the first, then at the second.
 struct Lights {
-  std::vector<CheckedLight> all;
+  std::vector<CheckedLights> all;
   std::vector<bool> isHeld;
   void add(const CheckedLight& first, const CheckedLight& second, bool held = true) {
-    all.push_back(first), all.push_back(second);
+    all.push_back({first, second});
     isHeld.push_back(held);
   }
-  std::vector<bool> leave(float mostError) const {
-    return lightsToLeave(all, 2, isHeld, mostError);
-  }
+  std::vector<bool> leave(float mostError) const { return lightsToLeave(all, isHeld, mostError); }
 };
 
 // As many of a small error each as there are lights, so that few may be left.
@@ -68,9 +66,8 @@ TEST(LightsToLeave, AreAllWhereTheyAreMany) {
 TEST(LightsToLeave, MayGetTheDarkWrong) {
   Lights lights = manySmall();
   lights.add({1.0f, 0.0f}, {0.0f, 0.0f});
-  for (CheckedLight& light : lights.all) light.error = 0.0f;
-  lights.all[1].error = 0.02f;  // at a point where there is none but that of the small ones
-  for (size_t i = 1; i < 20; i += 2) lights.all[i].exact = 0.0f;
+  for (CheckedLights& light : lights.all) light[1].exact = light[0].error = light[1].error = 0.0f;
+  lights.all[0][1].error = 0.02f;  // at a point where there is no light at all
   EXPECT_EQ(lights.leave(0.06f), std::vector<bool>(11, false)) << "0.02 / √2 / (1/4 of 1) = 0.057";
   EXPECT_TRUE(lights.leave(0.02f)[0]);
 }
@@ -78,7 +75,8 @@ TEST(LightsToLeave, MayGetTheDarkWrong) {
 TEST(LightsToLeave, AreAllThatArriveNowhere) {
   Lights lights;
   lights.add({0.0f, 0.1f}, {0.0f, 0.0f});
-  lights.add({0.0f, 0.0f}, {0.0f, 0.0f});
+  lights.all.emplace_back();  // arrives nowhere, and is not said to
+  lights.isHeld.push_back(true);
   EXPECT_EQ(lights.leave(0.5f), (std::vector<bool>{true, false}));
 }
 
@@ -130,9 +128,11 @@ TEST_F(CheckedSphere, KnowsWhatIsWrong) {
   const auto checks = placed();
   shared::Vpl vpl = test::makeVpl(vec3(1, 22, 3), vec3(0, -1, 0));
   vpl.intensity = vec4(400.0f);
-  std::vector<CheckedLight> out(checks.size());
   std::vector<uint8_t> hidden(places_.size(), 0);
-  EXPECT_GT(checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, false, out), 16u);
+  uint64_t traced = 0;
+  CheckedLights out = checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, traced);
+  EXPECT_GT(traced, 16u);
+  ASSERT_EQ(out.size(), checks.size());
   for (size_t c = 0; c < out.size(); ++c) {
     const float cosine = std::max(checks[c].normal.y, 0.0f);
     EXPECT_NEAR(out[c].exact, cosine, 0.07f) << "400 W/sr from 20 m, 0.5 m nearer on top";
@@ -140,10 +140,12 @@ TEST_F(CheckedSphere, KnowsWhatIsWrong) {
   }
   // Light points that say it is hidden, where it is not.
   hidden.assign(hidden.size(), 1);
-  checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, false, out);
+  out = checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, traced);
+  ASSERT_EQ(out.size(), checks.size());
   for (const CheckedLight& light : out) EXPECT_EQ(light.error, -light.exact);
-  EXPECT_EQ(checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, true, out), 0u);
-  for (const CheckedLight& light : out) EXPECT_EQ(light.exact, 0.0f);
+  // A light that shines elsewhere.
+  vpl.normal = vec4(0, 1, 0, 0);
+  EXPECT_TRUE(checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, traced).empty());
 }
 
 }  // namespace
