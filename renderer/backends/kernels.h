@@ -45,6 +45,7 @@ struct BackendInfo {
   std::string device;                 // GL renderer string, or the instruction set
   bool tracesShadowMaps = false;      // by a ray a texel
   bool takesTransfer = false;         // PatchLights with light by precomputed transfer
+  bool sparesSamples = false;         // ShadingParams::block.y is heeded
   bool specularsTakeAllMaps = false;  // lights on glossy pixels are looked up wherever they are
 };
 

@@ -14,6 +14,9 @@
 //   - none of the few lights that make hard shadows is partly hidden from the patch of a corner
 //     (renderer/backends/cpu/light_sums.h): what they light may be narrower than a block.
 // The pixels of all other cells are summed one by one.
+//
+// In haste (ShadingParams::block.y), while the camera moves, samples are pixels of a smaller picture
+// that is made likewise, with blocks of two, by backends that do so (BackendInfo::sparesSamples).
 #ifndef LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
 #define LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
 #include "interop.h"

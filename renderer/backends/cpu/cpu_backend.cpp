@@ -25,7 +25,9 @@ struct Picture {
   cpu::LightSums sums;  // at its pixels; with blocks, at those of cells that are not interpolated
   int block = 1;        // pixels, as summed
   cpu::LowResolution low;
-  cpu::LightSums sampleSums;  // at the samples of `low`
+  cpu::LightSums sampleSums;  // at the samples of `low`; in haste but for those between coarse ones
+  cpu::LowResolution lowSamples;  // in haste: of the samples of `low`
+  cpu::LightSums coarseSums;      // at its own; never kept
   cpu::SpecularSums speculars;
   vec3 eye{0.0f};
 
@@ -33,12 +35,17 @@ struct Picture {
   void forEachSums(F&& f) {
     f(sums);
     f(sampleSums);
+    f(coarseSums);
   }
   cpu::PictureLight light() const { return {sums, block == 1 ? nullptr : &low, nullptr, {}}; }
   size_t bytes() const {
-    return gbuffer.bytes() + sums.bytes() + low.bytes() + sampleSums.bytes() + speculars.bytes();
+    return gbuffer.bytes() + sums.bytes() + low.bytes() + sampleSums.bytes() + lowSamples.bytes() +
+           coarseSums.bytes() + speculars.bytes();
   }
 };
+
+// Samples of the low-resolution pass, a side, between which others are interpolated in haste.
+constexpr int kSampleBlock = 2;
 
 class CpuBackend final : public Backend {
  public:
@@ -183,8 +190,17 @@ class CpuBackend final : public Backend {
       return;
     }
     p.low.update(p.gbuffer, p.block, leftOutBy_);
-    update(p.sampleSums, p.low.samples(), {});
-    p.low.findEdges(p.gbuffer, p.sampleSums);
+    if (params.block.y != 0.0f) {
+      p.lowSamples.update(p.low.samples(), kSampleBlock, leftOutBy_);
+      update(p.coarseSums, p.lowSamples.samples(), {});
+      p.lowSamples.findEdges(p.low.samples(), {p.coarseSums});
+      p.coarseSums.forgetMaps();
+      update(p.sampleSums, p.low.samples(), p.lowSamples.edges());
+      p.low.findEdges(p.gbuffer, {p.sampleSums, &p.lowSamples});
+    } else {
+      update(p.sampleSums, p.low.samples(), {});
+      p.low.findEdges(p.gbuffer, {p.sampleSums});
+    }
     counts_.pixelsInterpolated += p.low.pixelsInterpolated();
     update(p.sums, p.gbuffer, p.low.edges());
   }
@@ -264,7 +280,8 @@ class CpuBackend final : public Backend {
   BackendInfo info_{.name = "cpu",
                     .device = "x86-64-v3, 8 lanes",
                     .tracesShadowMaps = true,
-                    .takesTransfer = true};
+                    .takesTransfer = true,
+                    .sparesSamples = true};
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/backends/cpu/picture_light.h"
 #include "renderer/wide.h"
 #include "shaders/shared/low_resolution.h"
 
@@ -142,9 +143,13 @@ void LowResolution::takeSamples(const GBuffer& g) {
       return g.index(std::min(block_ * i, width_ - 1), std::min(block_ * j, height_ - 1));
     };
     // Revisions only grow, so that their sum tells whether one of them did.
+    // The last sample of a row or column may be in a tile of its own, past the picture's last.
+    const auto firstTile = [&](int sample, int tiles) {
+      return std::min(sample * block_ / kTileSize, tiles - 1);
+    };
     uint64_t revision = 0;
-    for (int y = j0 * block_ / kTileSize; y < g.tilesY && y * kTileSize < j1 * block_; ++y)
-      for (int x = i0 * block_ / kTileSize; x < g.tilesX && x * kTileSize < i1 * block_; ++x)
+    for (int y = firstTile(j0, g.tilesY); y < g.tilesY && y * kTileSize < j1 * block_; ++y)
+      for (int x = firstTile(i0, g.tilesX); x < g.tilesX && x * kTileSize < i1 * block_; ++x)
         revision += g.revision[static_cast<size_t>(y * g.tilesX + x)];
     const auto t = static_cast<size_t>(tile);
     if (sampleRevisions_[t] == revision) return;
@@ -239,16 +244,23 @@ void LowResolution::update(const GBuffer& g, int block, std::span<const uint32_t
   });
 }
 
-void LowResolution::takeLight(const LightSums& light, std::span<const uint8_t> isHard, int row) {
+void LowResolution::takeLight(const PictureLight& light, std::span<const uint8_t> isHard, int row) {
   const int from = std::min(row, samples_.height - 1);
   const size_t to = static_cast<size_t>(row) * rowLength();
-  for (int i = 0; i <= samples_.width; ++i) {
-    const size_t sample = samples_.index(std::min(i, samples_.width - 1), from);
-    const vec3 e = light.irradiance(sample);
-    isHard_[to + static_cast<size_t>(i)] = isHard[sample];
-    red_[to + static_cast<size_t>(i)] = e.r;
-    green_[to + static_cast<size_t>(i)] = e.g;
-    blue_[to + static_cast<size_t>(i)] = e.b;
+  for (int i = 0; i <= samples_.width; i += kPacketWidth) {
+    const size_t first = samples_.index(std::min(i, samples_.width - 1), from);
+    const size_t packet = first / kLanes;
+    PictureLight::Irradiance room;
+    const auto e = light.at(static_cast<int>(packet / kPacketsPerTile),
+                            static_cast<int>(packet % kPacketsPerTile), room);
+    for (int k = i; k < std::min(i + kPacketWidth, samples_.width + 1); ++k) {
+      const size_t sample = samples_.index(std::min(k, samples_.width - 1), from);
+      const size_t lane = sample % kLanes, at = to + static_cast<size_t>(k);
+      isHard_[at] = isHard[sample];
+      red_[at] = e.r[lane];
+      green_[at] = e.g[lane];
+      blue_[at] = e.b[lane];
+    }
   }
 }
 
@@ -318,8 +330,8 @@ uint32_t LowResolution::edgesOf(int tile) const {
   return edges;
 }
 
-void LowResolution::findEdges(const GBuffer& picture, const LightSums& light) {
-  const LightSums::HardShadows hard = light.findHardShadows();
+void LowResolution::findEdges(const GBuffer& picture, const PictureLight& light) {
+  const LightSums::HardShadows hard = light.sums.findHardShadows();
   tbb::parallel_for(0, samples_.height + 1, [&](int row) { takeLight(light, hard.at, row); });
   tbb::parallel_for(0, cellsY_, [&](int row) { findContrast(row, hard.hasLights); });
   std::atomic<uint64_t> interpolated = 0;

@@ -17,6 +17,8 @@
 
 namespace lamplighter::cpu {
 
+struct PictureLight;
+
 class LowResolution {
  public:
   // Takes the samples and looks where cells lie on one surface, in tiles that were traced since the
@@ -25,7 +27,7 @@ class LowResolution {
   const GBuffer& samples() const { return samples_; }
 
   // Says which packets are to be summed pixel by pixel, given the light at the samples.
-  void findEdges(const GBuffer& picture, const LightSums& light);
+  void findEdges(const GBuffer& picture, const PictureLight& light);
   // Of each tile of the picture, a bit a packet.
   std::span<const uint32_t> edges() const { return edges_; }
   uint64_t pixelsInterpolated() const { return interpolated_; }
@@ -44,7 +46,7 @@ class LowResolution {
 
   void takeSamples(const GBuffer& picture);
   void findPlanes(const GBuffer& picture, int tile, std::span<const uint32_t> leftOutBy);
-  void takeLight(const LightSums& light, std::span<const uint8_t> isHard, int row);
+  void takeLight(const PictureLight& light, std::span<const uint8_t> isHard, int row);
   void findContrast(int row, bool hasHardLights);
   bool isCutByShadow(uint8_t pairs, size_t at) const;
   uint32_t edgesOf(int tile) const;

@@ -135,8 +135,9 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (view_ != in.view || shadingChanged || options.fillsCorners != options_.fillsCorners)
     corners_.forget();
   const bool shadedNow =
-      !image_ || viewChanged || lights_.changed() || shadingChanged || prtChanged;
+      !image_ || viewChanged || lights_.changed() || shadingChanged || prtChanged || isHasty_;
   if (shadedNow) {
+    isHasty_ = image_ && view_ != in.view && options.block > 1 && in.backend.info().sparesSamples;
     view_ = in.view;
     image_ = shade(in, options, vec2(0.0f), stages);
     lights_.clearChanged();
@@ -159,7 +160,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   }
   samplesWanted_ = options.antialias;
   const bool isReady = pending == 0 && out.stats.mapsToSharpen == 0 && paths_.isAtRest() &&
-                       choiceIsCurrent_ && out.stats.transfersPending == 0;
+                       choiceIsCurrent_ && out.stats.transfersPending == 0 && !isHasty_;
   if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
   out.settled = isReady && samples_ == samples;
@@ -199,6 +200,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (visibility_) out.stats.memoryBytes["visibility"] = visibility_->bytes();
   if (wantsVisibility && !visibility_) out.stats.visibilityNeeds = visibilityNeeds_;
   if (lightMaps_) out.stats.memoryBytes["light maps"] = lightMaps_->bytes();
+  if (prt_) out.stats.memoryBytes["transfer"] = prt_->bytes();
   return out;
 }
 
@@ -379,10 +381,11 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   gbufferIsCurrent_ = isMiddle;
   stages.end("g-buffer");
   std::vector<shared::Vpl> vpls = lights_.shown();
-  const shared::ShadingParams params{vec4(options.clampDistance, options.shadowBias, 0.0f,
-                                          static_cast<float>(options.lightsPerPass)),
-                                     vec4(static_cast<float>(options.block), 0.0f, 0.0f, 0.0f),
-                                     speculars(options.speculars, options.leastRoughness)};
+  const shared::ShadingParams params{
+      vec4(options.clampDistance, options.shadowBias, 0.0f,
+           static_cast<float>(options.lightsPerPass)),
+      vec4(static_cast<float>(options.block), isMiddle && isHasty_ ? 1.0f : 0.0f, 0.0f, 0.0f),
+      speculars(options.speculars, options.leastRoughness)};
   const KernelCounts before = in.backend.counts();
   const bool isWhole = in.part == LightPart::all;
   if (isWhole)

@@ -73,6 +73,7 @@ class ManyLights final : public GiMethod {
   std::unique_ptr<LightMaps> lightMaps_;            // likewise
   std::unique_ptr<PrtLights> prt_;                  // likewise
   bool gbufferIsCurrent_ = false;
+  bool isHasty_ = false;  // the picture is of a camera that moved: fewer samples, more between them
   std::shared_ptr<RadianceImage> image_;    // of the pixels' middles
   int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum
   float interpolatedShare_ = 0.0f;          // likewise

@@ -136,6 +136,75 @@ TEST(LowResolution, LeaksNoLightPastAThinWall) {
   EXPECT_GT(lit, 10000);
 }
 
+// A floor alone under even light is all cells, whatever the sizes of picture, tiles and blocks.
+TEST(LowResolution, ReachesTheLastRowAndColumn) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(80.0f, test::addMaterial(scene, vec3(0.8f))));
+  test::LitScene lit(scene);
+  shared::Vpl vpl = test::makeVpl(vec3(0, 50, 0), vec3(0, -1, 0));
+  vpl.intensity = vec4(vec3(5.0f), 0.0f);
+  lit.backend->reserveShadowMaps(1, 64);
+  lit.backend->renderShadowMaps({&vpl, 1});
+  for (const glm::ivec2 size : {glm::ivec2(64, 64), glm::ivec2(128, 32), glm::ivec2(96, 256),
+                                glm::ivec2(61, 35), glm::ivec2(65, 129)}) {
+    for (const float block : {2.0f, 4.0f, 8.0f}) {
+      for (const float haste : {0.0f, 1.0f}) {
+        SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + " by " +
+                     std::to_string(block) + (haste != 0.0f ? " in haste" : ""));
+        const uint64_t before = lit.backend->counts().pixelsInterpolated;
+        lit.backend->renderGBuffer(test::lookAt(vec3(0, 6, 0.01f), vec3(0), size.x, size.y),
+                                   vec2(0.0f));
+        lit.backend->sumVpls({&vpl, 1},
+                             {vec4(0.1f, 0.002f, 64.0f, 64.0f), vec4(block, haste, 0, 0)}, nullptr);
+        EXPECT_EQ(lit.backend->counts().pixelsInterpolated - before,
+                  static_cast<uint64_t>(size.x * size.y));
+      }
+    }
+  }
+}
+
+// While the camera moves samples are interpolated too; where it rests the picture is the one from
+// nothing.
+class MovingCamera : public testing::TestWithParam<Case> {};
+
+TEST_P(MovingCamera, ShowsNearlyWhatItRestsOn) {
+  const Scene scene =
+      loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / GetParam().scene).scene;
+  Settings settings = settingsOf(GetParam().vpls, "4");
+  settings.set(parameters::importance().name, 1);  // samples are not chosen anew
+  settings.set(parameters::settledMapScale().name, 1);
+  settings.set(parameters::cornerLight().name, false);
+  const View view = viewsOf(scene)[0];
+  View moved = view;
+  moved.eye += vec3(0.02f, 0.01f, 0.0f);
+  FrameRenderer renderer(makeCpuBackend()), other(makeCpuBackend());
+  test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+  const auto sums = [&] { return renderer.backend().counts().lightPixels; };
+  const uint64_t before = sums();
+  GiOutput out = renderer.render({scene, {}, moved, "many_lights", settings});
+  const uint64_t inHaste = sums() - before;
+  EXPECT_FALSE(out.settled);
+  const Image moving = out.radiance->pixels();
+  out = test::renderSettled(renderer, scene, {}, moved, settings);
+  const Image settled = out.radiance->pixels();
+  const GiOutput fresh = test::renderSettled(other, scene, SceneChanges::all(), moved, settings);
+  EXPECT_TRUE(test::sameBits(settled, fresh.radiance->pixels()));
+  const Metrics m = compareImages(moving, settled);
+  RecordProperty("relRmse", std::to_string(m.relRmse));
+  EXPECT_LT(m.relRmse, GetParam().mostError);
+  EXPECT_GT(m.relRmse, 0.0);
+  EXPECT_NEAR(m.bias, 1.0, 0.001);
+  // At this size it is little less work than the picture of all samples, and little more where all
+  // is streaks (narrow_gap).
+  const uint64_t whole = other.backend().counts().lightPixels;
+  RecordProperty("sums", std::to_string(inHaste) + " of " + std::to_string(whole));
+  EXPECT_LT(static_cast<double>(inHaste), 1.03 * static_cast<double>(whole));
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, MovingCamera,
+                         testing::Values(Case{"area_light_room.gltf", 200, 0.0f, 0.01},
+                                         Case{"table_room.gltf", 200, 0.0f, 0.01},
+                                         Case{"narrow_gap.gltf", 200, 0.0f, 0.01}));
+
 // Cells at the sky and at curved surfaces are not interpolated.
 TEST(LowResolution, SpheresBeforeTheSkyAreSummedPixelByPixel) {
   Scene scene;
