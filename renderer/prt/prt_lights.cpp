@@ -234,7 +234,18 @@ bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const u
   o.takes = takes;
   for (size_t slot = 0; slot < takes.size(); ++slot)
     o.held[slot] = takes[slot] == Take::none || takes[slot] == Take::add ? 1 : 0;
+  o.countBytes();
   return changed;
+}
+
+void PrtLights::Object::countBytes() {
+  bytes = transfer->vertices.size() *
+              (sizeof(Transfer::Vertex) + sizeof(LightPoints::Blend) + sizeof(vec3)) +
+          sums.size() * sizeof(double) + hidden.size();
+  for (const CheckPoint& check : checks)
+    bytes += sizeof(CheckPoint) + check.terms.size() * sizeof(CheckPoint::Term);
+  for (const CheckedLights& lights : checked)
+    bytes += sizeof(CheckedLights) + lights.size() * sizeof(CheckedLight);
 }
 
 void PrtLights::lightVertices(Object& o) {
@@ -346,16 +357,7 @@ uint64_t PrtLights::raysPerLight() const {
 
 size_t PrtLights::bytes() const {
   size_t bytes = 0;
-  for (const Object& o : objects_) {
-    if (!o.transfer) continue;
-    bytes += o.transfer->vertices.size() *
-                 (sizeof(Transfer::Vertex) + sizeof(LightPoints::Blend) + sizeof(vec3)) +
-             o.sums.size() * sizeof(double) + o.hidden.size();
-    for (const CheckPoint& check : o.checks)
-      bytes += sizeof(CheckPoint) + check.terms.size() * sizeof(CheckPoint::Term);
-    for (const CheckedLights& lights : o.checked)
-      bytes += sizeof(CheckedLights) + lights.size() * sizeof(CheckedLight);
-  }
+  for (const Object& o : objects_) bytes += o.bytes;
   return bytes;
 }
 

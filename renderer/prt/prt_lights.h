@@ -101,6 +101,8 @@ class PrtLights {
     std::vector<uint8_t> held;           // by slot
     std::vector<vec3> irradiance;        // by vertex
     Revision revision;
+    size_t bytes = 0;  // of all that
+    void countBytes();
   };
   struct Frame;
 
