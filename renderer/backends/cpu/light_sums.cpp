@@ -27,6 +27,8 @@ constexpr MapChange kNoChange{MapChange::Extent::nothing};
 constexpr int kTilesPerTask = 16;
 // The same where few of their packets are wanted.
 constexpr int kSparseTilesPerTask = 32;
+// Of small pictures, so that no core waits long for the last one.
+constexpr int kFewestTasks = 48;
 
 std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
   std::vector<const LightRecord*> slots;
@@ -246,7 +248,8 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   const bool newTransfer = revised(transferRevisions_, patches ? patches->prt() : nullptr);
   const bool finishAll = newMaps || newTransfer;
   const int tiles = gbuffer.tiles();
-  const int aTask = wanted.empty() ? kTilesPerTask : kSparseTilesPerTask;
+  const int most = wanted.empty() ? kTilesPerTask : kSparseTilesPerTask;
+  const int aTask = std::clamp(tiles / kFewestTasks, 1, most);
   tbb::parallel_for(0, (tiles + aTask - 1) / aTask, [&](int task) {
     const int first = task * aTask, last = std::min(first + aTask, tiles);
     const SumCounts counts = sumTiles(frame, first, last);
