@@ -215,9 +215,12 @@ bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const u
     if (isSummed(takes[slot]))
       takes[slot] = mayHold[slot] && !leaves[slot] ? Take::add : Take::reflect;
 
+  std::vector<size_t> touched;
+  for (size_t slot = 0; slot < takes.size(); ++slot)
+    if (lookedAt[slot] != kKept || takes[slot] != o.takes[slot]) touched.push_back(slot);
   std::atomic<bool> changed = false;
   tbb::parallel_for(size_t{0}, points, [&](size_t point) {
-    for (size_t slot = 0; slot < takes.size(); ++slot) {
+    for (const size_t slot : touched) {
       const size_t i = lookedAt[slot];
       uint8_t& hidden = o.hidden[slot * points + point];
       const uint8_t now = i == kKept ? hidden : looked.hidden[i * points + point];
