@@ -63,6 +63,10 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   if (out.stats.mergedPasses > 0)
     j["merged_passes"] = {{"drawn", out.stats.mergedPasses}, {"saved", out.stats.passesSaved}};
   if (out.stats.interpolatedShare > 0.0f) j["interpolated_share"] = out.stats.interpolatedShare;
+  if (out.stats.transferObjects > 0)
+    j["transfer"] = {{"objects", out.stats.transferObjects},
+                     {"objects_left_to_pixels", out.stats.transferObjectsLeft},
+                     {"lights_left_to_pixels", out.stats.transferLightsLeft}};
   if (out.stats.vplsToRefine > 0) j["vpls_refined"] = out.stats.vplsRefined;
   j["samples_per_pixel"] = out.stats.samplesPerPixel;
   j["shadow_maps"] = counts.shadowMaps;

@@ -67,6 +67,9 @@ struct GiStats {
   float interpolatedShare = 0.0f;  // of the last sum's pixels: by the low-resolution pass
   int transfersPending = 0;        // objects' transfers that are being prepared
   float transferShare = 1.0f;      // that is done of the first of them
+  // Objects with transfer; those of them whose direct light is all summed at pixels, since transfer
+  // would get too much of it wrong; and lights that are, counted once for each of the others.
+  int transferObjects = 0, transferObjectsLeft = 0, transferLightsLeft = 0;
   int samplesPerPixel = 0;
   // A settled picture that is refined: VPLs it is the mean of, those it is to be, and how many came
   // nearer this frame.

@@ -237,6 +237,8 @@ bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const u
   o.takes = takes;
   for (size_t slot = 0; slot < takes.size(); ++slot)
     o.held[slot] = takes[slot] == Take::none || takes[slot] == Take::add ? 1 : 0;
+  o.lightsLeft = static_cast<int>(std::count(leaves.begin(), leaves.end(), true));
+  o.isLeft = o.lightsLeft > 0 && std::find(takes.begin(), takes.end(), Take::add) == takes.end();
   o.countBytes();
   return changed;
 }
@@ -356,6 +358,19 @@ uint64_t PrtLights::raysPerLight() const {
     if (o.transfer)
       rays += o.places.size() + (options_.mostError < 1.0f ? o.checks.size() : size_t{0});
   return rays;
+}
+
+PrtLights::Left PrtLights::left() const {
+  Left out;
+  for (const Object& o : objects_) {
+    if (!o.transfer) continue;
+    ++out.objects;
+    if (o.isLeft)
+      ++out.wholly;
+    else
+      out.lights += o.lightsLeft;
+  }
+  return out;
 }
 
 size_t PrtLights::bytes() const {

@@ -62,6 +62,13 @@ class PrtLights {
   // At each vertex of the object; empty: it has no transfer (yet).
   std::span<const vec3> irradiance(uint32_t object) const { return objects_[object].irradiance; }
 
+  // Objects with transfer, and what they leave to pixels for its error: all light, or some of it.
+  struct Left {
+    int objects = 0, wholly = 0;
+    int lights = 0;  // over all objects but those
+  };
+  Left left() const;
+
   // What is held by all objects, transfer and light.
   size_t bytes() const;
 
@@ -101,7 +108,9 @@ class PrtLights {
     std::vector<uint8_t> held;           // by slot
     std::vector<vec3> irradiance;        // by vertex
     Revision revision;
-    size_t bytes = 0;  // of all that
+    int lightsLeft = 0;   // to pixels for their error
+    bool isLeft = false;  // so that transfer has none
+    size_t bytes = 0;     // of all that
     void countBytes();
   };
   struct Frame;

@@ -365,6 +365,10 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStat
   const Transfers::Progress progress = prt_->progress();
   stats.transfersPending = static_cast<int>(progress.pending);
   stats.transferShare = progress.share;
+  const PrtLights::Left left = prt_->left();
+  stats.transferObjects = left.objects;
+  stats.transferObjectsLeft = left.wholly;
+  stats.transferLightsLeft = left.lights;
   return changed;
 }
 

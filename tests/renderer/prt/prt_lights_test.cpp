@@ -295,6 +295,9 @@ TEST_F(HalfShadowedBar, IsLeftToPixelsWhereItMayNotBeWrong) {
     light(all), light(direct), light(some);
     EXPECT_EQ(all.prt.held(0)[0], 1);
     EXPECT_EQ(some.prt.held(0)[0], 0);
+    EXPECT_EQ(all.prt.left().wholly, 0);
+    EXPECT_EQ(some.prt.left().objects, 1);
+    EXPECT_EQ(some.prt.left().wholly, 1);
     const auto a = all.prt.irradiance(0), d = direct.prt.irradiance(0), s = some.prt.irradiance(0);
     for (size_t v = 0; v < s.size(); ++v) {
       if (d[v].g > 0.0f) {
