@@ -1,18 +1,13 @@
 // The light of pixels in cells that take it from their corners (shared/low_resolution.h).
 #include "common/cells.glsl"
+#include "common/samples.glsl"
 #include "shared/bindings.h"
 
 layout(binding = kGPosition) uniform sampler2D uPosition;
-layout(binding = kSamples) uniform sampler2D uSamples;
 layout(binding = kCells) uniform usampler2D uCells;
 layout(location = 0) uniform int uBlock;
 
 layout(location = 0) out vec4 outIrradiance;
-
-// Light maps are interpolated and the shadows taken away from them are not: no less than no light.
-vec3 sampleAt(ivec2 at) {
-  return max(texelFetch(uSamples, at, 0).rgb, vec3(0.0));
-}
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);

@@ -59,6 +59,7 @@ SHARED_CONST int kSamples = 7;    // irradiance at those of the low-resolution p
 SHARED_CONST int kCells = 8;      // of the low-resolution pass: 1: interpolated
 SHARED_CONST int kVplTexels = 9;  // kVplBlock's as a buffer texture
 SHARED_CONST int kSkyPicture = 10;
+SHARED_CONST int kContrasts = 11;  // of cells, 1: the light differs much between their corners
 SHARED_CONST int kGGloss = 12;     // x: metallic, y: roughness; void where nothing was hit
 SHARED_CONST int kSpeculars = 13;  // what the lobes give the eye [W/(m² sr)]
 

@@ -35,11 +35,14 @@ class GlLowResolution {
   uint64_t bytes() const;
 
  private:
-  Program findCells_, interpolate_;
+  // Draws into a texture of cells.
+  void drawCells(const Framebuffer& framebuffer) const;
+
+  Program findContrasts_, findCells_, interpolate_;
   VertexArray emptyVertexArray_;
   SumTarget samples_;
-  Texture cells_;  // R8UI
-  Framebuffer cellsFramebuffer_;
+  Texture contrasts_, cells_;  // R8UI
+  Framebuffer contrastsFramebuffer_, cellsFramebuffer_;
   int block_ = 1;
 };
 
