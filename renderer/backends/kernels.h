@@ -45,7 +45,6 @@ struct BackendInfo {
   std::string device;                 // GL renderer string, or the instruction set
   bool tracesShadowMaps = false;      // by a ray a texel
   bool takesTransfer = false;         // PatchLights with light by precomputed transfer
-  bool sparesSamples = false;         // ShadingParams::block.y is heeded
   bool specularsTakeAllMaps = false;  // lights on glossy pixels are looked up wherever they are
 };
 
@@ -57,7 +56,7 @@ struct KernelCounts {
   uint64_t lookUps = 0;      // of those, with a look-up in a shadow map (cpu; in packets of pixels)
   // Merged passes (gl, where they are asked for): drawn, and fewer than object by object.
   uint64_t mergedPasses = 0, passesSaved = 0;
-  uint64_t pixelsInterpolated = 0;  // whose light was interpolated by the low-resolution pass
+  uint64_t pixelsInterpolated = 0;  // by the low-resolution pass (cpu)
   uint64_t memoryBytes = 0;         // held now: maps, G-buffer, scene copies
   uint64_t mapBytes = 0;            // of these, shadow maps
   uint64_t mapsHeld = 0;            // so many

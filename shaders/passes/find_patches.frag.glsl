@@ -1,14 +1,12 @@
-// The place of each pixel (shared/patches.h), and what its light map or the light by transfer at the
-// triangle's corners says: ObjectPatches::leafAt(), LightMaps::irradiance() and
-// PrtLights::irradiance() on the GPU. At all pixels, or at one of each block.
-#include "common/cells.glsl"
+// The place of each pixel (shared/patches.h), and what its light map or the light by transfer at
+// the triangle's corners says: ObjectPatches::leafAt(), LightMaps::irradiance() and
+// PrtLights::irradiance() on the GPU.
 #include "common/normal_packing.glsl"
 #include "shared/bindings.h"
 #include "shared/patches.h"
 
 layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGNormals) uniform sampler2D uNormals;
-layout(location = 0) uniform int uBlock;  // pixels a side, 1: all of them
 
 layout(std430, binding = kRootBuffer) readonly buffer Roots { uint roots[]; };
 layout(std430, binding = kPatchBuffer) readonly buffer Nodes { PatchNode nodes[]; };
@@ -46,8 +44,8 @@ vec3 lightAt(uint vertex) {
 // Light by transfer at a point of a triangle, if the normal is on its front. first: what to add to
 // the numbers of vertices.
 bool addTransfer(uint triangle, uint first, vec3 position, vec3 normal, inout vec3 sum) {
-  uvec3 corner = uvec3(corners[3u * triangle], corners[3u * triangle + 1u],
-                       corners[3u * triangle + 2u]);
+  uvec3 corner =
+      uvec3(corners[3u * triangle], corners[3u * triangle + 1u], corners[3u * triangle + 2u]);
   vec3 a = placeOf(corner.x);
   vec3 u = placeOf(corner.y) - a, v = placeOf(corner.z) - a, p = position - a;
   if (dot(normal, cross(u, v)) <= 0.0) return false;
@@ -66,8 +64,7 @@ bool addTransfer(uint triangle, uint first, vec3 position, vec3 normal, inout ve
 }
 
 void main() {
-  ivec2 last = textureSize(uPosition, 0) - 1;
-  ivec2 pixel = pixelOfSample(ivec2(gl_FragCoord.xy), uBlock, last);
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 position = texelFetch(uPosition, pixel, 0);
   outIrradiance = vec4(0.0);
   outPlace = 0u;

@@ -5,8 +5,6 @@
 //   with LINKS besides: but those that leave it out;
 //   with PATCHES: those that its place's list names, as it says (paper 1, 4.3.4);
 //   with MERGED besides: of these, the part that uPass says (paper 1, 4.3.5).
-// At all pixels, or at one of each block.
-#include "common/cells.glsl"
 #include "common/normal_packing.glsl"
 #include "common/shadow_look_up.glsl"
 #include "common/vpls.glsl"
@@ -23,7 +21,6 @@ layout(binding = kIrradiance) uniform sampler2D uIrradiance;
 layout(location = 0) uniform int uFirst;  // in uVpls, or in each list
 layout(location = 1) uniform int uEnd;
 layout(location = 2) uniform vec4 uClampAndBias;  // ShadingParams
-layout(location = 6) uniform int uBlock;          // pixels a side, 1: all of them
 
 #ifdef PATCHES
 layout(binding = kPlaces) uniform usampler2D uPlaces;
@@ -140,10 +137,9 @@ void main() {
   Part part = partOf(texelFetch(uPlaces, at, 0).r);
   if (part.plain.x >= part.plain.y && part.shadowed.x >= part.shadowed.y) discard;
 #endif
-  ivec2 pixel = pixelOfSample(at, uBlock, textureSize(uPosition, 0) - 1);
-  vec4 position = texelFetch(uPosition, pixel, 0);
+  vec4 position = texelFetch(uPosition, at, 0);
   if (position.w == 0.0) discard;
-  vec4 normals = texelFetch(uNormals, pixel, 0);
+  vec4 normals = texelFetch(uNormals, at, 0);
   Point x = Point(position.xyz, unpackNormal(normals.xy), unpackNormal(normals.zw)
 #ifdef LINKS
                   , leftOutAt(position.w)

@@ -16,7 +16,7 @@
 // The pixels of all other cells are summed one by one.
 //
 // In haste (ShadingParams::block.y), while the camera moves, samples are pixels of a smaller picture
-// that is made likewise, with blocks of two, by backends that do so (BackendInfo::sparesSamples).
+// that is made likewise, with blocks of kSampleBlock.
 #ifndef LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
 #define LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
 #include "interop.h"
@@ -31,6 +31,9 @@ SHARED_CONST float kLeastNormalCosine = 0.999f;
 SHARED_CONST float kMostContrast = 0.2f;
 // The same in the cells about it.
 SHARED_CONST float kMostContrastAbout = 0.25f;
+
+// Samples a side of the blocks of samples, in haste.
+SHARED_CONST int kSampleBlock = 2;
 
 // Samples along a side of `size` pixels.
 SHARED_FUNCTION int lowResolutionSamples(int size, int block) {

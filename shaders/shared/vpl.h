@@ -35,7 +35,7 @@ struct ShadingParams {
   // of the gl backend adds to a pixel at most
   vec4 clampAndBias;
   // x: pixels a side of the blocks of the low-resolution pass (low_resolution.h), 1: none; y: 1: of
-  // its samples, too, some are interpolated, where the backend does that; zw: 0
+  // its samples, too, some are interpolated; zw: 0
   vec4 block;
   // x: 1: what is seen has speculars (vpl_speculars.h), 0: all is Lambert's; y: least roughness;
   // zw: 0

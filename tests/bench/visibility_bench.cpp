@@ -224,7 +224,7 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
     view.eye.x += 0.001f;
     frame({});
   }
-  if (plus != std::string::npos) state.counters["interpolated"] = stats.interpolatedShare;
+  if (stats.interpolatedShare > 0.0f) state.counters["interpolated"] = stats.interpolatedShare;
   if (!merge) return;
   state.counters["passes"] = stats.mergedPasses;
   state.counters["saved"] = stats.passesSaved;

@@ -13,6 +13,7 @@
 #include "renderer/backends/cpu/sample_sharing.h"
 #include "renderer/backends/cpu/specular_sums.h"
 #include "renderer/backends/image_pool.h"
+#include "shaders/shared/low_resolution.h"
 
 namespace lamplighter {
 namespace {
@@ -43,9 +44,6 @@ struct Picture {
            coarseSums.bytes() + speculars.bytes();
   }
 };
-
-// Samples of the low-resolution pass, a side, between which others are interpolated in haste.
-constexpr int kSampleBlock = 2;
 
 class CpuBackend final : public Backend {
  public:
@@ -191,7 +189,7 @@ class CpuBackend final : public Backend {
     }
     p.low.update(p.gbuffer, p.block, leftOutBy_);
     if (params.block.y != 0.0f) {
-      p.lowSamples.update(p.low.samples(), kSampleBlock, leftOutBy_);
+      p.lowSamples.update(p.low.samples(), shared::kSampleBlock, leftOutBy_);
       update(p.coarseSums, p.lowSamples.samples(), {});
       p.lowSamples.findEdges(p.low.samples(), {p.coarseSums});
       p.coarseSums.forgetMaps();
@@ -280,8 +278,7 @@ class CpuBackend final : public Backend {
   BackendInfo info_{.name = "cpu",
                     .device = "x86-64-v3, 8 lanes",
                     .tracesShadowMaps = true,
-                    .takesTransfer = true,
-                    .sparesSamples = true};
+                    .takesTransfer = true};
   KernelCounts counts_;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;

@@ -67,8 +67,7 @@ void GlGBuffer::resize(int width, int height) {
   }
   width_ = width;
   height_ = height;
-  position_ = makeTexture2D(GL_RGBA32F, width, height);
-  normalsTexture_ = makeTexture2D(GL_RGBA32F, width, height);
+  points_.resize(width, height);
   albedo_ = makeTexture2D(GL_RGBA16, width, height);
   emission_ = makeTexture2D(GL_RGBA32F, width, height);
   gloss_ = makeTexture2D(GL_RG16, width, height);
@@ -77,8 +76,8 @@ void GlGBuffer::resize(int width, int height) {
     glNamedFramebufferTexture(framebuffer_.name(),
                               GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index), texture.name(), 0);
   };
-  attach(shared::kGPosition, position_);
-  attach(shared::kGNormals, normalsTexture_);
+  attach(shared::kGPosition, points_.position);
+  attach(shared::kGNormals, points_.normals);
   attach(shared::kGAlbedo, albedo_);
   attach(shared::kGEmission, emission_);
   attach(shared::kGlossTarget, gloss_);
@@ -121,8 +120,7 @@ void GlGBuffer::render(const GlScene& scene, const View& view, vec2 jitter) {
 }
 
 void GlGBuffer::bind() const {
-  glBindTextureUnit(shared::kGPosition, position_.name());
-  glBindTextureUnit(shared::kGNormals, normalsTexture_.name());
+  points_.bind();
   glBindTextureUnit(shared::kGAlbedo, albedo_.name());
   glBindTextureUnit(shared::kGEmission, emission_.name());
   glBindTextureUnit(shared::kGGloss, gloss_.name());
@@ -144,7 +142,8 @@ Image GlGBuffer::readNormals() const {
 Image GlGBuffer::readAlbedo() const { return readBack(albedo_.name(), width_, height_); }
 
 uint64_t GlGBuffer::bytes() const {
-  return uint64_t{3 * 16 + 8 + 4 + 4} * static_cast<uint64_t>(width_) * height_;
+  return SeenPoints::bytes(width_, height_) +
+         uint64_t{16 + 8 + 4 + 4} * static_cast<uint64_t>(width_) * height_;
 }
 
 }  // namespace lamplighter::gl

@@ -6,6 +6,7 @@
 
 #include "renderer/backends/gl/frustum.h"
 #include "renderer/backends/gl/gl_scene.h"
+#include "renderer/backends/gl/seen_points.h"
 #include "renderer/gl/program.h"
 #include "renderer/view.h"
 
@@ -19,6 +20,7 @@ class GlGBuffer {
   void render(const GlScene& scene, const View& view, vec2 jitter);
   // To the units of shaders/shared/bindings.h.
   void bind() const;
+  const SeenPoints& points() const { return points_; }
   Image readNormals() const;
   Image readAlbedo() const;
 
@@ -41,7 +43,8 @@ class GlGBuffer {
   Program normals_;
   VertexArray emptyVertexArray_;
   Framebuffer framebuffer_;
-  Texture position_, normalsTexture_, albedo_, emission_, gloss_, depth_;
+  SeenPoints points_;
+  Texture albedo_, emission_, gloss_, depth_;
   Frustum frustum_;
   View view_;
   vec2 jitter_{0.0f};

@@ -5,6 +5,7 @@
 #include "renderer/error.h"
 #include "renderer/gl/pass_state.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/low_resolution.h"
 #include "shaders/shared/sky.h"
 
 namespace lamplighter::gl {
@@ -128,7 +129,7 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
   if (patches == nullptr) {
     patches_.reset();
     pixels_.dropPlaces();
-    low_.release();
+    for (SampleGrid& grid : grids_) grid = {};
   } else {
     sum.merges = patches->mergesPasses();
     takePatches(scene, gbuffer, sum, *patches);
@@ -141,22 +142,39 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
     }
   }
 
-  const int block = static_cast<int>(params.block.x);
   if (patches == nullptr) {
     zero();
-    add(scene, sum, pixels_, 1, false);
-  } else if (low_.resize(pixels_.width, pixels_.height, block)) {
-    begin(scene, low_.samples(), block, false);
-    add(scene, sum, low_.samples(), block, false);
-    low_.interpolate(pixels_, scene, patches_->hardPlaces, !patches_->lists.hardPlaces().empty());
-    begin(scene, pixels_, 1, true);
-    add(scene, sum, pixels_, 1, true);
+    add(scene, sum, pixels_, false);
   } else {
-    pixels_.dropStencil();
-    begin(scene, pixels_, 1, false);
-    add(scene, sum, pixels_, 1, false);
+    const int sampleBlock = params.block.y != 0.0f ? shared::kSampleBlock : 1;
+    sumListed(scene, sum, gbuffer.points(), pixels_, 0,
+              {static_cast<int>(params.block.x), sampleBlock});
   }
   isEmpty_ = false;
+}
+
+void GlLighting::sumListed(const GlScene& scene, const Sum& sum, const SeenPoints& points,
+                           SumTarget& target, size_t level, glm::ivec2 blocks) {
+  const auto grids = std::span(grids_).subspan(level);
+  if (grids.empty() || !grids[0].resize(target.width, target.height, blocks.x)) {
+    for (SampleGrid& unused : grids) unused = {};
+    target.dropStencil();
+    points.bind();
+    begin(scene, target, false);
+    add(scene, sum, target, false);
+    return;
+  }
+  SampleGrid& grid = grids[0];
+  low_.take(points, grid);
+  sumListed(scene, sum, grid.points, grid.sums, level + 1, {blocks.y, 1});
+  // Cells ask the places of all samples where shadows may be hard.
+  const bool hasHard = !patches_->lists.hardPlaces().empty();
+  const bool wantsPlaces = level > 0 && hasHard;
+  points.bind();
+  if (wantsPlaces) begin(scene, target, false);
+  low_.interpolate(points, target, grid, scene, patches_->hardPlaces, hasHard);
+  if (!wantsPlaces) begin(scene, target, true);
+  add(scene, sum, target, true);
 }
 
 void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
@@ -181,13 +199,12 @@ void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, con
   fill(patches_->hardPlaces, lists.hardPlaces());
 }
 
-void GlLighting::begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked) {
+void GlLighting::begin(const GlScene& scene, const SumTarget& target, bool unmarked) {
   PassState state(target.begin.name(), target.width, target.height);
   if (unmarked) state.onlyWhere(false);
   patches_->trees.bind();
   scene.bindCorners();
   findPatches_.use();
-  findPatches_.set(0, block);
   drawFullScreen(emptyVertexArray_.name());
 }
 
@@ -197,8 +214,7 @@ const Program& GlLighting::naive(int kind, bool hasLinks) {
   return linked_[kind];
 }
 
-void GlLighting::add(const GlScene& scene, const Sum& sum, const SumTarget& target, int block,
-                     bool unmarked) {
+void GlLighting::add(const GlScene& scene, const Sum& sum, const SumTarget& target, bool unmarked) {
   PassState state(target.sums.name(), target.width, target.height);
   if (unmarked) state.onlyWhere(false);
   glBindTextureUnit(shared::kIrradiance, target.irradiance.name());
@@ -229,7 +245,6 @@ void GlLighting::add(const GlScene& scene, const Sum& sum, const SumTarget& targ
     vec4 clampAndBias = sum.clampAndBias;
     clampAndBias.z = static_cast<float>(sum.maps.resolution(batch.array));
     program.set(2, clampAndBias);
-    program.set(6, block);
     glBindTextureUnit(shared::kShadowMaps,
                       sum.maps.hasArray(batch.array) ? sum.maps.array(batch.array) : 0);
     int first = 0, end = static_cast<int>(batch.count);
@@ -317,7 +332,8 @@ std::shared_ptr<RadianceTexture> GlLighting::compose(const GlGBuffer& gbuffer, c
 
 uint64_t GlLighting::bytes() const {
   const uint64_t pixels = static_cast<uint64_t>(pixels_.width) * pixels_.height;
-  uint64_t bytes = pictures_.size() * uint64_t{16} * pixels + pixels_.bytes() + low_.bytes();
+  uint64_t bytes = pictures_.size() * uint64_t{16} * pixels + pixels_.bytes();
+  for (const SampleGrid& grid : grids_) bytes += grid.bytes();
   if (skyTexture_) bytes += skyImage_->pixels.pixels.size() * sizeof(vec3);
   if (patches_) {
     bytes += patches_->trees.bytes() + patches_->lists.ranges().size_bytes() +

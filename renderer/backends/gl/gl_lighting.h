@@ -30,7 +30,9 @@ class GlLighting {
   // No light at all, for a G-buffer that nothing was summed over yet.
   void clear(int width, int height);
   // Of the last sum (Backend::readInterpolated()).
-  std::vector<uint8_t> readInterpolated() const { return low_.read(pixels_.width, pixels_.height); }
+  std::vector<uint8_t> readInterpolated() const {
+    return grids_[0].read(pixels_.width, pixels_.height);
+  }
   std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const Sky& sky, bool white);
 
   GLuint irradiance() const { return pixels_.irradiance.name(); }
@@ -67,11 +69,15 @@ class GlLighting {
   void takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
                    const PatchLights& lights);
   void zero();
-  // What the light maps and light by transfer say, at one pixel of each block; `unmarked`: only
+  // By lists of patches: with blocks.x, samples first and only then what lies between them and
+  // cannot be interpolated; with blocks.y, the samples likewise.
+  void sumListed(const GlScene& scene, const Sum& sum, const SeenPoints& points, SumTarget& target,
+                 size_t level, glm::ivec2 blocks);
+  // What the light maps and light by transfer say at the points that are bound; `unmarked`: only
   // where the stencil buffer has no mark.
-  void begin(const GlScene& scene, const SumTarget& target, int block, bool unmarked);
+  void begin(const GlScene& scene, const SumTarget& target, bool unmarked);
   // Adds all VPLs there.
-  void add(const GlScene& scene, const Sum& sum, const SumTarget& target, int block, bool unmarked);
+  void add(const GlScene& scene, const Sum& sum, const SumTarget& target, bool unmarked);
   // Of the program that composes with that kind, which it returns.
   const Program& setSky(const GlGBuffer& gbuffer, const Sky& sky);
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
@@ -90,6 +96,7 @@ class GlLighting {
   SumTarget pixels_;
   bool isEmpty_ = true;  // pixels_ hold nothing yet: there is no light
   GlLowResolution low_;
+  SampleGrid grids_[2];  // samples of pixels_, and, in haste, samples of these
   int mergedPasses_ = 0, passesSaved_ = 0;
   std::shared_ptr<const SkyImage> skyImage_;  // whose pixels skyTexture_ has
   Texture skyTexture_;

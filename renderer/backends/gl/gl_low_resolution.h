@@ -1,12 +1,10 @@
-// The low-resolution pass (shaders/shared/low_resolution.h): the samples, and which pixels take
-// their light from them.
+// The passes of the low-resolution pass (shaders/shared/low_resolution.h) about its sums.
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
 #include "renderer/backends/gl/gl_scene.h"
-#include "renderer/backends/gl/sum_target.h"
+#include "renderer/backends/gl/sample_grid.h"
 #include "renderer/gl/program.h"
 
 namespace lamplighter::gl {
@@ -17,33 +15,20 @@ class GlLowResolution {
   // Before anything is drawn.
   void reload(const std::filesystem::path& shaders);
 
-  // Makes room for the samples of a picture. Returns whether it has any cells: else all of its
-  // pixels are to be summed.
-  bool resize(int width, int height, int block);
-  void release();
-  SumTarget& samples() { return samples_; }
+  // The grid's points, from those of the picture that it is of.
+  void take(const SeenPoints& points, const SampleGrid& grid) const;
 
-  // Once the samples are summed, with the G-buffer bound: the cells that may be, marked in the
-  // stencil buffer of `pixels`. The others are left as they are. hardPlaces: a buffer with
+  // Once the samples are summed: cells that may be, marked in the stencil buffer of `pixels`, whose
+  // points these are. The others are left as they are. hardPlaces: a buffer with
   // LightLists::hardPlaces(), hasHard: whether it has any.
-  void interpolate(SumTarget& pixels, const GlScene& scene, const Buffer& hardPlaces,
-                   bool hasHard) const;
-
-  // By pixel of a picture of that size whether it is interpolated (1); empty: there are no cells.
-  std::vector<uint8_t> read(int width, int height) const;
-
-  uint64_t bytes() const;
+  void interpolate(const SeenPoints& points, SumTarget& pixels, const SampleGrid& grid,
+                   const GlScene& scene, const Buffer& hardPlaces, bool hasHard) const;
 
  private:
-  // Draws into a texture of cells.
-  void drawCells(const Framebuffer& framebuffer) const;
+  void draw(const Framebuffer& framebuffer, int width, int height) const;
 
-  Program findContrasts_, findCells_, interpolate_;
+  Program takeSamples_, findContrasts_, findCells_, interpolate_;
   VertexArray emptyVertexArray_;
-  SumTarget samples_;
-  Texture contrasts_, cells_;  // R8UI
-  Framebuffer contrastsFramebuffer_, cellsFramebuffer_;
-  int block_ = 1;
 };
 
 }  // namespace lamplighter::gl

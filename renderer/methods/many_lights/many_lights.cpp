@@ -137,7 +137,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const bool shadedNow =
       !image_ || viewChanged || lights_.changed() || shadingChanged || prtChanged || isHasty_;
   if (shadedNow) {
-    isHasty_ = image_ && view_ != in.view && options.block > 1 && in.backend.info().sparesSamples;
+    isHasty_ = image_ && view_ != in.view && options.block > 1;
     view_ = in.view;
     image_ = shade(in, options, vec2(0.0f), stages);
     lights_.clearChanged();

@@ -56,6 +56,14 @@ Scene loadAsset(const std::string& name) {
   return loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name).scene;
 }
 
+// A point light, whose shadows are hard.
+void addLamp(Scene& scene) {
+  const NodeId id = test::addNode(scene, "lamp", kNoNode, vec3(0.4f, 2.0f, 0.3f));
+  PunctualLight lamp;
+  lamp.intensity = vec3(60.0f);
+  scene.find(id)->punctual = lamp;
+}
+
 // Share of the pixels that have other bits.
 double shareOther(const Image& a, const Image& b) {
   size_t other = 0;
@@ -130,12 +138,7 @@ TEST_F(GlLowResolution, ItsCellsAreThoseOfTheCpuBackend) {
   for (const bool hasLamp : {false, true}) {
     SCOPED_TRACE(hasLamp);
     Scene scene = loadAsset(hasLamp ? "pillar_room.gltf" : "area_light_room.gltf");
-    if (hasLamp) {  // a point light, whose shadows are hard
-      const NodeId id = test::addNode(scene, "lamp", kNoNode, vec3(0.4f, 2.0f, 0.3f));
-      PunctualLight lamp;
-      lamp.intensity = vec3(60.0f);
-      scene.find(id)->punctual = lamp;
-    }
+    if (hasLamp) addLamp(scene);
     const View view = viewOf(scene, 161, 97);
     Image interpolated[2];
     for (const int i : {0, 1}) {
@@ -174,6 +177,41 @@ TEST_F(GlLowResolution, AnySizeWill) {
       EXPECT_TRUE(test::sameBits(
           low, rendered(makeGlBackend(), scene, view, settingsOf(block, "light_maps", 40))));
     }
+  }
+}
+
+// While the camera moves samples are interpolated too. What is seen then does not depend on what
+// was seen before, and is near what the camera rests on, which is the picture from nothing.
+TEST_F(GlLowResolution, AMovingCameraShowsNearlyWhatItRestsOn) {
+  for (const std::string name : {"area_light_room", "table_room", "pillar_room"}) {
+    SCOPED_TRACE(name);
+    Scene scene = loadAsset(name + ".gltf");
+    if (name == "pillar_room") addLamp(scene);
+    Settings settings = settingsOf(4);
+    settings.set(parameters::importance().name, 1);  // samples are not chosen anew
+    settings.set(parameters::settledMapScale().name, 1);
+    settings.set(parameters::cornerLight().name, false);
+    const View view = viewOf(scene, 318, 211);
+    View from[2] = {view, view};
+    from[0].eye += vec3(0.02f, 0.01f, 0.0f);
+    from[1].eye += vec3(-0.3f, 0.1f, 0.2f);
+    FrameRenderer renderers[2] = {FrameRenderer(makeGlBackend()), FrameRenderer(makeGlBackend())};
+    Image moving[2], settled[2];
+    for (const int i : {0, 1}) {
+      rendered(renderers[i], scene, from[i], settings);
+      const GiOutput out = renderers[i].render({scene, {}, view, "many_lights", settings});
+      EXPECT_FALSE(out.settled);
+      moving[i] = out.radiance->pixels();
+      settled[i] = test::renderSettled(renderers[i], scene, {}, view, settings).radiance->pixels();
+    }
+    EXPECT_TRUE(test::sameBits(moving[0], moving[1]));
+    EXPECT_TRUE(test::sameBits(settled[0], settled[1]));
+    EXPECT_TRUE(test::sameBits(settled[0], rendered(makeGlBackend(), scene, view, settings)));
+    const Metrics m = compareImages(moving[0], settled[0]);
+    RecordProperty(name, std::to_string(m.relRmse));
+    EXPECT_LT(m.relRmse, 0.01);
+    EXPECT_GT(m.relRmse, 0.0);
+    EXPECT_NEAR(m.bias, 1.0, 0.001);
   }
 }
 
