@@ -78,16 +78,16 @@ Column transferColumn(const std::string& backend, int vpls, const Resolutions& r
 // The light of the same samples: those on a mesh light it, as in `naive`.
 std::vector<Column> transferColumns(int vpls, const Resolutions& resolutions) {
   std::vector<Column> columns;
-  for (const std::string& backend : kBackends) {
+  for (const std::string& backend : kBackends)
     columns.push_back(transferColumn(backend, vpls, resolutions));
-    columns.back().settings.set(parameters::prtBounces().name, 0);
-  }
   return columns;
 }
 
 // What a mesh's parts reflect onto each other is another light than that of samples on it.
 std::vector<Column> reflectionColumns(int vpls, const Resolutions& resolutions) {
-  return {transferColumn("cpu", vpls, resolutions)};
+  Column c = transferColumn("cpu", vpls, resolutions);
+  c.settings.set(parameters::prtBounces().name, 4);
+  return {c};
 }
 
 struct Kind {

@@ -276,8 +276,8 @@ const ParameterSpec& prt() {
       "Transfer",
       "",
       "Complex meshes are lit at their vertices by precomputed radiance transfer: smoothly, with "
-      "their own soft shadows and what their parts reflect onto each other, and without shadow "
-      "maps. Computed once for each shape. Nothing for naive.",
+      "their own soft shadows, if asked for with what their parts reflect onto each other "
+      "(prt_bounces), and without shadow maps. Computed once for each shape. Nothing for naive.",
       false,
       0,
       0,
@@ -309,8 +309,9 @@ const ParameterSpec& prtBounces() {
       "Transfer bounces",
       "",
       "With transfer, how often light goes between the parts of a mesh within its transfer, as far "
-      "as there are bounces at all. 0: light samples on the mesh light it, as they do elsewhere.",
-      4,
+      "as there are bounces at all: smoother than by the few light samples on it. 0: these light "
+      "it, as they do elsewhere and as in naive.",
+      0,
       0,
       4,
       false,

@@ -42,6 +42,7 @@ struct Room {
 Settings settingsOf(bool prt, const std::string& technique = "light_maps", int block = 1) {
   Settings s;
   s.set(parameters::prt().name, prt);
+  s.set(parameters::prtBounces().name, 4);
   s.set(parameters::technique().name, technique);
   s.set(parameters::block().name, std::to_string(block));
   s.set(parameters::vpls().name, 200);

@@ -105,6 +105,7 @@ Settings manyLights(const char* technique, bool prt) {
   s.set(parameters::mapResolution().name, 64);
   s.set(parameters::technique().name, technique);
   s.set(parameters::prt().name, prt);
+  s.set(parameters::prtBounces().name, 4);
   s.set(parameters::cornerLight().name, false);
   return s;
 }

@@ -23,6 +23,7 @@ Settings settingsOf(const std::string& technique, int vpls) {
   const bool isByTransfer = technique == "transfer", isByBlocks = technique.starts_with("blocks");
   s.set(parameters::technique().name, isByTransfer || isByBlocks ? "light_maps" : technique);
   s.set(parameters::prt().name, isByTransfer);
+  s.set(parameters::prtBounces().name, 4);
   s.set(parameters::block().name, isByBlocks ? technique.substr(technique.size() - 1) : "1");
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::bounces().name, 2);

@@ -53,11 +53,12 @@ struct BumpyRoom {
   }
 };
 
-// With transfer for all light, unless it is told how much of it may be wrong.
+// With transfer for all light and its reflections, unless it is told how much of it may be wrong.
 Settings settingsOf(bool prt, int bounces, float error = 1.0f) {
   Settings s;
   s.set(parameters::prt().name, prt);
   s.set(parameters::prtError().name, error);
+  s.set(parameters::prtBounces().name, 4);
   s.set(parameters::block().name, std::string("1"));
   // It is found from the light of the whole picture, transfer's too.
   s.set(parameters::cornerLight().name, false);
