@@ -135,6 +135,25 @@ BudgetCost visibilityMemoryCost(const GiStats& now) {
   return {fmt::format("{:.3g} MiB", mebibytes(held->second)), buys};
 }
 
+BudgetCost lightMapMemoryCost(const GiStats& now) {
+  const char* const buys = "More: smaller texels on large levels, down to light_map_texel.";
+  const auto held = now.memoryBytes.find("light maps");
+  if (held == now.memoryBytes.end()) return {"none", buys};
+  if (now.lightMapTexel == 0.0f) return {"left out: no room for any", buys};
+  return {fmt::format("{:.3g} MiB, texels of {:.2g} m", mebibytes(held->second), now.lightMapTexel),
+          buys};
+}
+
+BudgetCost transferMemoryCost(const GiStats& now) {
+  const char* const buys = "More: larger complex meshes are lit by transfer.";
+  const auto held = now.memoryBytes.find("transfer");
+  if (held == now.memoryBytes.end()) return {"none", buys};
+  std::string text = fmt::format("{:.3g} MiB", mebibytes(held->second));
+  if (now.transferObjectsWithoutRoom > 0)
+    text += fmt::format(", {} meshes without room", now.transferObjectsWithoutRoom);
+  return {text, buys};
+}
+
 }  // namespace
 
 std::optional<BudgetCost> costOf(const std::string& parameter, const Timeline& timeline,
@@ -142,6 +161,8 @@ std::optional<BudgetCost> costOf(const std::string& parameter, const Timeline& t
   if (parameter == "frame_time") return frameTimeCost(timeline);
   if (parameter == "map_memory") return mapMemoryCost(now);
   if (parameter == "visibility_memory") return visibilityMemoryCost(now);
+  if (parameter == "light_map_memory") return lightMapMemoryCost(now);
+  if (parameter == "prt_memory") return transferMemoryCost(now);
   if (parameter == "samples_per_pixel")
     return BudgetCost{fmt::format("{} so far", now.samplesPerPixel),
                       "More: less noise in the settled picture; four times as many halve it."};

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -20,6 +21,13 @@ namespace {
 
 constexpr int kMostTexels = TexelGrid::kMostAlong;
 constexpr float kFlat = 0.9999f;  // cos 0.8°
+// How much larger texels become, again and again, until there is room for all.
+constexpr float kCoarser = 1.41421356f;
+// What is held: of each texel, and of each tile for 64 slots.
+constexpr uint64_t kTexelBytes = sizeof(vec4) + 3 * sizeof(double);
+constexpr uint64_t kWordBytes = 2 * sizeof(uint64_t);
+
+size_t wordsOf(size_t slots) { return (slots + 63) / 64; }
 
 bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
@@ -64,41 +72,85 @@ float spacingOf(const LightMapTile& tile, const Patch& patch) {
 
 }  // namespace
 
-LightMaps::Object LightMaps::makeObject(const RenderScene& scene, const ObjectPatches& patches,
-                                        float texel) {
-  Object out;
-  out.tileOfPatch.assign(patches.patches.size(), kNone);
-  std::vector<bool> flat(patches.charts.size());
-  for (size_t i = 0; i < flat.size(); ++i) flat[i] = isShadedFlat(scene, patches.charts[i]);
+template <typename F>
+void LightMaps::forEachTile(const ObjectPatches& patches, const std::vector<bool>& isFlat,
+                            float texel, F take) {
   const auto texelsAlong = [&](float length) {
     const float steps = std::ceil(std::min(length / texel, static_cast<float>(kMostTexels)));
     return std::clamp(static_cast<int>(steps) + 1, 2, kMostTexels);
   };
-  uint32_t texels = 0;
   for (size_t p = 0; p < patches.patches.size(); ++p) {
     const Patch& patch = patches.patches[p];
-    if (!patch.isLeaf() || patch.chart == kNone || !flat[static_cast<size_t>(patch.chart)])
+    if (!patch.isLeaf() || patch.chart == kNone || !isFlat[static_cast<size_t>(patch.chart)])
       continue;
     const vec2 size = patch.max - patch.min;
-    const LightMapTile tile{static_cast<int>(p), texels, texelsAlong(size.x), texelsAlong(size.y)};
-    out.tileOfPatch[p] = static_cast<int>(out.tiles.size());
-    out.tiles.push_back(tile);
-    texels += static_cast<uint32_t>(paddedCount(tile));
+    take(p, texelsAlong(size.x), texelsAlong(size.y));
   }
-  out.sums.assign(size_t{3} * texels, 0.0);
-  out.irradiance.assign(texels, vec4(0.0f));
+}
+
+LightMaps::Size LightMaps::sizeOf(const ObjectPatches& patches, const std::vector<bool>& isFlat,
+                                  float texel) {
+  Size out;
+  forEachTile(patches, isFlat, texel, [&](size_t, int columns, int rows) {
+    ++out.tiles;
+    out.texels += TexelGrid::paddedCount(columns, rows);
+  });
   return out;
 }
 
+// The same for all that there is, so that it does not depend on what was there before.
+float LightMaps::fittingTexel(const VisibilityDatabase& visibility, size_t slots) const {
+  const auto fits = [&](const Size& size) {
+    return size.texels * kTexelBytes + size.tiles * wordsOf(slots) * kWordBytes <=
+           options_.mostBytes;
+  };
+  Size size;
+  for (const Object& o : objects_) {
+    size.tiles += o.wanted.tiles;
+    size.texels += o.wanted.texels;
+  }
+  float texel = options_.texel;
+  while (!fits(size)) {
+    if (size.texels == size.tiles * TexelGrid::paddedCount(2, 2)) return 0.0f;
+    texel *= kCoarser;
+    size = {};
+    for (uint32_t i = 0; i < objects_.size(); ++i) {
+      const Size some = sizeOf(visibility.patches(i), objects_[i].isFlat, texel);
+      size.tiles += some.tiles;
+      size.texels += some.texels;
+    }
+  }
+  return texel;
+}
+
+void LightMaps::makeTiles(Object& object, const ObjectPatches& patches) const {
+  object.tileOfPatch.assign(patches.patches.size(), kNone);
+  object.tiles.clear();
+  uint32_t texels = 0;
+  if (texel_ > 0.0f) {
+    forEachTile(patches, object.isFlat, texel_, [&](size_t p, int columns, int rows) {
+      object.tileOfPatch[p] = static_cast<int>(object.tiles.size());
+      object.tiles.push_back({static_cast<int>(p), texels, columns, rows});
+      texels += static_cast<uint32_t>(TexelGrid::paddedCount(columns, rows));
+    });
+  }
+  object.sums.assign(size_t{3} * texels, 0.0);
+  object.irradiance.assign(texels, vec4(0.0f));
+  object.held.assign(object.tiles.size() * words_, 0);
+  object.refused = object.held;
+  object.isLeftOut.assign(object.tiles.size(), 0);
+}
+
 void LightMaps::resize(size_t slots) {
-  const size_t words = (slots + 63) / 64;
-  if (words <= words_) return;
+  const size_t words = wordsOf(slots);
+  if (words == words_) return;
+  const size_t kept = std::min(words, words_);
   for (Object& o : objects_) {
     for (std::vector<uint64_t>* bits : {&o.held, &o.refused}) {
-      std::vector<uint64_t> wider(o.tiles.size() * words, 0);
-      for (size_t t = 0; words_ > 0 && t < o.tiles.size(); ++t)
-        std::copy_n(&(*bits)[t * words_], words_, &wider[t * words]);
-      *bits = std::move(wider);
+      std::vector<uint64_t> other(o.tiles.size() * words, 0);
+      for (size_t t = 0; kept > 0 && t < o.tiles.size(); ++t)
+        std::copy_n(&(*bits)[t * words_], kept, &other[t * words]);
+      *bits = std::move(other);
     }
   }
   words_ = words;
@@ -125,12 +177,20 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   objects_ = std::move(objects);
   resize(bySlot.size());
   tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) {
+    const ObjectPatches& patches = visibility.patches(fresh[i]);
     Object& o = objects_[fresh[i]];
-    o = makeObject(scene, visibility.patches(fresh[i]), options.texel);
-    o.held.assign(o.tiles.size() * words_, 0);
-    o.refused = o.held;
-    o.isLeftOut.assign(o.tiles.size(), 0);
+    o.isFlat.resize(patches.charts.size());
+    for (size_t c = 0; c < patches.charts.size(); ++c)
+      o.isFlat[c] = isShadedFlat(scene, patches.charts[c]);
+    o.wanted = sizeOf(patches, o.isFlat, options.texel);
   });
+  if (const float texel = fittingTexel(visibility, given.size()); texel != texel_) {
+    texel_ = texel;
+    fresh.resize(objects_.size());
+    std::iota(fresh.begin(), fresh.end(), 0u);
+  }
+  tbb::parallel_for(size_t{0}, fresh.size(),
+                    [&](size_t i) { makeTiles(objects_[fresh[i]], visibility.patches(fresh[i])); });
   std::vector<bool> isFresh(objects_.size(), false);
   for (const uint32_t i : fresh) isFresh[i] = true;
   std::vector<uint32_t> changedObjects = fresh;
@@ -243,8 +303,7 @@ size_t LightMaps::texels() const {
 uint64_t LightMaps::bytes() const {
   uint64_t n = 0;
   for (const Object& o : objects_)
-    n += o.irradiance.size() * (sizeof(vec4) + 3 * sizeof(double)) +
-         (o.held.size() + o.refused.size()) * sizeof(uint64_t);
+    n += o.irradiance.size() * kTexelBytes + o.held.size() * kWordBytes;
   return n;
 }
 

@@ -11,6 +11,7 @@
 // very same bits in any order.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -31,6 +32,9 @@ class LightMaps {
   struct Options {
     float texel = 0.1f;          // spacing of texels, where a patch needs no more than 33 [m]
     float clampDistance = 0.0f;  // of ShadingParams [m]
+    // Where they would hold more, texels are larger everywhere; where even two a side of each patch
+    // are too many there are no maps.
+    uint64_t mostBytes = UINT64_MAX;
     bool operator==(const Options&) const = default;
   };
 
@@ -101,12 +105,18 @@ class LightMaps {
 
   size_t objects() const { return objects_.size(); }
   size_t texels() const;
+  float texel() const { return texel_; }  // spacing as memory allows [m]; 0: there are no maps
   uint64_t texelsWritten() const { return written_; }  // texels × lights, since they were made
   uint64_t bytes() const;
   uint64_t hash() const;  // of all sums
 
  private:
+  struct Size {
+    size_t tiles = 0, texels = 0;
+  };
   struct Object {
+    std::vector<bool> isFlat;      // by chart: whether it has light maps
+    Size wanted;                   // with texels as they are asked for
     std::vector<int> tileOfPatch;  // kNone: no tile
     std::vector<LightMapTile> tiles;
     std::vector<double> sums;      // three a texel: all r of a tile, then g, then b
@@ -117,13 +127,20 @@ class LightMaps {
     std::vector<uint8_t> isLeftOut;  // by tile: it was not seen when something changed
     Revision revision;               // of tiles and texels
   };
-  static Object makeObject(const RenderScene& scene, const ObjectPatches& patches, float texel);
+  // With texels of some spacing, tile by tile: patch, columns, rows.
+  template <typename F>
+  static void forEachTile(const ObjectPatches& patches, const std::vector<bool>& isFlat,
+                          float texel, F take);
+  static Size sizeOf(const ObjectPatches& patches, const std::vector<bool>& isFlat, float texel);
+  float fittingTexel(const VisibilityDatabase& visibility, size_t slots) const;
+  void makeTiles(Object& object, const ObjectPatches& patches) const;
   void resize(size_t slots);
 
   std::vector<Object> objects_;
   std::vector<shared::Vpl> lights_;  // by slot, as they were added
   size_t words_ = 0;                 // of a tile's bits
   Options options_;
+  float texel_ = 0.0f;
   uint64_t written_ = 0;
 };
 

@@ -62,14 +62,17 @@ struct GiStats {
   uint64_t raysTraced = 0;       // this frame, by the method itself
   uint64_t visibilityTests = 0;  // this frame: occlusion pyramids against the scene
   uint64_t lightMapTexels = 0;   // this frame: texels × lights added or taken away
+  float lightMapTexel = 0.0f;    // spacing, as memory allows [m]; 0: there are no light maps
   // Of the last sum, where passes are merged: drawn, and fewer than object by object.
   int mergedPasses = 0, passesSaved = 0;
   float interpolatedShare = 0.0f;  // of the last sum's pixels: by the low-resolution pass
   int transfersPending = 0;        // objects' transfers that are being prepared
   float transferShare = 1.0f;      // that is done of the first of them
   // Objects with transfer; those of them whose direct light is all summed at pixels, since transfer
-  // would get too much of it wrong; and lights that are, counted once for each of the others.
+  // would get too much of it wrong; and lights that are, counted once for each of the others. And
+  // objects without transfer for want of memory.
   int transferObjects = 0, transferObjectsLeft = 0, transferLightsLeft = 0;
+  int transferObjectsWithoutRoom = 0;
   int samplesPerPixel = 0;
   // A settled picture that is refined: VPLs it is the mean of, those it is to be, and how many came
   // nearer this frame.

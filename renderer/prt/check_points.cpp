@@ -11,7 +11,7 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kScramble = 0x5eed0002u;
-constexpr int kFewest = 32;
+constexpr size_t kFewest = 32;
 constexpr double kDark = 0.25;  // of the object's mean
 // Of the lights that it says anything of, or should, one in so many may be left: more, and it is
 // not worth its while.
@@ -33,6 +33,8 @@ void addVertex(const Transfer::Vertex& vertex, const LightPoints::Blend& blend, 
 
 }  // namespace
 
+size_t checkPointsFor(size_t lightPoints) { return std::max(kFewest, 2 * lightPoints); }
+
 std::vector<CheckPoint> placeCheckPoints(const RenderScene& own, const Transfer& transfer,
                                          const LightPoints& points,
                                          const std::vector<bool>& isLit) {
@@ -49,8 +51,8 @@ std::vector<CheckPoint> placeCheckPoints(const RenderScene& own, const Transfer&
   }
   std::vector<CheckPoint> out;
   if (!(area > 0.0)) return out;
-  const int count = std::max(kFewest, 2 * static_cast<int>(points.places.size()));
-  for (int i = 0; i < count; ++i) {
+  const size_t count = checkPointsFor(points.places.size());
+  for (size_t i = 0; i < count; ++i) {
     const double at = area * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     const auto t =
         static_cast<size_t>(std::upper_bound(areas.begin(), areas.end() - 1, at) - areas.begin());

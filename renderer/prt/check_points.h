@@ -21,10 +21,12 @@ struct CheckPoint {
   std::vector<Term> terms;
 };
 
+// On an object with so many light points: twice as many, 32 at least.
+size_t checkPointsFor(size_t lightPoints);
+
 // By area, as a pixel there comes by its light: the transfer of its triangle's vertices, each
-// with the light points that it blends; twice as many as there are of those, 32 at least. `own`: as
-// the transfer was computed of; `isLit`: by triangle, whether transfer lights it. Deterministic;
-// none where the object has no such surface.
+// with the light points that it blends. `own`: as the transfer was computed of; `isLit`: by
+// triangle, whether transfer lights it. Deterministic; none where the object has no such surface.
 std::vector<CheckPoint> placeCheckPoints(const RenderScene& own, const Transfer& transfer,
                                          const LightPoints& points, const std::vector<bool>& isLit);
 

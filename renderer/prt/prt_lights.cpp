@@ -10,6 +10,7 @@
 
 #include "renderer/light_maps/hard_lights.h"
 #include "renderer/prt/incident_light.h"
+#include "renderer/prt/prt_room.h"
 
 namespace lamplighter {
 namespace {
@@ -98,11 +99,42 @@ void PrtLights::findObjects(const Frame& frame) {
     out.isWanted = true;
   });
   objects_ = std::move(objects);
+  findRoom(scene, frame.bySlot.size());
   std::vector<Transfers::Wanted> wanted;
   for (const Object& o : objects_)
     if (o.isWanted) wanted.push_back({o.key, o.own});
   transfers_.want(std::move(wanted), options_.transfer);
   coverage_.advance();
+}
+
+// By what they would hold at most, so that it does not depend on what was there before.
+void PrtLights::findRoom(const RenderScene& scene, size_t slots) {
+  std::vector<uint32_t> wanted;
+  std::vector<size_t> bytes;
+  for (uint32_t i = 0; i < objects_.size(); ++i) {
+    const Object& o = objects_[i];
+    if (!o.isWanted) continue;
+    wanted.push_back(i);
+    bytes.push_back(mostBytesOf({scene.objects[i].vertexCount,
+                                 static_cast<size_t>(pointsFor(scene.objects[i], *o.own)), slots,
+                                 options_.mostError < 1.0f}));
+  }
+  const std::vector<bool> fits = fitting(bytes, options_.mostBytes);
+  for (size_t i = 0; i < wanted.size(); ++i) {
+    Object& o = objects_[wanted[i]];
+    if (fits[i]) continue;
+    o.isWanted = false;
+    o.lacksRoom = true;
+    o.own.reset();
+  }
+}
+
+// `own`: of ownSceneOf().
+int PrtLights::pointsFor(const RenderObject& object, const RenderScene& own) const {
+  const vec3 extent = own.bounds.extent();
+  const auto space = ownSpaceOf(object);
+  const float size = std::max({extent.x, extent.y, extent.z}) * (space ? space->scale : 1.0f);
+  return lightPointsFor(size, options_.mostPoints);
 }
 
 // Where the object is now; it holds no light there yet.
@@ -303,10 +335,7 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
     if (!o.isWanted || o.transfer) continue;
     o.transfer = transfers_.find(o.key);
     if (!o.transfer) continue;
-    const vec3 extent = o.own->bounds.extent();
-    const auto space = ownSpaceOf(scene.objects[i]);
-    const float size = std::max({extent.x, extent.y, extent.z}) * (space ? space->scale : 1.0f);
-    o.points = placeLightPoints(*o.own, lightPointsFor(size, options.mostPoints));
+    o.points = placeLightPoints(*o.own, pointsFor(scene.objects[i], *o.own));
     const ObjectPatches& patches = visibility.patches(i);
     std::vector<bool> isLit(patches.patchOfTriangle.size());
     for (size_t t = 0; t < isLit.size(); ++t)
@@ -363,6 +392,7 @@ uint64_t PrtLights::raysPerLight() const {
 PrtLights::Left PrtLights::left() const {
   Left out;
   for (const Object& o : objects_) {
+    if (o.lacksRoom) ++out.withoutRoom;
     if (!o.transfer) continue;
     ++out.objects;
     if (o.isLeft)

@@ -7,6 +7,7 @@
 // Adding a VPL and taking it away restores the very same bits in any order.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -23,9 +24,10 @@ class PrtLights {
  public:
   struct Options {
     TransferOptions transfer;
-    int mostPoints = 128;        // light points an object, kMostLightPoints at most
-    float clampDistance = 0.0f;  // of ShadingParams [m]
-    float mostError = 1.0f;      // of lightsToLeave(); from 1 on no light is left for its error
+    int mostPoints = 128;         // light points an object, kMostLightPoints at most
+    float clampDistance = 0.0f;   // of ShadingParams [m]
+    float mostError = 1.0f;       // of lightsToLeave(); from 1 on no light is left for its error
+    size_t mostBytes = SIZE_MAX;  // held in all; objects that do not fit have no transfer
     bool operator==(const Options&) const = default;
   };
 
@@ -62,10 +64,12 @@ class PrtLights {
   // At each vertex of the object; empty: it has no transfer (yet).
   std::span<const vec3> irradiance(uint32_t object) const { return objects_[object].irradiance; }
 
-  // Objects with transfer, and what they leave to pixels for its error: all light, or some of it.
+  // Objects with transfer and such as lack it, and what the former leave to pixels for its error:
+  // all light, or some of it.
   struct Left {
     int objects = 0, wholly = 0;
-    int lights = 0;  // over all objects but those
+    int lights = 0;       // over all objects but those
+    int withoutRoom = 0;  // objects that have no transfer for want of memory
   };
   Left left() const;
 
@@ -93,6 +97,7 @@ class PrtLights {
   static bool isSummed(Take take) { return take == Take::add || take == Take::reflect; }
   struct Object {
     bool isWanted = false;  // it may have transfer
+    bool lacksRoom = false;
     TransferKey key{};
     std::shared_ptr<const RenderScene> own;  // until its transfer is there
     std::shared_ptr<const Transfer> transfer;
@@ -116,6 +121,8 @@ class PrtLights {
   struct Frame;
 
   void findObjects(const Frame& frame);
+  void findRoom(const RenderScene& scene, size_t slots);
+  int pointsFor(const RenderObject& object, const RenderScene& own) const;
   void placeObject(const Frame& frame, uint32_t object);
   // At some slots: how each is taken but for hardness and error, and slots × points whether hidden.
   struct Looked {

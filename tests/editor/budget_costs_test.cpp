@@ -45,5 +45,19 @@ TEST(BudgetCosts, MapsTakeTheMemoryThatTheyHave) {
   EXPECT_EQ(costOf("map_memory", {}, stats, {})->measured, "12 maps, 3 MiB, 2 without room");
 }
 
+TEST(BudgetCosts, SayWhatHasNoRoom) {
+  GiStats stats;
+  EXPECT_EQ(costOf("light_map_memory", {}, stats, {})->measured, "none");
+  EXPECT_EQ(costOf("prt_memory", {}, stats, {})->measured, "none");
+  stats.memoryBytes["light maps"] = 7 << 20;
+  EXPECT_EQ(costOf("light_map_memory", {}, stats, {})->measured, "left out: no room for any");
+  stats.lightMapTexel = 0.14142f;
+  EXPECT_EQ(costOf("light_map_memory", {}, stats, {})->measured, "7 MiB, texels of 0.14 m");
+  stats.memoryBytes["transfer"] = 3 << 19;
+  EXPECT_EQ(costOf("prt_memory", {}, stats, {})->measured, "1.5 MiB");
+  stats.transferObjectsWithoutRoom = 4;
+  EXPECT_EQ(costOf("prt_memory", {}, stats, {})->measured, "1.5 MiB, 4 meshes without room");
+}
+
 }  // namespace
 }  // namespace lamplighter

@@ -127,6 +127,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
       options.visibilityBytes != options_.visibilityBytes ||
       options.useLightMaps != options_.useLightMaps || options.groupShare != options_.groupShare ||
       options.lightMapTexel != options_.lightMapTexel ||
+      options.lightMapBytes != options_.lightMapBytes ||
       options.mergePasses != options_.mergePasses || options.block != options_.block ||
       options.speculars != options_.speculars ||
       options.leastRoughness != options_.leastRoughness || options.usePrt != options_.usePrt ||
@@ -341,8 +342,10 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
     if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
     const uint64_t before = lightMaps_->texelsWritten();
     lightMaps_->update(in.scene, *visibility_, shownBySlot(),
-                       {options.lightMapTexel, options.clampDistance}, &in.view);
+                       {options.lightMapTexel, options.clampDistance, options.lightMapBytes},
+                       &in.view);
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
+    stats.lightMapTexel = lightMaps_->texel();
   }
 }
 
@@ -369,6 +372,7 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStat
   stats.transferObjects = left.objects;
   stats.transferObjectsLeft = left.wholly;
   stats.transferLightsLeft = left.lights;
+  stats.transferObjectsWithoutRoom = left.withoutRoom;
   return changed;
 }
 
@@ -426,9 +430,10 @@ void ManyLights::takePart(const FrameInputs& in, const Options& options,
                           std::vector<shared::Vpl>& vpls, bool isNew) {
   vpls = PartLights::lightsOf(in.part, vpls, lights_.inspect());
   if (!visibility_ || !isNew) return;
-  partLights_.update(in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
-                     {options.useLightMaps, {options.lightMapTexel, options.clampDistance}},
-                     lights_.hasMap(), wanted_, groupsOf(in, options.groupShare, lights_.slots()));
+  partLights_.update(
+      in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
+      {options.useLightMaps, {options.lightMapTexel, options.clampDistance, options.lightMapBytes}},
+      lights_.hasMap(), wanted_, groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
@@ -490,6 +495,8 @@ MethodInfo manyLightsInfo() {
            parameters::sunMaps(),
            parameters::mapMemory(),
            parameters::visibilityMemory(),
+           parameters::lightMapMemory(),
+           parameters::prtMemory(),
            parameters::groupShare(),
            parameters::updates(),
            parameters::maxShadowMaps(),

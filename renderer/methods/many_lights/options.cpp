@@ -29,7 +29,10 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
   counts.sunMaps = settings.integer(parameters::sunMaps());
   mapResolution = settings.integer(parameters::mapResolution());
   mapScale = settings.integer(parameters::settledMapScale());
-  mapBytes = static_cast<size_t>(settings.integer(parameters::mapMemory())) << 20;
+  const auto bytesOf = [&](const ParameterSpec& mebibytes) {
+    return static_cast<size_t>(settings.integer(mebibytes)) << 20;
+  };
+  mapBytes = bytesOf(parameters::mapMemory());
   budget.vpls = settings.integer(parameters::updates());
   const auto limit = [&](const ParameterSpec& spec) {
     const int value = settings.integer(spec);
@@ -44,7 +47,8 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
   const std::string technique = settings.choice(parameters::technique());
   useLightMaps = technique == "light_maps";
   useVisibility = useLightMaps || technique == "visibility";
-  visibilityBytes = static_cast<size_t>(settings.integer(parameters::visibilityMemory())) << 20;
+  visibilityBytes = bytesOf(parameters::visibilityMemory());
+  lightMapBytes = bytesOf(parameters::lightMapMemory());
   groupShare = 0.01f * settings.real(parameters::groupShare());
   lightMapTexel = settings.real(parameters::lightMapTexel());
   lightsPerPass = settings.integer(parameters::lightsPerPass());
@@ -58,6 +62,7 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
   prt.transfer.bounces = std::min(counts.bounces, settings.integer(parameters::prtBounces()));
   prt.mostPoints = settings.integer(parameters::prtPoints());
   prt.mostError = settings.real(parameters::prtError());
+  prt.mostBytes = bytesOf(parameters::prtMemory());
   prt.clampDistance = clampDistance;
   VplCounts refined = counts;
   refined.candidates = 1;

@@ -41,7 +41,8 @@ struct ManyLightsOptions {
   size_t visibilityBytes = 0;  // at most
   bool useLightMaps = false;   // besides
   float lightMapTexel = 0.1f;
-  int lightsPerPass = 0;  // changes no picture
+  size_t lightMapBytes = 0;  // at most
+  int lightsPerPass = 0;     // changes no picture
   bool mergePasses = false;
   int block = 1;  // pixels
   bool speculars = false;

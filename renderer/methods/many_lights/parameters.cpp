@@ -185,6 +185,39 @@ const ParameterSpec& visibilityMemory() {
   return spec;
 }
 
+const ParameterSpec& lightMapMemory() {
+  static const ParameterSpec spec{
+      "light_map_memory",
+      "Light map memory",
+      "MiB",
+      "Light maps take no more memory than this. Where a large level would need more, their texels "
+      "are larger than light_map_texel everywhere; where even two texels a side of each patch are "
+      "too many, pixels sum all light. Only for light_maps.",
+      1024,
+      1,
+      65536,
+      true,
+      {},
+      ParameterGroup::budgets};
+  return spec;
+}
+
+const ParameterSpec& prtMemory() {
+  static const ParameterSpec spec{
+      "prt_memory",
+      "Transfer memory",
+      "MiB",
+      "Transfer and the light by it take no more memory than this. Where not all complex meshes "
+      "fit, the largest are lit pixel by pixel. Only with prt.",
+      1024,
+      1,
+      65536,
+      true,
+      {},
+      ParameterGroup::budgets};
+  return spec;
+}
+
 const ParameterSpec& frameTime() {
   static const ParameterSpec spec{
       "frame_time",

@@ -18,6 +18,8 @@ const ParameterSpec& maxPaths();          // int, 0: no limit; walked again
 const ParameterSpec& groupShare();        // float, percent; 0: no groups
 const ParameterSpec& mapMemory();         // int, MiB
 const ParameterSpec& visibilityMemory();  // int, MiB
+const ParameterSpec& lightMapMemory();    // int, MiB
+const ParameterSpec& prtMemory();         // int, MiB
 const ParameterSpec& frameTime();         // float, ms; heeded in the editor's window alone
 const ParameterSpec& lightMapTexel();     // float, m
 const ParameterSpec& lightsPerPass();     // int, VPLs that one draw of the gl backend takes

@@ -1,0 +1,128 @@
+// Light maps take no more memory than they may, and nothing of what was there before decides how.
+#include <gtest/gtest.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/light_maps/light_maps.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/sampling/vpl_set.h"
+#include "tests/support/asset_room.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/random_boxes.h"
+#include "tests/support/render.h"
+#include "tests/support/scenes.h"
+
+namespace lamplighter {
+namespace {
+
+Scene litBoxes() {
+  Scene scene = test::randomBoxes(14, 5);
+  test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
+  return scene;
+}
+
+// Light maps of a scene, within some memory, kept from edit to edit.
+struct Kept {
+  RenderScene scene;
+  VisibilityDatabase visibility;
+  LightMaps maps;
+  LightMaps::Options options{0.02f, 0.5f};
+
+  explicit Kept(uint64_t mostBytes = UINT64_MAX) { options.mostBytes = mostBytes; }
+  void update(const Scene& from, const SceneChanges& changes, int count = 40) {
+    visibility.setScene(scene, lamplighter::update(scene, from, changes));
+    std::vector<shared::Vpl> lights;
+    for (const SceneVpl& v :
+         generateVpls(scene, RayCaster(scene), LightSet(scene), {count, 0.5f, 1, 1}).vpls)
+      lights.push_back(v.vpl);
+    visibility.setLights(scene, lights);
+    visibility.refreshAll(scene);
+    maps.update(scene, visibility, lights, options);
+    visibility.clearChanged();
+  }
+};
+
+TEST(LightMapMemory, IsNotExceeded) {
+  const Scene scene = litBoxes();
+  Kept plenty;
+  plenty.update(scene, SceneChanges::all());
+  EXPECT_EQ(plenty.maps.texel(), plenty.options.texel);
+  const uint64_t all = plenty.maps.bytes();
+  float last = plenty.options.texel;
+  for (const uint64_t part : {1u, 2u, 5u, 9u}) {
+    Kept little(all / part - (part == 1 ? 0 : 1));
+    little.update(scene, SceneChanges::all());
+    EXPECT_LE(little.maps.bytes(), little.options.mostBytes);
+    EXPECT_GT(little.maps.bytes(), little.options.mostBytes / 5) << "more would have fitted";
+    EXPECT_TRUE(part == 1 ? little.maps.texel() == last : little.maps.texel() > last) << part;
+    last = little.maps.texel();
+  }
+  Kept none(1000);
+  none.update(scene, SceneChanges::all());
+  EXPECT_EQ(none.maps.texel(), 0.0f);
+  EXPECT_EQ(none.maps.bytes(), 0u);
+  for (uint32_t object = 0; object < none.scene.objects.size(); ++object)
+    for (size_t p = 0; p < none.visibility.patches(object).patches.size(); ++p)
+      EXPECT_EQ(none.maps.tile(object, static_cast<int>(p)), nullptr);
+}
+
+// When things come there is less room for each, and when they go there is more again.
+TEST(LightMapMemory, IsSharedByWhatIsThereNow) {
+  const Scene before = litBoxes();
+  Kept plenty;
+  plenty.update(before, SceneChanges::all());
+  const uint64_t room = plenty.maps.bytes() + 1000;
+  Kept kept(room);
+  kept.update(before, SceneChanges::all());
+  const uint64_t hash = kept.maps.hash();
+  EXPECT_EQ(hash, plenty.maps.hash());
+  Scene after = before;
+  test::addMesh(after, test::boxMesh(vec3(1.0f)), vec3(1.0f, 3.0f, 1.0f));
+  kept.update(after, compare(before, after));
+  EXPECT_GT(kept.maps.texel(), kept.options.texel);
+  EXPECT_LE(kept.maps.bytes(), room);
+  Kept fresh(room);
+  fresh.update(after, SceneChanges::all());
+  EXPECT_EQ(kept.maps.hash(), fresh.maps.hash());
+  kept.update(before, compare(after, before));
+  EXPECT_EQ(kept.maps.texel(), kept.options.texel);
+  EXPECT_EQ(kept.maps.hash(), hash);
+}
+
+// What was held for lights that are gone is gone with them.
+TEST(LightMapMemory, CountsTheLightsThatThereAre) {
+  const Scene scene = litBoxes();
+  Kept kept, fresh;
+  kept.update(scene, SceneChanges::all(), 900);
+  for (int i = 0; i < 2; ++i) kept.update(scene, {}, 40);
+  fresh.update(scene, SceneChanges::all(), 40);
+  EXPECT_EQ(kept.maps.bytes(), fresh.maps.bytes());
+  EXPECT_EQ(kept.maps.hash(), fresh.maps.hash());
+}
+
+TEST(LightMapMemory, ThePictureStaysNearlyTheSame) {
+  const test::AssetRoom room("pillar_room", 96, 60);
+  Settings settings;
+  settings.set(parameters::vpls().name, 200);
+  settings.set(parameters::bounces().name, 1);
+  settings.set(parameters::updates().name, 400);
+  settings.set(parameters::antialias().name, 1);
+  settings.set(parameters::lightMapTexel().name, 0.02f);
+  const auto render = [&](int mebibytes) {
+    settings.set(parameters::lightMapMemory().name, mebibytes);
+    FrameRenderer renderer(makeCpuBackend());
+    return test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  };
+  const GiOutput plenty = render(512), little = render(1);
+  EXPECT_GT(plenty.stats.memoryBytes.at("light maps"), uint64_t{2} << 20);
+  EXPECT_LE(little.stats.memoryBytes.at("light maps"), uint64_t{1} << 20);
+  EXPECT_GT(little.stats.lightMapTexel, plenty.stats.lightMapTexel);
+  const double error = compareImages(little.radiance->pixels(), plenty.radiance->pixels()).relRmse;
+  RecordProperty("relRmse", std::to_string(error));
+  EXPECT_LT(error, 0.01);
+}
+
+}  // namespace
+}  // namespace lamplighter
