@@ -147,7 +147,7 @@ void PrtLights::placeObject(const Frame& frame, uint32_t object) {
     o.places.push_back(o.space.scale * (o.space.rotation * p) + o.space.translation);
   o.sums.assign(o.places.size() * 2 * kSums, 0.0);
   o.checked.assign(lights_.size(), {});
-  o.takes.assign(lights_.size(), Take::none);
+  o.takes.assign(lights_.size(), Take::own);
   o.held.assign(lights_.size(), 0);
   o.hidden.assign(lights_.size() * o.places.size(), 0);
   o.irradiance.assign(frame.scene.objects[object].vertexCount, vec3(0.0f));
@@ -156,32 +156,38 @@ void PrtLights::placeObject(const Frame& frame, uint32_t object) {
 PrtLights::Take PrtLights::takeOf(const Frame& frame, uint32_t object, size_t slot) const {
   const Object& o = objects_[object];
   const shared::Vpl& vpl = frame.bySlot[slot];
-  if (!isLight(vpl)) return Take::none;
+  if (!isLight(vpl)) return Take::own;
   if (vpl.position.w != shared::kVplDirectional) {
     const Bounds& box = frame.scene.objects[object].bounds;
     const vec3 position(vpl.position);
     const bool isOn = options_.transfer.bounces > 0 && liesOn(frame.rays, object, vpl);
-    if (isOn) return Take::none;
+    if (isOn) return Take::own;
     const float distance = glm::distance(position, glm::clamp(position, box.min, box.max));
-    if (distance < kNear * o.space.scale * o.points.spacing) return Take::toPixels;
+    if (distance < kNear * o.space.scale * o.points.spacing) return Take::near;
   }
-  return Take::add;
+  return Take::all;
 }
 
 void PrtLights::addLight(Object& o, const shared::Vpl& vpl, Take take, size_t point, double sign) {
   const auto light = incidentLight(vpl, o.places[point], options_.clampDistance);
   if (!light) return;
   const ShVector y = shBasis(glm::transpose(o.space.rotation) * light->direction);
-  double* all = &o.sums[point * 2 * kSums];
-  double* left = all + kSums;
+  double* reflected = &o.sums[point * 2 * kSums];
+  double* straight = reflected + kSums;
   for (int channel = 0; channel < 3; ++channel) {
-    for (size_t i = 0; i < kShCoefficients; ++i, ++all, ++left) {
+    for (size_t i = 0; i < kShCoefficients; ++i, ++reflected, ++straight) {
       const double part =
           sign * kUnit * std::round(double{y[i]} * double{light->irradiance[channel]} / kUnit);
-      *all += part;
-      if (take == Take::reflect) *left += part;
+      if (hasReflected(take)) *reflected += part;
+      if (take == Take::straight) *straight += part;
+      if (take == Take::reflected) *straight -= part;
     }
   }
+}
+
+// Whether parts of objects reflect it onto each other.
+bool PrtLights::isReflected(size_t slot) const {
+  return options_.transfer.bounces > 0 && !areLast_[slot];
 }
 
 // What others hide of the lights in some slots, and what transfer gets wrong of them.
@@ -203,10 +209,10 @@ PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
         isFull = false;
     const auto hidden = std::span(out.hidden).subspan(i * points, points);
     uint64_t rays = 0;
-    if (isSummed(take) && isFull) {
+    if (mayTake(take) && isFull) {
       std::fill(hidden.begin(), hidden.end(), uint8_t{1});
       spared += points;
-    } else if (isSummed(take)) {
+    } else if (mayTake(take)) {
       for (size_t point = 0; point < points; ++point) {
         const auto light = incidentLight(vpl, o.places[point], options_.clampDistance);
         hidden[point] = light && isHiddenByOthers(frame.rays, object, o.places[point], *light);
@@ -214,7 +220,7 @@ PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
       }
     }
     // What is too near says little of the light elsewhere.
-    o.checked[slot] = isChecked && isSummed(take) && !isFull
+    o.checked[slot] = isChecked && mayTake(take) && !isFull
                           ? checkLight(o.checks, o.space, frame.rays, vpl, o.places, hidden,
                                        options_.clampDistance, rays)
                           : CheckedLights();
@@ -241,11 +247,14 @@ bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const u
   }
   std::vector<bool> mayHold(takes.size());
   for (size_t slot = 0; slot < takes.size(); ++slot)
-    mayHold[slot] = isSummed(takes[slot]) && !isHard_[slot];
+    mayHold[slot] = mayTake(takes[slot]) && !isHard_[slot];
   const std::vector<bool> leaves = lightsToLeave(o.checked, mayHold, options_.mostError);
   for (size_t slot = 0; slot < takes.size(); ++slot)
-    if (isSummed(takes[slot]))
-      takes[slot] = mayHold[slot] && !leaves[slot] ? Take::add : Take::reflect;
+    if (mayTake(takes[slot])) {
+      const bool isHeld = mayHold[slot] && !leaves[slot];
+      takes[slot] = isReflected(slot) ? (isHeld ? Take::all : Take::reflected)
+                                      : (isHeld ? Take::straight : Take::left);
+    }
 
   std::vector<size_t> touched;
   for (size_t slot = 0; slot < takes.size(); ++slot)
@@ -258,19 +267,19 @@ bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const u
       const uint8_t now = i == kKept ? hidden : looked.hidden[i * points + point];
       const bool isOther = i != kKept && !isSame(lights_[slot], frame.bySlot[slot]);
       const Take before = o.takes[slot], after = takes[slot];
-      if (before == after && hidden == now && !(isSummed(after) && isOther)) continue;
-      if (isSummed(before) && hidden == 0) addLight(o, lights_[slot], before, point, -1.0);
+      if (before == after && hidden == now && !(mayTake(after) && isOther)) continue;
+      if (mayTake(before) && hidden == 0) addLight(o, lights_[slot], before, point, -1.0);
       hidden = now;
       const shared::Vpl& vpl = i == kKept ? lights_[slot] : frame.bySlot[slot];
-      if (isSummed(after) && hidden == 0) addLight(o, vpl, after, point, 1.0);
+      if (mayTake(after) && hidden == 0) addLight(o, vpl, after, point, 1.0);
       changed = true;
     }
   });
   o.takes = takes;
   for (size_t slot = 0; slot < takes.size(); ++slot)
-    o.held[slot] = takes[slot] == Take::none || takes[slot] == Take::add ? 1 : 0;
+    o.held[slot] = takes[slot] == Take::own || hasStraight(takes[slot]) ? 1 : 0;
   o.lightsLeft = static_cast<int>(std::count(leaves.begin(), leaves.end(), true));
-  o.isLeft = o.lightsLeft > 0 && std::find(takes.begin(), takes.end(), Take::add) == takes.end();
+  o.isLeft = o.lightsLeft > 0 && std::none_of(takes.begin(), takes.end(), hasStraight);
   o.countBytes();
   return changed;
 }
@@ -301,10 +310,10 @@ void PrtLights::lightVertices(Object& o) {
     const Transfer::Vertex& t = o.transfer->vertices[v];
     vec3 e(0.0f);
     for (size_t i = 0; i < kShCoefficients; ++i) {
-      const float* left = &here[kSums + i];
-      e.r += t.r[i] * here[i] - t.direct[i] * left[0];
-      e.g += t.g[i] * here[kShCoefficients + i] - t.direct[i] * left[kShCoefficients];
-      e.b += t.b[i] * here[2 * kShCoefficients + i] - t.direct[i] * left[2 * kShCoefficients];
+      const float* straight = &here[kSums + i];
+      e.r += t.r[i] * here[i] + t.direct[i] * straight[0];
+      e.g += t.g[i] * here[kShCoefficients + i] + t.direct[i] * straight[kShCoefficients];
+      e.b += t.b[i] * here[2 * kShCoefficients + i] + t.direct[i] * straight[2 * kShCoefficients];
     }
     o.irradiance[v] = glm::max(e, 0.0f);  // what is cut off rings below zero
   });
@@ -313,10 +322,9 @@ void PrtLights::lightVertices(Object& o) {
 
 bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& changes,
                        const RayCaster& rays, const VisibilityDatabase& visibility,
-                       std::span<const shared::Vpl> given, const std::vector<bool>& upToDate,
-                       const Options& options, bool waits) {
+                       const Lights& lights, const Options& options, bool waits) {
   scene_ = &scene;
-  std::vector<shared::Vpl> bySlot(given.begin(), given.end());
+  std::vector<shared::Vpl> bySlot(lights.vpls.begin(), lights.vpls.end());
   const Frame frame{scene, rays, visibility, bySlot};
   const bool anew = !isKnown_ || changes.rebuilt || changes.materials || !(options == options_) ||
                     bySlot.size() != lights_.size();
@@ -350,13 +358,16 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
 
   if (!changes.movedObjects.empty()) isStale_.assign(isStale_.size(), true);
   const std::vector<bool> wasHard = std::exchange(isHard_, findHard(bySlot));
+  const std::vector<bool> wereLast = std::exchange(areLast_, lights.areLast);
+  areLast_.resize(bySlot.size(), false);
   std::vector<uint32_t> all(bySlot.size()), some;
   std::iota(all.begin(), all.end(), 0u);
   for (const uint32_t slot : all) {
+    const std::vector<bool>& upToDate = lights.areUpToDate;
     const bool catchesUp = isStale_[slot] && slot < upToDate.size() && upToDate[slot];
     if (catchesUp) isStale_[slot] = false;
     const bool isOther = !isSame(lights_[slot], bySlot[slot]) || slot >= wasHard.size() ||
-                         wasHard[slot] != isHard_[slot];
+                         wasHard[slot] != isHard_[slot] || wereLast[slot] != areLast_[slot];
     if (catchesUp || isOther) some.push_back(slot);
   }
   bool shows = anew;

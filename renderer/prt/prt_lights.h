@@ -33,14 +33,19 @@ class PrtLights {
 
   explicit PrtLights(TransferCache cache = TransferCache()) : transfers_(std::move(cache)) {}
 
-  // Takes in what changed; after the database did, before its clearChanged(). `bySlot`: the lights
-  // as the database has them, with their intensities; `upToDate`: by slot, whether the light is
-  // shown with all that moved: others keep the shadows that they had. Afterwards, when all lights
-  // are up to date, irradiance is what would be made from nothing. `waits`: for transfer that is
-  // not ready; else its objects are not lit by it until it is. Returns whether what shows changed.
+  // By slot.
+  struct Lights {
+    std::span<const shared::Vpl> vpls;  // as the database has them, with their intensities
+    std::vector<bool> areUpToDate;      // shown with all that moved: others keep their shadows
+    std::vector<bool> areLast;  // of the last bounce, which nothing reflects; empty: none of them
+  };
+  // Takes in what changed; after the database did, before its clearChanged(). Afterwards, when all
+  // lights are up to date, irradiance is what would be made from nothing. `waits`: for transfer
+  // that is not ready; else its objects are not lit by it until it is. Returns whether what shows
+  // changed.
   bool update(const RenderScene& scene, const RenderSceneChanges& changes, const RayCaster& rays,
-              const VisibilityDatabase& visibility, std::span<const shared::Vpl> bySlot,
-              const std::vector<bool>& upToDate, const Options& options, bool waits);
+              const VisibilityDatabase& visibility, const Lights& lights, const Options& options,
+              bool waits);
 
   // Whether pixels of an object's leaf patch begin with what is here: those on the front of its
   // triangles that are in no chart.
@@ -88,13 +93,15 @@ class PrtLights {
   uint64_t raysPerLight() const;
 
  private:
-  // A light point: all r, then g, then b of all light; then the same of the part whose direct light
-  // is left to pixels.
+  // A light point: all r, then g, then b of the light that parts reflect; then the same of what
+  // else comes straight: light that is not reflected, less such as is left to pixels.
   static constexpr size_t kSums = size_t{3} * kShCoefficients;
-  // How an object takes the light in a slot: not at all, by transfer, only what its parts reflect
-  // of it, or not even that.
-  enum class Take : uint8_t { none, add, reflect, toPixels };
-  static bool isSummed(Take take) { return take == Take::add || take == Take::reflect; }
+  // What an object has by transfer of the light in a slot. `own`: nothing, and pixels have nothing
+  // of it either; `near`: nothing, for it is too near.
+  enum class Take : uint8_t { own, near, left, straight, reflected, all };
+  static bool mayTake(Take take) { return take >= Take::left; }
+  static bool hasStraight(Take take) { return take == Take::straight || take == Take::all; }
+  static bool hasReflected(Take take) { return take >= Take::reflected; }
   struct Object {
     bool isWanted = false;  // it may have transfer
     bool lacksRoom = false;
@@ -131,6 +138,7 @@ class PrtLights {
   };
   Looked look(const Frame& frame, uint32_t object, std::span<const uint32_t> slots);
   bool sumLights(const Frame& frame, uint32_t object, std::span<const uint32_t> slots);
+  bool isReflected(size_t slot) const;
   void addLight(Object& object, const shared::Vpl& vpl, Take take, size_t point, double sign);
   Take takeOf(const Frame& frame, uint32_t object, size_t slot) const;
   void lightVertices(Object& object);
@@ -142,6 +150,7 @@ class PrtLights {
   std::vector<Object> objects_;
   std::vector<shared::Vpl> lights_;  // by slot, as summed
   std::vector<bool> isHard_;         // by slot: its shadows are too hard for transfer
+  std::vector<bool> areLast_;        // by slot
   std::vector<bool> isStale_;        // by slot: something moved since its shadows were found
   Revision coverage_;
   uint64_t raysTraced_ = 0, raysSpared_ = 0;

@@ -170,6 +170,13 @@ std::vector<bool> LiveLights::upToDate() const {
   return bySlot;
 }
 
+std::vector<bool> LiveLights::haveBounced(int times) const {
+  std::vector<bool> bySlot(static_cast<size_t>(slots_), false);
+  for (const Entry& e : entries_)
+    if (static_cast<int>(e.wanted.id.bounce) >= times) bySlot[static_cast<size_t>(e.slot)] = true;
+  return bySlot;
+}
+
 void LiveLights::loseMaps() {
   std::erase_if(entries_, [](const Entry& e) { return !e.isWanted; });
   for (Entry& e : entries_) {

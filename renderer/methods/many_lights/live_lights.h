@@ -77,6 +77,8 @@ class LiveLights {
 
   // Whether the light in each slot is shown as it is wanted, with its map.
   std::vector<bool> upToDate() const;
+  // By slot, whether the light in it has bounced so often or more.
+  std::vector<bool> haveBounced(int times) const;
 
   // What to sum, in the order of the wanted ones, so that the sum does not depend on history. While
   // more than a twentieth of a set is missing those that are there carry the flux of all, so that

@@ -362,8 +362,11 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStat
     changes.rebuilt = true;
   }
   const uint64_t before = prt_->rays();
-  const bool changed = prt_->update(in.scene, changes, in.rays, *visibility_, shownBySlot(),
-                                    lights_.upToDate(), options.prt, !in.inBackground);
+  const std::vector<shared::Vpl> bySlot = shownBySlot();
+  const bool changed =
+      prt_->update(in.scene, changes, in.rays, *visibility_,
+                   {bySlot, lights_.upToDate(), lights_.haveBounced(options.counts.bounces)},
+                   options.prt, !in.inBackground);
   stats.raysTraced += prt_->rays() - before;
   const Transfers::Progress progress = prt_->progress();
   stats.transfersPending = static_cast<int>(progress.pending);

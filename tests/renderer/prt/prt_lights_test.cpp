@@ -35,14 +35,15 @@ class World {
     visibility.setScene(render, changes);
     visibility.setLights(render, vpls);
     visibility.refreshAll(render);
-    prt.update(render, changes, *rays, visibility, vpls, std::vector<bool>(vpls.size(), true),
-               options, true);
+    prt.update(render, changes, *rays, visibility,
+               {vpls, std::vector<bool>(vpls.size(), true), areLast}, options, true);
     visibility.clearChanged();
   }
   // The same made from nothing.
   bool isAsFromNothing(const std::vector<Vpl>& vpls) const {
     World other;
     other.options = options;
+    other.areLast = areLast;
     other.scene = scene;
     other.show(vpls);
     for (uint32_t i = 0; i < prt.objects(); ++i) {
@@ -63,6 +64,7 @@ class World {
   VisibilityDatabase visibility;
   PrtLights prt;
   PrtLights::Options options;
+  std::vector<bool> areLast;  // of the lights
 };
 
 Vpl brightVpl(const vec3& position, const vec3& normal, float intensity,
@@ -307,6 +309,37 @@ TEST_F(HalfShadowedBar, IsLeftToPixelsWhereItMayNotBeWrong) {
   }
 }
 
+// Light of the last bounce comes straight and is not reflected, whether it was so from the start or
+// became so; of such as is left to pixels there is nothing.
+TEST(PrtLights, ReflectNothingOfTheLastBounce) {
+  const Vpl vpl = brightVpl(vec3(3, 6, 1), vec3(-3, -6, -1), 60.0f);
+  World all(2), direct(0), last(2), left(2);
+  last.areLast = left.areLast = {true};
+  left.options.mostError = 0.001f;
+  for (World* world : {&all, &direct, &last, &left}) {
+    addComplex(world->scene, test::sphereMesh(0.5f, 16, 0.2f), vec3(0.0f));
+    world->show({vpl});
+  }
+  EXPECT_EQ(last.prt.held(0)[0], 1);
+  EXPECT_EQ(left.prt.held(0)[0], 0);
+  const std::vector<vec3> whole(all.prt.irradiance(0).begin(), all.prt.irradiance(0).end());
+  const auto d = direct.prt.irradiance(0), l = last.prt.irradiance(0);
+  float reflected = 0.0f;
+  for (size_t v = 0; v < whole.size(); ++v) {
+    EXPECT_NEAR(l[v].g, d[v].g, 1e-5f);
+    EXPECT_EQ(left.prt.irradiance(0)[v], vec3(0.0f));
+    reflected = std::max(reflected, whole[v].g - d[v].g);
+  }
+  EXPECT_GT(reflected, 0.01f) << "nothing to leave out";
+  all.areLast = {true};
+  all.show({vpl}, SceneChanges());
+  EXPECT_TRUE(std::equal(l.begin(), l.end(), all.prt.irradiance(0).begin()));
+  EXPECT_TRUE(all.isAsFromNothing({vpl}));
+  all.areLast = {false};
+  all.show({vpl}, SceneChanges());
+  EXPECT_TRUE(std::equal(whole.begin(), whole.end(), all.prt.irradiance(0).begin()));
+}
+
 TEST(PrtLights, LeaveASphereInTheOpenNothing) {
   World world;
   world.options.mostError = 0.05f;
@@ -337,7 +370,7 @@ TEST(PrtLights, KeepTheShadowsOfLightsThatWait) {
   world.visibility.setScene(world.render, changes);
   world.visibility.setLights(world.render, vpls);
   const auto prt = [&](const RenderSceneChanges& c, bool upToDate) {
-    world.prt.update(world.render, c, *world.rays, world.visibility, vpls, {upToDate},
+    world.prt.update(world.render, c, *world.rays, world.visibility, {vpls, {upToDate}, {}},
                      world.options, true);
   };
   prt(changes, false);

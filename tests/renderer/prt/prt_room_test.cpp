@@ -45,8 +45,8 @@ class Spheres : public testing::TestWithParam<float> {
     options.mostPoints = 32;
     options.mostError = GetParam();
     options.mostBytes = room;
-    lights.update(render_, {}, *rays_, visibility_, vpls_, std::vector<bool>(vpls_.size(), true),
-                  options, true);
+    lights.update(render_, {}, *rays_, visibility_,
+                  {vpls_, std::vector<bool>(vpls_.size(), true), {}}, options, true);
   }
 
   Scene scene_;
