@@ -46,6 +46,7 @@ struct BackendInfo {
   bool tracesShadowMaps = false;      // by a ray a texel
   bool takesTransfer = false;         // PatchLights with light by precomputed transfer
   bool specularsTakeAllMaps = false;  // lights on glossy pixels are looked up wherever they are
+  uint64_t mostLightMapTexels = UINT64_MAX;  // that PatchLights may have
 };
 
 // Counts of work since the backend was made.

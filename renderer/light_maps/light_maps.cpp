@@ -98,11 +98,12 @@ LightMaps::Size LightMaps::sizeOf(const ObjectPatches& patches, const std::vecto
   return out;
 }
 
-// The same for all that there is, so that it does not depend on what was there before.
-float LightMaps::fittingTexel(const VisibilityDatabase& visibility, size_t slots) const {
+// The same for all that there is: of what was there before it depends on no more than how many
+// slots there are.
+float LightMaps::fittingTexel(const VisibilityDatabase& visibility, size_t words) const {
   const auto fits = [&](const Size& size) {
-    return size.texels * kTexelBytes + size.tiles * wordsOf(slots) * kWordBytes <=
-           options_.mostBytes;
+    return size.texels <= options_.mostTexels &&
+           size.texels * kTexelBytes + size.tiles * words * kWordBytes <= options_.mostBytes;
   };
   Size size;
   for (const Object& o : objects_) {
@@ -134,10 +135,11 @@ void LightMaps::makeTiles(Object& object, const ObjectPatches& patches) const {
       texels += static_cast<uint32_t>(TexelGrid::paddedCount(columns, rows));
     });
   }
-  object.sums.assign(size_t{3} * texels, 0.0);
-  object.irradiance.assign(texels, vec4(0.0f));
-  object.held.assign(object.tiles.size() * words_, 0);
-  object.refused = object.held;
+  // Others in their places: those that were larger would keep their memory.
+  object.sums = std::vector<double>(size_t{3} * texels, 0.0);
+  object.irradiance = std::vector<vec4>(texels, vec4(0.0f));
+  object.held = std::vector<uint64_t>(object.tiles.size() * words_, 0);
+  object.refused = std::vector<uint64_t>(object.held);
   object.isLeftOut.assign(object.tiles.size(), 0);
 }
 
@@ -157,8 +159,8 @@ void LightMaps::resize(size_t slots) {
 }
 
 void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visibility,
-                       std::span<const shared::Vpl> given, const Options& options,
-                       const View* view) {
+                       std::span<const shared::Vpl> given, const Options& options, const View* view,
+                       bool mayBeFiner) {
   // Slots that are no longer given are empty.
   std::vector<shared::Vpl> bySlot(given.begin(), given.end());
   bySlot.resize(std::max(bySlot.size(), lights_.size()));
@@ -174,6 +176,8 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       fresh.push_back(i);
     }
   }
+  const bool mayFitOtherwise =
+      !fresh.empty() || objects.size() != objects_.size() || wordsOf(given.size()) != fittingWords_;
   objects_ = std::move(objects);
   resize(bySlot.size());
   tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) {
@@ -184,8 +188,11 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       o.isFlat[c] = isShadedFlat(scene, patches.charts[c]);
     o.wanted = sizeOf(patches, o.isFlat, options.texel);
   });
-  if (const float texel = fittingTexel(visibility, given.size()); texel != texel_) {
-    texel_ = texel;
+  fittingWords_ = wordsOf(given.size());
+  if (mayFitOtherwise) fitting_ = fittingTexel(visibility, fittingWords_);
+  const bool isFiner = fitting_ > 0.0f && (texel_ == 0.0f || fitting_ < texel_);
+  if (fitting_ != texel_ && (!isFiner || mayBeFiner || fresh.size() == objects_.size())) {
+    texel_ = fitting_;
     fresh.resize(objects_.size());
     std::iota(fresh.begin(), fresh.end(), 0u);
   }

@@ -35,16 +35,18 @@ class LightMaps {
     // Where they would hold more, texels are larger everywhere; where even two a side of each patch
     // are too many there are no maps.
     uint64_t mostBytes = UINT64_MAX;
+    uint64_t mostTexels = UINT64_MAX;  // likewise: that the backend takes
     bool operator==(const Options&) const = default;
   };
 
   // Takes in what changed; once after each setScene() of the database. `bySlot`: the lights as the
   // database has them, with their intensities. Afterwards the maps are those that would be made
   // from nothing; with a view, those of tiles whose fronts that may show. Others are not brought up
-  // to date until it may, and until then not to be read.
+  // to date until it may, and until then not to be read. Texels become larger at once where memory
+  // asks for it, but smaller only where they may: all maps are made anew for that.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
               std::span<const shared::Vpl> bySlot, const Options& options,
-              const View* view = nullptr);
+              const View* view = nullptr, bool mayBeFiner = true);
 
   // A leaf's tile; null where pixels have to sum all lights themselves: its chart is not shaded
   // flat, or it is in no chart.
@@ -106,6 +108,7 @@ class LightMaps {
   size_t objects() const { return objects_.size(); }
   size_t texels() const;
   float texel() const { return texel_; }  // spacing as memory allows [m]; 0: there are no maps
+  bool couldBeFiner() const { return texel_ != fitting_; }
   uint64_t texelsWritten() const { return written_; }  // texels × lights, since they were made
   uint64_t bytes() const;
   uint64_t hash() const;  // of all sums
@@ -132,7 +135,7 @@ class LightMaps {
   static void forEachTile(const ObjectPatches& patches, const std::vector<bool>& isFlat,
                           float texel, F take);
   static Size sizeOf(const ObjectPatches& patches, const std::vector<bool>& isFlat, float texel);
-  float fittingTexel(const VisibilityDatabase& visibility, size_t slots) const;
+  float fittingTexel(const VisibilityDatabase& visibility, size_t words) const;
   void makeTiles(Object& object, const ObjectPatches& patches) const;
   void resize(size_t slots);
 
@@ -140,7 +143,8 @@ class LightMaps {
   std::vector<shared::Vpl> lights_;  // by slot, as they were added
   size_t words_ = 0;                 // of a tile's bits
   Options options_;
-  float texel_ = 0.0f;
+  float texel_ = 0.0f, fitting_ = 0.0f;  // as they are, and as memory allows with so many words
+  size_t fittingWords_ = 0;
   uint64_t written_ = 0;
 };
 

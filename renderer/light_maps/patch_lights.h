@@ -16,15 +16,16 @@ namespace lamplighter {
 // Views into these, which must outlive it and stay as they are.
 class PatchLights {
  public:
-  // maps: null when there are none. mergesPasses: lights that need their shadow maps are to be
-  // summed by merged passes (pass_merging.h), where the backend sums by passes at all. prt: null
-  // where there is none, and for backends that do not take it (BackendInfo::takesTransfer).
-  // standIns: which VPLs have maps, and what stands for those that have none; null: all have.
+  // maps: null when there are none; those that have no room are none. mergesPasses: lights that
+  // need their shadow maps are to be summed by merged passes (pass_merging.h), where the backend
+  // sums by passes at all. prt: null where there is none, and for backends that do not take it
+  // (BackendInfo::takesTransfer). standIns: which VPLs have maps, and what stands for those that
+  // have none; null: all have.
   PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps,
               bool mergesPasses = false, const PrtLights* prt = nullptr,
               const StandIns* standIns = nullptr)
       : visibility_(visibility),
-        maps_(maps),
+        maps_(maps != nullptr && maps->texel() > 0.0f ? maps : nullptr),
         prt_(prt),
         standIns_(standIns),
         mergesPasses_(mergesPasses) {}

@@ -1,6 +1,7 @@
 #include "renderer/backends/gl/gl_backend.h"
 
 #include "renderer/backends/gl/gl_lighting.h"
+#include "renderer/backends/gl/gl_patches.h"
 #include "renderer/backends/gl/gl_speculars.h"
 
 namespace lamplighter {
@@ -17,6 +18,7 @@ class GlBackend final : public Backend {
     info_.specularsTakeAllMaps = true;
     info_.name = "gl";
     info_.takesTransfer = true;
+    info_.mostLightMapTexels = gl::GlPatches::mostTexels();
     info_.device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   }
 

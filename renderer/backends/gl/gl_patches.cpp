@@ -24,6 +24,13 @@ void write(const Buffer& buffer, uint32_t first, std::span<const T> values) {
                        static_cast<GLsizeiptr>(values.size_bytes()), values.data());
 }
 
+// That shaders may see of a buffer.
+uint64_t mostBytes() {
+  GLint64 limit = 0;
+  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
+  return static_cast<uint64_t>(limit);
+}
+
 }  // namespace
 
 GlPatches::Sizes GlPatches::sizesOf(const RenderScene& scene, const PatchLights& lights,
@@ -88,22 +95,16 @@ void GlPatches::update(const RenderScene& scene, const PatchLights& lights) {
   }
 }
 
+uint64_t GlPatches::mostTexels() { return mostBytes() / sizeof(vec4); }
+
 void GlPatches::allocate() {
-  GLint64 limit = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
   const uint64_t texels = uint64_t{total_.texels} * sizeof(vec4);
-  if (texels > static_cast<uint64_t>(limit)) {
-    throw InputError(
-        "many_lights",
-        std::to_string(total_.texels) + " light map texels are more than OpenGL takes here",
-        "raise light_map_texel or use --backend cpu");
-  }
   const uint64_t light = uint64_t{total_.vertices} * sizeof(vec3);
-  if (light > static_cast<uint64_t>(limit)) {
+  if (light > mostBytes()) {
     throw InputError("many_lights",
                      std::to_string(total_.vertices) +
                          " vertices lit by transfer are more than OpenGL takes here",
-                     "switch prt off or use --backend cpu");
+                     "lower prt_memory, switch prt off or use --backend cpu");
   }
   roots_ = makeBuffer(total_.triangles, sizeof(uint32_t));
   patches_ = makeBuffer(total_.nodes, sizeof(shared::PatchNode));

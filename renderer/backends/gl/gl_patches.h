@@ -22,6 +22,9 @@ class GlPatches {
   size_t nodes() const { return total_.nodes; }
   uint64_t bytes() const { return bytes_; }
 
+  // Of light maps; more must not be asked for.
+  static uint64_t mostTexels();
+
  private:
   struct Sizes {
     uint32_t triangles = 0, nodes = 0, charts = 0, tiles = 0, texels = 0;

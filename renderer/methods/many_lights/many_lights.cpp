@@ -128,8 +128,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
       options.useLightMaps != options_.useLightMaps || options.groupShare != options_.groupShare ||
       options.lightMapTexel != options_.lightMapTexel ||
       options.lightMapBytes != options_.lightMapBytes ||
-      options.mergePasses != options_.mergePasses || options.block != options_.block ||
-      options.speculars != options_.speculars ||
+      out.stats.lightMapTexel != lightMapTexel_ || options.mergePasses != options_.mergePasses ||
+      options.block != options_.block || options.speculars != options_.speculars ||
       options.leastRoughness != options_.leastRoughness || options.usePrt != options_.usePrt ||
       !(options.prt == options_.prt) || in.lightOnly != lightOnly_ || in.part != part_;
   if (viewChanged) gbufferIsCurrent_ = false;
@@ -148,6 +148,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const bool refinesOtherwise =
       options.refinement != options_.refinement || options.antialias != options_.antialias;
   options_ = options;
+  lightMapTexel_ = out.stats.lightMapTexel;
   lightOnly_ = in.lightOnly;
   part_ = in.part;
   started_ = true;
@@ -161,7 +162,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   }
   samplesWanted_ = options.antialias;
   const bool isReady = pending == 0 && out.stats.mapsToSharpen == 0 && paths_.isAtRest() &&
-                       choiceIsCurrent_ && out.stats.transfersPending == 0 && !isHasty_;
+                       choiceIsCurrent_ && out.stats.transfersPending == 0 && !isHasty_ &&
+                       !(lightMaps_ && lightMaps_->couldBeFiner());
   if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
   out.settled = isReady && samples_ == samples;
@@ -200,7 +202,10 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.memoryBytes["shadow maps"] = in.backend.counts().mapBytes;
   if (visibility_) out.stats.memoryBytes["visibility"] = visibility_->bytes();
   if (wantsVisibility && !visibility_) out.stats.visibilityNeeds = visibilityNeeds_;
-  if (lightMaps_) out.stats.memoryBytes["light maps"] = lightMaps_->bytes();
+  if (lightMaps_) {
+    const LightMaps* part = partLights_.maps();
+    out.stats.memoryBytes["light maps"] = lightMaps_->bytes() + (part ? part->bytes() : 0);
+  }
   if (prt_) out.stats.memoryBytes["transfer"] = prt_->bytes();
   return out;
 }
@@ -335,15 +340,20 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiSta
   stats.visibilityTests = visibility_->tests() - before;
 }
 
+LightMaps::Options ManyLights::lightMapOptions(const FrameInputs& in, const Options& options) {
+  return {options.lightMapTexel, options.clampDistance, options.lightMapBytes,
+          in.backend.info().mostLightMapTexels};
+}
+
 void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
   if (!options.useLightMaps) {
     lightMaps_.reset();
   } else {
     if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
     const uint64_t before = lightMaps_->texelsWritten();
-    lightMaps_->update(in.scene, *visibility_, shownBySlot(),
-                       {options.lightMapTexel, options.clampDistance, options.lightMapBytes},
-                       &in.view);
+    const bool isAtRest = in.changes.none() && lights_.pending() == 0;
+    lightMaps_->update(in.scene, *visibility_, shownBySlot(), lightMapOptions(in, options),
+                       &in.view, isAtRest);
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
     stats.lightMapTexel = lightMaps_->texel();
   }
@@ -433,10 +443,9 @@ void ManyLights::takePart(const FrameInputs& in, const Options& options,
                           std::vector<shared::Vpl>& vpls, bool isNew) {
   vpls = PartLights::lightsOf(in.part, vpls, lights_.inspect());
   if (!visibility_ || !isNew) return;
-  partLights_.update(
-      in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
-      {options.useLightMaps, {options.lightMapTexel, options.clampDistance, options.lightMapBytes}},
-      lights_.hasMap(), wanted_, groupsOf(in, options.groupShare, lights_.slots()));
+  partLights_.update(in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
+                     {options.useLightMaps, lightMapOptions(in, options)}, lights_.hasMap(),
+                     wanted_, groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,

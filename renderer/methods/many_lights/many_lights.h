@@ -43,6 +43,7 @@ class ManyLights final : public GiMethod {
   void updateVisibility(const FrameInputs& in, Options& options, GiStats& stats);
   void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   void sharpenMaps(const FrameInputs& in, const Options& options, GiStats& stats);
+  static LightMaps::Options lightMapOptions(const FrameInputs& in, const Options& options);
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
@@ -53,6 +54,7 @@ class ManyLights final : public GiMethod {
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
   bool started_ = false, lightOnly_ = false;
+  float lightMapTexel_ = 0.0f;  // in the picture [m]
   LightPart part_ = LightPart::all;
   PartLights partLights_;  // while a part alone is shown
   Options options_;        // of the frame before

@@ -124,5 +124,38 @@ TEST(LightMapMemory, ThePictureStaysNearlyTheSame) {
   EXPECT_LT(error, 0.01);
 }
 
+// While the camera rests: with no room pixels sum all light, and with some they do so no more.
+TEST(LightMapMemory, ThePictureFollowsWhatIsLeft) {
+  const test::AssetRoom room("pillar_room", 96, 60);
+  Settings settings;
+  settings.set(parameters::vpls().name, 1000);
+  settings.set(parameters::bounces().name, 1);
+  settings.set(parameters::updates().name, 20000);
+  settings.set(parameters::antialias().name, 1);
+  settings.set(parameters::lightMapTexel().name, 0.02f);
+  settings.set(parameters::mapResolution().name, 16);
+  FrameRenderer kept(makeCpuBackend());
+  std::vector<float> texels;
+  SceneChanges changes = SceneChanges::all();
+  // Words of a light each.
+  for (const auto& [mebibytes, vpls] :
+       {std::pair(512, 1000), {1, 16000}, {512, 1000}, {1, 1000}, {1, 16000}, {1, 1000}}) {
+    settings.set(parameters::lightMapMemory().name, mebibytes);
+    settings.set(parameters::vpls().name, vpls);
+    const GiOutput out = test::renderSettled(kept, room.scene, changes, room.view, settings);
+    FrameRenderer anew(makeCpuBackend());
+    const GiOutput fresh =
+        test::renderSettled(anew, room.scene, SceneChanges::all(), room.view, settings);
+    EXPECT_EQ(out.stats.lightMapTexel, fresh.stats.lightMapTexel);
+    EXPECT_TRUE(test::sameBits(out.radiance->pixels(), fresh.radiance->pixels()))
+        << mebibytes << " MiB, " << vpls;
+    texels.push_back(out.stats.lightMapTexel);
+    changes = {};
+  }
+  EXPECT_EQ(texels[0], 0.02f);
+  EXPECT_EQ(texels[1], 0.0f);
+  EXPECT_GT(texels[3], 0.02f);
+}
+
 }  // namespace
 }  // namespace lamplighter
