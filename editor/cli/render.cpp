@@ -63,12 +63,11 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   if (out.stats.mergedPasses > 0)
     j["merged_passes"] = {{"drawn", out.stats.mergedPasses}, {"saved", out.stats.passesSaved}};
   if (out.stats.interpolatedShare > 0.0f) j["interpolated_share"] = out.stats.interpolatedShare;
-  if (out.stats.transferObjects > 0)
+  if (out.stats.transferObjects + out.stats.transferObjectsWithoutRoom > 0)
     j["transfer"] = {{"objects", out.stats.transferObjects},
                      {"objects_left_to_pixels", out.stats.transferObjectsLeft},
-                     {"lights_left_to_pixels", out.stats.transferLightsLeft}};
-  if (out.stats.transferObjectsWithoutRoom > 0)
-    j["transfer"]["objects_without_room"] = out.stats.transferObjectsWithoutRoom;
+                     {"lights_left_to_pixels", out.stats.transferLightsLeft},
+                     {"objects_without_room", out.stats.transferObjectsWithoutRoom}};
   if (out.stats.lightMapTexel > 0.0f) j["light_map_texel"] = out.stats.lightMapTexel;  // m
   if (out.stats.vplsToRefine > 0) j["vpls_refined"] = out.stats.vplsRefined;
   j["samples_per_pixel"] = out.stats.samplesPerPixel;

@@ -45,31 +45,6 @@ std::vector<bool> findHard(std::span<const shared::Vpl> bySlot) {
   return isHard;
 }
 
-// By area: what is beside the charts of a simple object is slivers, which have too few vertices to
-// show any light.
-bool isMostlyComplex(const RenderScene& scene, const RenderObject& o,
-                     const ObjectPatches& patches) {
-  double loose = 0.0, all = 0.0;
-  for (uint32_t t = 0; t < o.triangleCount(); ++t) {
-    const uint32_t* corner = &scene.indices[o.firstIndex + 3 * static_cast<size_t>(t)];
-    // In the node's space, so that turning it decides nothing.
-    const vec3& a = scene.localPositions[corner[0]];
-    const double area = glm::length(
-        glm::cross(scene.localPositions[corner[1]] - a, scene.localPositions[corner[2]] - a));
-    const auto patch = static_cast<size_t>(patches.patchOfTriangle[t]);
-    all += area;
-    if (patches.patches[patch].chart == kNone) loose += area;
-  }
-  return loose > 0.5 * all;
-}
-
-// Light on a vertex would be wrong where a pixel's normal is from a texture, and what glows lights
-// itself by VPLs that its transfer knows nothing of.
-bool mayHaveTransfer(const RenderScene& scene, const RenderObject& o) {
-  const Material& m = scene.materials[static_cast<size_t>(o.material)];
-  return !o.isAreaLight && !m.emits() && !m.isClear() && m.normalTexture.texture == kNone;
-}
-
 }  // namespace
 
 struct PrtLights::Frame {
@@ -79,27 +54,22 @@ struct PrtLights::Frame {
   const std::vector<shared::Vpl>& bySlot;
 };
 
-// Which objects want transfer, after all were numbered anew or their materials changed.
-void PrtLights::findObjects(const Frame& frame) {
-  const RenderScene& scene = frame.scene;
-  std::vector<Object> objects(scene.objects.size());
-  tbb::parallel_for(size_t{0}, objects.size(), [&](size_t i) {
-    const auto index = static_cast<uint32_t>(i);
-    const RenderObject& o = scene.objects[i];
-    const ObjectPatches& patches = frame.visibility.patches(index);
-    Object& out = objects[i];
-    for (const int root : patches.roots)
-      if (patches.patches[static_cast<size_t>(root)].chart == kNone) out.looseRoots.push_back(root);
-    if (out.looseRoots.empty() || !mayHaveTransfer(scene, o) || !isMostlyComplex(scene, o, patches))
-      return;
-    const auto space = ownSpaceOf(o);
-    if (!space) return;
-    out.own = std::make_shared<const RenderScene>(ownSceneOf(scene, index, *space));
-    out.key = transferKey(*out.own, options_.transfer);
-    out.isWanted = true;
+// Which objects want transfer, after some became others: numbered anew, of other materials, or of
+// another shape.
+void PrtLights::findObjects(const Frame& frame, std::span<const uint32_t> others) {
+  for (const uint32_t i : others) {
+    PrtShape shape = std::move(objects_[i].shape);
+    objects_[i] = Object();
+    objects_[i].shape = std::move(shape);
+  }
+  const std::vector<uint32_t> come = findRoom(frame);
+  tbb::parallel_for(size_t{0}, come.size(), [&](size_t k) {
+    Object& o = objects_[come[k]];
+    const auto space = ownSpaceOf(frame.scene.objects[come[k]]);
+    o.own = std::make_shared<const RenderScene>(ownSceneOf(frame.scene, come[k], *space));
+    o.key = transferKey(*o.own, options_.transfer);
+    o.isWanted = true;
   });
-  objects_ = std::move(objects);
-  findRoom(scene, frame.bySlot.size());
   std::vector<Transfers::Wanted> wanted;
   for (const Object& o : objects_)
     if (o.isWanted) wanted.push_back({o.key, o.own});
@@ -107,34 +77,48 @@ void PrtLights::findObjects(const Frame& frame) {
   coverage_.advance();
 }
 
-// By what they would hold at most, so that it does not depend on what was there before.
-void PrtLights::findRoom(const RenderScene& scene, size_t slots) {
-  std::vector<uint32_t> wanted;
+// By what objects would hold at most, so that it does not depend on what was there before. Those
+// that lack it lose what they have. Returns those for which there is room, and was not.
+std::vector<uint32_t> PrtLights::findRoom(const Frame& frame) {
+  std::vector<uint32_t> candidates, come;
   std::vector<size_t> bytes;
   for (uint32_t i = 0; i < objects_.size(); ++i) {
-    const Object& o = objects_[i];
-    if (!o.isWanted) continue;
-    wanted.push_back(i);
-    bytes.push_back(mostBytesOf({scene.objects[i].vertexCount,
-                                 static_cast<size_t>(pointsFor(scene.objects[i], *o.own)), slots,
-                                 options_.mostError < 1.0f}));
+    const PrtShape& shape = objects_[i].shape;
+    if (!shape.mayHaveTransfer) continue;
+    candidates.push_back(i);
+    bytes.push_back(
+        mostBytesOf({frame.scene.objects[i].vertexCount, static_cast<size_t>(shape.points),
+                     frame.bySlot.size(), options_.mostError < 1.0f}));
   }
   const std::vector<bool> fits = fitting(bytes, options_.mostBytes);
-  for (size_t i = 0; i < wanted.size(); ++i) {
-    Object& o = objects_[wanted[i]];
-    if (fits[i]) continue;
-    o.isWanted = false;
-    o.lacksRoom = true;
-    o.own.reset();
+  for (size_t k = 0; k < candidates.size(); ++k) {
+    Object& o = objects_[candidates[k]];
+    if (!fits[k]) {
+      PrtShape shape = std::move(o.shape);
+      o = Object();
+      o.shape = std::move(shape);
+    } else if (!o.isWanted) {
+      come.push_back(candidates[k]);
+    }
+    o.lacksRoom = !fits[k];
   }
+  return come;
 }
 
-// `own`: of ownSceneOf().
-int PrtLights::pointsFor(const RenderObject& object, const RenderScene& own) const {
-  const vec3 extent = own.bounds.extent();
-  const auto space = ownSpaceOf(object);
-  const float size = std::max({extent.x, extent.y, extent.z}) * (space ? space->scale : 1.0f);
-  return lightPointsFor(size, options_.mostPoints);
+// Of some objects those that have another shape than they had.
+std::vector<uint32_t> PrtLights::reshape(const Frame& frame, std::span<const uint32_t> some) {
+  std::vector<uint8_t> isOther(some.size(), 0);
+  tbb::parallel_for(size_t{0}, some.size(), [&](size_t k) {
+    PrtShape shape =
+        prtShapeOf(frame.scene, some[k], frame.visibility.patches(some[k]), options_.mostPoints);
+    PrtShape& known = objects_[some[k]].shape;
+    isOther[k] = shape == known ? 0 : 1;
+    known = std::move(shape);
+  });
+  std::vector<uint32_t> others;
+  for (size_t k = 0; k < some.size(); ++k)
+    if (isOther[k] != 0) others.push_back(some[k]);
+  return others;
 }
 
 // Where the object is now; it holds no light there yet.
@@ -204,7 +188,7 @@ PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
     const Take take = out.takes[i] = takeOf(frame, object, slot);
     // The light of a hidden object is known without rays.
     bool isFull = true;
-    for (const int root : o.looseRoots)
+    for (const int root : o.shape.looseRoots)
       if (frame.visibility.state(object, root, static_cast<int>(slot)) != Occlusion::full)
         isFull = false;
     const auto hidden = std::span(out.hidden).subspan(i * points, points);
@@ -329,12 +313,19 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
   const bool anew = !isKnown_ || changes.rebuilt || changes.materials || !(options == options_) ||
                     bySlot.size() != lights_.size();
   options_ = options;
+  std::vector<uint32_t> others;
   if (anew) {
     lights_.assign(bySlot.size(), shared::Vpl{});
     isStale_.assign(bySlot.size(), false);
-    findObjects(frame);
+    objects_ = std::vector<Object>(scene.objects.size());
+    others.resize(objects_.size());
+    std::iota(others.begin(), others.end(), 0u);
+    reshape(frame, others);
     isKnown_ = true;
+  } else {
+    others = reshape(frame, changes.movedObjects);
   }
+  if (anew || !others.empty()) findObjects(frame, others);
   if (waits) transfers_.wait();
 
   std::vector<bool> isFresh(objects_.size(), false);
@@ -343,12 +334,8 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
     if (!o.isWanted || o.transfer) continue;
     o.transfer = transfers_.find(o.key);
     if (!o.transfer) continue;
-    o.points = placeLightPoints(*o.own, pointsFor(scene.objects[i], *o.own));
-    const ObjectPatches& patches = visibility.patches(i);
-    std::vector<bool> isLit(patches.patchOfTriangle.size());
-    for (size_t t = 0; t < isLit.size(); ++t)
-      isLit[t] = patches.patches[static_cast<size_t>(patches.patchOfTriangle[t])].chart == kNone;
-    o.checks = placeCheckPoints(*o.own, *o.transfer, o.points, isLit);
+    o.points = placeLightPoints(*o.own, o.shape.points);
+    o.checks = placeCheckPoints(*o.own, *o.transfer, o.points, o.shape.isLoose);
     o.own.reset();
     isFresh[i] = true;
     coverage_.advance();
@@ -370,7 +357,7 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
                          wasHard[slot] != isHard_[slot] || wereLast[slot] != areLast_[slot];
     if (catchesUp || isOther) some.push_back(slot);
   }
-  bool shows = anew;
+  bool shows = anew || !others.empty();
   for (uint32_t i = 0; i < objects_.size(); ++i) {
     if (!objects_[i].transfer) continue;
     if (isFresh[i]) placeObject(frame, i);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "renderer/prt/check_points.h"
+#include "renderer/prt/prt_shape.h"
 #include "renderer/prt/transfers.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/visibility/visibility_database.h"
@@ -103,15 +104,15 @@ class PrtLights {
   static bool hasStraight(Take take) { return take == Take::straight || take == Take::all; }
   static bool hasReflected(Take take) { return take >= Take::reflected; }
   struct Object {
-    bool isWanted = false;  // it may have transfer
+    PrtShape shape;
+    bool isWanted = false;  // it may have transfer, and has room
     bool lacksRoom = false;
     TransferKey key{};
     std::shared_ptr<const RenderScene> own;  // until its transfer is there
     std::shared_ptr<const Transfer> transfer;
     OwnSpace space;
     LightPoints points;
-    std::vector<vec3> places;     // of the points, in the world
-    std::vector<int> looseRoots;  // patches
+    std::vector<vec3> places;  // of the points, in the world
     std::vector<CheckPoint> checks;
     std::vector<double> sums;            // points × 2 · kSums
     std::vector<Take> takes;             // by slot, as summed
@@ -127,9 +128,9 @@ class PrtLights {
   };
   struct Frame;
 
-  void findObjects(const Frame& frame);
-  void findRoom(const RenderScene& scene, size_t slots);
-  int pointsFor(const RenderObject& object, const RenderScene& own) const;
+  std::vector<uint32_t> reshape(const Frame& frame, std::span<const uint32_t> some);
+  void findObjects(const Frame& frame, std::span<const uint32_t> others);
+  std::vector<uint32_t> findRoom(const Frame& frame);
   void placeObject(const Frame& frame, uint32_t object);
   // At some slots: how each is taken but for hardness and error, and slots × points whether hidden.
   struct Looked {

@@ -1,5 +1,7 @@
 // Complex meshes lit by precomputed transfer: the gl backend's picture is the cpu backend's, and
 // edits and switches leave no trace.
+#include <spdlog/fmt/fmt.h>
+
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
@@ -39,10 +41,11 @@ struct Room {
   }
 };
 
-Settings settingsOf(bool prt, const std::string& technique = "light_maps", int block = 1) {
+Settings settingsOf(bool prt, const std::string& technique = "light_maps", int block = 1,
+                    int bounces = 4) {
   Settings s;
   s.set(parameters::prt().name, prt);
-  s.set(parameters::prtBounces().name, 4);
+  s.set(parameters::prtBounces().name, bounces);
   s.set(parameters::technique().name, technique);
   s.set(parameters::block().name, std::to_string(block));
   s.set(parameters::vpls().name, 200);
@@ -67,12 +70,13 @@ TEST_F(GlTransfer, IsThatOfTheCpuBackend) {
   const Room room;
   const Image plain = rendered(makeGlBackend(), room, settingsOf(false));
   for (const std::string technique : {"visibility", "light_maps"}) {
-    for (const int block : {1, 4}) {
-      SCOPED_TRACE(technique + " " + std::to_string(block));
-      const Image gl = rendered(makeGlBackend(), room, settingsOf(true, technique, block));
-      const Image cpu = rendered(makeCpuBackend(), room, settingsOf(true, technique));
+    for (const auto& [block, bounces] : {std::pair(1, 4), {4, 4}, {4, 0}}) {
+      const std::string way = fmt::format("{}_{}_{}", technique, block, bounces);
+      SCOPED_TRACE(way);
+      const Image gl = rendered(makeGlBackend(), room, settingsOf(true, technique, block, bounces));
+      const Image cpu = rendered(makeCpuBackend(), room, settingsOf(true, technique, 1, bounces));
       const Metrics m = compareImages(gl, cpu);
-      RecordProperty(technique + std::to_string(block), std::to_string(m.relRmse));
+      RecordProperty(way, std::to_string(m.relRmse));
       EXPECT_LT(m.relRmse, 0.01);
       EXPECT_NEAR(m.bias, 1.0, 0.002);
       // Else it would be that of pixels with shadow maps.
@@ -84,7 +88,7 @@ TEST_F(GlTransfer, IsThatOfTheCpuBackend) {
 TEST_F(GlTransfer, APictureAfterEditsIsTheOneMadeFromNothing) {
   Room room;
   FrameRenderer renderer(makeGlBackend());
-  const Settings settings = settingsOf(true);
+  const Settings settings = settingsOf(true, "light_maps", 1, 0);
   const Image first = rendered(renderer, room, SceneChanges::all(), settings);
   for (const NodeId moved : {room.sphere, room.light}) {
     const Scene before = room.scene;

@@ -96,7 +96,7 @@ TEST(LightLinking, DirectLightIsThatOfTheOtherLights) {
   }
 }
 
-Settings manyLights(const char* technique, bool prt) {
+Settings manyLights(const char* technique, bool prt, int prtBounces = 0) {
   Settings s;
   s.set(parameters::vpls().name, 300);
   s.set(parameters::bounces().name, 2);
@@ -105,7 +105,7 @@ Settings manyLights(const char* technique, bool prt) {
   s.set(parameters::mapResolution().name, 64);
   s.set(parameters::technique().name, technique);
   s.set(parameters::prt().name, prt);
-  s.set(parameters::prtBounces().name, 4);
+  s.set(parameters::prtBounces().name, prtBounces);
   s.set(parameters::cornerLight().name, false);
   return s;
 }
@@ -121,6 +121,7 @@ struct Way {
   bool prt;
   const char* block;
   bool speculars;
+  int prtBounces = 0;
 };
 void PrintTo(const Way& w, std::ostream* out) { *out << w.name; }
 class LiveLinking : public testing::TestWithParam<Way> {};
@@ -133,7 +134,7 @@ TEST_P(LiveLinking, IsTheRebuiltPicture) {
   const NodeId ball =
       test::addMesh(t.scene, test::sphereMesh(0.5f, 10, 0.0f, gloss), vec3(1, 0.7f, 0));
   t.scene.sky = test::gradientSky();
-  Settings settings = manyLights(GetParam().technique, GetParam().prt);
+  Settings settings = manyLights(GetParam().technique, GetParam().prt, GetParam().prtBounces);
   settings.set(parameters::block().name, std::string(GetParam().block));
   settings.set(parameters::speculars().name, GetParam().speculars);
   FrameRenderer live(makeCpuBackend());
@@ -164,7 +165,8 @@ INSTANTIATE_TEST_SUITE_P(All, LiveLinking,
                                          Way{"visibility", "visibility", false, "1", false},
                                          Way{"light_maps", "light_maps", false, "1", true},
                                          Way{"low_resolution", "light_maps", false, "4", false},
-                                         Way{"transfer", "light_maps", true, "1", false}),
+                                         Way{"transfer", "light_maps", true, "1", false},
+                                         Way{"reflecting", "light_maps", true, "1", false, 4}),
                          [](const auto& i) { return std::string(i.param.name); });
 
 // All techniques give nearly one picture, and it is the path tracer's.

@@ -17,13 +17,14 @@
 namespace lamplighter {
 namespace {
 
-// "transfer" and "blocks of N" are besides light maps.
+// "transfer", "reflecting transfer" and "blocks of N" are besides light maps.
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
-  const bool isByTransfer = technique == "transfer", isByBlocks = technique.starts_with("blocks");
+  const bool isByTransfer = technique.ends_with("transfer");
+  const bool isByBlocks = technique.starts_with("blocks");
   s.set(parameters::technique().name, isByTransfer || isByBlocks ? "light_maps" : technique);
   s.set(parameters::prt().name, isByTransfer);
-  s.set(parameters::prtBounces().name, 4);
+  s.set(parameters::prtBounces().name, technique == "reflecting transfer" ? 4 : 0);
   s.set(parameters::block().name, isByBlocks ? technique.substr(technique.size() - 1) : "1");
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::bounces().name, 2);
@@ -53,7 +54,7 @@ Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& c
 
 // A few frames after each edit, so that the next comes upon lights half refreshed; then to rest.
 bool isLikeNew(const std::string& technique, const test::EditSequence& edits) {
-  Room room(technique == "transfer");
+  Room room(technique.ends_with("transfer"));
   const Settings settings = settingsOf(technique, 60);
   FrameRenderer renderer(makeCpuBackend());
   settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
@@ -81,7 +82,8 @@ TEST_P(KeptSums, AreThoseMadeFromNothing) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, KeptSums,
                          testing::Combine(testing::Values("naive", "visibility", "light_maps",
-                                                          "transfer", "blocks of 2", "blocks of 4",
+                                                          "transfer", "reflecting transfer",
+                                                          "blocks of 2", "blocks of 4",
                                                           "blocks of 8"),
                                           testing::Range(1u, 5u)));
 

@@ -340,6 +340,34 @@ TEST(PrtLights, ReflectNothingOfTheLastBounce) {
   EXPECT_TRUE(std::equal(whole.begin(), whole.end(), all.prt.irradiance(0).begin()));
 }
 
+class PrtLightsInRoom : public testing::TestWithParam<size_t> {};
+
+// Another shape has other transfer, and more or fewer light points, so that others have other room.
+TEST_P(PrtLightsInRoom, FollowMeshesThatAreScaled) {
+  World world(2);
+  world.options.mostPoints = 128;
+  world.options.mostBytes = GetParam();
+  const NodeId id = addComplex(world.scene, test::sphereMesh(0.5f, 16), vec3(0));
+  addComplex(world.scene, test::sphereMesh(0.3f, 12), vec3(1.4f, 0, 0));
+  const std::vector<Vpl> vpls = {brightVpl(vec3(3, 4, 1), vec3(-3, -4, -1), 40.0f),
+                                 brightVpl(vec3(-3, 2, 3), vec3(3, -2, -3), 30.0f)};
+  world.show(vpls);
+  int lacked = 0;
+  for (const vec3 scale :
+       {vec3(1.3f), vec3(3, 1, 1), vec3(-3, 1, 1), vec3(6), vec3(1, 0, 1), vec3(0.2f), vec3(1)}) {
+    const Scene before = world.scene;
+    world.scene.find(id)->local.scale = scale;
+    world.show(vpls, compare(before, world.scene));
+    EXPECT_TRUE(world.isAsFromNothing(vpls)) << scale.x << ", " << scale.y;
+    EXPECT_LE(world.prt.bytes(), GetParam());
+    lacked += world.prt.left().withoutRoom;
+    const bool isFlat = scale.y == 0.0f;
+    EXPECT_EQ(world.prt.left().objects + world.prt.left().withoutRoom, isFlat ? 1 : 2);
+  }
+  EXPECT_EQ(lacked > 0, GetParam() < SIZE_MAX);
+}
+INSTANTIATE_TEST_SUITE_P(Rooms, PrtLightsInRoom, testing::Values(SIZE_MAX, 400000, 250000));
+
 TEST(PrtLights, LeaveASphereInTheOpenNothing) {
   World world;
   world.options.mostError = 0.05f;
