@@ -22,7 +22,7 @@ const std::vector<Row>& rows() {
       {p::importance(), 4, 16},
       {p::mapResolution(), 32, 128},
       {p::settledMapScale(), 1, 6},
-      {p::mapMemory(), 64, 1024},
+      {p::mapMemory(), 64, 2048},
       {p::frameTime(), 25.0f, 200.0f},
       {p::lightMapTexel(), 0.2f, 0.05f},
       {p::block(), std::string("8"), std::string("2")},

@@ -158,7 +158,7 @@ const ParameterSpec& mapMemory() {
       "Shadow maps take no more memory than this. They are made for light samples that the view "
       "looks up and dropped when others need the room; where even those do not fit, some look "
       "up the map of their nearest neighbour (naive: their share goes to the others).",
-      256,
+      512,
       1,
       65536,
       true,

@@ -31,7 +31,8 @@ struct Kept {
   LightMaps::Options options{0.02f, 0.5f};
 
   explicit Kept(uint64_t mostBytes = UINT64_MAX) { options.mostBytes = mostBytes; }
-  void update(const Scene& from, const SceneChanges& changes, int count = 40) {
+  void update(const Scene& from, const SceneChanges& changes, int count = 40,
+              bool mayBeFiner = true) {
     visibility.setScene(scene, lamplighter::update(scene, from, changes));
     std::vector<shared::Vpl> lights;
     for (const SceneVpl& v :
@@ -39,7 +40,7 @@ struct Kept {
       lights.push_back(v.vpl);
     visibility.setLights(scene, lights);
     visibility.refreshAll(scene);
-    maps.update(scene, visibility, lights, options);
+    maps.update(scene, visibility, lights, options, nullptr, mayBeFiner);
     visibility.clearChanged();
   }
 };
@@ -89,6 +90,30 @@ TEST(LightMapMemory, IsSharedByWhatIsThereNow) {
   kept.update(before, compare(after, before));
   EXPECT_EQ(kept.maps.texel(), kept.options.texel);
   EXPECT_EQ(kept.maps.hash(), hash);
+}
+
+// All maps are made anew for other texels: at once where they have to, else when there is time.
+TEST(LightMapMemory, TexelsBecomeSmallerWhenTheyMay) {
+  const Scene before = litBoxes();
+  Kept kept;
+  kept.update(before, SceneChanges::all());
+  kept.options.mostBytes = kept.maps.bytes() + 1000;
+  kept.update(before, {});
+  const float texel = kept.maps.texel();
+  Scene after = before;
+  test::addMesh(after, test::boxMesh(vec3(1.0f)), vec3(1.0f, 3.0f, 1.0f));
+  kept.update(after, compare(before, after), 40, false);
+  EXPECT_GT(kept.maps.texel(), texel);
+  EXPECT_FALSE(kept.maps.couldBeFiner());
+  kept.update(before, compare(after, before), 40, false);
+  EXPECT_GT(kept.maps.texel(), texel);
+  EXPECT_TRUE(kept.maps.couldBeFiner());
+  kept.update(before, {}, 40, true);
+  EXPECT_EQ(kept.maps.texel(), texel);
+  EXPECT_FALSE(kept.maps.couldBeFiner());
+  Kept fresh;
+  fresh.update(before, SceneChanges::all());
+  EXPECT_EQ(kept.maps.hash(), fresh.maps.hash());
 }
 
 // What was held for lights that are gone is gone with them.
