@@ -11,6 +11,7 @@
 #include "renderer/scene/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"
@@ -156,6 +157,24 @@ TEST_F(GlPatches, TechniquesMayBeSwitched) {
     EXPECT_TRUE(test::sameBits(rendered(renderer, scene, {}, settings),
                                rendered(makeGlBackend(), scene, settings)))
         << technique;
+  }
+}
+
+// Where light maps come to have no room pixels sum all light, until there is some again.
+TEST_F(GlPatches, LightMapsMayLoseTheirRoom) {
+  Scene scene = test::randomBoxes(900, 5);
+  test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
+  const View view = viewOf(scene);
+  FrameRenderer kept(makeGlBackend());
+  SceneChanges changes = SceneChanges::all();
+  for (const int mebibytes : {512, 1, 512}) {
+    Settings settings = settingsOf("light_maps", 60);
+    settings.set(parameters::lightMapMemory().name, mebibytes);
+    const GiOutput out = test::renderSettled(kept, scene, changes, view, settings);
+    EXPECT_EQ(out.stats.lightMapTexel > 0.0f, mebibytes > 1);
+    EXPECT_TRUE(test::sameBits(out.radiance->pixels(), rendered(makeGlBackend(), scene, settings)))
+        << mebibytes;
+    changes = {};
   }
 }
 
