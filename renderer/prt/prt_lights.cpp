@@ -57,11 +57,7 @@ struct PrtLights::Frame {
 // Which objects want transfer, after some became others: numbered anew, of other materials, or of
 // another shape.
 void PrtLights::findObjects(const Frame& frame, std::span<const uint32_t> others) {
-  for (const uint32_t i : others) {
-    PrtShape shape = std::move(objects_[i].shape);
-    objects_[i] = Object();
-    objects_[i].shape = std::move(shape);
-  }
+  for (const uint32_t i : others) objects_[i].dropTransfer();
   const std::vector<uint32_t> come = findRoom(frame);
   tbb::parallel_for(size_t{0}, come.size(), [&](size_t k) {
     Object& o = objects_[come[k]];
@@ -93,13 +89,10 @@ std::vector<uint32_t> PrtLights::findRoom(const Frame& frame) {
   const std::vector<bool> fits = fitting(bytes, options_.mostBytes);
   for (size_t k = 0; k < candidates.size(); ++k) {
     Object& o = objects_[candidates[k]];
-    if (!fits[k]) {
-      PrtShape shape = std::move(o.shape);
-      o = Object();
-      o.shape = std::move(shape);
-    } else if (!o.isWanted) {
+    if (!fits[k])
+      o.dropTransfer();
+    else if (!o.isWanted)
       come.push_back(candidates[k]);
-    }
     o.lacksRoom = !fits[k];
   }
   return come;

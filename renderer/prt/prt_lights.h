@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "renderer/prt/check_points.h"
@@ -125,6 +126,7 @@ class PrtLights {
     bool isLeft = false;  // so that transfer has none
     size_t bytes = 0;     // of all that
     void countBytes();
+    void dropTransfer() { *this = Object{.shape = std::move(shape)}; }
   };
   struct Frame;
 
