@@ -73,9 +73,17 @@ std::filesystem::path Session::writablePath(const std::filesystem::path& wanted)
   return home_->writeFolder / wanted.filename();
 }
 
+void Session::perform(std::string_view text) {
+  const auto [action, arguments] = actions_.parse(text);
+  if (!action.duringDrag) finishDrag();
+  if (action.enabled && !action.enabled(*this)) return;
+  action.run(*this, arguments);
+  home_->ran.insert(action.name);
+}
+
 bool Session::runAction(std::string_view text) {
   try {
-    actions_.run(*this, text);
+    perform(text);
     return true;
   } catch (const InputError& e) {
     setStatus(e.what(), NoticeKind::error);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "editor/actions/action.h"
-#include "editor/commands/history.h"
+#include "editor/commands/editing.h"
 #include "editor/document/clipping.h"
 #include "editor/document/document.h"
 #include "editor/explain/point_tools.h"
@@ -53,10 +53,14 @@ class Session {
   const Document& document() const { return document_; }
   History& history() { return history_; }
   const History& history() const { return history_; }
+  Editing editing() { return {document_, history_}; }
   const ActionRegistry& actions() const { return actions_; }
   FrameRenderer& renderer() { return *renderer_; }
 
-  // Runs an action given as text. A failure goes to the status line and is returned as false.
+  // Runs an action given as text (ActionRegistry::parse). Throws InputError for a name or arguments
+  // that do not fit, with the document untouched. A disabled action does nothing.
+  void perform(std::string_view text);
+  // The same, but a failure goes to the status line and is returned as false.
   bool runAction(std::string_view text);
 
   // Edits that panels make. Each is an undoable step, or joins the open transaction.

@@ -1,5 +1,7 @@
 #include "renderer/frame.h"
 
+#include "renderer/methods/registry.h"
+
 namespace lamplighter {
 
 FrameRenderer::FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwatch)

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "editor/home_state.h"
-#include "editor/session.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -54,7 +52,7 @@ const Action* ActionRegistry::find(const std::string& name) const {
   return it == actions_.end() ? nullptr : &it->second;
 }
 
-void ActionRegistry::run(Session& session, std::string_view text) const {
+ActionRegistry::Call ActionRegistry::parse(std::string_view text) const {
   std::vector<std::string> words = split(text);
   if (words.empty()) throw InputError("action", "is empty", "give a name such as edit.undo");
   const Action* action = find(words.front());
@@ -63,10 +61,7 @@ void ActionRegistry::run(Session& session, std::string_view text) const {
   words.erase(words.begin());
   if (action->usage.empty() && !words.empty())
     throw InputError(action->name, "takes no arguments", "give the name alone");
-  if (!action->duringDrag) session.finishDrag();
-  if (action->enabled && !action->enabled(session)) return;
-  action->run(session, words);
-  session.home().ran.insert(action->name);
+  return {*action, std::move(words)};
 }
 
 void ActionRegistry::setKeys(KeyMap keys) {

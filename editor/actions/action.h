@@ -42,9 +42,13 @@ class ActionRegistry {
   void addKey(const std::string& text, const std::string& shortcut);
   const Action* find(const std::string& name) const;
   const std::map<std::string, Action>& all() const { return actions_; }
-  // Runs "name arg arg"; arguments with spaces in double quotes. Throws InputError for a name or
-  // arguments that do not fit, with the document untouched. A disabled action does nothing.
-  void run(Session& session, std::string_view text) const;
+  // What "name arg arg" asks for; arguments with spaces in double quotes. Throws InputError for a
+  // name that there is not, or arguments where it takes none.
+  struct Call {
+    const Action& action;
+    std::vector<std::string> arguments;
+  };
+  Call parse(std::string_view text) const;
 
   // The keys that the actions come with, and those that are bound now; the shortcuts of actions are
   // what is bound.

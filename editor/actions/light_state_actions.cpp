@@ -43,7 +43,7 @@ void addGroupSwitch(ActionRegistry& r, const std::string& name, const char* labe
          [name, label, flag](Session& s, const Arguments& a) {
            requireArguments(a, 2, 2, name + " NAME true|false");
            const bool value = flagOf(a[1]);
-           editLightGroup(s, label, a[0], [&](LightGroup& g) { g.*flag = value; });
+           editLightGroup(s.editing(), label, a[0], [&](LightGroup& g) { g.*flag = value; });
          },
          {}});
 }
@@ -65,28 +65,28 @@ void toggleWorkLight(Session& s) {
 void addLightStateActions(ActionRegistry& r) {
   addSwitch(r, "lights.on", "Switch lights on or off", "Switches the selected lights on or off.",
             [](Session& s, bool on) {
-              editLightStates(s, on ? "Switch on" : "Switch off",
+              editLightStates(s.editing(), on ? "Switch on" : "Switch off",
                               [on](LightState& state) { state.on = on; });
             });
   addSwitch(r, "lights.solo", "Solo lights",
             "While any light is solo, those that are not give no light.",
             [](Session& s, bool solo) {
-              editLightStates(s, solo ? "Solo" : "End solo of",
+              editLightStates(s.editing(), solo ? "Solo" : "End solo of",
                               [solo](LightState& state) { state.solo = solo; });
             });
   addSwitch(r, "sky.on", "Switch sky on or off", "Switches the sky on or off.",
             [](Session& s, bool on) {
-              editSkyState(s, on ? "Switch on the sky" : "Switch off the sky",
+              editSkyState(s.editing(), on ? "Switch on the sky" : "Switch off the sky",
                            [on](LightState& state) { state.on = on; });
             });
   addSwitch(r, "sky.solo", "Solo sky", "While the sky is solo, no light shines but it.",
             [](Session& s, bool solo) {
-              editSkyState(s, solo ? "Solo the sky" : "End solo of the sky",
+              editSkyState(s.editing(), solo ? "Solo the sky" : "End solo of the sky",
                            [solo](LightState& state) { state.solo = solo; });
             });
   r.add({"lights.all_on", "Switch all lights on", "",
          "Switches all lights on and ends all solo and mute.", "",
-         [](Session& s, const Arguments&) { shineAll(s); },
+         [](Session& s, const Arguments&) { shineAll(s.editing()); },
          [](const Session& s) { return anyLightDark(s.document().scene); }});
   r.add({"lights.group",
          "Group lights",
@@ -95,11 +95,11 @@ void addLightStateActions(ActionRegistry& r) {
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "lights.group NAME");
-           groupLights(s, a[0]);
+           groupLights(s.editing(), a[0]);
          },
          {}});
   r.add({"lights.ungroup", "Ungroup lights", "", "Takes the selected lights out of their groups.",
-         "", [](Session& s, const Arguments&) { groupLights(s, ""); },
+         "", [](Session& s, const Arguments&) { groupLights(s.editing(), ""); },
          [](const Session& s) { return !selectedLights(s.document()).empty(); }});
   r.add({"lights.select_group",
          "Select group",

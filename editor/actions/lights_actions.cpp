@@ -38,7 +38,7 @@ void edit(Session& s, const Arguments& a, LightOperation operation, const std::s
       throw InputError(a[2], "is not needed: " + a[0] + " has one unit alone", "leave it out");
     unit = unitOf(a[2]);
   }
-  editLights(s, operation, property, static_cast<double>(numberOf(a[1])), unit);
+  editLights(s.editing(), operation, property, static_cast<double>(numberOf(a[1])), unit);
 }
 
 bool anySelected(const Session& s) { return !selectedLights(s.document()).empty(); }
@@ -73,7 +73,7 @@ void addLightsActions(ActionRegistry& r) {
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 3, 3, "lights.colour R G B");
-           colourLights(s, vectorOf(a, 0));
+           colourLights(s.editing(), vectorOf(a, 0));
          },
          {}});
   r.add({"lights.edit", "Edit cells of lights", "name|strength|temperature|size|group VALUE",
@@ -85,7 +85,8 @@ void addLightsActions(ActionRegistry& r) {
            for (const LightColumn column :
                 {LightColumn::name, LightColumn::strength, LightColumn::temperature,
                  LightColumn::size, LightColumn::group}) {
-             if (a[0] == columnName(column)) return editLightCells(s, column, a[1]);
+             if (a[0] == columnName(column))
+               return editLightCells(s.editing(), column, a[1], s.lighting().unit);
            }
            throw InputError(a[0], "is no column to type in",
                             "give name, strength, temperature, size or group");
@@ -121,12 +122,14 @@ void addLightsActions(ActionRegistry& r) {
   r.add({"lights.brighter", "Twice as bright", "", "Doubles the intensity of the selected lights.",
          "",
          [](Session& s, const Arguments&) {
-           editLights(s, LightOperation::multiply, LightProperty::intensity, 2.0, LightUnit::nits);
+           editLights(s.editing(), LightOperation::multiply, LightProperty::intensity, 2.0,
+                      LightUnit::nits);
          },
          anySelected});
   r.add({"lights.darker", "Half as bright", "", "Halves the intensity of the selected lights.", "",
          [](Session& s, const Arguments&) {
-           editLights(s, LightOperation::multiply, LightProperty::intensity, 0.5, LightUnit::nits);
+           editLights(s.editing(), LightOperation::multiply, LightProperty::intensity, 0.5,
+                      LightUnit::nits);
          },
          anySelected});
 }

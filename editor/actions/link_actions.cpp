@@ -39,7 +39,7 @@ void addLinkActions(ActionRegistry& r) {
          "light.",
          "",
          [](Session& s, const Arguments& a) {
-           leaveOut(s, lightsOfSelection(s), objectsOf(s, a, {}), true);
+           leaveOut(s.editing(), lightsOfSelection(s), objectsOf(s, a, {}), true);
          },
          hasLights});
   r.add({"light.include", "Light objects again", kObjects,
@@ -47,8 +47,8 @@ void addLinkActions(ActionRegistry& r) {
          "that they left out.",
          "",
          [](Session& s, const Arguments& a) {
-           leaveOut(s, lightsOfSelection(s), objectsOf(s, a, leftOutBySelection(s.document())),
-                    false);
+           leaveOut(s.editing(), lightsOfSelection(s),
+                    objectsOf(s, a, leftOutBySelection(s.document())), false);
          },
          hasLeftOut});
   r.add({"light.select_excluded", "Select what is left out", "",
@@ -60,12 +60,15 @@ void addLinkActions(ActionRegistry& r) {
          kObjects,
          "The sky gives the selected objects, or those named, and all below them no light.",
          "",
-         [](Session& s, const Arguments& a) { leaveOut(s, {kNoNode}, objectsOf(s, a, {}), true); },
+         [](Session& s, const Arguments& a) {
+           leaveOut(s.editing(), {kNoNode}, objectsOf(s, a, {}), true);
+         },
          {}});
   r.add({"sky.include", "Light objects by the sky again", kObjects,
          "The sky lights the selected objects, or those named, again; with neither, all.", "",
          [](Session& s, const Arguments& a) {
-           leaveOut(s, {kNoNode}, objectsOf(s, a, s.document().scene.skyLight.leftOut), false);
+           leaveOut(s.editing(), {kNoNode}, objectsOf(s, a, s.document().scene.skyLight.leftOut),
+                    false);
          },
          [](const Session& s) { return !s.document().scene.skyLight.leftOut.empty(); }});
 }

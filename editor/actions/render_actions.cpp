@@ -5,6 +5,7 @@
 #include "editor/session.h"
 #include "renderer/error.h"
 #include "renderer/image/exposure.h"
+#include "renderer/methods/registry.h"
 
 namespace lamplighter {
 

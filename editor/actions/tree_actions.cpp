@@ -39,7 +39,7 @@ void addTreeActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "object.reparent PARENT|none");
            activeNode(s.document());
-           reparent(s, s.document().selection,
+           reparent(s.editing(), s.document().selection,
                     a[0] == "none" ? kNoNode : nodeNamed(s.document(), a[0]).id);
          },
          hasSelection});
@@ -48,11 +48,11 @@ void addTreeActions(ActionRegistry& r) {
          "it.",
          "Shift+H",
          [](Session& s, const Arguments&) {
-           setLocked(s, s.document().selection, !activeNode(s.document()).locked);
+           setLocked(s.editing(), s.document().selection, !activeNode(s.document()).locked);
          },
          hasSelection});
   r.add({"object.unlock_all", "Unlock all", "", "Unlocks every object.", "",
-         [](Session& s, const Arguments&) { setLocked(s, lockedNodes(s), false); },
+         [](Session& s, const Arguments&) { setLocked(s.editing(), lockedNodes(s), false); },
          [](const Session& s) { return !lockedNodes(s).empty(); }});
   r.add({"objects.set", "Set of objects", "PROPERTY VALUE",
          "Gives all selected objects the same position, rotation (degrees) or scale along an axis, "
@@ -64,7 +64,7 @@ void addTreeActions(ActionRegistry& r) {
            const float value = numberOf(a[1]);
            if (!(std::abs(value) <= 1e6f))
              throw InputError(a[1], "is beyond a million", "give a smaller number");
-           setNumber(s, property, value);
+           setNumber(s.editing(), property, value);
          },
          hasSelection});
   r.add({"objects.lit_as", "Light objects as", "automatic|simple|complex",
@@ -78,7 +78,7 @@ void addTreeActions(ActionRegistry& r) {
              throw InputError(a[0], "is no way to light a mesh",
                               "give automatic, simple or complex");
            editSelected(
-               s, "Light", [](const Node& n) { return n.mesh != kNone; },
+               s.editing(), "Light", [](const Node& n) { return n.mesh != kNone; },
                [&](Node& n) { n.meshKind = kind; });
          },
          hasSelection});
@@ -87,7 +87,8 @@ void addTreeActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "materials.roughness VALUE");
            const float value = shareOf(a[0]);
-           editMaterials(s, "Change roughness", [&](Material& m) { m.roughness = value; });
+           editMaterials(s.editing(), "Change roughness",
+                         [&](Material& m) { m.roughness = value; });
          },
          hasSelection});
   r.add({"materials.metallic", "Metallic of objects", "VALUE",
@@ -95,7 +96,7 @@ void addTreeActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "materials.metallic VALUE");
            const float value = shareOf(a[0]);
-           editMaterials(s, "Change metallic", [&](Material& m) { m.metallic = value; });
+           editMaterials(s.editing(), "Change metallic", [&](Material& m) { m.metallic = value; });
          },
          hasSelection});
   r.add({"materials.colour", "Colour of objects", "R G B",
@@ -103,7 +104,7 @@ void addTreeActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 3, 3, "materials.colour R G B");
            const vec3 colour = glm::clamp(vectorOf(a, 0), 0.0f, 1.0f);
-           editMaterials(s, "Change colour",
+           editMaterials(s.editing(), "Change colour",
                          [&](Material& m) { m.baseColor = vec4(colour, m.baseColor.a); });
          },
          hasSelection});

@@ -10,6 +10,7 @@
 #include "editor/cli/subcommands.h"
 #include "renderer/error.h"
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/registry.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/threads.h"
 

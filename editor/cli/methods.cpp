@@ -4,6 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/cli/subcommands.h"
+#include "renderer/methods/registry.h"
 
 namespace lamplighter::cli {
 

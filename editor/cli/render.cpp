@@ -21,6 +21,7 @@
 #include "renderer/image/exposure.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/tone_map.h"
+#include "renderer/methods/registry.h"
 #include "renderer/scene/gltf_io.h"
 #include "renderer/threads.h"
 #include "renderer/views/view_picture.h"

@@ -61,7 +61,7 @@ void answer(Session& session) {
 
 void runLine(Session& session, const std::string& text) {
   session.setStatus("");
-  session.actions().run(session, text);
+  session.perform(text);
   session.history().commit();
   session.renderFrame();
   if (!session.renderError().empty()) throw InputError(session.renderError());

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "editor/commands/edits.h"
-#include "editor/session.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -64,9 +63,9 @@ std::optional<float> commonNumber(const Document& document, const ObjectProperty
   return common;
 }
 
-void setNumber(Session& s, const ObjectProperty& property, float value) {
+void setNumber(const Editing& editing, const ObjectProperty& property, float value) {
   editSelected(
-      s, std::string("Set ") + property.name, [](const Node&) { return true; },
+      editing, std::string("Set ") + property.name, [](const Node&) { return true; },
       [&](Node& n) { property.set(n, value); });
 }
 
@@ -82,27 +81,27 @@ std::vector<int> selectedMaterials(const Document& document) {
   return out;
 }
 
-void editMaterials(Session& s, const std::string& label,
+void editMaterials(const Editing& editing, const std::string& label,
                    const std::function<void(Material&)>& change) {
-  const std::vector<int> materials = selectedMaterials(s.document());
+  const std::vector<int> materials = selectedMaterials(editing.document);
   if (materials.empty())
     throw InputError("materials", "nothing that is selected has a material", "select objects");
-  const bool isOwnStep = !s.history().inTransaction();
-  if (isOwnStep) s.history().begin(label);
+  const bool isOwnStep = !editing.history.inTransaction();
+  if (isOwnStep) editing.history.begin(label);
   for (const int i : materials) {
-    Material m = s.document().scene.materials[static_cast<size_t>(i)];
+    Material m = editing.document.scene.materials[static_cast<size_t>(i)];
     change(m);
-    s.history().run(std::make_unique<EditMaterial>(s.document(), i, std::move(m)));
+    editing.history.run(std::make_unique<EditMaterial>(editing.document, i, std::move(m)));
   }
-  if (isOwnStep) s.history().commit();
+  if (isOwnStep) editing.history.commit();
 }
 
-void editSelected(Session& s, const std::string& label,
+void editSelected(const Editing& editing, const std::string& label,
                   const std::function<bool(const Node&)>& applies,
                   const std::function<void(Node&)>& change) {
   std::vector<Node> nodes;
-  for (const NodeId id : s.document().selection) {
-    const Node& n = *s.document().scene.find(id);
+  for (const NodeId id : editing.document.selection) {
+    const Node& n = *editing.document.scene.find(id);
     if (!applies(n)) continue;
     nodes.push_back(n);
     change(nodes.back());
@@ -111,8 +110,8 @@ void editSelected(Session& s, const std::string& label,
     throw InputError("objects", "nothing that is selected has it", "select others");
   const std::string what =
       nodes.size() == 1 ? nodes[0].name : std::to_string(nodes.size()) + " objects";
-  s.history().run(
-      std::make_unique<EditNodes>(label + " of " + what, s.document(), std::move(nodes)));
+  editing.history.run(
+      std::make_unique<EditNodes>(label + " of " + what, editing.document, std::move(nodes)));
 }
 
 }  // namespace lamplighter

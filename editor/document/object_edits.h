@@ -7,11 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "editor/document/document.h"
+#include "editor/commands/editing.h"
 
 namespace lamplighter {
-
-class Session;
 
 // A number that a node has, as the inspector shows it. Rotation about X, then Y, then Z, in
 // degrees; rotating one axis keeps the others.
@@ -26,15 +24,15 @@ const ObjectProperty& objectProperty(const std::string& name);
 
 // Of all selected nodes; nothing where they differ or none is selected.
 std::optional<float> commonNumber(const Document& document, const ObjectProperty& property);
-void setNumber(Session& session, const ObjectProperty& property, float value);
+void setNumber(const Editing& editing, const ObjectProperty& property, float value);
 
 // The materials of selected meshes, each once.
 std::vector<int> selectedMaterials(const Document& document);
 // Changes each of them; one step.
-void editMaterials(Session& session, const std::string& label,
+void editMaterials(const Editing& editing, const std::string& label,
                    const std::function<void(Material&)>& change);
 // Changes each selected node that `applies`; one step.
-void editSelected(Session& session, const std::string& label,
+void editSelected(const Editing& editing, const std::string& label,
                   const std::function<bool(const Node&)>& applies,
                   const std::function<void(Node&)>& change);
 

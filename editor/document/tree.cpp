@@ -4,7 +4,6 @@
 #include <unordered_map>
 
 #include "editor/commands/edits.h"
-#include "editor/session.h"
 #include "editor/tools/placement.h"
 #include "renderer/error.h"
 
@@ -71,23 +70,23 @@ void Reparent::put(Document& document, const std::vector<Node>& nodes,
                    [&](const Node& a, const Node& b) { return place.at(a.id) < place.at(b.id); });
 }
 
-void reparent(Session& s, const std::vector<NodeId>& ids, NodeId parent) {
-  auto command = std::make_unique<Reparent>(s.document(), ids, parent);
-  if (!command->changesNothing()) s.history().run(std::move(command));
+void reparent(const Editing& editing, const std::vector<NodeId>& ids, NodeId parent) {
+  auto command = std::make_unique<Reparent>(editing.document, ids, parent);
+  if (!command->changesNothing()) editing.history.run(std::move(command));
 }
 
-void setLocked(Session& s, const std::vector<NodeId>& ids, bool locked) {
+void setLocked(const Editing& editing, const std::vector<NodeId>& ids, bool locked) {
   std::vector<Node> nodes;
   for (const NodeId id : ids) {
-    const Node* n = s.document().scene.find(id);
+    const Node* n = editing.document.scene.find(id);
     if (n == nullptr || n->locked == locked) continue;
     nodes.push_back(*n);
     nodes.back().locked = locked;
   }
   if (nodes.empty()) return;
   const std::string what = nodes.size() == 1 ? nodes[0].name : "objects";
-  s.history().run(std::make_unique<EditNodes>((locked ? "Lock " : "Unlock ") + what, s.document(),
-                                              std::move(nodes)));
+  editing.history.run(std::make_unique<EditNodes>((locked ? "Lock " : "Unlock ") + what,
+                                                  editing.document, std::move(nodes)));
 }
 
 }  // namespace lamplighter

@@ -3,12 +3,9 @@
 
 #include <vector>
 
-#include "editor/commands/command.h"
-#include "editor/document/document.h"
+#include "editor/commands/editing.h"
 
 namespace lamplighter {
-
-class Session;
 
 // Whether the node or one above it is locked: it is neither picked nor moved in the viewport.
 bool isLocked(const Scene& scene, NodeId id);
@@ -36,7 +33,7 @@ class Reparent final : public Command {
   std::vector<NodeId> orderBefore_, orderAfter_;
 };
 
-void reparent(Session& session, const std::vector<NodeId>& ids, NodeId parent);
-void setLocked(Session& session, const std::vector<NodeId>& ids, bool locked);
+void reparent(const Editing& editing, const std::vector<NodeId>& ids, NodeId parent);
+void setLocked(const Editing& editing, const std::vector<NodeId>& ids, bool locked);
 
 }  // namespace lamplighter

@@ -13,7 +13,7 @@
 #include "editor/document/write_file.h"
 #include "renderer/error.h"
 #include "renderer/json_text.h"
-#include "renderer/methods/gi_method.h"
+#include "renderer/methods/registry.h"
 
 namespace lamplighter {
 

@@ -7,7 +7,6 @@
 
 #include "editor/commands/edits.h"
 #include "editor/lights/light_edits.h"
-#include "editor/session.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -45,32 +44,33 @@ std::pair<double, double> sizes(const std::string& text) {
   return {both, both};
 }
 
-void rename(Session& s, const std::string& name) {
+void rename(const Editing& editing, const std::string& name) {
   std::vector<Node> nodes;
-  for (const LightSource& light : selectedLights(s.document())) {
-    nodes.push_back(s.document().scene.nodes[light.index]);
+  for (const LightSource& light : selectedLights(editing.document)) {
+    nodes.push_back(editing.document.scene.nodes[light.index]);
     nodes.back().name = nodes.size() == 1 ? name : name + " " + std::to_string(nodes.size());
   }
-  s.history().run(std::make_unique<EditNodes>("Rename lights", s.document(), std::move(nodes)));
+  editing.history.run(
+      std::make_unique<EditNodes>("Rename lights", editing.document, std::move(nodes)));
 }
 
-void resize(Session& s, const std::string& text) {
+void resize(const Editing& editing, const std::string& text) {
   const auto [width, height] = sizes(text);
-  const auto lights = selectedLights(s.document());
+  const auto lights = selectedLights(editing.document);
   const auto any = [&](LightProperty p) {
-    return commonValue(s.document().scene, lights, p, LightUnit::lumens).count > 0;
+    return commonValue(editing.document.scene, lights, p, LightUnit::lumens).count > 0;
   };
-  const bool isOwnStep = !s.history().inTransaction();
-  if (isOwnStep) s.history().begin("Change size of lights");
+  const bool isOwnStep = !editing.history.inTransaction();
+  if (isOwnStep) editing.history.begin("Change size of lights");
   try {
-    editLights(s, LightOperation::set, LightProperty::width, width, LightUnit::lumens);
+    editLights(editing, LightOperation::set, LightProperty::width, width, LightUnit::lumens);
     if (any(LightProperty::height))
-      editLights(s, LightOperation::set, LightProperty::height, height, LightUnit::lumens);
+      editLights(editing, LightOperation::set, LightProperty::height, height, LightUnit::lumens);
   } catch (const InputError&) {
-    if (isOwnStep) s.history().cancel();
+    if (isOwnStep) editing.history.cancel();
     throw;
   }
-  if (isOwnStep) s.history().commit();
+  if (isOwnStep) editing.history.commit();
 }
 
 }  // namespace
@@ -100,32 +100,32 @@ const char* columnName(LightColumn column) {
   }
 }
 
-void editLightCells(Session& s, LightColumn column, const std::string& text) {
-  const auto lights = selectedLights(s.document());
+void editLightCells(const Editing& editing, LightColumn column, const std::string& text,
+                    LightUnit shown) {
+  const auto lights = selectedLights(editing.document);
   if (lights.empty()) throw InputError("lights", "no light is selected", "select one or more");
   switch (column) {
     case LightColumn::name:
       if (text.empty()) throw InputError("a light", "must have a name", "type one");
-      return rename(s, text);
+      return rename(editing, text);
     case LightColumn::group:
-      return groupLights(s, text);
+      return groupLights(editing, text);
     case LightColumn::size:
-      return resize(s, text);
+      return resize(editing, text);
     case LightColumn::temperature: {
-      return editLights(s, LightOperation::set, LightProperty::temperature, typed(text).value,
+      return editLights(editing, LightOperation::set, LightProperty::temperature, typed(text).value,
                         LightUnit::lumens);
     }
     case LightColumn::strength: {
       const Typed value = typed(text);
-      const LightUnit shown = s.lighting().unit;
-      LightUnit unit =
-          commonValue(s.document().scene, lights, LightProperty::intensity, shown).unitOr(shown);
+      LightUnit unit = commonValue(editing.document.scene, lights, LightProperty::intensity, shown)
+                           .unitOr(shown);
       if (!value.rest.empty()) {
         const auto named = unitNamed(value.rest);
         if (!named) throw InputError(value.rest, "is no unit of light", "give lm, cd, nt, W or lx");
         unit = *named;
       }
-      return editLights(s, LightOperation::set, LightProperty::intensity, value.value, unit);
+      return editLights(editing, LightOperation::set, LightProperty::intensity, value.value, unit);
     }
     default:
       throw InputError("the column", "cannot be typed in", "type in another");

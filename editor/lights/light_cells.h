@@ -3,19 +3,19 @@
 
 #include <string>
 
+#include "editor/commands/editing.h"
 #include "editor/lights/light_table.h"
 
 namespace lamplighter {
-
-class Session;
 
 // Whether the column's cells can be typed in.
 bool isTyped(LightColumn column);
 // "strength" and so on, in actions and names of widgets.
 const char* columnName(LightColumn column);
 // The selected lights with the text for the cell, one step: "lamp", "800 lm", "2700 K", "1.2 x
-// 0.6", "kitchen". Where many are selected names are numbered. Throws InputError for what is no
-// such value.
-void editLightCells(Session& session, LightColumn column, const std::string& text);
+// 0.6", "kitchen". A strength without a unit is in `shown`. Where many are selected names are
+// numbered. Throws InputError for what is no such value.
+void editLightCells(const Editing& editing, LightColumn column, const std::string& text,
+                    LightUnit shown);
 
 }  // namespace lamplighter

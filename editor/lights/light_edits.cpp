@@ -5,7 +5,6 @@
 
 #include "editor/commands/edits.h"
 #include "editor/lights/light_commands.h"
-#include "editor/session.h"
 #include "renderer/error.h"
 
 namespace lamplighter {
@@ -16,8 +15,8 @@ std::string counted(size_t lights) {
   return lights == 1 ? "a light" : std::to_string(lights) + " lights";
 }
 
-std::vector<LightSource> requireLights(const Session& s) {
-  std::vector<LightSource> lights = selectedLights(s.document());
+std::vector<LightSource> requireLights(const Editing& editing) {
+  std::vector<LightSource> lights = selectedLights(editing.document);
   if (lights.empty()) throw InputError("lights", "no light is selected", "select one or more");
   return lights;
 }
@@ -25,8 +24,8 @@ std::vector<LightSource> requireLights(const Session& s) {
 // Several commands as one step.
 class OneStep {
  public:
-  OneStep(Session& s, const std::string& label)
-      : history_(s.history()), isOwn_(!s.history().inTransaction()) {
+  OneStep(const Editing& editing, const std::string& label)
+      : history_(editing.history), isOwn_(!editing.history.inTransaction()) {
     if (isOwn_) history_.begin(label);
   }
   ~OneStep() {
@@ -38,12 +37,14 @@ class OneStep {
   bool isOwn_;
 };
 
-void run(Session& s, const std::string& label, LightEdit edit) {
-  const OneStep step(s, label);
+void run(const Editing& editing, const std::string& label, LightEdit edit) {
+  const OneStep step(editing, label);
   if (!edit.nodes.empty())
-    s.history().run(std::make_unique<EditNodes>(label, s.document(), std::move(edit.nodes)));
+    editing.history.run(
+        std::make_unique<EditNodes>(label, editing.document, std::move(edit.nodes)));
   for (auto& [index, material] : edit.materials)
-    s.history().run(std::make_unique<EditMaterial>(s.document(), index, std::move(material)));
+    editing.history.run(
+        std::make_unique<EditMaterial>(editing.document, index, std::move(material)));
 }
 
 void checkValue(LightOperation operation, LightProperty property, double value) {
@@ -76,11 +77,11 @@ std::vector<LightGroup> groupsInUse(const Scene& scene, std::vector<LightGroup> 
 
 }  // namespace
 
-void editLights(Session& s, LightOperation operation, LightProperty property, double value,
-                LightUnit unit) {
-  const std::vector<LightSource> lights = requireLights(s);
+void editLights(const Editing& editing, LightOperation operation, LightProperty property,
+                double value, LightUnit unit) {
+  const std::vector<LightSource> lights = requireLights(editing);
   checkValue(operation, property, value);
-  const Scene& scene = s.document().scene;
+  const Scene& scene = editing.document.scene;
   LightEdit edit;
   size_t count = 0;
   for (const LightSource& light : lights) {
@@ -103,90 +104,90 @@ void editLights(Session& s, LightOperation operation, LightProperty property, do
                             : std::string("no selected light has the property ") + info.name,
                      byUnit ? "give another unit" : "select others");
   }
-  run(s, std::string("Change ") + info.name + " of " + counted(count), std::move(edit));
+  run(editing, std::string("Change ") + info.name + " of " + counted(count), std::move(edit));
 }
 
-void colourLights(Session& s, const vec3& colour) {
-  const std::vector<LightSource> lights = requireLights(s);
+void colourLights(const Editing& editing, const vec3& colour) {
+  const std::vector<LightSource> lights = requireLights(editing);
   if (!(std::min({colour.r, colour.g, colour.b}) >= 0.0f && luminance(colour) > 0.0f))
     throw InputError("lights.colour", "a colour has no part below 0 and is not black",
                      "give three numbers from 0 to 1");
   LightEdit edit;
-  for (const LightSource& light : lights) setColour(s.document().scene, light, colour, edit);
-  run(s, "Change colour of " + counted(lights.size()), std::move(edit));
+  for (const LightSource& light : lights) setColour(editing.document.scene, light, colour, edit);
+  run(editing, "Change colour of " + counted(lights.size()), std::move(edit));
 }
 
-void editLightStates(Session& s, const std::string& label,
+void editLightStates(const Editing& editing, const std::string& label,
                      const std::function<void(LightState&)>& change) {
   std::vector<NodeId> nodes;
-  for (const LightSource& light : requireLights(s)) nodes.push_back(light.node);
-  editLightStates(s, nodes, label, change);
+  for (const LightSource& light : requireLights(editing)) nodes.push_back(light.node);
+  editLightStates(editing, nodes, label, change);
 }
 
-void editLightStates(Session& s, const std::vector<NodeId>& nodes, const std::string& label,
-                     const std::function<void(LightState&)>& change) {
+void editLightStates(const Editing& editing, const std::vector<NodeId>& nodes,
+                     const std::string& label, const std::function<void(LightState&)>& change) {
   LightEdit edit;
   for (const NodeId id : nodes) {
-    const Node* node = s.document().scene.find(id);
+    const Node* node = editing.document.scene.find(id);
     if (node == nullptr) continue;
     edit.nodes.push_back(*node);
     change(edit.nodes.back().light);
   }
   const std::string what = label + " " + counted(edit.nodes.size());
-  run(s, what, std::move(edit));
+  run(editing, what, std::move(edit));
 }
 
-void groupLights(Session& s, const std::string& name) {
-  requireLights(s);
+void groupLights(const Editing& editing, const std::string& name) {
+  requireLights(editing);
   if (name.size() > 100) throw InputError("lights.group", "the name is too long", "shorten it");
-  const OneStep step(s, name.empty() ? "Ungroup lights" : "Group lights");
-  const Scene& scene = s.document().scene;
+  const OneStep step(editing, name.empty() ? "Ungroup lights" : "Group lights");
+  const Scene& scene = editing.document.scene;
   std::vector<LightGroup> groups = scene.lightGroups;
   if (!name.empty() && findLightGroup(scene, name) == nullptr) groups.push_back({name});
-  editLightStates(s, "Group", [&](LightState& state) { state.group = name; });
-  s.history().run(std::make_unique<EditLightStates>(s.document(), scene.skyLight,
-                                                    groupsInUse(scene, std::move(groups))));
+  editLightStates(editing, "Group", [&](LightState& state) { state.group = name; });
+  editing.history.run(std::make_unique<EditLightStates>(editing.document, scene.skyLight,
+                                                        groupsInUse(scene, std::move(groups))));
 }
 
-void editLightGroup(Session& s, const std::string& label, const std::string& name,
+void editLightGroup(const Editing& editing, const std::string& label, const std::string& name,
                     const std::function<void(LightGroup&)>& change) {
-  std::vector<LightGroup> groups = s.document().scene.lightGroups;
+  std::vector<LightGroup> groups = editing.document.scene.lightGroups;
   const auto it = std::find_if(groups.begin(), groups.end(),
                                [&](const LightGroup& g) { return g.name == name; });
   if (it == groups.end())
     throw InputError(name, "there is no group of lights of that name", "look in the light table");
   change(*it);
-  const OneStep step(s, label + " " + name);
-  s.history().run(std::make_unique<EditLightStates>(s.document(), s.document().scene.skyLight,
-                                                    std::move(groups)));
+  const OneStep step(editing, label + " " + name);
+  editing.history.run(std::make_unique<EditLightStates>(
+      editing.document, editing.document.scene.skyLight, std::move(groups)));
 }
 
-void editSkyState(Session& s, const std::string& label,
+void editSkyState(const Editing& editing, const std::string& label,
                   const std::function<void(LightState&)>& change) {
-  LightState state = s.document().scene.skyLight;
+  LightState state = editing.document.scene.skyLight;
   change(state);
-  const OneStep step(s, label);
-  s.history().run(std::make_unique<EditLightStates>(s.document(), std::move(state),
-                                                    s.document().scene.lightGroups));
+  const OneStep step(editing, label);
+  editing.history.run(std::make_unique<EditLightStates>(editing.document, std::move(state),
+                                                        editing.document.scene.lightGroups));
 }
 
-void shineAll(Session& s) {
+void shineAll(const Editing& editing) {
   LightEdit edit;
-  for (const Node& n : s.document().scene.nodes) {
+  for (const Node& n : editing.document.scene.nodes) {
     if (n.light.on && !n.light.solo) continue;
     edit.nodes.push_back(n);
     edit.nodes.back().light.on = true;
     edit.nodes.back().light.solo = false;
   }
-  LightState sky = s.document().scene.skyLight;
+  LightState sky = editing.document.scene.skyLight;
   sky.on = true;
   sky.solo = false;
-  std::vector<LightGroup> groups = s.document().scene.lightGroups;
+  std::vector<LightGroup> groups = editing.document.scene.lightGroups;
   for (LightGroup& g : groups) g.muted = g.solo = false;
-  const OneStep step(s, "Switch all lights on");
-  run(s, "Switch all lights on", std::move(edit));
-  s.history().run(
-      std::make_unique<EditLightStates>(s.document(), std::move(sky), std::move(groups)));
+  const OneStep step(editing, "Switch all lights on");
+  run(editing, "Switch all lights on", std::move(edit));
+  editing.history.run(
+      std::make_unique<EditLightStates>(editing.document, std::move(sky), std::move(groups)));
 }
 
 }  // namespace lamplighter

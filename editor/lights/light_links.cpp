@@ -5,7 +5,6 @@
 #include "editor/commands/edits.h"
 #include "editor/lights/light_commands.h"
 #include "editor/lights/light_list.h"
-#include "editor/session.h"
 #include "renderer/error.h"
 #include "renderer/scene/light_linking.h"
 
@@ -43,13 +42,13 @@ std::vector<NodeId> leftOutBySelection(const Document& document) {
   return out;
 }
 
-void leaveOut(Session& s, const std::vector<NodeId>& lights, const std::vector<NodeId>& objects,
-              bool out) {
+void leaveOut(const Editing& editing, const std::vector<NodeId>& lights,
+              const std::vector<NodeId>& objects, bool out) {
   const std::string what = out ? "light.exclude" : "light.include";
   if (lights.empty()) throw InputError(what, "no light is selected", "select one or more");
   if (objects.empty())
     throw InputError(what, "no object is given", "select some besides the lights, or name them");
-  Scene after = s.document().scene;
+  Scene after = editing.document.scene;
   std::vector<Node> nodes;
   bool isOfSky = false;
   for (const NodeId id : lights) {
@@ -74,15 +73,15 @@ void leaveOut(Session& s, const std::vector<NodeId>& lights, const std::vector<N
       (objects.size() == 1
            ? after.find(objects[0]) != nullptr ? after.find(objects[0])->name : "an object"
            : std::to_string(objects.size()) + " objects");
-  const bool isOwnStep = !s.history().inTransaction();
-  if (isOwnStep) s.history().begin(label);
+  const bool isOwnStep = !editing.history.inTransaction();
+  if (isOwnStep) editing.history.begin(label);
   if (!nodes.empty())
-    s.history().run(std::make_unique<EditNodes>(label, s.document(), std::move(nodes)));
+    editing.history.run(std::make_unique<EditNodes>(label, editing.document, std::move(nodes)));
   if (isOfSky) {
-    s.history().run(std::make_unique<EditLightStates>(s.document(), after.skyLight,
-                                                      s.document().scene.lightGroups));
+    editing.history.run(std::make_unique<EditLightStates>(editing.document, after.skyLight,
+                                                          editing.document.scene.lightGroups));
   }
-  if (isOwnStep) s.history().commit();
+  if (isOwnStep) editing.history.commit();
 }
 
 }  // namespace lamplighter

@@ -3,11 +3,9 @@
 
 #include <vector>
 
-#include "editor/document/document.h"
+#include "editor/commands/editing.h"
 
 namespace lamplighter {
-
-class Session;
 
 // Of what is selected, what is no light.
 std::vector<NodeId> selectedObjects(const Document& document);
@@ -17,7 +15,7 @@ std::vector<NodeId> leftOutBySelection(const Document& document);
 // From now on these lights (kNoNode: the sky) leave these objects out, or do so no more. One step.
 // Throws InputError when there are no lights or no objects, for a light that would leave out itself
 // alone, and when the scene would have more lists that differ than it can (kMostLinks).
-void leaveOut(Session& session, const std::vector<NodeId>& lights,
+void leaveOut(const Editing& editing, const std::vector<NodeId>& lights,
               const std::vector<NodeId>& objects, bool out);
 
 }  // namespace lamplighter

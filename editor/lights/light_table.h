@@ -14,8 +14,6 @@
 
 namespace lamplighter {
 
-class Session;
-
 // What a light costs and brings, by the method's own account.
 struct LightFigures {
   int samples = 0;            // its VPLs that are shown, bounced ones included
@@ -73,21 +71,5 @@ std::vector<NodeId> rowsBetween(const std::vector<LightRow>& rows, NodeId from, 
 std::map<NodeId, LightFigures> lightFigures(const Inspection& inspection, double lightSeconds);
 // Each light's part of all flux in the scene, by luminance.
 std::map<NodeId, double> fluxShares(const RenderScene& scene);
-
-// Keeps figures from frame to frame, since going through every patch takes a while on large levels.
-class LightTable {
- public:
-  // Figures are looked up anew every so many frames, and when the picture settles.
-  static constexpr uint32_t kFrames = 20;
-  std::vector<LightRow> rows(const Session& session, LightUnit unit);
-
- private:
-  bool known_ = false, wasSettled_ = false;
-  uint32_t frame_ = 0;
-  uint64_t scene_ = 0;         // revision
-  double lightSeconds_ = 0.0;  // smoothed, of frames that had something to do
-  std::map<NodeId, LightFigures> figures_;
-  std::map<NodeId, double> shares_;
-};
 
 }  // namespace lamplighter

@@ -9,6 +9,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/error.h"
 #include "renderer/image/tone_map.h"
+#include "renderer/methods/registry.h"
 
 namespace lamplighter {
 

@@ -107,9 +107,4 @@ struct MethodInfo {
   std::function<std::unique_ptr<GiMethod>()> make;
 };
 
-// Every method, in the order they are shown. renderer/methods/registry.cpp has the list.
-const std::vector<MethodInfo>& methods();
-// Throws InputError when there is none of that name.
-const MethodInfo& findMethod(const std::string& name);
-
 }  // namespace lamplighter

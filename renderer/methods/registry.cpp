@@ -1,7 +1,8 @@
+#include "renderer/methods/registry.h"
+
 #include <algorithm>
 
 #include "renderer/error.h"
-#include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/many_lights.h"
 #include "renderer/reference/reference_method.h"
 

@@ -34,4 +34,9 @@ LoadedScene loadGltf(const std::filesystem::path& path, const LoadProgress& prog
 std::vector<std::filesystem::path> saveGltf(const Scene& scene, const std::filesystem::path& path,
                                             bool besideSource = true);
 
+// The file that the scene came from with all bytes that its lists refer to, as one .glb: loading it
+// gives the same meshes, textures and cameras at the same places. Edits are not in it. Throws
+// InputError.
+void saveSource(const Scene& scene, const std::filesystem::path& glb);
+
 }  // namespace lamplighter

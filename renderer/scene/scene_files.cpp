@@ -2,8 +2,8 @@
 
 #include <sys/stat.h>
 
-#include "renderer/error.h"
-#include "renderer/scene/gltf_output.h"
+#include "renderer/scene/gltf_source.h"
+#include "renderer/scene/scene.h"
 
 namespace lamplighter {
 
@@ -19,19 +19,6 @@ FileStamp stampOf(const std::filesystem::path& path) {
 std::vector<FileStamp> filesOf(const Scene& scene) {
   if (!scene.source || !scene.source->document.files) return {};
   return *scene.source->document.files;
-}
-
-void saveSource(const Scene& scene, const std::filesystem::path& glb) {
-  try {
-    GltfOutput out(scene, glb);
-    out.startBuffers();
-    out.carryImages();
-    writeFilesAtomically(out.finish());
-  } catch (const Json::exception& e) {
-    throw InputError(glb.string(),
-                     "cannot be written: its source is odd (" + printable(e.what()) + ")",
-                     "save the level");
-  }
 }
 
 }  // namespace lamplighter

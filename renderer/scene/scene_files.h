@@ -22,9 +22,4 @@ FileStamp stampOf(const std::filesystem::path& path);
 // before it was read. Empty for a scene that came from no file.
 std::vector<FileStamp> filesOf(const Scene& scene);
 
-// The file that the scene came from with all bytes that its lists refer to, as one .glb: loading it
-// gives the same meshes, textures and cameras at the same places. Edits are not in it. Throws
-// InputError.
-void saveSource(const Scene& scene, const std::filesystem::path& glb);
-
 }  // namespace lamplighter

@@ -9,6 +9,7 @@
 #include "editor/cli/subcommands.h"
 #include "editor/document/write_file.h"
 #include "renderer/error.h"
+#include "renderer/methods/registry.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter::cli {

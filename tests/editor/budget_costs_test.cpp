@@ -1,6 +1,7 @@
 // What the panel says of each budget.
 #include "editor/budgets/budget_costs.h"
 
+#include "renderer/methods/registry.h"
 #include "tests/editor/session_fixture.h"
 
 namespace lamplighter {

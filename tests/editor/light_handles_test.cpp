@@ -139,7 +139,7 @@ TEST_F(LightHandlesTest, EscapeTakesADragBack) {
   dragTo(pixelOf(handle(Kind::right) + vec3(0.5f, 0, 0)));
   EXPECT_NE(hash(), before);
   EXPECT_TRUE(session_.dragging());
-  session_.actions().run(session_, "select.none");
+  session_.perform("select.none");
   EXPECT_EQ(hash(), before);
   EXPECT_FALSE(session_.dragging());
 }

@@ -11,9 +11,9 @@ using Clipboard = test::SessionFixture;
 TEST_F(Clipboard, PastedNodesAreNewOnesInTheSamePlaceAndOneStep) {
   session_.select({box_, light_});
   const uint64_t before = hash();
-  session_.actions().run(session_, "edit.copy");
+  session_.perform("edit.copy");
   EXPECT_EQ(hash(), before);
-  session_.actions().run(session_, "edit.paste");
+  session_.perform("edit.paste");
   const auto& selection = session_.document().selection;
   ASSERT_EQ(selection.size(), 2u);
   EXPECT_EQ(session_.document().scene.nodes.size(), 5u);
@@ -28,9 +28,9 @@ TEST_F(Clipboard, PastedNodesAreNewOnesInTheSamePlaceAndOneStep) {
 
 TEST_F(Clipboard, CutNodesComeBackByPastingOrByUndoing) {
   session_.select({box_});
-  session_.actions().run(session_, "edit.cut");
+  session_.perform("edit.cut");
   EXPECT_EQ(session_.document().scene.find(box_), nullptr);
-  session_.actions().run(session_, "edit.paste");
+  session_.perform("edit.paste");
   ASSERT_EQ(session_.document().selection.size(), 1u);
   EXPECT_EQ(placeOf(session_.document().active()), vec3(0, 0.5f, 0));
   session_.undo();
@@ -45,8 +45,8 @@ TEST_F(Clipboard, CopiesATreeOnce) {
   scene.find(light_)->local.translation = vec3(0, 1, 0);
   open(std::move(scene));
   session_.select({box_, light_});
-  session_.actions().run(session_, "edit.copy");
-  session_.actions().run(session_, "edit.paste");
+  session_.perform("edit.copy");
+  session_.perform("edit.paste");
   ASSERT_EQ(session_.document().scene.nodes.size(), 5u);
   ASSERT_EQ(session_.document().selection.size(), 1u);
   const Node& child = session_.document().scene.nodes.back();
@@ -63,7 +63,7 @@ TEST_F(Clipboard, PastesIntoAnotherLevel) {
   open(std::move(scene));
   session_.select({box_, light_});
   const vec3 boxPlace = placeOf(box_), lightPlace = placeOf(light_);
-  session_.actions().run(session_, "edit.copy");
+  session_.perform("edit.copy");
 
   Scene other;
   const int red = test::addMaterial(other, vec3(0.6f, 0.1f, 0.1f));
@@ -71,7 +71,7 @@ TEST_F(Clipboard, PastesIntoAnotherLevel) {
   open(std::move(other));
   session_.renderFrame();
   const uint64_t before = hash();
-  session_.actions().run(session_, "edit.paste");
+  session_.perform("edit.paste");
   const Scene& now = session_.document().scene;
   ASSERT_EQ(now.nodes.size(), 3u);
   EXPECT_EQ(now.meshes.size(), 2u);
@@ -95,7 +95,7 @@ TEST_F(Clipboard, PastesIntoAnotherLevel) {
   session_.redo();
   EXPECT_EQ(hash(), pasted);
   // Again: what it is made of is there already.
-  session_.actions().run(session_, "edit.paste");
+  session_.perform("edit.paste");
   EXPECT_EQ(session_.document().scene.materials.size(), 2u);
 }
 
@@ -107,7 +107,7 @@ TEST_F(Placing, DroppingAGroupKeepsItTogetherAsOneStep) {
   const vec3 offset = placeOf(light_) - placeOf(box_);
   input_.pointer = pixelOf(vec3(1.5f, 0, 1.0f));
   frame();
-  session_.actions().run(session_, "object.drop");
+  session_.perform("object.drop");
   EXPECT_NEAR(placeOf(box_).x, 1.5f, 0.02f);
   EXPECT_NEAR(placeOf(box_).y, 0.5f, 1e-3f);  // it stands on the floor
   EXPECT_NEAR(glm::length(placeOf(light_) - placeOf(box_) - offset), 0.0f, 1e-4f);
@@ -118,7 +118,7 @@ TEST_F(Placing, DroppingAGroupKeepsItTogetherAsOneStep) {
 
 TEST_F(Placing, WhileShiftIsHeldADragFollowsTheSurfaces) {
   session_.select({box_});
-  session_.actions().run(session_, "tool.move");
+  session_.perform("tool.move");
   Modifiers shift;
   shift.shift = true;
   pressXArrow(shift);

@@ -11,7 +11,7 @@ using PlacingTools = test::SessionFixture;
 
 TEST_F(PlacingTools, AClickPutsALightOnTheSurfaceFacingOut) {
   const uint64_t before = hash();
-  session_.actions().run(session_, "place.start light.add disk");
+  session_.perform("place.start light.add disk");
   EXPECT_EQ(hash(), before);
   press(pixelOf(vec3(2.0f, 0, 0)));
   release();
@@ -35,9 +35,9 @@ TEST_F(PlacingTools, AClickPutsALightOnTheSurfaceFacingOut) {
 
 TEST_F(PlacingTools, WhatWasCopiedIsPlacedInOneStepToo) {
   session_.select({box_});
-  session_.actions().run(session_, "edit.copy");
+  session_.perform("edit.copy");
   const uint64_t before = hash();
-  session_.actions().run(session_, "place.start edit.paste");
+  session_.perform("place.start edit.paste");
   press(pixelOf(vec3(2.0f, 0, 0)));
   release();
   ASSERT_EQ(session_.document().scene.nodes.size(), 4u);
@@ -48,7 +48,7 @@ TEST_F(PlacingTools, WhatWasCopiedIsPlacedInOneStepToo) {
 }
 
 TEST_F(PlacingTools, WithShiftTheNextClickPlacesToo) {
-  session_.actions().run(session_, "place.start light.add rectangle");
+  session_.perform("place.start light.add rectangle");
   Modifiers shift;
   shift.shift = true;
   press(pixelOf(vec3(2.0f, 0, 0)), 0, shift);
@@ -60,16 +60,16 @@ TEST_F(PlacingTools, WithShiftTheNextClickPlacesToo) {
 }
 
 TEST_F(PlacingTools, EscapeLeavesPlacing) {
-  session_.actions().run(session_, "place.start light.add rectangle");
-  session_.actions().run(session_, "select.none");
+  session_.perform("place.start light.add rectangle");
+  session_.perform("select.none");
   EXPECT_FALSE(session_.placing());
-  EXPECT_THROW(session_.actions().run(session_, "place.start no.such"), InputError);
+  EXPECT_THROW(session_.perform("place.start no.such"), InputError);
 }
 
 TEST_F(PlacingTools, ARowOfCopiesIsEvenAndOneStep) {
   session_.select({box_});
   const uint64_t before = hash();
-  session_.actions().run(session_, "edit.duplicate_line 3 1.5 0 -0.5");
+  session_.perform("edit.duplicate_line 3 1.5 0 -0.5");
   ASSERT_EQ(session_.document().scene.nodes.size(), 6u);
   for (size_t i = 0; i < 3; ++i) {
     const vec3 expected = placeOf(box_) + static_cast<float>(i + 1) * vec3(1.5f, 0, -0.5f);
@@ -82,23 +82,23 @@ TEST_F(PlacingTools, ARowOfCopiesIsEvenAndOneStep) {
 
 TEST_F(PlacingTools, AGridFillsItsCells) {
   session_.select({light_});
-  session_.actions().run(session_, "edit.duplicate_grid 3 2 2 1 2 4");
+  session_.perform("edit.duplicate_grid 3 2 2 1 2 4");
   ASSERT_EQ(session_.document().scene.nodes.size(), 3u + 11u);
   vec3 farthest(0.0f);
   for (const Node& n : session_.document().scene.nodes)
     if (n.area) farthest = glm::max(farthest, placeOf(n.id) - placeOf(light_));
   EXPECT_LT(glm::length(farthest - vec3(2, 2, 4)), 1e-5f);
-  EXPECT_THROW(session_.actions().run(session_, "edit.duplicate_grid 100 100 2 1 1 1"), InputError);
+  EXPECT_THROW(session_.perform("edit.duplicate_grid 100 100 2 1 1 1"), InputError);
   // Cells are many or few by what is in each: the whole level has to be one that can be worked in.
   const size_t nodes = session_.document().scene.nodes.size();
   session_.select({light_});
-  session_.actions().run(session_, "edit.duplicate_line 9000 1 0 0");
+  session_.perform("edit.duplicate_line 9000 1 0 0");
   const size_t many = session_.document().scene.nodes.size();
-  EXPECT_THROW(session_.actions().run(session_, "edit.duplicate_line 2 0 0 1"), InputError);
+  EXPECT_THROW(session_.perform("edit.duplicate_line 2 0 0 1"), InputError);
   EXPECT_EQ(session_.document().scene.nodes.size(), many);
   session_.undo();
   EXPECT_EQ(session_.document().scene.nodes.size(), nodes);
-  EXPECT_THROW(session_.actions().run(session_, "edit.duplicate_line 0 1 1 1"), InputError);
+  EXPECT_THROW(session_.perform("edit.duplicate_line 0 1 1 1"), InputError);
 }
 
 TEST_F(PlacingTools, AlignTurnsAnObjectUprightOnTheSurface) {
@@ -109,7 +109,7 @@ TEST_F(PlacingTools, AlignTurnsAnObjectUprightOnTheSurface) {
   session_.select({box_});
   input_.pointer = pixelOf(vec3(2.0f, 0, 0));
   frame();
-  session_.actions().run(session_, "object.align");
+  session_.perform("object.align");
   EXPECT_NEAR((local(box_).rotation * vec3(0, 1, 0)).y, 1.0f, 1e-5f);
   EXPECT_EQ(local(box_).translation, tilted.local.translation);
 }
@@ -117,9 +117,9 @@ TEST_F(PlacingTools, AlignTurnsAnObjectUprightOnTheSurface) {
 // The corner of the box that is nearest to the pointer, to the digit.
 TEST_F(PlacingTools, AMoveSnapsToVertices) {
   session_.select({light_});
-  session_.actions().run(session_, "tool.move");
-  session_.actions().run(session_, "tool.snap_vertex");
-  session_.actions().run(session_, "tool.snap");
+  session_.perform("tool.move");
+  session_.perform("tool.snap_vertex");
+  session_.perform("tool.snap");
   pressXArrow();
   dragTo(pixelOf(vec3(0.45f, 0.97f, 0.5f)));
   release();

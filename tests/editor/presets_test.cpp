@@ -1,6 +1,7 @@
 // Presets: one step each, all of what they set and nothing else.
 #include "editor/presets/presets.h"
 
+#include "renderer/methods/registry.h"
 #include "tests/editor/session_fixture.h"
 
 namespace lamplighter {

@@ -255,11 +255,11 @@ TEST_F(SessionTest, WhatDoesNotFitChangesNothingAndSaysSo) {
 TEST_F(SessionTest, SpaceShowsTheReferenceAndGoesBack) {
   const Action* action = session_.actions().forKey(Key::space, {});
   ASSERT_NE(action, nullptr);
-  session_.actions().run(session_, action->name);
+  session_.perform(action->name);
   EXPECT_EQ(session_.document().render.method, "reference");
   session_.renderFrame();
   EXPECT_EQ(session_.renderError(), "");
-  session_.actions().run(session_, action->name);
+  session_.perform(action->name);
   EXPECT_EQ(session_.document().render.method, "many_lights");
 }
 

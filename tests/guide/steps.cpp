@@ -4,7 +4,7 @@
 
 #include "editor/keys/chord.h"
 #include "renderer/error.h"
-#include "renderer/methods/gi_method.h"
+#include "renderer/methods/registry.h"
 
 namespace lamplighter::test {
 

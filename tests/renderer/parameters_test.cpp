@@ -6,7 +6,7 @@
 
 #include "renderer/error.h"
 #include "renderer/methods/common_parameters.h"
-#include "renderer/methods/gi_method.h"
+#include "renderer/methods/registry.h"
 
 namespace lamplighter {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "renderer/methods/gi_method.h"
+#include "renderer/methods/registry.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/value_slider.h"
 #include "ui/theme.h"

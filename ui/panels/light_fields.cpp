@@ -122,7 +122,7 @@ void stateFields(const PanelContext& ui, const Node& node) {
     ImGui::TextUnformatted(("in " + state.group).c_str());
   }
   if (changed)
-    editLightStates(ui.session, {node.id}, state.on == node.light.on ? "Solo" : "Switch",
+    editLightStates(ui.session.editing(), {node.id}, state.on == node.light.on ? "Solo" : "Switch",
                     [&](LightState& s) { s = state; });
 }
 

@@ -151,7 +151,7 @@ class Bar {
     tooltip(ui_, "Colour of all selected lights; they stay as bright as they are.");
     trackEdit(ui_, "Change colour of lights");
     if (changed && luminance(srgbToLinear(shown)) > 0.0f)
-      colourLights(ui_.session, srgbToLinear(shown));
+      colourLights(ui_.session.editing(), srgbToLinear(shown));
     gap(14);
   }
 

@@ -116,7 +116,7 @@ void LightCells::field(const LightRow& row, LightColumn column) const {
   state.row = kNoNode;
   if (!takes || state.text == cellText(row, column)) return;
   try {
-    editLightCells(ui.session, column, state.text);
+    editLightCells(ui.session.editing(), column, state.text, ui.session.lighting().unit);
   } catch (const InputError& e) {
     ui.session.setStatus(e.what());
   }
@@ -137,7 +137,7 @@ void LightCells::colourPopup(const LightRow& row) const {
   ui.name("colour_picker");
   trackEdit(ui, "Change colour of lights");
   if (changed && luminance(srgbToLinear(shown)) > 0.0f)
-    colourLights(ui.session, srgbToLinear(shown));
+    colourLights(ui.session.editing(), srgbToLinear(shown));
   ImGui::EndPopup();
 }
 

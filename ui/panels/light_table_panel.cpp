@@ -209,11 +209,11 @@ class Table {
     const std::string label = std::string(value ? "Switch " : "End ") + what;
     const auto apply = [&](LightState& s) { change(s, value); };
     if (r.source.node == kNoNode)
-      editSkyState(ui_.session, label, apply);
+      editSkyState(ui_.session.editing(), label, apply);
     else if (r.selected)
-      editLightStates(ui_.session, label, apply);
+      editLightStates(ui_.session.editing(), label, apply);
     else
-      editLightStates(ui_.session, {r.source.node}, label, apply);
+      editLightStates(ui_.session.editing(), {r.source.node}, label, apply);
   }
 
   // As in the outliner: with the id where others have the name, too.

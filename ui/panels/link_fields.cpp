@@ -31,7 +31,7 @@ void entry(const PanelContext& ui, NodeId light, const Node& n) {
   ui.name("links/" + nameOf(n) + "/remove");
   tooltip(ui, "Light it again.");
   ImGui::PopID();
-  if (taken) leaveOut(ui.session, {light}, {n.id}, false);
+  if (taken) leaveOut(ui.session.editing(), {light}, {n.id}, false);
 }
 
 bool holds(const std::string& text, const std::string& part) {
@@ -77,7 +77,7 @@ void chooser(const PanelContext& ui, NodeId light, const std::vector<NodeId>& le
   if (chosen != kNoNode) {
     ImGui::CloseCurrentPopup();
     try {
-      leaveOut(ui.session, {light}, {chosen}, true);
+      leaveOut(ui.session.editing(), {light}, {chosen}, true);
     } catch (const std::exception& e) {
       ui.session.setStatus(e.what());
     }

@@ -49,7 +49,7 @@ void vectorRow(const PanelContext& ui, const char* label, const std::string& nam
     ImGui::SetNextItemWidth(index < 2 ? width : whole - 2 * (width + gap));
     const bool changed = mixedField(ui, name + axis, !common, value, speed, format);
     trackEdit(ui, "Set " + name + axis);
-    if (changed) setNumber(ui.session, property, value);
+    if (changed) setNumber(ui.session.editing(), property, value);
     ++index;
   }
 }
@@ -79,13 +79,13 @@ void objectFields(const PanelContext& ui) {
           ui, "Shown", "visible", [](const Node& n) { return n.visible; }, value))
     attempt(ui, [&] {
       editSelected(
-          ui.session, value ? "Show" : "Hide", [](const Node&) { return true; },
+          ui.session.editing(), value ? "Show" : "Hide", [](const Node&) { return true; },
           [&](Node& n) { n.visible = value; });
     });
   ImGui::SameLine(0, ui.px(14));
   if (mixedCheckbox(
           ui, "Locked", "locked", [](const Node& n) { return n.locked; }, value))
-    setLocked(ui.session, std::vector<NodeId>(ui.session.document().selection), value);
+    setLocked(ui.session.editing(), std::vector<NodeId>(ui.session.document().selection), value);
 }
 
 void lightFields(const PanelContext& ui, const std::vector<LightSource>& lights) {
@@ -112,7 +112,7 @@ void lightFields(const PanelContext& ui, const std::vector<LightSource>& lights)
   vec3 colour = split(emissionOf(scene, lights.back())).colour;
   if (colourField(ui, "lights.colour", "Change colour of lights", colour) &&
       luminance(colour) > 0.0f)
-    attempt(ui, [&] { colourLights(ui.session, colour); });
+    attempt(ui, [&] { colourLights(ui.session.editing(), colour); });
   for (const LightPropertyInfo& info : lightProperties()) {
     const LightUnit shown = ui.session.lighting().unit;
     const CommonValue common = commonValue(
@@ -133,8 +133,8 @@ void lightFields(const PanelContext& ui, const std::vector<LightSource>& lights)
     trackEdit(ui, std::string("Change ") + info.name + " of lights");
     if (changed)
       attempt(ui, [&] {
-        editLights(ui.session, LightOperation::set, info.property, static_cast<double>(value),
-                   unit);
+        editLights(ui.session.editing(), LightOperation::set, info.property,
+                   static_cast<double>(value), unit);
       });
   }
 }
@@ -146,7 +146,7 @@ void materialFields(const PanelContext& ui, const std::vector<int>& materials) {
   labelledRow(ui, "Base colour", "What share of the light the surfaces reflect.");
   vec3 base(materialAt(materials.back()).baseColor);
   if (colourField(ui, "materials.colour", "Change colour of objects", base))
-    editMaterials(ui.session, "Change colour",
+    editMaterials(ui.session.editing(), "Change colour",
                   [&](Material& m) { m.baseColor = vec4(base, m.baseColor.a); });
   const auto number = [&](const char* label, const char* widget, float Material::*of) {
     const float first = materialAt(materials.front()).*of;
@@ -157,7 +157,7 @@ void materialFields(const PanelContext& ui, const std::vector<int>& materials) {
     const bool changed = mixedField(ui, widget, isMixed, value, 0.005f, "%.2f", 0.0f, 1.0f);
     trackEdit(ui, std::string("Change ") + label);
     if (changed)
-      editMaterials(ui.session, std::string("Change ") + label,
+      editMaterials(ui.session.editing(), std::string("Change ") + label,
                     [&](Material& m) { m.*of = std::clamp(value, 0.0f, 1.0f); });
   };
   number("Roughness", "materials.roughness", &Material::roughness);

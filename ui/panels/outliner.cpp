@@ -69,7 +69,7 @@ class Tree {
   void takeDropped() {
     if (dropped_.empty()) return;
     try {
-      reparent(ui_.session, dropped_, droppedOn_);
+      reparent(ui_.session.editing(), dropped_, droppedOn_);
     } catch (const InputError& e) {
       ui_.session.setStatus(e.what());
     }
@@ -158,7 +158,7 @@ class Tree {
     ImGui::SameLine(right - 2 * width);
     if (mark("lock", widget, node.locked ? "Unlock" : "Lock: not to be picked or moved in the view",
              node.locked ? icon::kLock : icon::kUnlock, node.locked, hovered || node.locked))
-      setLocked(ui_.session, {node.id}, !node.locked);
+      setLocked(ui_.session.editing(), {node.id}, !node.locked);
     ImGui::SameLine(right - width);
     if (mark("eye", widget, node.visible ? "Hide" : "Show",
              node.visible ? icon::kEye : icon::kEyeSlash, node.visible, hovered || !node.visible))

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "editor/presets/presets.h"
-#include "renderer/methods/gi_method.h"
+#include "renderer/methods/registry.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/value_slider.h"
 #include "ui/theme.h"
