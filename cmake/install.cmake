@@ -2,7 +2,7 @@
 include(GNUInstallDirs)
 
 install(TARGETS lamplighter RUNTIME)
-# Found by renderer/data_folder.cpp, relative to the program.
+# Found by renderer/base/data_folder.cpp, relative to the program.
 install(DIRECTORY shaders DESTINATION ${CMAKE_INSTALL_DATADIR}/lamplighter
   FILES_MATCHING PATTERN "*.glsl" PATTERN "*.h")
 install(DIRECTORY assets/scenes assets/profiles assets/tutorial

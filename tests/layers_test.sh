@@ -18,4 +18,14 @@ rows=$(grep -rnE '#include *[<"](epoxy/|EGL/|renderer/gl/|renderer/backends/gl/)
 if [ -n "$rows" ]; then printf 'OpenGL outside the gl parts:\n%s\n' "$rows"; bad=1; fi
 rows=$(grep -rnE '(std::rand\b|random_device|system_clock|time\(NULL\)|time\(nullptr\))' renderer editor 2>/dev/null)
 if [ -n "$rows" ]; then printf 'clock or unseeded randomness below ui:\n%s\n' "$rows"; bad=1; fi
+# Within a layer the folders include each other one way too: each folder that has files of its own is
+# a room, and the rooms' includes have no cycle.
+for layer in renderer editor ui; do
+  loop=$(grep -rHE "^ *# *include *\"$layer/" "$layer" --include='*.h' --include='*.cpp' |
+    sed -E 's|^(.*)/[^/]*: *# *include *"(.*)/[^/"]*".*|\1 \2|' | awk '$1 != $2' | sort -u | tsort 2>&1 >/dev/null)
+  if [ -n "$loop" ]; then printf 'folders of %s that include each other in a circle:\n%s\n' "$layer" "$loop"; bad=1; fi
+done
+rows=$(find renderer editor ui shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' | sed 's|/[^/]*$||' | sort | uniq -c |
+  awk '$1 > 34')
+if [ -n "$rows" ]; then printf 'folders of more than 34 files:\n%s\n' "$rows"; bad=1; fi
 exit $bad

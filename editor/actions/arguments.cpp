@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

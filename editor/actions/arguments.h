@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "editor/document/document.h"
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 

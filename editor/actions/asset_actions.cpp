@@ -2,12 +2,12 @@
 #include <filesystem>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
+#include "editor/actions/place_asset.h"
 #include "editor/assets/asset_folder.h"
-#include "editor/assets/place_asset.h"
-#include "editor/home_state.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/home_state.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

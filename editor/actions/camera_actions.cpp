@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/commands/edit_bookmarks.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/edits/edit_bookmarks.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

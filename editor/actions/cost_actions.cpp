@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
 #include "editor/presets/presets.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

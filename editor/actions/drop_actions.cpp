@@ -3,15 +3,15 @@
 #include <filesystem>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/commands/edits.h"
-#include "editor/home_state.h"
+#include "editor/document/sky_text.h"
+#include "editor/edits/edits.h"
 #include "editor/lights/light_profile.h"
 #include "editor/lights/new_light.h"
-#include "editor/session.h"
-#include "editor/sky_text.h"
-#include "renderer/error.h"
-#include "renderer/scene/ies_profile.h"
+#include "editor/session/home_state.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/ies/ies_profile.h"
 
 namespace lamplighter {
 

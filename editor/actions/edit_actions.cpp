@@ -2,10 +2,10 @@
 #include <unordered_set>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/commands/edits.h"
-#include "editor/document/clipping.h"
-#include "editor/session.h"
+#include "editor/edits/clipping.h"
+#include "editor/edits/edits.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
 
 namespace lamplighter {
 

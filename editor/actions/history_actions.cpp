@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/commands/history_budget.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/edits/history_budget.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

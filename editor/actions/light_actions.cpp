@@ -2,14 +2,14 @@
 #include <filesystem>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/commands/edits.h"
+#include "editor/edits/edits.h"
 #include "editor/lights/light_list.h"
 #include "editor/lights/light_profile.h"
 #include "editor/lights/new_light.h"
-#include "editor/session.h"
-#include "renderer/error.h"
-#include "renderer/scene/ies_profile.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 
 namespace lamplighter {

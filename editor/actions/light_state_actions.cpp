@@ -1,10 +1,10 @@
 // Which lights shine: on, solo, groups; the light table, and the work light.
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/home_state.h"
 #include "editor/lights/light_edits.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/home_state.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -1,10 +1,10 @@
 // Edits of all selected lights at once.
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
 #include "editor/lights/light_cells.h"
 #include "editor/lights/light_edits.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -1,10 +1,10 @@
 // Which objects lights leave out.
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
 #include "editor/lights/light_links.h"
 #include "editor/lights/light_list.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

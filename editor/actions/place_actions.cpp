@@ -4,12 +4,12 @@
 #include <unordered_set>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/commands/edits.h"
-#include "editor/document/tree.h"
-#include "editor/session.h"
-#include "editor/tools/placement.h"
-#include "renderer/error.h"
+#include "editor/edits/edits.h"
+#include "editor/edits/placement.h"
+#include "editor/edits/tree.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -1,10 +1,10 @@
 // The user's settings, and the panels that belong to no level.
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/home_state.h"
-#include "editor/preferences/apply.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/apply.h"
+#include "editor/session/home_state.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

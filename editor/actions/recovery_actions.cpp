@@ -1,8 +1,8 @@
 // What a process that was killed has left, and the journal of this one.
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

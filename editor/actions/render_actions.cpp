@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 #include "renderer/image/exposure.h"
-#include "renderer/methods/registry.h"
+#include "renderer/registry/registry.h"
 
 namespace lamplighter {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/session.h"
-#include "editor/sky_text.h"
-#include "renderer/error.h"
+#include "editor/document/sky_text.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

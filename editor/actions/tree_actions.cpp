@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "editor/actions/arguments.h"
-#include "editor/actions/register_actions.h"
-#include "editor/document/object_edits.h"
-#include "editor/document/tree.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/edits/object_edits.h"
+#include "editor/edits/tree.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

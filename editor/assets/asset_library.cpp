@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
-#include "renderer/scene/files_named.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/gltf/files_named.h"
+#include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
 

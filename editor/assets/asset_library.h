@@ -6,7 +6,7 @@
 #include <list>
 #include <memory>
 
-#include "editor/document/clipping.h"
+#include "editor/edits/clipping.h"
 
 namespace lamplighter {
 

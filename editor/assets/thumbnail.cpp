@@ -7,10 +7,10 @@
 
 #include "editor/document/write_file.h"
 #include "editor/input/recording.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
-#include "renderer/scene/files_named.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/files_named.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/views/view_picture.h"
 
 namespace lamplighter {

@@ -12,9 +12,9 @@
 #include "editor/document/write_file.h"
 #include "renderer/bake/page_fill.h"
 #include "renderer/bake/second_uvs.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
 namespace {

@@ -6,7 +6,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/document/write_file.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
-#include "editor/actions/register_actions.h"
 #include "editor/cli/subcommands.h"
 #include "editor/keys/key_bindings.h"
 #include "editor/keys/key_presets.h"
+#include "editor/session/register_actions.h"
 
 namespace lamplighter::cli {
 

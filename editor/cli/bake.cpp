@@ -8,11 +8,11 @@
 #include "editor/cli/options.h"
 #include "editor/cli/progress_line.h"
 #include "editor/cli/subcommands.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
+#include "renderer/base/threads.h"
 #include "renderer/methods/common_parameters.h"
-#include "renderer/methods/registry.h"
-#include "renderer/scene/gltf_io.h"
-#include "renderer/threads.h"
+#include "renderer/registry/registry.h"
+#include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "editor/cli/flags.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -6,7 +6,7 @@
 
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 

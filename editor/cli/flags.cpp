@@ -10,7 +10,7 @@
 
 #include "editor/cli/manual.h"
 #include "editor/cli/subcommands.h"
-#include "editor/sky_text.h"
+#include "editor/document/sky_text.h"
 #include "renderer/views/debug_view.h"
 
 namespace lamplighter::cli {

@@ -4,8 +4,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/cli/subcommands.h"
-#include "renderer/sampling/lights.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/sampling/emitters/lights.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/render_scene.h"
 
 namespace lamplighter::cli {

@@ -4,7 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/cli/subcommands.h"
-#include "renderer/methods/registry.h"
+#include "renderer/registry/registry.h"
 
 namespace lamplighter::cli {
 

@@ -9,7 +9,7 @@
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/scene/render_scene.h"
 
 namespace lamplighter::cli {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "renderer/methods/gi_method.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter::cli {
 

@@ -6,11 +6,11 @@
 
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
-#include "editor/session.h"
-#include "renderer/error.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
+#include "renderer/base/threads.h"
 #include "renderer/image/image_io.h"
-#include "renderer/scene/gltf_io.h"
-#include "renderer/threads.h"
+#include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 
 namespace lamplighter {

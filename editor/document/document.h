@@ -1,5 +1,5 @@
 // What is being edited: scene, selection, settings, and where it came from. Changed by commands
-// only (editor/commands), except the selection, which is no change to the work.
+// only (editor/edits), except the selection, which is no change to the work.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "renderer/parameters.h"
+#include "renderer/base/parameters.h"
 #include "renderer/scene/scene.h"
 
 namespace lamplighter {

@@ -1,6 +1,6 @@
 #include "editor/document/write_file.h"
 
-#include "renderer/atomic_file.h"
+#include "renderer/base/atomic_file.h"
 
 namespace lamplighter {
 

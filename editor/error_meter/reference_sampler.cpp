@@ -6,7 +6,7 @@
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 
-#include "renderer/sampling/random.h"
+#include "renderer/base/random.h"
 #include "renderer/scene/scene_changes.h"
 
 namespace lamplighter {

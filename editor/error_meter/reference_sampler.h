@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "renderer/image/image.h"
+#include "renderer/methods/path_tracer/path_tracer.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/reference/path_tracer.h"
-#include "renderer/sampling/lights.h"
+#include "renderer/sampling/emitters/lights.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "editor/tools/projection.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {

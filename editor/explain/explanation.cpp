@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "renderer/sampling/lights.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "renderer/scene/light_linking.h"
 #include "shaders/shared/vpl_shading.h"
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "renderer/base/parameters.h"
 #include "renderer/methods/inspection.h"
-#include "renderer/parameters.h"
 #include "renderer/raycast/ray_caster.h"
 
 namespace lamplighter {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "editor/tools/overlay.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 
 namespace lamplighter {
 

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter {
 

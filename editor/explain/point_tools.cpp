@@ -1,7 +1,7 @@
 #include "editor/explain/point_tools.h"
 
 #include "editor/explain/quantity.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -8,7 +8,7 @@
 #include "editor/explain/measurement.h"
 #include "editor/explain/probe.h"
 #include "editor/tools/viewport_input.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 
 namespace lamplighter {
 

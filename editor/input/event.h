@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 

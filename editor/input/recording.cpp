@@ -11,9 +11,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/document/write_file.h"
-#include "renderer/error.h"
-#include "renderer/json_text.h"
-#include "renderer/methods/registry.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json_text.h"
+#include "renderer/registry/registry.h"
 
 namespace lamplighter {
 

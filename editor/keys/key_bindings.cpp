@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "renderer/json_text.h"
+#include "renderer/base/json_text.h"
 
 namespace lamplighter {
 

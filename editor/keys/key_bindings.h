@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "editor/actions/action.h"
+#include "editor/keys/action.h"
 
 namespace lamplighter {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/backends/kernels.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 
 namespace lamplighter {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "editor/commands/edits.h"
+#include "editor/edits/edits.h"
 #include "editor/lights/light_edits.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "editor/commands/editing.h"
+#include "editor/edits/editing.h"
 #include "editor/lights/light_table.h"
 
 namespace lamplighter {

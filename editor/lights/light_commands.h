@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "editor/commands/command.h"
+#include "editor/edits/command.h"
 
 namespace lamplighter {
 

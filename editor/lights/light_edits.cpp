@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/commands/edits.h"
+#include "editor/edits/edits.h"
 #include "editor/lights/light_commands.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

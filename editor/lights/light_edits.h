@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/commands/editing.h"
+#include "editor/edits/editing.h"
 #include "editor/lights/light_properties.h"
 
 namespace lamplighter {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "editor/commands/edits.h"
+#include "editor/edits/edits.h"
 #include "editor/lights/light_commands.h"
 #include "editor/lights/light_list.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/scene/light_linking.h"
 
 namespace lamplighter {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "editor/commands/editing.h"
+#include "editor/edits/editing.h"
 
 namespace lamplighter {
 

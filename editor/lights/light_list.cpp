@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 #include "renderer/scene/light_shapes.h"
 

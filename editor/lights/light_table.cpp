@@ -6,7 +6,7 @@
 
 #include "editor/lights/colour_temperature.h"
 #include "editor/lights/work_light.h"
-#include "renderer/sampling/lights.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {

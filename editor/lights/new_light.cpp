@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/scene/light_shapes.h"
 
 namespace lamplighter {

@@ -1,6 +1,6 @@
 // What the strength of a light is called: lumens, candela, nits, watts or lux. The renderer knows
 // radiance and intensity; a nit is one unit of radiance and a candela one of intensity
-// (renderer/scene/gltf_lights.cpp), by the luminance of the colour.
+// (renderer/scene/gltf/gltf_lights.cpp), by the luminance of the colour.
 #pragma once
 
 #include <optional>

@@ -2,8 +2,8 @@
 // that is rendered, never into the document.
 #pragma once
 
+#include "renderer/scene/camera.h"
 #include "renderer/scene/scene_changes.h"
-#include "renderer/view.h"
 
 namespace lamplighter {
 

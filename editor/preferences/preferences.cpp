@@ -4,7 +4,7 @@
 
 #include "editor/keys/key_presets.h"
 #include "editor/presets/presets.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/tone_map.h"
 
 namespace lamplighter {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/parameters.h"
+#include "renderer/base/parameters.h"
 
 namespace lamplighter {
 

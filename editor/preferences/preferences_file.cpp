@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
-#include "renderer/error.h"
-#include "renderer/json_text.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json_text.h"
 
 namespace lamplighter {
 

@@ -8,7 +8,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

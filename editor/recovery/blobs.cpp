@@ -5,7 +5,7 @@
 
 #include "editor/document/write_file.h"
 #include "editor/input/recording.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

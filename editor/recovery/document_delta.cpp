@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -3,8 +3,8 @@
 #include "editor/input/recording.h"
 #include "editor/recovery/document_delta.h"
 #include "editor/recovery/recovery.h"
-#include "renderer/error.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
 

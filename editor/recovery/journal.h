@@ -21,7 +21,7 @@
 #include "editor/document/document.h"
 #include "editor/recovery/append_file.h"
 #include "editor/recovery/blobs.h"
-#include "renderer/scene/scene_files.h"
+#include "renderer/scene/gltf/scene_files.h"
 
 namespace lamplighter {
 

@@ -1,6 +1,6 @@
 #include "editor/recovery/keeper.h"
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -8,9 +8,9 @@
 
 #include "editor/input/recording.h"
 #include "editor/recovery/document_delta.h"
-#include "renderer/error.h"
-#include "renderer/json_text.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/base/error.h"
+#include "renderer/base/json_text.h"
+#include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
 

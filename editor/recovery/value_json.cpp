@@ -4,8 +4,8 @@
 #include <type_traits>
 
 #include "editor/recovery/mesh_bytes.h"
-#include "renderer/error.h"
-#include "renderer/scene/ies_profile.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 
 namespace lamplighter {

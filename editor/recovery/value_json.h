@@ -10,7 +10,7 @@
 
 #include "editor/document/document.h"
 #include "editor/recovery/blobs.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -7,9 +7,9 @@
 
 #include "editor/split/heat_map.h"
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/tone_map.h"
-#include "renderer/methods/registry.h"
+#include "renderer/registry/registry.h"
 
 namespace lamplighter {
 

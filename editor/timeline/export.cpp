@@ -3,7 +3,7 @@
 
 #include "editor/document/write_file.h"
 #include "editor/timeline/timeline.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

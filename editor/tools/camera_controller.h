@@ -2,7 +2,7 @@
 #pragma once
 
 #include "editor/tools/viewport_input.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 
 namespace lamplighter {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/commands/edits.h"
-#include "editor/document/tree.h"
-#include "editor/tools/placement.h"
+#include "editor/edits/edits.h"
+#include "editor/edits/placement.h"
+#include "editor/edits/tree.h"
 #include "editor/tools/projection.h"
 
 namespace lamplighter {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/commands/edits.h"
-#include "editor/tools/placement.h"
+#include "editor/edits/edits.h"
+#include "editor/edits/placement.h"
 #include "editor/tools/projection.h"
 
 namespace lamplighter {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "editor/commands/history.h"
 #include "editor/document/document.h"
+#include "editor/edits/history.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/viewport_input.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 
 namespace lamplighter {
 

@@ -5,8 +5,8 @@
 
 #include "editor/document/document.h"
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter {
 

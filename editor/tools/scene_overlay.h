@@ -3,8 +3,8 @@
 
 #include "editor/document/document.h"
 #include "editor/tools/overlay.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter {
 

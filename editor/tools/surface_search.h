@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "editor/document/document.h"
-#include "editor/tools/placement.h"
+#include "editor/edits/placement.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 
 namespace lamplighter {
 

@@ -1,7 +1,7 @@
 // The editor's colours and font, for the window and for what is drawn into pictures.
 #pragma once
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter::look {
 

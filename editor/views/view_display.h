@@ -7,7 +7,7 @@
 #include <string>
 
 #include "editor/document/document.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/histogram.h"
 #include "renderer/views/view_picture.h"
 

@@ -4,7 +4,7 @@
 #include "editor/tools/overlay.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 
 namespace lamplighter {
 

@@ -10,8 +10,8 @@
 
 #include "renderer/image/image.h"
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {

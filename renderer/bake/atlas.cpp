@@ -8,7 +8,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/bake/skyline.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <array>
 
+#include "renderer/base/low_discrepancy.h"
+#include "renderer/base/random.h"
 #include "renderer/sampling/light_paths.h"
-#include "renderer/sampling/low_discrepancy.h"
-#include "renderer/sampling/random.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/vpl_shading.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "renderer/bake/bake_points.h"
+#include "renderer/methods/path_tracer/path_tracer.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/reference/path_tracer.h"
 #include "renderer/sampling/vpl_set.h"
 
 namespace lamplighter {

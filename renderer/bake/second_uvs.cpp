@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 

@@ -5,7 +5,7 @@
 
 #include <epoxy/egl.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter::gl {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/base/math.h"
 #include "renderer/gl/objects.h"
-#include "renderer/math.h"
 
 namespace lamplighter::gl {
 

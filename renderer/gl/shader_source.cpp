@@ -5,7 +5,7 @@
 #include <regex>
 #include <sstream>
 
-#include "renderer/data_folder.h"
+#include "renderer/base/data_folder.h"
 
 namespace lamplighter::gl {
 namespace {

@@ -7,8 +7,8 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "renderer/atomic_file.h"
-#include "renderer/error.h"
+#include "renderer/base/atomic_file.h"
+#include "renderer/base/error.h"
 #include "renderer/image/open_picture.h"
 
 namespace lamplighter {

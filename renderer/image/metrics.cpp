@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/tone_map.h"
 
 namespace lamplighter {

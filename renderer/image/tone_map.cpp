@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

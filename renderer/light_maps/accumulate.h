@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {

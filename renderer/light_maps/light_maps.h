@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 #include "renderer/visibility/visibility_database.h"
 #include "shaders/shared/vpl.h"
 

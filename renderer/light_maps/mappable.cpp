@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "renderer/wide.h"
+#include "renderer/base/wide.h"
 
 namespace lamplighter {
 namespace {

@@ -1,5 +1,5 @@
+#include "renderer/base/wide.h"
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {

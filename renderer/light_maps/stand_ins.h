@@ -15,8 +15,8 @@
 #include <span>
 #include <vector>
 
+#include "renderer/base/math.h"
 #include "renderer/light_maps/light_use.h"
-#include "renderer/math.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {

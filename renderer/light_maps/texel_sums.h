@@ -1,8 +1,8 @@
 // Fixed-point sums of eight texels of a light map, for accumulate.cpp.
 #pragma once
 
+#include "renderer/base/wide.h"
 #include "renderer/light_maps/accumulate.h"
-#include "renderer/wide.h"
 
 namespace lamplighter::texels {
 

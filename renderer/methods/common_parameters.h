@@ -1,7 +1,7 @@
 // Parameters that methods share, declared once.
 #pragma once
 
-#include "renderer/parameters.h"
+#include "renderer/base/parameters.h"
 
 namespace lamplighter::parameters {
 

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "renderer/backends/kernels.h"
+#include "renderer/base/parameters.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/methods/light_part.h"
-#include "renderer/parameters.h"
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "renderer/base/revision.h"
 #include "renderer/patches/charts.h"
-#include "renderer/revision.h"
 
 namespace lamplighter {
 

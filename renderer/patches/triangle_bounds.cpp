@@ -1,6 +1,6 @@
 #include "renderer/patches/triangle_bounds.h"
 
-#include "renderer/wide.h"
+#include "renderer/base/wide.h"
 
 namespace lamplighter {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/base/low_discrepancy.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {

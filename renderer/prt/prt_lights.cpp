@@ -8,9 +8,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/light_maps/hard_lights.h"
 #include "renderer/prt/incident_light.h"
 #include "renderer/prt/prt_room.h"
+#include "renderer/visibility/hard_lights.h"
 
 namespace lamplighter {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 

@@ -6,8 +6,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/low_discrepancy.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/sampling/low_discrepancy.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {

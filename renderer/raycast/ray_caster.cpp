@@ -8,8 +8,8 @@
 
 #include <embree3/rtcore.h>
 
+#include "renderer/base/wide.h"
 #include "renderer/scene/surface.h"
-#include "renderer/wide.h"
 
 namespace lamplighter {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "renderer/sampling/random.h"
-#include "renderer/scene/ies_profile.h"
+#include "renderer/base/random.h"
+#include "renderer/scene/ies/ies_profile.h"
 
 namespace lamplighter {
 namespace {

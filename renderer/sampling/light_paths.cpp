@@ -8,7 +8,7 @@
 #include "renderer/sampling/direct_vpls.h"
 #include "renderer/sampling/path_following.h"
 #include "renderer/sampling/vpl_counts.h"
-#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/sampling/random.h"
+#include "renderer/base/random.h"
 
 namespace lamplighter {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "renderer/sampling/alias_table.h"
+#include "renderer/base/alias_table.h"
 #include "renderer/scene/render_scene.h"
 
 namespace lamplighter {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/sampling/random.h"
+#include "renderer/base/random.h"
 
 namespace lamplighter {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "renderer/sampling/random.h"
-#include "renderer/scene/ies_profile.h"
+#include "renderer/base/random.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/sampling/lights.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/parallel_start.h"
 #include "renderer/sampling/sample_numbers.h"
 #include "renderer/sampling/vpl_set.h"

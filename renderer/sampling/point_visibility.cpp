@@ -5,9 +5,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/sampling/random.h"
+#include "renderer/base/random.h"
+#include "renderer/base/wide.h"
 #include "renderer/scene/light_linking.h"
-#include "renderer/wide.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {

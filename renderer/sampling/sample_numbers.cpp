@@ -1,7 +1,7 @@
 #include "renderer/sampling/sample_numbers.h"
 
-#include "renderer/sampling/low_discrepancy.h"
-#include "renderer/sampling/random.h"
+#include "renderer/base/low_discrepancy.h"
+#include "renderer/base/random.h"
 
 namespace lamplighter {
 namespace {

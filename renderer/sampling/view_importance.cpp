@@ -8,11 +8,11 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/sampling/low_discrepancy.h"
-#include "renderer/sampling/random.h"
+#include "renderer/base/low_discrepancy.h"
+#include "renderer/base/random.h"
+#include "renderer/base/wide.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
-#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {

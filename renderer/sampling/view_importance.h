@@ -10,8 +10,8 @@
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/sampling/point_visibility.h"
 #include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter {
 

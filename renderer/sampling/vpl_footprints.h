@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "renderer/sampling/lights.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_set.h"
 
 namespace lamplighter {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/sampling/lights.h"
+#include "renderer/sampling/emitters/lights.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {

@@ -1,7 +1,7 @@
 // A place to look from that the user put by, under a number; saved as a note of the scene.
 #pragma once
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 

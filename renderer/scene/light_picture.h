@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/base/math.h"
 #include "renderer/image/image.h"
-#include "renderer/math.h"
 
 namespace lamplighter {
 

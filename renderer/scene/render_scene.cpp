@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/light_picture.h"
 #include "renderer/scene/light_shapes.h"

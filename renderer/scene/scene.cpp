@@ -4,7 +4,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 
 namespace lamplighter {

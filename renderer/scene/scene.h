@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/base/math.h"
 #include "renderer/image/image.h"
-#include "renderer/math.h"
 #include "renderer/scene/camera_bookmark.h"
 #include "renderer/scene/light_state.h"
 #include "renderer/scene/node_id.h"

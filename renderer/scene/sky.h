@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "renderer/base/math.h"
 #include "renderer/image/image.h"
-#include "renderer/math.h"
-#include "renderer/sampling/sky_map.h"
+#include "renderer/scene/sky_map.h"
 
 namespace lamplighter {
 

@@ -1,7 +1,7 @@
 // An affine transform in the parts that a person edits.
 #pragma once
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 

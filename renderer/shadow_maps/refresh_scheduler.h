@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 #include "renderer/scene/render_scene.h"
 #include "shaders/shared/vpl.h"
 

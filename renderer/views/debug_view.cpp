@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

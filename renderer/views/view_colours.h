@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter::view_colours {
 

@@ -11,7 +11,7 @@
 #include "renderer/image/tone_map.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 #include "renderer/views/debug_view.h"
 
 namespace lamplighter {

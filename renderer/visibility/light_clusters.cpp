@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {

@@ -1,9 +1,9 @@
 // Which patches a view may show.
 #pragma once
 
-#include "renderer/frustum.h"
 #include "renderer/patches/patch_set.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
+#include "renderer/scene/frustum.h"
 
 namespace lamplighter {
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "renderer/visibility/light_clusters.h"
-#include "renderer/visibility/mover_path.h"
+#include "renderer/visibility/movers/mover_path.h"
 #include "renderer/visibility/object_identity.h"
-#include "renderer/visibility/occluders.h"
-#include "renderer/visibility/shadow_reach.h"
+#include "renderer/visibility/occlusion/occluders.h"
+#include "renderer/visibility/occlusion/shadow_reach.h"
 
 namespace lamplighter {
 

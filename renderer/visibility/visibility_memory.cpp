@@ -5,8 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/wide.h"
 #include "renderer/visibility/visibility_database.h"
-#include "renderer/wide.h"
 
 namespace lamplighter {
 

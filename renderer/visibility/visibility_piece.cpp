@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "renderer/scene/light_linking.h"
-#include "renderer/visibility/light_sides.h"
+#include "renderer/visibility/occlusion/light_sides.h"
 
 namespace lamplighter {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <optional>
 
-#include "renderer/visibility/bits.h"
+#include "renderer/base/wide.h"
+#include "renderer/visibility/occlusion/bits.h"
 #include "renderer/visibility/visibility_update.h"
-#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {

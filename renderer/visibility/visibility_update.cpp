@@ -2,8 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/wide.h"
 #include "renderer/visibility/visibility_piece.h"
-#include "renderer/wide.h"
 
 namespace lamplighter {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/visibility/mover_shadows.h"
-#include "renderer/visibility/shadow_reaches.h"
+#include "renderer/visibility/movers/mover_shadows.h"
+#include "renderer/visibility/movers/shadow_reaches.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {

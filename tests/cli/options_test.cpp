@@ -8,8 +8,8 @@
 
 #include "editor/cli/subcommands.h"
 #include "editor/document/write_file.h"
-#include "renderer/error.h"
-#include "renderer/methods/registry.h"
+#include "renderer/base/error.h"
+#include "renderer/registry/registry.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter::cli {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "editor/session.h"
+#include "editor/session/session.h"
 #include "editor/tools/projection.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "tests/support/scenes.h"

@@ -2,7 +2,7 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter::test {
 

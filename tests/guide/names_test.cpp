@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "editor/actions/register_actions.h"
 #include "editor/keys/key_bindings.h"
 #include "editor/keys/key_presets.h"
+#include "editor/session/register_actions.h"
 #include "tests/guide/page.h"
 #include "tests/guide/steps.h"
 #include "tests/support/process.h"

@@ -4,7 +4,7 @@
 #include <regex>
 #include <sstream>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter::test {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "editor/keys/chord.h"
-#include "renderer/error.h"
-#include "renderer/methods/registry.h"
+#include "renderer/base/error.h"
+#include "renderer/registry/registry.h"
 
 namespace lamplighter::test {
 

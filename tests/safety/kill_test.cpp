@@ -18,7 +18,7 @@
 #include "editor/input/recording.h"
 #include "editor/recovery/recovery.h"
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/safety/random_edits.h"
 
 namespace lamplighter::test {

@@ -4,7 +4,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "editor/commands/edits.h"
+#include "editor/edits/edits.h"
 
 namespace lamplighter::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/session.h"
+#include "editor/session/session.h"
 
 namespace lamplighter::test {
 

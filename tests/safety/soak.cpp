@@ -16,8 +16,8 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
-#include "renderer/error.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/safety/random_edits.h"
 
 namespace lamplighter::test {

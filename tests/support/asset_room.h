@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "renderer/scene/gltf_io.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
+#include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter::test {
 

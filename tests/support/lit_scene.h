@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 
 namespace lamplighter::test {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "renderer/reference/path_tracer.h"
+#include "renderer/methods/path_tracer/path_tracer.h"
 
 namespace lamplighter::test {
 

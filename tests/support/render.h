@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "renderer/image/image.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter::test {
 

@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "renderer/base/parameters.h"
 #include "renderer/image/image.h"
 #include "renderer/methods/inspection.h"
-#include "renderer/parameters.h"
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter::test {

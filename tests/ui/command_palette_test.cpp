@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "editor/actions/register_actions.h"
+#include "editor/session/register_actions.h"
 
 namespace lamplighter {
 namespace {

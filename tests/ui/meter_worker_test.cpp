@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "editor/session.h"
+#include "editor/session/session.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/scenes.h"

@@ -2,10 +2,10 @@
 // important parts of the status line. Driven without a window.
 #include <gtest/gtest.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/ui/driven_window.h"
-#include "ui/panels/value_slider.h"
 #include "ui/platform/ui_scale.h"
+#include "ui/widgets/value_slider.h"
 
 namespace lamplighter {
 namespace {

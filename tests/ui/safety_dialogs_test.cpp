@@ -1,7 +1,7 @@
 // The dialogs that stand between the user and lost work, driven as a hand would, without a window.
 #include <fstream>
 
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/gltf_files.h"
 #include "tests/ui/driven_window.h"
 

@@ -7,9 +7,9 @@
 #include <spdlog/spdlog.h>
 
 #include "editor/actions/arguments.h"
-#include "editor/home_state.h"
+#include "editor/session/home_state.h"
 #include "renderer/backends/gl/gl_backend.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/exposure.h"
 #include "renderer/image/image_io.h"
 #include "renderer/methods/common_parameters.h"

@@ -8,28 +8,28 @@
 #include <string>
 #include <vector>
 
-#include "editor/session.h"
-#include "renderer/shadow_maps/frame_time_control.h"
+#include "editor/session/session.h"
+#include "renderer/methods/frame_time_control.h"
 #include "ui/app/autosave_worker.h"
 #include "ui/app/imgui_layer.h"
 #include "ui/app/input_queue.h"
-#include "ui/app/input_router.h"
 #include "ui/app/layout.h"
 #include "ui/app/meter_worker.h"
 #include "ui/app/scene_loader.h"
-#include "ui/app/thumbnails.h"
 #include "ui/app/user_files.h"
-#include "ui/app/widget_map.h"
 #include "ui/panels/asset_panel.h"
 #include "ui/panels/command_palette.h"
-#include "ui/panels/file_dialog.h"
+#include "ui/panels/dialogs/file_dialog.h"
+#include "ui/panels/dialogs/recovery_dialog.h"
 #include "ui/panels/home_panels.h"
-#include "ui/panels/light_table_panel.h"
+#include "ui/panels/light_table/light_table_panel.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/recovery_dialog.h"
 #include "ui/platform/platform.h"
 #include "ui/viewport/picture.h"
 #include "ui/viewport/viewport.h"
+#include "ui/widgets/input_router.h"
+#include "ui/widgets/thumbnails.h"
+#include "ui/widgets/widget_map.h"
 
 namespace lamplighter {
 

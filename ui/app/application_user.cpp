@@ -6,8 +6,8 @@
 #include <imgui_internal.h>
 
 #include "editor/document/cache_folder.h"
-#include "editor/home_state.h"
-#include "editor/preferences/apply.h"
+#include "editor/session/apply.h"
+#include "editor/session/home_state.h"
 #include "ui/app/application.h"
 #include "ui/platform/ui_scale.h"
 

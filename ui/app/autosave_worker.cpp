@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "editor/session.h"
+#include "editor/session/session.h"
 
 namespace lamplighter {
 

@@ -3,7 +3,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/choose_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/gl/headless_context.h"
 
 namespace lamplighter {

@@ -6,8 +6,8 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
-#include "renderer/error.h"
-#include "ui/theme.h"
+#include "renderer/base/error.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

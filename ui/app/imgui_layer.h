@@ -2,8 +2,8 @@
 // Nothing but this class writes to ImGuiIO, so a recording sees all that ImGui sees.
 #pragma once
 
-#include "ui/app/input_router.h"
 #include "ui/platform/platform.h"
+#include "ui/widgets/input_router.h"
 
 struct ImGuiContext;
 

@@ -2,8 +2,8 @@
 // right, the view in the middle. The borders between them can be dragged.
 #pragma once
 
-#include "ui/app/rect.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/rect.h"
+#include "ui/widgets/widgets.h"
 
 namespace lamplighter {
 

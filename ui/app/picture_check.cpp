@@ -8,7 +8,7 @@
 #include <iterator>
 #include <vector>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
 
 namespace lamplighter {

@@ -6,13 +6,13 @@
 #include <unistd.h>
 
 #include "editor/document/write_file.h"
-#include "editor/home_state.h"
 #include "editor/input/player.h"
 #include "editor/latency/latency_report.h"
-#include "renderer/error.h"
+#include "editor/session/home_state.h"
+#include "renderer/base/error.h"
+#include "renderer/base/threads.h"
 #include "renderer/gl/headless_context.h"
 #include "renderer/image/image_io.h"
-#include "renderer/threads.h"
 #include "ui/app/application.h"
 #include "ui/app/backends.h"
 #include "ui/app/picture_check.h"

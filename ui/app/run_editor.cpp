@@ -4,8 +4,8 @@
 
 #include "editor/document/cache_folder.h"
 #include "editor/input/recorder.h"
-#include "renderer/data_folder.h"
-#include "renderer/error.h"
+#include "renderer/base/data_folder.h"
+#include "renderer/base/error.h"
 #include "ui/app/application.h"
 #include "ui/app/backends.h"
 #include "ui/app/run.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
 

@@ -5,7 +5,7 @@
 
 #include "editor/document/write_file.h"
 #include "editor/preferences/preferences_file.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

@@ -7,11 +7,11 @@
 #include <imgui_stdlib.h>
 
 #include "editor/actions/arguments.h"
-#include "editor/home_state.h"
-#include "ui/app/thumbnails.h"
-#include "ui/icons.h"
+#include "editor/session/home_state.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/thumbnails.h"
 
 namespace lamplighter {
 namespace {

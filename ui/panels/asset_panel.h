@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "editor/assets/asset_folder.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/widgets.h"
 
 namespace lamplighter {
 

@@ -6,7 +6,7 @@
 
 #include <imgui_stdlib.h>
 
-#include "ui/theme.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 

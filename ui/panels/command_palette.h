@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/panels/widgets.h"
+#include "ui/widgets/widgets.h"
 
 namespace lamplighter {
 

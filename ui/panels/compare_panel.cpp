@@ -3,10 +3,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "renderer/methods/registry.h"
+#include "renderer/registry/registry.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/value_slider.h"
-#include "ui/theme.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/value_slider.h"
 
 namespace lamplighter {
 namespace {

@@ -4,9 +4,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "editor/explain/quantity.h"
-#include "ui/icons.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

@@ -3,7 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <map>
 
-#include "ui/app/rect.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/rect.h"
+#include "ui/widgets/widgets.h"
 
 namespace lamplighter {
 

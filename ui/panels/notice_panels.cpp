@@ -1,10 +1,10 @@
 // What happened: toasts for the newest, the log for all.
 #include <algorithm>
 
-#include "editor/home_state.h"
-#include "ui/icons.h"
+#include "editor/session/home_state.h"
 #include "ui/panels/home_panels.h"
-#include "ui/theme.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

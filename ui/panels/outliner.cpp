@@ -5,12 +5,12 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/document/tree.h"
-#include "renderer/error.h"
-#include "ui/icons.h"
-#include "ui/panels/keyboard.h"
+#include "editor/edits/tree.h"
+#include "renderer/base/error.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/keyboard.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/panels/widgets.h"
+#include "ui/widgets/widgets.h"
 
 namespace lamplighter {
 

@@ -3,8 +3,8 @@
 #include "editor/budgets/budget_costs.h"
 #include "renderer/methods/gi_method.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/value_slider.h"
-#include "ui/theme.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/value_slider.h"
 
 namespace lamplighter {
 namespace {

@@ -4,11 +4,11 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/home_state.h"
+#include "editor/session/home_state.h"
 #include "ui/panels/home_panels.h"
 #include "ui/panels/panels.h"
-#include "ui/panels/value_slider.h"
-#include "ui/theme.h"
+#include "ui/widgets/theme.h"
+#include "ui/widgets/value_slider.h"
 
 namespace lamplighter {
 namespace {

@@ -7,9 +7,9 @@
 // For text that ends in an ellipsis, which imgui.h of 1.86 does not have.
 #include <imgui_internal.h>
 
-#include "ui/icons.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

@@ -6,7 +6,7 @@
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

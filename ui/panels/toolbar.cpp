@@ -3,9 +3,9 @@
 #include <functional>
 #include <vector>
 
-#include "ui/icons.h"
 #include "ui/panels/panels.h"
-#include "ui/theme.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

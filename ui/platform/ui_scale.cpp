@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

@@ -9,7 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "editor/actions/arguments.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "ui/platform/glfw_keys.h"
 #include "ui/platform/read_pixels.h"
 #include "ui/platform/ui_scale.h"

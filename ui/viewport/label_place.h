@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ui/app/rect.h"
+#include "ui/widgets/rect.h"
 
 namespace lamplighter {
 

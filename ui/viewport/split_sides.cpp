@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "ui/theme.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

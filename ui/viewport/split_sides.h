@@ -1,8 +1,8 @@
 // The second side of a split view, the divider, and what the sides are.
 #pragma once
 
-#include "ui/app/rect.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/rect.h"
+#include "ui/widgets/widgets.h"
 
 namespace lamplighter {
 

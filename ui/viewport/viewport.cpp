@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "editor/views/legend.h"
-#include "ui/theme.h"
 #include "ui/viewport/label_place.h"
 #include "ui/viewport/split_sides.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "ui/app/input_router.h"
-#include "ui/panels/widgets.h"
+#include "ui/widgets/input_router.h"
+#include "ui/widgets/widgets.h"
 
 namespace lamplighter {
 

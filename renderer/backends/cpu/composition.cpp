@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/wide.h"
+#include "renderer/base/wide.h"
 
 namespace lamplighter::cpu {
 namespace {

@@ -1,7 +1,7 @@
 // The cpu backend's pictures: light on surfaces.
 #pragma once
 
-#include "renderer/backends/cpu/gbuffer.h"
+#include "renderer/backends/cpu/gbuffer/gbuffer.h"
 #include "renderer/backends/cpu/picture_light.h"
 
 namespace lamplighter::cpu {

@@ -6,12 +6,12 @@
 #include <tbb/parallel_invoke.h>
 
 #include "renderer/backends/cpu/composition.h"
-#include "renderer/backends/cpu/gbuffer.h"
-#include "renderer/backends/cpu/light_sums.h"
+#include "renderer/backends/cpu/gbuffer/gbuffer.h"
+#include "renderer/backends/cpu/irradiance/light_sums.h"
+#include "renderer/backends/cpu/irradiance/specular_sums.h"
 #include "renderer/backends/cpu/low_resolution.h"
-#include "renderer/backends/cpu/map_store.h"
 #include "renderer/backends/cpu/sample_sharing.h"
-#include "renderer/backends/cpu/specular_sums.h"
+#include "renderer/backends/cpu/shadow_maps/map_store.h"
 #include "renderer/backends/image_pool.h"
 #include "shaders/shared/low_resolution.h"
 

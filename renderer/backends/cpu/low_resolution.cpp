@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/backends/cpu/picture_light.h"
-#include "renderer/wide.h"
+#include "renderer/base/wide.h"
 #include "shaders/shared/low_resolution.h"
 
 namespace lamplighter::cpu {

@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/backends/cpu/gbuffer.h"
-#include "renderer/backends/cpu/light_sums.h"
+#include "renderer/backends/cpu/gbuffer/gbuffer.h"
+#include "renderer/backends/cpu/irradiance/light_sums.h"
 
 namespace lamplighter::cpu {
 

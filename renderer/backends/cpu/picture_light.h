@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "renderer/backends/cpu/light_sums.h"
+#include "renderer/backends/cpu/irradiance/light_sums.h"
 #include "renderer/backends/cpu/low_resolution.h"
 
 namespace lamplighter::cpu {

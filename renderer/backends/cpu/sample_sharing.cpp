@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/wide.h"
+#include "renderer/base/wide.h"
 #include "shaders/shared/low_resolution.h"
 
 namespace lamplighter::cpu {

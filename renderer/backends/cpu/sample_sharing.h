@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/backends/cpu/gbuffer.h"
+#include "renderer/backends/cpu/gbuffer/gbuffer.h"
 #include "renderer/backends/cpu/picture_light.h"
 
 namespace lamplighter::cpu {

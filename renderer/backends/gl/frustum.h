@@ -1,7 +1,7 @@
 // What a view can see, as the backend names it.
 #pragma once
 
-#include "renderer/frustum.h"
+#include "renderer/scene/frustum.h"
 
 namespace lamplighter::gl {
 

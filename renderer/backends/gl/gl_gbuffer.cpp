@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/gl/pass_state.h"
 #include "renderer/gl/radiance_texture.h"
 #include "shaders/shared/bindings.h"

@@ -8,7 +8,7 @@
 #include "renderer/backends/gl/gl_scene.h"
 #include "renderer/backends/gl/seen_points.h"
 #include "renderer/gl/program.h"
-#include "renderer/view.h"
+#include "renderer/scene/camera.h"
 
 namespace lamplighter::gl {
 

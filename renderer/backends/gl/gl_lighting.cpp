@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/gl/pass_state.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/low_resolution.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/patches.h"
 

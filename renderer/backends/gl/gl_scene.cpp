@@ -4,7 +4,7 @@
 #include <cstring>
 #include <tuple>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "shaders/shared/bindings.h"
 
 namespace lamplighter::gl {

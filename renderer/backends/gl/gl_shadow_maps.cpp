@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/gl/pass_state.h"
 #include "renderer/raycast/ray_caster.h"
 #include "shaders/shared/shadow_depth.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter::gl {
 namespace {

@@ -4,7 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/backends/gl/light_lists.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/light_maps/pass_merging.h"
 #include "shaders/shared/patches.h"
 

@@ -5,7 +5,7 @@
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
-#include "renderer/sampling/lights.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/sun_squares.h"
 #include "renderer/sampling/view_importance.h"
 #include "renderer/sampling/vpl_footprints.h"

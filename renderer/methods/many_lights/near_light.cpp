@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/sampling/random.h"
+#include "renderer/base/random.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/brdf.h"

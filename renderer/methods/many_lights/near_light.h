@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "renderer/base/low_discrepancy.h"
 #include "renderer/image/image.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/sampling/low_discrepancy.h"
 #include "renderer/sampling/vpl_set.h"
+#include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/view.h"
 
 namespace lamplighter {
 

@@ -1,9 +1,9 @@
 // What the method's settings say, as its stages take it.
 #pragma once
 
+#include "renderer/base/parameters.h"
 #include "renderer/methods/many_lights/live_lights.h"
 #include "renderer/methods/many_lights/refinement.h"
-#include "renderer/parameters.h"
 #include "renderer/prt/prt_lights.h"
 
 namespace lamplighter {

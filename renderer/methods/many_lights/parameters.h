@@ -1,7 +1,7 @@
 // Parameters of many_lights alone; those shared with other methods are in common_parameters.h.
 #pragma once
 
-#include "renderer/parameters.h"
+#include "renderer/base/parameters.h"
 
 namespace lamplighter::parameters {
 

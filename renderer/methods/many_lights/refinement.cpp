@@ -5,10 +5,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/low_discrepancy.h"
+#include "renderer/base/random.h"
 #include "renderer/methods/many_lights/near_light_smoothing.h"
-#include "renderer/sampling/lights.h"
-#include "renderer/sampling/low_discrepancy.h"
-#include "renderer/sampling/random.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_footprints.h"
 
 namespace lamplighter {

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"

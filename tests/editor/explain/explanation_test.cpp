@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 

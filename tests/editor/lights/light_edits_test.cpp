@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "editor/lights/colour_temperature.h"
-#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "tests/editor/session_fixture.h"
 
 namespace lamplighter {

@@ -3,10 +3,10 @@
 #include <memory>
 #include <sstream>
 
-#include "editor/session.h"
+#include "editor/session/session.h"
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/error.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/fuzz/targets/scratch.h"
 
 using namespace lamplighter;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "editor/cli/cli.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/fuzz/targets/scratch.h"
 
 using namespace lamplighter;

@@ -1,7 +1,7 @@
 // .gltf and .glb: either an InputError of one line or a scene that is sound, can be drawn, saved
 // and loaded again.
-#include "renderer/error.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/render_scene.h"
 #include "tests/fuzz/targets/scratch.h"
 

@@ -2,8 +2,8 @@
 // is computed from them is for ies_fit.
 #include <cmath>
 
-#include "renderer/error.h"
-#include "renderer/scene/ies_table.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/ies/ies_table.h"
 #include "tests/fuzz/targets/scratch.h"
 
 using namespace lamplighter;

@@ -2,8 +2,8 @@
 // within the sphere's.
 #include <cmath>
 
-#include "renderer/error.h"
-#include "renderer/scene/ies_profile.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "tests/fuzz/targets/scratch.h"
 
 using namespace lamplighter;

@@ -1,6 +1,6 @@
 // What a killed process left: an InputError, or a sound document.
 #include "editor/recovery/recovery.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/scene/render_scene.h"
 #include "tests/fuzz/targets/scratch.h"
 

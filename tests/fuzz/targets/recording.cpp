@@ -1,7 +1,7 @@
 // Recordings: an InputError, or lines that are the same when they are written and read again.
 #include "editor/input/recording.h"
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/fuzz/targets/scratch.h"
 
 using namespace lamplighter;

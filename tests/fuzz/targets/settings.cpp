@@ -2,9 +2,9 @@
 // the rest in lines, and what they took comes back.
 #include <algorithm>
 
-#include "editor/actions/register_actions.h"
 #include "editor/keys/key_bindings.h"
 #include "editor/preferences/preferences_file.h"
+#include "editor/session/register_actions.h"
 #include "tests/fuzz/targets/scratch.h"
 
 using namespace lamplighter;

@@ -1,5 +1,5 @@
 // The rasterised G-buffer against a ray a pixel.
-#include "renderer/backends/cpu/gbuffer.h"
+#include "renderer/backends/cpu/gbuffer/gbuffer.h"
 
 #include <array>
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"

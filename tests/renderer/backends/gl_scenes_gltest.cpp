@@ -3,7 +3,7 @@
 
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shared_files.h"

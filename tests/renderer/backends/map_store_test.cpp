@@ -1,5 +1,5 @@
 // Shadow maps that are kept from edit to edit, and what of them changes.
-#include "renderer/backends/cpu/map_store.h"
+#include "renderer/backends/cpu/shadow_maps/map_store.h"
 
 #include <filesystem>
 #include <iostream>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "shaders/shared/octahedral.h"
 #include "shaders/shared/vpl_shading.h"
 #include "tests/support/lit_scene.h"

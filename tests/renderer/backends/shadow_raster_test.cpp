@@ -1,13 +1,13 @@
 // Maps that are rasterised hold what rays meet.
-#include "renderer/backends/cpu/shadow_raster.h"
+#include "renderer/backends/cpu/shadow_maps/shadow_raster.h"
 
 #include <cmath>
 #include <iostream>
 
 #include <gtest/gtest.h>
 
-#include "renderer/backends/cpu/shadow_maps.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/room_lights.h"
 #include "tests/support/scenes.h"

@@ -1,4 +1,4 @@
-#include "renderer/backends/cpu/sum_unit.h"
+#include "renderer/backends/cpu/irradiance/sum_unit.h"
 
 #include <algorithm>
 #include <random>

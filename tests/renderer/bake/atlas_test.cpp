@@ -11,7 +11,7 @@
 #include "renderer/bake/page_fill.h"
 #include "renderer/bake/second_uvs.h"
 #include "renderer/bake/skyline.h"
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {

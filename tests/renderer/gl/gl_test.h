@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/gl/headless_context.h"
 
 namespace lamplighter::test {

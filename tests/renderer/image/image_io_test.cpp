@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/tone_map.h"
 
 namespace lamplighter {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 
 namespace lamplighter {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/methods/common_parameters.h"

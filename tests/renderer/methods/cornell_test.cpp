@@ -6,7 +6,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/lit_scene.h"
 
 namespace lamplighter {

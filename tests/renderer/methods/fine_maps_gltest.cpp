@@ -2,7 +2,7 @@
 #include <map>
 
 #include "renderer/backends/gl/gl_backend.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"

@@ -12,7 +12,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
-#include "renderer/scene/ies_profile.h"
+#include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"

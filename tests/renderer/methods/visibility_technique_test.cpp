@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shared_files.h"
 #include "tests/support/traced_shadows.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/base/low_discrepancy.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/scenes.h"
 

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/base/threads.h"
 #include "renderer/prt/incident_light.h"
-#include "renderer/threads.h"
 #include "shaders/shared/vpl_shading.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/scenes.h"

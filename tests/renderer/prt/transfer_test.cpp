@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/threads.h"
+#include "renderer/base/threads.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/base/low_discrepancy.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/alias_table.h"
-#include "renderer/sampling/lights.h"
-#include "renderer/sampling/low_discrepancy.h"
-#include "renderer/sampling/random.h"
+#include "renderer/base/alias_table.h"
+#include "renderer/base/low_discrepancy.h"
+#include "renderer/base/random.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {

@@ -1,13 +1,13 @@
 // Skies: what comes from where, and whether their samples are as much light as they have.
-#include "renderer/sampling/sky_sampler.h"
+#include "renderer/sampling/emitters/sky_sampler.h"
 
 #include <limits>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "renderer/error.h"
-#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/base/error.h"
+#include "renderer/base/low_discrepancy.h"
 #include "tests/support/skies.h"
 
 namespace lamplighter {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/base/low_discrepancy.h"
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/sampling/lights.h"
-#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_footprints.h"
 #include "renderer/sampling/vpl_set.h"
 #include "tests/support/scenes.h"

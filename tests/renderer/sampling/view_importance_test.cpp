@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/random.h"
+#include "renderer/base/random.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"

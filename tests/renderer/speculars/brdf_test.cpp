@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/math.h"
+#include "renderer/base/math.h"
 
 namespace lamplighter {
 namespace {

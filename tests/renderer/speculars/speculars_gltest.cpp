@@ -1,7 +1,7 @@
 // Speculars on the gl backend: the pictures of the cpu backend.
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"

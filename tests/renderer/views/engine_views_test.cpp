@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/views/view_colours.h"
 #include "renderer/views/view_picture.h"
 #include "tests/support/lit_scene.h"

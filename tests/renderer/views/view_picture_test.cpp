@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/error.h"
-#include "renderer/frame.h"
+#include "renderer/base/error.h"
+#include "renderer/base/threads.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/threads.h"
 #include "renderer/views/view_colours.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"

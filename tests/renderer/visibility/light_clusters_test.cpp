@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/random_boxes.h"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/room_lights.h"
 
 namespace lamplighter {

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/low_discrepancy.h"
+#include "renderer/base/low_discrepancy.h"
 #include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"

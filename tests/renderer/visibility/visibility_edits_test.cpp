@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/edit_sequence.h"
 #include "tests/support/room_lights.h"

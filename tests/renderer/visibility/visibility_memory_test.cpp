@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
-#include "renderer/frame.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf_io.h"
+#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"

@@ -1,0 +1,43 @@
+#include "editor/actions/place_asset.h"
+
+#include "editor/edits/edits.h"
+#include "editor/session/home_state.h"
+#include "editor/session/session.h"
+
+namespace lamplighter {
+
+void placeAsset(Session& s, const std::filesystem::path& file) {
+  const auto clipping = s.home().assets.load(file);
+  Scene& scene = s.document().scene;
+  Pasting pasting = pasteInto(scene, *clipping, false);
+  NodeId root = pasting.roots.front();
+  if (pasting.roots.size() > 1) {
+    // One object to move about, whatever it is made of.
+    Node group;
+    group.id = root = scene.nextId++;
+    for (Node& n : pasting.nodes)
+      if (n.parent == kNoNode) n.parent = group.id;
+    pasting.nodes.insert(pasting.nodes.begin(), std::move(group));
+  }
+  const std::string name = file.stem().string() + " " + std::to_string(root);
+  for (Node& n : pasting.nodes)
+    if (n.id == root) n.name = name;
+
+  // Placing it by a click has begun a step already.
+  const bool isOwnStep = !s.history().inTransaction();
+  if (isOwnStep) s.history().begin("Place " + name);
+  if (!pasting.assets->changesNothing()) s.history().run(std::move(pasting.assets));
+  s.history().run(std::make_unique<AddNodes>("Place " + name, std::move(pasting.nodes)));
+  if (const auto place = s.surfaceAhead()) {
+    if (const auto local = placedOn(scene, root, *place)) {
+      Node node = *scene.find(root);
+      node.local = *local;
+      s.history().run(
+          std::make_unique<EditNodes>("Place " + name, s.document(), std::vector{node}));
+    }
+  }
+  if (isOwnStep) s.history().commit();
+  s.select({root});
+}
+
+}  // namespace lamplighter

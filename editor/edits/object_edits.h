@@ -1,0 +1,39 @@
+// What many selected objects have in common, and edits of all of them at once: each one step, or
+// part of the open transaction.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "editor/edits/editing.h"
+
+namespace lamplighter {
+
+// A number that a node has, as the inspector shows it. Rotation about X, then Y, then Z, in
+// degrees; rotating one axis keeps the others.
+struct ObjectProperty {
+  const char* name;  // "position.x"
+  float (*of)(const Node&);
+  void (*set)(Node&, float);
+};
+const std::vector<ObjectProperty>& objectProperties();
+// Throws InputError.
+const ObjectProperty& objectProperty(const std::string& name);
+
+// Of all selected nodes; nothing where they differ or none is selected.
+std::optional<float> commonNumber(const Document& document, const ObjectProperty& property);
+void setNumber(const Editing& editing, const ObjectProperty& property, float value);
+
+// The materials of selected meshes, each once.
+std::vector<int> selectedMaterials(const Document& document);
+// Changes each of them; one step.
+void editMaterials(const Editing& editing, const std::string& label,
+                   const std::function<void(Material&)>& change);
+// Changes each selected node that `applies`; one step.
+void editSelected(const Editing& editing, const std::string& label,
+                  const std::function<bool(const Node&)>& applies,
+                  const std::function<void(Node&)>& change);
+
+}  // namespace lamplighter

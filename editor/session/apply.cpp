@@ -1,0 +1,42 @@
+#include "editor/session/apply.h"
+
+#include "editor/keys/key_presets.h"
+#include "editor/presets/presets.h"
+#include "editor/session/home_state.h"
+#include "editor/session/session.h"
+#include "renderer/image/tone_map.h"
+
+namespace lamplighter {
+
+namespace {
+
+constexpr std::pair<LightUnit, const char*> kUnits[] = {{LightUnit::lumens, "lm"},
+                                                        {LightUnit::candela, "cd"},
+                                                        {LightUnit::nits, "nits"},
+                                                        {LightUnit::watts, "W"}};
+
+}  // namespace
+
+void applyPreferences(Session& s, std::vector<std::string>& problems) {
+  const Preferences& p = s.home().preferences;
+  s.setKeys(resolveKeys(s.actions(), keysOfPreset(p.choice("keys")), s.home().fileKeys, problems));
+  for (const auto& [unit, name] : kUnits)
+    if (p.choice("light_unit") == name) s.lighting().unit = unit;
+  s.display().setToneMapper(findToneMapper(p.choice("tone_mapper")).mapper);
+}
+
+void applyPreset(Session& s) {
+  const std::string wanted = s.home().preferences.choice("preset");
+  for (const Preset& preset : presets()) {
+    if (preset.name == wanted) s.document().render = withPreset(s.document().render, preset);
+  }
+}
+
+void takePreferences(Session& s) {
+  Preferences& p = s.home().preferences;
+  for (const auto& [unit, name] : kUnits)
+    if (s.lighting().unit == unit) p.set("light_unit", std::string(name));
+  p.set("tone_mapper", std::string(infoOf(s.display().toneMapper()).name));
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <unordered_set>
+
+#include "editor/edits/edits.h"
+#include "editor/session/home_state.h"
+#include "editor/session/register_actions.h"
+#include "editor/session/session_tools.h"
+#include "renderer/base/error.h"
+#include "renderer/methods/common_parameters.h"
+
+namespace lamplighter {
+
+Session::Session(std::unique_ptr<FrameRenderer> renderer)
+    : home_(std::make_unique<HomeState>()),
+      renderer_(std::move(renderer)),
+      tools_(std::make_unique<Tools>()) {
+  addAllActions(actions_);
+  savedHash_ = sceneHash(document_.scene);
+}
+
+Session::~Session() = default;
+
+void Session::open(Scene scene, std::filesystem::path path,
+                   const std::vector<std::string>& warnings) {
+  tools_->gizmo.forget();
+  tools_->lightHandles.forget();
+  placing_.clear();
+  ++level_;
+  document_.scene = std::move(scene);
+  document_.selection.clear();
+  document_.path = std::move(path);
+  history_.clear();
+  savedHash_ = sceneHash(document_.scene);
+  tools_->pointerKnown = false;
+  points_.forget();
+  disk_ = filesOf(document_.scene);
+  keeper_.opened(document_);
+
+  RenderScene world;
+  update(world, document_.scene, SceneChanges::all());
+  const auto& nodes = document_.scene.nodes;
+  const auto camera =
+      std::find_if(nodes.begin(), nodes.end(), [](const Node& n) { return n.camera != kNone; });
+  view_ = camera != nodes.end() ? viewOfCamera(document_.scene, *camera, view_.width, view_.height)
+                                : viewOfBounds(world.bounds, view_.width, view_.height);
+  // Orbiting turns about what is in the middle of the picture.
+  const RayCaster rays(world);
+  const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()}, Surfaces::seen);
+  tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
+  const std::string whole = document_.path.string(), name = document_.path.filename().string();
+  setStatus("Opened " + name);
+  std::vector<std::string> told = warnings;
+  for (std::string& warning : told) {
+    // Its name will do: where it lies was just chosen, and takes the room of what is wrong.
+    if (!whole.empty() && warning.starts_with(whole)) warning.replace(0, whole.size(), name);
+    setStatus(warning, NoticeKind::warning);
+  }
+  if (!told.empty()) status_ = told.front();
+  if (warnings.size() > 1)
+    status_ += " (and " + std::to_string(warnings.size() - 1) + " more warnings)";
+  if (!document_.path.empty()) home_->preferences.addRecent(document_.path);
+}
+
+void Session::setStatus(std::string text, NoticeKind kind) {
+  home_->notices.add(kind, text);
+  status_ = std::move(text);
+}
+
+std::filesystem::path Session::writablePath(const std::filesystem::path& wanted) const {
+  if (home_->writeFolder.empty()) return wanted;
+  std::error_code ignored;
+  std::filesystem::create_directories(home_->writeFolder, ignored);
+  return home_->writeFolder / wanted.filename();
+}
+
+void Session::perform(std::string_view text) {
+  const auto [action, arguments] = actions_.parse(text);
+  if (!action.duringDrag) finishDrag();
+  if (action.enabled && !action.enabled(*this)) return;
+  action.run(*this, arguments);
+  home_->ran.insert(action.name);
+}
+
+bool Session::runAction(std::string_view text) {
+  try {
+    perform(text);
+    return true;
+  } catch (const InputError& e) {
+    setStatus(e.what(), NoticeKind::error);
+    return false;
+  }
+}
+
+namespace {
+
+// The node with one thing changed.
+template <typename Change>
+std::unique_ptr<EditNodes> nodeEdit(const Document& document, NodeId id, const std::string& what,
+                                    Change change) {
+  const Node* now = document.scene.find(id);
+  if (now == nullptr) throw InputError("object", "it is not there any more", "select another");
+  Node node = *now;
+  change(node);
+  return std::make_unique<EditNodes>(what + " " + node.name, document, std::vector<Node>{node});
+}
+
+}  // namespace
+
+void Session::setNodeTransform(NodeId id, const Transform& local) {
+  history_.run(nodeEdit(document_, id, "Transform", [&](Node& n) { n.local = local; }));
+}
+
+void Session::setAreaLight(NodeId id, const AreaLight& light) {
+  history_.run(nodeEdit(document_, id, "Change", [&](Node& n) { n.area = light; }));
+}
+
+void Session::setPunctualLight(NodeId id, const PunctualLight& light) {
+  history_.run(nodeEdit(document_, id, "Change", [&](Node& n) { n.punctual = light; }));
+}
+
+void Session::setMaterial(int index, const Material& material) {
+  history_.run(std::make_unique<EditMaterial>(document_, index, material));
+}
+
+void Session::setName(NodeId id, const std::string& name) {
+  history_.run(nodeEdit(document_, id, "Rename", [&](Node& n) { n.name = name; }));
+}
+
+void Session::setVisible(NodeId id, bool visible) {
+  history_.run(
+      nodeEdit(document_, id, visible ? "Show" : "Hide", [&](Node& n) { n.visible = visible; }));
+}
+
+void Session::setMeshKind(NodeId id, MeshKind kind) {
+  history_.run(nodeEdit(document_, id, "Light", [&](Node& n) { n.meshKind = kind; }));
+}
+
+void Session::setSky(const Sky& sky) { history_.run(std::make_unique<EditSky>(document_, sky)); }
+
+void Session::setRender(const RenderSettings& settings) {
+  history_.run(std::make_unique<EditRender>(document_, settings));
+}
+
+void Session::toggleReference() {
+  if (split_.on()) return split_.toggleWhole();
+  RenderSettings settings = document_.render;
+  if (settings.method == "reference") {
+    settings.method = methodBeforeReference_;
+  } else {
+    methodBeforeReference_ = std::exchange(settings.method, "reference");
+  }
+  setRender(settings);
+}
+
+void Session::select(std::vector<NodeId> ids) {
+  // Of an id given twice the last one counts.
+  std::unordered_set<NodeId> taken;
+  std::vector<NodeId>& selection = document_.selection;
+  selection.clear();
+  for (auto id = ids.rbegin(); id != ids.rend(); ++id)
+    if (taken.insert(*id).second) selection.push_back(*id);
+  std::reverse(selection.begin(), selection.end());
+  pruneSelection();
+}
+
+void Session::undo() {
+  if (dragging()) return cancelDrag();  // what is under way is the last change
+  const std::string label = history_.undoLabel();
+  history_.undo();
+  pruneSelection();
+  if (!label.empty()) setStatus("Undid: " + label);
+}
+
+void Session::redo() {
+  finishDrag();
+  const std::string label = history_.redoLabel();
+  history_.redo();
+  pruneSelection();
+  if (!label.empty()) setStatus("Did again: " + label);
+}
+
+void Session::goToStep(size_t position) {
+  finishDrag();
+  history_.goTo(position);
+  pruneSelection();
+}
+
+void Session::pruneSelection() {
+  std::erase_if(document_.selection,
+                [&](NodeId id) { return document_.scene.find(id) == nullptr; });
+}
+
+const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
+  const double begin = clock_ ? clock_() : 0.0;
+  SceneChanges changes = history_.takeChanges();
+  const Scene& scene = workLight_.with(document_.scene, view_, lighting_.workLight, changes);
+  sceneRevision_ += !changes.none();
+  renderError_.clear();
+  const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
+  const RenderSettings render =
+      split_.on() ? split_.first().of(document_.render) : document_.render;
+  Settings settings = render.values;
+  if (updates) settings.set(parameters::updates().name, *updates);
+  try {
+    output_ =
+        renderer_->render({scene, changes, view_, render.method, settings, display_.lightOnly(),
+                           updates.has_value(), refineUpdates, display_.part()});
+    const bool same = output_.settled && output_.radiance == before && changes.none();
+    if (document_.active() != kNoNode) display_.chooseLight(document_.active());
+    display_.update(*renderer_, *output_.radiance, view_, document_.render, !same);
+    points_.update(pointSubject(), !same, !changes.none());
+    watchFrame(changes, begin);
+  } catch (const InputError& e) {
+    history_.showAll();  // part of it may have arrived: the next frame begins anew
+    renderError_ = e.what();
+    setStatus(renderError_, NoticeKind::error);
+    if (!output_.radiance)
+      output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
+    output_.settled = output_.refined = true;  // trying the same again changes nothing
+  }
+  ++frame_;
+  return output_;
+}
+
+}  // namespace lamplighter

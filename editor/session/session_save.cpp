@@ -1,0 +1,78 @@
+// Saving, and what others have done to the level's files meanwhile.
+#include <algorithm>
+
+#include "editor/session/home_state.h"
+#include "editor/session/session.h"
+#include "renderer/base/error.h"
+#include "renderer/scene/gltf/gltf_io.h"
+
+namespace lamplighter {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool isSameFile(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const auto place = [&](const fs::path& p) {
+    return fs::weakly_canonical(fs::absolute(p, error), error);
+  };
+  return place(a) == place(b);
+}
+
+}  // namespace
+
+std::vector<fs::path> Session::changedOnDisk(const fs::path& path) const {
+  std::vector<fs::path> changed;
+  for (size_t i = 0; i < disk_.size(); ++i) {
+    // Saved to another place, only files beside it are referred to.
+    const bool counts =
+        i == 0 ? isSameFile(path, disk_[i].path)
+               : path.extension() != ".glb" &&
+                     isSameFile(path.parent_path() / "x", disk_[i].path.parent_path() / "x");
+    if (counts && stampOf(disk_[i].path) != disk_[i]) changed.push_back(disk_[i].path);
+  }
+  return changed;
+}
+
+void Session::save(const fs::path& wanted, bool forced) {
+  finishDrag();
+  history_.commit();
+  const fs::path path = writablePath(wanted);
+  // A replay writes into a folder of its own; the level stays what it was opened from.
+  const bool isElsewhere = path != wanted;
+  const std::vector<fs::path> changed = isElsewhere ? std::vector<fs::path>() : changedOnDisk(path);
+  if (!changed.empty() && !forced)
+    throw InputError(changed.front().string(),
+                     "another program has changed or removed it since it was opened",
+                     "save under another name (file.save_as), or over it (file.save force)");
+  std::string problem = keeper_.saving();
+  const std::vector<fs::path> written = saveGltf(document_.scene, path, changed.empty());
+  if (!isElsewhere) {
+    takeWritten(path, written, changed.empty());
+    document_.path = path;
+  }
+  savedHash_ = sceneHash(document_.scene);
+  if (std::string after = keeper_.saved(document_); problem.empty()) problem = std::move(after);
+  home_->preferences.addRecent(path);
+  setStatus(problem.empty() ? "Saved " + wanted.filename().string() : "Saved. " + problem);
+}
+
+// What the level consists of on disk from now on.
+void Session::takeWritten(const fs::path& path, const std::vector<fs::path>& written,
+                          bool keepsOthers) {
+  std::vector<FileStamp> now{stampOf(path)};
+  const auto add = [&](const fs::path& file) {
+    const bool isKnown = std::any_of(now.begin(), now.end(),
+                                     [&](const FileStamp& s) { return isSameFile(s.path, file); });
+    if (!isKnown) now.push_back(stampOf(file));
+  };
+  for (const fs::path& file : written) add(file);
+  // What was beside it stays in use, unless all was written anew.
+  for (size_t i = 1; i < disk_.size() && keepsOthers; ++i) add(disk_[i].path);
+  disk_ = std::move(now);
+}
+
+bool Session::modified() const { return sceneHash(document_.scene) != savedHash_; }
+
+}  // namespace lamplighter

@@ -1,0 +1,58 @@
+// What the rasteriser knows of a tile while it is traced: for raster.cpp and raster_tile.cpp alone.
+#pragma once
+
+#include "renderer/backends/cpu/gbuffer/raster.h"
+#include "renderer/base/wide.h"
+
+namespace lamplighter::cpu {
+namespace raster {
+
+using Floats = WideFloats;
+inline constexpr WideTag kTag;
+static_assert(hn::MaxLanes(kTag) == kLanes);
+
+// Where the lanes of a packet lie within it.
+HWY_ALIGN inline constexpr float kLaneX[kLanes] = {0, 1, 2, 3, 0, 1, 2, 3};
+HWY_ALIGN inline constexpr float kLaneY[kLanes] = {0, 0, 0, 0, 1, 1, 1, 1};
+
+// Where the pixels of a packet are in their tile.
+struct Pixels {
+  Floats x, y;
+  explicit Pixels(int packet) {
+    const int column = packet % kPacketsPerRow, row = packet / kPacketsPerRow;
+    x = hn::Add(hn::Load(kTag, kLaneX), wide(static_cast<float>(column * kPacketWidth)));
+    y = hn::Add(hn::Load(kTag, kLaneY), wide(static_cast<float>(row * kPacketHeight)));
+  }
+};
+
+}  // namespace raster
+
+// A triangle within a tile. Its edge functions at the pixel (x, y) of the tile are
+// atFirst + x·alongX + y·alongY, ≥ 0 within; their sum × inverseDet is 1/distance along the view.
+struct Raster::Candidate {
+  uint32_t object, triangle;
+  int large;  // of Entry
+  bool isFront, isMasked, coversAll;
+  int x0, y0, x1, y1;  // pixels of the tile within which it may be
+  float atFirst[3], alongX[3], alongY[3];
+  float inverseDet;
+
+  raster::Floats edge(int i, raster::Floats x, raster::Floats y) const {
+    return hn::MulAdd(wide(alongY[i]), y, hn::MulAdd(wide(alongX[i]), x, wide(atFirst[i])));
+  }
+  // Of the corners, where rays meet it.
+  void weights(const raster::Pixels& at, raster::Floats (&w)[3]) const {
+    for (int i = 0; i < 3; ++i) w[i] = edge(i, at.x, at.y);
+    const raster::Floats scale = hn::Div(wide(1.0f), hn::Add(hn::Add(w[0], w[1]), w[2]));
+    for (raster::Floats& of : w) of = hn::Mul(of, scale);
+  }
+  uint64_t name() const { return uint64_t{object} << 32 | triangle; }
+};
+
+struct Raster::TileHits {
+  HWY_ALIGN float inverseDistance[kTilePixels];
+  HWY_ALIGN int32_t candidate[kTilePixels];  // −1: none
+  float mostInverse;                         // of the near plane
+};
+
+}  // namespace lamplighter::cpu

@@ -1,0 +1,122 @@
+#include "renderer/backends/cpu/irradiance/map_change.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "renderer/base/wide.h"
+#include "shaders/shared/octahedral.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter::cpu {
+namespace {
+
+constexpr size_t kWide = 8;
+constexpr WideTag kTag;
+
+// From a texel's centre to its corners, times the resolution. On the octahedron a corner is up to
+// √2/resolution away, where |x| + |y| + z = 1, and no point of that is nearer to the light than
+// 1/√3: at most √6/resolution as an angle. The rest is for rounding.
+constexpr float kTexelAngle = 2.5f, kTexelWay = 1.5f, kRounding = 1e-3f;
+// Of more than this share of its texels all of a map may as well have changed, and of more than
+// this angle [rad] too: what follows wants it to be less than a right one.
+constexpr float kMostOfMap = 0.5f, kMostAngle = 1.4f;
+
+// Indices of texels that differ.
+std::vector<uint32_t> changedTexels(std::span<const float> before, std::span<const float> now) {
+  std::vector<uint32_t> changed;
+  const size_t whole = now.size() / kWide * kWide;
+  for (size_t i = 0; i < whole; i += kWide) {
+    const auto differ = hn::Ne(hn::LoadU(kTag, &before[i]), hn::LoadU(kTag, &now[i]));
+    for (uint32_t rest = bitsOf(differ); rest != 0; rest &= rest - 1)
+      changed.push_back(static_cast<uint32_t>(i) + static_cast<uint32_t>(std::countr_zero(rest)));
+  }
+  for (size_t i = whole; i < now.size(); ++i)
+    if (before[i] != now[i]) changed.push_back(static_cast<uint32_t>(i));
+  return changed;
+}
+
+}  // namespace
+
+MapChange compareMaps(std::span<const float> before, std::span<const float> now, int resolution,
+                      bool isParallel) {
+  const std::vector<uint32_t> changed = changedTexels(before, now);
+  if (changed.empty()) return {MapChange::Extent::nothing, vec3(0.0f), 0.0f};
+  if (static_cast<float>(changed.size()) > kMostOfMap * static_cast<float>(now.size())) return {};
+  const auto size = static_cast<float>(resolution);
+  const auto way = [&](uint32_t texel) {
+    const auto side = static_cast<uint32_t>(resolution);
+    const vec2 centre = shared::shadowTexelCentre(vec2(texel % side, texel / side), size);
+    return isParallel ? vec3(centre, 0.0f) : glm::normalize(shared::octahedralDecode(centre));
+  };
+  vec3 sum(0.0f);
+  for (const uint32_t texel : changed) sum += way(texel);
+  MapChange change{MapChange::Extent::part, sum / static_cast<float>(changed.size()), 0.0f};
+  if (isParallel) {
+    float most = 0.0f;
+    for (const uint32_t texel : changed)
+      most = std::max(most, glm::distance(way(texel), change.axis));
+    change.reach = most + kTexelWay / size + kRounding;
+    return change;
+  }
+  // All lie in a half space, so that their mean is not zero but where they are all round it.
+  change.axis = glm::normalize(change.axis);
+  float least = 1.0f;
+  for (const uint32_t texel : changed) least = std::min(least, glm::dot(way(texel), change.axis));
+  change.reach = std::acos(std::max(least, 0.0f)) + kTexelAngle / size + kRounding;
+  return change.reach < kMostAngle ? change : MapChange();
+}
+
+void PlaceSpheres::resize(size_t count) {
+  count_ = count;
+  for (auto* v : {&x_, &y_, &z_, &radius_}) v->resize((count + kWide - 1) / kWide * kWide, 0.0f);
+}
+
+void PlaceSpheres::set(size_t i, const vec3& centre, float radius) {
+  x_[i] = centre.x;
+  y_[i] = centre.y;
+  z_[i] = centre.z;
+  radius_[i] = radius;
+}
+
+void PlaceSpheres::findReached(const LightRecord& light, const MapChange& change,
+                               std::vector<uint8_t>& isReached) const {
+  isReached.assign(x_.size(), 0);
+  if (change.extent == MapChange::Extent::nothing) return;
+  const bool isParallel = light.kind == LightRecord::Kind::directional;
+  const mat3 frame(light.tangent, light.bitangent, light.normal);
+  const Wide3<WideFloats> position = wide(light.position);
+  const Wide3<WideFloats> axis = wide(frame * change.axis);
+  const Wide3<WideFloats> tangent = wide(light.tangent), bitangent = wide(light.bitangent);
+  const WideFloats one = wide(1.0f), perSide = wide(1.0f / light.side);
+  const float cosine = std::cos(change.reach), sine = std::sin(change.reach);
+  for (size_t i = 0; i < x_.size(); i += kWide) {
+    const auto load = [&](const std::vector<float>& v) { return hn::LoadU(kTag, &v[i]); };
+    const auto way = Wide3<WideFloats>{load(x_), load(y_), load(z_)} - position;
+    const WideFloats radius = hn::MulAdd(load(radius_), wide(1.001f), wide(1e-4f));
+    hn::Mask<WideTag> meets;
+    if (isParallel) {
+      const WideFloats dx = hn::Sub(hn::Mul(dotFused(way, tangent), perSide), wide(change.axis.x));
+      const WideFloats dy =
+          hn::Sub(hn::Mul(dotFused(way, bitangent), perSide), wide(change.axis.y));
+      const WideFloats most = hn::MulAdd(radius, perSide, wide(change.reach));
+      meets = hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most));
+    } else {
+      // The sphere is seen within an angle b of its middle; a, the change's reach, and b are less
+      // than right angles, so that cos(a + b) falls as they grow.
+      const WideFloats distance2 = dotFused(way, way);
+      const WideFloats sineB2 = hn::Div(hn::Mul(radius, radius), distance2);
+      const WideFloats cosineB = hn::Sqrt(hn::Max(hn::Sub(one, sineB2), hn::Zero(kTag)));
+      const WideFloats least =
+          hn::Sub(hn::Mul(wide(cosine), cosineB), hn::Mul(wide(sine), hn::Sqrt(sineB2)));
+      const auto isSeen = hn::Ge(dotFused(way, axis), hn::Mul(least, hn::Sqrt(distance2)));
+      // Around the light itself, or where numbers fail, it may be anywhere.
+      meets = hn::Or(isSeen, hn::Not(hn::Lt(sineB2, one)));
+    }
+    const uint32_t bits = bitsOf(meets);
+    for (size_t lane = 0; lane < kWide; ++lane)
+      isReached[i + lane] = static_cast<uint8_t>(bits >> lane & 1);
+  }
+}
+
+}  // namespace lamplighter::cpu

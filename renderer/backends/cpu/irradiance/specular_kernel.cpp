@@ -1,0 +1,219 @@
+#include "renderer/backends/cpu/irradiance/specular_kernel.h"
+
+#include "renderer/backends/cpu/irradiance/wide_light.h"
+#include "renderer/scene/light_linking.h"
+#include "shaders/shared/vpl_speculars.h"
+
+namespace lamplighter::cpu {
+namespace {
+
+// The points of a packet with their lobes.
+struct Points {
+  Vector3 position, shading, geometric, toEye;
+  bool isFlat;
+  Mask meant;
+  Floats alpha2, nv;
+  Vector3 straight;  // F0
+  Floats grazing;    // F at 90°
+};
+
+Points pointsAt(const GBuffer& g, const vec3& from, size_t first, uint8_t lanes,
+                std::span<const Gloss, kLanes> gloss, float leastRoughness) {
+  HWY_ALIGN float alpha2[kLanes], nv[kLanes], grazing[kLanes];
+  HWY_ALIGN float straight[3][kLanes], eye[3][kLanes];
+  for (size_t lane = 0; lane < kLanes; ++lane) {
+    const size_t i = first + lane;
+    const vec3 way = from - vec3(g.px[i], g.py[i], g.pz[i]);
+    const vec3 toEye = way / std::max(glm::length(way), 1e-20f);
+    const shared::Lobe lobe =
+        shared::makeLobe(g.albedo(i), gloss[lane].metallic, gloss[lane].roughness, leastRoughness,
+                         glm::dot(toEye, vec3(g.sx[i], g.sy[i], g.sz[i])));
+    alpha2[lane] = lobe.shape.x;
+    nv[lane] = lobe.shape.y;
+    grazing[lane] = lobe.straight.w;
+    for (int c = 0; c < 3; ++c) {
+      straight[c][lane] = lobe.straight[c];
+      eye[c][lane] = toEye[c];
+    }
+  }
+  const auto load = [](const float* v) { return hn::Load(kTag, v); };
+  const Vectors positions(g.px, g.py, g.pz), shadings(g.sx, g.sy, g.sz),
+      geometrics(g.gx, g.gy, g.gz);
+  return {positions.at(first),
+          shadings.at(first),
+          geometrics.at(first),
+          {load(eye[0]), load(eye[1]), load(eye[2])},
+          g.isFlat[first / kLanes] != 0,
+          hn::LoadMaskBits(kTag, &lanes),
+          load(alpha2),
+          load(nv),
+          {load(straight[0]), load(straight[1]), load(straight[2])},
+          load(grazing)};
+}
+
+// shared::lobeTowards times `weight`, for light of this colour.
+HWY_INLINE void addLobe(const Points& p, const Vector3& colour, Floats weight, Floats nl, Floats lv,
+                        Floats solidAngle, Vector3& sum) {
+  const Floats one = all(1.0f), half = all(0.5f);
+  const Floats vh = hn::Sqrt(hn::Max(hn::MulAdd(half, lv, half), all(1e-6f)));
+  const Floats inverse = hn::Div(one, vh);
+  const Floats a2 = hn::Min(
+      hn::MulAdd(hn::Mul(solidAngle, all(shared::kSpread / (4.0f * kPi))), inverse, p.alpha2), one);
+  const Floats nh = hn::Mul(hn::Mul(half, hn::Add(nl, p.nv)), inverse);
+  const Floats nh2 = hn::Min(hn::Mul(nh, nh), one);
+  const Floats d = hn::MulAdd(nh2, hn::Sub(a2, one), one);
+  const auto side = [&](Floats a, Floats b) {
+    const Floats rest = hn::MulAdd(hn::Mul(b, b), hn::Sub(one, a2), a2);
+    return hn::Mul(a, hn::Sqrt(rest));
+  };
+  const Floats masking = hn::Add(side(nl, p.nv), side(p.nv, nl));
+  const Floats dv =
+      hn::Div(hn::Mul(hn::Mul(a2, all(0.5f / kPi)), weight), hn::Mul(hn::Mul(d, d), masking));
+  const Floats m = hn::Sub(one, vh), m2 = hn::Mul(m, m);
+  const Floats grazing = hn::Mul(hn::Mul(m2, m2), m);
+  const auto add = [&](Floats straight, Floats light, Floats& to) {
+    const Floats f = hn::MulAdd(grazing, hn::Sub(p.grazing, straight), straight);
+    to = hn::MulAdd(hn::Mul(dv, light), f, to);
+  };
+  add(p.straight.x, colour.x, sum.x);
+  add(p.straight.y, colour.y, sum.y);
+  add(p.straight.z, colour.z, sum.z);
+}
+
+// Adds what the light gives the eye.
+template <LightRecord::Kind kKind>
+HWY_INLINE void addSpecular(const Points& p, const WideLight& light, float footprint, bool looksUp,
+                            const WideConstants& c, Vector3& sum) {
+  const Floats zero = hn::Zero(kTag);
+  const Vector3 v{hn::Sub(p.position.x, light.position.x), hn::Sub(p.position.y, light.position.y),
+                  hn::Sub(p.position.z, light.position.z)};
+  const Vector3& geometric = p.isFlat ? p.shading : p.geometric;
+  Mask lit;
+  Mask occluded = hn::MaskFromVec(zero);
+  Floats weight, nl, lv, solidAngle = zero;
+  if constexpr (kKind == LightRecord::Kind::directional) {
+    const Vector3 q{dot(v, light.tangent), dot(v, light.bitangent), dot(v, light.normal)};
+    const Floats facing = dot(geometric, light.normal);
+    const Mask within = hn::And(hn::And(hn::Ge(q.x, hn::Neg(light.side)), hn::Lt(q.x, light.side)),
+                                hn::And(hn::Ge(q.y, hn::Neg(light.side)), hn::Lt(q.y, light.side)));
+    nl = dot(p.shading, light.normal);
+    lit = hn::And(hn::And(p.meant, within), hn::And(hn::Gt(nl, zero), hn::Gt(facing, zero)));
+    if (hn::AllFalse(kTag, lit)) return;
+    lv = dot(light.normal, p.toEye);
+    weight = nl;
+    solidAngle = all(footprint);
+    if (looksUp) occluded = directionalOccluded(light, c, q, geometric, facing);
+  } else {
+    const Floats z = dot(v, light.normal);
+    const Floats s = hn::Neg(dot(p.shading, v));
+    const Floats facing = p.isFlat ? s : hn::Neg(dot(geometric, v));
+    lit =
+        hn::And(hn::And(p.meant, hn::Gt(z, zero)), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
+    if (hn::AllFalse(kTag, lit)) return;
+    if (looksUp)
+      occluded = hemisphereOccluded(
+          light, c, v, hn::IfThenElse(lit, z, all(1.0f)),
+          [&] { return inFrameOf(light, geometric); }, facing);
+    const Floats d2 = hn::Max(dot(v, v), all(1e-12f));
+    const Floats inverse = hn::Div(all(1.0f), hn::Sqrt(d2));
+    nl = hn::Mul(s, inverse);
+    lv = hn::Neg(hn::Mul(dot(v, p.toEye), inverse));
+    // Cosine at the light. Behind it, in lanes that it does not reach, no lobe must be without end.
+    const Floats away = hn::Max(hn::Mul(z, inverse), zero);
+    if constexpr (kKind == LightRecord::Kind::cosine) {
+      const Floats perArea = hn::Mul(away, hn::Min(hn::Mul(inverse, inverse), c.perClampDistance2));
+      weight = hn::Mul(nl, perArea);
+      solidAngle = hn::Mul(all(footprint), perArea);
+    } else {
+      const Floats ramp = hn::MulAdd(away, light.coneScale, light.coneOffset);
+      const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
+      weight = hn::Mul(hn::Mul(cone, cone), hn::Div(nl, d2));
+    }
+    weight = hn::Min(weight, light.mostWeight);
+  }
+  lit = hn::AndNot(occluded, lit);
+  if (hn::AllFalse(kTag, lit)) return;
+  // Hardly any.
+  const Mask isLarge = hn::Gt(solidAngle, all(shared::kMostSolidAngle));
+  if (!hn::AllFalse(kTag, isLarge)) {
+    const Floats share = hn::Div(all(shared::kMostSolidAngle), solidAngle);
+    weight = hn::IfThenElse(isLarge, hn::Mul(weight, share), weight);
+  }
+  // In the other lanes a light from above the surface, of weight nothing: no division by nothing.
+  addLobe(p, light.units, hn::IfThenElseZero(lit, weight), hn::IfThenElse(lit, nl, all(1.0f)), lv,
+          solidAngle, sum);
+}
+
+}  // namespace
+
+struct SpecularBlock::Place {
+  Points points;
+  Vector3 sum;
+  uint8_t lanes;
+  const LightUse* uses;
+  uint32_t leftOutBy;
+};
+
+SpecularBlock::SpecularBlock(const GBuffer& gbuffer, const vec3& eye, const SumConstants& constants,
+                             float leastRoughness)
+    : gbuffer_(gbuffer), eye_(eye), constants_(constants), leastRoughness_(leastRoughness) {
+  constants_.unitsPerIrradiance = 1.0f;
+  places_.reserve(kMost);
+}
+SpecularBlock::~SpecularBlock() = default;
+
+void SpecularBlock::add(size_t first, uint8_t lanes, std::span<const Gloss, kLanes> gloss,
+                        const LightUse* uses, uint32_t leftOutBy) {
+  const Floats zero = hn::Zero(kTag);
+  places_.push_back({pointsAt(gbuffer_, eye_, first, lanes, gloss, leastRoughness_),
+                     {zero, zero, zero},
+                     lanes,
+                     uses,
+                     leftOutBy});
+}
+
+template <LightRecord::Kind kKind>
+void SpecularBlock::addLight(const SpecularLight& specular) {
+  const LightRecord& record = specular.record;
+  const WideLight light(record, false, constants_);
+  const WideConstants c(constants_, record.resolution);
+  for (Place& place : places_) {
+    if (isLeftOut(place.leftOutBy, record.link)) continue;
+    bool looksUp = record.map != nullptr;
+    if (place.uses != nullptr && record.slot >= 0) {
+      const LightUse use = place.uses[record.slot];
+      if (use == LightUse::skip) continue;
+      looksUp = looksUp && use != LightUse::add;
+    }
+    addSpecular<kKind>(place.points, light, specular.footprint, looksUp, c, place.sum);
+  }
+}
+
+void SpecularBlock::sum(std::span<const SpecularLight> lights) {
+  using Kind = LightRecord::Kind;
+  for (const SpecularLight& light : lights) {
+    switch (light.record.kind) {
+      case Kind::cosine:
+        addLight<Kind::cosine>(light);
+        break;
+      case Kind::uniform:
+        addLight<Kind::uniform>(light);
+        break;
+      case Kind::directional:
+        addLight<Kind::directional>(light);
+        break;
+    }
+  }
+}
+
+void SpecularBlock::read(size_t k, std::span<vec3, kLanes> out) const {
+  const Place& place = places_[k];
+  HWY_ALIGN float r[kLanes], g[kLanes], b[kLanes];
+  hn::Store(place.sum.x, kTag, r);
+  hn::Store(place.sum.y, kTag, g);
+  hn::Store(place.sum.z, kTag, b);
+  for (size_t lane = 0; lane < kLanes; ++lane)
+    if ((place.lanes >> lane & 1) != 0) out[lane] = vec3(r[lane], g[lane], b[lane]);
+}
+
+}  // namespace lamplighter::cpu

@@ -1,0 +1,88 @@
+#include "renderer/backends/cpu/irradiance/sum_unit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "renderer/backends/cpu/irradiance/wide_light.h"
+
+namespace lamplighter::cpu {
+namespace {
+
+constexpr float kMostSum = 0x1p30f;  // units
+
+// Below this clamp [m] what a light could give a point that touches it is so much more than what
+// it gives any other that a unit for the sum of all of that would round all light off.
+constexpr float kFineClamp = 0.25f;
+
+float brightestOf(const LightRecord& light) {
+  return std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+}
+
+// Lights that shine from points, in whole vectors.
+struct PointLights {
+  std::vector<float> x, y, z, brightest, mostWeight;
+
+  PointLights(std::span<const LightRecord> lights, float clampDistance2) {
+    for (const LightRecord& light : lights) {
+      if (light.kind == LightRecord::Kind::directional) continue;
+      x.push_back(light.position.x);
+      y.push_back(light.position.y);
+      z.push_back(light.position.z);
+      brightest.push_back(brightestOf(light));
+      mostWeight.push_back(cpu::mostWeight(light.kind, clampDistance2));
+    }
+    const size_t whole = (x.size() + kLanes - 1) / kLanes * kLanes;
+    for (auto* v : {&x, &y, &z, &brightest, &mostWeight}) v->resize(whole, 0.0f);
+  }
+
+  // Of all, wherever they are taken [W/m²].
+  float mostAnywhere() const {
+    float most = 0.0f;
+    for (size_t i = 0; i < x.size(); ++i) most += brightest[i] * mostWeight[i];
+    return most;
+  }
+
+  // Of all, at points to which light i is the nearest: no other one is nearer to them than half of
+  // its distance from that, so that it gives at most four times what it gives there.
+  float mostNear(size_t i) const {
+    Floats sum = hn::Zero(kTag);
+    for (size_t j = 0; j < x.size(); j += kLanes) {
+      const auto load = [j](const std::vector<float>& v) { return hn::LoadU(kTag, &v[j]); };
+      const Floats dx = hn::Sub(load(x), all(x[i])), dy = hn::Sub(load(y), all(y[i])),
+                   dz = hn::Sub(load(z), all(z[i]));
+      const Floats d2 = dot({dx, dy, dz}, {dx, dy, dz});
+      const Floats weight = hn::Min(load(mostWeight), hn::Div(all(4.0f), d2));
+      sum = hn::MulAdd(load(brightest), weight, sum);
+    }
+    return hn::GetLane(hn::SumOfLanes(kTag, sum));
+  }
+};
+
+float mostOfPoints(std::span<const LightRecord> lights, float clampDistance2) {
+  const PointLights points(lights, clampDistance2);
+  if (clampDistance2 >= kFineClamp * kFineClamp) return points.mostAnywhere();
+  float most = 0.0f;
+  for (size_t i = 0; i < points.x.size(); ++i) most = std::max(most, points.mostNear(i));
+  return 1.001f * most;  // for rounding
+}
+
+}  // namespace
+
+// A parallel light's squares lie side by side, so that one of each direction counts.
+float unitsPerIrradiance(std::span<const LightRecord> lights, float clampDistance2) {
+  float most = mostOfPoints(lights, clampDistance2);
+  std::map<std::array<float, 3>, float> parallel;
+  for (const LightRecord& light : lights) {
+    if (light.kind != LightRecord::Kind::directional) continue;
+    float& square = parallel[{light.normal.x, light.normal.y, light.normal.z}];
+    square = std::max(square, brightestOf(light));
+  }
+  for (const auto& [direction, square] : parallel) most += square;
+  if (!(most > 0.0f) || !std::isfinite(most)) return 1.0f;
+  return std::ldexp(1.0f, std::clamp(std::ilogb(kMostSum / most), -100, 100));
+}
+
+}  // namespace lamplighter::cpu

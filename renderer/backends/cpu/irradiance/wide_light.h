@@ -1,0 +1,174 @@
+// Lights and points eight at a time, for the kernels (light_kernel.cpp, specular_kernel.cpp) alone.
+// shaders/shared/vpl_shading.h is the definition, with the reasons; this is the same with
+// multiply-adds fused where written so.
+#pragma once
+
+#include <algorithm>
+
+#include "renderer/backends/cpu/irradiance/light_kernel.h"
+#include "renderer/base/wide.h"
+#include "shaders/shared/vpl_shading.h"
+
+namespace lamplighter::cpu {
+
+using Tag = hn::FixedTag<float, kLanes>;
+using IntTag = hn::RebindToSigned<Tag>;
+using Floats = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+inline constexpr Tag kTag;
+
+// A light's weight [1/m²] is bounded, so that sums can be: of a punctual light at 6 cm, where it
+// has no surface to be so near to; of one that stands for a surface it is the clamp that counts.
+inline constexpr float kMostUniformWeight = 256.0f;
+inline constexpr float kMostCosineWeight = 4096.0f;
+
+inline float mostWeight(LightRecord::Kind kind, float clampDistance2) {
+  switch (kind) {
+    case LightRecord::Kind::cosine:
+      return std::min(1.0f / clampDistance2, kMostCosineWeight);
+    case LightRecord::Kind::uniform:
+      return kMostUniformWeight;
+    case LightRecord::Kind::directional:
+      break;
+  }
+  return 1.0f;
+}
+
+using Vector3 = Wide3<Floats>;
+
+using Ints = hn::Vec<IntTag>;
+
+HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) { return dotFused(a, b); }
+// Three arrays; as pointers of its own, which stores elsewhere don't change.
+struct Vectors {
+  Vectors(const std::vector<float>& vx, const std::vector<float>& vy, const std::vector<float>& vz)
+      : x(vx.data()), y(vy.data()), z(vz.data()) {}
+  Vector3 at(size_t i) const {
+    return {hn::LoadU(kTag, x + i), hn::LoadU(kTag, y + i), hn::LoadU(kTag, z + i)};
+  }
+  const float* HWY_RESTRICT x;
+  const float* HWY_RESTRICT y;
+  const float* HWY_RESTRICT z;
+};
+
+HWY_INLINE Vector3 all(const vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
+
+// The light in every lane, so that the loop over pixels takes it as vector operands from the stack.
+struct WideLight {
+  WideLight(const LightRecord& light, bool isNegative, const SumConstants& c)
+      : map(light.map),
+        position(all(light.position)),
+        normal(all(light.normal)),
+        tangent(all(light.tangent)),
+        bitangent(all(light.bitangent)),
+        units(all((isNegative ? -c.unitsPerIrradiance : c.unitsPerIrradiance) * light.intensity)),
+        mostWeight(all(cpu::mostWeight(light.kind, c.clampDistance2))),
+        coneScale(all(light.coneScale)),
+        coneOffset(all(light.coneOffset)),
+        side(all(light.side)),
+        inverseSide(all(1.0f / light.side)),
+        depth(all(2.0f * light.radius)),
+        deepest(all(-light.radius - c.bias * light.side)) {}
+
+  const float* map;
+  Vector3 position, normal, tangent, bitangent;
+  Vector3 units;  // intensity, in units of the sums
+  Floats mostWeight;
+  Floats coneScale, coneOffset;
+  Floats side, inverseSide, depth, deepest;  // directional
+};
+
+// Numbers of the map's grid and of the test in every lane.
+struct WideConstants {
+  // side: of the light's map [texels].
+  WideConstants(const SumConstants& c, int side)
+      : resolution(all(static_cast<float>(side))),
+        middle(all(0.5f * static_cast<float>(side))),
+        half(all(0.5f * static_cast<float>(side) * (1.0f - 0x1p-21f))),
+        lastTexel(hn::Set(hn::RebindToUnsigned<Tag>(), static_cast<uint32_t>(side * side - 1))),
+        step(all(2.0f / static_cast<float>(side))),
+        steep(all(shared::kSteepTexels * 2.0f / static_cast<float>(side))),
+        first(all(1.0f / static_cast<float>(side) - 1.0f)),
+        beforePlane(all(1.0f + c.bias)),
+        beforePoint(all(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(side))),
+        clampDistance2(all(c.clampDistance2)),
+        perClampDistance2(all(1.0f / c.clampDistance2)) {}
+
+  Floats resolution, middle, half;
+  hn::Vec<hn::RebindToUnsigned<Tag>> lastTexel;
+  Floats step, steep, first;
+  Floats beforePlane, beforePoint;
+  Floats clampDistance2, perClampDistance2;
+};
+
+// The texel's column or row of a square coordinate in [-1, 1]; `half` is a little less than it is,
+// so that no rounding leads out of the map.
+HWY_INLINE Floats texelOf(Floats s, const WideConstants& c) {
+  return hn::Floor(hn::MulAdd(s, c.half, c.middle));
+}
+HWY_INLINE Floats centreOf(Floats texel, const WideConstants& c) {
+  return hn::MulAdd(texel, c.step, c.first);
+}
+
+// The index of a texel is a whole number that a float holds: maps have at most 1024² texels. The
+// bound is for coordinates that are no numbers.
+HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const WideConstants& c) {
+  const Ints texel = truncateToInts(hn::MulAdd(t, c.resolution, s));
+  const hn::RebindToUnsigned<Tag> unsignedTag;
+  const auto bounded = hn::Min(hn::BitCast(unsignedTag, texel), c.lastTexel);
+  return hn::GatherIndex(kTag, map, hn::BitCast(IntTag(), bounded));
+}
+
+// A normal in the light's frame: along tangent, bitangent, and its own normal.
+HWY_INLINE Vector3 inFrameOf(const WideLight& light, const Vector3& n) {
+  return {dot(n, light.tangent), dot(n, light.bitangent), dot(n, light.normal)};
+}
+
+// v: from the light to the point; z: its height over the light's plane, > 0; geometric(): the
+// normal of the point's plane in the light's frame, asked for when needed. kIsMostly: something is
+// mostly occluded, so that to leave out what is asked of those that are costs more than it spares.
+template <bool kIsMostly = false, typename F>
+HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& c, const Vector3& v,
+                                   Floats z, F&& geometric, Floats facing) {
+  const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
+  const Floats w = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), z);
+  const Floats inverse = hn::Div(all(1.0f), w);
+  const Floats s = texelOf(hn::Mul(hn::Add(x, y), inverse), c);
+  const Floats t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c);
+  const Floats stored = fetch(light.map, s, t, c);
+  const Mask beforePoint = hn::Gt(hn::Mul(stored, w), c.beforePoint);
+  // Mostly nothing is; then the plane need not be asked.
+  if (!kIsMostly && hn::AllFalse(kTag, beforePoint)) return beforePoint;
+  const Floats cs = centreOf(s, c), ct = centreOf(t, c);
+  const Floats ex = hn::Mul(hn::Add(cs, ct), all(0.5f));
+  const Floats ey = hn::Mul(hn::Sub(cs, ct), all(0.5f));
+  const Floats ez = hn::Sub(all(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
+  const Vector3& n = geometric();
+  const Floats plane = hn::MulAdd(n.x, ex, hn::MulAdd(n.y, ey, hn::Mul(n.z, ez)));
+  // facing = −n·v > 0
+  const Mask beforePlane =
+      hn::Gt(hn::MulAdd(stored, facing, hn::Mul(c.beforePlane, plane)), hn::Zero(kTag));
+  return hn::And(beforePoint, beforePlane);
+}
+
+// q: the point in the light's frame.
+HWY_INLINE Mask directionalOccluded(const WideLight& light, const WideConstants& c,
+                                    const Vector3& q, const Vector3& geometric, Floats facing) {
+  // Within the square in the lanes that count.
+  const auto inSquare = [](Floats v) { return hn::Max(hn::Min(v, all(1.0f)), all(-1.0f)); };
+  const Floats s = texelOf(inSquare(hn::Mul(q.x, light.inverseSide)), c);
+  const Floats t = texelOf(inSquare(hn::Mul(q.y, light.inverseSide)), c);
+  const Floats stored = fetch(light.map, s, t, c);
+  const Floats above = hn::Sub(hn::MulAdd(stored, light.depth, light.deepest), q.z);
+  const Floats dx = hn::MulSub(centreOf(s, c), light.side, q.x);
+  const Floats dy = hn::MulSub(centreOf(t, c), light.side, q.y);
+  const Floats slope =
+      hn::MulAdd(dot(geometric, light.tangent), dx, hn::Mul(dot(geometric, light.bitangent), dy));
+  const Mask beforePoint = hn::Gt(above, hn::Zero(kTag));
+  const Mask beforePlane = hn::Or(hn::Gt(hn::MulAdd(above, facing, slope), hn::Zero(kTag)),
+                                  hn::Gt(above, hn::Mul(c.steep, light.side)));
+  return hn::And(beforePoint, beforePlane);
+}
+
+}  // namespace lamplighter::cpu

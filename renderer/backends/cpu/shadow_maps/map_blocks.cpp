@@ -1,0 +1,62 @@
+#include "renderer/backends/cpu/shadow_maps/map_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/base/wide.h"
+
+namespace lamplighter::cpu {
+namespace {
+
+constexpr WideTag kTag;
+
+// More than numbers are rounded.
+constexpr float kSlack = 1e-4f, kShareOfSlack = 1.001f;
+
+WideFloats load(const std::vector<float>& v, size_t at) { return hn::LoadU(kTag, &v[at]); }
+
+}  // namespace
+
+SphereInMap::SphereInMap(const LightSpace& light, const TexelDirections& directions,
+                         const Sphere& sphere)
+    : directions_(directions), isParallel_(light.isParallel) {
+  const vec3 way = sphere.centre - light.origin;
+  const vec3 c(glm::dot(way, light.axes[0]), glm::dot(way, light.axes[1]),
+               glm::dot(way, light.axes[2]));
+  if (isParallel_) {
+    axis_ = c * light.across;
+    reach_ = sphere.radius * light.across * kShareOfSlack + kSlack;
+    return;
+  }
+  if (c.z < -sphere.radius) {
+    where_ = Where::nowhere;
+    return;
+  }
+  const float distance = glm::length(c);
+  reach_ = sphere.radius / distance * kShareOfSlack + kSlack;
+  if (!(reach_ < 1.0f)) {  // around the light, or where numbers fail
+    where_ = Where::anywhere;
+    return;
+  }
+  axis_ = c / distance;
+  cosine_ = std::sqrt(1.0f - reach_ * reach_);
+}
+
+uint32_t SphereInMap::blocks(size_t first) const {
+  const TexelDirections& d = directions_;
+  const WideFloats x = load(d.midX, first), y = load(d.midY, first);
+  if (isParallel_) {
+    const WideFloats dx = hn::Sub(x, wide(axis_.x)), dy = hn::Sub(y, wide(axis_.y)),
+                     most = hn::Add(load(d.cosine, first), wide(reach_));
+    return bitsOf(hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most)));
+  }
+  const WideFloats cosines = hn::MulAdd(
+      x, wide(axis_.x), hn::MulAdd(y, wide(axis_.y), hn::Mul(load(d.midZ, first), wide(axis_.z))));
+  // Both angles, the sphere's and a block's, are less than a right one: cos(a + b) falls from 1 to
+  // −1.
+  const WideFloats least = hn::Sub(hn::Mul(load(d.cosine, first), wide(cosine_)),
+                                   hn::Mul(load(d.sine, first), wide(reach_)));
+  return bitsOf(hn::Ge(cosines, least));
+}
+
+}  // namespace lamplighter::cpu

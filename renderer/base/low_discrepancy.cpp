@@ -1,0 +1,62 @@
+#include "renderer/base/low_discrepancy.h"
+
+#include "renderer/base/random.h"
+
+namespace lamplighter {
+
+namespace {
+
+uint32_t reverseBits(uint32_t x) {
+  x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+  x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+  x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+  return __builtin_bswap32(x);
+}
+
+// Owen scrambling as a hash in which every bit depends on the lower bits only, on reversed bits;
+// the permutation of Laine and Karras with the constants found by N. Vegdahl (2021). Takes the
+// reversed bits and gives the number.
+uint32_t owenScrambleReversed(uint32_t x, uint32_t seed) {
+  x ^= x * 0x3d20adeau;
+  x += seed;
+  x *= (seed >> 16) | 1u;
+  x ^= x * 0x05526c56u;
+  x ^= x * 0x53a22864u;
+  return reverseBits(x);
+}
+
+uint32_t owenScramble(uint32_t x, uint32_t seed) {
+  return owenScrambleReversed(reverseBits(x), seed);
+}
+
+// The second Sobol dimension, its bits reversed. Column k of its generator matrix, that of the
+// primitive polynomial x + 1, has a bit j where the binomial coefficient (k over j) is odd, which
+// is where j's bits are among k's (Lucas): bit j is the sum of the index's bits k of which it is
+// so, added up over one binary digit of their places at a time.
+uint32_t sobolSecondReversed(uint32_t index) {
+  index ^= index >> 1 & 0x55555555u;
+  index ^= index >> 2 & 0x33333333u;
+  index ^= index >> 4 & 0x0f0f0f0fu;
+  index ^= index >> 8 & 0x00ff00ffu;
+  index ^= index >> 16 & 0x0000ffffu;
+  return index;
+}
+
+}  // namespace
+
+vec2 sobol2Ordered(uint32_t index, uint32_t scramble) {
+  // The first dimension is the index with its bits reversed.
+  const uint32_t x = owenScrambleReversed(index, hash4(scramble, 1u, 0u, 0u));
+  const uint32_t y = owenScrambleReversed(sobolSecondReversed(index), hash4(scramble, 2u, 0u, 0u));
+  return {toUnitFloat(x), toUnitFloat(y)};
+}
+
+vec2 sobol2(uint32_t index, uint32_t scramble) {
+  return sobol2Ordered(owenScramble(index, hash4(scramble, 3u, 0u, 0u)), scramble);
+}
+
+vec2 PathSampler::next2() {
+  return sobol2(sample_, hash4(pixel_, dimension_++, seed_, 0x9e3779b9u));
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,78 @@
+// Vectors of floats, or of as many bytes as these are, for whichever kernel needs them; and the one
+// place that includes Highway.
+#pragma once
+
+// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+#define HWY_DISABLE_PCLMUL_AES 1
+
+#include <cstdint>
+#include <cstring>
+
+#include <hwy/highway.h>
+
+#include "renderer/base/math.h"
+
+namespace lamplighter {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using WideTag = hn::FixedTag<float, 8>;
+using WideFloats = hn::Vec<WideTag>;
+using WideInts = hn::Vec<hn::FixedTag<int32_t, 8>>;
+
+// Places or directions, as many as V has lanes.
+template <typename V>
+struct Wide3 {
+  V x, y, z;
+};
+inline WideFloats wide(float v) { return hn::Set(WideTag(), v); }
+inline Wide3<WideFloats> wide(const vec3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
+template <typename V>
+HWY_INLINE Wide3<V> operator-(const Wide3<V>& a, const Wide3<V>& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+// The bits of glm's.
+template <typename V>
+HWY_INLINE V dotInTurn(const Wide3<V>& a, const Wide3<V>& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+// Quicker, and rounded less.
+template <typename V>
+HWY_INLINE V dotFused(const Wide3<V>& a, const Wide3<V>& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+
+// A bit for each lane.
+HWY_INLINE uint32_t bitsOf(hn::Mask<WideTag> lanes) {
+  uint8_t bits[8];
+  hn::StoreMaskBits(WideTag(), lanes, bits);
+  return bits[0];
+}
+HWY_INLINE uint32_t bitsOf(hn::Mask<hn::FixedTag<uint8_t, 32>> lanes) {
+  uint32_t bits = 0;
+  uint8_t bytes[8];
+  hn::StoreMaskBits(hn::FixedTag<uint8_t, 32>(), lanes, bytes);
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
+}
+
+// To the nearest, ties to even. This and the next are for what is in range: Highway's own also put
+// right what is not, at twice the cost.
+HWY_INLINE WideInts roundToInts(WideFloats v) {
+#if HWY_TARGET == HWY_AVX2
+  return WideInts{_mm256_cvtps_epi32(v.raw)};
+#else
+  return hn::NearestInt(v);
+#endif
+}
+
+// Towards zero.
+HWY_INLINE WideInts truncateToInts(WideFloats v) {
+#if HWY_TARGET == HWY_AVX2
+  return WideInts{_mm256_cvttps_epi32(v.raw)};
+#else
+  return hn::ConvertTo(hn::FixedTag<int32_t, 8>(), v);
+#endif
+}
+
+}  // namespace lamplighter

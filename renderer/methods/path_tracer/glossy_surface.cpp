@@ -1,0 +1,72 @@
+#include "renderer/methods/path_tracer/glossy_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderer/base/random.h"
+
+namespace lamplighter {
+namespace {
+
+// Half vectors that the eye sees (E. Heitz, "Sampling the GGX Distribution of Visible Normals",
+// JCGT 7(4), 2018): stretched so that the lobe is a hemisphere, of which the disc that the eye sees
+// is sampled.
+vec3 sampleVisibleNormal(const vec3& eye, float alpha, vec2 u) {
+  const vec3 v = glm::normalize(vec3(alpha * eye.x, alpha * eye.y, eye.z));
+  const float across = v.x * v.x + v.y * v.y;
+  const vec3 t1 = across > 0.0f ? vec3(-v.y, v.x, 0.0f) / std::sqrt(across) : vec3(1, 0, 0);
+  const vec3 t2 = glm::cross(v, t1);
+  const float r = std::sqrt(u.x), phi = 2.0f * kPi * u.y;
+  const float x = r * std::cos(phi);
+  const float s = 0.5f * (1.0f + v.z);
+  const float y = (1.0f - s) * std::sqrt(1.0f - x * x) + s * r * std::sin(phi);
+  const vec3 n = x * t1 + y * t2 + std::sqrt(std::max(0.0f, 1.0f - x * x - y * y)) * v;
+  return glm::normalize(vec3(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
+}
+
+// The density by solid angle of light directions that the above leads to: D·G1 / (4 n·v).
+float visibleNormalPdf(float nv, float nh2, float alpha) {
+  const float a2 = alpha * alpha, d = nh2 * (a2 - 1.0f) + 1.0f;
+  const float distribution = a2 / (kPi * d * d);
+  return distribution / (2.0f * (nv + std::sqrt(nv * nv * (1.0f - a2) + a2)));
+}
+
+}  // namespace
+
+GlossySurface::GlossySurface(const vec3& baseColor, const Gloss& gloss, float leastRoughness,
+                             const vec3& normal, const vec3& toEye)
+    : frame_(normal), eye_(frame_.toLocal(toEye)) {
+  const float nv = std::max(eye_.z, shared::kLeastCosine);
+  lobe_ = shared::makeLobe(baseColor, gloss.metallic, gloss.roughness, leastRoughness, nv);
+  alpha_ = std::sqrt(lobe_.shape.x);
+  const float share = shared::diffuseShare(gloss.metallic, gloss.roughness, leastRoughness, nv);
+  diffuse_ = share / kPi * baseColor;
+  const float away = 1.0f - nv, grazing = away * away * away * away * away;
+  const float straight = luminance(vec3(lobe_.straight));
+  const float lobe = straight + (lobe_.straight.w - straight) * grazing;
+  const float diffuse = share * luminance(baseColor);
+  // Neither is left out but where there is none: both are everywhere in the hemisphere.
+  lobeProbability_ = diffuse > 0.0f ? std::clamp(lobe / (lobe + diffuse), 0.1f, 0.9f) : 1.0f;
+}
+
+vec3 GlossySurface::brdf(const vec3& w) const {
+  const vec3 light = frame_.toLocal(w);
+  if (light.z <= 0.0f) return vec3(0.0f);
+  return diffuse_ + shared::lobeTowards(lobe_, light.z, glm::dot(light, eye_), 0.0f);
+}
+
+vec3 GlossySurface::sample(float choice, vec2 u) const {
+  if (choice >= lobeProbability_) return frame_.toWorld(sampleCosineHemisphere(u));
+  const vec3 half = sampleVisibleNormal(eye_, alpha_, u);
+  return frame_.toWorld(glm::normalize(2.0f * glm::dot(eye_, half) * half - eye_));
+}
+
+float GlossySurface::pdf(const vec3& w) const {
+  const vec3 light = frame_.toLocal(w);
+  if (light.z <= 0.0f) return 0.0f;
+  const vec3 half = glm::normalize(light + eye_);
+  const float lobe = visibleNormalPdf(std::max(eye_.z, 1e-4f), half.z * half.z, alpha_);
+  return lobeProbability_ * lobe + (1.0f - lobeProbability_) * light.z / kPi;
+}
+
+}  // namespace lamplighter

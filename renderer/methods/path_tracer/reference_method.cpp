@@ -1,0 +1,108 @@
+#include "renderer/methods/path_tracer/reference_method.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include <tbb/blocked_range2d.h>
+#include <tbb/parallel_for.h>
+
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/path_tracer/path_tracer.h"
+
+namespace lamplighter {
+
+namespace {
+
+// Adds some paths a pixel each frame until there are enough; begins again when anything changes.
+class ReferenceMethod final : public GiMethod {
+ public:
+  GiOutput render(const FrameInputs& in) override {
+    const double begin = in.stopwatch ? in.stopwatch() : 0.0;
+    const Settings& s = in.settings;
+    const bool sameScene = in.changes.none() && sum_.width != 0;
+    if (!sameScene) lights_ = LightSet(in.scene, lights_);
+    const PathTracerOptions options{s.integer(parameters::bounces()),
+                                    static_cast<uint32_t>(s.integer(parameters::seed())),
+                                    in.lightOnly,
+                                    s.boolean(parameters::speculars()),
+                                    s.real(parameters::leastRoughness()),
+                                    in.part};
+    const int wanted = s.integer(parameters::samplesPerPixel());
+    const bool samePaths = options == options_;
+    // Fewer paths than there are already: begin again too, so that the picture is that of the
+    // count.
+    if (!sameScene || !(in.view == view_) || !samePaths || wanted < samples_) {
+      view_ = in.view;
+      options_ = options;
+      sum_ = Image(view_.width, view_.height);
+      samples_ = 0;
+    }
+
+    GiOutput out;
+    const int next = std::min(wanted, samples_ + s.integer(parameters::samplesPerFrame()));
+    if (next > samples_) {
+      out.stats.raysTraced = addSamples(in, next);
+      picture_ = std::make_shared<HostImage>(mean());
+    }
+
+    out.radiance = picture_;
+    out.settled = samples_ >= wanted;
+    out.stats.samplesPerPixel = samples_;
+    const int aFrame = std::max(1, s.integer(parameters::samplesPerFrame()));
+    out.stats.framesUntilSettled = (std::max(0, wanted - samples_) + aFrame - 1) / aFrame;
+    if (in.stopwatch) out.stats.stageSeconds["paths"] = in.stopwatch() - begin;
+    return out;
+  }
+
+  void reset() override { sum_ = Image(); }
+
+ private:
+  // Tiles are fixed and a pixel's samples are added in their order, so that neither the number of
+  // threads nor the split of samples over frames changes a bit. Returns the count of rays.
+  uint64_t addSamples(const FrameInputs& in, int until) {
+    const tbb::blocked_range2d<int> pixels(0, view_.height, 16, 0, view_.width, 16);
+    std::atomic<uint64_t> rays = 0;
+    tbb::parallel_for(pixels, [&](const tbb::blocked_range2d<int>& tile) {
+      uint64_t here = 0;
+      for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
+        for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
+          for (int i = samples_; i < until; ++i) {
+            sum_.at(x, y) += tracePath(in.scene, in.rays, lights_, view_, x, y,
+                                       static_cast<uint32_t>(i), options_, &here);
+          }
+        }
+      }
+      rays += here;
+    });
+    samples_ = until;
+    return rays;
+  }
+
+  Image mean() const {
+    Image m = sum_;
+    for (vec3& p : m.pixels) p /= static_cast<float>(samples_);
+    return m;
+  }
+
+  LightSet lights_;
+  View view_;
+  PathTracerOptions options_;
+  Image sum_;
+  int samples_ = 0;
+  std::shared_ptr<RadianceImage> picture_;
+};
+
+}  // namespace
+
+MethodInfo referenceInfo() {
+  return {"reference",
+          "Reference (path tracing)",
+          "J. T. Kajiya: The rendering equation. SIGGRAPH 1986. Light sampling combined as in E. "
+          "Veach and L. Guibas: "
+          "Optimally combining sampling techniques for Monte Carlo rendering. SIGGRAPH 1995.",
+          {parameters::bounces(), parameters::seed(), parameters::samplesPerPixel(),
+           parameters::samplesPerFrame(), parameters::speculars(), parameters::leastRoughness()},
+          [] { return std::make_unique<ReferenceMethod>(); }};
+}
+
+}  // namespace lamplighter

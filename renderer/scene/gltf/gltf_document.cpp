@@ -1,0 +1,245 @@
+#include "renderer/scene/gltf/gltf_document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "renderer/base/error.h"
+#include "renderer/base/json_text.h"
+
+namespace lamplighter {
+
+std::string printable(std::string_view text) {
+  constexpr size_t kLongest = 120;
+  std::string out(text.substr(0, kLongest));
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  if (text.size() > kLongest) out += "...";
+  return out;
+}
+
+void GltfDocument::fail(const std::string& wrong, const std::string& remedy) const {
+  throw InputError(path.string(), wrong, remedy);
+}
+
+void GltfDocument::warn(const std::string& text) {
+  warnings.push_back(path.string() + ": " + text);
+}
+
+bool GltfDocument::usesExtension(const char* name) const {
+  const Json* used = member(json, "extensionsUsed");
+  return used != nullptr && used->is_array() &&
+         std::find(used->begin(), used->end(), Json(name)) != used->end();
+}
+
+const Json& listOf(const GltfDocument& document, const char* name) {
+  static const Json kEmpty = Json::array();
+  const Json* list = member(document.json, name);
+  if (list == nullptr) return kEmpty;
+  if (!list->is_array()) {
+    document.fail(std::string("\"") + name + "\" is no array", kExportAgain);
+  }
+  return *list;
+}
+
+const Json* member(const Json& object, const char* key) {
+  if (!object.is_object()) return nullptr;
+  const auto it = object.find(key);
+  return it == object.end() ? nullptr : &*it;
+}
+
+const Json* extensionOf(const Json& object, const char* name) {
+  const Json* extensions = member(object, "extensions");
+  const Json* extension = extensions == nullptr ? nullptr : member(*extensions, name);
+  return extension != nullptr && extension->is_object() ? extension : nullptr;
+}
+
+const Json* noteOf(const Json& object, const char* key) {
+  const Json* extras = member(object, "extras");
+  const Json* ours = extras == nullptr ? nullptr : member(*extras, kExtrasName);
+  return ours == nullptr ? nullptr : member(*ours, key);
+}
+
+bool isMarked(const Json& object, const char* key) {
+  const Json* mark = noteOf(object, key);
+  return mark != nullptr && mark->is_boolean() && mark->get<bool>();
+}
+
+namespace {
+
+[[noreturn]] void wrongType(const GltfDocument& document, const At& at, const char* key,
+                            const char* expected, const Json& value) {
+  document.fail(at,
+                std::string("has \"") + key +
+                    "\": " + printable(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
+                    ", which is no " + expected,
+                kExportAgain);
+}
+
+bool isFinite(const Json& value) {
+  return value.is_number() &&
+         std::abs(value.get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
+}
+
+}  // namespace
+
+std::optional<size_t> sizeMember(const GltfDocument& document, const Json& object, const char* key,
+                                 At at) {
+  const Json* value = member(object, key);
+  if (value == nullptr) return std::nullopt;
+  if (value->is_number_unsigned()) return value->get<size_t>();
+  // Some exporters write 3.0 where 3 is meant.
+  if (value->is_number_float()) {
+    const double d = value->get<double>();
+    if (d >= 0.0 && d < 9007199254740992.0 && d == std::floor(d)) return static_cast<size_t>(d);
+  }
+  wrongType(document, at, key, "count or index", *value);
+}
+
+std::optional<size_t> indexMember(const GltfDocument& document, const Json& object, const char* key,
+                                  At at, size_t count) {
+  const auto index = sizeMember(document, object, key, at);
+  if (index && *index >= count) {
+    document.fail(at,
+                  std::string("has \"") + key + "\": " + std::to_string(*index) +
+                      ", but there are " + std::to_string(count),
+                  kExportAgain);
+  }
+  return index;
+}
+
+double numberMember(const GltfDocument& document, const Json& object, const char* key,
+                    double otherwise, At at) {
+  const Json* value = member(object, key);
+  if (value == nullptr) return otherwise;
+  if (!isFinite(*value)) wrongType(document, at, key, "finite number", *value);
+  return value->get<double>();
+}
+
+bool boolMember(const GltfDocument& document, const Json& object, const char* key, bool otherwise,
+                At at) {
+  const Json* value = member(object, key);
+  if (value == nullptr) return otherwise;
+  if (!value->is_boolean()) wrongType(document, at, key, "true or false", *value);
+  return value->get<bool>();
+}
+
+std::string textMember(const GltfDocument& document, const Json& object, const char* key, At at) {
+  const Json* value = member(object, key);
+  if (value == nullptr) return {};
+  if (!value->is_string()) wrongType(document, at, key, "text", *value);
+  return value->get<std::string>();
+}
+
+const Json* arrayMember(const GltfDocument& document, const Json& object, const char* key, At at) {
+  const Json* value = member(object, key);
+  if (value != nullptr && !value->is_array()) wrongType(document, at, key, "array", *value);
+  return value;
+}
+
+std::vector<double> numbersMember(const GltfDocument& document, const Json& object, const char* key,
+                                  size_t count, At at) {
+  const Json* value = arrayMember(document, object, key, at);
+  if (value == nullptr) return {};
+  if (value->size() != count || !std::all_of(value->begin(), value->end(), isFinite)) {
+    wrongType(document, at, key, (std::to_string(count) + " finite numbers").c_str(), *value);
+  }
+  return value->get<std::vector<double>>();
+}
+
+vec3 vec3Member(const GltfDocument& document, const Json& object, const char* key,
+                const vec3& otherwise, At at) {
+  const std::vector<double> v = numbersMember(document, object, key, 3, at);
+  return v.empty() ? otherwise : vec3(v[0], v[1], v[2]);
+}
+
+namespace {
+
+constexpr uint32_t kGlbMagic = 0x46546c67;   // "glTF"
+constexpr uint32_t kJsonChunk = 0x4e4f534a;  // "JSON"
+constexpr uint32_t kBinChunk = 0x004e4942;   // "BIN\0"
+
+uint32_t littleEndian32(const uint8_t* p) {
+  return p[0] | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
+}
+
+std::string_view jsonOfGlb(GltfDocument& document, const std::vector<uint8_t>& bytes) {
+  const char* remedy = "copy or export it again";
+  if (bytes.size() < 12) document.fail("is cut off within the header", remedy);
+  if (const uint32_t version = littleEndian32(&bytes[4]); version != 2) {
+    document.fail("is a binary glTF of version " + std::to_string(version) + ", not 2",
+                  "export it as glTF 2.0");
+  }
+  const size_t stated = littleEndian32(&bytes[8]);
+  if (stated != bytes.size()) {
+    document.fail("has " + std::to_string(bytes.size()) + " bytes where its header says " +
+                      std::to_string(stated),
+                  remedy);
+  }
+  std::string_view text;
+  size_t at = 12;
+  for (size_t chunk = 0; at < bytes.size(); ++chunk) {
+    if (bytes.size() - at < 8) document.fail("is cut off within the head of a chunk", remedy);
+    const size_t length = littleEndian32(&bytes[at]);
+    const uint32_t type = littleEndian32(&bytes[at + 4]);
+    at += 8;
+    if (length > bytes.size() - at) document.fail("has a chunk that ends past the file", remedy);
+    if (chunk == 0 && type != kJsonChunk) document.fail("does not begin with its JSON", remedy);
+    if (chunk == 0) text = {reinterpret_cast<const char*>(&bytes[at]), length};
+    if (chunk == 1 && type == kBinChunk) {
+      document.binaryChunk = std::make_shared<const std::vector<uint8_t>>(
+          bytes.begin() + static_cast<std::ptrdiff_t>(at),
+          bytes.begin() + static_cast<std::ptrdiff_t>(at + length));
+    }
+    // Chunks are padded to four bytes; a last one that is not is harmless.
+    at = std::min(bytes.size(), at + (length + 3) / 4 * 4);
+  }
+  return text;
+}
+
+}  // namespace
+
+GltfDocument readGltfJson(const std::filesystem::path& path) {
+  GltfDocument document;
+  document.path = path;
+  std::string why;
+  document.files->push_back(stampOf(path));
+  const Bytes bytes = readWholeFile(path, why);
+  if (bytes == nullptr) document.fail(why, "name a .gltf or .glb file that can be read");
+  if (bytes->empty()) document.fail("is empty", "copy or export it again");
+  document.bytesRead = bytes->size();
+
+  std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  if (bytes->size() >= 4 && littleEndian32(bytes->data()) == kGlbMagic) {
+    text = jsonOfGlb(document, *bytes);
+  } else {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark
+    const size_t first = text.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos || text[first] != '{') {
+      document.fail("is no glTF: it begins neither with { nor with the mark of a .glb",
+                    "name a .gltf or .glb file");
+    }
+  }
+
+  if (nestingDepth(text) > kDeepestJson) {
+    document.fail("has JSON that nests deeper than " + std::to_string(kDeepestJson) + " levels",
+                  kExportAgain);
+  }
+  try {
+    document.json = Json::parse(text);
+  } catch (const Json::exception& e) {
+    // "[json.exception.parse_error.101] parse error at line 1, column 7: …"
+    std::string_view reason = e.what();
+    if (const size_t end = reason.find("] "); end != std::string_view::npos) {
+      reason.remove_prefix(end + 2);
+    }
+    document.fail("has JSON that cannot be read (" + printable(reason) + ")",
+                  "copy or export it again");
+  }
+  if (!document.json.is_object()) document.fail("has JSON that is no object", kExportAgain);
+  return document;
+}
+
+}  // namespace lamplighter

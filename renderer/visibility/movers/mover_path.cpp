@@ -1,0 +1,90 @@
+#include "renderer/visibility/movers/mover_path.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace lamplighter {
+namespace {
+
+// Small, for a mark is rounded down, but the path of a few steps has to fit.
+constexpr float kCountsASize = 100.0f;
+
+// Distances are rounded, and spheres around what moves are a little larger than it.
+constexpr float kWider = 1.01f;
+
+// Two steps make a way where they are as straight as this (cosine), one degree: those along an axis
+// of the level are, those by hand hardly ever. Where a step counts for this many times what it does
+// if all directions are alike, for it leaves the way or the mover turns, they are again.
+constexpr float kStraight = 0.99985f;
+constexpr float kAcross = 8.0f;
+constexpr float kMostTimes = 2.0f;
+
+float farthestStep(std::span<const MoverPlace> before, std::span<const MoverPlace> now,
+                   const Way& way) {
+  float step = 0.0f;
+  for (size_t m = 0; m < now.size(); ++m)
+    step = std::max(step, farthestStep(before[m], now[m], way));
+  return step;
+}
+
+}  // namespace
+
+float farthestStep(const MoverPlace& before, const MoverPlace& now, const Way& way) {
+  if (before.groups.size() != now.groups.size() || before.caster.box.empty())
+    return std::numeric_limits<float>::infinity();
+  float farthest = way.lengthOf(now.caster.box.centre() - before.caster.box.centre()) +
+                   way.most() * std::abs(now.caster.radius - before.caster.radius);
+  for (size_t i = 0; i < now.groups.size(); ++i) {
+    const Bounds &a = before.groups[i], &b = now.groups[i];
+    farthest = std::max(farthest, way.lengthOf(b.centre() - a.centre()) +
+                                      0.5f * way.most() * glm::distance(a.extent(), b.extent()));
+  }
+  return farthest;
+}
+
+MoverPath::Mark MoverPath::makeVoid() {
+  at_ = kFirst;
+  return static_cast<Mark>(kLast);
+}
+
+// Whether it goes another way from now on.
+bool MoverPath::turn(std::span<const MoverPlace> before, std::span<const MoverPlace> now) {
+  const vec3 shift = now[0].caster.box.centre() - before[0].caster.box.centre();
+  Way way = way_;
+  if (const float length = glm::length(shift); length > 0.0f) {
+    const vec3 direction = shift / length;
+    const auto isAlong = [&](const vec3& other) {
+      return std::abs(glm::dot(direction, other)) > kStraight;
+    };
+    if (isAlong(direction_) && !isAlong(way.axis)) way = {direction, kAcross};
+    direction_ = direction;
+  }
+  if (farthestStep(before, now, way) > kMostTimes * farthestStep(before, now, Way())) way = Way();
+  if (way == way_) return false;
+  way_ = way;
+  return true;
+}
+
+MoverPath::Mark MoverPath::advance(std::span<const MoverPlace> before,
+                                   std::span<const MoverPlace> now) {
+  if (now.empty()) return makeVoid();
+  const bool turns = turn(before, now);
+  float size = std::numeric_limits<float>::max();
+  for (const MoverPlace& place : now) size = std::min(size, place.caster.radius);
+  const Mark by = advance(farthestStep(before, now, way_), size);
+  return turns ? makeVoid() : by;
+}
+
+MoverPath::Mark MoverPath::advance(float distance, float size) {
+  if (count_ == 0.0f) count_ = size / kCountsASize;
+  ++steps_;
+  lastStep_ = distance;
+  const float counts = kWider * distance / count_;
+  if (!(at_ + counts < kLast)) return makeVoid();  // also where nothing can be said
+  at_ += counts;
+  if (at_ < kFirst + kLowerBy) return 0;
+  at_ -= kLowerBy;
+  return kLowerBy;
+}
+
+}  // namespace lamplighter

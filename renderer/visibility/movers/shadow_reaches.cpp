@@ -1,0 +1,86 @@
+#include "renderer/visibility/movers/shadow_reaches.h"
+
+#include <bit>
+#include <limits>
+
+#include "renderer/base/wide.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr WideTag kTag;
+
+WideFloats load(const ShadowReachLanes::Lanes& lanes) { return hn::Load(kTag, lanes.data()); }
+Wide3<WideFloats> load(const std::array<ShadowReachLanes::Lanes, 3>& v) {
+  return {load(v[0]), load(v[1]), load(v[2])};
+}
+
+}  // namespace
+
+ShadowReachLanes::ShadowReachLanes() { nearest_.fill(std::numeric_limits<float>::infinity()); }
+
+void ShadowReachLanes::set(size_t lane, const ShadowReach::Cone& cone) {
+  for (int c = 0; c < 3; ++c) {
+    apex_[static_cast<size_t>(c)][lane] = cone.apex[c];
+    axis_[static_cast<size_t>(c)][lane] = cone.axis[c];
+  }
+  nearest_[lane] = cone.nearest;
+  sine_[lane] = cone.sine;
+  cosine_[lane] = cone.cosine;
+  before_[lane] = cone.before;
+  radius_[lane] = cone.radius;
+}
+
+// As ShadowReach::mayFallOn() adds it up.
+uint32_t ShadowReachLanes::mayFallOn(const vec3& centre, float radius) const {
+  const WideFloats zero = hn::Zero(kTag), sine = load(sine_), cosine = load(cosine_);
+  const Wide3<WideFloats> v = wide(centre) - load(apex_), axis = load(axis_);
+  const WideFloats distance2 = dotInTurn(v, v), gap = hn::Sub(load(nearest_), wide(radius));
+  const auto isNear = hn::And(hn::Gt(gap, zero), hn::Lt(distance2, hn::Mul(gap, gap)));
+  const WideFloats along = dotInTurn(v, axis), along2 = hn::Mul(along, along);
+  const WideFloats across2 = hn::Max(hn::Sub(distance2, along2), zero);
+  const WideFloats cosine2 = hn::Mul(cosine, cosine);
+  const auto isBehind = hn::And(
+      hn::Lt(along, zero), hn::Le(hn::Mul(hn::Mul(across2, sine), sine), hn::Mul(along2, cosine2)));
+  const WideFloats reach = hn::Add(wide(radius), hn::Mul(along, sine));
+  const auto isIn =
+      hn::And(hn::Ge(reach, zero), hn::Le(hn::Mul(across2, cosine2), hn::Mul(reach, reach)));
+  const auto isAround = hn::Le(distance2, wide(radius * radius));
+  return bitsOf(
+      hn::AndNot(isNear, hn::Or(hn::And(isBehind, isAround), hn::AndNot(isBehind, isIn))));
+}
+
+// By the sphere of the caster made smaller: what that reaches, one as large as before does that
+// still holds it. Only the sine is other then, by what is taken off over the distance, and the
+// cosine grows by less than the tangent times as much.
+void ShadowReachLanes::slack(const vec3& centre, float radius, Lanes& out) const {
+  const WideFloats zero = hn::Zero(kTag), sine = load(sine_), cosine = load(cosine_);
+  const WideFloats nearest = load(nearest_), before = load(before_), size = load(radius_);
+  const Wide3<WideFloats> v = wide(centre) - load(apex_);
+  const WideFloats distance2 = dotFused(v, v), along = dotFused(v, load(axis_));
+  const WideFloats across = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, distance2), zero));
+  const WideFloats inside = hn::NegMulAdd(across, cosine, hn::MulAdd(along, sine, wide(radius)));
+  const WideFloats sideways = hn::Div(hn::Mul(inside, hn::Mul(hn::Add(nearest, size), cosine)),
+                                      hn::MulAdd(along, cosine, hn::Mul(across, sine)));
+  const WideFloats past = hn::Sub(hn::Add(hn::Sqrt(distance2), wide(radius)), nearest);
+  const WideFloats ofCone = hn::Min(hn::Min(sideways, past), hn::Min(before, size));
+  const WideFloats least = hn::IfThenElseZero(hn::Gt(along, zero), ofCone);
+  // All around the light: the caster is over it.
+  const auto isAround = hn::Lt(nearest, wide(-std::numeric_limits<float>::max()));
+  hn::Store(hn::Max(hn::IfThenElse(isAround, before, least), zero), kTag, out.data());
+}
+
+uint64_t ShadowReaches::mayFallOn(size_t word, uint64_t wanted, const vec3& centre,
+                                  float radius) const {
+  constexpr size_t kLanes = ShadowReachLanes::kLanes;
+  constexpr uint64_t kAll = (uint64_t{1} << kLanes) - 1;
+  uint64_t mask = 0;
+  for (uint64_t rest = wanted; rest != 0;) {
+    const size_t first = static_cast<size_t>(std::countr_zero(rest)) / kLanes * kLanes;
+    rest &= ~(kAll << first);
+    mask |= uint64_t{groups_[(64 * word + first) / kLanes].mayFallOn(centre, radius)} << first;
+  }
+  return wanted & mask;
+}
+
+}  // namespace lamplighter

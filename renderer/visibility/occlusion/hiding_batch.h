@@ -1,0 +1,32 @@
+// From which of up to eight lights one polygon hides all of a patch: the same bits as
+// OcclusionPyramid says of each.
+#pragma once
+
+#include "renderer/visibility/occlusion/light_lanes.h"
+#include "renderer/visibility/occlusion/occlusion_pyramid.h"
+
+namespace lamplighter {
+
+class HidingBatch {
+ public:
+  using Mask = LightLanes::Mask;
+
+  // Of lights for which the patch is neither dark nor degenerate. Refers to both, which must
+  // outlive it.
+  HidingBatch(const LightLanes& lights, const PatchRegion& region);
+  HidingBatch(const LightLanes& lights, PatchRegion&& region) = delete;
+
+  // Whose axis may meet the box, see OcclusionPyramid::Axis.
+  Mask mayMeet(const Bounds& box) const;
+  // Of some lights, those whose pyramid the polygon stands wholly across.
+  Mask cut(const HidingPolygon& polygon, Mask of) const;
+
+ private:
+  const LightLanes& lights_;
+  const PatchRegion& region_;
+  // Of the axes: their beginnings, give or take the margin, and one over their lengths.
+  alignas(32) std::array<LightLanes::Floats, 3> low_, high_, inverse_;
+  alignas(32) LightLanes::Floats inset_;  // by how much a polygon has to be larger [m]
+};
+
+}  // namespace lamplighter

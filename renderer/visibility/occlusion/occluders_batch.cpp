@@ -1,0 +1,237 @@
+// What stands between a patch and several lights, looked for once for all of them: trees are
+// searched for the pyramids of eight together, and most triangles are decided for all eight at
+// once. Only where a triangle neither is outside of one plane of a pyramid nor has a corner in it
+// is it clipped, for that light alone, and at last, since most such lights meet another meanwhile.
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/visibility/occlusion/bits.h"
+#include "renderer/visibility/occlusion/hiding_batch.h"
+#include "renderer/visibility/occlusion/occluders.h"
+#include "renderer/visibility/occlusion/pyramid_batch.h"
+
+namespace lamplighter {
+
+using Mask = LightLanes::Mask;
+
+namespace {
+
+// Fewer lights are clipped for at once.
+constexpr int kWorthSieve = 2;
+
+}  // namespace
+
+// Which of some lights meet anything.
+class Occluders::Search {
+ public:
+  Search(const Occluders& occluders, const RenderScene& scene, const Lights& lights,
+         const LightLanes& lanes, std::span<const Blocker> first)
+      : occluders_(occluders),
+        scene_(scene),
+        lights_(lights),
+        pyramids_(lanes, lights.region),
+        count_(lights.vpls.size()),
+        open_(pyramids_.all()) {
+    std::copy(first.begin(), first.end(), first_.begin());
+  }
+
+  // Of all but some objects.
+  Mask run(std::span<const uint32_t> without) {
+    askWhereMetBefore();
+    if (open_ != 0) searchTrees(without);
+    clip();
+    return pyramids_.all() & ~open_;
+  }
+
+  // What was met, or what was asked first.
+  std::span<const Blocker> first() const { return first_; }
+
+ private:
+  struct Question {
+    uint32_t object, item;
+    Mask lights;
+  };
+
+  // Of lights that are left, those that may meet anything of the object.
+  Mask mayMeet(uint32_t object) const {
+    const Caster& caster = occluders_.objects_[object].caster;
+    return open_ & pyramids_.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius);
+  }
+
+  // Points where one of the lights met something above, and then what that is, for all of them.
+  void askWhereMetBefore() {
+    const std::array<Blocker, LightLanes::kLights> first = first_;
+    const auto isNew = [&](size_t i, const auto& isSame) {
+      return first[i].object != kNone &&
+             std::none_of(first.begin(), first.begin() + static_cast<ptrdiff_t>(i), isSame);
+    };
+    for (size_t i = 0; i < count_ && open_ != 0; ++i) {
+      const Blocker& b = first[i];
+      if (!b.hasPoint || !isNew(i, [&](const Blocker& o) { return o.hasPoint && o.at == b.at; }))
+        continue;
+      const auto object = static_cast<uint32_t>(b.object);
+      const Mask held = open_ & pyramids_.hold(b.at);
+      if (held == 0 || isOfPatch(object, b.item)) continue;
+      if (Mask some = held & mayMeet(object); some != 0) take(b, some, some);
+    }
+    for (size_t i = 0; i < count_ && open_ != 0; ++i) {
+      const Blocker& b = first[i];
+      if ((open_ >> i & 1) == 0 ||
+          !isNew(i, [&](const Blocker& o) { return o.object == b.object && o.item == b.item; }))
+        continue;
+      const auto object = static_cast<uint32_t>(b.object);
+      if (Mask some = mayMeet(object); some != 0) ask(object, b.item, some);
+    }
+  }
+
+  void searchTrees(std::span<const uint32_t> without) {
+    const auto enter = [&](const Bounds& b) { return (open_ & pyramids_.mayMeet(b)) != 0; };
+    occluders_.tree_.visit(enter, [&](uint32_t object) {
+      if (std::find(without.begin(), without.end(), object) != without.end()) return true;
+      Mask some = mayMeet(object);
+      if (some == 0) return true;
+      occluders_.objects_[object].tree.visit(
+          [&](const Bounds& b) { return (some & pyramids_.mayMeet(b)) != 0; },
+          [&](uint32_t item) {
+            ask(object, item, some);
+            return some != 0;
+          });
+      return open_ != 0;
+    });
+  }
+
+  // Takes out of `some` what is decided for all of the object.
+  void ask(uint32_t object, uint32_t item, Mask& some) {
+    const Object& o = occluders_.objects_[object];
+    const auto index = static_cast<int>(object);
+    if (item >= o.flat.size()) {
+      const Bounds& group = o.groups[item - o.flat.size()];
+      take({index, item, true, group.centre()}, some & pyramids_.mayMeet(group), some);
+      return;
+    }
+    if (isOfPatch(object, item)) return;
+    const std::array<vec3, 3> corners = cornersOf(object, item);
+    const PyramidBatch::Met answer = pyramids_.meets(corners);
+    if (const Mask unsure = some & answer.unsure; unsure != 0) {
+      if (unsureCount_ == unsure_.size()) clip();
+      unsure_[unsureCount_++] = {object, item, unsure};
+    }
+    for (size_t i = 0; i < 3; ++i)
+      if (const Mask met = some & answer.byCorner[i]; met != 0)
+        take({index, item, true, corners[i]}, met, some);
+  }
+
+  // Lights that meet an item, but for those that the object casts no shadow of on the patch.
+  void take(const Blocker& blocker, Mask met, Mask& some) {
+    some &= ~met;
+    forEachBit(met, [&](size_t i) {
+      if (!mayBeShadowed(i, static_cast<uint32_t>(blocker.object))) return;
+      open_ &= ~(Mask{1} << i);
+      first_[i] = blocker;
+    });
+  }
+
+  void clip() {
+    for (size_t q = 0; q < unsureCount_; ++q) {
+      const Question& question = unsure_[q];
+      Mask some = question.lights & open_;
+      if (some == 0) continue;
+      const std::array<vec3, 3> t = cornersOf(question.object, question.item);
+      if (std::popcount(some) >= kWorthSieve) some &= ~pyramids_.surelyMiss(t, roundingOf(t));
+      while ((some &= open_) != 0) {
+        const auto i = static_cast<size_t>(std::countr_zero(some));
+        const Mask one = Mask{1} << i;
+        if ((known_ & one) == 0) planes_[i] = pyramids_.planesOf(i);
+        known_ |= one;
+        vec3 at;
+        Mask met = 0;
+        // Where one light meets it others do.
+        if (planes_[i].meet(t[0], t[1], t[2], &at)) met = one | (some & pyramids_.hold(at));
+        some &= ~one;
+        take({static_cast<int>(question.object), question.item, true, at}, met, some);
+      }
+    }
+    unsureCount_ = 0;
+  }
+
+  // A rough chart's bumps do not stand in its own light.
+  bool isOfPatch(uint32_t object, uint32_t item) const {
+    const PatchRegion& region = lights_.region;
+    const std::vector<int>& chart = occluders_.objects_[object].roughChart;
+    return region.object == static_cast<int>(object) && item < chart.size() &&
+           chart[item] != kNone && chart[item] == region.chart;
+  }
+  std::array<vec3, 3> cornersOf(uint32_t object, uint32_t item) const {
+    const uint32_t* i = &scene_.indices[scene_.objects[object].firstIndex +
+                                        3 * occluders_.objects_[object].flat[item]];
+    return {scene_.positions[i[0]], scene_.positions[i[1]], scene_.positions[i[2]]};
+  }
+  static float roundingOf(const std::array<vec3, 3>& corners) {
+    return rayEpsilon(
+        glm::max(glm::max(glm::abs(corners[0]), glm::abs(corners[1])), glm::abs(corners[2])));
+  }
+  bool mayBeShadowed(size_t light, uint32_t object) const {
+    return ShadowReach(*lights_.vpls[light], occluders_.objects_[object].caster)
+        .mayFallOn(lights_.region.centre, lights_.region.radius);
+  }
+
+  const Occluders& occluders_;
+  const RenderScene& scene_;
+  const Lights& lights_;
+  const PyramidBatch pyramids_;
+  const size_t count_;
+  std::array<Blocker, LightLanes::kLights> first_;  // by light: what is asked first, or was met
+  Mask open_;                                       // lights of which nothing is known to be met
+  Mask known_ = 0;                                  // lights that have planes_
+  std::array<PyramidPlanes, LightLanes::kLights> planes_;
+  std::array<Question, 64> unsure_;
+  size_t unsureCount_ = 0;
+};
+
+Occluders::States Occluders::occlusionsWithout(const RenderScene& s, const Lights& lights,
+                                               std::span<const uint32_t> objects,
+                                               std::span<Blocker> first) const {
+  std::array<PyramidApex, LightLanes::kLights> apices;
+  std::array<const PyramidApex*, LightLanes::kLights> pointers;
+  for (size_t i = 0; i < lights.vpls.size(); ++i) {
+    apices[i] = PyramidApex(*lights.vpls[i]);
+    pointers[i] = &apices[i];
+  }
+  const LightLanes lanes({pointers.data(), lights.vpls.size()});
+  States states;
+  states.fill(Occlusion::none);
+  // A cluster of a complex mesh stands in its own light.
+  Mask met = lanes.all();
+  if (!lights.region.isBox()) {
+    Search search(*this, s, lights, lanes, first);
+    met = search.run(objects);
+    std::copy_n(search.first().begin(), first.size(), first.begin());
+  }
+  if (met == 0) return states;
+  const Mask hidden = hiddenWithout(HidingBatch(lanes, lights.region), met, objects);
+  forEachBit(met, [&](size_t i) {
+    states[i] = (hidden >> i & 1) != 0 ? Occlusion::full : Occlusion::partial;
+  });
+  return states;
+}
+
+Mask Occluders::hiddenWithout(const HidingBatch& batch, Mask of,
+                              std::span<const uint32_t> objects) const {
+  Mask open = of;
+  const auto enter = [&](const Bounds& b) { return (open & batch.mayMeet(b)) != 0; };
+  polygonTree_.visit(enter, [&](uint32_t object) {
+    if (std::find(objects.begin(), objects.end(), object) != objects.end()) return true;
+    objects_[object].polygonTree.visit(enter, [&](uint32_t p) {
+      const HidingPolygon& polygon = objects_[object].polygons[p];
+      if (const Mask some = open & batch.mayMeet(polygon.box); some != 0)
+        open &= ~batch.cut(polygon, some);
+      return open != 0;
+    });
+    return open != 0;
+  });
+  return of & ~open;
+}
+
+}  // namespace lamplighter

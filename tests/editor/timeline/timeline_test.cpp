@@ -1,0 +1,154 @@
+// The timeline: what is kept of frames and how it is written.
+#include "editor/timeline/timeline.h"
+
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "renderer/base/error.h"
+#include "tests/editor/session_fixture.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+size_t indexOf(const std::string& stage) {
+  const auto& all = Timeline::stages();
+  return static_cast<size_t>(std::find(all.begin(), all.end(), stage) - all.begin());
+}
+
+GiStats statsOf(double maps, double sums) {
+  GiStats stats;
+  stats.stageSeconds = {{"shadow maps", maps}, {"light sums", sums}};
+  stats.mapsRendered = 12;
+  stats.vpls = 300;
+  return stats;
+}
+
+TEST(Timeline, DividesAFrameIntoStagesAndTheRest) {
+  Timeline timeline;
+  timeline.add(7, 2.0, 2.050, statsOf(0.010, 0.025));
+  ASSERT_EQ(timeline.frames().size(), 1u);
+  const FrameTiming& f = timeline.frames().front();
+  EXPECT_DOUBLE_EQ(f.stageSeconds[indexOf("shadow maps")], 0.010);
+  EXPECT_DOUBLE_EQ(f.stageSeconds[indexOf("light sums")], 0.025);
+  EXPECT_NEAR(f.stageSeconds[indexOf("other")], 0.015, 1e-9);
+  double sum = 0.0;
+  for (const double s : f.stageSeconds) sum += s;
+  EXPECT_NEAR(sum, f.seconds(), 1e-9);
+}
+
+// A stage of the engine that the table lacks would hide in "other".
+TEST(Timeline, KnowsEveryStageOfTheEngine) {
+  FrameRenderer renderer(makeCpuBackend(), [t = 0.0]() mutable { return t += 0.001; });
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f));
+  test::addRectangleLight(scene, vec3(0, 2, 0), vec2(1.0f), vec3(5.0f));
+  View view;
+  view.width = 32;
+  view.height = 24;
+  Settings settings;
+  settings.set("vpls", 8);
+  settings.set("refine", 64);
+  for (const char* method : {"many_lights", "reference"}) {
+    SceneChanges changes = SceneChanges::all();
+    for (int i = 0; i < 40; ++i) {
+      const GiOutput out =
+          renderer.render({scene, changes, view, method, settings, false, false, 8});
+      for (const auto& [stage, seconds] : out.stats.stageSeconds)
+        EXPECT_LT(indexOf(stage), Timeline::stages().size()) << stage;
+      changes = {};
+    }
+  }
+}
+
+TEST(Timeline, KeepsTheLastSecondsAlone) {
+  Timeline timeline;
+  for (int i = 0; i < 300; ++i)
+    timeline.add(static_cast<uint32_t>(i), 0.1 * i, 0.1 * i + 0.05, statsOf(0.01, 0.02));
+  EXPECT_EQ(timeline.frames().back().frame, 299u);
+  EXPECT_NEAR(timeline.frames().back().end - timeline.frames().front().end, 10.0, 0.11);
+  for (int i = 0; i < 5000; ++i) timeline.add(0, 40.0 + 1e-4 * i, 40.0 + 1e-4 * i + 5e-5, {});
+  EXPECT_EQ(timeline.frames().size(), 2000u);
+  timeline.clear();
+  timeline.add(1, 3.0, 3.0, {});  // no clock
+  EXPECT_TRUE(timeline.frames().empty());
+}
+
+TEST(Timeline, ATraceHasTheStagesWithinTheirFrame) {
+  Timeline timeline;
+  timeline.add(7, 2.0, 2.050, statsOf(0.010, 0.025));
+  timeline.add(8, 2.1, 2.130, statsOf(0.005, 0.020));
+  const auto trace = nlohmann::json::parse(chromeTrace(timeline));
+  int frames = 0, stages = 0, counters = 0;
+  double from = 0.0, to = 0.0;
+  for (const auto& event : trace["traceEvents"]) {
+    if (event["ph"] == "C") {
+      ++counters;
+      const bool isOfMaps = event["name"] == "maps_rendered";
+      EXPECT_TRUE(!isOfMaps || event["args"]["count"] == 12);
+    } else if (event["name"] == "frame") {
+      ++frames;
+      from = event["ts"];
+      to = from + event["dur"].get<double>();
+    } else {
+      ++stages;
+      EXPECT_GE(event["ts"].get<double>(), from - 1e-3);
+      EXPECT_LE(event["ts"].get<double>() + event["dur"].get<double>(), to + 1e-3);
+    }
+  }
+  EXPECT_EQ(frames, 2);
+  EXPECT_EQ(stages, 6);
+  EXPECT_EQ(counters, 2 * static_cast<int>(lamplighter::counters().size()));
+}
+
+TEST(Timeline, ATableHasARowAFrame) {
+  Timeline timeline;
+  timeline.add(7, 2.0, 2.050, statsOf(0.010, 0.025));
+  timeline.add(8, 2.1, 2.130, statsOf(0.005, 0.020));
+  std::istringstream csv(timelineCsv(timeline));
+  std::string head, first, second, more;
+  std::getline(csv, head);
+  std::getline(csv, first);
+  std::getline(csv, second);
+  EXPECT_FALSE(std::getline(csv, more));
+  EXPECT_TRUE(head.starts_with("frame,begin_s,frame_ms,light_samples_ms,")) << head;
+  EXPECT_EQ(std::count(head.begin(), head.end(), ','), std::count(first.begin(), first.end(), ','));
+  EXPECT_TRUE(first.starts_with("7,0.000000,50.0000,")) << first;
+  EXPECT_TRUE(second.starts_with("8,0.100000,30.0000,")) << second;
+}
+
+class TimelineExport : public test::SessionFixture {
+ protected:
+  fs::path folder_ = fs::path(testing::TempDir()) / "lamplighter_timeline";
+  void SetUp() override {
+    SessionFixture::SetUp();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string action(const char* file) const {
+    return "timeline.export " + (folder_ / file).string();
+  }
+};
+
+TEST_F(TimelineExport, WritesBothKindsOrSaysWhyNot) {
+  EXPECT_FALSE(session_.runAction(action("a.json")));  // nothing was timed
+  EXPECT_TRUE(session_.status().starts_with("timeline: ")) << session_.status();
+  session_.setClock([t = 0.0]() mutable { return t += 0.001; });
+  session_.renderFrame();
+  EXPECT_TRUE(session_.runAction(action("a.json"))) << session_.status();
+  EXPECT_TRUE(session_.runAction(action("a.csv"))) << session_.status();
+  EXPECT_FALSE(session_.runAction(action("a.txt")));
+  EXPECT_FALSE(session_.runAction(action("no/such/folder/a.csv")));
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder_))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"a.csv", "a.json"}));  // and nothing half done
+}
+
+}  // namespace
+}  // namespace lamplighter

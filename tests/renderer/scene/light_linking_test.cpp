@@ -1,0 +1,264 @@
+// What lights leave out: none of their direct light arrives there, all else is as it was, in every
+// method; and linking live gives the picture of a scene opened so.
+#include "renderer/scene/light_linking.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "renderer/base/error.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/gltf_files.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
+#include "tests/support/scene_equality.h"
+#include "tests/support/scenes.h"
+#include "tests/support/skies.h"
+
+namespace lamplighter {
+namespace {
+
+using testing::ElementsAre;
+
+// Two tiles side by side in one plane, a box on the left one, and two lights.
+struct Tiles {
+  Scene scene;
+  NodeId left, right, box, group, lamp, bulb;
+  View view = test::lookAt(vec3(0, 4, 4.5f), vec3(0, 0, 0), 64, 40, 0.8f);
+
+  Tiles() {
+    const int white = test::addMaterial(scene, vec3(0.7f));
+    left = test::addMesh(scene, test::squareMesh(4.0f, white), vec3(-2, 0, 0));
+    right = test::addMesh(scene, test::squareMesh(4.0f, white), vec3(2, 0, 0));
+    group = test::addNode(scene, "group");
+    box = test::addMesh(scene, test::boxMesh(vec3(0.8f), white), vec3(-1.2f, 0.41f, 0));
+    scene.find(box)->parent = group;
+    lamp = test::addRectangleLight(scene, vec3(0.3f, 3, 0), vec2(0.6f), vec3(20, 18, 16));
+    bulb = test::addNode(scene, "bulb", kNoNode, vec3(1, 2, 1));
+    scene.find(bulb)->punctual = PunctualLight{PunctualKind::point, vec3(3, 4, 5)};
+  }
+  std::vector<NodeId>& leftOut(NodeId light) { return scene.find(light)->light.leftOut; }
+};
+
+TEST(LightLinking, ListsAreSharedAndGoDownTheTree) {
+  Tiles t;
+  t.leftOut(t.lamp) = {t.left, t.group};
+  t.leftOut(t.bulb) = {t.left, t.group, 77};  // one that is gone
+  t.scene.skyLight.leftOut = {t.right};
+  const LightLinks links = lightLinks(t.scene);
+  EXPECT_EQ(links.count, 2u);
+  EXPECT_EQ(countLinks(t.scene), 2u);
+  EXPECT_THAT(links.leftOutBy, ElementsAre(1u, 2u, 1u, 1u, 0u, 0u));
+  EXPECT_THAT(links.ofLight, ElementsAre(0, 0, 0, 0, 1, 1));
+  EXPECT_EQ(links.ofSky, 2);
+  EXPECT_TRUE(isLeftOut(links.leftOutBy[0], 1));
+  EXPECT_FALSE(isLeftOut(links.leftOutBy[0], 2));
+  EXPECT_FALSE(isLeftOut(~0u, 0));
+}
+
+// Direct light alone, at two points: E of the lamp by Lambert's formula, of the bulb by I cos/d².
+TEST(LightLinking, DirectLightIsThatOfTheOtherLights) {
+  Tiles t;
+  t.leftOut(t.lamp) = {t.left};
+  const View view = test::lookAt(vec3(0, 6, 0.01f), vec3(0), 64, 64, 0.9f);
+  const Image picture = test::renderReference(t.scene, view, 256, 0);
+  t.leftOut(t.lamp) = {t.left, t.right};
+  t.leftOut(t.bulb) = {t.left};
+  const Image dark = test::renderReference(t.scene, view, 4, 0);
+  for (const vec3& p : {vec3(-1.9f, 0, 0.8f), vec3(0.9f, 0, -1.1f)}) {
+    const vec2 at(view.project(p));
+    const auto pixel = [&](const Image& image) {
+      vec3 sum(0.0f);
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          sum += image.at(static_cast<int>(at.x) + dx, static_cast<int>(at.y) + dy) / 9.0f;
+      return sum;
+    };
+    const vec3 way = vec3(1, 2, 1) - p;
+    const vec3 bulb = vec3(3, 4, 5) * (way.y / std::pow(glm::length(way), 3.0f));
+    const float h = 0.3f;
+    const vec3 lamp =
+        vec3(20, 18, 16) * kPi *
+        static_cast<float>(std::abs(test::polygonFormFactor(
+            p, vec3(0, 1, 0),
+            {{0.3f - h, 3, -h}, {0.3f - h, 3, h}, {0.3f + h, 3, h}, {0.3f + h, 3, -h}})));
+    const bool isLeft = p.x < 0.0f;
+    const vec3 expected = 0.7f / kPi * (isLeft ? bulb : bulb + lamp);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(pixel(picture)[c], expected[c], 0.05f * expected[c]) << p.x << " " << c;
+      if (isLeft) {
+        EXPECT_EQ(pixel(dark)[c], 0.0f);
+      }
+    }
+  }
+}
+
+Settings manyLights(const char* technique, bool prt, int prtBounces = 0) {
+  Settings s;
+  s.set(parameters::vpls().name, 300);
+  s.set(parameters::bounces().name, 2);
+  s.set(parameters::updates().name, 4096);
+  s.set(parameters::antialias().name, 1);
+  s.set(parameters::mapResolution().name, 64);
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::prt().name, prt);
+  s.set(parameters::prtBounces().name, prtBounces);
+  s.set(parameters::cornerLight().name, false);
+  return s;
+}
+
+Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
+              const View& view, const Settings& settings) {
+  return test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
+}
+
+struct Way {
+  const char* name;
+  const char* technique;
+  bool prt;
+  const char* block;
+  bool speculars;
+  int prtBounces = 0;
+};
+void PrintTo(const Way& w, std::ostream* out) { *out << w.name; }
+class LiveLinking : public testing::TestWithParam<Way> {};
+
+// Lists change, with a light under way and an object moved: the same bits as opened afresh.
+TEST_P(LiveLinking, IsTheRebuiltPicture) {
+  Tiles t;
+  const int gloss = test::addMaterial(t.scene, vec3(0.6f));
+  t.scene.materials[static_cast<size_t>(gloss)].roughness = 0.3f;
+  const NodeId ball =
+      test::addMesh(t.scene, test::sphereMesh(0.5f, 10, 0.0f, gloss), vec3(1, 0.7f, 0));
+  t.scene.sky = test::gradientSky();
+  Settings settings = manyLights(GetParam().technique, GetParam().prt, GetParam().prtBounces);
+  settings.set(parameters::block().name, std::string(GetParam().block));
+  settings.set(parameters::speculars().name, GetParam().speculars);
+  FrameRenderer live(makeCpuBackend());
+  settled(live, t.scene, SceneChanges::all(), t.view, settings);
+  const auto edit = [&](const char* what, auto change) {
+    const Scene before = t.scene;
+    change();
+    const Image now = settled(live, t.scene, compare(before, t.scene), t.view, settings);
+    FrameRenderer fresh(makeCpuBackend());
+    const Image anew = settled(fresh, t.scene, SceneChanges::all(), t.view, settings);
+    EXPECT_TRUE(test::sameBits(now, anew)) << what;
+    return now;
+  };
+  edit("lamp leaves out the left", [&] { t.leftOut(t.lamp) = {t.left}; });
+  edit("bulb the ball", [&] { t.leftOut(t.bulb) = {ball}; });
+  edit("the left moved", [&] { t.scene.find(t.left)->local.translation.z = -0.3f; });
+  edit("sky the group", [&] { t.scene.skyLight.leftOut = {t.group}; });
+  edit("lamp moved", [&] { t.scene.find(t.lamp)->local.translation.x = -0.6f; });
+  edit("lamp lights all", [&] { t.leftOut(t.lamp).clear(); });  // links are numbered anew
+  edit("all do", [&] {
+    t.leftOut(t.bulb).clear();
+    t.scene.skyLight.leftOut.clear();
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LiveLinking,
+                         testing::Values(Way{"naive", "naive", false, "1", true},
+                                         Way{"visibility", "visibility", false, "1", false},
+                                         Way{"light_maps", "light_maps", false, "1", true},
+                                         Way{"low_resolution", "light_maps", false, "4", false},
+                                         Way{"transfer", "light_maps", true, "1", false},
+                                         Way{"reflecting", "light_maps", true, "1", false, 4}),
+                         [](const auto& i) { return std::string(i.param.name); });
+
+// All techniques give nearly one picture, and it is the path tracer's.
+TEST(LightLinking, MethodsAgree) {
+  Tiles t;
+  t.leftOut(t.lamp) = {t.left, t.box};
+  t.scene.sky = vec3(0.2f, 0.3f, 0.4f);
+  t.scene.skyLight.leftOut = {t.right};
+  const Image reference = test::renderReference(t.scene, t.view, 400, 2);
+  const auto inBlocks = [](const Image& image) {
+    constexpr int kSide = 4;
+    Image out(image.width / kSide, image.height / kSide);
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        out.at(x / kSide, y / kSide) += image.at(x, y) / static_cast<float>(kSide * kSide);
+    return out;
+  };
+  for (const char* technique : {"naive", "visibility", "light_maps"}) {
+    Settings s = manyLights(technique, false);
+    s.set(parameters::vpls().name, 2048);
+    s.set(parameters::antialias().name, 4);
+    s.set(parameters::cornerLight().name, true);
+    FrameRenderer renderer(makeCpuBackend());
+    const Image picture = settled(renderer, t.scene, SceneChanges::all(), t.view, s);
+    const Metrics m = compareImages(inBlocks(picture), inBlocks(reference));
+    EXPECT_LT(m.relRmse, 0.05) << technique;
+    EXPECT_NEAR(m.bias, 1.0, 0.02) << technique;
+  }
+  // It matters: without links the picture is another.
+  Tiles plain;
+  plain.scene.sky = t.scene.sky;
+  const Metrics other = compareImages(inBlocks(test::renderReference(plain.scene, t.view, 64, 2)),
+                                      inBlocks(reference));
+  EXPECT_GT(other.relRmse, 0.3);
+}
+
+// A light whose paths all end on what it leaves out gives no bounced light either.
+TEST(LightLinking, WhatIsLeftOutReflectsNoneOfIt) {
+  Tiles t;
+  std::erase_if(t.scene.nodes, [&](const Node& n) { return n.id == t.bulb; });
+  t.leftOut(t.lamp) = {t.left, t.right, t.group};
+  RenderScene render;
+  update(render, t.scene, SceneChanges::all());
+  const RayCaster rays(render);
+  const VplSet set = generateVpls(render, rays, LightSet(render), {200, 0.5f, 2, 1});
+  ASSERT_FALSE(set.vpls.empty());
+  for (const SceneVpl& v : set.vpls) {
+    EXPECT_EQ(v.id.bounce, 0u);
+    EXPECT_EQ(v.vpl.footprint.y, 1.0f);
+  }
+  EXPECT_EQ(test::meanOf(
+                test::renderReference(t.scene, test::lookAt(vec3(0, 2, 3), vec3(0), 16, 8), 8, 2)),
+            vec3(0.0f));
+}
+
+TEST(LightLinking, IsSavedByPlaceInTheFile) {
+  const test::TemporaryFolder folder;
+  Tiles t;
+  t.leftOut(t.lamp) = {t.left, t.group};
+  t.scene.skyLight.leftOut = {t.box};
+  saveGltf(t.scene, folder.path() / "s.gltf");
+  Scene loaded = loadGltf(folder.path() / "s.gltf").scene;
+  EXPECT_EQ(lightLinks(loaded).count, 2u);
+  const auto names = [](const Scene& scene, const std::vector<NodeId>& ids) {
+    std::vector<int> meshes;
+    for (const NodeId id : ids) meshes.push_back(scene.find(id)->mesh);
+    return meshes;
+  };
+  const auto lampOf = [](Scene& scene) -> Node& {
+    return *std::find_if(scene.nodes.begin(), scene.nodes.end(),
+                         [](const Node& n) { return n.area.has_value(); });
+  };
+  EXPECT_EQ(lampOf(loaded).light.leftOut.size(), 2u);
+  EXPECT_EQ(names(loaded, loaded.skyLight.leftOut), std::vector<int>{t.scene.find(t.box)->mesh});
+  // A node that goes moves the numbers of those behind it.
+  const int box = t.scene.find(t.box)->mesh;
+  std::erase_if(loaded.nodes, [](const Node& n) { return n.mesh == 0; });
+  saveGltf(loaded, folder.path() / "less.gltf");
+  Scene again = loadGltf(folder.path() / "less.gltf").scene;
+  EXPECT_EQ(lampOf(again).light.leftOut.size(), 1u);
+  ASSERT_EQ(again.skyLight.leftOut.size(), 1u);
+  EXPECT_EQ(again.find(again.skyLight.leftOut[0])->mesh, box);
+
+  std::ifstream in(folder.path() / "s.gltf");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  const size_t at = text.find("leaves_out");
+  ASSERT_NE(at, std::string::npos);
+  const size_t open = text.find('[', at);
+  text.replace(open, text.find(']', open) + 1 - open, "[999]");
+  std::ofstream(folder.path() / "bad.gltf") << text;
+  EXPECT_THROW(loadGltf(folder.path() / "bad.gltf"), InputError);
+}
+
+}  // namespace
+}  // namespace lamplighter

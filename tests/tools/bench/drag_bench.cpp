@@ -1,0 +1,162 @@
+// Dragging: a light or an object moves by a few centimetres in every frame, as under a hand, with
+// the budgets that the editor's window has by default, or with 100 updates a frame whatever they
+// cost; then it is let go.
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+
+#include "editor/cli/options.h"
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/frame/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/frame_time_control.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf/gltf_io.h"
+#include "tests/tools/bench/ball.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Case {
+  std::string scene;  // a path
+  const char* node;   // "ball": one is put into the level
+  const char* technique;
+  const char* backend;
+  int width = 640, height = 360;
+  bool byTime = true;  // else 100 updates a frame
+  bool prt = false;    // the mover, which is complex, has its transfer
+  int vpls = 300;
+  int maps = std::get<int>(parameters::mapResolution().defaultValue);  // texels a side
+};
+
+std::string roomPath(const std::string& name) { return "assets/scenes/" + name + ".gltf"; }
+
+std::unique_ptr<Backend> backendOf(const std::string& name) {
+  if (name == "cpu") return makeCpuBackend();
+  return makeGlBackend(fs::path(LAMPLIGHTER_SOURCE_DIR) / "shaders");
+}
+
+void drag(benchmark::State& state, const Case& c) {
+  const fs::path path = fs::path(LAMPLIGHTER_SOURCE_DIR) / c.scene;
+  if (!fs::exists(path)) return state.SkipWithError("the scene is not there");
+  Scene scene = loadGltf(path).scene;
+  const View view = cli::chooseView(scene, "", c.width, c.height);
+  if (c.node == std::string("ball")) addBall(scene);
+  Node* dragged = nullptr;
+  for (Node& node : scene.nodes)
+    if (node.name == c.node) dragged = &node;
+  Settings settings;
+  settings.set(parameters::vpls().name, c.vpls);
+  settings.set(parameters::mapResolution().name, c.maps);
+  settings.set(parameters::technique().name, std::string(c.technique));
+  settings.set(parameters::antialias().name, 1);
+  settings.set(parameters::prt().name, c.prt);
+  FrameRenderer renderer(backendOf(c.backend), seconds);
+  FrameTimeControl control;
+  const double milliseconds = settings.real(parameters::frameTime());
+  const auto frame = [&](const SceneChanges& changes) {
+    Settings now = settings;
+    const int fit = c.byTime ? control.vplsWithin(1e-3 * milliseconds) : 100;
+    now.set(parameters::updates().name, std::min(settings.integer(parameters::updates()), fit));
+    GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
+    control.measured(out.stats);
+    return out;
+  };
+  frame(SceneChanges::all());
+  while (!frame({}).settled) {
+  }
+  int steps = 0;
+  const auto step = [&] {
+    const Scene before = scene;
+    dragged->local.translation.x += (steps++ / 20) % 2 == 0 ? 0.05f : -0.05f;
+    return frame(compare(before, scene));
+  };
+  int refreshed = 0, kept = 0, replaced = 0, pending = 0;
+  std::map<std::string, double> stages;
+  for (auto _ : state) {
+    const GiOutput out = step();
+    refreshed += out.stats.vplsRefreshed;
+    kept += out.stats.pathsKept;
+    replaced += out.stats.pathsReplaced;
+    pending += out.stats.vplsPending;
+    for (const auto& [name, time] : out.stats.stageSeconds) stages[name] += time;
+  }
+  std::vector<Image> after;
+  for (int i = 0; i < 5; ++i) after.push_back(frame({}).radiance->pixels());
+  GiOutput settled = frame({});
+  while (!settled.settled) settled = frame({});
+  const Image& truth = settled.radiance->pixels();
+  state.counters["fps"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  const auto frames = static_cast<double>(state.iterations());
+  state.counters["vpls_a_frame"] = refreshed / frames;
+  state.counters["vpls_pending"] = pending / frames;
+  state.counters["paths_kept"] = kept / frames;
+  state.counters["paths_replaced"] = replaced / frames;
+  state.counters["error_1"] = compareImages(after[0], truth).relRmse;
+  state.counters["error_5"] = compareImages(after[4], truth).relRmse;
+  for (const auto& [name, time] : stages) {
+    std::string key = "ms_" + name;
+    std::replace(key.begin(), key.end(), ' ', '_');
+    state.counters[key] = 1e3 * time / frames;
+  }
+}
+
+void add(const std::string& name, const Case& c) {
+  benchmark::RegisterBenchmark(name.c_str(), drag, c)
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(40)
+      ->UseRealTime();
+}
+
+[[maybe_unused]] const bool kRegistered = [] {
+  for (const char* backend : {"cpu", "gl"}) {
+    for (const char* technique : {"naive", "visibility", "light_maps"}) {
+      for (const auto& [scene, node] :
+           {std::pair("pillar_room", "ceiling light"), std::pair("pillar_room", "mover")}) {
+        const Case c{roomPath(scene), node, technique, backend};
+        const std::string name =
+            std::string("drag/") + scene + "/" + node + "/" + technique + "/" + backend;
+        add(name, c);
+      }
+    }
+    for (const char* node : {"ceiling light", "mover"}) {
+      const Case c{roomPath("pillar_room"), node, "light_maps", backend, 640, 360, true, true};
+      add(std::string("drag/pillar_room/") + node + "/light_maps+prt/" + backend, c);
+    }
+  }
+  for (const auto& [width, height] : {std::pair(640, 360), std::pair(1024, 768)}) {
+    const Case c{
+        roomPath("pillar_room"), "ceiling light", "light_maps", "cpu", width, height, false};
+    add("drag_100/pillar_room/ceiling light/" + std::to_string(width) + "x" +
+            std::to_string(height) + "/cpu",
+        c);
+  }
+  for (const int maps : {128, 256}) {
+    Case c{roomPath("pillar_room"), "ceiling light", "light_maps", "cpu", 640, 360, false};
+    c.maps = maps;
+    add("drag_maps/" + std::to_string(maps) + "/pillar_room/ceiling light/640x360/cpu", c);
+  }
+  const Case knot{roomPath("pillar_room"), "mover", "light_maps", "cpu", 640, 360, false};
+  add("drag_100/pillar_room/mover/640x360/cpu", knot);
+  for (const auto& [name, path] :
+       {std::pair("kenney", "../shared/scenes/kenney-fps-level/kenney-fps-level.gltf"),
+        std::pair("zdm2", "../shared/scenes/zdm2-map/zdm2.glb")}) {
+    const Case c{path, "ball", "light_maps", "cpu", 640, 360, false, false, 100};
+    add(std::string("drag_100/") + name + "/ball/640x360/cpu", c);
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace lamplighter

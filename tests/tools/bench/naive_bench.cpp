@@ -1,0 +1,141 @@
+// What `many_lights` costs with the technique `naive`: the scenes of paper 1, figure 5-1, against
+// the number of VPLs (figure 5-3's baseline), and the kernels on their own.
+#include <chrono>
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+
+#include "renderer/frame/frame.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf/gltf_io.h"
+#include "tests/tools/bench/backend_benches.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 360;
+const char* const kScenes[] = {"area_light_room", "table_room", "pillar_room"};
+
+struct Level {
+  Scene scene;
+  View view;
+  NodeId mover = kNoNode;
+
+  explicit Level(const std::string& name)
+      : scene(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets" / "scenes" /
+                       (name + ".gltf"))
+                  .scene) {
+    for (const Node& node : scene.nodes) {
+      if (node.camera != kNone) view = viewOfCamera(scene, node, kWidth, kHeight);
+      if (node.name == "mover") mover = node.id;
+    }
+  }
+};
+
+Settings settingsOf(int vpls, int updates) {
+  Settings settings;
+  settings.set(parameters::vpls().name, vpls);
+  settings.set(parameters::updates().name, updates);
+  settings.set(parameters::bounces().name, 1);
+  settings.set(parameters::antialias().name, 1);
+  settings.set(parameters::technique().name, std::string("naive"));
+  return settings;
+}
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// The camera orbits: G-buffer and all sums anew in each frame, maps kept.
+void cameraMoves(benchmark::State& state, const std::string& name, const MakeBackend& make) {
+  const int vpls = static_cast<int>(state.range(0));
+  Level level(name);
+  FrameRenderer renderer(make());
+  const Settings settings = settingsOf(vpls, vpls);
+  const auto frame = [&](const SceneChanges& changes) {
+    return renderer.render({level.scene, changes, level.view, "many_lights", settings});
+  };
+  int shown = frame(SceneChanges::all()).stats.vpls;
+  for (auto _ : state) {
+    level.view.eye.x += 0.001f;
+    shown = frame({}).stats.vpls;
+    renderer.backend().finish();
+  }
+  state.counters["vpls"] = shown;
+}
+
+// The mover moves: besides, every map that sees it is rendered, and the bounced VPLs are sampled
+// anew.
+void objectMoves(benchmark::State& state, const std::string& name, const MakeBackend& make) {
+  const int vpls = static_cast<int>(state.range(0));
+  Level level(name);
+  FrameRenderer renderer(make());
+  const Settings settings = settingsOf(vpls, vpls);
+  const auto frame = [&](const SceneChanges& changes) {
+    return renderer.render({level.scene, changes, level.view, "many_lights", settings});
+  };
+  frame(SceneChanges::all());
+  SceneChanges moved;
+  moved.moved = {level.mover};
+  int maps = 0;
+  float step = 0.01f;
+  for (auto _ : state) {
+    level.scene.find(level.mover)->local.translation.x += step;
+    step = -step;
+    maps = frame(moved).stats.mapsRendered;
+    renderer.backend().finish();
+  }
+  state.counters["maps"] = maps;
+}
+
+// Nanoseconds a light and pixel of the sum alone, and maps a second, on one scene.
+void kernels(benchmark::State& state, const std::string& name, const MakeBackend& make) {
+  Level level(name);
+  FrameRenderer renderer(make(), seconds);
+  const int vpls = static_cast<int>(state.range(0));
+  const Settings settings = settingsOf(vpls, vpls);
+  SceneChanges moved;
+  moved.moved = {level.mover};
+  double sum = 0.0, maps = 0.0, gbuffer = 0.0;
+  renderer.render({level.scene, SceneChanges::all(), level.view, "many_lights", settings});
+  const KernelCounts before = renderer.backend().counts();
+  for (auto _ : state) {
+    level.scene.find(level.mover)->local.translation.x += 0.001f;
+    GiOutput out = renderer.render({level.scene, moved, level.view, "many_lights", settings});
+    sum += out.stats.stageSeconds["light sums"];
+    maps += out.stats.stageSeconds["shadow maps"];
+    gbuffer += out.stats.stageSeconds["g-buffer"];
+  }
+  const KernelCounts after = renderer.backend().counts();
+  state.counters["ns_per_light_pixel"] =
+      1e9 * sum / static_cast<double>(after.lightPixels - before.lightPixels);
+  state.counters["maps_per_s"] = static_cast<double>(after.shadowMaps - before.shadowMaps) / maps;
+  state.counters["gbuffer_ms"] = 1e3 * gbuffer / static_cast<double>(state.iterations());
+}
+
+}  // namespace
+
+void addNaiveBenchmarks(const std::string& backend, const MakeBackend& make) {
+  for (const std::string scene : kScenes) {
+    const auto name = [&](const char* what) {
+      return std::string("naive/") + what + "/" + scene + "/" + backend;
+    };
+    auto* camera =
+        benchmark::RegisterBenchmark(name("camera_moves").c_str(), cameraMoves, scene, make);
+    auto* object =
+        benchmark::RegisterBenchmark(name("object_moves").c_str(), objectMoves, scene, make);
+    for (const int vpls : {2, 10, 30, 100, 300, 1000}) {
+      camera->Arg(vpls);
+      object->Arg(vpls);
+    }
+    camera->Unit(benchmark::kMillisecond)->UseRealTime();
+    object->Unit(benchmark::kMillisecond)->UseRealTime();
+    benchmark::RegisterBenchmark(name("kernels").c_str(), kernels, scene, make)
+        ->Arg(300)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  }
+}
+
+}  // namespace lamplighter

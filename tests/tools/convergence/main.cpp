@@ -1,0 +1,192 @@
+// The error of many_lights against the path-traced reference as the number of VPLs grows, on every
+// scene, with 0, 1 and 5 bounces; what the clamp takes away apart: docs/convergence.md.
+//   lamplighter_convergence [--data FOLDER] [PART_OF_A_SCENE'S_PATH...]
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <optional>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame/frame.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf/gltf_io.h"
+#include "renderer/scene/surface.h"
+#include "tests/support/shared_files.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 160, kHeight = 100;
+constexpr int kCounts[] = {64, 256, 1024, 4096, 16384};
+constexpr int kBounces[] = {0, 1, 5};
+// Two pictures of as many paths a pixel, of which the mean is the reference: what they differ by
+// tells its own noise.
+constexpr int kPaths = 256;
+// Pictures with shifted pixels that many_lights averages.
+constexpr int kAntialias = 16;
+// So near that next to nothing is taken away [m].
+constexpr float kNoClamp = 0.1f;
+
+// Through its first camera, or from outside.
+View viewOfScene(const Scene& scene) {
+  for (const Node& node : scene.nodes)
+    if (node.camera != kNone) return viewOfCamera(scene, node, kWidth, kHeight);
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  return viewOfBounds(render.bounds, kWidth, kHeight);
+}
+
+// 1 where one surface fills the pixel that is no emitter: neither edges nor the light's own picture
+// are light that is summed, and both would outweigh it.
+Image surfaceMask(const Scene& scene, const View& view) {
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  const RayCaster rays(render);
+  const auto normalAt = [&](const Hit& hit) {
+    return surfaceAt(render, hit.object, hit.triangle, hit.u, hit.v).geometricNormal;
+  };
+  const auto at = [&](float x, float y) {
+    return rays.intersect(Ray{view.eye, 0.0f, view.rayDirection(x, y)}, Surfaces::seen);
+  };
+  Image mask(kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const Hit middle = at(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      if (!middle || render.materials[render.objects[middle.object].material].emits()) continue;
+      const vec3 normal = normalAt(middle);
+      bool isOne = true;
+      for (int i = 0; i < 16 && isOne; ++i) {
+        const Hit hit = at(static_cast<float>(x) + static_cast<float>(i % 4) / 3.0f,
+                           static_cast<float>(y) + static_cast<float>(i / 4) / 3.0f);
+        isOne = hit && hit.object == middle.object && glm::dot(normalAt(hit), normal) > 0.9f;
+      }
+      if (isOne) mask.at(x, y) = vec3(1.0f);
+    }
+  }
+  return mask;
+}
+
+Image settled(const Scene& scene, const View& view, const std::string& method,
+              const Settings& settings) {
+  FrameRenderer renderer(makeCpuBackend());
+  SceneChanges changes = SceneChanges::all();
+  GiOutput out;
+  do {
+    out = renderer.render({scene, changes, view, method, settings});
+    changes = SceneChanges();
+  } while (!out.settled);
+  return out.radiance->pixels();
+}
+
+struct Reference {
+  Image mean;
+  double noise = 0.0;  // relRMSE of the mean that is its own
+};
+
+Reference reference(const Scene& scene, const View& view, const Image& mask, int bounces) {
+  const auto half = [&](int seed) {
+    Settings s;
+    s.set(parameters::bounces().name, bounces);
+    s.set(parameters::seed().name, seed);
+    s.set(parameters::samplesPerPixel().name, kPaths);
+    return settled(scene, view, "reference", s);
+  };
+  const Image a = half(1), b = half(2);
+  Reference r{a, 0.5 * compareImages(a, b, &mask).relRmse};
+  for (size_t i = 0; i < b.pixels.size(); ++i)
+    r.mean.pixels[i] = 0.5f * (a.pixels[i] + b.pixels[i]);
+  return r;
+}
+
+// A level of 127,000 patches takes many minutes to tell what each does with 16,384 samples;
+// without, the picture is the same (docs/equality.md).
+std::string techniqueFor(const std::string& scene) {
+  return scene == "zdm2" ? "naive" : std::get<std::string>(parameters::technique().defaultValue);
+}
+
+Image manyLights(const Scene& scene, const View& view, const std::string& technique, int bounces,
+                 int vpls, std::optional<float> clampDistance = {}) {
+  Settings s;
+  s.set(parameters::technique().name, technique);
+  s.set(parameters::bounces().name, bounces);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::updates().name, 65536);
+  s.set(parameters::antialias().name, kAntialias);
+  if (clampDistance) s.set(parameters::clampDistance().name, *clampDistance);
+  return settled(scene, view, "many_lights", s);
+}
+
+void addScene(const fs::path& path, const fs::path& folder) {
+  const Scene scene = loadGltf(path).scene;
+  const View view = viewOfScene(scene);
+  const Image mask = surfaceMask(scene, view);
+  const std::string name = path.stem().string();
+  for (const int bounces : kBounces) {
+    const Reference truth = reference(scene, view, mask, bounces);
+    std::string line = fmt::format("| {} | {} |", name, bounces);
+    std::ofstream data;
+    if (!folder.empty()) data.open(folder / fmt::format("{}.{}.tsv", name, bounces));
+    Image last;
+    for (const int vpls : kCounts) {
+      last = manyLights(scene, view, techniqueFor(name), bounces, vpls);
+      const double all = compareImages(last, truth.mean, &mask).relRmse;
+      // The reference's noise is not ours.
+      const double error = std::sqrt(std::max(0.0, all * all - truth.noise * truth.noise));
+      line += fmt::format(" {:.1f}% |", 100 * error);
+      data << vpls << '\t' << 100 * error << '\n';
+    }
+    const Image whole = manyLights(scene, view, techniqueFor(name), bounces,
+                                   kCounts[std::size(kCounts) - 1], kNoClamp);
+    const Metrics clamp = compareImages(last, whole, &mask);
+    std::cout << fmt::format("{} {:+.1f}% | {:+.1f}% | {:.1f}% |\n", line,
+                             100 * (compareImages(last, truth.mean, &mask).bias - 1),
+                             100 * (clamp.bias - 1), 100 * truth.noise)
+              << std::flush;
+  }
+}
+
+int run(const std::vector<std::string>& arguments) {
+  fs::path folder;
+  std::vector<std::string> wanted;
+  for (size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "--data" && i + 1 < arguments.size())
+      folder = arguments[++i];
+    else
+      wanted.push_back(arguments[i]);
+  }
+  std::vector<fs::path> scenes = {fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf"};
+  for (const auto& row : test::readTable(test::sharedScenes() / "scenes.tsv"))
+    if (row.at("file").find("dungeon-kit") == std::string::npos)
+      scenes.push_back(test::sharedScenes() / row.at("file"));
+  std::cout << "\n| scene | bounces |";
+  for (const int vpls : kCounts) std::cout << ' ' << vpls << " |";
+  std::cout << " bias | of the clamp | noise |\n| --- | --- | --- | --- | --- | --- | --- | --- | "
+               "--- | --- |\n";
+  for (const fs::path& scene : scenes) {
+    const bool isWanted = std::any_of(wanted.begin(), wanted.end(), [&](const std::string& part) {
+      return scene.string().find(part) != std::string::npos;
+    });
+    if (wanted.empty() || isWanted) addScene(scene, folder);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace lamplighter
+
+int main(int argc, char** argv) {
+  try {
+    return lamplighter::run({argv + 1, argv + argc});
+  } catch (const std::exception& e) {
+    std::cerr << "convergence: " << e.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,143 @@
+#include "tests/tools/equality/comparison.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/backends/gl/gl_backend.h"
+#include "renderer/frame/frame.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/metrics.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "tests/support/traced_shadows.h"
+
+namespace lamplighter::equality {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 200;
+constexpr int kMapMemory = 2048;  // [MiB], for a map of each VPL
+
+struct NamedView {
+  std::string name;
+  View view;
+};
+
+std::vector<NamedView> viewsOf(const Scene& scene) {
+  std::vector<NamedView> views;
+  for (const Node& node : scene.nodes) {
+    if (node.camera == kNone) continue;
+    const std::string name = node.name.empty() ? scene.cameras[node.camera].name : node.name;
+    views.push_back({name.empty() ? "camera" : name, viewOfCamera(scene, node, kWidth, kHeight)});
+  }
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  views.push_back({"all of it", viewOfBounds(render.bounds, kWidth, kHeight)});
+  return views;
+}
+
+struct Picture {
+  Image image;
+  std::vector<shared::Vpl> lights;
+};
+
+// A scene on one backend.
+class Renderer {
+ public:
+  Renderer(const std::string& backend, const Scene& scene)
+      : scene_(scene), frames_(backend == "cpu" ? makeCpuBackend() : makeGlBackend()) {}
+
+  Picture settled(const View& view, const Settings& settings) {
+    GiOutput out;
+    do {
+      out = frames_.render({scene_, changes_, view, "many_lights", settings});
+      changes_ = SceneChanges();
+    } while (!out.settled);
+    if (out.stats.mapsWithoutRoom > 0 || out.stats.visibilityNeeds > 0)
+      throw std::runtime_error("too little memory for the technique that is asked for");
+    return {out.radiance->pixels(), test::shownLights(frames_.inspect())};
+  }
+  // Of the last picture, by the same VPLs. `known`: only where the visibility database does not
+  // know.
+  Image withRays(const View& view, const Settings& settings, bool known) const {
+    const Inspection last = frames_.inspect();
+    return test::withTracedShadows(frames_.scene(), *frames_.rays(), test::shownLights(last), view,
+                                   settings, known ? last.visibility : nullptr);
+  }
+
+ private:
+  const Scene& scene_;
+  SceneChanges changes_ = SceneChanges::all();
+  FrameRenderer frames_;
+};
+
+bool sameLights(const std::vector<shared::Vpl>& a, const std::vector<shared::Vpl>& b) {
+  return std::ranges::equal(a, b, [](const shared::Vpl& x, const shared::Vpl& y) {
+    return x.position == y.position && x.normal == y.normal && x.tangent == y.tangent &&
+           vec3(x.intensity) == vec3(y.intensity);  // w: its slot
+  });
+}
+
+}  // namespace
+
+Settings naiveSettings(int resolution, int vpls) {
+  Settings s;
+  s.set(parameters::technique().name, std::string("naive"));
+  const int coarse = std::get<int>(parameters::mapResolution().defaultValue);
+  const bool isMultiple = resolution % coarse == 0;
+  s.set(parameters::mapResolution().name, isMultiple ? coarse : resolution);
+  s.set(parameters::settledMapScale().name, isMultiple ? resolution / coarse : 1);
+  s.set(parameters::mapMemory().name, kMapMemory);
+  s.set(parameters::vpls().name, vpls);
+  s.set(parameters::updates().name, 65536);
+  s.set(parameters::antialias().name, 1);
+  // Found by rays for each of them: it would but make the mean brighter that errors are shares of.
+  s.set(parameters::cornerLight().name, false);
+  return s;
+}
+
+Compared compare(const std::string& name, const Scene& scene, int vpls,
+                 const std::vector<Column>& columns, double limit,
+                 const std::filesystem::path& folder) {
+  const std::vector<NamedView> views = viewsOf(scene);
+  Compared result;
+  for (const NamedView& v : views) result.rows.push_back({v.name, {}});
+  std::map<std::string, Renderer> renderers;
+  std::map<std::pair<std::string, int>, std::vector<Picture>> naive;  // then by view
+  std::vector<std::optional<Image>> rays(views.size());
+  for (const Column& column : columns) {
+    Renderer& renderer = renderers.try_emplace(column.backend, column.backend, scene).first->second;
+    std::vector<Picture>& expected = naive[{column.backend, column.resolution}];
+    for (size_t v = expected.size(); v < views.size(); ++v)
+      expected.push_back(renderer.settled(views[v].view, naiveSettings(column.resolution, vpls)));
+    for (size_t v = 0; v < views.size(); ++v) {
+      const View& view = views[v].view;
+      const Picture& truth = expected[v];
+      const Picture picture = renderer.settled(view, column.settings);
+      if (!sameLights(picture.lights, truth.lights))
+        throw std::runtime_error(name + ": " + column.name + " has other VPLs than naive");
+      const double error = compareImages(picture.image, truth.image).relRmse;
+      result.rows[v].errors.push_back(error);
+      if (error < limit) continue;
+      if (!rays[v]) rays[v] = renderer.withRays(view, column.settings, false);
+      const Image known = renderer.withRays(view, column.settings, true);
+      result.over.push_back(
+          {name, views[v].name, column, error, compareImages(truth.image, *rays[v]).relRmse,
+           compareImages(picture.image, *rays[v]).relRmse, compareImages(known, *rays[v]).relRmse});
+      if (folder.empty()) continue;
+      const std::string stem =
+          fmt::format("{}.{}.{}.{}.", name, views[v].name, column.backend, column.resolution);
+      writeExr(picture.image, folder / (stem + column.name + ".exr"));
+      writeExr(truth.image, folder / (stem + "naive.exr"));
+      writeExr(*rays[v], folder / (stem + "rays.exr"));
+    }
+  }
+  return result;
+}
+
+}  // namespace lamplighter::equality

@@ -1,0 +1,219 @@
+// The tables of docs/equality.md: how far many_lights is from `naive` with the same VPLs, settled,
+// on every scene, from every camera and from outside, on both backends; its techniques `visibility`
+// and `light_maps` at full resolution, and all that is on unless it is switched off.
+//   lamplighter_equality [--pictures FOLDER] [--maps N,...] [--tables N,...] [PART_OF_A_PATH...]
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "renderer/gl/headless_context.h"
+#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/scene/gltf/gltf_io.h"
+#include "renderer/scene/render_scene.h"
+#include "tests/support/shared_files.h"
+#include "tests/tools/equality/comparison.h"
+
+namespace lamplighter::equality {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> kBackends = {"cpu", "gl"};
+using Resolutions = std::vector<int>;  // texels a side of maps at rest, those of all tables first
+
+constexpr int kGroupedVpls = 800;  // from which on they are grouped
+
+// What its size lets be done in a while.
+int fewVpls(size_t triangles) { return triangles < 10000 ? 300 : 100; }
+int defaultVpls(size_t) { return std::get<int>(parameters::vpls().defaultValue); }
+int groupedVpls(size_t) { return kGroupedVpls; }
+
+Column column(const std::string& backend, int resolution, const std::string& name, int vpls,
+              const std::string& technique) {
+  Column c{backend, resolution, name, naiveSettings(resolution, vpls)};
+  c.settings.set(parameters::technique().name, technique);
+  return c;
+}
+
+// Full resolution, and no groups.
+std::vector<Column> shadowColumns(int vpls, const Resolutions& resolutions) {
+  std::vector<Column> columns;
+  for (const std::string& backend : kBackends)
+    for (const int resolution : resolutions)
+      for (const std::string technique : {"visibility", "light_maps"}) {
+        Column c = column(backend, resolution, technique, vpls, technique);
+        c.settings.set(parameters::block().name, std::string("1"));
+        c.settings.set(parameters::groupShare().name, 0.0f);
+        columns.push_back(c);
+      }
+  return columns;
+}
+
+// With the low-resolution pass.
+std::vector<Column> allColumns(int vpls, const Resolutions& resolutions) {
+  std::vector<Column> columns;
+  for (const std::string& backend : kBackends)
+    for (const int resolution : resolutions)
+      columns.push_back(column(backend, resolution, "all", vpls, "light_maps"));
+  return columns;
+}
+
+// With so many VPLs more take too long.
+std::vector<Column> groupColumns(int vpls, const Resolutions& resolutions) {
+  std::vector<Column> columns = allColumns(vpls, resolutions);
+  std::erase_if(columns, [&](const Column& c) { return c.resolution != resolutions[0]; });
+  return columns;
+}
+
+Column transferColumn(const std::string& backend, int vpls, const Resolutions& resolutions) {
+  Column c = column(backend, resolutions[0], "prt", vpls, "light_maps");
+  c.settings.set(parameters::prt().name, true);
+  return c;
+}
+
+// The light of the same samples: those on a mesh light it, as in `naive`.
+std::vector<Column> transferColumns(int vpls, const Resolutions& resolutions) {
+  std::vector<Column> columns;
+  for (const std::string& backend : kBackends)
+    columns.push_back(transferColumn(backend, vpls, resolutions));
+  return columns;
+}
+
+// What a mesh's parts reflect onto each other is another light than that of samples on it.
+std::vector<Column> reflectionColumns(int vpls, const Resolutions& resolutions) {
+  Column c = transferColumn("cpu", vpls, resolutions);
+  c.settings.set(parameters::prtBounces().name, 4);
+  return {c};
+}
+
+struct Kind {
+  std::string title;
+  double limit;
+  int (*vpls)(size_t triangles);
+  std::vector<Column> (*columns)(int vpls, const Resolutions&);
+};
+
+const Kind kKinds[] = {
+    {"Visibility and light maps, at full resolution", 0.01, fewVpls, shadowColumns},
+    {"All as it is by default", 0.03, defaultVpls, allColumns},
+    {"All, with groups", 0.03, groupedVpls, groupColumns},
+    {"All, with transfer", 0.03, defaultVpls, transferColumns},
+    {"All, with transfer and its reflections", 0.03, defaultVpls, reflectionColumns}};
+
+size_t trianglesOf(const Scene& scene) {
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  return render.indices.size() / 3;
+}
+
+void rule(size_t columns) {
+  for (size_t i = 0; i < columns; ++i) std::cout << "| --- ";
+  std::cout << "|\n";
+}
+
+// Those that are over the limit once more, with how far both are from what is right.
+void printOver(const std::vector<Over>& over) {
+  std::cout
+      << "\n| scene | view | backend | maps | technique | from naive | naive from rays | from "
+         "rays | database |\n";
+  rule(9);
+  for (const Over& o : over)
+    std::cout << fmt::format(
+        "| {} | {} | {} | {}² | {} | {:.2f}% | {:.2f}% | {:.2f}% | {:.3f}% |\n", o.scene, o.view,
+        o.column.backend, o.column.resolution, o.column.name, 100 * o.error, 100 * o.naiveFromRays,
+        100 * o.fromRays, 100 * o.database);
+}
+
+void print(const Kind& kind, const std::vector<fs::path>& scenes, const Resolutions& resolutions,
+           const fs::path& folder) {
+  const std::vector<Column> header = kind.columns(1, resolutions);
+  std::cout << "\n## " << kind.title << "\n\n| scene | view | VPLs |";
+  for (const Column& c : header)
+    std::cout << fmt::format(" {} {}² {} |", c.backend, c.resolution, c.name);
+  std::cout << '\n';
+  rule(3 + header.size());
+  std::vector<Over> over;
+  size_t all = 0;
+  double most = 0.0;
+  for (const fs::path& path : scenes) {
+    const Scene scene = loadGltf(path).scene;
+    const std::string name = path.stem().string();
+    const int vpls = kind.vpls(trianglesOf(scene));
+    const Compared compared =
+        compare(name, scene, vpls, kind.columns(vpls, resolutions), kind.limit, folder);
+    for (const Row& row : compared.rows) {
+      std::cout << fmt::format("| {} | {} | {} |", name, row.view, vpls);
+      for (const double error : row.errors) {
+        const char* mark = error < kind.limit ? "" : "**";
+        std::cout << fmt::format(" {}{:.2f}%{} |", mark, 100 * error, mark);
+        most = std::max(most, error);
+        ++all;
+      }
+      std::cout << std::endl;  // it takes long: whoever looks on sees each
+    }
+    over.insert(over.end(), compared.over.begin(), compared.over.end());
+  }
+  std::cout << fmt::format(
+      "\n{} of {} pictures are under {:.0f}%, the largest of all is {:.2f}%.\n", all - over.size(),
+      all, 100 * kind.limit, 100 * most);
+  if (!over.empty()) printOver(over);
+}
+
+struct Options {
+  fs::path folder;  // for pictures; empty: none
+  Resolutions resolutions{384, 64};
+  std::vector<int> tables{1, 2, 3, 4, 5};
+  std::vector<std::string> wanted;  // parts of paths; none: all scenes
+};
+
+void run(const Options& options) {
+  std::vector<fs::path> scenes;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes"))
+    if (entry.path().extension() == ".gltf") scenes.push_back(entry.path());
+  std::sort(scenes.begin(), scenes.end());
+  for (const auto& row : test::readTable(test::sharedScenes() / "scenes.tsv"))
+    scenes.push_back(test::sharedScenes() / row.at("file"));
+  if (!options.wanted.empty())
+    std::erase_if(scenes, [&](const fs::path& scene) {
+      return std::ranges::none_of(options.wanted, [&](const std::string& part) {
+        return scene.string().find(part) != std::string::npos;
+      });
+    });
+  const gl::HeadlessContext context;
+  for (const int table : options.tables)
+    print(kKinds[table - 1], scenes, options.resolutions, options.folder);
+}
+
+}  // namespace
+}  // namespace lamplighter::equality
+
+int main(int argc, char** argv) {
+  lamplighter::equality::Options options;
+  CLI::App app("Each technique against naive: the tables of docs/equality.md");
+  app.add_option("--pictures", options.folder, "Folder for pictures of what is over its limit");
+  app.add_option("--maps", options.resolutions, "Texels a side of the shadow maps at rest")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(8, 1024))
+      ->capture_default_str();
+  app.add_option("--tables", options.tables, "Numbers of the tables")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 5))
+      ->capture_default_str();
+  app.add_option("scenes", options.wanted, "Parts of paths of scenes; without: all");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
+    lamplighter::equality::run(options);
+    return 0;
+  } catch (const std::exception& e) {
+    std::cerr << "equality: " << e.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,287 @@
+#include "ui/panels/dialogs/file_dialog.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <imgui.h>
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include "editor/session/home_state.h"
+#include "ui/widgets/icons.h"
+#include "ui/widgets/theme.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool pressed(ImGuiKey key, bool repeats = false) {
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeats);
+}
+
+const char* titleOf(FileDialog::Kind kind) {
+  switch (kind) {
+    case FileDialog::Kind::open:
+      return "Open a scene###file";
+    case FileDialog::Kind::save:
+      return "Save as###file";
+    case FileDialog::Kind::picture:
+      return "Open a picture of the sky###file";
+    case FileDialog::Kind::profile:
+      return "Open a profile of a light###file";
+    case FileDialog::Kind::lightPicture:
+      return "Open a picture of a light###file";
+    case FileDialog::Kind::timeline:
+      return "Export the timeline###file";
+    case FileDialog::Kind::folder:
+      break;
+  }
+  return "Choose a folder of assets###file";
+}
+
+constexpr size_t kMostPlaces = 9;  // a key for each
+
+}  // namespace
+
+FileKind FileDialog::fileKind() const {
+  switch (kind_) {
+    case Kind::open:
+    case Kind::save:
+      return FileKind::scene;
+    case Kind::picture:
+    case Kind::lightPicture:
+      return FileKind::picture;
+    case Kind::profile:
+      return FileKind::profile;
+    case Kind::timeline:
+      return FileKind::timeline;
+    case Kind::folder:
+      break;
+  }
+  return FileKind::folder;
+}
+
+void FileDialog::open(Kind kind, const fs::path& start) {
+  kind_ = kind;
+  opening_ = true;
+  std::error_code error;
+  fs::path folder = start;
+  if (kind != Kind::folder) folder = start.parent_path();
+  folder = fs::absolute(start.empty() ? fs::current_path(error) : folder, error);
+  if (!fs::is_directory(folder, error)) folder = fs::current_path(error);
+  go(folder);
+  file_ = kind == Kind::save ? start.filename().string() : "";
+  if (kind == Kind::save && file_.empty()) file_ = "untitled.gltf";
+  if (kind == Kind::timeline) file_ = "timeline.json";
+}
+
+void FileDialog::go(const fs::path& folder) {
+  folder_ = folder.lexically_normal();
+  if (!folder_.has_filename() && folder_.has_relative_path()) folder_ = folder_.parent_path();
+  entries_ = listFolder(folder_, fileKind(), error_);
+  filters_ = false;
+  chosen_ = -1;
+  if (!writes()) file_.clear();
+  ImGui::ClearActiveID();  // the line would put back what stood in it
+  takesFocus_ = true;
+}
+
+// Favourites, the folders of recent files, and home.
+std::vector<fs::path> FileDialog::places(const Session& session) const {
+  const Preferences& p = session.home().preferences;
+  std::vector<fs::path> all = p.favouriteFolders;
+  const char* home = std::getenv("HOME");
+  std::vector<fs::path> more = p.recentFolders();
+  if (home != nullptr && fs::path(home).is_absolute()) more.emplace_back(home);
+  for (const fs::path& folder : more)
+    if (std::find(all.begin(), all.end(), folder) == all.end()) all.push_back(folder);
+  if (all.size() > kMostPlaces) all.resize(kMostPlaces);
+  return all;
+}
+
+void FileDialog::drawFolder(const PanelContext& ui) {
+  if (ImGui::Button("Up")) go(folder_.parent_path());
+  ui.name("up");
+  tooltip(ui, "The folder above (Alt+Up, or Backspace in an empty line)");
+  ImGui::SameLine();
+  Preferences& p = ui.session.home().preferences;
+  const bool isFavourite = std::find(p.favouriteFolders.begin(), p.favouriteFolders.end(),
+                                     folder_) != p.favouriteFolders.end();
+  if (ImGui::Button(isFavourite ? "Unpin" : "Pin")) p.toggleFavourite(folder_);
+  ui.name("favourite");
+  tooltip(ui, "Keeps this folder among the places on the left, or takes it from there");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  const std::string folder = folder_.string();
+  ImGui::TextUnformatted(endOf(folder, ImGui::GetContentRegionAvail().x).c_str());
+  tooltip(ui, folder);
+}
+
+void FileDialog::drawPlaces(const PanelContext& ui) {
+  const std::vector<fs::path> all = places(ui.session);
+  const auto& favourites = ui.session.home().preferences.favouriteFolders;
+  for (size_t i = 0; i < all.size(); ++i) {
+    const std::string name =
+        all[i].filename().empty() ? all[i].string() : all[i].filename().string();
+    const bool isFavourite =
+        std::find(favourites.begin(), favourites.end(), all[i]) != favourites.end();
+    const std::string label = (isFavourite ? "\u2022 " : "") + name + "##" + std::to_string(i);
+    if (ImGui::Selectable(label.c_str(), all[i] == folder_, ImGuiSelectableFlags_DontClosePopups))
+      go(all[i]);
+    ui.name("place " + std::to_string(i + 1));
+    tooltip(ui, all[i].string() + " (Ctrl+" + std::to_string(i + 1) + ")");
+  }
+}
+
+// True when a file was clicked twice.
+bool FileDialog::drawEntries(const PanelContext& ui, const std::vector<FileEntry>& shown) {
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const FileEntry entry = shown[i];
+    const std::string label =
+        withIcon(entry.folder ? icon::kFolder : icon::kFile, entry.name) + "##" + entry.name;
+    const bool isChosen = static_cast<int>(i) == chosen_;
+    const bool clicked = ImGui::Selectable(
+        label.c_str(), isChosen || (file_ == entry.name && !entry.folder),
+        ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups);
+    ui.name(entry.name);
+    if (isChosen && scrolls_) ImGui::SetScrollHereY();
+    if (!clicked) continue;
+    if (entry.folder) {
+      go(folder_ / entry.name);
+      break;  // the entries are others now
+    }
+    file_ = entry.name;
+    filters_ = false;
+    chosen_ = -1;
+    return ImGui::IsMouseDoubleClicked(0);
+  }
+  scrolls_ = false;
+  if (!error_.empty()) note(error_);
+  if (error_.empty() && shown.empty())
+    note(filters_ ? "Nothing here is called so." : "Nothing here but files of other kinds.");
+  return false;
+}
+
+// True when Enter was pressed.
+bool FileDialog::drawLine(const PanelContext& ui) {
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (takesFocus_) ImGui::SetKeyboardFocusHere();
+  takesFocus_ = false;
+  const std::string before = file_;
+  const std::string hint =
+      std::string("A name, a part of one, or a path (") + endingsOf(fileKind()) + ")";
+  const bool entered = ImGui::InputTextWithHint("##file", hint.c_str(), &file_,
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  ui.name("file");
+  if (file_ != before) {
+    filters_ = !writes() && file_.find('/') == std::string::npos && !file_.empty();
+    chosen_ = -1;
+  }
+  return entered;
+}
+
+// True when the line or the chosen file is to be taken.
+bool FileDialog::pressKeys(const PanelContext& ui, const std::vector<FileEntry>& shown,
+                           bool entered) {
+  const int last = static_cast<int>(shown.size()) - 1;
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool up = pressed(ImGuiKey_UpArrow, true), down = pressed(ImGuiKey_DownArrow, true);
+  if ((up && io.KeyAlt) || (file_.empty() && pressed(ImGuiKey_Backspace))) {
+    go(folder_.parent_path());
+    return false;
+  }
+  if (io.KeyCtrl) {
+    const std::vector<fs::path> all = places(ui.session);
+    for (size_t i = 0; i < all.size(); ++i) {
+      const auto key = static_cast<int>(Key::n1) + static_cast<int>(i);
+      if (!ImGui::IsKeyPressed(key, false)) continue;
+      go(all[i]);
+      return false;
+    }
+  }
+  if ((up || down) && last >= 0) {
+    chosen_ = std::clamp(chosen_ + (down ? 1 : -1), 0, last);
+    scrolls_ = true;
+  }
+  if (!entered) return false;
+  takesFocus_ = true;
+  // What was typed in part is what is left of the list.
+  if (chosen_ < 0 && filters_ && last == 0) chosen_ = 0;
+  if (chosen_ >= 0 && chosen_ <= last) {
+    const FileEntry entry = shown[static_cast<size_t>(chosen_)];
+    if (entry.folder) {
+      go(folder_ / entry.name);
+      return false;
+    }
+    file_ = entry.name;
+    return true;
+  }
+  std::error_code error;
+  const fs::path typed = folder_ / file_;  // an absolute name replaces the folder
+  if (!file_.empty() && fs::is_directory(typed, error)) {
+    file_.clear();
+    go(typed);
+    return false;
+  }
+  return !file_.empty() || kind_ == Kind::folder;
+}
+
+std::optional<fs::path> FileDialog::result() {
+  fs::path path = file_.empty() ? folder_ : folder_ / file_;
+  if (kind_ == Kind::save && !fits(FileKind::scene, path)) path += ".gltf";
+  if (kind_ == Kind::timeline && !fits(FileKind::timeline, path)) path += ".json";
+  return path.lexically_normal();
+}
+
+std::optional<fs::path> FileDialog::draw(PanelContext ui) {
+  ui.prefix = "dialog/";
+  const char* title = titleOf(kind_);
+  if (opening_) ImGui::OpenPopup(title);
+  opening_ = false;
+  const ImVec2 window = ImGui::GetMainViewport()->Size;
+  ImGui::SetNextWindowSize(
+      {std::min(ui.px(720), 0.96f * window.x), std::min(ui.px(460), 0.92f * window.y)});
+  const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
+  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
+  // Arrow keys choose here, whatever has the keyboard.
+  if (!beginBorderedModal(title, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoNavInputs))
+    return std::nullopt;
+
+  drawFolder(ui);
+  const std::vector<FileEntry> shown = filters_ ? filtered(entries_, file_) : entries_;
+  const float below = 2 * ImGui::GetFrameHeightWithSpacing() + ui.px(4);
+  const float side = std::min(ui.px(150), 0.3f * ImGui::GetContentRegionAvail().x);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, theme::colour(theme::kPanel));
+  ImGui::BeginChild("places", {side, -below}, true, ImGuiWindowFlags_NoNavInputs);
+  drawPlaces(ui);
+  ImGui::EndChild();
+  ImGui::SameLine(0, ui.px(6));
+  ImGui::BeginChild("entries", {0, -below}, true, ImGuiWindowFlags_NoNavInputs);
+  bool done = drawEntries(ui, shown);
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+
+  const bool entered = drawLine(ui);
+  if (pressKeys(ui, shown, entered)) done = true;
+  const float width = ui.px(96);
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2 * width - ui.px(7));
+  if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
+  ui.name("cancel");
+  ImGui::SameLine(0, ui.px(7));
+  ImGui::BeginDisabled(file_.empty() && kind_ != Kind::folder);
+  if (ImGui::Button(writes() ? "Save" : kind_ == Kind::folder ? "Choose" : "Open", {width, 0}))
+    done = true;
+  ui.name("ok");
+  ImGui::EndDisabled();
+  std::optional<fs::path> chosen;
+  if (done && (!file_.empty() || kind_ == Kind::folder)) {
+    chosen = result();
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+  return chosen;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,126 @@
+#include <cmath>
+#include <utility>
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include "ui/panels/panels.h"
+#include "ui/widgets/theme.h"
+
+namespace lamplighter {
+namespace {
+
+const char* kindOf(const Node& node) {
+  if (node.area) return "Area light";
+  if (node.punctual) {
+    switch (node.punctual->kind) {
+      case PunctualKind::point:
+        return "Point light";
+      case PunctualKind::spot:
+        return "Spot light";
+      case PunctualKind::directional:
+        return "Directional light";
+    }
+  }
+  if (node.camera != kNone) return "Camera";
+  if (node.mesh != kNone) return "Object";
+  return "Group";
+}
+
+void nameField(const PanelContext& ui, const Node& node, InspectorState& state) {
+  labelledRow(ui, kindOf(node));
+  if (std::exchange(state.focusName, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::InputText("##name", &state.name);
+  ui.name("name");
+  // Typed text becomes the name when it is done, so that it is one step.
+  if (ImGui::IsItemDeactivatedAfterEdit() && !state.name.empty() && state.name != node.name)
+    ui.session.setName(node.id, state.name);
+  else if (!ImGui::IsItemActive())
+    state.name = node.name;
+}
+
+void meshKindField(const PanelContext& ui, const Node& node) {
+  struct Choice {
+    MeshKind kind;
+    const char* name;
+    const char* label;
+  };
+  static constexpr Choice kChoices[] = {{MeshKind::automatic, "automatic", "Automatic"},
+                                        {MeshKind::simple, "simple", "Simple: light maps"},
+                                        {MeshKind::complex, "complex", "Complex: each pixel"}};
+  labelledRow(ui, "Lit as",
+              "Planar parts get light maps, and what may shadow them is found exactly. Complex "
+              "meshes, curved or of many small triangles, are lit pixel by pixel. Automatic "
+              "decides for each part of the mesh.");
+  const auto current = static_cast<size_t>(node.meshKind);
+  const bool open = ImGui::BeginCombo("##mesh_kind", kChoices[current].label);
+  ui.name("mesh_kind");
+  if (!open) return;
+  for (const Choice& choice : kChoices) {
+    if (ImGui::Selectable(choice.label, choice.kind == node.meshKind) &&
+        choice.kind != node.meshKind)
+      ui.session.setMeshKind(node.id, choice.kind);
+    ui.name(std::string("mesh_kind/") + choice.name);
+  }
+  ImGui::EndCombo();
+}
+
+}  // namespace
+
+void inspector(PanelContext ui, InspectorState& state) {
+  ui.prefix = "inspector/";
+  const Document& document = ui.session.document();
+  const Node* found = document.scene.find(document.active());
+  if (!found) {
+    note("Nothing is selected. Click an object in the view or in the list.");
+    ImGui::Spacing();
+    if (section(ui, "Sky")) skyFields(ui, state);
+    return;
+  }
+  // A copy: an edit below may replace the document's node.
+  const Node node = *found;
+  if (state.node != node.id) {
+    state = {.focusName = state.focusName};
+    state.node = node.id;
+    state.name = node.name;
+    state.rotation = quat(0, 0, 0, 0);  // no rotation: the angles are found anew
+  }
+  if (document.selection.size() > 1) return multiInspector(ui, state);
+  ImGui::PushID(static_cast<int>(node.id));
+  nameField(ui, node, state);
+  if (section(ui, "Transform")) transformFields(ui, node, state);
+  if (node.area && section(ui, "Area light")) areaLightFields(ui, node, state);
+  if (node.punctual && section(ui, "Light")) punctualLightFields(ui, node, state);
+  if (emitsLight(document.scene, node) && section(ui, "Light linking"))
+    linkFields(ui, node.id, state);
+  if (node.mesh != kNone && section(ui, "Mesh")) meshKindField(ui, node);
+  if (node.mesh != kNone && section(ui, "Material")) materialFields(ui, node, state);
+  ImGui::PopID();
+}
+
+void transformFields(PanelContext ui, const Node& node, InspectorState& state) {
+  if (state.rotation != node.local.rotation) {
+    state.rotation = node.local.rotation;
+    state.degrees = glm::degrees(glm::eulerAngles(state.rotation));
+    // No "-0.0" for what is nothing but rounding.
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(state.degrees[i]) < 0.005f) state.degrees[i] = 0.0f;
+  }
+  Transform local = node.local;
+  labelledRow(ui, "Position", "In metres, relative to the parent.");
+  if (dragVector(ui, "translation", "Move " + node.name, local.translation, 0.01f, "%.3f"))
+    ui.session.setNodeTransform(node.id, local);
+  labelledRow(ui, "Rotation", "In degrees, about X, then Y, then Z.");
+  vec3 degrees = state.degrees;
+  if (dragVector(ui, "rotation", "Rotate " + node.name, degrees, 0.5f, "%.1f\u00b0")) {
+    local.rotation = glm::normalize(quat(glm::radians(degrees)));
+    state.degrees = degrees;
+    state.rotation = local.rotation;
+    ui.session.setNodeTransform(node.id, local);
+  }
+  labelledRow(ui, "Scale");
+  if (dragVector(ui, "scale", "Scale " + node.name, local.scale, 0.01f, "%.3f"))
+    ui.session.setNodeTransform(node.id, local);
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,78 @@
+// The picture of a rectangle or disk light: its file, and what it looks like.
+#include <algorithm>
+
+#include <imgui.h>
+
+#include "renderer/scene/light_picture.h"
+#include "ui/panels/panels.h"
+#include "ui/widgets/theme.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr int kColumns = 64, kMostRows = 64;
+
+// In so many squares that it can be told from others: panels draw no textures.
+void preview(const PanelContext& ui, const LightPicture& picture, bool isDisk) {
+  const Image8& image = *picture.image;
+  const float width = std::min(ImGui::GetContentRegionAvail().x, ui.px(200));
+  const float aspect = static_cast<float>(image.height) / static_cast<float>(image.width);
+  const float height = std::clamp(width * aspect, ui.px(20), ui.px(160));
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Dummy({width, height});
+  ui.name("picture/preview");
+  tooltip(ui, std::to_string(image.width) + " \u00d7 " + std::to_string(image.height) + " pixels");
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const int columns = std::min(kColumns, image.width);
+  const int rows = std::clamp(static_cast<int>(static_cast<float>(columns) * height / width), 1,
+                              std::min(kMostRows, image.height));
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const float u = (static_cast<float>(column) + 0.5f) / static_cast<float>(columns);
+      const float v = (static_cast<float>(row) + 0.5f) / static_cast<float>(rows);
+      if (isDisk && (u - 0.5f) * (u - 0.5f) + (v - 0.5f) * (v - 0.5f) > 0.25f) continue;
+      const uint8_t* p = image.at(static_cast<int>(u * static_cast<float>(image.width)),
+                                  static_cast<int>(v * static_cast<float>(image.height)));
+      const auto edge = [](float from, float size, int i, int n) {
+        return std::round(from + size * static_cast<float>(i) / static_cast<float>(n));
+      };
+      draw.AddRectFilled(
+          {edge(at.x, width, column, columns), edge(at.y, height, row, rows)},
+          {edge(at.x, width, column + 1, columns), edge(at.y, height, row + 1, rows)},
+          IM_COL32(p[0], p[1], p[2], 255));
+    }
+  }
+}
+
+}  // namespace
+
+void pictureFields(const PanelContext& ui, const Node& node, InspectorState& state) {
+  const auto picture = node.area->picture;
+  labelledRow(ui, "Picture",
+              "Shines through a picture, a PNG or JPEG file: a screen, a window, a sign.");
+  if (!picture) {
+    if (ImGui::Button("Choose\u2026##picture", {-FLT_MIN, 0})) state.choosesPicture = true;
+    ui.name("picture/choose");
+    return;
+  }
+  const float width = ui.px(30);
+  if (ImGui::Button((picture->file + "##picture").c_str(),
+                    {ImGui::GetContentRegionAvail().x - width - ui.px(5), 0}))
+    state.choosesPicture = true;
+  ui.name("picture/choose");
+  ImGui::SameLine(0, ui.px(5));
+  if (ImGui::Button("\u00d7##picture", {width, 0})) ui.session.runAction("light.picture none");
+  ui.name("picture/remove");
+  tooltip(ui, "Take the picture away.");
+  if (shownPicture(*node.area) == nullptr) {
+    note("Shown by rectangles and disks alone.");
+    return;
+  }
+  labelledRow(ui, "");
+  preview(ui, *picture, node.area->shape == AreaShape::disk);
+  const vec3 mean = meanFactor(*node.area);
+  note("Leaves " + short3(100.0 * static_cast<double>(luminance(mean))) +
+       "% of the radiance; the units above take that into account.");
+}
+
+}  // namespace lamplighter

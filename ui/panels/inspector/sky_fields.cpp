@@ -1,0 +1,122 @@
+#include <cmath>
+
+#include "ui/panels/panels.h"
+#include "ui/widgets/colour_fields.h"
+
+namespace lamplighter {
+namespace {
+
+constexpr float kMostRadiance = 1e6f;
+
+// A colour and how bright it is; true when it changed.
+bool radianceFields(const PanelContext& ui, const char* label, const std::string& widget,
+                    const char* help, vec3& radiance) {
+  const std::string step = std::string("Change ") + label + " of the sky";
+  ColouredStrength light = split(radiance);
+  labelledRow(ui, label, help);
+  bool changed = colourField(ui, widget + ".colour", step, light.colour);
+  labelledRow(ui, "", help);
+  changed |= dragField(ui, widget + ".strength", light.strength,
+                       std::max(0.01f, light.strength * 0.01f), "%.4g nt", 0.0f, kMostRadiance);
+  trackEdit(ui, step);
+  if (changed) radiance = join(light);
+  return changed;
+}
+
+// The other kind of sky with as much of the look as it can have.
+Sky asConstant(const Sky& sky) {
+  if (sky.kind == SkyKind::gradient) return Sky(sky.horizon);
+  return sky.isBlack() || sky.kind == SkyKind::image ? Sky(kDefaultSky) : sky;
+}
+
+Sky asGradient(const Sky& sky) {
+  const vec3 base = asConstant(sky).radiance;
+  return Sky::gradient(base * vec3(0.35f, 0.6f, 1.0f), base, base * vec3(0.22f, 0.2f, 0.18f));
+}
+
+void kindField(const PanelContext& ui, const Sky& sky, InspectorState& state) {
+  const char* kNames[] = {"None", "Colour", "Gradient", "Picture"};
+  const char* kWidgets[] = {"none", "constant", "gradient", "image"};
+  const int current =
+      sky.isBlack() && sky.kind == SkyKind::constant ? 0 : static_cast<int>(sky.kind) + 1;
+  labelledRow(ui, "Kind", "What is around the scene and lights it from all sides.");
+  const bool open = ImGui::BeginCombo("##kind", kNames[current]);
+  ui.name("kind");
+  if (!open) return;
+  for (int i = 0; i < 4; ++i) {
+    const bool chosen = ImGui::Selectable(kNames[i], i == current) && i != current;
+    ui.name(std::string("kind/") + kWidgets[i]);
+    if (!chosen) continue;
+    if (i == 0) ui.session.setSky(Sky());
+    if (i == 1) ui.session.setSky(asConstant(sky));
+    if (i == 2) ui.session.setSky(asGradient(sky));
+    if (i == 3) state.choosesSky = true;  // it is one when there is a file
+  }
+  ImGui::EndCombo();
+}
+
+bool pictureFields(const PanelContext& ui, Sky& sky, InspectorState& state) {
+  labelledRow(ui, "File", "An equirectangular picture: EXR, HDR, or any other.");
+  if (ImGui::Button((sky.image->name + "##file").c_str(), {-FLT_MIN, 0})) state.choosesSky = true;
+  ui.name("file");
+  float degrees = glm::degrees(sky.rotation);
+  labelledRow(ui, "Rotation", "About the vertical, counter-clockwise from above.");
+  bool changed = dragField(ui, "rotation", degrees, 0.5f, "%.1f\u00b0", -360.0f, 360.0f);
+  trackEdit(ui, "Turn the sky");
+  if (changed) sky.rotation = glm::radians(degrees);
+  labelledRow(ui, "Scale", "Multiplies the picture's radiance.");
+  changed |= dragField(ui, "scale", sky.scale, std::max(0.001f, sky.scale * 0.01f), "%.4g", 0.0f,
+                       kMostRadiance);
+  trackEdit(ui, "Scale the sky");
+  const Image& pixels = sky.image->pixels;
+  const size_t suns = sky.image->map.suns().size();
+  note(std::to_string(pixels.width) + " \u00d7 " + std::to_string(pixels.height) +
+       (suns == 0   ? ""
+        : suns == 1 ? " \u00b7 1 sun"
+                    : " \u00b7 " + std::to_string(suns) + " suns"));
+  return changed;
+}
+
+void stateField(const PanelContext& ui) {
+  LightState state = ui.session.document().scene.skyLight;
+  labelledRow(ui, "Shines", "Off gives no light. While any light is solo, only those that are do.");
+  if (ImGui::Checkbox("On", &state.on))
+    ui.session.runAction(state.on ? "sky.on true" : "sky.on false");
+  ui.name("on");
+  ImGui::SameLine(0, ui.px(14));
+  if (ImGui::Checkbox("Solo", &state.solo))
+    ui.session.runAction(state.solo ? "sky.solo true" : "sky.solo false");
+  ui.name("solo");
+}
+
+}  // namespace
+
+void skyFields(PanelContext ui, InspectorState& state) {
+  ui.prefix = "sky/";
+  Sky sky = ui.session.document().scene.sky;
+  kindField(ui, sky, state);
+  if (!(sky == ui.session.document().scene.sky)) return;  // shown from the next frame on
+  if (!sky.isBlack()) stateField(ui);
+  bool changed = false;
+  switch (sky.kind) {
+    case SkyKind::constant:
+      if (!sky.isBlack())
+        changed =
+            radianceFields(ui, "Colour", "constant", "The same from everywhere.", sky.radiance);
+      break;
+    case SkyKind::gradient:
+      changed = radianceFields(ui, "Zenith", "zenith", "Straight above.", sky.zenith);
+      changed |= radianceFields(ui, "Horizon", "horizon", "At the horizon.", sky.horizon);
+      changed |= radianceFields(ui, "Ground", "ground", "Everywhere below it.", sky.ground);
+      break;
+    case SkyKind::image:
+      changed = pictureFields(ui, sky, state);
+      break;
+  }
+  if (changed) ui.session.setSky(sky);
+  if (!sky.isBlack()) linkFields(ui, kNoNode, state);
+  if (ui.session.document().scene.skyIsDefault)
+    note("There because the level has no light. It is not saved until it is changed.");
+}
+
+}  // namespace lamplighter
