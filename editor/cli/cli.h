@@ -30,6 +30,8 @@ struct ReplayOptions {
   std::string method;       // "": as recorded
   std::string backend = "auto";
   int threads = 0;  // 0: all cores
+  // Runs to compare with the first: "threads=N", "backend=cpu" or "backend=gl".
+  std::vector<std::string> against;
 };
 
 struct Frontend {

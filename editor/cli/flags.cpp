@@ -4,6 +4,7 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <regex>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -202,6 +203,19 @@ void replayFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   sub.add_flag("--frame-clock", o->frameClock,
                "Times count frames, so that pictures of the window are the same each time; frames "
                "between checkpoints are not rendered");
+  sub.add_option("--against", o->against,
+                 "Plays it once more this way and compares every checkpoint with the first time: "
+                 "documents and pictures exactly, or within the recording's tolerance on another "
+                 "backend; repeatable")
+      ->type_name("threads=N|backend=NAME")
+      ->needs("--check")
+      ->check(CLI::Validator(
+          [](const std::string& text) {
+            return std::regex_match(text, std::regex("threads=[0-9]{1,3}|backend=(cpu|gl)"))
+                       ? std::string()
+                       : "give threads=N, backend=cpu or backend=gl";
+          },
+          ""));
   sub.add_option("--report", o->report, "JSON file for its checks and edit latencies")
       ->type_name("FILE");
   sub.add_option("--method", o->method, "Another method than the recorded one")->type_name("NAME");

@@ -169,6 +169,7 @@ Checkpoint checkpointOf(const Json& j) {
   c.name = stringOf(j, "check");
   c.document = stringOf(j, "document", "");
   if (j.contains("image")) c.image = boolOf(j, "image");
+  c.sameAs = stringOf(j, "sameAs", "");
   c.max = floatOf(j, "max", c.max);
   c.mean = floatOf(j, "mean", c.mean);
   if (c.max < 0.0f || c.mean < 0.0f) throw std::invalid_argument("allows less than no difference");
@@ -266,6 +267,7 @@ std::string lineText(const RecordingLine& line) {
     if (!c->document.empty()) j["document"] = c->document;
     const Checkpoint usual;
     if (c->image != usual.image) j["image"] = c->image;
+    if (!c->sameAs.empty()) j["sameAs"] = c->sameAs;
     if (c->max != usual.max) j["max"] = numbers({c->max})[0];
     if (c->mean != usual.mean) j["mean"] = numbers({c->mean})[0];
     return text(j);

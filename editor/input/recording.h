@@ -11,8 +11,10 @@
 //   {"f":20,"check":"placed","document":"0123456789abcdef"}
 //
 // A checkpoint waits until the picture is settled; the clock stands still meanwhile, so that what
-// follows means the same on any machine. Its picture is compared with STEM.CHECK.png beside the
-// recording; "max" and "mean" (of 8-bit differences) loosen that where drivers differ.
+// follows means the same on any machine. Its picture, at half the size, is compared with
+// STEM.CHECK.png beside the recording unless "image" is false; "max" and "mean" (of 8-bit
+// differences) loosen that on the gl backend. "sameAs" names an earlier checkpoint whose picture has
+// the same bits, as after an undo.
 #pragma once
 
 #include <filesystem>
@@ -40,7 +42,8 @@ struct RecordingHeader {
 struct Checkpoint {
   std::string name;
   std::string document;  // hash as hex; "": not compared
-  bool image = true;     // the picture is compared
+  bool image = true;     // the picture is compared with a baseline
+  std::string sameAs;    // an earlier checkpoint with the same picture; "": none
   // Largest (one pixel in a thousand apart) and mean difference allowed, of 255, on the gl backend.
   float max = 16.0f;
   float mean = 0.5f;

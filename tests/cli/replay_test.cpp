@@ -123,8 +123,8 @@ TEST_F(Replay, FailsACheckWhereTheDocumentDiffers) {
 }
 
 TEST_F(Replay, FailsACheckWhereThePictureDiffersAndShowsWhere) {
-  // The light's picture before it was moved, for the one after.
-  fs::copy_file(folder_ / "recordings/place_light.placed.png",
+  // The picture without the light, for the one with it.
+  fs::copy_file(folder_ / "recordings/place_light.start.png",
                 folder_ / "recordings/place_light.moved.png", fs::copy_options::overwrite_existing);
   const ProcessResult r = replay({"--check"});
   EXPECT_EQ(r.code, 1);

@@ -18,6 +18,18 @@ TEST(PictureCheck, EqualPicturesDoNotDiffer) {
   EXPECT_TRUE(d.within(0.0, 0.0));
 }
 
+TEST(PictureCheck, HalvingTakesTheMeanOfFourPixelsOrOfThoseThereAre) {
+  Image8 image = grey(5, 3);
+  image.at(0, 0)[0] = 104;
+  image.at(4, 2)[1] = 50;
+  const Image8 half = halved(image);
+  EXPECT_EQ(half.width, 3);
+  EXPECT_EQ(half.height, 2);
+  EXPECT_EQ(half.at(0, 0)[0], 101);
+  EXPECT_EQ(half.at(1, 0)[0], 100);
+  EXPECT_EQ(half.at(2, 1)[1], 50);
+}
+
 // 2,000 pixels: two may be silhouettes.
 TEST(PictureCheck, LeavesOnePixelInAThousandOut) {
   Image8 a = grey(40, 50);

@@ -51,6 +51,22 @@ std::string PictureDifference::text() const {
   return text;
 }
 
+Image8 halved(const Image8& image) {
+  Image8 out((image.width + 1) / 2, (image.height + 1) / 2);
+  for (int y = 0; y < out.height; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const int right = std::min(2 * x + 1, image.width - 1);
+      const int below = std::min(2 * y + 1, image.height - 1);
+      uint8_t* to = &out.pixels[4 * (static_cast<size_t>(y) * out.width + x)];
+      for (int c = 0; c < 4; ++c)
+        to[c] = static_cast<uint8_t>((image.at(2 * x, 2 * y)[c] + image.at(right, 2 * y)[c] +
+                                      image.at(2 * x, below)[c] + image.at(right, below)[c] + 2) /
+                                     4);
+    }
+  }
+  return out;
+}
+
 PictureDifference comparePictures(const Image8& a, const Image8& b) {
   PictureDifference d;
   d.sameSize = a.width == b.width && a.height == b.height;

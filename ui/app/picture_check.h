@@ -25,6 +25,8 @@ struct PictureDifference {
   std::string text() const;
 };
 
+// Half the size each way, every pixel the mean of up to four. Baselines are kept this way.
+Image8 halved(const Image8& image);
 // Display-referred pictures, alpha aside.
 PictureDifference comparePictures(const Image8& a, const Image8& b);
 // Where they differ: black is equal, through red to white where a channel is 64 of 255 off or more.

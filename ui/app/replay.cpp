@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -15,7 +16,7 @@
 #include "renderer/image/image_io.h"
 #include "ui/app/application.h"
 #include "ui/app/backends.h"
-#include "ui/app/picture_check.h"
+#include "ui/app/replay_checks.h"
 #include "ui/app/run.h"
 #include "ui/platform/headless.h"
 #include "ui/platform/ui_scale.h"
@@ -57,33 +58,32 @@ class WriteFolder {
 
 class Replay {
  public:
-  Replay(const ReplayOptions& options, Recording recording)
+  Replay(const ReplayOptions& options, const Recording& recording, ReplayChecks& checks)
       : options_(options),
+        checks_(checks),
         updated_(recording),
-        player_(std::move(recording), kPatience),
-        writeFolder_(options.outputFolder) {}
+        player_(recording, kPatience),
+        writeFolder_(options_.outputFolder) {}
 
   using MakeRenderer = SplitView::MakeRenderer;
-  int run(Platform& platform, const MakeRenderer& makeRenderer);
+  // `reports`: how soon edits were seen goes to the screen and the report.
+  void run(Platform& platform, const MakeRenderer& makeRenderer, bool reports);
 
  private:
   const RecordingHeader& header() const { return player_.recording().header; }
   void start(Application& app);
   void keepJournal(Session& session);
   void check(Application& app, Platform& platform, const Checkpoint& checkpoint);
-  std::string documentProblem(const Session& session, const Checkpoint& checkpoint);
-  std::string pictureProblem(Session& session, const Image8& picture, const Checkpoint& checkpoint);
-  void writePictures(Platform& platform, const Image8& picture, const Checkpoint& checkpoint);
-  fs::path outputOf(const Checkpoint& checkpoint, const char* ending) const;
+  std::string hashOf(const Session& session) const;
+  void writePictures(Platform& platform, const Image8& picture, const Checkpoint& checkpoint) const;
   void writeReport(Session& session) const;
 
   const ReplayOptions& options_;
+  ReplayChecks& checks_;
   Recording updated_;  // with the hashes of this run
   Player player_;
   WriteFolder writeFolder_;
   std::optional<WriteFolder> journals_;  // with what others have left, where the recording has some
-  int passed_ = 0, failed_ = 0;
-  nlohmann::ordered_json checks_ = nlohmann::ordered_json::array();
 };
 
 void Replay::start(Application& app) {
@@ -120,7 +120,7 @@ void Replay::keepJournal(Session& session) {
   session.keepJournal(journals_->path(), ::getpid(), [] { return int64_t{0}; });
 }
 
-int Replay::run(Platform& platform, const MakeRenderer& makeRenderer) {
+void Replay::run(Platform& platform, const MakeRenderer& makeRenderer, bool reports) {
   Application app(platform, std::make_unique<Session>(makeRenderer()));
   app.session().split().setRenderer(makeRenderer);
   start(app);
@@ -141,11 +141,10 @@ int Replay::run(Platform& platform, const MakeRenderer& makeRenderer) {
     for (const Checkpoint& checkpoint : player_.endFrame(settled)) check(app, platform, checkpoint);
   }
   if (options_.updateBaselines) writeRecording(updated_);
+  if (!reports) return;
   const std::string latency = latencySummary(app.session().watch().latency);
   if (!latency.empty()) std::cout << latency << '\n';
   if (!options_.report.empty()) writeReport(app.session());
-  if (options_.check) std::cout << passed_ << " checks passed, " << failed_ << " failed\n";
-  return failed_ == 0 ? 0 : 1;
 }
 
 void Replay::writeReport(Session& session) const {
@@ -154,115 +153,95 @@ void Replay::writeReport(Session& session) const {
                                       {"backend", backend.name},
                                       {"device", backend.device},
                                       {"frames", session.frame()},
-                                      {"checks", checks_},
+                                      {"checks", checks_.report()},
                                       {"actions", session.home().ran},
                                       {"edits", latencyJson(session.watch().latency)}};
   writeFile(options_.report, report.dump(2) + '\n');
 }
 
-fs::path Replay::outputOf(const Checkpoint& checkpoint, const char* ending) const {
-  // A failed check leaves something to look at even when nobody said where.
-  const fs::path folder = options_.outputFolder.empty() ? "out/replay" : options_.outputFolder;
-  return folder / (player_.recording().path.stem().string() + "." + checkpoint.name + ending);
-}
-
-std::string Replay::documentProblem(const Session& session, const Checkpoint& checkpoint) {
+std::string Replay::hashOf(const Session& session) const {
   Document document = session.document();
   // The method that the command line asked for is no edit of the recording's.
   if (!options_.method.empty() && document.render.method == options_.method)
     document.render.method = header().render.method;
-  const std::string hash = hashText(documentHash(document));
-  if (options_.updateBaselines) {
-    for (RecordingLine& line : updated_.lines)
-      if (auto* c = std::get_if<Checkpoint>(&line.what); c && c->name == checkpoint.name)
-        c->document = hash;
-    return "";
-  }
-  if (checkpoint.document.empty() || checkpoint.document == hash) return "";
-  return "the document is " + hash + " and should be " + checkpoint.document;
-}
-
-std::string Replay::pictureProblem(Session& session, const Image8& picture,
-                                   const Checkpoint& checkpoint) {
-  // Another method gives another picture.
-  if (!checkpoint.image || !options_.method.empty()) return "";
-  const fs::path path = player_.recording().baselineOf(checkpoint);
-  if (options_.updateBaselines) {
-    writePng(picture, path);
-    return "";
-  }
-  if (!fs::exists(path))
-    return "there is no " + path.filename().string() + "; write it with --update-baselines";
-  const Image8 baseline = readPicture(path);
-  const PictureDifference difference = comparePictures(picture, baseline);
-  const bool exact = session.renderer().backend().info().name == "cpu";
-  if (exact ? difference.none() : difference.within(checkpoint.max, checkpoint.mean)) return "";
-  const fs::path heat = outputOf(checkpoint, ".difference.png");
-  fs::create_directories(heat.parent_path());
-  writePng(picture, outputOf(checkpoint, ".png"));
-  if (difference.sameSize) writePng(differencePicture(picture, baseline), heat);
-  return difference.text() + "; see " + heat.string();
+  return hashText(documentHash(document));
 }
 
 void Replay::writePictures(Platform& platform, const Image8& picture,
-                           const Checkpoint& checkpoint) {
+                           const Checkpoint& checkpoint) const {
   if (options_.outputFolder.empty()) return;
   fs::create_directories(options_.outputFolder);
-  writePng(picture, outputOf(checkpoint, ".png"));
-  if (platform.hasGl()) writePng(platform.screenshot(), outputOf(checkpoint, ".window.png"));
+  writePng(picture, checks_.outputOf(checkpoint, ".png"));
+  if (platform.hasGl())
+    writePng(platform.screenshot(), checks_.outputOf(checkpoint, ".window.png"));
 }
 
 void Replay::check(Application& app, Platform& platform, const Checkpoint& checkpoint) {
-  Session& session = app.session();
-  const Image8 picture = session.picture();
+  const std::string document = hashOf(app.session());
+  Image8 picture = app.session().picture();
   writePictures(platform, picture, checkpoint);
-  if (!options_.check && !options_.updateBaselines) {
-    std::cout << checkpoint.name << ": document " << hashText(documentHash(session.document()))
-              << '\n';
-    return;
+  if (options_.updateBaselines) {
+    for (RecordingLine& line : updated_.lines)
+      if (auto* c = std::get_if<Checkpoint>(&line.what); c && c->name == checkpoint.name)
+        c->document = document;
+    checks_.writeBaseline(checkpoint, picture);
+    std::cout << checkpoint.name << ": written" << std::endl;
+  } else if (options_.check) {
+    checks_.take(checkpoint, document, std::move(picture));
+  } else {
+    std::cout << checkpoint.name << ": document " << document << std::endl;
   }
-  std::string problem = documentProblem(session, checkpoint);
-  const std::string seen = pictureProblem(session, picture, checkpoint);
-  if (!problem.empty() && !seen.empty()) problem += "; ";
-  problem += seen;
-  (problem.empty() ? passed_ : failed_) += 1;
-  checks_.push_back({{"name", checkpoint.name}, {"passed", problem.empty()}, {"problem", problem}});
-  std::cout << checkpoint.name << ": "
-            << (!problem.empty()           ? "FAILED: " + problem
-                : options_.updateBaselines ? "written"
-                                           : "passed")
-            << std::endl;
 }
 
 }  // namespace
 
 int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
-  const ThreadLimit limit(options.threads);
-  Recording recording = readRecording(options.recording);
-  const RecordingHeader header = recording.header;
-  Replay replay(options, std::move(recording));
+  const Recording recording = readRecording(options.recording);
+  const RecordingHeader& header = recording.header;
   // The cpu backend gives the same bits everywhere, so that is what a replay takes unless told.
   const std::string backend = options.backend == "auto" ? "cpu" : options.backend;
-  // Without a stopwatch no stage of a frame is timed.
-  const auto renderer = [&] {
-    return std::make_unique<FrameRenderer>(makeBackend(backend, stopwatch),
-                                           options.frameClock ? Stopwatch() : stopwatch);
-  };
+  const bool needsGl = backend == "gl" ||
+                       std::count(options.against.begin(), options.against.end(), "backend=gl") > 0;
   const std::optional<float> scale = askedUiScale();
-  if (!options.headless) {
-    Window window(header.width, header.height, "Lamplighter: replay", Window::Kind::fixed, scale);
-    return replay.run(window, renderer);
-  }
+  std::unique_ptr<Platform> platform;
   // OpenGL is needed only by the gl backend and for pictures of the panels.
   std::unique_ptr<gl::HeadlessContext> context;
-  try {
-    if (backend == "gl" || !options.outputFolder.empty())
-      context = std::make_unique<gl::HeadlessContext>();
-  } catch (const InputError&) {
-    if (backend == "gl") throw;
+  if (options.headless) {
+    try {
+      if (needsGl || !options.outputFolder.empty())
+        context = std::make_unique<gl::HeadlessContext>();
+    } catch (const InputError&) {
+      if (needsGl) throw;
+    }
+    platform = std::make_unique<Headless>(header.width, header.height, context != nullptr,
+                                          scale.value_or(1.0f));
+  } else {
+    platform = std::make_unique<Window>(header.width, header.height, "Lamplighter: replay",
+                                        Window::Kind::fixed, scale);
   }
-  Headless headless(header.width, header.height, context != nullptr, scale.value_or(1.0f));
-  return replay.run(headless, renderer);
+
+  ReplayChecks checks(options, recording);
+  const auto play = [&](const ReplayRun& run, const std::string& onBackend, int threads) {
+    const ThreadLimit limit(threads);
+    // Without a stopwatch no stage of a frame is timed.
+    const auto renderer = [&] {
+      return std::make_unique<FrameRenderer>(makeBackend(onBackend, stopwatch),
+                                             options.frameClock ? Stopwatch() : stopwatch);
+    };
+    checks.begin(run);
+    Replay(options, recording, checks).run(*platform, renderer, run.label.empty());
+  };
+  play({"", true, backend == "cpu"}, backend, options.threads);
+  for (const std::string& way : options.against) {
+    const std::string value = way.substr(way.find('=') + 1);
+    const bool isBackend = way.starts_with("backend=");
+    const std::string& other = isBackend ? value : backend;
+    play({way, other == backend, other == "cpu"}, other,
+         isBackend ? options.threads : std::stoi(value));
+  }
+  if (options.check)
+    std::cout << checks.passed() << " checks passed, " << checks.failed() << " failed\n";
+  return checks.failed() == 0 ? 0 : 1;
 }
 
 }  // namespace lamplighter

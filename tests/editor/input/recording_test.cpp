@@ -59,7 +59,7 @@ TEST_F(RecordingFile, WhatWasRecordedIsReadBack) {
     Recorder recorder(path_, header);
     recorder.frame({});
     recorder.frame(oneOfEach());
-    recorder.checkpoint({"end", "00ff", true, 3.0f, 0.25f});
+    recorder.checkpoint({"end", "00ff", true, "start", 3.0f, 0.25f});
   }
   const Recording r = readRecording(path_);
   EXPECT_EQ(r.header.render, header.render);
@@ -71,7 +71,7 @@ TEST_F(RecordingFile, WhatWasRecordedIsReadBack) {
     EXPECT_EQ(std::get<InputEvent>(r.lines[i].what), oneOfEach()[i]) << i;
   }
   EXPECT_EQ(std::get<Checkpoint>(r.lines.back().what),
-            (Checkpoint{"end", "00ff", true, 3.0f, 0.25f}));
+            (Checkpoint{"end", "00ff", true, "start", 3.0f, 0.25f}));
 
   Recording again = r;
   writeRecording(again);
