@@ -31,7 +31,13 @@ template <typename V>
 HWY_INLINE Wide3<V> operator-(const Wide3<V>& a, const Wide3<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
-// The bits of glm's.
+// The bits of glm's, as the next.
+template <typename V>
+HWY_INLINE Wide3<V> cross(const Wide3<V>& a, const Wide3<V>& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(b.y, a.z)),
+          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(b.z, a.x)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(b.x, a.y))};
+}
 template <typename V>
 HWY_INLINE V dotInTurn(const Wide3<V>& a, const Wide3<V>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));

@@ -9,6 +9,7 @@
 #include <embree3/rtcore.h>
 
 #include "renderer/base/wide.h"
+#include "renderer/raycast/triangle_hit.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -23,14 +24,114 @@ void onError(void* first, RTCError code, const char* message) {
            (message != nullptr ? message : "");
 }
 
+const uint32_t* cornersOf(const RenderScene& scene, uint32_t object, uint32_t triangle) {
+  return &scene.indices[scene.objects[object].firstIndex + 3 * triangle];
+}
+
+// The place of a hit on a triangle that Embree names: all that is kept of its answer.
+Hit placed(const RenderScene& scene, const Ray& ray, uint32_t object, uint32_t triangle) {
+  const uint32_t* i = cornersOf(scene, object, triangle);
+  const TriangleHit at =
+      triangleHit(ray.origin, ray.direction, ray.tNear, ray.tFar, scene.positions[i[0]],
+                  scene.positions[i[1]], scene.positions[i[2]]);
+  return {at.t, object, triangle, at.u, at.v};
+}
+
+// Calls take(lane, corners) with the three indices of the triangle that each lane hit; a lane that
+// hit nothing gets those of the lane before, or null.
+template <typename Take>
+void forEachLane(const RenderScene& scene, const RTCRayHit8& r, const Take& take) {
+  const uint32_t* corners = nullptr;
+  uint32_t object = RTC_INVALID_GEOMETRY_ID, triangle = 0;
+  for (size_t lane = 0; lane < 8; ++lane) {
+    if (r.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID &&
+        (r.hit.primID[lane] != triangle || r.hit.geomID[lane] != object)) {
+      object = r.hit.geomID[lane];
+      triangle = r.hit.primID[lane];
+      corners = cornersOf(scene, object, triangle);
+    }
+    take(lane, corners);
+  }
+}
+
+// Eight points, directions or distances, one a lane.
+struct Lanes3 {
+  alignas(32) float x[8], y[8], z[8];
+  void set(size_t lane, const vec3& v) {
+    x[lane] = v.x;
+    y[lane] = v.y;
+    z[lane] = v.z;
+  }
+};
+Wide3<WideFloats> load(const float* x, const float* y, const float* z) {
+  constexpr WideTag tag;
+  return {hn::Load(tag, x), hn::Load(tag, y), hn::Load(tag, z)};
+}
+Wide3<WideFloats> load(const Lanes3& v) { return load(v.x, v.y, v.z); }
+
+// placed() for eight lanes; those that hit nothing give something that is not looked at.
+struct PlacedLanes {
+  alignas(32) float t[8], u[8], v[8];
+};
+void placeLanes(const RenderScene& scene, const RTCRayHit8& r, const float* tFar,
+                PlacedLanes& out) {
+  constexpr WideTag tag;
+  Lanes3 corner[3];
+  forEachLane(scene, r, [&](size_t lane, const uint32_t* corners) {
+    for (int i = 0; i < 3; ++i)
+      corner[i].set(lane, corners != nullptr ? scene.positions[corners[i]] : vec3(0.0f));
+  });
+  const auto direction = load(r.ray.dir_x, r.ray.dir_y, r.ray.dir_z);
+  const auto a = load(corner[0]), ab = load(corner[1]) - a, ac = load(corner[2]) - a;
+  const auto oa = a - load(r.ray.org_x, r.ray.org_y, r.ray.org_z);
+  // As triangleHit(), with the same bits.
+  const auto normal = cross(ab, ac), side = cross(oa, direction);
+  const auto along = dotInTurn(direction, normal);
+  const auto zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
+  const auto nearest = hn::Load(tag, r.ray.tnear);
+  const auto inPlane = hn::Eq(along, zero);
+  const auto inverse = hn::Div(one, along);
+  const auto u = hn::Min(hn::Max(hn::Mul(dotInTurn(side, ac), inverse), zero), one);
+  const auto v =
+      hn::Min(hn::Max(hn::Mul(hn::Neg(dotInTurn(side, ab)), inverse), zero), hn::Sub(one, u));
+  const auto t =
+      hn::Min(hn::Max(hn::Mul(dotInTurn(oa, normal), inverse), nearest), hn::Load(tag, tFar));
+  hn::Store(hn::IfThenZeroElse(inPlane, u), tag, out.u);
+  hn::Store(hn::IfThenZeroElse(inPlane, v), tag, out.v);
+  hn::Store(hn::IfThenElse(inPlane, nearest, t), tag, out.t);
+}
+
+// Distances alone: from one corner and Embree's normal of the triangle, which is made of products
+// and differences only.
+void placeDistances(const RenderScene& scene, const RTCRayHit8& r, const float* tFar, float* out) {
+  constexpr WideTag tag;
+  Lanes3 corner;
+  forEachLane(scene, r, [&](size_t lane, const uint32_t* corners) {
+    corner.set(lane, corners != nullptr ? scene.positions[corners[0]] : vec3(0.0f));
+  });
+  const auto normal = load(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
+  const auto oa = load(corner) - load(r.ray.org_x, r.ray.org_y, r.ray.org_z);
+  const auto along = dotInTurn(load(r.ray.dir_x, r.ray.dir_y, r.ray.dir_z), normal);
+  const auto nearest = hn::Load(tag, r.ray.tnear);
+  const auto t =
+      hn::Min(hn::Max(hn::Div(dotInTurn(oa, normal), along), nearest), hn::Load(tag, tFar));
+  hn::Store(hn::IfThenElse(hn::Eq(along, hn::Zero(tag)), nearest, t), tag, out);
+}
+
 // Leaves out hits where the alpha mask has a hole. N is 1 or 8; valid lanes are −1.
 void alphaFilter(const RTCFilterFunctionNArguments* a) {
   const auto& scene = *static_cast<const RenderScene*>(a->geometryUserPtr);
   for (unsigned int i = 0; i < a->N; ++i) {
     if (a->valid[i] != -1) continue;
     const uint32_t object = RTCHitN_geomID(a->hit, a->N, i);
-    const float alpha = alphaAt(scene, object, RTCHitN_primID(a->hit, a->N, i),
-                                RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i));
+    const uint32_t triangle = RTCHitN_primID(a->hit, a->N, i);
+    const Ray ray{{RTCRayN_org_x(a->ray, a->N, i), RTCRayN_org_y(a->ray, a->N, i),
+                   RTCRayN_org_z(a->ray, a->N, i)},
+                  0.0f,
+                  {RTCRayN_dir_x(a->ray, a->N, i), RTCRayN_dir_y(a->ray, a->N, i),
+                   RTCRayN_dir_z(a->ray, a->N, i)}};
+    const Hit at = placed(scene, ray, object, triangle);
+    const float alpha = alphaAt(scene, object, triangle, at.u, at.v);
     if (alpha < scene.materials[scene.objects[object].material].alphaCutoff) a->valid[i] = 0;
   }
 }
@@ -259,6 +360,9 @@ struct RayCaster::Impl {
     return q;
   }
 
+  // Eight rays against both scenes; `tFar` becomes theirs, which Embree writes over in `r`.
+  void cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRayHit8& r, float* tFar) const;
+
   // Leaves out what has moved away, and back faces that no camera sees. N is 1 or 8; valid lanes
   // are −1.
   static void passOver(const RTCFilterFunctionNArguments* a) {
@@ -297,7 +401,7 @@ Hit RayCaster::intersect(const Ray& ray, Surfaces which) const {
     rtcIntersect1(impl_->moving, &moving.embree, &r);
   }
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-  return {r.ray.tfar, r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v};
+  return placed(impl_->scene, ray, r.hit.geomID, r.hit.primID);
 }
 
 bool RayCaster::occluded(const Ray& ray) const {
@@ -311,10 +415,9 @@ bool RayCaster::occluded(const Ray& ray) const {
   return r.tfar < 0.0f;
 }
 
-void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
-                           Surfaces which) const {
+void RayCaster::Impl::cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRayHit8& r,
+                            float* tFar) const {
   alignas(32) int valid[8];
-  alignas(32) RTCRayHit8 r{};
   for (size_t i = 0; i < 8; ++i) {
     const Ray& ray = rays[i];
     valid[i] = ray.tFar < 0.0f ? 0 : -1;
@@ -325,25 +428,41 @@ void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
     r.ray.dir_x[i] = ray.direction.x;
     r.ray.dir_y[i] = ray.direction.y;
     r.ray.dir_z[i] = ray.direction.z;
-    r.ray.tfar[i] = ray.tFar;
+    r.ray.tfar[i] = tFar[i] = ray.tFar;
     r.ray.mask[i] = 0xffffffffu;
     r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
-  Impl::Query still = impl_->query(which, true, true);
-  rtcIntersect8(valid, impl_->still, &still.embree, &r);
-  if (!impl_->movers.empty()) {
-    alignas(32) int near[8];
-    std::copy_n(valid, 8, near);
-    keepTouching(r.ray, impl_->movingBounds, near);
-    Impl::Query moving = impl_->query(which, false);
-    if (std::any_of(near, near + 8, [](int lane) { return lane != 0; }))
-      rtcIntersect8(near, impl_->moving, &moving.embree, &r);
-  }
+  Query ofStill = query(which, true, true);
+  rtcIntersect8(valid, still, &ofStill.embree, &r);
+  if (movers.empty()) return;
+  keepTouching(r.ray, movingBounds, valid);
+  Query ofMoving = query(which, false);
+  if (std::any_of(valid, valid + 8, [](int lane) { return lane != 0; }))
+    rtcIntersect8(valid, moving, &ofMoving.embree, &r);
+}
+
+void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
+                           Surfaces which) const {
+  alignas(32) RTCRayHit8 r{};
+  alignas(32) float tFar[8];
+  impl_->cast8(rays, which, r, tFar);
+  PlacedLanes at;
+  placeLanes(impl_->scene, r, tFar, at);
   for (size_t i = 0; i < 8; ++i) {
-    hits[i] = valid[i] == 0 || r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+    hits[i] = r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                   ? Hit()
-                  : Hit{r.ray.tfar[i], r.hit.geomID[i], r.hit.primID[i], r.hit.u[i], r.hit.v[i]};
+                  : Hit{at.t[i], r.hit.geomID[i], r.hit.primID[i], at.u[i], at.v[i]};
   }
+}
+
+void RayCaster::distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const {
+  alignas(32) RTCRayHit8 r{};
+  alignas(32) float tFar[8], t[8];
+  impl_->cast8(rays, Surfaces::all, r, tFar);
+  placeDistances(impl_->scene, r, tFar, t);
+  for (size_t i = 0; i < 8; ++i)
+    distances[i] =
+        r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity() : t[i];
 }
 
 bool mayTouch(const Ray& ray, const Bounds& box) {

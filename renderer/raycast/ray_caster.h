@@ -1,6 +1,8 @@
 // The only wrapper of Embree: world-space rays against a RenderScene. Alpha masks are tested;
 // clear (transmissive) materials are not in it. The same bits at any number of threads and on every
-// x86-64-v3 machine (one fixed instruction set).
+// x86-64-v3 processor: one fixed instruction set, and distances and barycentrics computed from the
+// triangle (triangle_hit.h). Which of two triangles is hit where both are equally far, as at a
+// shared edge, is left to Embree and may differ between processors.
 #pragma once
 
 #include <memory>
@@ -44,6 +46,8 @@ class RayCaster {
   // Eight rays at a time; tFar < 0 switches a lane off. Fastest where they start or go alike.
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                   Surfaces which = Surfaces::all) const;
+  // Their distances alone; infinity where nothing is hit. A little faster.
+  void distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const;
 
  private:
   struct Impl;

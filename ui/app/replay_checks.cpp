@@ -4,7 +4,7 @@
 #include <iostream>
 #include <utility>
 
-#include "renderer/error.h"
+#include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
 #include "ui/app/picture_check.h"
 

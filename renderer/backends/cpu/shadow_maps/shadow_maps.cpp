@@ -1,5 +1,6 @@
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
 
+#include <algorithm>
 #include <array>
 
 #include "shaders/shared/octahedral.h"
@@ -36,7 +37,7 @@ uint64_t traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resol
     for (int x0 = 0; x0 < resolution; x0 += kBlockWidth, ++block) {
       if (!wanted.empty() && wanted[block] == 0) continue;
       std::array<Ray, kLanes> ray;
-      std::array<Hit, kLanes> hit;
+      std::array<float, kLanes> distance;
       for (int lane = 0; lane < kLanes; ++lane) {
         const int x = x0 + lane % kBlockWidth, y = y0 + lane / kBlockWidth;
         const vec2 centre = shared::shadowTexelCentre(vec2(x, y), size);
@@ -44,15 +45,14 @@ uint64_t traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resol
                                 : hemisphereRay(vpl, frame, tNear, centre);
         if (x >= resolution || y >= lastRow) ray[lane].tFar = -1.0f;
       }
-      rays.intersect8(ray, hit);
+      rays.distance8(ray, distance);
       for (int lane = 0; lane < kLanes; ++lane) {
         const int x = x0 + lane % kBlockWidth, y = y0 + lane / kBlockWidth;
         if (x >= resolution || y >= lastRow) continue;
-        float stored = 0.0f;
-        if (hit[lane]) {
-          stored = directional ? 1.0f - hit[lane].t / (2.0f * vpl.normal.w) : 1.0f / hit[lane].t;
-        }
-        map[static_cast<size_t>(y) * resolution + x] = stored;
+        // Nothing hit: 0.
+        const float t = distance[lane];
+        map[static_cast<size_t>(y) * resolution + x] =
+            directional ? std::max(0.0f, 1.0f - t / (2.0f * vpl.normal.w)) : 1.0f / t;
         ++count;
       }
     }

@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# The same bits on another processor: what this one gives against what qemu's does, which has AVX2
+# and no AVX-512, and whose approximate reciprocals are others.
+#   tests/same_on_other_cpu.sh LAMPLIGHTER RAY_HITS
+set -u
+lamplighter=$1 ray_hits=$2
+cd "$(dirname "$0")/.." || exit 2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+other=(qemu-x86_64 -cpu max)
+bad=0
+
+# Pictures: equal bits, which no shared edge has to spoil in these.
+picture() {  # picture NAME ARGUMENT... : of `lamplighter render`
+  local name=$1; shift
+  "$lamplighter" render "$@" -o "$work/here.exr" --size 96x54 --backend cpu || { bad=1; return; }
+  "${other[@]}" "$lamplighter" render "$@" -o "$work/there.exr" --size 96x54 --backend cpu || { bad=1; return; }
+  if cmp -s "$work/here.exr" "$work/there.exr"; then
+    echo "picture $name: equal"
+  else
+    echo "picture $name: DIFFERS: $("$lamplighter" compare "$work/there.exr" "$work/here.exr" | tr -s '\n ' ' ')"
+    bad=1
+  fi
+}
+
+# Rays: where the same triangle is hit, the same bits; of rays at an edge or a corner one in a hundred
+# may meet another of the triangles there, of others one in ten thousand.
+rays() {  # rays SCENE COUNT
+  "$ray_hits" "$1" "$2" > "$work/here" || { bad=1; return; }
+  "${other[@]}" "$ray_hits" "$1" "$2" > "$work/there" || { bad=1; return; }
+  paste -d' ' "$work/here" "$work/there" | awk -v name="$(basename "$1")" '
+    { n[$1]++; half = NF / 2 }
+    NF % 2 == 1 { ties[$1]++; next }                       # a hit here, none there
+    half == 2 { next }
+    $2 != $(half + 2) || $3 != $(half + 3) { ties[$1]++; next }
+    $4 != $(half + 4) || $5 != $(half + 5) || $6 != $(half + 6) { bits++ }
+    END {
+      printf "rays of %s: another triangle: %d of %d at random, %d of %d at edges, %d of %d at corners; other bits: %d\n",
+        name, ties["a"], n["a"], ties["e"], n["e"], ties["c"], n["c"], bits
+      exit bits > 0 || ties["a"] * 10000 > n["a"] || (ties["e"] + ties["c"]) * 100 > n["e"] + n["c"]
+    }' || bad=1
+}
+
+# Recordings: documents and pictures, bit for bit.
+recording() {  # recording NAME
+  local from=tests/recordings/$1.jsonl
+  "$lamplighter" replay "$from" --headless --frame-clock -o "$work/here_$1" > "$work/here" || { bad=1; return; }
+  "${other[@]}" "$lamplighter" replay "$from" --headless --frame-clock -o "$work/there_$1" > "$work/there" || { bad=1; return; }
+  rm -f "$work"/*/*.window.png  # by OpenGL
+  if diff <(grep document "$work/here") <(grep document "$work/there") && diff -r "$work/here_$1" "$work/there_$1"; then
+    echo "recording $1: equal, $(grep -c document "$work/here") checkpoints"
+  else
+    echo "recording $1: DIFFERS"
+    bad=1
+  fi
+}
+
+rays assets/scenes/default.gltf 60000
+rays assets/scenes/pillar_room.gltf 60000
+picture default assets/scenes/default.gltf --vpls 32
+picture pillar_room assets/scenes/pillar_room.gltf --vpls 32
+picture table_room,naive assets/scenes/table_room.gltf --vpls 32 --set technique=naive
+picture cornell_style,prt assets/scenes/cornell_style.gltf --vpls 32 --set prt=true
+picture default,reference assets/scenes/default.gltf --method reference --spp 4
+picture area_light_room,reference assets/scenes/area_light_room.gltf --method reference --spp 4
+if [ -d ../shared/scenes ]; then
+  rays ../shared/scenes/zdm2-map/zdm2.glb 60000
+  picture kenney ../shared/scenes/kenney-fps-level/kenney-fps-level.gltf --vpls 32 --set technique=naive
+else
+  echo "levels are left out: there is no ../shared/scenes"
+fi
+recording add_light_menu
+recording exposure_and_tone
+exit $bad
