@@ -190,11 +190,25 @@ void Session::pruneSelection() {
                 [&](NodeId id) { return document_.scene.find(id) == nullptr; });
 }
 
-const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
-  const double begin = clock_ ? clock_() : 0.0;
-  SceneChanges changes = history_.takeChanges();
+// What is to be shown now, with the work light; and what changed in it since the last call.
+const Scene& Session::litScene(SceneChanges& changes) {
+  changes = history_.takeChanges();
   const Scene& scene = workLight_.with(document_.scene, view_, lighting_.workLight, changes);
   sceneRevision_ += !changes.none();
+  return scene;
+}
+
+void Session::skipFrame() {
+  SceneChanges changes;
+  const Scene& scene = litScene(changes);
+  renderer_->update(scene, changes);
+  unshown_.merge(changes);
+}
+
+const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
+  const double begin = clock_ ? clock_() : 0.0;
+  SceneChanges changes;
+  const Scene& scene = litScene(changes);
   renderError_.clear();
   const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
   const RenderSettings render =
@@ -205,6 +219,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
     output_ =
         renderer_->render({scene, changes, view_, render.method, settings, display_.lightOnly(),
                            updates.has_value(), refineUpdates, display_.part()});
+    changes.merge(std::exchange(unshown_, {}));
     const bool same = output_.settled && output_.radiance == before && changes.none();
     if (document_.active() != kNoNode) display_.chooseLight(document_.active());
     display_.update(*renderer_, *output_.radiance, view_, document_.render, !same);

@@ -111,6 +111,8 @@ class Session {
   // time do not wait for what is prepared in the background; all others do. By `refineUpdates`
   // light samples a picture at rest may be refined; 0: it stays as it is.
   const GiOutput& renderFrame(std::optional<int> updates = {}, int refineUpdates = 0);
+  // Instead of renderFrame(), for a frame that nobody looks at: what tools look up is up to date.
+  void skipFrame();
   const std::string& renderError() const { return renderError_; }  // "": it was rendered
   const GiOutput& output() const { return output_; }
   // Which view of the frame is shown.
@@ -211,6 +213,7 @@ class Session {
   std::string status_, renderError_, placing_;
   uint32_t frame_ = 0;
   uint64_t sceneRevision_ = 0;
+  SceneChanges unshown_;  // of frames that were skipped
   LightingState lighting_;
   WorkLight workLight_;
   uint64_t savedHash_ = 0;
@@ -226,6 +229,7 @@ class Session {
   void takeWritten(const std::filesystem::path& path,
                    const std::vector<std::filesystem::path>& written, bool keepsOthers);
   std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;
+  const Scene& litScene(SceneChanges& changes);
   void watchFrame(const SceneChanges& changes, double begin);
   std::optional<Place> surfaceAlong(const vec3& direction,
                                     const std::vector<NodeId>& ignored) const;

@@ -2,6 +2,8 @@
 
 #include "renderer/registry/registry.h"
 
+#include <utility>
+
 namespace lamplighter {
 
 FrameRenderer::FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwatch)
@@ -9,24 +11,32 @@ FrameRenderer::FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwat
 
 FrameRenderer::~FrameRenderer() = default;
 
-GiOutput FrameRenderer::render(const Request& request) {
-  // 1. The scene in world space, from what changed.
-  const SceneChanges wanted = rays_ ? request.changes : SceneChanges::all();
-  const RenderSceneChanges changes = update(scene_, request.scene, wanted);
-
-  // 2. Rays see it, and the backend.
+void FrameRenderer::update(const Scene& scene, const SceneChanges& changes) {
+  const SceneChanges wanted = rays_ ? changes : SceneChanges::all();
+  const RenderSceneChanges found = lamplighter::update(scene_, scene, wanted);
   if (!rays_) {
     rays_ = std::make_unique<RayCaster>(scene_);
-  } else if (!changes.none()) {
-    rays_->update(changes);
+  } else if (!found.none()) {
+    rays_->update(found);
   }
+  pending_.merge(found);
+  hasOtherScene_ |= changes.everything;
+}
+
+GiOutput FrameRenderer::render(const Request& request) {
+  // 1. The scene in world space, from what changed, and rays that see it.
+  update(request.scene, request.changes);
+
+  // 2. The backend sees it.
+  const RenderSceneChanges changes = std::exchange(pending_, {});
+  const bool isOtherScene = std::exchange(hasOtherScene_, false);
   if (!changes.none()) backend_->setScene(scene_, changes, *rays_);
 
   // 3. The method, a new one when another is asked for.
   if (!method_ || methodName_ != request.method) {
     method_ = findMethod(request.method).make();
     methodName_ = request.method;
-  } else if (request.changes.everything) {
+  } else if (isOtherScene) {
     method_->reset();  // another scene: nothing of the last one may show in it
   }
   return method_->render({scene_, changes, *rays_, request.view, *backend_, request.settings,

@@ -30,6 +30,10 @@ class FrameRenderer {
   // One frame. Throws InputError for an unknown method.
   GiOutput render(const Request& request);
 
+  // Brings scene() and rays() up to date without a picture; the next render() goes on from there,
+  // with what changed after this.
+  void update(const Scene& scene, const SceneChanges& changes);
+
   // What the method keeps, for views of it; good until the next call of the others.
   Inspection inspect() const { return method_ ? method_->inspect() : Inspection(); }
 
@@ -49,6 +53,8 @@ class FrameRenderer {
   Stopwatch stopwatch_;
   RenderScene scene_;
   std::unique_ptr<RayCaster> rays_;
+  RenderSceneChanges pending_;  // that the backend and the method have not seen yet
+  bool hasOtherScene_ = false;  // another scene altogether, likewise
   std::string methodName_;
   std::unique_ptr<GiMethod> method_;
   uint32_t frame_ = 0;

@@ -264,6 +264,25 @@ bool takeEmitters(RenderScene& render, const Scene& scene) {
 
 }  // namespace
 
+void RenderSceneChanges::merge(const RenderSceneChanges& later) {
+  rebuilt |= later.rebuilt;
+  materials |= later.materials;
+  lights |= later.lights;
+  sky |= later.sky;
+  if (rebuilt) {
+    movedObjects.clear();
+    movedBounds.clear();
+    return;
+  }
+  for (size_t i = 0; i < later.movedObjects.size(); ++i) {
+    const uint32_t object = later.movedObjects[i];
+    // One that moved before keeps the bounds that it had at first.
+    if (std::find(movedObjects.begin(), movedObjects.end(), object) != movedObjects.end()) continue;
+    movedObjects.push_back(object);
+    movedBounds.push_back(later.movedBounds[i]);
+  }
+}
+
 RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneChanges& changes) {
   RenderSceneChanges out;
   if (changes.none()) return out;

@@ -78,6 +78,8 @@ struct RenderSceneChanges {
   bool sky = false;
 
   bool none() const { return !rebuilt && movedObjects.empty() && !materials && !lights && !sky; }
+  // Takes in what a later update() did.
+  void merge(const RenderSceneChanges& later);
 };
 
 // Brings `render` up to date with `scene`. Throws nothing; a scene without nodes gives no objects.

@@ -97,6 +97,8 @@ void Application::frame() {
     logLatency();
     followExposure();
     present();
+  } else {
+    session_->skipFrame();
   }
   const bool isSplit = session_->split().on() && session_->split().secondPicture();
   viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0);

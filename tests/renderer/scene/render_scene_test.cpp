@@ -51,6 +51,26 @@ TEST(RenderScene, MovingEqualsBuildingAnew) {
   EXPECT_EQ(render.bounds.max, anew.bounds.max);
 }
 
+TEST(RenderScene, ChangesInARowAreOneChangeFromTheFirstPlace) {
+  RenderSceneChanges changes, later;
+  changes.movedObjects = {2};
+  changes.movedBounds.emplace_back().add(vec3(1.0f));
+  later.movedObjects = {3, 2};
+  later.movedBounds.emplace_back().add(vec3(5.0f));
+  later.movedBounds.emplace_back().add(vec3(9.0f));
+  later.sky = true;
+  changes.merge(later);
+  EXPECT_EQ(changes.movedObjects, (std::vector<uint32_t>{2, 3}));
+  EXPECT_EQ(changes.movedBounds[0].min, vec3(1.0f));
+  EXPECT_EQ(changes.movedBounds[1].min, vec3(5.0f));
+  EXPECT_TRUE(changes.sky);
+  later.rebuilt = true;
+  changes.merge(later);
+  EXPECT_TRUE(changes.rebuilt);
+  EXPECT_TRUE(changes.movedObjects.empty());
+  EXPECT_TRUE(changes.movedBounds.empty());
+}
+
 TEST(RenderScene, AMirroredBoxStillFacesOutwards) {
   Scene scene;
   const NodeId id = addMesh(scene, test::boxMesh(vec3(2.0f)));
