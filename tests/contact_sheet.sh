@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Renders every scene of ../shared/scenes with both methods, side by side: many_lights left,
 # reference right, at the exposure that suits the reference. Writes docs/images/contact_sheet.jpg,
-# docs/images/contact_sheet_kit.jpg (the pieces of the dungeon kit) and docs/contact_sheet.md.
+# docs/images/contact_sheet_kit.jpg (the pieces of the dungeon kit) and docs/results/contact_sheet.md.
 # usage: tests/contact_sheet.sh LAMPLIGHTER [SCENE...]   (needs oiiotool: ./dev contact-sheet)
 set -eu
 cd "$(dirname "$0")/.."
@@ -50,7 +50,7 @@ done < "$shared/scenes.tsv"
 sheet 2 docs/images/contact_sheet.jpg "${scenes[@]}"
 sheet 6 docs/images/contact_sheet_kit.jpg "${pieces[@]}"
 
-cat > docs/contact_sheet.md <<TXT
+cat > docs/results/contact_sheet.md <<TXT
 # Every test scene with both methods
 
 Made by \`./dev contact-sheet\`. Left: \`many_lights\` ($vpls light samples, maps of 128²). Right: \`reference\` ($spp paths a

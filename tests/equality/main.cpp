@@ -1,6 +1,6 @@
-// The tables of docs/equality.md: how far many_lights is from `naive` with the same VPLs, settled,
-// on every scene, from every camera and from outside, on both backends; its techniques `visibility`
-// and `light_maps` at full resolution, and all that is on unless it is switched off.
+// The tables of docs/results/equality.md: how far many_lights is from `naive` with the same VPLs,
+// settled, on every scene, from every camera and from outside, on both backends; its techniques
+// `visibility` and `light_maps` at full resolution, and all that is on unless it is switched off.
 //   lamplighter_equality [--pictures FOLDER] [--maps N,...] [--tables N,...] [PART_OF_A_PATH...]
 #include <algorithm>
 #include <filesystem>
@@ -194,7 +194,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   lamplighter::equality::Options options;
-  CLI::App app("Each technique against naive: the tables of docs/equality.md");
+  CLI::App app("Each technique against naive: the tables of docs/results/equality.md");
   app.add_option("--pictures", options.folder, "Folder for pictures of what is over its limit");
   app.add_option("--maps", options.resolutions, "Texels a side of the shadow maps at rest")
       ->delimiter(',')
