@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The layers of docs/architecture.md, checked on the includes: shaders/shared <- renderer <- editor
+# The layers of docs/design/architecture.md, checked on the includes: shaders/shared <- renderer <- editor
 # <- ui; ImGui and GLFW in ui only; OpenGL only in the gl parts of renderer and in ui.
 set -u
 cd "$(dirname "$0")/.." || exit 2

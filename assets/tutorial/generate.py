@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes what docs/tutorial.md works with: an empty room, and in props/ what it is furnished with, one mesh each that
+"""Writes what docs/user/tutorial.md works with: an empty room, and in props/ what it is furnished with, one mesh each that
 stands on y = 0. Run it only to change them. Standard library only."""
 import math, os, struct, sys
 

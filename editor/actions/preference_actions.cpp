@@ -40,7 +40,7 @@ void addPreferenceActions(ActionRegistry& r) {
   r.add({"settings.set",
          "Change setting",
          "NAME=VALUE",
-         "Changes one of the user's settings (docs/settings.md).",
+         "Changes one of the user's settings (docs/reference/settings.md).",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "settings.set NAME=VALUE");

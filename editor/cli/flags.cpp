@@ -105,15 +105,15 @@ void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
 }
 
 void methodsFlags(CLI::App& sub, Run& run, const Frontend&) {
-  listFlags(sub, run, "docs/parameters.md", methods);
+  listFlags(sub, run, "docs/reference/parameters.md", methods);
 }
 
 void actionsFlags(CLI::App& sub, Run& run, const Frontend&) {
-  listFlags(sub, run, "docs/actions.md", actions);
+  listFlags(sub, run, "docs/reference/actions.md", actions);
 }
 
 void settingsFlags(CLI::App& sub, Run& run, const Frontend&) {
-  listFlags(sub, run, "docs/settings.md", settings);
+  listFlags(sub, run, "docs/reference/settings.md", settings);
 }
 
 void compareFlags(CLI::App& sub, Run& run, const Frontend&) {
@@ -231,7 +231,8 @@ void manualFlags(CLI::App& sub, Run& run, const Frontend&) {
   };
   auto o = std::make_shared<Options>();
   sub.add_flag("--man", o->man, "As a page for man");
-  sub.add_flag("--markdown", o->markdown, "As the tables of docs/flags.md, which is the default");
+  sub.add_flag("--markdown", o->markdown,
+               "As the tables of docs/reference/flags.md, which is the default");
   sub.footer("Example: lamplighter manual --man | man -l -");
   const CLI::App* all = sub.get_parent();
   sub.callback([=, &run] {

@@ -71,7 +71,8 @@ KeyMap resolveKeys(const ActionRegistry& registry, const KeyList& preset, const 
   for (const auto& entry : file) {
     const std::string& text = entry.first;
     if (registry.find(text.substr(0, text.find(' '))) == nullptr) {
-      problems.push_back(quoted(text) + ": there is no such action; docs/actions.md lists them");
+      problems.push_back(quoted(text) +
+                         ": there is no such action; docs/reference/actions.md lists them");
       continue;
     }
     std::vector<Chord> chords = parseChords(entry.second).value_or(std::vector<Chord>());

@@ -106,7 +106,7 @@ const ParameterSpec* findPreference(const std::string& name) {
 
 const ParameterSpec& preferenceNamed(const std::string& name) {
   if (const ParameterSpec* spec = findPreference(name)) return *spec;
-  throw InputError(name, "there is no such setting", "docs/settings.md lists them");
+  throw InputError(name, "there is no such setting", "docs/reference/settings.md lists them");
 }
 
 void Preferences::setText(const std::string& name, const std::string& text) {

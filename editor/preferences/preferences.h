@@ -1,6 +1,6 @@
 // What a user sets once for all levels, and what the program remembers of them: declared here;
-// settings panel, file, actions and docs/settings.md follow. No part of a level, and never read
-// where input is replayed or recorded.
+// settings panel, file, actions and docs/reference/settings.md follow. No part of a level, and
+// never read where input is replayed or recorded.
 #pragma once
 
 #include <filesystem>

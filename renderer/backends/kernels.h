@@ -1,6 +1,6 @@
-// The kernels behind which a backend stands (docs/architecture.md): everything that touches each
-// pixel or texel, twice implemented (cpu/, gl/). Whoever calls them decides what to compute and
-// does not know which one runs.
+// The kernels behind which a backend stands (docs/design/architecture.md): everything that touches
+// each pixel or texel, twice implemented (cpu/, gl/). Whoever calls them decides what to compute
+// and does not know which one runs.
 #pragma once
 
 #include <functional>

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMostSplits = 7;
 // Neither half is shorter [m]. Smaller ones would spare look-ups of shadows, but more entries cost
-// a light that moves more than that: docs/performance.md, the visibility database.
+// a light that moves more than that: docs/results/performance.md, the visibility database.
 constexpr float kSmallest = 0.6f;
 // By which a sphere is larger than those that it holds: more than sums are rounded.
 constexpr float kNested = 1.0001f;

@@ -2,7 +2,7 @@
 // kept from edit to edit, and brought up to date where something changed. What a light leaves out
 // (light_linking.h) is as if all of it were hidden from the light.
 //
-// Columns, one a light, are the unit of update (design.md 4): what moves is taken in at once, but a
+// Columns, one a light, are the unit of update: what moves is taken in at once, but a
 // column that it may touch waits until it is refreshed, with its light's shadow map.
 #pragma once
 

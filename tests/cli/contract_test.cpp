@@ -126,7 +126,7 @@ TEST_F(CommandLine, AnErrorNamesTheHelpOfItsSubcommand) {
 }
 
 TEST_F(CommandLine, EveryFlagIsInTheDocs) {
-  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/cli.md");
+  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/reference/cli.md");
   const std::string docs{std::istreambuf_iterator<char>(in), {}};
   for (const char* sub :
        {"info", "render", "methods", "actions", "settings", "compare", "tonemap", "replay"}) {
@@ -170,10 +170,10 @@ TEST_F(CommandLine, MethodsListEveryParameter) {
 }
 
 TEST_F(CommandLine, TheTableOfParametersIsUpToDate) {
-  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/parameters.md");
+  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/reference/parameters.md");
   const std::string written{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(runLamplighter({"methods", "--markdown"}).out, written)
-      << "run: lamplighter methods --markdown > docs/parameters.md";
+      << "run: lamplighter methods --markdown > docs/reference/parameters.md";
 }
 
 TEST_F(CommandLine, EveryActionSaysWhatItDoesAndTheTableIsUpToDate) {
@@ -188,16 +188,16 @@ TEST_F(CommandLine, EveryActionSaysWhatItDoesAndTheTableIsUpToDate) {
     EXPECT_TRUE(ofKey.emplace(key, a["name"]).second)
         << key << " is " << ofKey[key] << " and " << a["name"];
   }
-  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/actions.md");
+  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/reference/actions.md");
   const std::string written{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(runLamplighter({"actions", "--markdown"}).out, written)
-      << "run: lamplighter actions --markdown > docs/actions.md";
+      << "run: lamplighter actions --markdown > docs/reference/actions.md";
 }
 
 // What the manual says is what the program says.
 TEST_F(CommandLine, ManualIsUpToDate) {
-  const std::pair<const char*, const char*> kinds[] = {{"--markdown", "/docs/flags.md"},
-                                                       {"--man", "/docs/man/lamplighter.1"}};
+  const std::pair<const char*, const char*> kinds[] = {{"--markdown", "/docs/reference/flags.md"},
+                                                       {"--man", "/docs/reference/lamplighter.1"}};
   for (const auto& [kind, path] : kinds) {
     std::ifstream in(LAMPLIGHTER_SOURCE_DIR + std::string(path));
     const std::string written{std::istreambuf_iterator<char>(in), {}};

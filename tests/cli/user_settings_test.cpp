@@ -47,8 +47,8 @@ TEST(UserSettings, AHostileFileDoesNotChangeAReplay) {
 
 TEST(UserSettings, ThePageIsUpToDate) {
   EXPECT_EQ(runLamplighter({"settings", "--markdown"}).out,
-            contents(fs::path(LAMPLIGHTER_SOURCE_DIR) / "docs/settings.md"))
-      << "run: lamplighter settings --markdown > docs/settings.md";
+            contents(fs::path(LAMPLIGHTER_SOURCE_DIR) / "docs/reference/settings.md"))
+      << "run: lamplighter settings --markdown > docs/reference/settings.md";
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ TEST(GuideNames, EverythingInBackticksIsThere) {
 }
 
 TEST(GuideNames, WhatIsNotThereIsFound) {
-  const Page page = readPage(docsFolder() / "guide.md");
+  const Page page = readPage(pagesFolder() / "guide.md");
   for (const char* text : {"light.plaice", "--ssp", "Ctrl+J", "J", "vlps", "lamplighter rendre",
                            "lamplighter render --ssp", "./dev guid", "Shift+Ctrl+Alt"})
     EXPECT_NE(problemOf(page, text), "") << text;
@@ -248,7 +248,7 @@ TEST(GuideLinks, PicturesAreThoseOfTheSteps) {
     for (const std::string& file : linked) shown.insert(fs::path(file).filename());
   }
   uintmax_t bytes = 0;
-  for (const auto& entry : fs::directory_iterator(docsFolder() / "images/guide")) {
+  for (const auto& entry : fs::directory_iterator(pagesFolder() / "../images/guide")) {
     EXPECT_TRUE(shown.contains(entry.path().filename())) << entry.path() << " is in no page";
     bytes += entry.file_size();
   }

@@ -111,7 +111,7 @@ class Reader {
 }  // namespace
 
 std::string Page::pictureFile(const std::string& picture) const {
-  return "images/guide/" + name() + "." + picture + ".jpg";
+  return "../images/guide/" + name() + "." + picture + ".jpg";
 }
 
 Page readPage(const fs::path& path) {
@@ -122,10 +122,10 @@ Page readPage(const fs::path& path) {
   return reader.finish();
 }
 
-fs::path docsFolder() { return fs::path(LAMPLIGHTER_SOURCE_DIR) / "docs"; }
+fs::path pagesFolder() { return fs::path(LAMPLIGHTER_SOURCE_DIR) / "docs/user"; }
 
 std::vector<Page> allPages() {
-  return {readPage(docsFolder() / "tutorial.md"), readPage(docsFolder() / "guide.md")};
+  return {readPage(pagesFolder() / "tutorial.md"), readPage(pagesFolder() / "guide.md")};
 }
 
 }  // namespace lamplighter::test

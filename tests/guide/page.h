@@ -10,7 +10,7 @@
 //   key Enter
 //   picture spot
 //   -->
-//   ![A spot ahead of the camera](images/guide/tutorial.spot.jpg)
+//   ![A spot ahead of the camera](../images/guide/tutorial.spot.jpg)
 //
 // steps.h lists the steps.
 #pragma once
@@ -64,8 +64,8 @@ struct Page {
 
 // Throws InputError "PAGE:LINE: …".
 Page readPage(const std::filesystem::path& path);
-// docs/tutorial.md and docs/guide.md.
+// docs/user/tutorial.md and docs/user/guide.md.
 std::vector<Page> allPages();
-std::filesystem::path docsFolder();
+std::filesystem::path pagesFolder();
 
 }  // namespace lamplighter::test

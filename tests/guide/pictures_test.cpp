@@ -29,7 +29,7 @@ constexpr size_t kLargestFile = 120 * 1024;
 class GuidePictures : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    page_ = readPage(docsFolder() / (std::string(GetParam()) + ".md"));
+    page_ = readPage(pagesFolder() / (std::string(GetParam()) + ".md"));
     folder_ = fs::path(LAMPLIGHTER_GUIDE_OUT) / page_.name();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
@@ -55,7 +55,7 @@ class GuidePictures : public testing::TestWithParam<const char*> {
 };
 
 void GuidePictures::compare(const std::string& picture) {
-  const fs::path wanted = docsFolder() / page_.pictureFile(picture);
+  const fs::path wanted = pagesFolder() / page_.pictureFile(picture);
   const fs::path now = folder_ / wanted.filename();
   const Image8 image = taken(picture);
   if (image.width == 0) return;

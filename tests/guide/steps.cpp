@@ -19,7 +19,7 @@ class Writer {
   explicit Writer(const Page& page) : page_(page) {
     recording_.path = page.name() + ".jsonl";
     RecordingHeader& header = recording_.header;
-    header.scene = (docsFolder().parent_path() / page.scene).string();
+    header.scene = (std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / page.scene).string();
     header.width = kWidth;
     header.height = kHeight;
     for (const auto& [name, value] : page.values) {
@@ -40,7 +40,8 @@ class Writer {
                            const std::string& value) {
     for (const ParameterSpec& p : findMethod(render.method).parameters)
       if (p.name == name) return render.values.set(name, Settings::parse(p, value));
-    throw InputError(name, "is no parameter of " + render.method, "see docs/parameters.md");
+    throw InputError(name, "is no parameter of " + render.method,
+                     "see docs/reference/parameters.md");
   }
   [[noreturn]] void fail(const Step& step, const std::string& what) const {
     throw InputError(page_.at(step.line), what, "tests/guide/steps.h lists the steps");

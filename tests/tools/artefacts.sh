@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the paper's section 6.1 says goes wrong, before and after what was done about it: a table in
-# Markdown, and the pictures of docs/artefacts.md into docs/images/.
+# Markdown, and the pictures of docs/results/artefacts.md into docs/images/.
 # usage: tests/tools/artefacts.sh LAMPLIGHTER   (needs oiiotool and jq: ./dev artefacts)
 set -eu
 cd "$(dirname "$0")/../.."

@@ -113,7 +113,9 @@ void keyTable(const PanelContext& ui, SettingsState& state) {
     ImGui::TextColored(ImGui::GetStyle().Colors[ImGuiCol_TextDisabled], "%s", name.c_str());
   }
   ImGui::EndChild();
-  note("Single actions are bound in keys.json beside the settings file: docs/settings.md.");
+  note(
+      "Single actions are bound in keys.json beside the settings file: "
+      "docs/reference/settings.md.");
 }
 
 }  // namespace

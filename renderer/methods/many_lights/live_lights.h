@@ -1,5 +1,5 @@
-// The VPLs that are shown, with their shadow maps, on their way to those that are wanted (design.md
-// 4: the unit of update is one VPL). Which of them have maps is another matter: those that the view
+// The VPLs that are shown, with their shadow maps, on their way to those that are wanted. The
+// unit of update is one VPL. Which of them have maps is another matter: those that the view
 // looks up, as far as memory goes (paper 1, 6.2).
 #pragma once
 

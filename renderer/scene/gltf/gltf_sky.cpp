@@ -1,4 +1,4 @@
-// The sky that a scene notes in its extras: extras.lamplighter.sky (docs/gltf.md).
+// The sky that a scene notes in its extras: extras.lamplighter.sky (docs/reference/gltf.md).
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // The error of many_lights against the path-traced reference as the number of VPLs grows, on every
-// scene, with 0, 1 and 5 bounces; what the clamp takes away apart: docs/convergence.md.
+// scene, with 0, 1 and 5 bounces; what the clamp takes away apart: docs/results/convergence.md.
 //   lamplighter_convergence [--data FOLDER] [PART_OF_A_SCENE'S_PATH...]
 #include <algorithm>
 #include <cmath>
@@ -107,7 +107,7 @@ Reference reference(const Scene& scene, const View& view, const Image& mask, int
 }
 
 // A level of 127,000 patches takes many minutes to tell what each does with 16,384 samples;
-// without, the picture is the same (docs/equality.md).
+// without, the picture is the same (docs/results/equality.md).
 std::string techniqueFor(const std::string& scene) {
   return scene == "zdm2" ? "naive" : std::get<std::string>(parameters::technique().defaultValue);
 }

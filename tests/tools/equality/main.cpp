@@ -1,10 +1,12 @@
-// The tables of docs/equality.md: how far many_lights is from `naive` with the same VPLs, settled,
-// on every scene, from every camera and from outside, on both backends; its techniques `visibility`
-// and `light_maps` at full resolution, and all that is on unless it is switched off.
+// The summary of docs/results/equality.md: how far many_lights is from `naive` with the same VPLs,
+// settled, on every scene, from every camera and from outside, on both backends; its techniques
+// `visibility` and `light_maps` at full resolution, and all that is on unless it is switched off.
+// The summary goes to standard output, every picture's figure to standard error.
 //   lamplighter_equality [--pictures FOLDER] [--maps N,...] [--tables N,...] [PART_OF_A_PATH...]
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <map>
 
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -97,12 +99,11 @@ struct Kind {
   std::vector<Column> (*columns)(int vpls, const Resolutions&);
 };
 
-const Kind kKinds[] = {
-    {"Visibility and light maps, at full resolution", 0.01, fewVpls, shadowColumns},
-    {"All as it is by default", 0.03, defaultVpls, allColumns},
-    {"All, with groups", 0.03, groupedVpls, groupColumns},
-    {"All, with transfer", 0.03, defaultVpls, transferColumns},
-    {"All, with transfer and its reflections", 0.03, defaultVpls, reflectionColumns}};
+const Kind kKinds[] = {{"full resolution", 0.01, fewVpls, shadowColumns},
+                       {"default", 0.03, defaultVpls, allColumns},
+                       {"groups", 0.03, groupedVpls, groupColumns},
+                       {"transfer", 0.03, defaultVpls, transferColumns},
+                       {"reflections", 0.03, defaultVpls, reflectionColumns}};
 
 size_t trianglesOf(const Scene& scene) {
   RenderScene render;
@@ -110,57 +111,107 @@ size_t trianglesOf(const Scene& scene) {
   return render.indices.size() / 3;
 }
 
-void rule(size_t columns) {
-  for (size_t i = 0; i < columns; ++i) std::cout << "| --- ";
-  std::cout << "|\n";
+void rule(std::ostream& out, size_t columns) {
+  for (size_t i = 0; i < columns; ++i) out << "| --- ";
+  out << "|\n";
 }
 
 // Those that are over the limit once more, with how far both are from what is right.
 void printOver(const std::vector<Over>& over) {
-  std::cout
+  std::cerr
       << "\n| scene | view | backend | maps | technique | from naive | naive from rays | from "
          "rays | database |\n";
-  rule(9);
+  rule(std::cerr, 9);
   for (const Over& o : over)
-    std::cout << fmt::format(
+    std::cerr << fmt::format(
         "| {} | {} | {} | {}² | {} | {:.2f}% | {:.2f}% | {:.2f}% | {:.3f}% |\n", o.scene, o.view,
         o.column.backend, o.column.resolution, o.column.name, 100 * o.error, 100 * o.naiveFromRays,
         100 * o.fromRays, 100 * o.database);
 }
 
-void print(const Kind& kind, const std::vector<fs::path>& scenes, const Resolutions& resolutions,
-           const fs::path& folder) {
-  const std::vector<Column> header = kind.columns(1, resolutions);
-  std::cout << "\n## " << kind.title << "\n\n| scene | view | VPLs |";
-  for (const Column& c : header)
-    std::cout << fmt::format(" {} {}² {} |", c.backend, c.resolution, c.name);
-  std::cout << '\n';
-  rule(3 + header.size());
-  std::vector<Over> over;
-  size_t all = 0;
+std::string percent(double error, double limit) {
+  const char* mark = error < limit ? "" : "**";
+  return fmt::format(" {}{:.2f}%{} |", mark, 100 * error, mark);
+}
+
+// Of all pictures of one kind with maps of one resolution.
+struct Tally {
+  size_t all = 0, under = 0;
   double most = 0.0;
+};
+
+// What one table comes to: its largest error of each scene, with the first resolution.
+struct Result {
+  const Kind* kind;
+  std::map<std::string, double> worst;
+  std::map<int, Tally, std::greater<>> tallies;  // by resolution
+};
+
+// The many small pieces of one folder are one row of the summary.
+std::string rowOf(const fs::path& path) {
+  const std::string folder = path.parent_path().filename();
+  return folder == "dungeon-kit" ? folder : path.stem().string();
+}
+
+// The whole table goes to standard error, row by row, since it takes long.
+Result measure(const Kind& kind, const std::vector<fs::path>& scenes,
+               const Resolutions& resolutions, const fs::path& folder) {
+  const std::vector<Column> header = kind.columns(1, resolutions);
+  std::cerr << "\n## " << kind.title << "\n\n| scene | view | VPLs |";
+  for (const Column& c : header)
+    std::cerr << fmt::format(" {} {}² {} |", c.backend, c.resolution, c.name);
+  std::cerr << '\n';
+  rule(std::cerr, 3 + header.size());
+  Result result{&kind, {}, {}};
+  std::vector<Over> over;
   for (const fs::path& path : scenes) {
     const Scene scene = loadGltf(path).scene;
     const std::string name = path.stem().string();
     const int vpls = kind.vpls(trianglesOf(scene));
     const Compared compared =
         compare(name, scene, vpls, kind.columns(vpls, resolutions), kind.limit, folder);
+    double& worst = result.worst[rowOf(path)];
     for (const Row& row : compared.rows) {
-      std::cout << fmt::format("| {} | {} | {} |", name, row.view, vpls);
-      for (const double error : row.errors) {
-        const char* mark = error < kind.limit ? "" : "**";
-        std::cout << fmt::format(" {}{:.2f}%{} |", mark, 100 * error, mark);
-        most = std::max(most, error);
-        ++all;
+      std::cerr << fmt::format("| {} | {} | {} |", name, row.view, vpls);
+      for (size_t i = 0; i < row.errors.size(); ++i) {
+        const double error = row.errors[i];
+        std::cerr << percent(error, kind.limit);
+        Tally& tally = result.tallies[header[i].resolution];
+        tally.most = std::max(tally.most, error);
+        ++tally.all;
+        tally.under += error < kind.limit ? 1 : 0;
+        if (header[i].resolution == resolutions[0]) worst = std::max(worst, error);
       }
-      std::cout << std::endl;  // it takes long: whoever looks on sees each
+      std::cerr << std::endl;
     }
     over.insert(over.end(), compared.over.begin(), compared.over.end());
   }
-  std::cout << fmt::format(
-      "\n{} of {} pictures are under {:.0f}%, the largest of all is {:.2f}%.\n", all - over.size(),
-      all, 100 * kind.limit, 100 * most);
   if (!over.empty()) printOver(over);
+  return result;
+}
+
+// The largest error of each scene, over its views and both backends, by table.
+void printSummary(const std::vector<fs::path>& scenes, const std::vector<Result>& results) {
+  std::cout << "\n| scene |";
+  for (const Result& r : results) std::cout << ' ' << r.kind->title << " |";
+  std::cout << '\n';
+  rule(std::cout, 1 + results.size());
+  std::string last;
+  for (const fs::path& path : scenes) {
+    const std::string row = rowOf(path);
+    if (row == last) continue;
+    last = row;
+    std::cout << "| " << row << " |";
+    for (const Result& r : results) std::cout << percent(r.worst.at(row), r.kind->limit);
+    std::cout << '\n';
+  }
+  std::cout << "\n| | maps | under the limit | largest |\n";
+  rule(std::cout, 4);
+  for (const Result& r : results)
+    for (const auto& [resolution, tally] : r.tallies)
+      std::cout << fmt::format("| {} | {}² | {} of {} under {:.0f}% | {:.2f}% |\n", r.kind->title,
+                               resolution, tally.under, tally.all, 100 * r.kind->limit,
+                               100 * tally.most);
 }
 
 struct Options {
@@ -185,8 +236,10 @@ void run(const Options& options) {
       });
     });
   const gl::HeadlessContext context;
+  std::vector<Result> results;
   for (const int table : options.tables)
-    print(kKinds[table - 1], scenes, options.resolutions, options.folder);
+    results.push_back(measure(kKinds[table - 1], scenes, options.resolutions, options.folder));
+  printSummary(scenes, results);
 }
 
 }  // namespace
@@ -194,7 +247,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   lamplighter::equality::Options options;
-  CLI::App app("Each technique against naive: the tables of docs/equality.md");
+  CLI::App app("Each technique against naive: docs/results/equality.md");
   app.add_option("--pictures", options.folder, "Folder for pictures of what is over its limit");
   app.add_option("--maps", options.resolutions, "Texels a side of the shadow maps at rest")
       ->delimiter(',')

@@ -1,4 +1,4 @@
-// Camera bookmarks: extras.lamplighter.bookmarks of the default scene (docs/gltf.md).
+// Camera bookmarks: extras.lamplighter.bookmarks of the default scene (docs/reference/gltf.md).
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// The sky as a note on the scene, its picture as a file beside it (docs/gltf.md).
+// The sky as a note on the scene, its picture as a file beside it (docs/reference/gltf.md).
 #include <algorithm>
 
 #include "renderer/base/error.h"
