@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // As it is named from the folder of assets, from the level's, or from where the program runs.
-fs::path found(const Session& s, const std::string& name) {
+fs::path foundAsset(const Session& s, const std::string& name) {
   std::error_code error;
   for (const fs::path& folder :
        {s.home().preferences.assetFolder, s.document().path.parent_path()}) {
@@ -58,7 +58,7 @@ void addAssetActions(ActionRegistry& r) {
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "asset.place FILE");
-           placeAsset(s, found(s, a[0]));
+           placeAsset(s, foundAsset(s, a[0]));
          },
          {}});
 }

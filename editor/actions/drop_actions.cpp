@@ -11,6 +11,7 @@
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
+#include "renderer/base/text.h"
 #include "renderer/scene/ies/ies_profile.h"
 
 namespace lamplighter {
@@ -19,15 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string endingOf(const fs::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
+std::string endingOf(const fs::path& path) { return lowerCase(path.extension().string()); }
 
 // As it is named from where the program runs, or else from the level's folder.
-fs::path found(const Session& s, const std::string& name) {
+fs::path foundBesideLevel(const Session& s, const std::string& name) {
   const fs::path beside = s.document().path.parent_path() / name;
   std::error_code error;
   return fs::exists(name, error) || !fs::exists(beside, error) ? fs::path(name) : beside;
@@ -36,7 +32,7 @@ fs::path found(const Session& s, const std::string& name) {
 // On the selected point and spot lights; where none are selected on a new light, on the surface
 // under the pointer. One step either way.
 void dropProfile(Session& s, const fs::path& file) {
-  const auto profile = readIes(found(s, file.string()).string());
+  const auto profile = readIes(foundBesideLevel(s, file.string()).string());
   const Scene& scene = s.document().scene;
   std::vector<Node> lights;
   for (const NodeId id : s.document().selection) {

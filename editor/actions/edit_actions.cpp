@@ -11,8 +11,6 @@ namespace lamplighter {
 
 namespace {
 
-bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
-
 void copy(Session& s) { s.setClipboard(clip(s.document().scene, s.document().selection)); }
 
 // The copied nodes again, with new ids, where they were, in this level or another.

@@ -12,8 +12,6 @@ namespace lamplighter {
 
 namespace {
 
-bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
-
 // Puts the active object on the surface under the pointer: objects stand on it, lights face away.
 // The rest of the selection goes along and keeps its places relative to it.
 void drop(Session& s) {

@@ -17,8 +17,6 @@ namespace {
 
 constexpr int kMostCopies = 10000;
 
-bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
-
 int countOf(const std::string& text) {
   const float value = numberOf(text);
   if (value != std::floor(value) || value < 1.0f || value > static_cast<float>(kMostCopies))

@@ -13,8 +13,6 @@ namespace lamplighter {
 
 namespace {
 
-bool hasSelection(const Session& s) { return !s.document().selection.empty(); }
-
 std::vector<NodeId> lockedNodes(const Session& s) {
   std::vector<NodeId> ids;
   for (const Node& n : s.document().scene.nodes)

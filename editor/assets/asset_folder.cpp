@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "renderer/base/error.h"
+#include "renderer/base/text.h"
 
 namespace lamplighter {
 
@@ -13,12 +14,6 @@ namespace fs = std::filesystem;
 
 constexpr int kDeepest = 4;
 constexpr size_t kMostFiles = 5000;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 }  // namespace
 
@@ -40,7 +35,7 @@ std::vector<AssetFile> listAssets(const fs::path& folder) {
       if (isHidden || it.depth() + 1 >= kDeepest) it.disable_recursion_pending();
       continue;
     }
-    const std::string ending = lower(path.extension().string());
+    const std::string ending = lowerCase(path.extension().string());
     if (isHidden || (ending != ".gltf" && ending != ".glb")) continue;
     fs::path name = path.lexically_relative(folder);
     files.push_back({path, name.replace_extension().generic_string()});
@@ -53,12 +48,12 @@ std::vector<AssetFile> listAssets(const fs::path& folder) {
 
 std::vector<AssetFile> matchingAssets(const std::vector<AssetFile>& files,
                                       const std::string& text) {
-  std::istringstream in(lower(text));
+  std::istringstream in(lowerCase(text));
   std::vector<std::string> words;
   for (std::string word; in >> word;) words.push_back(word);
   std::vector<AssetFile> out;
   for (const AssetFile& file : files) {
-    const std::string name = lower(file.name);
+    const std::string name = lowerCase(file.name);
     if (std::all_of(words.begin(), words.end(),
                     [&](const std::string& w) { return name.find(w) != std::string::npos; }))
       out.push_back(file);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSamples = 3;  // a pixel's side
 // Another number where thumbnails come out otherwise: what is in the cache is not found then.
-constexpr int kVersion = 1;
+constexpr int kThumbnailVersion = 1;
 
 // From the front, a little from the right and from above, with all of `bounds` in it.
 View viewOf(const Bounds& bounds, int size) {
@@ -81,8 +81,8 @@ Image8 renderThumbnail(const fs::path& file, int size) {
 
 Image8 cachedThumbnail(const fs::path& file, int size, const fs::path& cacheFolder) {
   if (cacheFolder.empty()) return renderThumbnail(file, size);
-  const fs::path cached =
-      cacheFolder / fmt::format("{}-{}-{}.png", hashText(hashOfAsset(file)), size, kVersion);
+  const fs::path cached = cacheFolder / fmt::format("{}-{}-{}.png", hashText(hashOfAsset(file)),
+                                                    size, kThumbnailVersion);
   std::error_code error;
   if (fs::exists(cached, error)) {
     std::string why;

@@ -20,10 +20,10 @@ namespace lamplighter {
 namespace {
 
 // To be raised whenever tiles come out otherwise.
-constexpr uint64_t kVersion = 1;
+constexpr uint64_t kBakeVersion = 1;
 
 // FNV-1a, by words.
-class Key {
+class ContentHash {
  public:
   void add(uint64_t value) { hash_ = (hash_ ^ value) * 0x100000001b3ull; }
   template <typename T>
@@ -43,14 +43,14 @@ class Key {
 };
 
 // Of everything that the tiles depend on.
-uint64_t keyOf(const Scene& scene, const RenderScene& render, const BakeJobOptions& o) {
-  Key key;
+uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobOptions& o) {
+  ContentHash key;
   key.add(sceneHash(scene));
   key.addAll(render.positions), key.addAll(render.normals), key.addAll(render.indices);
   key.addAll(render.uv0), key.addAll(render.uv1), key.addAll(render.colors);
   for (const Texture& t : render.textures) key.addAll(t.image->pixels);
   const auto add = [&](uint64_t value) { key.add(value); };
-  add(kVersion);
+  add(kBakeVersion);
   add(std::bit_cast<uint32_t>(o.atlas.texelsPerMetre));
   add(static_cast<uint64_t>(o.atlas.pageSize));
   add(o.light.reference);
@@ -161,7 +161,7 @@ BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress&
   if (o.shard == 0) withLightMapUvs(scene, render, atlas);
 
   const std::vector<BakeTile> tiles = bakeTiles(render, atlas);
-  const BakeParts parts(o.output, keyOf(scene, render, o));
+  const BakeParts parts(o.output, keyOfBake(scene, render, o));
   report.tiles = static_cast<int>(tiles.size());
   if (!o.mergeOnly) {
     std::vector<const BakeTile*> open;

@@ -8,18 +8,13 @@
 
 #include "editor/cli/flags.h"
 #include "renderer/base/error.h"
+#include "renderer/base/text.h"
 
 namespace lamplighter {
 
 namespace {
 
 constexpr int kBadUse = 2;
-
-std::string oneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
-}
 
 int fail(const std::string& what) {
   std::cerr << "error: " << oneLine(what) << '\n';

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "editor/cli/parameter_range.h"
 #include "editor/cli/subcommands.h"
 #include "renderer/registry/registry.h"
 
@@ -15,16 +16,7 @@ std::string kindOf(const ParameterSpec& p) {
   return kNames[p.defaultValue.index()];
 }
 
-std::string rangeOf(const ParameterSpec& p) {
-  if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, ", "));
-  if (std::holds_alternative<bool>(p.defaultValue)) return "true, false";
-  if (std::holds_alternative<int>(p.defaultValue)) {
-    return fmt::format("{} … {}", static_cast<int64_t>(p.minimum), static_cast<int64_t>(p.maximum));
-  }
-  return fmt::format("{:g} … {:g}", p.minimum, p.maximum);
-}
-
-void printJson() {
+void printMethodsJson() {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const MethodInfo& m : lamplighter::methods()) {
     nlohmann::ordered_json j{{"name", m.name}, {"label", m.label}, {"citation", m.citation}};
@@ -46,7 +38,7 @@ void printJson() {
   std::cout << all.dump(2) << '\n';
 }
 
-void printMarkdown() {
+void printMethodsMarkdown() {
   std::cout << "# Parameters\n\nWritten by `lamplighter methods --markdown`; set with `--set "
                "name=value`.\n";
   for (const MethodInfo& m : lamplighter::methods()) {
@@ -63,7 +55,7 @@ void printMarkdown() {
   }
 }
 
-void printText() {
+void printMethodsText() {
   for (const MethodInfo& m : lamplighter::methods()) {
     std::cout << fmt::format("{}: {}\n  {}\n", m.name, m.label, m.citation);
     for (const ParameterSpec& p : m.parameters) {
@@ -79,11 +71,11 @@ void printText() {
 
 int methods(const MethodsOptions& options) {
   if (options.json) {
-    printJson();
+    printMethodsJson();
   } else if (options.markdown) {
-    printMarkdown();
+    printMethodsMarkdown();
   } else {
-    printText();
+    printMethodsText();
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "editor/cli/parameter_range.h"
 #include "editor/cli/subcommands.h"
 #include "editor/preferences/preferences.h"
 
@@ -10,13 +11,7 @@ namespace lamplighter::cli {
 
 namespace {
 
-std::string rangeOf(const ParameterSpec& p) {
-  if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, ", "));
-  if (std::holds_alternative<bool>(p.defaultValue)) return "true, false";
-  return fmt::format("{:g} \u2026 {:g}", p.minimum, p.maximum);
-}
-
-void printJson() {
+void printSettingsJson() {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const PreferenceSection& section : preferenceSections()) {
     for (const ParameterSpec& p : section.specs) {
@@ -29,7 +24,7 @@ void printJson() {
   std::cout << all.dump(2) << '\n';
 }
 
-void printMarkdown() {
+void printSettingsMarkdown() {
   std::cout
       << "# Settings\n\nWritten by `lamplighter settings --markdown`. The panel *Settings* "
          "(Ctrl+Comma) and the actions `settings.set NAME=VALUE` and `settings.reset [NAME]` "
@@ -59,7 +54,7 @@ void printMarkdown() {
          "written.\n";
 }
 
-void printText() {
+void printSettingsText() {
   for (const PreferenceSection& section : preferenceSections()) {
     for (const ParameterSpec& p : section.specs)
       std::cout << fmt::format("{} = {}{}  ({})\n    {}\n", p.name,
@@ -72,11 +67,11 @@ void printText() {
 
 int settings(const SettingsOptions& options) {
   if (options.json)
-    printJson();
+    printSettingsJson();
   else if (options.markdown)
-    printMarkdown();
+    printSettingsMarkdown();
   else
-    printText();
+    printSettingsText();
   return 0;
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kRecordingFormat = 1;
 constexpr int64_t kMostFrames = 10'000'000;  // two days at 60 a second; more is a slip of the hand
 
 // Floats as short as they read back.
@@ -108,7 +108,8 @@ ParameterValue valueOf(const std::string& method, const std::string& name, const
 
 RecordingHeader headerOf(const Json& j) {
   if (!j.contains("lamplighter")) throw std::invalid_argument("is no header of a recording");
-  if (j["lamplighter"] != kFormat) throw std::invalid_argument("is of another format version");
+  if (j["lamplighter"] != kRecordingFormat)
+    throw std::invalid_argument("is of another format version");
   RecordingHeader h;
   h.scene = stringOf(j, "scene", "");
   h.sceneHash = stringOf(j, "sceneHash", "");
@@ -237,7 +238,7 @@ Recording readRecording(const std::filesystem::path& path) {
 }
 
 std::string headerText(const RecordingHeader& h) {
-  Json j{{"lamplighter", kFormat}, {"scene", h.scene}};
+  Json j{{"lamplighter", kRecordingFormat}, {"scene", h.scene}};
   if (!h.sceneHash.empty()) j["sceneHash"] = h.sceneHash;
   if (!h.left.empty()) j["left"] = h.left;
   j["window"] = {h.width, h.height};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "renderer/base/text.h"
+
 namespace lamplighter {
 
 std::optional<Chord> parseChord(const std::string& text) {
@@ -18,10 +20,7 @@ std::optional<Chord> parseChord(const std::string& text) {
     *held = true;
     from = plus + 1;
   }
-  std::string key = text.substr(from);
-  std::transform(key.begin(), key.end(), key.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  chord.key = keyOf(key);
+  chord.key = keyOf(lowerCase(text.substr(from)));
   const bool isModifier = chord.key >= Key::shift;
   return chord.key == Key::none || isModifier ? std::nullopt : std::optional(chord);
 }

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr size_t kLongest = 200;
 
-std::string quoted(const std::string& text) {
+std::string excerpt(const std::string& text) {
   std::string out = Json(text).dump(-1, ' ', true, Json::error_handler_t::replace);
   return out.size() > 60 ? out.substr(0, 57) + "..." : out;
 }
@@ -40,9 +40,9 @@ KeyList parseKeys(std::string_view text, std::vector<std::string>& problems) {
   }
   for (const auto& [action, chord] : j.items()) {
     if (!chord.is_string() || action.size() > kLongest) {
-      problems.push_back(quoted(action) + ": its key is no text; it is left out");
+      problems.push_back(excerpt(action) + ": its key is no text; it is left out");
     } else if (!parseChords(chord.get<std::string>())) {
-      problems.push_back(quoted(action) + ": " + quoted(chord.get<std::string>()) +
+      problems.push_back(excerpt(action) + ": " + excerpt(chord.get<std::string>()) +
                          " is no key; write it as Ctrl+Shift+Z or F6");
     } else {
       out.emplace_back(action, chord.get<std::string>());
@@ -71,7 +71,7 @@ KeyMap resolveKeys(const ActionRegistry& registry, const KeyList& preset, const 
   for (const auto& entry : file) {
     const std::string& text = entry.first;
     if (registry.find(text.substr(0, text.find(' '))) == nullptr) {
-      problems.push_back(quoted(text) +
+      problems.push_back(excerpt(text) +
                          ": there is no such action; docs/reference/actions.md lists them");
       continue;
     }
@@ -80,12 +80,12 @@ KeyMap resolveKeys(const ActionRegistry& registry, const KeyList& preset, const 
       const std::string owner = ownerOf(keys, c, text);
       if (owner.empty()) return false;
       if (std::find(bound.begin(), bound.end(), owner) != bound.end()) {
-        problems.push_back(quoted(text) + ": " + chordText(c) + " is the key of " + quoted(owner) +
-                           " already; give one of them another");
+        problems.push_back(excerpt(text) + ": " + chordText(c) + " is the key of " +
+                           excerpt(owner) + " already; give one of them another");
         return true;
       }
       if (!ofFile.contains(owner) && keys.at(owner).size() == 1)
-        problems.push_back(quoted(text) + ": takes " + chordText(c) + " from " + quoted(owner) +
+        problems.push_back(excerpt(text) + ": takes " + chordText(c) + " from " + excerpt(owner) +
                            ", which has no key now");
       return false;
     });

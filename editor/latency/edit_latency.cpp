@@ -15,7 +15,7 @@ namespace {
 // not what is waited for, and a thousand copies stay small.
 constexpr int kSide = 80;
 // So many copies at most; then every second one goes. 256 of 80 x 45 pixels are 11 MB.
-constexpr size_t kMostCopies = 256;
+constexpr size_t kMostSeen = 256;
 constexpr size_t kMostResults = 1000;
 // Pictures that differ by less than this share of their mean are the same to the eye.
 constexpr double kInvisible = 1e-4;
@@ -78,7 +78,7 @@ void EditLatency::frame(const Frame& frame) {
   }
   ++frames_;
   if (frame.settled || frames_ % stride_ == 0) {
-    if (seen_.size() >= kMostCopies) thinOut();
+    if (seen_.size() >= kMostSeen) thinOut();
     seen_.push_back({frames_, frame.end, smallCopy(*frame.picture)});
   }
   if (frame.settled) finish();

@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kSettingsFormat = 1;
 constexpr size_t kMostPaths = 100, kLongestPath = 4096;
 
 // Short, printable: a file may hold anything.
@@ -86,7 +86,7 @@ Preferences parsePreferences(std::string_view text, std::vector<std::string>& pr
     problems.emplace_back("is no JSON object; defaults are taken");
     return out;
   }
-  if (!j.contains("lamplighter_settings") || j["lamplighter_settings"] != kFormat) {
+  if (!j.contains("lamplighter_settings") || j["lamplighter_settings"] != kSettingsFormat) {
     problems.emplace_back("has not \"lamplighter_settings\": 1; defaults are taken");
     return out;
   }
@@ -110,7 +110,7 @@ Preferences parsePreferences(std::string_view text, std::vector<std::string>& pr
 }
 
 std::string preferencesText(const Preferences& p) {
-  Json j{{"lamplighter_settings", kFormat}};
+  Json j{{"lamplighter_settings", kSettingsFormat}};
   Json& values = j["settings"] = Json::object();
   for (const auto& [name, value] : p.values.values()) {
     std::visit(

@@ -9,10 +9,6 @@ namespace lamplighter {
 
 namespace {
 
-[[noreturn]] void damaged(const std::string& what) {
-  throw InputError("journal", what, "it is damaged; use the autosave beside it");
-}
-
 template <typename T>
 Json listOf(const std::vector<T>& values, Blobs& blobs) {
   Json out = Json::array();
@@ -54,7 +50,7 @@ std::vector<T> assetsOf(const std::vector<T>& base, const Json& list, Read read)
       continue;
     }
     const auto index = wholeOf<size_t>(entry);
-    if (index >= base.size()) damaged("the level has other meshes or textures");
+    if (index >= base.size()) damagedJournal("the level has other meshes or textures");
     out.push_back(base[index]);
   }
   return out;
@@ -112,7 +108,7 @@ void applyNodes(std::vector<Node>& nodes, const Json& delta, Blobs& blobs) {
   std::vector<Node> ordered;
   for (const Json& id : delta["order"]) {
     const auto it = place.find(wholeOf<NodeId>(id));
-    if (it == place.end()) damaged("an object is missing");
+    if (it == place.end()) damagedJournal("an object is missing");
     ordered.push_back(std::move(nodes[it->second]));
     place.erase(it);
   }
@@ -127,16 +123,16 @@ void checkIndices(const Scene& s) {
     const bool fits = within(n.mesh, s.meshes.size()) && within(n.camera, s.cameras.size()) &&
                       (n.parent == kNoNode || before.contains(n.parent)) && n.id != kNoNode &&
                       n.id < s.nextId && !before.contains(n.id);
-    if (!fits) damaged("an object refers to what is not there");
+    if (!fits) damagedJournal("an object refers to what is not there");
     before[n.id] = true;
   }
   for (const auto& mesh : s.meshes)
     for (const Primitive& p : mesh->primitives)
-      if (!within(p.material, s.materials.size())) damaged("a mesh has no material");
+      if (!within(p.material, s.materials.size())) damagedJournal("a mesh has no material");
   for (const Material& m : s.materials)
     for (const TextureRef* r :
          {&m.baseColorTexture, &m.normalTexture, &m.emissiveTexture, &m.metallicRoughnessTexture})
-      if (!within(r->texture, s.textures.size())) damaged("a material has no texture");
+      if (!within(r->texture, s.textures.size())) damagedJournal("a material has no texture");
 }
 
 }  // namespace
@@ -181,7 +177,7 @@ Json deltaBetween(const Scene& base, const Document& before, const Document& aft
 }
 
 void applyDelta(const Scene& base, Document& document, const Json& delta, Blobs& blobs) {
-  if (!delta.is_object()) damaged("a line is no object");
+  if (!delta.is_object()) damagedJournal("a line is no object");
   Scene scene = document.scene;
   RenderSettings render = document.render;
   const auto has = [&](const char* key) { return delta.contains(key); };
@@ -206,7 +202,7 @@ void applyDelta(const Scene& base, Document& document, const Json& delta, Blobs&
     const Json& materials = delta["materials"];
     const Json& set = materials.at("set");
     const size_t count = wholeOf<size_t>(materials.at("count"));
-    if (count > scene.materials.size() + set.size()) damaged("materials are missing");
+    if (count > scene.materials.size() + set.size()) damagedJournal("materials are missing");
     scene.materials.resize(count);
     for (const Json& entry : set)
       fromJson(entry.at(1), blobs, scene.materials.at(wholeOf<size_t>(entry.at(0))));

@@ -12,10 +12,6 @@ namespace lamplighter {
 
 namespace {
 
-[[noreturn]] void damaged(const std::string& what) {
-  throw InputError("journal", what, "it is damaged; use the autosave beside it");
-}
-
 template <typename T>
 inline constexpr bool kIsVector = false;
 template <glm::length_t N>
@@ -70,7 +66,7 @@ struct Writer {
   }
   Json put(const std::shared_ptr<const SkyImage>& v) {
     if (!v) return {};
-    if (!v->file) damaged("the sky's picture came from no file");
+    if (!v->file) damagedJournal("the sky's picture came from no file");
     return {{"name", v->name}, {"file", blobs.put(*v->file)}};
   }
   Json put(const std::shared_ptr<const Image8>& v) {
@@ -92,7 +88,7 @@ struct Reader {
   void get(const Json& j, T& v) {
     if constexpr (std::is_enum_v<T>) {
       const int i = wholeOf<int>(j);
-      if (i < 0 || i > 16) damaged("a kind is none");
+      if (i < 0 || i > 16) damagedJournal("a kind is none");
       v = static_cast<T>(i);
     } else if constexpr (std::is_floating_point_v<T>) {
       // What is no number is written as null.
@@ -129,7 +125,7 @@ struct Reader {
     auto bytes =
         std::make_shared<const std::vector<uint8_t>>(blobs.get(j.at("bytes").get<std::string>()));
     v = decodeLightPicture(bytes, j.at("file").get<std::string>(), why);
-    if (!v) damaged("a light's picture " + why);
+    if (!v) damagedJournal("a light's picture " + why);
   }
   void get(const Json& j, std::vector<NodeId>& v) {
     v.clear();
@@ -142,7 +138,7 @@ struct Reader {
     auto bytes =
         std::make_shared<const std::vector<uint8_t>>(blobs.get(j.at("file").get<std::string>()));
     v = decodeSkyImage(bytes, j.at("name").get<std::string>(), why);
-    if (!v) damaged("the sky's picture " + why);
+    if (!v) damagedJournal("the sky's picture " + why);
   }
   void get(const Json& j, std::shared_ptr<const Image8>& v) {
     auto image = std::make_shared<Image8>();
@@ -152,7 +148,7 @@ struct Reader {
     const bool fits = image->width > 0 && image->height > 0 &&
                       image->pixels.size() == 4ull * static_cast<size_t>(image->width) *
                                                   static_cast<size_t>(image->height);
-    if (!fits) damaged("a picture has another size");
+    if (!fits) damagedJournal("a picture has another size");
     v = std::move(image);
   }
   void get(const Json& j, std::vector<Primitive>& v) {
@@ -275,6 +271,10 @@ Json written(const T& value, Blobs& blobs) {
 }
 
 }  // namespace
+
+void damagedJournal(const std::string& what) {
+  throw InputError("journal", what, "it is damaged; use the autosave beside it");
+}
 
 Json toJson(const Node& v, Blobs& b) { return written(v, b); }
 Json toJson(const Material& v, Blobs& b) { return written(v, b); }

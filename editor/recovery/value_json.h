@@ -4,17 +4,20 @@
 
 #include <concepts>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "editor/document/document.h"
 #include "editor/recovery/blobs.h"
-#include "renderer/base/error.h"
 
 namespace lamplighter {
 
 using Json = nlohmann::ordered_json;
+
+// Throws InputError: the journal is damaged.
+[[noreturn]] void damagedJournal(const std::string& what);
 
 // A whole number that T holds; what the JSON library makes of another is undefined. Throws
 // InputError.
@@ -25,8 +28,7 @@ T wholeOf(const Json& json) {
   } else if (json.is_number_integer()) {
     if (const auto v = json.get<int64_t>(); std::in_range<T>(v)) return static_cast<T>(v);
   }
-  throw InputError("journal", "a whole number is none",
-                   "it is damaged; use the autosave beside it");
+  damagedJournal("a whole number is none");
 }
 
 Json toJson(const Node& node, Blobs& blobs);

@@ -10,17 +10,17 @@ namespace lamplighter {
 
 namespace {
 
-constexpr std::pair<LightUnit, const char*> kUnits[] = {{LightUnit::lumens, "lm"},
-                                                        {LightUnit::candela, "cd"},
-                                                        {LightUnit::nits, "nits"},
-                                                        {LightUnit::watts, "W"}};
+constexpr std::pair<LightUnit, const char*> kUnitNames[] = {{LightUnit::lumens, "lm"},
+                                                            {LightUnit::candela, "cd"},
+                                                            {LightUnit::nits, "nits"},
+                                                            {LightUnit::watts, "W"}};
 
 }  // namespace
 
 void applyPreferences(Session& s, std::vector<std::string>& problems) {
   const Preferences& p = s.home().preferences;
   s.setKeys(resolveKeys(s.actions(), keysOfPreset(p.choice("keys")), s.home().fileKeys, problems));
-  for (const auto& [unit, name] : kUnits)
+  for (const auto& [unit, name] : kUnitNames)
     if (p.choice("light_unit") == name) s.lighting().unit = unit;
   s.display().setToneMapper(findToneMapper(p.choice("tone_mapper")).mapper);
 }
@@ -34,7 +34,7 @@ void applyPreset(Session& s) {
 
 void takePreferences(Session& s) {
   Preferences& p = s.home().preferences;
-  for (const auto& [unit, name] : kUnits)
+  for (const auto& [unit, name] : kUnitNames)
     if (s.lighting().unit == unit) p.set("light_unit", std::string(name));
   p.set("tone_mapper", std::string(infoOf(s.display().toneMapper()).name));
 }

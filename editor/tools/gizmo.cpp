@@ -24,7 +24,6 @@ constexpr float kScaleStep = 0.1f;
 const vec4 kAxisColours[3] = {
     {0.93f, 0.32f, 0.31f, 1}, {0.48f, 0.8f, 0.32f, 1}, {0.33f, 0.56f, 0.96f, 1}};
 const vec4 kScreenColour{0.85f, 0.85f, 0.85f, 1};
-const vec4 kHoverColour{1.0f, 0.85f, 0.3f, 1};
 
 struct Line {
   vec3 origin, direction;

@@ -11,8 +11,8 @@ namespace lamplighter {
 
 namespace {
 
-constexpr float kGrab = 8.0f;             // px
-constexpr float kReach = 60.0f;           // px that aim and cones are away from the light
+constexpr float kHandleGrab = 8.0f;       // px
+constexpr float kHandleReach = 60.0f;     // px that aim and cones are away from the light
 constexpr float kLeast = 0.001f;          // m, of a size
 constexpr float kSizeStep = 0.05f;        // m
 constexpr float kConeStep = kPi / 36.0f;  // 5°
@@ -20,7 +20,6 @@ constexpr float kMostCone = 0.5f * kPi;   // glTF's bound of a spot's cones
 constexpr float kLeastCone = 0.01f;       // rad
 
 const vec4 kColour{1.0f, 0.93f, 0.6f, 1.0f};
-const vec4 kHoverColour{1.0f, 0.85f, 0.3f, 1.0f};
 // About each handle, so that it shows on bright walls.
 const vec4 kEdgeColour{0.0f, 0.0f, 0.0f, 0.6f};
 constexpr float kEdge = 1.5f;  // px
@@ -37,7 +36,7 @@ std::optional<Place> placeOf(const View& view, const mat4& world) {
   if (!(glm::length(aim) > 0.0f)) return std::nullopt;
   if (glm::dot(p.origin - view.eye, view.forward()) < view.znear) return std::nullopt;
   p.aim = glm::normalize(aim);
-  p.reach = kReach * metresPerPixel(view, p.origin);
+  p.reach = kHandleReach * metresPerPixel(view, p.origin);
   return p;
 }
 
@@ -60,7 +59,7 @@ std::optional<vec3> onPlane(const View& view, const vec2& pointer, const vec3& o
   return view.eye + t * direction;
 }
 
-float snapped(float value, float step) { return std::max(step, std::round(value / step) * step); }
+float snappedUp(float value, float step) { return std::max(step, std::round(value / step) * step); }
 
 // A circle or a square.
 std::vector<vec2> outlineOf(const vec2& centre, float r, bool isRound) {
@@ -154,7 +153,7 @@ bool LightHandles::update(const View& view, const ViewportInput& in, Document& d
   }
   hovered_ = Kind::none;
   if (!in.hovered) return false;
-  float nearest = kGrab;
+  float nearest = kHandleGrab;
   for (const Handle& handle : handlesOf(view, document)) {
     const auto point = projectPoint(view, handle.place);
     if (!point || glm::length(*point - in.pointer) >= nearest) continue;
@@ -195,7 +194,7 @@ std::optional<Node> LightHandles::resized(const vec3& at, bool bothSides, bool s
   vec2& size = node.area->size;
   const vec3 p(glm::inverse(drag_->world) * vec4(at, 1.0f));
   const auto rounded = [&](float value) {
-    return std::max(kLeast, snapping ? snapped(value, kSizeStep) : value);
+    return std::max(kLeast, snapping ? snappedUp(value, kSizeStep) : value);
   };
   if (drag_->kind == Kind::rim && isTube(*node.area)) {
     size.y = rounded(2.0f * glm::length(vec2(p.y, p.z)));
@@ -237,7 +236,7 @@ std::optional<Node> LightHandles::widened(const vec3& at, bool snapping) const {
   const vec3 way = at - vec3(drag_->world[3]);
   const float along = glm::dot(way, aim);
   float angle = std::atan2(glm::length(way - along * aim), along);
-  if (snapping) angle = snapped(angle, kConeStep);
+  if (snapping) angle = snappedUp(angle, kConeStep);
   if (drag_->kind == Kind::outerCone) {
     light.outerCone = std::clamp(angle, kLeastCone, kMostCone);
     light.innerCone = std::min(light.innerCone, light.outerCone);

@@ -9,6 +9,9 @@
 
 namespace lamplighter {
 
+// Of the handle that the pointer would take.
+inline const vec4 kHoverColour{1.0f, 0.85f, 0.3f, 1.0f};
+
 struct OverlayShape {
   std::vector<vec2> points;
   bool closed = false;

@@ -10,9 +10,9 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kRadius = 4.0f;   // of a mark [px]
-constexpr float kReach = 8.0f;    // of the pointer [px]
-constexpr float kNormal = 16.0f;  // length of the line along the normal [px]
+constexpr float kRadius = 4.0f;     // of a mark [px]
+constexpr float kPickReach = 8.0f;  // of the pointer [px]
+constexpr float kNormal = 16.0f;    // length of the line along the normal [px]
 constexpr vec3 kWaiting{1.0f, 0.45f, 0.25f};
 constexpr vec3 kChosen{1.0f, 1.0f, 1.0f};
 
@@ -105,13 +105,13 @@ int pickVpl(const View& view, const Inspection& inspection, const RayCaster& ray
             const vec2& pointer) {
   int best = kNone;
   bool bestIsSeen = false;
-  float nearest = kReach;
+  float nearest = kPickReach;
   for (size_t i = 0; i < inspection.lights.size(); ++i) {
     const vec3 position = placeOf(inspection.lights[i].vpl, rays);
     const auto at = projectPoint(view, position);
     if (!at) continue;
     const float distance = glm::length(*at - pointer);
-    if (distance > kReach) continue;
+    if (distance > kPickReach) continue;
     const bool seen = isSeen(view, rays, position);
     if (seen < bestIsSeen || (seen == bestIsSeen && distance >= nearest)) continue;
     best = static_cast<int>(i);

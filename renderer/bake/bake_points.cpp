@@ -11,7 +11,7 @@ constexpr int kQuarters = 2;  // along a side of a texel
 constexpr float kReach = kQuarters * (kGutter + 1);
 // Points on an edge move inwards by this share of the triangle, or their rays might start in the
 // wall that stands there.
-constexpr float kInwards = 1e-3f;
+constexpr float kFromEdges = 1e-3f;
 
 struct Nearest {
   float distance = std::numeric_limits<float>::infinity();  // from the quarter's centre [texels]
@@ -86,8 +86,8 @@ std::vector<BakePoint> bakePoints(const RenderScene& scene, const LightMapAtlas&
         const auto add = [&](const Nearest& n) {
           points.push_back({static_cast<uint16_t>(placed.at.x + x),
                             static_cast<uint16_t>(placed.at.y + y), placed.chart.object, n.triangle,
-                            glm::mix(n.u, 1.0f / 3.0f, kInwards),
-                            glm::mix(n.v, 1.0f / 3.0f, kInwards)});
+                            glm::mix(n.u, 1.0f / 3.0f, kFromEdges),
+                            glm::mix(n.v, 1.0f / 3.0f, kFromEdges)});
         };
         bool isOn = false;
         for (const Nearest* n : quarters) {

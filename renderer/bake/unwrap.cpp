@@ -13,7 +13,7 @@ namespace lamplighter {
 namespace {
 
 // Cells a side at most of the grid that overlaps are looked for on.
-constexpr float kMostCells = 1024.0f;
+constexpr float kMostCellsOfChart = 1024.0f;
 // Edges that are tried for the chart's axes.
 constexpr size_t kMostEdges = 24;
 // A cell's centre is within a triangle when it is so by this share of it: triangles that share an
@@ -145,7 +145,7 @@ std::vector<BakeChart> unwrap(const RenderScene& scene, uint32_t object, float c
   std::stable_sort(bySize.begin(), bySize.end(),
                    [&](uint32_t a, uint32_t b) { return t.areas[a] > t.areas[b]; });
   const float extent = std::max(o.bounds.radius(), 1e-6f);
-  const float cells = std::min(cellsPerMetre, kMostCells / (2.0f * extent));
+  const float cells = std::min(cellsPerMetre, kMostCellsOfChart / (2.0f * extent));
   const float leastCosine = std::cos(kMostBend);
 
   std::vector<uint8_t> isTaken(t.corners.size(), 0);

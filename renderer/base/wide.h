@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include <hwy/highway.h>
 
@@ -19,14 +20,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 using WideTag = hn::FixedTag<float, 8>;
 using WideFloats = hn::Vec<WideTag>;
 using WideInts = hn::Vec<hn::FixedTag<int32_t, 8>>;
+inline constexpr WideTag kTag;
 
 // Places or directions, as many as V has lanes.
 template <typename V>
 struct Wide3 {
   V x, y, z;
 };
-inline WideFloats wide(float v) { return hn::Set(WideTag(), v); }
-inline Wide3<WideFloats> wide(const vec3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
+HWY_INLINE WideFloats wide(float v) { return hn::Set(kTag, v); }
+HWY_INLINE Wide3<WideFloats> wide(const vec3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
+HWY_INLINE WideFloats wideAt(const std::vector<float>& v, size_t at) {
+  return hn::LoadU(kTag, &v[at]);
+}
 template <typename V>
 HWY_INLINE Wide3<V> operator-(const Wide3<V>& a, const Wide3<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};

@@ -7,8 +7,11 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include "renderer/base/error.h"
+#include "renderer/base/text.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/open_picture.h"
+#include "renderer/image/tone_map.h"
 
 namespace lamplighter {
 
@@ -39,14 +42,6 @@ struct Opened {
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
   std::unique_ptr<OIIO::ImageInput> input;  // destroyed before the memory it reads
 };
-
-std::string oneLine(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
-}
 
 // Opens the image and checks its size; `why` is set and the input null when it is none.
 Opened open(std::span<const uint8_t> bytes, std::string& why) {
@@ -96,10 +91,6 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
   }
   opened.input = std::move(input);
   return opened;
-}
-
-float decodeSrgb(float s) {
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
 
 }  // namespace

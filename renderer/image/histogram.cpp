@@ -19,7 +19,7 @@ float greyShownAs(float shown, ToneMapper mapper) {
   return high;
 }
 
-struct Counts {
+struct BinCounts {
   std::array<uint64_t, Histogram::kBins> bins{};
   uint64_t white = 0, black = 0;
 };
@@ -35,9 +35,9 @@ Histogram histogramOf(const Image& radiance, float exposureEv, ToneMapper mapper
   const float scale = std::exp2(exposureEv);
   const float white = greyShownAs(254.5f, mapper), black = greyShownAs(0.5f, mapper);
   constexpr float kPerStop = Histogram::kBins / (Histogram::kHighest - Histogram::kLowest);
-  std::vector<Counts> rows(static_cast<size_t>(radiance.height));
+  std::vector<BinCounts> rows(static_cast<size_t>(radiance.height));
   tbb::parallel_for(0, radiance.height, [&](int y) {
-    Counts& counts = rows[static_cast<size_t>(y)];
+    BinCounts& counts = rows[static_cast<size_t>(y)];
     for (int x = 0; x < radiance.width; ++x) {
       const vec3 p = scale * radiance.at(x, y);
       const float brightest = std::max({p.r, p.g, p.b});
@@ -50,7 +50,7 @@ Histogram histogramOf(const Image& radiance, float exposureEv, ToneMapper mapper
     }
   });
   uint64_t whites = 0, blacks = 0;
-  for (const Counts& row : rows) {
+  for (const BinCounts& row : rows) {
     for (size_t i = 0; i < out.bins.size(); ++i) out.bins[i] += row.bins[i];
     whites += row.white;
     blacks += row.black;

@@ -9,22 +9,13 @@
 
 #include "renderer/base/atomic_file.h"
 #include "renderer/base/error.h"
+#include "renderer/base/text.h"
 #include "renderer/image/open_picture.h"
+#include "renderer/image/tone_map.h"
 
 namespace lamplighter {
 
 namespace {
-
-float decodeSrgb(float s) {
-  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
-}
-
-std::string oneLine(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  return text;
-}
 
 // Encoded in memory, so that what is there stays whole until the new one is, and so that a full
 // disk is found by us: the encoders do not all look.

@@ -1,6 +1,7 @@
 // From scene-referred radiance to a picture on a display.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string_view>
 
@@ -27,6 +28,10 @@ const ToneMapperInfo& findToneMapper(std::string_view name);
 Image8 toneMap(const Image& radiance, float exposureEv, ToneMapper mapper = ToneMapper::filmic);
 // The sRGB encoding of a linear value; 1 and more is 1.
 float encodeSrgb(float v);
+// And back.
+inline float decodeSrgb(float s) {
+  return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
+}
 vec3 toneMapPixel(const vec3& radiance, float exposureEv, ToneMapper mapper = ToneMapper::filmic);
 
 }  // namespace lamplighter

@@ -86,9 +86,9 @@ void PlaneLights::setEight(std::span<const TexelLight* const> lights, size_t fir
     }
   }
   const auto dot = [&](From v, const vec3& axis) {
-    return hn::MulAdd(hn::Load(kTag, from[v]), all(axis.x),
-                      hn::MulAdd(hn::Load(kTag, from[v + 1]), all(axis.y),
-                                 hn::Mul(hn::Load(kTag, from[v + 2]), all(axis.z))));
+    return hn::MulAdd(hn::Load(kTag, from[v]), wide(axis.x),
+                      hn::MulAdd(hn::Load(kTag, from[v + 1]), wide(axis.y),
+                                 hn::Mul(hn::Load(kTag, from[v + 2]), wide(axis.z))));
   };
   const auto store = [&](Value value, Floats v) {
     hn::StoreU(v, kTag, &values_[first * kValues + value * kLanes]);
@@ -110,14 +110,14 @@ void PlaneLights::setEight(std::span<const TexelLight* const> lights, size_t fir
     store(static_cast<Value>(kRed + c), hn::IfThenElseZero(isAbove, hn::Mul(height, channel)));
   }
   const auto beside = [&](Floats foot, float least, float most) {
-    return hn::Max(hn::Max(hn::Sub(all(least), foot), hn::Sub(foot, all(most))), zero);
+    return hn::Max(hn::Max(hn::Sub(wide(least), foot), hn::Sub(foot, wide(most))), zero);
   };
   const Floats besideU = beside(u, places.min.x, places.max.x),
                besideW = beside(w, places.min.y, places.max.y);
   const Floats nearest2 = hn::MulAdd(besideU, besideU, hn::MulAdd(besideW, besideW, height2));
   // A thousandth for rounding, twice.
-  const Floats least = hn::Max(hn::Mul(nearest2, all(0.999f)), all(clamp2_));
-  store(kMost, hn::IfThenElseZero(isAbove, hn::Div(hn::Mul(brightest, all(1.001f)), least)));
+  const Floats least = hn::Max(hn::Mul(nearest2, wide(0.999f)), wide(clamp2_));
+  store(kMost, hn::IfThenElseZero(isAbove, hn::Div(hn::Mul(brightest, wide(1.001f)), least)));
 }
 
 // What gives nothing is left out.
@@ -148,12 +148,12 @@ void PlaneLights::divide(size_t count) {
 
 // The irradiance of a light, with its values from here on [m⁻³ × its intensity times its height].
 HWY_INLINE Floats PlaneLights::weigh(const float* light, const Packet& at) const {
-  const auto value = [&](Value v) { return all(light[v * kLanes]); };
+  const auto value = [&](Value v) { return wide(light[v * kLanes]); };
   const Floats du = hn::Sub(at.u, value(kU)), dw = hn::Sub(at.w, value(kW));
   const Floats height =
       hn::MulAdd(du, value(kAxisU), hn::MulAdd(dw, value(kAxisW), value(kAxisHeight)));
   const Floats d2 = hn::MulAdd(du, du, hn::MulAdd(dw, dw, value(kHeight2)));
-  return hn::Div(hn::Max(height, hn::Zero(kTag)), hn::Mul(d2, hn::Max(d2, all(clamp2_))));
+  return hn::Div(hn::Max(height, hn::Zero(kTag)), hn::Mul(d2, hn::Max(d2, wide(clamp2_))));
 }
 
 template <size_t kPackets>
@@ -164,8 +164,8 @@ void PlaneLights::add(const Packet* at, PacketSums* sums) const {
     for (size_t p = 0; p < kPackets; ++p) r[p] = g[p] = b[p] = hn::Zero(IntTag());
     for (size_t i = run.first; i < run.last; ++i) {
       const float* const light = &values_[order_[i]];
-      const Floats red = all(light[kRed * kLanes]), green = all(light[kGreen * kLanes]),
-                   blue = all(light[kBlue * kLanes]);
+      const Floats red = wide(light[kRed * kLanes]), green = wide(light[kGreen * kLanes]),
+                   blue = wide(light[kBlue * kLanes]);
 #pragma GCC unroll 2
       for (size_t p = 0; p < kPackets; ++p) {
         const Floats weight = weigh(light, at[p]);
@@ -197,25 +197,25 @@ Floats weigh(const TexelLight& light, const TexelPlaces& places, const Packet& a
   // Along an axis, from the light.
   const auto along = [&](const vec3& axis) {
     return hn::MulAdd(
-        at.u, all(glm::dot(axis, places.tangent)),
-        hn::MulAdd(at.w, all(glm::dot(axis, places.bitangent)), all(glm::dot(axis, v))));
+        at.u, wide(glm::dot(axis, places.tangent)),
+        hn::MulAdd(at.w, wide(glm::dot(axis, places.bitangent)), wide(glm::dot(axis, v))));
   };
   if (light.kind == shared::kVplDirectional) {
-    const Floats side = all(light.side), least = all(-light.side);
+    const Floats side = wide(light.side), least = wide(-light.side);
     const Floats x = along(light.tangent), y = along(light.bitangent);
     const auto within = hn::And(hn::And(hn::Ge(x, least), hn::Lt(x, side)),
                                 hn::And(hn::Ge(y, least), hn::Lt(y, side)));
     const float cosine = std::max(glm::dot(places.normal, light.axis), 0.0f);
-    return hn::IfThenElseZero(within, all(cosine));
+    return hn::IfThenElseZero(within, wide(cosine));
   }
   const float s = -glm::dot(places.normal, v);
   if (!(s > 0.0f)) return zero;
   const Floats x = along(places.tangent), y = along(places.bitangent), z = along(light.axis);
-  const Floats d2 = hn::MulAdd(x, x, hn::MulAdd(y, y, all(s * s))), d = hn::Sqrt(d2);
-  const Floats ramp = hn::MulAdd(hn::Div(z, d), all(light.coneScale), all(light.side));
-  const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
+  const Floats d2 = hn::MulAdd(x, x, hn::MulAdd(y, y, wide(s * s))), d = hn::Sqrt(d2);
+  const Floats ramp = hn::MulAdd(hn::Div(z, d), wide(light.coneScale), wide(light.side));
+  const Floats cone = hn::Min(hn::Max(ramp, zero), wide(1.0f));
   return hn::IfThenElseZero(hn::Gt(z, zero),
-                            hn::Mul(hn::Mul(cone, cone), hn::Div(all(s), hn::Mul(d2, d))));
+                            hn::Mul(hn::Mul(cone, cone), hn::Div(wide(s), hn::Mul(d2, d))));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "renderer/light_maps/accumulate.h"
 #include "renderer/light_maps/mappable.h"
 #include "renderer/light_maps/texel_grid.h"
+#include "renderer/scene/vpl.h"
 #include "renderer/visibility/seen_patches.h"
 
 namespace lamplighter {
@@ -22,14 +23,12 @@ namespace {
 constexpr int kMostTexels = TexelGrid::kMostAlong;
 constexpr float kFlat = 0.9999f;  // cos 0.8°
 // How much larger texels become, again and again, until there is room for all.
-constexpr float kCoarser = 1.41421356f;
+constexpr float kTexelGrowth = 1.41421356f;
 // What is held: of each texel, and of each tile for 64 slots.
 constexpr uint64_t kTexelBytes = sizeof(vec4) + 3 * sizeof(double);
 constexpr uint64_t kWordBytes = 2 * sizeof(uint64_t);
 
 size_t wordsOf(size_t slots) { return (slots + 63) / 64; }
-
-bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
 // All that a contribution depends on.
 bool sameContribution(const shared::Vpl& a, const shared::Vpl& b) {
@@ -113,7 +112,7 @@ float LightMaps::fittingTexel(const VisibilityDatabase& visibility, size_t words
   float texel = options_.texel;
   while (!fits(size)) {
     if (size.texels == size.tiles * TexelGrid::paddedCount(2, 2)) return 0.0f;
-    texel *= kCoarser;
+    texel *= kTexelGrowth;
     size = {};
     for (uint32_t i = 0; i < objects_.size(); ++i) {
       const Size some = sizeOf(visibility.patches(i), objects_[i].isFlat, texel);

@@ -4,35 +4,24 @@
 #include <limits>
 
 #include "renderer/base/wide.h"
+#include "renderer/scene/vpl.h"
 
 namespace lamplighter {
 namespace {
 
-constexpr size_t kLanes = 8;
-using Tag = hn::FixedTag<float, kLanes>;
-using Floats = hn::Vec<Tag>;
-constexpr Tag kTag;
+using Floats = WideFloats;
 
 // Between texels n texels from a light, interpolation is wrong by up to 1/n².
 constexpr float kNearTexels = 10.0f;
 // A patch that begins so many texels behind a light, at a wall that meets its own, is before it.
 constexpr float kBehindTexels = 0.05f;
-constexpr float kBrightest = 2048.0f;  // W/m²: 65536 such lights still fit the sums
-
-float brightestOf(const shared::Vpl& vpl) {
-  return std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
-}
+constexpr float kMostBrightness = 2048.0f;  // W/m²: 65536 such lights still fit the sums
 
 bool isSpot(const shared::Vpl& vpl) {
   return vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
 }
 
-using Vector3 = Wide3<Floats>;
-
-HWY_INLINE Floats all(float v) { return wide(v); }
-// In the order in which glm adds, so that all is as isMappable() finds it.
-HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) { return dotInTurn(a, b); }
-HWY_INLINE Floats dot(const Vector3& a, const vec3& b) { return dotInTurn(a, wide(b)); }
+using Vector3 = Wide3<Floats>;  // summed in glm's order, so that all is as isMappable() finds it
 
 // Whether the light's plane crosses the patch: there is none of its light behind it, and before it
 // it grows from nothing, which texels on both sides would round off.
@@ -50,7 +39,7 @@ bool isCrossed(const shared::Vpl& vpl, const TilePlace& tile) {
 }  // namespace
 
 bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance) {
-  const float brightest = brightestOf(vpl);
+  const float brightest = brightness(vpl);
   const vec3 position(vpl.position), normal(vpl.normal), tangent(vpl.tangent);
   if (vpl.position.w == shared::kVplDirectional) {
     const vec3 bitangent = glm::cross(normal, tangent);
@@ -64,7 +53,7 @@ bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistan
     const float inner = 0.999f * vpl.tangent.w, outer = 1.001f * vpl.tangent.w;
     const bool isWithin = least.x > -inner && least.y > -inner && most.x < inner && most.y < inner;
     const bool isOutside = least.x > outer || least.y > outer || most.x < -outer || most.y < -outer;
-    return brightest <= kBrightest && (isWithin || isOutside);
+    return brightest <= kMostBrightness && (isWithin || isOutside);
   }
   if (isSpot(vpl)) return false;  // its edge may fall between two texels
   if (isCrossed(vpl, tile)) return false;
@@ -76,7 +65,7 @@ bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistan
                             ? std::max(distance2, clampDistance * clampDistance)
                             : distance2;
   const float nearest = kNearTexels * tile.spacing;
-  return distance2 >= nearest * nearest && brightest <= kBrightest * bounded;
+  return distance2 >= nearest * nearest && brightest <= kMostBrightness * bounded;
 }
 
 MappableLights::MappableLights(std::span<const shared::Vpl> bySlot, std::span<const uint32_t> slots,
@@ -95,10 +84,11 @@ MappableLights::MappableLights(std::span<const shared::Vpl> bySlot, std::span<co
     nx_.push_back(vpl.normal.x);
     ny_.push_back(vpl.normal.y);
     nz_.push_back(vpl.normal.z);
-    brightest_.push_back(brightestOf(vpl));
+    brightest_.push_back(brightness(vpl));
     least_.push_back(vpl.position.w == shared::kVplCosine ? clampDistance * clampDistance : 0.0f);
   }
-  const size_t whole = (slots_.size() + kLanes - 1) / kLanes * kLanes;
+  const size_t whole =
+      (slots_.size() + hn::MaxLanes(kTag) - 1) / hn::MaxLanes(kTag) * hn::MaxLanes(kTag);
   for (auto* v : {&px_, &py_, &pz_, &nx_, &ny_, &nz_, &brightest_, &least_}) v->resize(whole, 0.0f);
 }
 
@@ -110,35 +100,37 @@ void MappableLights::find(const TilePlace& tile, std::span<uint64_t> bits) const
   for (const uint32_t slot : others_) set(slot, isMappable(bySlot_[slot], tile, clampDistance_));
   const float behind = kBehindTexels * tile.spacing, nearest = kNearTexels * tile.spacing;
   const auto minus = [](const Vector3& a, const vec3& b) {
-    return Vector3{hn::Sub(a.x, all(b.x)), hn::Sub(a.y, all(b.y)), hn::Sub(a.z, all(b.z))};
+    return Vector3{hn::Sub(a.x, wide(b.x)), hn::Sub(a.y, wide(b.y)), hn::Sub(a.z, wide(b.z))};
   };
-  for (size_t i = 0; i < slots_.size(); i += kLanes) {
+  for (size_t i = 0; i < slots_.size(); i += hn::MaxLanes(kTag)) {
     const auto load = [i](const std::vector<float>& v) { return hn::LoadU(kTag, &v[i]); };
     const Vector3 position{load(px_), load(py_), load(pz_)},
         normal{load(nx_), load(ny_), load(nz_)};
-    Floats lowest = all(std::numeric_limits<float>::infinity()), highest = hn::Neg(lowest);
+    Floats lowest = wide(std::numeric_limits<float>::infinity()), highest = hn::Neg(lowest);
     for (const vec3& corner : tile.corners) {
-      const Vector3 v{hn::Sub(all(corner.x), position.x), hn::Sub(all(corner.y), position.y),
-                      hn::Sub(all(corner.z), position.z)};
-      const Floats height = dot(v, normal);
+      const Vector3 v{hn::Sub(wide(corner.x), position.x), hn::Sub(wide(corner.y), position.y),
+                      hn::Sub(wide(corner.z), position.z)};
+      const Floats height = dotInTurn(v, normal);
       lowest = hn::Min(lowest, height);
       highest = hn::Max(highest, height);
     }
-    const auto isCrossed = hn::And(hn::Lt(lowest, all(-behind)), hn::Gt(highest, all(behind)));
+    const auto isCrossed = hn::And(hn::Lt(lowest, wide(-behind)), hn::Gt(highest, wide(behind)));
     const Vector3 v = minus(position, tile.chart.origin);
     const auto off = [](Floats p, float least, float most) {
-      return hn::Sub(p, hn::Min(hn::Max(p, all(least)), all(most)));
+      return hn::Sub(p, hn::Min(hn::Max(p, wide(least)), wide(most)));
     };
-    const Floats x = off(dot(v, tile.chart.tangent), tile.patch.min.x, tile.patch.max.x);
-    const Floats y = off(dot(v, tile.chart.bitangent), tile.patch.min.y, tile.patch.max.y);
-    const Floats height = dot(v, tile.chart.normal);
+    const Floats x =
+        off(dotInTurn(v, wide(tile.chart.tangent)), tile.patch.min.x, tile.patch.max.x);
+    const Floats y =
+        off(dotInTurn(v, wide(tile.chart.bitangent)), tile.patch.min.y, tile.patch.max.y);
+    const Floats height = dotInTurn(v, wide(tile.chart.normal));
     const Floats distance2 =
         hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(height, height));
     const Floats bounded = hn::Max(distance2, load(least_));
-    const auto isFar = hn::Ge(distance2, all(nearest * nearest));
-    const auto isFaint = hn::Le(load(brightest_), hn::Mul(all(kBrightest), bounded));
+    const auto isFar = hn::Ge(distance2, wide(nearest * nearest));
+    const auto isFaint = hn::Le(load(brightest_), hn::Mul(wide(kMostBrightness), bounded));
     const uint32_t found = bitsOf(hn::AndNot(isCrossed, hn::And(isFar, isFaint)));
-    for (size_t k = i; k < std::min(i + kLanes, slots_.size()); ++k)
+    for (size_t k = i; k < std::min(i + hn::MaxLanes(kTag), slots_.size()); ++k)
       set(slots_[k], (found >> (k - i) & 1) != 0);
   }
 }

@@ -4,11 +4,9 @@
 namespace lamplighter {
 namespace {
 
-constexpr hn::FixedTag<float, LightMaps::Sampler::kPoints> kTag;
+static_assert(LightMaps::Sampler::kPoints == hn::MaxLanes(kTag));
 constexpr hn::FixedTag<float, 4> kTexelTag;
-using Floats = hn::Vec<decltype(kTag)>;
-
-HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
+using Floats = WideFloats;
 
 // glm::mix().
 template <typename V>
@@ -21,9 +19,9 @@ HWY_INLINE V mix(V a, V b, V share) {
 struct Along {
   Floats low, share;  // the texel before the point, and how far it is to the next
   Along(Floats p, float min, float size, float last) {
-    const Floats part = hn::Div(hn::Sub(p, all(min)), all(size));
-    const Floats at = hn::Mul(hn::Min(hn::Max(part, hn::Zero(kTag)), all(1.0f)), all(last));
-    low = hn::Min(hn::Floor(at), all(last - 1.0f));
+    const Floats part = hn::Div(hn::Sub(p, wide(min)), wide(size));
+    const Floats at = hn::Mul(hn::Min(hn::Max(part, hn::Zero(kTag)), wide(1.0f)), wide(last));
+    low = hn::Min(hn::Floor(at), wide(last - 1.0f));
     share = hn::Sub(at, low);
   }
 };
@@ -49,7 +47,7 @@ void LightMaps::Sampler::irradiance(const float* x, const float* y, const float*
   const Wide3<Floats> way = p - wide(chart_.origin);
   const Along column(dotInTurn(way, wide(chart_.tangent)), min_.x, size_.x, last_.x),
       row(dotInTurn(way, wide(chart_.bitangent)), min_.y, size_.y, last_.y);
-  const Floats first = hn::MulAdd(row.low, all(static_cast<float>(columns_)), column.low);
+  const Floats first = hn::MulAdd(row.low, wide(static_cast<float>(columns_)), column.low);
   alignas(32) int32_t texels[kPoints];
   alignas(32) float across[kPoints], down[kPoints];
   hn::Store(truncateToInts(first), hn::FixedTag<int32_t, kPoints>(), texels);

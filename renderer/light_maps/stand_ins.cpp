@@ -7,6 +7,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/scene/vpl.h"
+
 namespace lamplighter {
 namespace {
 
@@ -26,10 +28,6 @@ constexpr float kSameWay = 0.95f;
 // Of the median of all lights' brightness: what is brighter counts as so bright.
 constexpr float kMostOfMedian = 4.0f;
 
-float brightness(const shared::Vpl& v) {
-  return std::max({v.intensity.r, v.intensity.g, v.intensity.b});
-}
-
 // How unlike two lights are as casters of shadows: the square of their distance and, as far as they
 // look elsewhere, of what a metre away is [m²]. Lights of different kinds have nothing in common.
 float unlikeness(const shared::Vpl& a, const shared::Vpl& b) {
@@ -37,12 +35,6 @@ float unlikeness(const shared::Vpl& a, const shared::Vpl& b) {
   const vec3 way = vec3(a.position) - vec3(b.position);
   const float turned = 1.0f - glm::dot(vec3(a.normal), vec3(b.normal));
   return glm::dot(way, way) + turned * turned;
-}
-
-uint64_t sideOf(const vec3& n) {
-  const vec3 a = glm::abs(n);
-  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return 2 * static_cast<uint64_t>(axis) + (n[axis] < 0.0f ? 1 : 0);
 }
 
 // The cell of grid `grid`, 0 the coarsest; parts of a key that differ in no bit below 2^62.

@@ -7,16 +7,13 @@
 namespace lamplighter::texels {
 
 constexpr size_t kLanes = 8;
-using Tag = hn::FixedTag<float, kLanes>;
+using Tag = WideTag;
 using IntTag = hn::FixedTag<int32_t, kLanes>;
 using DoubleTag = hn::FixedTag<double, kLanes / 2>;
-constexpr Tag kTag;
 constexpr DoubleTag kDoubleTag;
-using Floats = hn::Vec<Tag>;
+using Floats = WideFloats;
 using Ints = hn::Vec<IntTag>;
 using Doubles = hn::Vec<DoubleTag>;
-
-HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
 
 // Of one channel.
 class Sums {
@@ -54,9 +51,9 @@ class Sums {
 struct PacketSums {
   Sums r, g, b;
   HWY_INLINE void addRounded(Floats weight, float red, float green, float blue) {
-    r.addRounded(hn::Mul(weight, all(red)));
-    g.addRounded(hn::Mul(weight, all(green)));
-    b.addRounded(hn::Mul(weight, all(blue)));
+    r.addRounded(hn::Mul(weight, wide(red)));
+    g.addRounded(hn::Mul(weight, wide(green)));
+    b.addRounded(hn::Mul(weight, wide(blue)));
   }
 };
 

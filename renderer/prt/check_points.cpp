@@ -10,7 +10,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr uint32_t kScramble = 0x5eed0002u;
+constexpr uint32_t kCheckScramble = 0x5eed0002u;
 constexpr size_t kFewest = 32;
 constexpr double kDark = 0.25;  // of the object's mean
 // Of the lights that it says anything of, or should, one in so many may be left: more, and it is
@@ -57,7 +57,7 @@ std::vector<CheckPoint> placeCheckPoints(const RenderScene& own, const Transfer&
     const auto t =
         static_cast<size_t>(std::upper_bound(areas.begin(), areas.end() - 1, at) - areas.begin());
     const uint32_t* corner = &own.indices[3 * t];
-    const vec2 u = sobol2(static_cast<uint32_t>(i), kScramble);
+    const vec2 u = sobol2(static_cast<uint32_t>(i), kCheckScramble);
     const float root = std::sqrt(u.x);
     const float weights[3] = {1.0f - root, root * (1.0f - u.y), root * u.y};
     CheckPoint check{};

@@ -6,7 +6,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kBrightest = 65536.0f;  // [W/m²]
+constexpr float kMostIrradiance = 65536.0f;  // [W/m²]
 // Walls of one object that a ray goes through, at most: an end for it, far past any real object.
 constexpr int kMostWalls = 256;
 
@@ -38,7 +38,7 @@ std::optional<IncidentLight> incidentLight(const shared::Vpl& vpl, const vec3& p
       weight = cone * cone / d2;
     }
   }
-  out.irradiance = glm::min(weight * vec3(vpl.intensity), kBrightest);
+  out.irradiance = glm::min(weight * vec3(vpl.intensity), kMostIrradiance);
   if (!(std::max({out.irradiance.r, out.irradiance.g, out.irradiance.b}) > 0.0f))
     return std::nullopt;
   return out;

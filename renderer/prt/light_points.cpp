@@ -8,7 +8,7 @@ namespace lamplighter {
 namespace {
 
 constexpr float kPointsPerSquareMetre = 64.0f;
-constexpr float kInwards = 0.1f;
+constexpr float kTowardsMiddle = 0.1f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Weights (1 − d/R)², R the distance of the nearest point that is not blended: a point comes in and
@@ -68,7 +68,7 @@ LightPoints placeLightPoints(const RenderScene& own, int count) {
       const auto farthest = std::max_element(distance.begin(), distance.end());
       if (i > 0 && !(*farthest > 0.0f)) break;  // fewer places than points
       const vec3 at = own.positions[static_cast<size_t>(farthest - distance.begin())];
-      out.places.push_back(glm::mix(at, middle, kInwards));
+      out.places.push_back(glm::mix(at, middle, kTowardsMiddle));
       for (size_t v = 0; v < vertices; ++v) {
         const float d = glm::distance(own.positions[v], at);
         distance[v] = i == 0 ? d : std::min(distance[v], d);

@@ -10,6 +10,7 @@
 
 #include "renderer/prt/incident_light.h"
 #include "renderer/prt/prt_room.h"
+#include "renderer/scene/vpl.h"
 #include "renderer/visibility/hard_lights.h"
 
 namespace lamplighter {
@@ -19,10 +20,6 @@ constexpr double kUnit = 1.0 / 16777216.0;  // 2⁻²⁴ W/m²
 // Lights nearer to an object's box than this share of the spacing of its light points are left to
 // its pixels.
 constexpr float kNear = 1.0f;
-
-bool isLight(const shared::Vpl& vpl) {
-  return vpl.normal.x != 0.0f || vpl.normal.y != 0.0f || vpl.normal.z != 0.0f;
-}
 
 // But for the slot of its map.
 bool isSame(const shared::Vpl& a, const shared::Vpl& b) {

@@ -8,7 +8,6 @@
 namespace lamplighter {
 namespace {
 
-constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
 // A square around the scene, with what lies on its very edge.
 constexpr float kWholeScene = 1.0001f;
 
@@ -42,8 +41,8 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
         break;
       }
       for (id.index = begin; id.index < end; ++id.index) {
-        const SkyMap::Light light = lights_.sky().sample(
-            numbers_.point(id, id.index, kDirectionDimension, SampleNumbers::direct));
+        const SkyMap::Light light = lights_.sky().sample(numbers_.point(
+            id, id.index, SampleNumbers::kDirectionDimension, SampleNumbers::direct));
         const vec3 irradiance = scale / static_cast<float>(count) * light.irradiance;
         vpls.push_back(directional(id, light.towards, irradiance));
       }
@@ -56,8 +55,8 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
 SkyMap::Light DirectVpls::skySun(const Emitter& e, const VplId& id) const {
   const size_t sun = e.skySun - 1;
   if (batch_ == 0) return lights_.sky().sun(sun);
-  return lights_.sky().sun(sun,
-                           numbers_.point(id, batch_ - 1, kPlaceDimension, SampleNumbers::direct));
+  return lights_.sky().sun(
+      sun, numbers_.point(id, batch_ - 1, SampleNumbers::kPlaceDimension, SampleNumbers::direct));
 }
 
 void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, float scale,

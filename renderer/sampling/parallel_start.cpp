@@ -9,7 +9,7 @@ namespace lamplighter {
 namespace {
 
 // The share of paths that are spread over the whole level evenly, so that none of it goes without.
-constexpr float kEvenShare = 0.25f;
+constexpr float kEvenStarts = 0.25f;
 
 }  // namespace
 
@@ -27,9 +27,9 @@ ParallelStart::ParallelStart(const RenderScene& scene, const vec3& centre, float
 
 ParallelStart::Point ParallelStart::sample(const vec3& towards, vec2 u, float v) const {
   size_t chosen = balls_.size();  // the whole
-  if (v >= kEvenShare && !choice_.empty()) {
+  if (v >= kEvenStarts && !choice_.empty()) {
     float rest;
-    chosen = choice_.sample((v - kEvenShare) / (1.0f - kEvenShare), rest);
+    chosen = choice_.sample((v - kEvenStarts) / (1.0f - kEvenStarts), rest);
   }
   const Ball& ball = chosen == balls_.size() ? whole_ : balls_[chosen];
   const vec2 d = ball.radius * sampleDisk(u);
@@ -53,7 +53,7 @@ float ParallelStart::pdfAt(const vec3& position, const vec3& towards, size_t cho
   for (size_t i = 0; i < balls_.size(); ++i) {
     sum += choice_.probability(i) * density(balls_[i], i == chosen);
   }
-  return kEvenShare * even + (1.0f - kEvenShare) * sum;
+  return kEvenStarts * even + (1.0f - kEvenStarts) * sum;
 }
 
 }  // namespace lamplighter

@@ -13,7 +13,6 @@ namespace lamplighter {
 namespace {
 
 // Dimension pairs of a path's points: where and whereto it leaves; those of bounce b > 0 follow.
-constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
 // And through which part of the level parallel light goes; behind those of all bounces.
 constexpr uint32_t kChoiceDimension = 100;
 
@@ -53,7 +52,8 @@ EmitterSample sampleEmitter(const RenderScene& scene, const LightSet& lights,
   const Emitter& e = lights.emitters()[static_cast<size_t>(source.emitter)];
   const uint32_t parts = e.bothSides ? 2 : 1;  // which take turns
   const EmitterPoint at = lights.samplePoint(
-      scene, source.emitter, numbers.point(source.id, index / parts, kPlaceDimension, set));
+      scene, source.emitter,
+      numbers.point(source.id, index / parts, SampleNumbers::kPlaceDimension, set));
   const float side = index % parts == 0 ? 1.0f : -1.0f;
   EmitterSample p;
   p.normal = side * at.normal;
@@ -87,7 +87,8 @@ PathWalker::PathWalker(const RenderScene& scene, const RayCaster& rays, const Li
 
 Departure PathWalker::depart(const Source& source, uint32_t index) const {
   const Emitter& e = lights_.emitters()[static_cast<size_t>(source.emitter)];
-  const vec2 u = numbers_.point(source.id, index, kDirectionDimension, SampleNumbers::indirect);
+  const vec2 u =
+      numbers_.point(source.id, index, SampleNumbers::kDirectionDimension, SampleNumbers::indirect);
   switch (e.kind) {
     case EmitterKind::surface:
       return departSurface(source, index, u);
@@ -143,7 +144,8 @@ Departure PathWalker::departPunctual(const Source& source, const RenderPunctual&
 Departure PathWalker::departParallel(const Source& source, const vec3& towards,
                                      const vec3& irradiance, uint32_t index) const {
   const ParallelStart::Point p = parallelStart_.sample(
-      towards, numbers_.point(source.id, index, kPlaceDimension, SampleNumbers::indirect),
+      towards,
+      numbers_.point(source.id, index, SampleNumbers::kPlaceDimension, SampleNumbers::indirect),
       numbers_.point(source.id, index, kChoiceDimension, SampleNumbers::indirect).x);
   Departure d;
   d.origin = p.position + lights_.sceneRadius() * towards;
@@ -220,8 +222,9 @@ int PathWalker::walkOn(const Source& source, LightPath& path, size_t from) const
     const PathStep& last = path.steps.back();
     if (last.ends()) break;
     const auto bounce = static_cast<uint32_t>(path.steps.size());
-    const vec2 u = numbers_.point(source.id, path.index, kDirectionDimension + bounce,
-                                  SampleNumbers::indirect);
+    const vec2 u =
+        numbers_.point(source.id, path.index, SampleNumbers::kDirectionDimension + bounce,
+                       SampleNumbers::indirect);
     const vec3 direction = Frame(last.normal).toWorld(sampleCosineHemisphere(u));
     path.steps.push_back(step(last.position, direction));
   }

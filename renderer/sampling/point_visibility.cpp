@@ -13,14 +13,9 @@
 namespace lamplighter {
 namespace {
 
-using Tag = hn::FixedTag<float, 8>;
-using Floats = hn::Vec<Tag>;
-constexpr Tag kTag;
+using Floats = WideFloats;
 
 using Wide = Wide3<Floats>;
-
-Floats all(float v) { return wide(v); }
-Floats dot(const Wide& a, const Wide& b) { return dotInTurn(a, b); }
 
 Ray rayFrom(const vec3& point, const shared::Vpl& vpl) {
   Ray ray{point, 0.0f, vec3(vpl.normal)};
@@ -40,7 +35,7 @@ bool isSamePlace(const shared::Vpl& a, const shared::Vpl& b) {
 // Whether a way from `from` along `half` and back again as far as that touches a box about the
 // origin with half of its size: no axis of either, or across both, parts them (Gottschalk, Lin and
 // Manocha, "OBBTree", 1996).
-hn::Mask<Tag> mayTouchBox(const Wide& middle, const Wide& half, const vec3& size) {
+hn::Mask<WideTag> mayTouchBox(const Wide& middle, const Wide& half, const vec3& size) {
   const Wide along{hn::Abs(half.x), hn::Abs(half.y), hn::Abs(half.z)};
   const Wide e = wide(size);
   const auto isNear = [](Floats off, Floats way, Floats reach) {
@@ -97,7 +92,7 @@ void PointVisibility::outdate(Row& row, std::span<const Obstacle> obstacles) con
     };
     const Wide point{load(positions_.x), load(positions_.y), load(positions_.z)};
     const Wide way = wide(light) - point;
-    const Floats half = all(0.5f);
+    const Floats half = wide(0.5f);
     const Wide halfWay{hn::Mul(way.x, half), hn::Mul(way.y, half), hn::Mul(way.z, half)};
     for (const Obstacle& o : obstacles) {
       const vec3 centre = o.box.centre();
@@ -193,8 +188,9 @@ void PointVisibility::measure(Row& row, size_t block) const {
   };
   const Floats zero = hn::Zero(kTag);
   const Wide v = load(positions_) - wide(vec3(row.vpl.position));
-  const Floats z = dot(v, wide(vec3(row.vpl.normal))), s = hn::Neg(dot(load(normals_), v));
-  const Floats d2 = dot(v, v), least = all(row.clampDistance * row.clampDistance);
+  const Floats z = dotInTurn(v, wide(vec3(row.vpl.normal))),
+               s = hn::Neg(dotInTurn(load(normals_), v));
+  const Floats d2 = dotInTurn(v, v), least = wide(row.clampDistance * row.clampDistance);
   const Floats geometry = hn::Div(hn::Mul(s, z), hn::Mul(d2, hn::Max(d2, least)));
   const auto isLit = hn::And(hn::Gt(z, zero), hn::Gt(s, zero));
   hn::Store(hn::IfThenElseZero(isLit, geometry), kTag, &row.geometry[first]);
@@ -210,7 +206,7 @@ uint32_t PointVisibility::leftOut(uint32_t link, size_t block) const {
 }
 
 void PointVisibility::fill(Row& row, const RayCaster& rays, float* out) const {
-  const Floats brightness = all(luminance(vec3(row.vpl.intensity)));
+  const Floats brightness = wide(luminance(vec3(row.vpl.intensity)));
   const auto link = static_cast<uint32_t>(row.vpl.footprint.y);
   for (size_t b = 0; b < kBlocks; ++b) {
     const size_t first = b * kLanes;

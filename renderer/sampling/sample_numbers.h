@@ -12,6 +12,8 @@ class SampleNumbers {
 
   // Which sequence: of points on lights, of paths, and of paths that follow a moved light.
   enum Set : uint32_t { direct = 0x0d, indirect = 0x1d, following = 0x5d };
+  // Which dimension a light's own points and directions take; paths go on after these.
+  static constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
   // Two coordinates of the point `index` of the light's sequence, in [0, 1)², stable in index.
   // Dimension 0 is neither shuffled nor hashed, so that neighbouring counts share their points.
   vec2 point(const VplId& light, uint32_t index, uint32_t dimension, uint32_t set) const;

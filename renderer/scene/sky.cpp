@@ -12,7 +12,6 @@ namespace lamplighter {
 namespace {
 
 constexpr int kMostWidth = 4096;
-constexpr float kMostRadiance = 1e9f;  // an infinity in the file: 2/3 of the real sun's radiance
 
 // Half the size, each pixel the mean of up to four.
 Image halved(const Image& image) {

@@ -14,6 +14,9 @@
 
 namespace lamplighter {
 
+// The brightest that a picture's pixel may be, and a sky's colour [W/(m² sr)]: 2/3 of the real sun.
+inline constexpr float kMostRadiance = 1e9f;
+
 // An equirectangular picture of the whole sphere (shaders/shared/sky.h says which pixel is where)
 // with what its sampling needs, all found once.
 struct SkyImage {

@@ -18,7 +18,7 @@ constexpr float kSunReach = 2.0f / 180.0f * kPi;  // from its brightest pixel [r
 constexpr float kSunContrast = 0.125f;            // of its brightest pixel's luminance
 
 // v: from the top [0, 1]; u: along the horizon.
-vec3 directionAt(float u, float cosPolar) {
+vec3 directionOfCell(float u, float cosPolar) {
   const float azimuth = 2.0f * kPi * (u - 0.5f);
   const float sine = std::sqrt(std::max(0.0f, 1.0f - cosPolar * cosPolar));
   return {sine * std::sin(azimuth), cosPolar, -sine * std::cos(azimuth)};
@@ -32,7 +32,7 @@ float pixelSolidAngle(const Image& image, int y) {
 }
 
 vec3 pixelDirection(const Image& image, int x, int y) {
-  return directionAt(
+  return directionOfCell(
       (static_cast<float>(x) + 0.5f) / static_cast<float>(image.width),
       std::cos(kPi * (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height)));
 }
@@ -235,8 +235,8 @@ vec3 SkyMap::directionIn(const GridChoice::Cell& cell) const {
   const vec2 low = vec2(cell.x, cell.y) * factor;
   const vec2 high = glm::min(low + factor, pixels_);
   const float top = std::cos(kPi * low.y / pixels_.y), bottom = std::cos(kPi * high.y / pixels_.y);
-  return directionAt((low.x + cell.within.x * (high.x - low.x)) / pixels_.x,
-                     top + cell.within.y * (bottom - top));
+  return directionOfCell((low.x + cell.within.x * (high.x - low.x)) / pixels_.x,
+                         top + cell.within.y * (bottom - top));
 }
 
 SkyMap::Light SkyMap::sample(vec2 u) const {

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "renderer/base/math.h"
+#include "renderer/scene/vpl.h"
 
 namespace lamplighter {
 namespace {
@@ -16,12 +17,6 @@ uint64_t spread(uint64_t v) {  // 10 bits to every third
   v = (v | v << 8) & 0x0300f00f;
   v = (v | v << 4) & 0x030c30c3;
   return (v | v << 2) & 0x09249249;
-}
-
-uint64_t sideOf(const vec3& n) {
-  const vec3 a = glm::abs(n);
-  const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
-  return static_cast<uint64_t>(2 * axis + (n[axis] < 0.0f ? 1 : 0));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/scene/vpl.h"
 #include "renderer/visibility/jobs.h"
 #include "renderer/visibility/visibility_update.h"
 
@@ -30,8 +31,6 @@ constexpr size_t kFewRoots = 16;
 // Where an object is and was before are looked at as one if the sphere around both is no larger
 // than this times its own.
 constexpr float kOneReach = 1.3f;
-
-bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <tbb/parallel_invoke.h>
 
 #include "renderer/scene/light_linking.h"
+#include "renderer/scene/vpl.h"
 
 namespace lamplighter {
 namespace {
@@ -20,8 +21,6 @@ bool sameLight(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
          a.footprint.y == b.footprint.y;
 }
-
-bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
 }  // namespace
 

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 1280, kHeight = 720;
+constexpr int kRecordedWidth = 1280, kRecordedHeight = 720;
 constexpr int kFramesPerSecond = 60;  // of recordings
 
 // What the user sees while OpenGL compiles: the only work that must be done on this thread.
@@ -45,8 +45,8 @@ RecordingHeader headerFor(const fs::path& scene, const fs::path& recording,
   const fs::path relative = fs::relative(fs::absolute(scene, ignored), folder, ignored);
   header.scene = (relative.empty() ? fs::absolute(scene, ignored) : relative).generic_string();
   header.sceneHash = hashText(fileHash(scene));
-  header.width = kWidth;
-  header.height = kHeight;
+  header.width = kRecordedWidth;
+  header.height = kRecordedHeight;
   header.framesPerSecond = kFramesPerSecond;
   header.render = render;
   return header;

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr size_t kMostBytes = 1 << 20;
 // Frames that settings stay the same before they are written: a slider that is dragged is not.
-constexpr int kQuietFrames = 30;
+constexpr int kFramesUnchanged = 30;
 
 // None: there is no such file, or it cannot be read, of which `problem` tells.
 std::optional<std::string> contents(const fs::path& path, std::string& problem) {
@@ -86,7 +86,7 @@ KeyList UserFiles::readKeys() {
 void UserFiles::keep(const Preferences& preferences) {
   unchanged_ = preferences == last_ ? unchanged_ + 1 : 0;
   last_ = preferences;
-  if (unchanged_ == kQuietFrames) flush(preferences);
+  if (unchanged_ == kFramesUnchanged) flush(preferences);
 }
 
 void UserFiles::flush(const Preferences& preferences) {

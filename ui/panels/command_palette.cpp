@@ -6,19 +6,14 @@
 
 #include <imgui_stdlib.h>
 
+#include "renderer/base/text.h"
 #include "ui/widgets/theme.h"
 
 namespace lamplighter {
 
 namespace {
 
-constexpr float kWidth = 560.0f, kListHeight = 300.0f;  // design pixels
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
+constexpr float kPaletteWidth = 560.0f, kListHeight = 300.0f;  // design pixels
 
 std::vector<std::string> wordsOf(const std::string& text) {
   std::istringstream in(text);
@@ -29,7 +24,7 @@ std::vector<std::string> wordsOf(const std::string& text) {
 
 // 0: it does not fit. Names that begin so come before names and labels that hold the words.
 int rank(const Action& action, const std::vector<std::string>& words) {
-  const std::string name = lower(action.name), label = lower(action.label);
+  const std::string name = lowerCase(action.name), label = lowerCase(action.label);
   for (const std::string& word : words) {
     if (name.find(word) == std::string::npos && label.find(word) == std::string::npos) return 0;
   }
@@ -55,7 +50,7 @@ bool needsArguments(const Action& action) {
 std::vector<const Action*> matchingActions(const ActionRegistry& registry,
                                            const std::string& text) {
   if (const Action* action = namedAction(registry, text)) return {action};
-  const std::vector<std::string> words = wordsOf(lower(text));
+  const std::vector<std::string> words = wordsOf(lowerCase(text));
   std::vector<std::pair<int, const Action*>> found;
   for (const auto& [name, action] : registry.all()) {
     if (const int r = rank(action, words); r > 0) found.emplace_back(r, &action);
@@ -83,7 +78,7 @@ std::string CommandPalette::draw(PanelContext ui) {
   const ImGuiViewport& window = *ImGui::GetMainViewport();
   ImGui::SetNextWindowPos({window.GetCenter().x, window.Pos.y + 0.16f * window.Size.y},
                           ImGuiCond_Always, {0.5f, 0.0f});
-  ImGui::SetNextWindowSize({std::min(ui.px(kWidth), 0.9f * window.Size.x), 0});
+  ImGui::SetNextWindowSize({std::min(ui.px(kPaletteWidth), 0.9f * window.Size.x), 0});
   if (!ImGui::BeginPopup("##palette", ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                           ImGuiWindowFlags_NoNavInputs))
     return "";

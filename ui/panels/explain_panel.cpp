@@ -11,8 +11,8 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kWidth = 540.0f, kLeastWidth = 430.0f,
-                kMostRows = 9.0f;  // design pixels; rows without scrolling
+constexpr float kExplainWidth = 540.0f, kLeastExplainWidth = 430.0f,
+                kMostLightRows = 9.0f;  // design pixels; rows without scrolling
 
 unsigned colourOf(LightArrival state) {
   switch (state) {
@@ -147,10 +147,10 @@ Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
   ui.prefix = "explain/";
   const float gap = ui.px(10);
   // Rather over the panels beside a very narrow view than without room for its columns.
-  const float width =
-      std::max(std::min(ui.px(kWidth), view.size().x - 2.0f * gap), ui.px(kLeastWidth));
+  const float width = std::max(std::min(ui.px(kExplainWidth), view.size().x - 2.0f * gap),
+                               ui.px(kLeastExplainWidth));
   const float rowHeight = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
-  const float rows = std::min(static_cast<float>(answer->lights.size()), kMostRows) + 1.0f;
+  const float rows = std::min(static_cast<float>(answer->lights.size()), kMostLightRows) + 1.0f;
   const float tableHeight = std::ceil(rows * (rowHeight + ui.px(1)) + ui.px(4));
   ImGui::SetNextWindowPos({std::max(view.max.x - gap - width, 0.0f), view.min.y + gap});
   ImGui::SetNextWindowSize({width, 0.0f});

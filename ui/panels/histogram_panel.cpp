@@ -11,8 +11,8 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kWidth = 330.0f, kLeastWidth = 280.0f, kHeight = 92.0f,
-                kLeastHeight = 30.0f;  // design pixels; of the bars
+constexpr float kHistogramWidth = 330.0f, kLeastHistogramWidth = 280.0f, kBarsHeight = 92.0f,
+                kLeastBarsHeight = 30.0f;  // design pixels; of the bars
 
 float atStops(const Rect& area, float stops) {
   const float t = (stops - Histogram::kLowest) / (Histogram::kHighest - Histogram::kLowest);
@@ -97,8 +97,8 @@ Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
   if (!session.display().showsHistogram() || !session.output().radiance) return {};
   ui.prefix = "histogram/";
   const float gap = ui.px(10);
-  const float width =
-      std::max(std::min(ui.px(kWidth), view.size().x - 2.0f * gap), ui.px(kLeastWidth));
+  const float width = std::max(std::min(ui.px(kHistogramWidth), view.size().x - 2.0f * gap),
+                               ui.px(kLeastHistogramWidth));
   ImGui::SetNextWindowPos({view.max.x - gap, view.max.y - gap}, ImGuiCond_Always, {1.0f, 1.0f});
   ImGui::SetNextWindowSize({width, 0.0f});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
@@ -114,8 +114,8 @@ Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float room = view.size().y - 2.0f * gap - 2.0f * style.WindowPadding.y -
                      ImGui::GetTextLineHeight() - style.ItemSpacing.y;
-  const bool hasFields = room >= ui.px(kHeight) + 2.0f * ImGui::GetFrameHeightWithSpacing();
-  bars(ui, h, std::clamp(room, ui.px(kLeastHeight), ui.px(kHeight)));
+  const bool hasFields = room >= ui.px(kBarsHeight) + 2.0f * ImGui::GetFrameHeightWithSpacing();
+  bars(ui, h, std::clamp(room, ui.px(kLeastBarsHeight), ui.px(kBarsHeight)));
   note(fmt::format("{} white   {} black   median {}", percentText(h.white), percentText(h.black),
                    nitsText(h.median)));
   ui.name("clipped");

@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kWidth = 240.0f, kRows = 12.0f;  // design pixels; lines at most
+constexpr float kHistoryWidth = 240.0f, kRows = 12.0f;  // design pixels; lines at most
 
 // Row 0 is the level as it was, or as far back as undo goes.
 std::string textOf(const History& history, size_t step) {
@@ -31,7 +31,7 @@ Rect historyPanel(PanelContext ui, const Rect& view, Requests& requests) {
   const float height =
       std::min(std::min(count, kRows) * row + rest, std::max(view.size().y - 2.0f * gap, row));
   ImGui::SetNextWindowPos({view.min.x + gap, view.max.y - gap}, ImGuiCond_Always, {0.0f, 1.0f});
-  ImGui::SetNextWindowSize({std::min(ui.px(kWidth), view.size().x - 2.0f * gap), height});
+  ImGui::SetNextWindowSize({std::min(ui.px(kHistoryWidth), view.size().x - 2.0f * gap), height});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
   ImGui::Begin(

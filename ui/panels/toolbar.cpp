@@ -32,7 +32,7 @@ struct Item {
 using Items = std::vector<Item>;
 
 // How many labels are left out: none; of what tells of the picture; of lights and undo; all.
-constexpr int kSteps = 4;
+constexpr int kShrinkSteps = 4;
 
 bool showsLabel(const Item& item, int step) {
   return !theme::hasIcons() || step <= item.keepsLabel;
@@ -217,7 +217,7 @@ void toolbar(PanelContext ui, Requests& requests) {
     return width;
   };
   int step = 0;
-  while (step + 1 < kSteps && whole(step) > room) ++step;
+  while (step + 1 < kShrinkSteps && whole(step) > room) ++step;
   const bool fits = whole(step) <= room;
   float used = fits ? 0.0f : ImGui::GetFrameHeight() + ui.px(kSpacing);  // of "more"
   size_t shown = 0;

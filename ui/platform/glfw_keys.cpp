@@ -1,5 +1,6 @@
 #include "ui/platform/glfw_keys.h"
 
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace lamplighter {

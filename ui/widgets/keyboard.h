@@ -1,15 +1,17 @@
-// What the keyboard does to items that have only clicks of their own.
+// Keys that panels read themselves.
 #pragma once
 
 #include <imgui.h>
 
 namespace lamplighter {
 
+// A key of the keyboard, whatever has the focus.
+inline bool pressed(ImGuiKey key, bool repeats = false) {
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeats);
+}
+
 // Space or Enter on the last item, while it is the one that is marked for the keyboard.
 inline bool pressedByKey() {
-  const auto pressed = [](ImGuiKey key) {
-    return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
-  };
   return ImGui::GetIO().NavVisible && ImGui::IsItemFocused() &&
          (pressed(ImGuiKey_Space) || pressed(ImGuiKey_Enter));
 }

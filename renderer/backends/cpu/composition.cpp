@@ -8,14 +8,6 @@
 #include "renderer/base/wide.h"
 
 namespace lamplighter::cpu {
-namespace {
-
-using Tag = hn::FixedTag<float, kLanes>;
-using Floats = hn::Vec<Tag>;
-constexpr Tag kTag;
-
-}  // namespace
-
 vec3 Background::at(int x, int y) const {
   if (sky.kind == SkyKind::constant) return sky.radiance;
   return sky.radianceFrom(view.rayDirection(static_cast<float>(x) + 0.5f + jitter.x,
@@ -26,7 +18,7 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
              Image& out) {
   tbb::parallel_for(0, g.tiles(), [&](int tile) {
     const int tileX = tile % g.tilesX * kTileSize, tileY = tile / g.tilesX * kTileSize;
-    const Floats inversePi = hn::Set(kTag, 1.0f / kPi);
+    const WideFloats inversePi = hn::Set(kTag, 1.0f / kPi);
     for (int packet = 0; packet < kPacketsPerTile; ++packet) {
       const int x = tileX + packet % kPacketsPerRow * kPacketWidth,
                 y = tileY + packet / kPacketsPerRow * kPacketHeight;
@@ -36,8 +28,9 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
       const PictureLight::Packet irradiance = light.at(tile, packet, room);
       const auto channel = [&](const float* e, const std::vector<float>& albedo,
                                const std::vector<float>& emission) {
-        const Floats scaled = hn::Mul(hn::LoadU(kTag, e), inversePi);
-        const Floats reflected = white ? scaled : hn::Mul(hn::LoadU(kTag, &albedo[first]), scaled);
+        const WideFloats scaled = hn::Mul(hn::LoadU(kTag, e), inversePi);
+        const WideFloats reflected =
+            white ? scaled : hn::Mul(hn::LoadU(kTag, &albedo[first]), scaled);
         return hn::Add(hn::LoadU(kTag, &emission[first]), reflected);
       };
       float pixels[3 * kLanes];

@@ -12,9 +12,8 @@
 namespace lamplighter::cpu {
 namespace {
 
-using Tag = hn::FixedTag<float, kLanes>;
-using Floats = hn::Vec<Tag>;
-constexpr Tag kTag;
+using Tag = WideTag;
+using Floats = WideFloats;
 
 constexpr int kTilesPerTask = 16;
 

@@ -11,15 +11,13 @@
 namespace lamplighter::cpu {
 namespace {
 
-using Tag = hn::FixedTag<float, kLanes>;
-using Floats = hn::Vec<Tag>;
-constexpr Tag kTag;
+using Floats = WideFloats;
 
 // Share of the brighter of two neighbouring pixels by which they may differ: more is the border of
 // a shadow.
 constexpr float kMostStep = 0.1f;
 
-Floats dot(const Floats (&a)[3], const Floats (&b)[3]) {
+Floats dotOf(const Floats (&a)[3], const Floats (&b)[3]) {
   return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
 }
 
@@ -33,17 +31,17 @@ bool isSameSurface(const GBuffer& a, const GBuffer& b, size_t first) {
                gb[3] = {load(b.gx), load(b.gy), load(b.gz)};
   const Floats sa[3] = {load(a.sx), load(a.sy), load(a.sz)},
                sb[3] = {load(b.sx), load(b.sy), load(b.sz)};
-  const Floats off = dot(ga, way);
-  const auto isInPlane =
-      hn::Le(hn::Mul(off, off),
-             hn::Mul(hn::Set(kTag, shared::kMostOffPlane * shared::kMostOffPlane), dot(way, way)));
-  const auto isAlike = hn::Ge(dot(sa, sb), hn::Set(kTag, shared::kLeastNormalCosine));
-  const hn::RebindToUnsigned<Tag> ids;
+  const Floats off = dotOf(ga, way);
+  const auto isInPlane = hn::Le(
+      hn::Mul(off, off),
+      hn::Mul(hn::Set(kTag, shared::kMostOffPlane * shared::kMostOffPlane), dotOf(way, way)));
+  const auto isAlike = hn::Ge(dotOf(sa, sb), hn::Set(kTag, shared::kLeastNormalCosine));
+  const hn::RebindToUnsigned<WideTag> ids;
   const auto isOneObject =
       hn::Eq(hn::LoadU(ids, &a.object[first]), hn::LoadU(ids, &b.object[first]));
   const auto isHit = hn::And(hn::And(isInPlane, isAlike), hn::RebindMask(kTag, isOneObject));
   // Normals of misses are zero.
-  const auto isMiss = hn::Eq(hn::Add(dot(ga, ga), dot(gb, gb)), hn::Zero(kTag));
+  const auto isMiss = hn::Eq(hn::Add(dotOf(ga, ga), dotOf(gb, gb)), hn::Zero(kTag));
   return hn::AllTrue(kTag, hn::Or(isHit, isMiss));
 }
 

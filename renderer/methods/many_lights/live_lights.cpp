@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
+#include "renderer/scene/vpl.h"
 #include "renderer/visibility/light_clusters.h"
 
 namespace lamplighter {
 namespace {
-
-float brightness(const shared::Vpl& vpl) {
-  return std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
-}
 
 // Less than this share of a set's brightness may be missing, or of a VPL's be wrong, until its turn
 // comes: nobody sees it, and to put it right at once would touch all of them.

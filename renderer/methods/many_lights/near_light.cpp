@@ -8,6 +8,7 @@
 #include "renderer/base/random.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
+#include "renderer/scene/vpl.h"
 #include "shaders/shared/brdf.h"
 #include "shaders/shared/vpl_shading.h"
 
@@ -20,13 +21,9 @@ constexpr int kVplsTried = 32, kRaysAPoint = 2;
 constexpr uint32_t kNoObject = 0xffffffffu;
 // Share of the choice that does not look at how bright they are: a sun's irradiance and a lamp's
 // intensity cannot be compared.
-constexpr float kEvenShare = 0.5f;
+constexpr float kEvenChoices = 0.5f;
 
 constexpr int kRaysAtOnce = 8;
-
-float brightness(const shared::Vpl& vpl) {
-  return std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
-}
 
 }  // namespace
 
@@ -49,8 +46,8 @@ NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
       choice.entries.push_back({vpls[i].vpl, brightness(vpls[i].vpl), 0.0f});
       total += choice.entries.back().brightness;
     }
-    const float even = kEvenShare / static_cast<float>(choice.entries.size());
-    const float scale = total > 0.0f ? (1.0f - kEvenShare) / total : 0.0f;
+    const float even = kEvenChoices / static_cast<float>(choice.entries.size());
+    const float scale = total > 0.0f ? (1.0f - kEvenChoices) / total : 0.0f;
     float sum = 0.0f;
     for (const Choice::Entry& e : choice.entries)
       choice.upTo.push_back(sum += even + scale * e.brightness);

@@ -143,7 +143,8 @@ std::vector<double> numbersMember(const GltfDocument& document, const Json& obje
                                   size_t count, At at) {
   const Json* value = arrayMember(document, object, key, at);
   if (value == nullptr) return {};
-  if (value->size() != count || !std::all_of(value->begin(), value->end(), isFinite)) {
+  if (value->size() != count ||
+      !std::all_of(value->begin(), value->end(), [](const Json& v) { return isFinite(v); })) {
     wrongType(document, at, key, (std::to_string(count) + " finite numbers").c_str(), *value);
   }
   return value->get<std::vector<double>>();

@@ -51,6 +51,9 @@ struct GltfDocument {
   bool usesExtension(const char* name) const;
 };
 
+// Nothing is placed farther than this from the origin [m].
+inline constexpr double kFarthestPlace = 1e9;
+
 // What to do about a file that breaks the rules of glTF.
 inline constexpr const char* kExportAgain =
     "export it again, or mend it (a glTF validator says more)";

@@ -29,7 +29,7 @@ void checkSize(const GltfDocument& document, const Scene& scene) {
   }
 }
 
-LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress) {
+LoadedScene loadScene(const std::filesystem::path& path, const LoadProgress& progress) {
   const auto report = [&](float done, const char* what) {
     if (progress && !progress(done, what)) throw InputError("cancelled");
   };
@@ -89,7 +89,7 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
 
 LoadedScene loadGltf(const std::filesystem::path& path, const LoadProgress& progress) {
   try {
-    return load(path, progress);
+    return loadScene(path, progress);
   } catch (const Json::exception& e) {
     // What the checks missed: a member of another type than it must be.
     throw InputError(path.string(), "breaks the rules of glTF (" + printable(e.what()) + ")",

@@ -11,8 +11,6 @@ namespace lamplighter {
 namespace {
 
 // Beyond this a float has no millimetre left, and squared distances begin to overflow further on.
-constexpr float kFarthest = 1e9f;  // metres
-
 struct Counts {
   size_t notTriangles = 0;   // primitives of points and lines
   size_t mendedNormals = 0;  // vertices
@@ -123,7 +121,8 @@ class MeshReader {
     Primitive p;
     p.positions = readVec3(doc_, spend(*position));
     for (const vec3& v : p.positions) {
-      if (!isFinite(v) || std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > kFarthest) {
+      if (!isFinite(v) ||
+          std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > kFarthestPlace) {
         doc_.fail(at, "has a vertex at no finite place, or farther than 1e9 m", kExportAgain);
       }
     }

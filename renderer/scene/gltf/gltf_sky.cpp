@@ -9,7 +9,7 @@ namespace lamplighter {
 
 namespace {
 
-constexpr double kMostRadiance = 1e9, kMostTurns = 1e6;
+constexpr double kMostTurns = 1e6;
 
 // Why a note is no sky; the loader says where it stands.
 struct Malformed {

@@ -160,16 +160,16 @@ class Parser {
 };
 
 void integrate(IesProfile& p) {
-  constexpr int kRows = 180, kColumns = 360;
+  constexpr int kDegreesDown = 180, kDegreesAround = 360;
   double sum = 0.0;
   int last = 0;  // row with light
-  for (int row = 0; row < kRows; ++row) {
-    const double top = kPi * row / kRows, bottom = kPi * (row + 1) / kRows;
-    const double weight = (std::cos(top) - std::cos(bottom)) * 2.0 * kPi / kColumns;
+  for (int row = 0; row < kDegreesDown; ++row) {
+    const double top = kPi * row / kDegreesDown, bottom = kPi * (row + 1) / kDegreesDown;
+    const double weight = (std::cos(top) - std::cos(bottom)) * 2.0 * kPi / kDegreesAround;
     const auto theta = static_cast<float>(0.5 * (top + bottom));
     double values = 0.0;
-    for (int column = 0; column < kColumns; ++column) {
-      const float phi = 2.0f * kPi * (static_cast<float>(column) + 0.5f) / kColumns;
+    for (int column = 0; column < kDegreesAround; ++column) {
+      const float phi = 2.0f * kPi * (static_cast<float>(column) + 0.5f) / kDegreesAround;
       const float s = std::sin(theta);
       values += p.at({s * std::cos(phi), s * std::sin(phi), -std::cos(theta)});
     }
@@ -177,7 +177,7 @@ void integrate(IesProfile& p) {
     sum += weight * values;
   }
   p.solidAngle = static_cast<float>(sum);
-  p.cap = static_cast<float>(1.0 - std::cos(kPi * std::min(last + 2, kRows) / kRows));
+  p.cap = static_cast<float>(1.0 - std::cos(kPi * std::min(last + 2, kDegreesDown) / kDegreesDown));
 }
 
 }  // namespace

@@ -8,11 +8,9 @@
 namespace lamplighter {
 namespace {
 
-constexpr WideTag kTag;
-
-WideFloats load(const ShadowReachLanes::Lanes& lanes) { return hn::Load(kTag, lanes.data()); }
-Wide3<WideFloats> load(const std::array<ShadowReachLanes::Lanes, 3>& v) {
-  return {load(v[0]), load(v[1]), load(v[2])};
+WideFloats lanesOf(const ShadowReachLanes::Lanes& lanes) { return hn::Load(kTag, lanes.data()); }
+Wide3<WideFloats> lanesOf(const std::array<ShadowReachLanes::Lanes, 3>& v) {
+  return {lanesOf(v[0]), lanesOf(v[1]), lanesOf(v[2])};
 }
 
 }  // namespace
@@ -33,9 +31,9 @@ void ShadowReachLanes::set(size_t lane, const ShadowReach::Cone& cone) {
 
 // As ShadowReach::mayFallOn() adds it up.
 uint32_t ShadowReachLanes::mayFallOn(const vec3& centre, float radius) const {
-  const WideFloats zero = hn::Zero(kTag), sine = load(sine_), cosine = load(cosine_);
-  const Wide3<WideFloats> v = wide(centre) - load(apex_), axis = load(axis_);
-  const WideFloats distance2 = dotInTurn(v, v), gap = hn::Sub(load(nearest_), wide(radius));
+  const WideFloats zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
+  const Wide3<WideFloats> v = wide(centre) - lanesOf(apex_), axis = lanesOf(axis_);
+  const WideFloats distance2 = dotInTurn(v, v), gap = hn::Sub(lanesOf(nearest_), wide(radius));
   const auto isNear = hn::And(hn::Gt(gap, zero), hn::Lt(distance2, hn::Mul(gap, gap)));
   const WideFloats along = dotInTurn(v, axis), along2 = hn::Mul(along, along);
   const WideFloats across2 = hn::Max(hn::Sub(distance2, along2), zero);
@@ -54,10 +52,10 @@ uint32_t ShadowReachLanes::mayFallOn(const vec3& centre, float radius) const {
 // still holds it. Only the sine is other then, by what is taken off over the distance, and the
 // cosine grows by less than the tangent times as much.
 void ShadowReachLanes::slack(const vec3& centre, float radius, Lanes& out) const {
-  const WideFloats zero = hn::Zero(kTag), sine = load(sine_), cosine = load(cosine_);
-  const WideFloats nearest = load(nearest_), before = load(before_), size = load(radius_);
-  const Wide3<WideFloats> v = wide(centre) - load(apex_);
-  const WideFloats distance2 = dotFused(v, v), along = dotFused(v, load(axis_));
+  const WideFloats zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
+  const WideFloats nearest = lanesOf(nearest_), before = lanesOf(before_), size = lanesOf(radius_);
+  const Wide3<WideFloats> v = wide(centre) - lanesOf(apex_);
+  const WideFloats distance2 = dotFused(v, v), along = dotFused(v, lanesOf(axis_));
   const WideFloats across = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, distance2), zero));
   const WideFloats inside = hn::NegMulAdd(across, cosine, hn::MulAdd(along, sine, wide(radius)));
   const WideFloats sideways = hn::Div(hn::Mul(inside, hn::Mul(hn::Add(nearest, size), cosine)),

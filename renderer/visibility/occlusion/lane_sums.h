@@ -8,9 +8,8 @@
 
 namespace lamplighter::lanes {
 
-using Tag = hn::FixedTag<float, LightLanes::kLights>;
-constexpr Tag kTag;
-using Vec = hn::Vec<Tag>;
+static_assert(LightLanes::kLights == hn::MaxLanes(kTag));
+using Vec = WideFloats;
 using Vec3 = Wide3<Vec>;
 
 HWY_INLINE Vec set(float v) { return hn::Set(kTag, v); }

@@ -11,10 +11,6 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kLanes = 8;
-using Tag = hn::FixedTag<float, kLanes>;
-constexpr Tag kTag;
-
 float roundingAt(std::span<const vec3> points) {
   vec3 farthest(0.0f);
   for (const vec3& p : points) farthest = glm::max(farthest, glm::abs(p));
@@ -153,7 +149,7 @@ void OcclusionPyramid::addSides(const vec3& middle, const vec3& up) {
 bool OcclusionPyramid::mayMeet(const Bounds& box) const {
   const vec3 centre = box.centre(), half = 0.5f * box.extent();
   const auto zero = hn::Zero(kTag);
-  for (int first = 0; first < count_; first += kLanes) {
+  for (int first = 0; first < count_; first += hn::MaxLanes(kTag)) {
     const auto x = hn::LoadU(kTag, &planes_.x[static_cast<size_t>(first)]);
     const auto y = hn::LoadU(kTag, &planes_.y[static_cast<size_t>(first)]);
     const auto z = hn::LoadU(kTag, &planes_.z[static_cast<size_t>(first)]);
@@ -174,7 +170,7 @@ bool OcclusionPyramid::mayMeetSphere(const vec3& centre, float radius) const {
   farthest = hn::MulAdd(hn::LoadU(kTag, planes_.x.data()), hn::Set(kTag, centre.x), farthest);
   farthest = hn::MulAdd(hn::LoadU(kTag, planes_.y.data()), hn::Set(kTag, centre.y), farthest);
   farthest = hn::MulAdd(hn::LoadU(kTag, planes_.z.data()), hn::Set(kTag, centre.z), farthest);
-  static_assert(PyramidPlanes::kMost == kLanes);
+  static_assert(PyramidPlanes::kMost == hn::MaxLanes(kTag));
   return hn::AllFalse(kTag, hn::Lt(farthest, hn::Set(kTag, -radius)));
 }
 
@@ -183,7 +179,7 @@ bool OcclusionPyramid::mayBeOutside(const vec3& point, float margin) const {
   distance = hn::MulAdd(hn::LoadU(kTag, planes_.x.data()), hn::Set(kTag, point.x), distance);
   distance = hn::MulAdd(hn::LoadU(kTag, planes_.y.data()), hn::Set(kTag, point.y), distance);
   distance = hn::MulAdd(hn::LoadU(kTag, planes_.z.data()), hn::Set(kTag, point.z), distance);
-  static_assert(PyramidPlanes::kMost == kLanes);
+  static_assert(PyramidPlanes::kMost == hn::MaxLanes(kTag));
   return !hn::AllFalse(kTag, hn::Lt(distance, hn::Set(kTag, margin)));
 }
 

@@ -11,7 +11,6 @@ namespace lamplighter {
 namespace {
 
 using namespace lanes;
-constexpr size_t kLanes = PyramidBatch::kLights;
 
 template <typename Plane>
 Wide3<Vec> normalOf(const Plane& p) {
@@ -213,15 +212,15 @@ PyramidPlanes PyramidBatch::planesOf(size_t light) const {
 
 PyramidBatch::Mask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indices& which,
                                              Depths& depths) const {
-  static_assert(sizeof(BoxBatch) == 6 * kLanes * sizeof(float));
+  static_assert(sizeof(BoxBatch) == 6 * kLights * sizeof(float));
   const float* all = boxes.boxes()[0].centre[0].data();
-  const hn::FixedTag<int32_t, kLanes> ints;
+  const hn::FixedTag<int32_t, kLights> ints;
   const auto box = hn::LoadU(ints, which.data());
   // 48 floats for each eight of them.
   const auto lane = hn::And(box, hn::Set(ints, 7));
   const auto eights = hn::Sub(box, lane);
   const auto at = hn::Add(hn::Add(hn::ShiftLeft<2>(eights), hn::ShiftLeft<1>(eights)), lane);
-  const auto take = [&](size_t i) { return hn::GatherIndex(kTag, all + i * kLanes, at); };
+  const auto take = [&](size_t i) { return hn::GatherIndex(kTag, all + i * kLights, at); };
   const Wide3<Vec> centre{take(0), take(1), take(2)}, half{take(3), take(4), take(5)};
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_)
@@ -248,11 +247,11 @@ PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, fl
     const auto around = depthsIn(boxes.around()[a]);
     const auto isOutside = hn::Lt(around, hn::Zero(kTag));
     outside = hn::Max(outside, hn::IfThenElse(isOutside, around, outside));
-    alignas(32) std::array<float, kLanes> most;  // that one of its boxes may have
+    alignas(32) std::array<float, kLights> most;  // that one of its boxes may have
     hn::Store(around, kTag, most.data());
     for (uint32_t some = 0xff & ~bitsOf(isOutside); some != 0; some &= some - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(some));
-      const size_t batch = a * kLanes + lane;
+      const size_t batch = a * kLights + lane;
       if (batch >= boxes.boxes().size()) break;
       if (most[lane] <= found.depth) continue;
       const auto depths = depthsIn(boxes.boxes()[batch]);
@@ -260,7 +259,7 @@ PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, fl
       if (hn::GetLane(deepest) <= found.depth) continue;
       const auto first = static_cast<size_t>(std::countr_zero(bitsOf(hn::Eq(depths, deepest))));
       // The last eight end with its last box again.
-      const size_t box = std::min(batch * kLanes + first, boxes.size() - 1);
+      const size_t box = std::min(batch * kLights + first, boxes.size() - 1);
       found = {static_cast<int>(box), hn::GetLane(deepest)};
       if (found.depth >= enough) return found;
     }

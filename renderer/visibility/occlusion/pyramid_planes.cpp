@@ -15,7 +15,7 @@ constexpr size_t kMostCorners = 3 + PyramidPlanes::kMost;
 
 bool PyramidPlanes::meet(const vec3& a, const vec3& b, const vec3& c, vec3* at) const {
   // Most triangles are wholly outside of one plane, or have a corner inside all.
-  constexpr hn::FixedTag<float, kMost> kTag;
+  static_assert(kMost == hn::MaxLanes(kTag));
   const auto nx = hn::LoadU(kTag, x.data()), ny = hn::LoadU(kTag, y.data()),
              nz = hn::LoadU(kTag, z.data()), beyond = hn::LoadU(kTag, offset.data());
   const auto outsideOf = [&](const vec3& p) {

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "ui/panels/panels.h"
+#include "ui/widgets/keyboard.h"
 
 namespace lamplighter {
 namespace {
@@ -13,8 +14,6 @@ bool beginModal(const PanelContext& ui, const char* title, float width) {
                                        ImGuiWindowFlags_NoSavedSettings);
 }
 
-bool pressed(ImGuiKey key) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false); }
-
 void paragraph(const PanelContext& ui, const std::string& text) {
   ImGui::PushTextWrapPos(0.0f);
   ImGui::TextUnformatted(text.c_str());
@@ -22,14 +21,14 @@ void paragraph(const PanelContext& ui, const std::string& text) {
   ImGui::Dummy({0, ui.px(6)});
 }
 
-struct Choice {
+struct AnswerButton {
   const char* label;
   const char* name;  // of the widget
 };
 
 // The text, below it buttons in a row at the right; closes the box and returns the index of the one
 // that was chosen, else kNone. Escape chooses the first.
-int choose(const PanelContext& ui, const std::string& text, std::span<const Choice> choices) {
+int choose(const PanelContext& ui, const std::string& text, std::span<const AnswerButton> choices) {
   paragraph(ui, text);
   const float width = ui.px(96), gap = ui.px(7);
   const auto count = static_cast<float>(choices.size());
@@ -75,7 +74,7 @@ SaveQuestion::Answer SaveQuestion::draw(PanelContext ui) {
   opening_ = false;
   if (!beginModal(ui, "Unsaved changes", 420)) return Answer::none;
   const std::string file = ui.session.document().path.filename().string();
-  static constexpr Choice kChoices[] = {
+  static constexpr AnswerButton kChoices[] = {
       {"Cancel", "cancel"}, {"Don't save", "discard"}, {"Save", "save"}};
   static constexpr Answer kAnswers[] = {Answer::cancel, Answer::discard, Answer::save};
   const int chosen = choose(
@@ -90,7 +89,7 @@ OverwriteQuestion::Answer OverwriteQuestion::draw(PanelContext ui) {
   ui.prefix = "dialog/";
   if (!changed_.empty() && !ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
   if (!beginModal(ui, kTitle, 460)) return Answer::none;
-  static constexpr Choice kChoices[] = {
+  static constexpr AnswerButton kChoices[] = {
       {"Cancel", "cancel"}, {"Overwrite", "overwrite"}, {"Save as\u2026", "save_as"}};
   static constexpr Answer kAnswers[] = {Answer::cancel, Answer::overwrite, Answer::saveAs};
   const int chosen = choose(ui,

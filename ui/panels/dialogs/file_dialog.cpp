@@ -9,16 +9,13 @@
 
 #include "editor/session/home_state.h"
 #include "ui/widgets/icons.h"
+#include "ui/widgets/keyboard.h"
 #include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool pressed(ImGuiKey key, bool repeats = false) {
-  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), repeats);
-}
 
 const char* titleOf(FileDialog::Kind kind) {
   switch (kind) {

@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cctype>
 
+#include "renderer/base/text.h"
+
 namespace lamplighter {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::vector<std::string> endings(FileKind kind) {
   switch (kind) {
@@ -34,7 +30,7 @@ std::vector<std::string> endings(FileKind kind) {
 
 bool fits(FileKind kind, const fs::path& path) {
   const std::vector<std::string> all = endings(kind);
-  return std::find(all.begin(), all.end(), lower(path.extension().string())) != all.end();
+  return std::find(all.begin(), all.end(), lowerCase(path.extension().string())) != all.end();
 }
 
 const char* endingsOf(FileKind kind) {
@@ -67,16 +63,16 @@ std::vector<FileEntry> listFolder(const fs::path& folder, FileKind kind, std::st
   }
   error = wrong ? folder.string() + ": " + wrong.message() : "";
   std::sort(entries.begin(), entries.end(), [](const FileEntry& a, const FileEntry& b) {
-    return a.folder != b.folder ? a.folder : lower(a.name) < lower(b.name);
+    return a.folder != b.folder ? a.folder : lowerCase(a.name) < lowerCase(b.name);
   });
   return entries;
 }
 
 std::vector<FileEntry> filtered(const std::vector<FileEntry>& entries, const std::string& text) {
-  const std::string wanted = lower(text);
+  const std::string wanted = lowerCase(text);
   std::vector<FileEntry> out;
   for (const FileEntry& entry : entries)
-    if (lower(entry.name).find(wanted) != std::string::npos) out.push_back(entry);
+    if (lowerCase(entry.name).find(wanted) != std::string::npos) out.push_back(entry);
   return out;
 }
 

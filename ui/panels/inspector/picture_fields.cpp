@@ -10,7 +10,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kColumns = 64, kMostRows = 64;
+constexpr int kPreviewColumns = 64, kMostPreviewRows = 64;
 
 // In so many squares that it can be told from others: panels draw no textures.
 void preview(const PanelContext& ui, const LightPicture& picture, bool isDisk) {
@@ -23,9 +23,9 @@ void preview(const PanelContext& ui, const LightPicture& picture, bool isDisk) {
   ui.name("picture/preview");
   tooltip(ui, std::to_string(image.width) + " \u00d7 " + std::to_string(image.height) + " pixels");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const int columns = std::min(kColumns, image.width);
+  const int columns = std::min(kPreviewColumns, image.width);
   const int rows = std::clamp(static_cast<int>(static_cast<float>(columns) * height / width), 1,
-                              std::min(kMostRows, image.height));
+                              std::min(kMostPreviewRows, image.height));
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const float u = (static_cast<float>(column) + 0.5f) / static_cast<float>(columns);

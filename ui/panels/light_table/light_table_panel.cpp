@@ -49,8 +49,8 @@ constexpr std::array kColumns = {
                "Frames that the oldest of them has waited."},
 };
 
-constexpr float kLeastHeight = 84.0f;  // design pixels
-constexpr float kMostSpare = 160.0f;   // design pixels that the names may take in a wide window
+constexpr float kLeastTableHeight = 84.0f;  // design pixels
+constexpr float kMostSpare = 160.0f;  // design pixels that the names may take in a wide window
 
 void rightAligned(const std::string& text) {
   const float left = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
@@ -79,7 +79,7 @@ class Table {
     for (const ColumnInfo& c : kColumns) spare_ -= ui_.px(c.width) + 2 * ui_.px(4) + 1.0f;
     spare_ = std::clamp(spare_, 0.0f, ui_.px(kMostSpare));
     // Below a bar that takes many lines the panel scrolls.
-    const float height = std::max(ImGui::GetContentRegionAvail().y, ui_.px(kLeastHeight));
+    const float height = std::max(ImGui::GetContentRegionAvail().y, ui_.px(kLeastTableHeight));
     if (ImGui::BeginTable("##table", static_cast<int>(kColumns.size()), kFlags, {0.0f, height})) {
       headers();
       sort();

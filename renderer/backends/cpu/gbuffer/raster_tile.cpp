@@ -9,7 +9,6 @@ namespace lamplighter::cpu {
 namespace {
 
 using raster::Floats;
-using raster::kTag;
 using raster::Pixels;
 using Mask = hn::Mask<WideTag>;
 using IntTag = hn::RebindToSigned<WideTag>;

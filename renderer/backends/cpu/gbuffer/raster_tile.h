@@ -8,7 +8,6 @@ namespace lamplighter::cpu {
 namespace raster {
 
 using Floats = WideFloats;
-inline constexpr WideTag kTag;
 static_assert(hn::MaxLanes(kTag) == kLanes);
 
 // Where the lanes of a packet lie within it.

@@ -51,7 +51,7 @@ HWY_INLINE Floats weightOf(const WideLight& light, const WideConstants& c, const
       return hn::Div(hn::Mul(s, z), hn::Mul(d2, hn::Max(d2, c.clampDistance2)));
     const Floats d = hn::Sqrt(d2);
     const Floats ramp = hn::MulAdd(hn::Div(z, d), light.coneScale, light.coneOffset);
-    const Floats cone = hn::Min(hn::Max(ramp, hn::Zero(kTag)), all(1.0f));
+    const Floats cone = hn::Min(hn::Max(ramp, hn::Zero(kTag)), wide(1.0f));
     return hn::Mul(hn::Mul(cone, cone), hn::Div(s, hn::Mul(d2, d)));
   }
 }
@@ -111,7 +111,7 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
       // A height above zero keeps 1/w finite in the lanes that the light does not reach.
       if constexpr (kLooksUp)
         occluded = hemisphereOccluded<!kSums>(
-            light, c, v, hn::IfThenElse(reached, z, all(1.0f)),
+            light, c, v, hn::IfThenElse(reached, z, wide(1.0f)),
             [&]() -> const Vector3& {
               if (block.plane(i) != plane) normal = inFrameOf(light, geometric);
               plane = block.plane(i);
@@ -243,7 +243,6 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map, int resolu
 
 void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
               const LightRecord& light, const SumConstants& constants, LitOfList& lit) {
-  static_assert(hn::MaxLanes(kTag) == kLanes);
   if (packets.count() == 0) return;
   byKind(light.kind, [&]<LightRecord::Kind kKind>() {
     addLight<kKind>(block, packets, use, sign, light, constants, lit);

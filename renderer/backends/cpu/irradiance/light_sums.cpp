@@ -24,7 +24,7 @@ constexpr size_t kMostLitBytes = size_t{32} << 20;
 constexpr size_t kLitStep = 64;
 constexpr MapChange kNoChange{MapChange::Extent::nothing};
 // Tiles that are summed together, so that each shadow map is fetched from memory once for all.
-constexpr int kTilesPerTask = 16;
+constexpr int kDenseTilesPerTask = 16;
 // The same where few of their packets are wanted.
 constexpr int kSparseTilesPerTask = 32;
 // Of small pictures, so that no core waits long for the last one.
@@ -248,7 +248,7 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   const bool newTransfer = revised(transferRevisions_, patches ? patches->prt() : nullptr);
   const bool finishAll = newMaps || newTransfer;
   const int tiles = gbuffer.tiles();
-  const int most = wanted.empty() ? kTilesPerTask : kSparseTilesPerTask;
+  const int most = wanted.empty() ? kDenseTilesPerTask : kSparseTilesPerTask;
   const int aTask = std::clamp(tiles / kFewestTasks, 1, most);
   tbb::parallel_for(0, (tiles + aTask - 1) / aTask, [&](int task) {
     const int first = task * aTask, last = std::min(first + aTask, tiles);

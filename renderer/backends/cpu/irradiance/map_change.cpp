@@ -12,12 +12,11 @@ namespace lamplighter::cpu {
 namespace {
 
 constexpr size_t kWide = 8;
-constexpr WideTag kTag;
 
 // From a texel's centre to its corners, times the resolution. On the octahedron a corner is up to
 // √2/resolution away, where |x| + |y| + z = 1, and no point of that is nearer to the light than
 // 1/√3: at most √6/resolution as an angle. The rest is for rounding.
-constexpr float kTexelAngle = 2.5f, kTexelWay = 1.5f, kRounding = 1e-3f;
+constexpr float kTexelAngle = 2.5f, kTexelWay = 1.5f, kMapRounding = 1e-3f;
 // Of more than this share of its texels all of a map may as well have changed, and of more than
 // this angle [rad] too: what follows wants it to be less than a right one.
 constexpr float kMostOfMap = 0.5f, kMostAngle = 1.4f;
@@ -56,14 +55,14 @@ MapChange compareMaps(std::span<const float> before, std::span<const float> now,
     float most = 0.0f;
     for (const uint32_t texel : changed)
       most = std::max(most, glm::distance(way(texel), change.axis));
-    change.reach = most + kTexelWay / size + kRounding;
+    change.reach = most + kTexelWay / size + kMapRounding;
     return change;
   }
   // All lie in a half space, so that their mean is not zero but where they are all round it.
   change.axis = glm::normalize(change.axis);
   float least = 1.0f;
   for (const uint32_t texel : changed) least = std::min(least, glm::dot(way(texel), change.axis));
-  change.reach = std::acos(std::max(least, 0.0f)) + kTexelAngle / size + kRounding;
+  change.reach = std::acos(std::max(least, 0.0f)) + kTexelAngle / size + kMapRounding;
   return change.reach < kMostAngle ? change : MapChange();
 }
 

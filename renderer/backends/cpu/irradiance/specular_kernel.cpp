@@ -5,10 +5,9 @@
 #include "shaders/shared/vpl_speculars.h"
 
 namespace lamplighter::cpu {
-namespace {
 
 // The points of a packet with their lobes.
-struct Points {
+struct GlossyPoints {
   Vector3 position, shading, geometric, toEye;
   bool isFlat;
   Mask meant;
@@ -17,8 +16,10 @@ struct Points {
   Floats grazing;    // F at 90°
 };
 
-Points pointsAt(const GBuffer& g, const vec3& from, size_t first, uint8_t lanes,
-                std::span<const Gloss, kLanes> gloss, float leastRoughness) {
+namespace {
+
+GlossyPoints pointsAt(const GBuffer& g, const vec3& from, size_t first, uint8_t lanes,
+                      std::span<const Gloss, kLanes> gloss, float leastRoughness) {
   HWY_ALIGN float alpha2[kLanes], nv[kLanes], grazing[kLanes];
   HWY_ALIGN float straight[3][kLanes], eye[3][kLanes];
   for (size_t lane = 0; lane < kLanes; ++lane) {
@@ -52,13 +53,14 @@ Points pointsAt(const GBuffer& g, const vec3& from, size_t first, uint8_t lanes,
 }
 
 // shared::lobeTowards times `weight`, for light of this colour.
-HWY_INLINE void addLobe(const Points& p, const Vector3& colour, Floats weight, Floats nl, Floats lv,
-                        Floats solidAngle, Vector3& sum) {
-  const Floats one = all(1.0f), half = all(0.5f);
-  const Floats vh = hn::Sqrt(hn::Max(hn::MulAdd(half, lv, half), all(1e-6f)));
+HWY_INLINE void addLobe(const GlossyPoints& p, const Vector3& colour, Floats weight, Floats nl,
+                        Floats lv, Floats solidAngle, Vector3& sum) {
+  const Floats one = wide(1.0f), half = wide(0.5f);
+  const Floats vh = hn::Sqrt(hn::Max(hn::MulAdd(half, lv, half), wide(1e-6f)));
   const Floats inverse = hn::Div(one, vh);
   const Floats a2 = hn::Min(
-      hn::MulAdd(hn::Mul(solidAngle, all(shared::kSpread / (4.0f * kPi))), inverse, p.alpha2), one);
+      hn::MulAdd(hn::Mul(solidAngle, wide(shared::kSpread / (4.0f * kPi))), inverse, p.alpha2),
+      one);
   const Floats nh = hn::Mul(hn::Mul(half, hn::Add(nl, p.nv)), inverse);
   const Floats nh2 = hn::Min(hn::Mul(nh, nh), one);
   const Floats d = hn::MulAdd(nh2, hn::Sub(a2, one), one);
@@ -68,7 +70,7 @@ HWY_INLINE void addLobe(const Points& p, const Vector3& colour, Floats weight, F
   };
   const Floats masking = hn::Add(side(nl, p.nv), side(p.nv, nl));
   const Floats dv =
-      hn::Div(hn::Mul(hn::Mul(a2, all(0.5f / kPi)), weight), hn::Mul(hn::Mul(d, d), masking));
+      hn::Div(hn::Mul(hn::Mul(a2, wide(0.5f / kPi)), weight), hn::Mul(hn::Mul(d, d), masking));
   const Floats m = hn::Sub(one, vh), m2 = hn::Mul(m, m);
   const Floats grazing = hn::Mul(hn::Mul(m2, m2), m);
   const auto add = [&](Floats straight, Floats light, Floats& to) {
@@ -82,8 +84,8 @@ HWY_INLINE void addLobe(const Points& p, const Vector3& colour, Floats weight, F
 
 // Adds what the light gives the eye.
 template <LightRecord::Kind kKind>
-HWY_INLINE void addSpecular(const Points& p, const WideLight& light, float footprint, bool looksUp,
-                            const WideConstants& c, Vector3& sum) {
+HWY_INLINE void addSpecular(const GlossyPoints& p, const WideLight& light, float footprint,
+                            bool looksUp, const WideConstants& c, Vector3& sum) {
   const Floats zero = hn::Zero(kTag);
   const Vector3 v{hn::Sub(p.position.x, light.position.x), hn::Sub(p.position.y, light.position.y),
                   hn::Sub(p.position.z, light.position.z)};
@@ -101,7 +103,7 @@ HWY_INLINE void addSpecular(const Points& p, const WideLight& light, float footp
     if (hn::AllFalse(kTag, lit)) return;
     lv = dot(light.normal, p.toEye);
     weight = nl;
-    solidAngle = all(footprint);
+    solidAngle = wide(footprint);
     if (looksUp) occluded = directionalOccluded(light, c, q, geometric, facing);
   } else {
     const Floats z = dot(v, light.normal);
@@ -112,10 +114,10 @@ HWY_INLINE void addSpecular(const Points& p, const WideLight& light, float footp
     if (hn::AllFalse(kTag, lit)) return;
     if (looksUp)
       occluded = hemisphereOccluded(
-          light, c, v, hn::IfThenElse(lit, z, all(1.0f)),
+          light, c, v, hn::IfThenElse(lit, z, wide(1.0f)),
           [&] { return inFrameOf(light, geometric); }, facing);
-    const Floats d2 = hn::Max(dot(v, v), all(1e-12f));
-    const Floats inverse = hn::Div(all(1.0f), hn::Sqrt(d2));
+    const Floats d2 = hn::Max(dot(v, v), wide(1e-12f));
+    const Floats inverse = hn::Div(wide(1.0f), hn::Sqrt(d2));
     nl = hn::Mul(s, inverse);
     lv = hn::Neg(hn::Mul(dot(v, p.toEye), inverse));
     // Cosine at the light. Behind it, in lanes that it does not reach, no lobe must be without end.
@@ -123,10 +125,10 @@ HWY_INLINE void addSpecular(const Points& p, const WideLight& light, float footp
     if constexpr (kKind == LightRecord::Kind::cosine) {
       const Floats perArea = hn::Mul(away, hn::Min(hn::Mul(inverse, inverse), c.perClampDistance2));
       weight = hn::Mul(nl, perArea);
-      solidAngle = hn::Mul(all(footprint), perArea);
+      solidAngle = hn::Mul(wide(footprint), perArea);
     } else {
       const Floats ramp = hn::MulAdd(away, light.coneScale, light.coneOffset);
-      const Floats cone = hn::Min(hn::Max(ramp, zero), all(1.0f));
+      const Floats cone = hn::Min(hn::Max(ramp, zero), wide(1.0f));
       weight = hn::Mul(hn::Mul(cone, cone), hn::Div(nl, d2));
     }
     weight = hn::Min(weight, light.mostWeight);
@@ -134,20 +136,20 @@ HWY_INLINE void addSpecular(const Points& p, const WideLight& light, float footp
   lit = hn::AndNot(occluded, lit);
   if (hn::AllFalse(kTag, lit)) return;
   // Hardly any.
-  const Mask isLarge = hn::Gt(solidAngle, all(shared::kMostSolidAngle));
+  const Mask isLarge = hn::Gt(solidAngle, wide(shared::kMostSolidAngle));
   if (!hn::AllFalse(kTag, isLarge)) {
-    const Floats share = hn::Div(all(shared::kMostSolidAngle), solidAngle);
+    const Floats share = hn::Div(wide(shared::kMostSolidAngle), solidAngle);
     weight = hn::IfThenElse(isLarge, hn::Mul(weight, share), weight);
   }
   // In the other lanes a light from above the surface, of weight nothing: no division by nothing.
-  addLobe(p, light.units, hn::IfThenElseZero(lit, weight), hn::IfThenElse(lit, nl, all(1.0f)), lv,
+  addLobe(p, light.units, hn::IfThenElseZero(lit, weight), hn::IfThenElse(lit, nl, wide(1.0f)), lv,
           solidAngle, sum);
 }
 
 }  // namespace
 
 struct SpecularBlock::Place {
-  Points points;
+  GlossyPoints points;
   Vector3 sum;
   uint8_t lanes;
   const LightUse* uses;

@@ -11,11 +11,11 @@
 
 namespace lamplighter::cpu {
 
-using Tag = hn::FixedTag<float, kLanes>;
+using Tag = WideTag;
 using IntTag = hn::RebindToSigned<Tag>;
-using Floats = hn::Vec<Tag>;
+using Floats = WideFloats;
 using Mask = hn::Mask<Tag>;
-inline constexpr Tag kTag;
+static_assert(hn::MaxLanes(kTag) == kLanes);
 
 // A light's weight [1/m²] is bounded, so that sums can be: of a punctual light at 6 cm, where it
 // has no surface to be so near to; of one that stands for a surface it is the clamp that counts.
@@ -38,7 +38,6 @@ using Vector3 = Wide3<Floats>;
 
 using Ints = hn::Vec<IntTag>;
 
-HWY_INLINE Floats all(float v) { return hn::Set(kTag, v); }
 HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) { return dotFused(a, b); }
 // Three arrays; as pointers of its own, which stores elsewhere don't change.
 struct Vectors {
@@ -52,24 +51,22 @@ struct Vectors {
   const float* HWY_RESTRICT z;
 };
 
-HWY_INLINE Vector3 all(const vec3& v) { return {all(v.x), all(v.y), all(v.z)}; }
-
 // The light in every lane, so that the loop over pixels takes it as vector operands from the stack.
 struct WideLight {
   WideLight(const LightRecord& light, bool isNegative, const SumConstants& c)
       : map(light.map),
-        position(all(light.position)),
-        normal(all(light.normal)),
-        tangent(all(light.tangent)),
-        bitangent(all(light.bitangent)),
-        units(all((isNegative ? -c.unitsPerIrradiance : c.unitsPerIrradiance) * light.intensity)),
-        mostWeight(all(cpu::mostWeight(light.kind, c.clampDistance2))),
-        coneScale(all(light.coneScale)),
-        coneOffset(all(light.coneOffset)),
-        side(all(light.side)),
-        inverseSide(all(1.0f / light.side)),
-        depth(all(2.0f * light.radius)),
-        deepest(all(-light.radius - c.bias * light.side)) {}
+        position(wide(light.position)),
+        normal(wide(light.normal)),
+        tangent(wide(light.tangent)),
+        bitangent(wide(light.bitangent)),
+        units(wide((isNegative ? -c.unitsPerIrradiance : c.unitsPerIrradiance) * light.intensity)),
+        mostWeight(wide(cpu::mostWeight(light.kind, c.clampDistance2))),
+        coneScale(wide(light.coneScale)),
+        coneOffset(wide(light.coneOffset)),
+        side(wide(light.side)),
+        inverseSide(wide(1.0f / light.side)),
+        depth(wide(2.0f * light.radius)),
+        deepest(wide(-light.radius - c.bias * light.side)) {}
 
   const float* map;
   Vector3 position, normal, tangent, bitangent;
@@ -83,17 +80,17 @@ struct WideLight {
 struct WideConstants {
   // side: of the light's map [texels].
   WideConstants(const SumConstants& c, int side)
-      : resolution(all(static_cast<float>(side))),
-        middle(all(0.5f * static_cast<float>(side))),
-        half(all(0.5f * static_cast<float>(side) * (1.0f - 0x1p-21f))),
+      : resolution(wide(static_cast<float>(side))),
+        middle(wide(0.5f * static_cast<float>(side))),
+        half(wide(0.5f * static_cast<float>(side) * (1.0f - 0x1p-21f))),
         lastTexel(hn::Set(hn::RebindToUnsigned<Tag>(), static_cast<uint32_t>(side * side - 1))),
-        step(all(2.0f / static_cast<float>(side))),
-        steep(all(shared::kSteepTexels * 2.0f / static_cast<float>(side))),
-        first(all(1.0f / static_cast<float>(side) - 1.0f)),
-        beforePlane(all(1.0f + c.bias)),
-        beforePoint(all(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(side))),
-        clampDistance2(all(c.clampDistance2)),
-        perClampDistance2(all(1.0f / c.clampDistance2)) {}
+        step(wide(2.0f / static_cast<float>(side))),
+        steep(wide(shared::kSteepTexels * 2.0f / static_cast<float>(side))),
+        first(wide(1.0f / static_cast<float>(side) - 1.0f)),
+        beforePlane(wide(1.0f + c.bias)),
+        beforePoint(wide(1.0f + c.bias + shared::kCornerTexels / static_cast<float>(side))),
+        clampDistance2(wide(c.clampDistance2)),
+        perClampDistance2(wide(1.0f / c.clampDistance2)) {}
 
   Floats resolution, middle, half;
   hn::Vec<hn::RebindToUnsigned<Tag>> lastTexel;
@@ -133,7 +130,7 @@ HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& 
                                    Floats z, F&& geometric, Floats facing) {
   const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
   const Floats w = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), z);
-  const Floats inverse = hn::Div(all(1.0f), w);
+  const Floats inverse = hn::Div(wide(1.0f), w);
   const Floats s = texelOf(hn::Mul(hn::Add(x, y), inverse), c);
   const Floats t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c);
   const Floats stored = fetch(light.map, s, t, c);
@@ -141,9 +138,9 @@ HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& 
   // Mostly nothing is; then the plane need not be asked.
   if (!kIsMostly && hn::AllFalse(kTag, beforePoint)) return beforePoint;
   const Floats cs = centreOf(s, c), ct = centreOf(t, c);
-  const Floats ex = hn::Mul(hn::Add(cs, ct), all(0.5f));
-  const Floats ey = hn::Mul(hn::Sub(cs, ct), all(0.5f));
-  const Floats ez = hn::Sub(all(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
+  const Floats ex = hn::Mul(hn::Add(cs, ct), wide(0.5f));
+  const Floats ey = hn::Mul(hn::Sub(cs, ct), wide(0.5f));
+  const Floats ez = hn::Sub(wide(1.0f), hn::Add(hn::Abs(ex), hn::Abs(ey)));
   const Vector3& n = geometric();
   const Floats plane = hn::MulAdd(n.x, ex, hn::MulAdd(n.y, ey, hn::Mul(n.z, ez)));
   // facing = −n·v > 0
@@ -156,7 +153,7 @@ HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& 
 HWY_INLINE Mask directionalOccluded(const WideLight& light, const WideConstants& c,
                                     const Vector3& q, const Vector3& geometric, Floats facing) {
   // Within the square in the lanes that count.
-  const auto inSquare = [](Floats v) { return hn::Max(hn::Min(v, all(1.0f)), all(-1.0f)); };
+  const auto inSquare = [](Floats v) { return hn::Max(hn::Min(v, wide(1.0f)), wide(-1.0f)); };
   const Floats s = texelOf(inSquare(hn::Mul(q.x, light.inverseSide)), c);
   const Floats t = texelOf(inSquare(hn::Mul(q.y, light.inverseSide)), c);
   const Floats stored = fetch(light.map, s, t, c);

@@ -8,12 +8,8 @@
 namespace lamplighter::cpu {
 namespace {
 
-constexpr WideTag kTag;
-
 // More than numbers are rounded.
 constexpr float kSlack = 1e-4f, kShareOfSlack = 1.001f;
-
-WideFloats load(const std::vector<float>& v, size_t at) { return hn::LoadU(kTag, &v[at]); }
 
 }  // namespace
 
@@ -44,18 +40,19 @@ SphereInMap::SphereInMap(const LightSpace& light, const TexelDirections& directi
 
 uint32_t SphereInMap::blocks(size_t first) const {
   const TexelDirections& d = directions_;
-  const WideFloats x = load(d.midX, first), y = load(d.midY, first);
+  const WideFloats x = wideAt(d.midX, first), y = wideAt(d.midY, first);
   if (isParallel_) {
     const WideFloats dx = hn::Sub(x, wide(axis_.x)), dy = hn::Sub(y, wide(axis_.y)),
-                     most = hn::Add(load(d.cosine, first), wide(reach_));
+                     most = hn::Add(wideAt(d.cosine, first), wide(reach_));
     return bitsOf(hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most)));
   }
-  const WideFloats cosines = hn::MulAdd(
-      x, wide(axis_.x), hn::MulAdd(y, wide(axis_.y), hn::Mul(load(d.midZ, first), wide(axis_.z))));
+  const WideFloats cosines =
+      hn::MulAdd(x, wide(axis_.x),
+                 hn::MulAdd(y, wide(axis_.y), hn::Mul(wideAt(d.midZ, first), wide(axis_.z))));
   // Both angles, the sphere's and a block's, are less than a right one: cos(a + b) falls from 1 to
   // −1.
-  const WideFloats least = hn::Sub(hn::Mul(load(d.cosine, first), wide(cosine_)),
-                                   hn::Mul(load(d.sine, first), wide(reach_)));
+  const WideFloats least = hn::Sub(hn::Mul(wideAt(d.cosine, first), wide(cosine_)),
+                                   hn::Mul(wideAt(d.sine, first), wide(reach_)));
   return bitsOf(hn::Ge(cosines, least));
 }
 

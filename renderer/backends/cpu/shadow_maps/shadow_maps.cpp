@@ -9,8 +9,6 @@
 namespace lamplighter::cpu {
 namespace {
 
-constexpr int kLanes = kBlockWidth * kBlockHeight;
-
 // The ray of a hemisphere map's texel. Its direction has w = 1, so that t is w where it hits.
 Ray hemisphereRay(const shared::Vpl& vpl, const mat3& frame, float tNear, vec2 centre) {
   return {vec3(vpl.position), tNear, frame * shared::octahedralDecode(centre)};

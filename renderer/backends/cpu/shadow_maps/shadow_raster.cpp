@@ -12,11 +12,10 @@
 namespace lamplighter::cpu {
 namespace {
 
-constexpr size_t kLanes = 8;
-using Tag = hn::FixedTag<float, kLanes>;
-using HalfTag = hn::FixedTag<float, kLanes / 2>;
-using Floats = hn::Vec<Tag>;
-constexpr Tag kTag;
+constexpr size_t kTriangles = ShadowTriangles::kLanes;
+static_assert(kTriangles == hn::MaxLanes(kTag));
+using HalfTag = hn::FixedTag<float, kTriangles / 2>;
+using Floats = WideFloats;
 constexpr HalfTag kHalfTag;
 
 // Above these rays are faster: triangles of an object, of all, and objects that are left to rays.
@@ -28,10 +27,7 @@ constexpr float kMostOfBlocks = 0.75f;
 constexpr int kLeastTile = 2 * kBlockWidth;
 constexpr int kMostTiles = 16;  // on a side
 constexpr size_t kRow = TexelDirections::kCornersARow;
-static_assert(kRow >= kMostTiles + kLanes);
-
-Floats all(float v) { return hn::Set(kTag, v); }
-Floats load(const std::vector<float>& v, size_t at) { return hn::LoadU(kTag, &v[at]); }
+static_assert(kRow >= kMostTiles + kTriangles);
 
 // An object's triangles in runs, as their indices follow each other: they mostly lie side by side.
 constexpr uint32_t kMostParts = 32, kLeastOfPart = 16;
@@ -61,8 +57,8 @@ void storeBlock(Floats v, float* map, size_t resolution) {
 // What is linear in a ray's direction.
 struct Function {
   Floats x, y, z;
-  Function(const float (&f)[4][kLanes], size_t lane)
-      : x(all(f[0][lane])), y(all(f[1][lane])), z(all(f[2][lane])) {}
+  Function(const float (&f)[4][kTriangles], size_t lane)
+      : x(wide(f[0][lane])), y(wide(f[1][lane])), z(wide(f[2][lane])) {}
   Floats at(Floats dx, Floats dy, Floats dz) const {
     return hn::MulAdd(x, dx, hn::MulAdd(y, dy, hn::Mul(z, dz)));
   }
@@ -90,9 +86,9 @@ struct AtCorners {
   Ends a, b, c, stored;
   AtCorners(const Triangle& t, const TexelDirections& d, int row, int first) {
     const size_t at = static_cast<size_t>(row) * kRow + static_cast<size_t>(first);
-    const Floats x0 = load(d.cornerX, at), x1 = load(d.cornerX, at + 1);
-    const Floats y0 = load(d.cornerY, at), y1 = load(d.cornerY, at + 1);
-    const Floats z0 = load(d.cornerZ, at), z1 = load(d.cornerZ, at + 1);
+    const Floats x0 = wideAt(d.cornerX, at), x1 = wideAt(d.cornerX, at + 1);
+    const Floats y0 = wideAt(d.cornerY, at), y1 = wideAt(d.cornerY, at + 1);
+    const Floats z0 = wideAt(d.cornerZ, at), z1 = wideAt(d.cornerZ, at + 1);
     const auto ends = [&](const Function& f) {
       const Floats left = f.at(x0, y0, z0), right = f.at(x1, y1, z1);
       return Ends{hn::Min(left, right), hn::Max(left, right)};
@@ -112,11 +108,11 @@ float drawTile(const Triangle& t, const TexelDirections& d, Floats most, int x, 
   const auto stride = static_cast<size_t>(resolution);
   const int across = resolution / kBlockWidth;
   for (; y < end; y += kBlockHeight) {
-    size_t at = kLanes * static_cast<size_t>(y / kBlockHeight * across + x / kBlockWidth);
+    size_t at = kTriangles * static_cast<size_t>(y / kBlockHeight * across + x / kBlockWidth);
     float* texels = map + static_cast<size_t>(y) * stride + static_cast<size_t>(x);
     for (const float* const last = texels + width; texels < last;
-         texels += kBlockWidth, at += kLanes) {
-      const Floats dx = load(d.x, at), dy = load(d.y, at), dz = load(d.z, at);
+         texels += kBlockWidth, at += kTriangles) {
+      const Floats dx = wideAt(d.x, at), dy = wideAt(d.y, at), dz = wideAt(d.z, at);
       const Floats stored = t.stored.at(dx, dy, dz);
       auto isMet = hn::Le(stored, most);
       if (!isWhole)
@@ -222,7 +218,7 @@ bool ShadowRaster::markForRays(const LightSpace& light, Band& band) const {
     if (whole.where() == Where::nowhere) continue;
     if (whole.where() == Where::anywhere) return false;
     near.clear();
-    for (size_t i = 0; i < count; i += kLanes)
+    for (size_t i = 0; i < count; i += kTriangles)
       if (const uint32_t see = whole.blocks(first + i); see != 0) near.push_back({i, see});
     for (const Sphere& sphere : object.parts) {
       const SphereInMap part(light, d, sphere);
@@ -249,7 +245,7 @@ std::vector<uint8_t> ShadowRaster::blocksThatSee(const ShadowMapGrid& grid, cons
     const SphereInMap sphere(light, grid.directions(light.isParallel), s);
     if (sphere.where() == SphereInMap::Where::anywhere) return {};
     if (sphere.where() == SphereInMap::Where::nowhere) continue;
-    for (size_t i = 0; i < see.size(); i += kLanes)
+    for (size_t i = 0; i < see.size(); i += kTriangles)
       for (uint32_t rest = sphere.blocks(i); rest != 0; rest &= rest - 1)
         see[i + static_cast<size_t>(std::countr_zero(rest))] = 1;
   }
@@ -293,15 +289,15 @@ void ShadowRaster::draw(const ShadowTriangles::Batch& batch, size_t lane, const 
   const TexelDirections& d = band.grid.directions(light.isParallel);
   const int tile = band.grid.tile, tiles = band.grid.tiles;
   const Triangle t(batch, lane);
-  const auto slack = [&](size_t function) { return all(batch.functions[function][3][lane]); };
+  const auto slack = [&](size_t function) { return wide(batch.functions[function][3][lane]); };
   const Floats slackA = slack(0), slackB = slack(1), slackC = slack(2);
   // The tile in the middle of an odd number of them has the tip of the octahedron between its
   // corners: what is stored there may be more than at these.
   const Floats slackStored = tiles % 2 == 0 ? slack(ShadowTriangles::Batch::kPlane)
-                                            : all(std::numeric_limits<float>::infinity());
-  const Floats zero = hn::Zero(kTag), most = all(light.most);
-  for (int first = 0; first < tiles; first += static_cast<int>(kLanes)) {
-    const uint32_t lanes = (1u << std::min(tiles - first, static_cast<int>(kLanes))) - 1;
+                                            : wide(std::numeric_limits<float>::infinity());
+  const Floats zero = hn::Zero(kTag), most = wide(light.most);
+  for (int first = 0; first < tiles; first += static_cast<int>(kTriangles)) {
+    const uint32_t lanes = (1u << std::min(tiles - first, static_cast<int>(kTriangles))) - 1;
     AtCorners above(t, d, band.firstTile, first);
     for (int ty = band.firstTile; ty < band.lastTile; ++ty) {
       const AtCorners below(t, d, ty + 1, first);

@@ -9,76 +9,65 @@
 namespace lamplighter::cpu {
 namespace {
 
-using Tag = hn::FixedTag<float, ShadowTriangles::kLanes>;
-using Floats = hn::Vec<Tag>;
-constexpr Tag kTag;
+using Floats = WideFloats;
+using Vector3 = Wide3<Floats>;
 
 // Of a function: what it may be wrong by, so that neighbours do not both leave a tile out.
-constexpr float kRounding = 1e-6f;
+constexpr float kEdgeRounding = 1e-6f;
 
-Floats all(float v) { return hn::Set(kTag, v); }
-
-struct Wide {
-  Floats x, y, z;
-};
-Wide operator-(const Wide& a, const Wide& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-Floats dot(const Wide& a, const Wide& b) {
-  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
-}
 // Exactly that of (b, a) but for the sign: neighbours agree on the edge that they share.
-Wide cross(const Wide& a, const Wide& b) {
+Vector3 cross(const Vector3& a, const Vector3& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
           hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
-Wide operator*(const Wide& a, Floats s) {
+Vector3 operator*(const Vector3& a, Floats s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
 
 // Of parallel light z is what is stored: 1 a radius over the origin, 0 under it.
-Wide toLight(const LightSpace& light, const Wide& p) {
-  const Wide way = p - Wide{all(light.origin.x), all(light.origin.y), all(light.origin.z)};
+Vector3 toLight(const LightSpace& light, const Vector3& p) {
+  const Vector3 way = p - Vector3{wide(light.origin.x), wide(light.origin.y), wide(light.origin.z)};
   const auto along = [&](int axis, float scale) {
     const vec3 a = light.axes[axis] * scale;
-    return dot(way, {all(a.x), all(a.y), all(a.z)});
+    return dotFused(way, {wide(a.x), wide(a.y), wide(a.z)});
   };
   const Floats z = along(2, light.up);
   return {along(0, light.across), along(1, light.across),
-          light.isParallel ? hn::Add(z, all(0.5f)) : z};
+          light.isParallel ? hn::Add(z, wide(0.5f)) : z};
 }
 
-void store(const Wide& f, float (&out)[4][ShadowTriangles::kLanes]) {
+void store(const Vector3& f, float (&out)[4][ShadowTriangles::kLanes]) {
   const Floats size = hn::Add(hn::Add(hn::Abs(f.x), hn::Abs(f.y)), hn::Abs(f.z));
   hn::Store(f.x, kTag, out[0]);
   hn::Store(f.y, kTag, out[1]);
   hn::Store(f.z, kTag, out[2]);
-  hn::Store(hn::Mul(size, all(kRounding)), kTag, out[3]);
+  hn::Store(hn::Mul(size, wide(kEdgeRounding)), kTag, out[3]);
 }
 
 // Corners as seen from the light, and their triangles.
-void see(const LightSpace& light, const std::array<Wide, 3>& corner, ShadowTriangles::Batch& out) {
+void see(const LightSpace& light, const std::array<Vector3, 3>& corner,
+         ShadowTriangles::Batch& out) {
   const auto& [a, b, c] = corner;
-  const Wide normal = cross(b - a, c - a);
-  std::array<Wide, 3> flat = corner;  // as the rays see them: of parallel ones z is 1
+  const Vector3 normal = cross(b - a, c - a);
+  std::array<Vector3, 3> flat = corner;  // as the rays see them: of parallel ones z is 1
   if (light.isParallel)
-    for (Wide& p : flat) p.z = all(1.0f);
-  const Floats det = light.isParallel ? normal.z : dot(a, normal);
-  const Floats inverse = hn::Div(all(1.0f), det);
-  auto isSeen = hn::And(hn::Lt(hn::Abs(inverse), all(std::numeric_limits<float>::max())),
+    for (Vector3& p : flat) p.z = wide(1.0f);
+  const Floats det = light.isParallel ? normal.z : dotFused(a, normal);
+  const Floats inverse = hn::Div(wide(1.0f), det);
+  auto isSeen = hn::And(hn::Lt(hn::Abs(inverse), wide(std::numeric_limits<float>::max())),
                         hn::Ne(det, hn::Zero(kTag)));
   if (!light.isParallel)
     isSeen = hn::And(isSeen, hn::Gt(hn::Max(a.z, hn::Max(b.z, c.z)), hn::Zero(kTag)));
   out.lanes = bitsOf(isSeen);
   if (out.lanes == 0) return;
   // Of parallel light: a.z − ((u − a.x) n.x + (v − a.y) n.y) / n.z.
-  const Wide slope = normal * inverse;
-  store(light.isParallel ? Wide{hn::Neg(slope.x), hn::Neg(slope.y),
-                                hn::MulAdd(slope.x, a.x, hn::MulAdd(slope.y, a.y, a.z))}
+  const Vector3 slope = normal * inverse;
+  store(light.isParallel ? Vector3{hn::Neg(slope.x), hn::Neg(slope.y),
+                                   hn::MulAdd(slope.x, a.x, hn::MulAdd(slope.y, a.y, a.z))}
                          : slope,
         out.functions[ShadowTriangles::Batch::kPlane]);
-  const Floats side = hn::CopySign(all(1.0f), det);
+  const Floats side = hn::CopySign(wide(1.0f), det);
   for (size_t i = 0; i < 3; ++i)
     store(cross(flat[(i + 1) % 3], flat[(i + 2) % 3]) * side, out.functions[i]);
 }
@@ -112,7 +101,7 @@ void ShadowTriangles::set(std::vector<Corners> triangles) {
 
 void ShadowTriangles::see(const LightSpace& light, std::span<Batch> out) const {
   for (size_t i = 0; i < out.size(); ++i) {
-    std::array<Wide, 3> corner;
+    std::array<Vector3, 3> corner;
     for (size_t c = 0; c < 3; ++c) {
       const auto load = [&](size_t axis) {
         return hn::LoadU(kTag, &corners_[c][axis][i * kLanes]);

@@ -10,8 +10,6 @@ namespace lamplighter {
 namespace {
 
 constexpr const char* kNote = "bookmarks";
-constexpr double kFarthest = 1e9;  // m, as all places
-
 // Fails where it is no list of as many numbers within ±most.
 bool read(const Json& note, const char* key, size_t count, double most, float* out) {
   const Json* list = member(note, key);
@@ -29,7 +27,7 @@ std::optional<CameraBookmark> bookmarkOf(const Json& note) {
   const Json *slot = member(note, "slot"), *yfov = member(note, "yfov");
   vec4 q(0.0f);
   if (slot == nullptr || !slot->is_number_unsigned() || yfov == nullptr || !yfov->is_number() ||
-      !read(note, "eye", 3, kFarthest, &b.eye[0]) || !read(note, "rotation", 4, 2.0, &q[0]))
+      !read(note, "eye", 3, kFarthestPlace, &b.eye[0]) || !read(note, "rotation", 4, 2.0, &q[0]))
     return std::nullopt;
   const auto number = slot->get<uint64_t>();
   b.yfov = yfov->get<float>();

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "renderer/base/error.h"
+#include "renderer/base/text.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
@@ -26,9 +27,7 @@ GltfOutput::GltfOutput(const Scene& savedScene, const std::filesystem::path& tar
       source(savedScene.source ? *savedScene.source : emptySource()),
       path(target),
       json(source.document.json) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string ending = lowerCase(path.extension().string());
   if (ending != ".gltf" && ending != ".glb") {
     throw InputError(path.string(), "ends neither in .gltf nor in .glb", "give it such an ending");
   }

@@ -10,7 +10,7 @@ namespace lamplighter {
 namespace {
 
 using Color = std::tuple<float, float, float>;
-using Shape = std::tuple<bool, float, float>;  // a tube; its size
+using ShapeKey = std::tuple<bool, float, float>;  // a tube; its size
 
 class SphereSaver {
  public:
@@ -20,7 +20,7 @@ class SphereSaver {
   size_t mesh(const AreaLight& light) {
     const Color color{light.radiance.r, light.radiance.g, light.radiance.b};
     const bool isTube = light.shape == AreaShape::tube;
-    const Shape shapeKey{isTube, light.size.x, isTube ? light.size.y : light.size.x};
+    const ShapeKey shapeKey{isTube, light.size.x, isTube ? light.size.y : light.size.x};
     const auto [it, isNew] = meshes_.try_emplace({color, shapeKey}, 0);
     if (!isNew) return it->second;
     const Primitive shape = tessellate(light);
@@ -82,10 +82,10 @@ class SphereSaver {
   struct Shared {
     size_t normals = 0, indices = 0;  // accessors
   };
-  std::map<bool, Shared> shared_;      // that all spheres share, and all tubes
-  std::map<Shape, size_t> positions_;  // accessors
-  std::map<Color, size_t> materials_;  // by radiance
-  std::map<std::pair<Color, Shape>, size_t> meshes_;
+  std::map<bool, Shared> shared_;         // that all spheres share, and all tubes
+  std::map<ShapeKey, size_t> positions_;  // accessors
+  std::map<Color, size_t> materials_;     // by radiance
+  std::map<std::pair<Color, ShapeKey>, size_t> meshes_;
 };
 
 }  // namespace

@@ -1,0 +1,41 @@
+# Several sources compiled as one, which reads what they include once. What is left out of it:
+# sources with properties of their own.
+option(LAMPLIGHTER_UNITY "Compile several sources as one" OFF)
+set(LAMPLIGHTER_UNITY_BATCH 8 CACHE STRING "How many at most")
+
+# For a target whose sources are all known, after their properties are set. A batch ends with its
+# folder where it can, so that a new file changes few of them. CMake's UNITY_BUILD writes absolute
+# paths, which no two working trees have in common: ccache could not share what one has compiled.
+function(lamplighter_quick_build target)
+  if(NOT LAMPLIGHTER_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  list(SORT sources)
+  math(EXPR few "${LAMPLIGHTER_UNITY_BATCH} / 2")
+  set(count 0)
+  set(batches 0)
+  set(content "")
+  set(last_folder "")
+  foreach(source ${sources} end)
+    get_filename_component(folder ${source} DIRECTORY)
+    if(source STREQUAL end OR count EQUAL LAMPLIGHTER_UNITY_BATCH
+        OR (NOT folder STREQUAL last_folder AND NOT count LESS few))
+      set(unity ${CMAKE_CURRENT_BINARY_DIR}/unity/${target}_${batches}.cpp)
+      file(CONFIGURE OUTPUT ${unity} CONTENT "${content}" @ONLY)
+      target_sources(${target} PRIVATE ${unity})
+      math(EXPR batches "${batches} + 1")
+      set(count 0)
+      set(content "")
+    endif()
+    set(last_folder ${folder})
+    get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
+    if(source STREQUAL end OR definitions)
+      continue()
+    endif()
+    file(RELATIVE_PATH included ${PROJECT_SOURCE_DIR} ${source})
+    string(APPEND content "#include \"${included}\"\n")
+    set_source_files_properties(${source} PROPERTIES HEADER_FILE_ONLY ON)
+    math(EXPR count "${count} + 1")
+  endforeach()
+endfunction()
