@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/scene/vpl.h"
 
 namespace lamplighter {
 namespace {
 
-using Floats = WideFloats;
+using Floats = Floats8;
 
 // Between texels n texels from a light, interpolation is wrong by up to 1/n².
 constexpr float kNearTexels = 10.0f;
@@ -21,7 +21,7 @@ bool isSpot(const shared::Vpl& vpl) {
   return vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
 }
 
-using Vector3 = Wide3<Floats>;  // summed in glm's order, so that all is as isMappable() finds it
+using Vector3 = SimdVec3<Floats>;  // summed in glm's order, so that all is as isMappable() finds it
 
 // Whether the light's plane crosses the patch: there is none of its light behind it, and before it
 // it grows from nothing, which texels on both sides would round off.
@@ -110,7 +110,7 @@ void MappableLights::find(const TilePlace& tile, std::span<uint64_t> bits) const
     for (const vec3& corner : tile.corners) {
       const Vector3 v{hn::Sub(wide(corner.x), position.x), hn::Sub(wide(corner.y), position.y),
                       hn::Sub(wide(corner.z), position.z)};
-      const Floats height = dotInTurn(v, normal);
+      const Floats height = dotUnfused(v, normal);
       lowest = hn::Min(lowest, height);
       highest = hn::Max(highest, height);
     }
@@ -120,10 +120,10 @@ void MappableLights::find(const TilePlace& tile, std::span<uint64_t> bits) const
       return hn::Sub(p, hn::Min(hn::Max(p, wide(least)), wide(most)));
     };
     const Floats x =
-        off(dotInTurn(v, wide(tile.chart.tangent)), tile.patch.min.x, tile.patch.max.x);
+        off(dotUnfused(v, wide(tile.chart.tangent)), tile.patch.min.x, tile.patch.max.x);
     const Floats y =
-        off(dotInTurn(v, wide(tile.chart.bitangent)), tile.patch.min.y, tile.patch.max.y);
-    const Floats height = dotInTurn(v, wide(tile.chart.normal));
+        off(dotUnfused(v, wide(tile.chart.bitangent)), tile.patch.min.y, tile.patch.max.y);
+    const Floats height = dotUnfused(v, wide(tile.chart.normal));
     const Floats distance2 =
         hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(height, height));
     const Floats bounded = hn::Max(distance2, load(least_));

@@ -1,4 +1,4 @@
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/light_maps/light_maps.h"
 
 namespace lamplighter {
@@ -6,7 +6,7 @@ namespace {
 
 static_assert(LightMaps::Sampler::kPoints == hn::MaxLanes(kTag));
 constexpr hn::FixedTag<float, 4> kTexelTag;
-using Floats = WideFloats;
+using Floats = Floats8;
 
 // glm::mix().
 template <typename V>
@@ -43,10 +43,10 @@ LightMaps::Sampler::Sampler(const LightMaps& maps, const ObjectPatches& patches,
 
 void LightMaps::Sampler::irradiance(const float* x, const float* y, const float* z,
                                     std::span<vec4, kPoints> e) const {
-  const Wide3<Floats> p{hn::LoadU(kTag, x), hn::LoadU(kTag, y), hn::LoadU(kTag, z)};
-  const Wide3<Floats> way = p - wide(chart_.origin);
-  const Along column(dotInTurn(way, wide(chart_.tangent)), min_.x, size_.x, last_.x),
-      row(dotInTurn(way, wide(chart_.bitangent)), min_.y, size_.y, last_.y);
+  const SimdVec3<Floats> p{hn::LoadU(kTag, x), hn::LoadU(kTag, y), hn::LoadU(kTag, z)};
+  const SimdVec3<Floats> way = p - wide(chart_.origin);
+  const Along column(dotUnfused(way, wide(chart_.tangent)), min_.x, size_.x, last_.x),
+      row(dotUnfused(way, wide(chart_.bitangent)), min_.y, size_.y, last_.y);
   const Floats first = hn::MulAdd(row.low, wide(static_cast<float>(columns_)), column.low);
   alignas(32) int32_t texels[kPoints];
   alignas(32) float across[kPoints], down[kPoints];

@@ -1,17 +1,17 @@
 // Fixed-point sums of eight texels of a light map, for accumulate.cpp.
 #pragma once
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/light_maps/accumulate.h"
 
 namespace lamplighter::texels {
 
 constexpr size_t kLanes = 8;
-using Tag = WideTag;
+using Tag = FloatTag;
 using IntTag = hn::FixedTag<int32_t, kLanes>;
 using DoubleTag = hn::FixedTag<double, kLanes / 2>;
 constexpr DoubleTag kDoubleTag;
-using Floats = WideFloats;
+using Floats = Floats8;
 using Ints = hn::Vec<IntTag>;
 using Doubles = hn::Vec<DoubleTag>;
 

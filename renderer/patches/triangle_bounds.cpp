@@ -1,6 +1,6 @@
 #include "renderer/patches/triangle_bounds.h"
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter {
 

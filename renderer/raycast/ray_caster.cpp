@@ -8,7 +8,7 @@
 
 #include <embree3/rtcore.h>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/raycast/triangle_hit.h"
 #include "renderer/scene/surface.h"
 
@@ -63,11 +63,11 @@ struct Lanes3 {
     z[lane] = v.z;
   }
 };
-Wide3<WideFloats> load(const float* x, const float* y, const float* z) {
-  constexpr WideTag tag;
+SimdVec3<Floats8> load(const float* x, const float* y, const float* z) {
+  constexpr FloatTag tag;
   return {hn::Load(tag, x), hn::Load(tag, y), hn::Load(tag, z)};
 }
-Wide3<WideFloats> load(const Lanes3& v) { return load(v.x, v.y, v.z); }
+SimdVec3<Floats8> load(const Lanes3& v) { return load(v.x, v.y, v.z); }
 
 // placed() for eight lanes; those that hit nothing give something that is not looked at.
 struct PlacedLanes {
@@ -75,7 +75,7 @@ struct PlacedLanes {
 };
 void placeLanes(const RenderScene& scene, const RTCRayHit8& r, const float* tFar,
                 PlacedLanes& out) {
-  constexpr WideTag tag;
+  constexpr FloatTag tag;
   Lanes3 corner[3];
   forEachLane(scene, r, [&](size_t lane, const uint32_t* corners) {
     for (int i = 0; i < 3; ++i)
@@ -86,16 +86,16 @@ void placeLanes(const RenderScene& scene, const RTCRayHit8& r, const float* tFar
   const auto oa = a - load(r.ray.org_x, r.ray.org_y, r.ray.org_z);
   // As triangleHit(), with the same bits.
   const auto normal = cross(ab, ac), side = cross(oa, direction);
-  const auto along = dotInTurn(direction, normal);
+  const auto along = dotUnfused(direction, normal);
   const auto zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
   const auto nearest = hn::Load(tag, r.ray.tnear);
   const auto inPlane = hn::Eq(along, zero);
   const auto inverse = hn::Div(one, along);
-  const auto u = hn::Min(hn::Max(hn::Mul(dotInTurn(side, ac), inverse), zero), one);
+  const auto u = hn::Min(hn::Max(hn::Mul(dotUnfused(side, ac), inverse), zero), one);
   const auto v =
-      hn::Min(hn::Max(hn::Mul(hn::Neg(dotInTurn(side, ab)), inverse), zero), hn::Sub(one, u));
+      hn::Min(hn::Max(hn::Mul(hn::Neg(dotUnfused(side, ab)), inverse), zero), hn::Sub(one, u));
   const auto t =
-      hn::Min(hn::Max(hn::Mul(dotInTurn(oa, normal), inverse), nearest), hn::Load(tag, tFar));
+      hn::Min(hn::Max(hn::Mul(dotUnfused(oa, normal), inverse), nearest), hn::Load(tag, tFar));
   hn::Store(hn::IfThenZeroElse(inPlane, u), tag, out.u);
   hn::Store(hn::IfThenZeroElse(inPlane, v), tag, out.v);
   hn::Store(hn::IfThenElse(inPlane, nearest, t), tag, out.t);
@@ -104,17 +104,17 @@ void placeLanes(const RenderScene& scene, const RTCRayHit8& r, const float* tFar
 // Distances alone: from one corner and Embree's normal of the triangle, which is made of products
 // and differences only.
 void placeDistances(const RenderScene& scene, const RTCRayHit8& r, const float* tFar, float* out) {
-  constexpr WideTag tag;
+  constexpr FloatTag tag;
   Lanes3 corner;
   forEachLane(scene, r, [&](size_t lane, const uint32_t* corners) {
     corner.set(lane, corners != nullptr ? scene.positions[corners[0]] : vec3(0.0f));
   });
   const auto normal = load(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
   const auto oa = load(corner) - load(r.ray.org_x, r.ray.org_y, r.ray.org_z);
-  const auto along = dotInTurn(load(r.ray.dir_x, r.ray.dir_y, r.ray.dir_z), normal);
+  const auto along = dotUnfused(load(r.ray.dir_x, r.ray.dir_y, r.ray.dir_z), normal);
   const auto nearest = hn::Load(tag, r.ray.tnear);
   const auto t =
-      hn::Min(hn::Max(hn::Div(dotInTurn(oa, normal), along), nearest), hn::Load(tag, tFar));
+      hn::Min(hn::Max(hn::Div(dotUnfused(oa, normal), along), nearest), hn::Load(tag, tFar));
   hn::Store(hn::IfThenElse(hn::Eq(along, hn::Zero(tag)), nearest, t), tag, out);
 }
 

@@ -6,16 +6,16 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/base/random.h"
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/scene/light_linking.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter {
 namespace {
 
-using Floats = WideFloats;
+using Floats = Floats8;
 
-using Wide = Wide3<Floats>;
+using Wide = SimdVec3<Floats>;
 
 Ray rayFrom(const vec3& point, const shared::Vpl& vpl) {
   Ray ray{point, 0.0f, vec3(vpl.normal)};
@@ -35,7 +35,7 @@ bool isSamePlace(const shared::Vpl& a, const shared::Vpl& b) {
 // Whether a way from `from` along `half` and back again as far as that touches a box about the
 // origin with half of its size: no axis of either, or across both, parts them (Gottschalk, Lin and
 // Manocha, "OBBTree", 1996).
-hn::Mask<WideTag> mayTouchBox(const Wide& middle, const Wide& half, const vec3& size) {
+hn::Mask<FloatTag> mayTouchBox(const Wide& middle, const Wide& half, const vec3& size) {
   const Wide along{hn::Abs(half.x), hn::Abs(half.y), hn::Abs(half.z)};
   const Wide e = wide(size);
   const auto isNear = [](Floats off, Floats way, Floats reach) {
@@ -188,9 +188,9 @@ void PointVisibility::measure(Row& row, size_t block) const {
   };
   const Floats zero = hn::Zero(kTag);
   const Wide v = load(positions_) - wide(vec3(row.vpl.position));
-  const Floats z = dotInTurn(v, wide(vec3(row.vpl.normal))),
-               s = hn::Neg(dotInTurn(load(normals_), v));
-  const Floats d2 = dotInTurn(v, v), least = wide(row.clampDistance * row.clampDistance);
+  const Floats z = dotUnfused(v, wide(vec3(row.vpl.normal))),
+               s = hn::Neg(dotUnfused(load(normals_), v));
+  const Floats d2 = dotUnfused(v, v), least = wide(row.clampDistance * row.clampDistance);
   const Floats geometry = hn::Div(hn::Mul(s, z), hn::Mul(d2, hn::Max(d2, least)));
   const auto isLit = hn::And(hn::Gt(z, zero), hn::Gt(s, zero));
   hn::Store(hn::IfThenElseZero(isLit, geometry), kTag, &row.geometry[first]);

@@ -10,7 +10,7 @@
 
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
 

@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/visibility/occlusion/bits.h"
 #include "renderer/visibility/visibility_update.h"
 

@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/visibility/visibility_piece.h"
 
 namespace lamplighter {

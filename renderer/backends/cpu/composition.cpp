@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter::cpu {
 vec3 Background::at(int x, int y) const {
@@ -18,7 +18,7 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
              Image& out) {
   tbb::parallel_for(0, g.tiles(), [&](int tile) {
     const int tileX = tile % g.tilesX * kTileSize, tileY = tile / g.tilesX * kTileSize;
-    const WideFloats inversePi = hn::Set(kTag, 1.0f / kPi);
+    const Floats8 inversePi = hn::Set(kTag, 1.0f / kPi);
     for (int packet = 0; packet < kPacketsPerTile; ++packet) {
       const int x = tileX + packet % kPacketsPerRow * kPacketWidth,
                 y = tileY + packet / kPacketsPerRow * kPacketHeight;
@@ -28,9 +28,8 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
       const PictureLight::Packet irradiance = light.at(tile, packet, room);
       const auto channel = [&](const float* e, const std::vector<float>& albedo,
                                const std::vector<float>& emission) {
-        const WideFloats scaled = hn::Mul(hn::LoadU(kTag, e), inversePi);
-        const WideFloats reflected =
-            white ? scaled : hn::Mul(hn::LoadU(kTag, &albedo[first]), scaled);
+        const Floats8 scaled = hn::Mul(hn::LoadU(kTag, e), inversePi);
+        const Floats8 reflected = white ? scaled : hn::Mul(hn::LoadU(kTag, &albedo[first]), scaled);
         return hn::Add(hn::LoadU(kTag, &emission[first]), reflected);
       };
       float pixels[3 * kLanes];

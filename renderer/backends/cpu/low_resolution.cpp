@@ -6,14 +6,14 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/backends/cpu/picture_light.h"
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "shaders/shared/low_resolution.h"
 
 namespace lamplighter::cpu {
 namespace {
 
-using Tag = WideTag;
-using Floats = WideFloats;
+using Tag = FloatTag;
+using Floats = Floats8;
 
 constexpr int kTilesPerTask = 16;
 

@@ -5,13 +5,13 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "shaders/shared/low_resolution.h"
 
 namespace lamplighter::cpu {
 namespace {
 
-using Floats = WideFloats;
+using Floats = Floats8;
 
 // Share of the brighter of two neighbouring pixels by which they may differ: more is the border of
 // a shadow.
@@ -36,7 +36,7 @@ bool isSameSurface(const GBuffer& a, const GBuffer& b, size_t first) {
       hn::Mul(off, off),
       hn::Mul(hn::Set(kTag, shared::kMostOffPlane * shared::kMostOffPlane), dotOf(way, way)));
   const auto isAlike = hn::Ge(dotOf(sa, sb), hn::Set(kTag, shared::kLeastNormalCosine));
-  const hn::RebindToUnsigned<WideTag> ids;
+  const hn::RebindToUnsigned<FloatTag> ids;
   const auto isOneObject =
       hn::Eq(hn::LoadU(ids, &a.object[first]), hn::LoadU(ids, &b.object[first]));
   const auto isHit = hn::And(hn::And(isInPlane, isAlike), hn::RebindMask(kTag, isOneObject));

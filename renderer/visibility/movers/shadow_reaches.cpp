@@ -3,13 +3,13 @@
 #include <bit>
 #include <limits>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter {
 namespace {
 
-WideFloats lanesOf(const ShadowReachLanes::Lanes& lanes) { return hn::Load(kTag, lanes.data()); }
-Wide3<WideFloats> lanesOf(const std::array<ShadowReachLanes::Lanes, 3>& v) {
+Floats8 lanesOf(const ShadowReachLanes::Lanes& lanes) { return hn::Load(kTag, lanes.data()); }
+SimdVec3<Floats8> lanesOf(const std::array<ShadowReachLanes::Lanes, 3>& v) {
   return {lanesOf(v[0]), lanesOf(v[1]), lanesOf(v[2])};
 }
 
@@ -31,16 +31,16 @@ void ShadowReachLanes::set(size_t lane, const ShadowReach::Cone& cone) {
 
 // As ShadowReach::mayFallOn() adds it up.
 uint32_t ShadowReachLanes::mayFallOn(const vec3& centre, float radius) const {
-  const WideFloats zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
-  const Wide3<WideFloats> v = wide(centre) - lanesOf(apex_), axis = lanesOf(axis_);
-  const WideFloats distance2 = dotInTurn(v, v), gap = hn::Sub(lanesOf(nearest_), wide(radius));
+  const Floats8 zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
+  const SimdVec3<Floats8> v = wide(centre) - lanesOf(apex_), axis = lanesOf(axis_);
+  const Floats8 distance2 = dotUnfused(v, v), gap = hn::Sub(lanesOf(nearest_), wide(radius));
   const auto isNear = hn::And(hn::Gt(gap, zero), hn::Lt(distance2, hn::Mul(gap, gap)));
-  const WideFloats along = dotInTurn(v, axis), along2 = hn::Mul(along, along);
-  const WideFloats across2 = hn::Max(hn::Sub(distance2, along2), zero);
-  const WideFloats cosine2 = hn::Mul(cosine, cosine);
+  const Floats8 along = dotUnfused(v, axis), along2 = hn::Mul(along, along);
+  const Floats8 across2 = hn::Max(hn::Sub(distance2, along2), zero);
+  const Floats8 cosine2 = hn::Mul(cosine, cosine);
   const auto isBehind = hn::And(
       hn::Lt(along, zero), hn::Le(hn::Mul(hn::Mul(across2, sine), sine), hn::Mul(along2, cosine2)));
-  const WideFloats reach = hn::Add(wide(radius), hn::Mul(along, sine));
+  const Floats8 reach = hn::Add(wide(radius), hn::Mul(along, sine));
   const auto isIn =
       hn::And(hn::Ge(reach, zero), hn::Le(hn::Mul(across2, cosine2), hn::Mul(reach, reach)));
   const auto isAround = hn::Le(distance2, wide(radius * radius));
@@ -52,17 +52,17 @@ uint32_t ShadowReachLanes::mayFallOn(const vec3& centre, float radius) const {
 // still holds it. Only the sine is other then, by what is taken off over the distance, and the
 // cosine grows by less than the tangent times as much.
 void ShadowReachLanes::slack(const vec3& centre, float radius, Lanes& out) const {
-  const WideFloats zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
-  const WideFloats nearest = lanesOf(nearest_), before = lanesOf(before_), size = lanesOf(radius_);
-  const Wide3<WideFloats> v = wide(centre) - lanesOf(apex_);
-  const WideFloats distance2 = dotFused(v, v), along = dotFused(v, lanesOf(axis_));
-  const WideFloats across = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, distance2), zero));
-  const WideFloats inside = hn::NegMulAdd(across, cosine, hn::MulAdd(along, sine, wide(radius)));
-  const WideFloats sideways = hn::Div(hn::Mul(inside, hn::Mul(hn::Add(nearest, size), cosine)),
-                                      hn::MulAdd(along, cosine, hn::Mul(across, sine)));
-  const WideFloats past = hn::Sub(hn::Add(hn::Sqrt(distance2), wide(radius)), nearest);
-  const WideFloats ofCone = hn::Min(hn::Min(sideways, past), hn::Min(before, size));
-  const WideFloats least = hn::IfThenElseZero(hn::Gt(along, zero), ofCone);
+  const Floats8 zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
+  const Floats8 nearest = lanesOf(nearest_), before = lanesOf(before_), size = lanesOf(radius_);
+  const SimdVec3<Floats8> v = wide(centre) - lanesOf(apex_);
+  const Floats8 distance2 = dotFused(v, v), along = dotFused(v, lanesOf(axis_));
+  const Floats8 across = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, distance2), zero));
+  const Floats8 inside = hn::NegMulAdd(across, cosine, hn::MulAdd(along, sine, wide(radius)));
+  const Floats8 sideways = hn::Div(hn::Mul(inside, hn::Mul(hn::Add(nearest, size), cosine)),
+                                   hn::MulAdd(along, cosine, hn::Mul(across, sine)));
+  const Floats8 past = hn::Sub(hn::Add(hn::Sqrt(distance2), wide(radius)), nearest);
+  const Floats8 ofCone = hn::Min(hn::Min(sideways, past), hn::Min(before, size));
+  const Floats8 least = hn::IfThenElseZero(hn::Gt(along, zero), ofCone);
   // All around the light: the caster is over it.
   const auto isAround = hn::Lt(nearest, wide(-std::numeric_limits<float>::max()));
   hn::Store(hn::Max(hn::IfThenElse(isAround, before, least), zero), kTag, out.data());

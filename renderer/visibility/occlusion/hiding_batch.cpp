@@ -1,6 +1,6 @@
 #include "renderer/visibility/occlusion/hiding_batch.h"
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/visibility/occlusion/lane_sums.h"
 
 namespace lamplighter {

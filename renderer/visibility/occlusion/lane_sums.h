@@ -2,15 +2,15 @@
 // they are the same bits.
 #pragma once
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/visibility/occlusion/light_lanes.h"
 #include "renderer/visibility/occlusion/pyramid_sides.h"
 
 namespace lamplighter::lanes {
 
 static_assert(LightLanes::kLights == hn::MaxLanes(kTag));
-using Vec = WideFloats;
-using Vec3 = Wide3<Vec>;
+using Vec = Floats8;
+using Vec3 = SimdVec3<Vec>;
 
 HWY_INLINE Vec set(float v) { return hn::Set(kTag, v); }
 HWY_INLINE Vec3 set(const vec3& v) { return {set(v.x), set(v.y), set(v.z)}; }
@@ -20,6 +20,6 @@ HWY_INLINE Vec3 load(const std::array<LightLanes::Floats, 3>& v) {
   return {load(v[0]), load(v[1]), load(v[2])};
 }
 
-HWY_INLINE Vec dot(const Vec3& a, const Vec3& b) { return dotInTurn(a, b); }
+HWY_INLINE Vec dot(const Vec3& a, const Vec3& b) { return dotUnfused(a, b); }
 
 }  // namespace lamplighter::lanes

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/visibility/occlusion/pyramid_sides.h"
 
@@ -127,14 +127,14 @@ void OcclusionPyramid::addSides(const vec3& middle, const vec3& up) {
   const hn::FixedTag<float, 4> tag;
   using Vec = hn::Vec<decltype(tag)>;
   const auto set = [&](const vec3& v) {
-    return Wide3<Vec>{hn::Set(tag, v.x), hn::Set(tag, v.y), hn::Set(tag, v.z)};
+    return SimdVec3<Vec>{hn::Set(tag, v.x), hn::Set(tag, v.y), hn::Set(tag, v.z)};
   };
   const auto load = [&](const std::array<std::array<float, 4>, 3>& v) {
-    return Wide3<Vec>{hn::LoadU(tag, v[0].data()), hn::LoadU(tag, v[1].data()),
-                      hn::LoadU(tag, v[2].data())};
+    return SimdVec3<Vec>{hn::LoadU(tag, v[0].data()), hn::LoadU(tag, v[1].data()),
+                         hn::LoadU(tag, v[2].data())};
   };
-  const Wide3<Vec> from = load(region_.from), apex = set(apex_);
-  const Wide3<Vec> way = parallel_ ? set(towards_) : from - apex;
+  const SimdVec3<Vec> from = load(region_.from), apex = set(apex_);
+  const SimdVec3<Vec> way = parallel_ ? set(towards_) : from - apex;
   const SidePlanes<Vec> planes =
       sidePlanes(tag, from, load(region_.sides), way, set(middle), set(up),
                  hn::Set(tag, region_.thickness), hn::Set(tag, margin_), parallel_);

@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/visibility/occlusion/lane_sums.h"
 
 namespace lamplighter {
@@ -13,13 +13,13 @@ namespace {
 using namespace lanes;
 
 template <typename Plane>
-Wide3<Vec> normalOf(const Plane& p) {
+SimdVec3<Vec> normalOf(const Plane& p) {
   return {load(p.x), load(p.y), load(p.z)};
 }
 
 // By how much boxes are inside of planes, as OcclusionPyramid::mayMeet() adds it up.
-Vec depthOf(const Wide3<Vec>& normal, Vec offset, const Wide3<Vec>& centre,
-            const Wide3<Vec>& half) {
+Vec depthOf(const SimdVec3<Vec>& normal, Vec offset, const SimdVec3<Vec>& centre,
+            const SimdVec3<Vec>& half) {
   auto farthest = hn::MulAdd(normal.x, centre.x, offset);
   farthest = hn::MulAdd(normal.y, centre.y, farthest);
   farthest = hn::MulAdd(normal.z, centre.z, farthest);
@@ -29,7 +29,7 @@ Vec depthOf(const Wide3<Vec>& normal, Vec offset, const Wide3<Vec>& centre,
 }
 
 // By how much points are, as OcclusionPyramid::meets() adds it up.
-HWY_INLINE Vec distanceOf(const Wide3<Vec>& normal, Vec offset, const Wide3<Vec>& point) {
+HWY_INLINE Vec distanceOf(const SimdVec3<Vec>& normal, Vec offset, const SimdVec3<Vec>& point) {
   auto distance = hn::MulAdd(normal.x, point.x, offset);
   distance = hn::MulAdd(normal.y, point.y, distance);
   return hn::MulAdd(normal.z, point.z, distance);
@@ -65,10 +65,10 @@ BoxBatches::BoxBatches(std::span<const Bounds> boxes) : size_(boxes.size()) {
 
 PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
     : all_(lights.all()) {
-  const Wide3<Vec> apex = load(lights.position), towards = load(lights.normal);
+  const SimdVec3<Vec> apex = load(lights.position), towards = load(lights.normal);
   const auto margin = hn::Max(load(lights.rounding), set(region.rounding));
   hn::Store(margin, kTag, margin_.data());
-  const auto store = [&](Plane& plane, const Wide3<Vec>& normal, Vec offset) {
+  const auto store = [&](Plane& plane, const SimdVec3<Vec>& normal, Vec offset) {
     hn::Store(normal.x, kTag, plane.x.data());
     hn::Store(normal.y, kTag, plane.y.data());
     hn::Store(normal.z, kTag, plane.z.data());
@@ -77,11 +77,11 @@ PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
   store(planes_[0], towards, hn::Sub(hn::Neg(margin), dot(towards, apex)));
 
   const vec3 middle = region.middle();
-  const Wide3<Vec> centre = set(middle), normal = set(region.normal);
+  const SimdVec3<Vec> centre = set(middle), normal = set(region.normal);
   const auto height = dot(apex - centre, normal);
   const auto above = hn::Gt(height, hn::Zero(kTag));
   const auto turn = [&](Vec v) { return hn::IfThenElse(above, v, hn::Neg(v)); };
-  const Wide3<Vec> up{turn(normal.x), turn(normal.y), turn(normal.z)};
+  const SimdVec3<Vec> up{turn(normal.x), turn(normal.y), turn(normal.z)};
   const auto thickness = set(region.thickness);
   const auto slab = hn::Add(thickness, margin);
   const auto slack = region.chart != kNone ? slab : hn::Mul(set(-3.0f), slab);
@@ -89,7 +89,7 @@ PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
 
   for (size_t i = 0; i < 4; ++i) {
     const auto at = [&](const auto& v) { return set(vec3(v[0][i], v[1][i], v[2][i])); };
-    const Wide3<Vec> from = at(region.from);
+    const SimdVec3<Vec> from = at(region.from);
     const SidePlanes<Vec> side =
         sidePlanes(kTag, from, at(region.sides), from - apex, centre, up, thickness, margin, false);
     store(planes_[2 + i], side.normal, side.offset);
@@ -99,10 +99,10 @@ PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
 // What moves by a vector d gets nearer to a plane with the normal n by n·d, which is no more than
 // the larger of |n·axis| and |n×axis| / across times its length.
 void PyramidBatch::weighBy(const Way& way) {
-  const Wide3<Vec> axis = set(way.axis);
+  const SimdVec3<Vec> axis = set(way.axis);
   const auto one = set(1.0f), across = set(1.0f / way.across);
   for (Plane& p : planes_) {
-    const Wide3<Vec> normal = normalOf(p);
+    const SimdVec3<Vec> normal = normalOf(p);
     const auto along = dot(normal, axis), squared = dot(normal, normal);
     const auto sideways = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, squared), hn::Zero(kTag)));
     // Nothing is outside of a plane that is left out.
@@ -123,7 +123,7 @@ PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius,
 }
 
 PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box) const {
-  const Wide3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
+  const SimdVec3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_)
     least = hn::Min(depthOf(normalOf(p), load(p.offset), centre, half), least);
@@ -138,7 +138,7 @@ PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius)
 }
 
 PyramidBatch::Mask PyramidBatch::hold(const vec3& point) const {
-  const Wide3<Vec> p = set(point);
+  const SimdVec3<Vec> p = set(point);
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& plane : planes_)
     least = hn::Min(distanceOf(normalOf(plane), load(plane.offset), p), least);
@@ -146,11 +146,11 @@ PyramidBatch::Mask PyramidBatch::hold(const vec3& point) const {
 }
 
 PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const {
-  const Wide3<Vec> a = set(triangle[0]), b = set(triangle[1]), c = set(triangle[2]);
+  const SimdVec3<Vec> a = set(triangle[0]), b = set(triangle[1]), c = set(triangle[2]);
   auto leastA = set(std::numeric_limits<float>::max()), leastB = leastA, leastC = leastA;
   auto leastOfMost = leastA;  // of the corner farthest inside of each plane
   for (const Plane& p : planes_) {
-    const Wide3<Vec> normal = normalOf(p);
+    const SimdVec3<Vec> normal = normalOf(p);
     const auto offset = load(p.offset);
     const auto da = distanceOf(normal, offset, a), db = distanceOf(normal, offset, b),
                dc = distanceOf(normal, offset, c);
@@ -221,7 +221,7 @@ PyramidBatch::Mask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indi
   const auto eights = hn::Sub(box, lane);
   const auto at = hn::Add(hn::Add(hn::ShiftLeft<2>(eights), hn::ShiftLeft<1>(eights)), lane);
   const auto take = [&](size_t i) { return hn::GatherIndex(kTag, all + i * kLights, at); };
-  const Wide3<Vec> centre{take(0), take(1), take(2)}, half{take(3), take(4), take(5)};
+  const SimdVec3<Vec> centre{take(0), take(1), take(2)}, half{take(3), take(4), take(5)};
   auto least = set(std::numeric_limits<float>::max());
   for (const Plane& p : planes_)
     least =
@@ -232,10 +232,10 @@ PyramidBatch::Mask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indi
 
 PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, float enough) const {
   const auto depthsIn = [&](const BoxBatch& batch) {
-    const Wide3<Vec> centre = load(batch.centre), half = load(batch.half);
+    const SimdVec3<Vec> centre = load(batch.centre), half = load(batch.half);
     auto least = set(std::numeric_limits<float>::max());
     for (const Plane& p : planes_) {
-      const Wide3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
+      const SimdVec3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
       const auto depth = depthOf(normal, set(p.offset[light]), centre, half);
       least = hn::Min(hn::Mul(depth, set(p.weight[light])), least);
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter {
 namespace {

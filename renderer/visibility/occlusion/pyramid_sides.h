@@ -3,7 +3,7 @@
 // eight lights: the same operations, so that both get the same bits.
 #pragma once
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter {
 
@@ -13,8 +13,8 @@ inline constexpr float kSumsRounding = 0.125f;
 
 template <typename V>
 struct SidePlanes {
-  Wide3<V> normal;  // unit, inwards; zero: it is left out
-  V offset;         // inside: dot(normal, x) + offset >= 0
+  SimdVec3<V> normal;  // unit, inwards; zero: it is left out
+  V offset;            // inside: dot(normal, x) + offset >= 0
 };
 
 // `from`: a corner of the patch, `side`: from it to the next, `way`: to the corner from the light,
@@ -26,16 +26,16 @@ struct SidePlanes {
 // inwards. There is no more slack than that at the patch, and what is hardly higher is not between:
 // a wall that the patch ends at would be, for all lights.
 template <typename Tag, typename V = hwy::HWY_NAMESPACE::Vec<Tag>>
-HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const Wide3<V>& from, const Wide3<V>& side,
-                                    const Wide3<V>& way, const Wide3<V>& middle, const Wide3<V>& up,
-                                    V thickness, V margin, bool parallel) {
+HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const SimdVec3<V>& from, const SimdVec3<V>& side,
+                                    const SimdVec3<V>& way, const SimdVec3<V>& middle,
+                                    const SimdVec3<V>& up, V thickness, V margin, bool parallel) {
   const auto all = [&](float v) { return hn::Set(tag, v); };
-  const auto cross = [](const Wide3<V>& a, const Wide3<V>& b) {
-    return Wide3<V>{hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-                    hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-                    hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+  const auto cross = [](const SimdVec3<V>& a, const SimdVec3<V>& b) {
+    return SimdVec3<V>{hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+                       hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+                       hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
   };
-  Wide3<V> n = cross(way, side);
+  SimdVec3<V> n = cross(way, side);
   auto length = hn::Sqrt(hn::Max(dotFused(n, n), all(1e-30f)));
   const auto inside = hn::Div(dotFused(n, middle - from), length);
   const auto known = hn::Gt(hn::Abs(inside), margin);
@@ -44,7 +44,7 @@ HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const Wide3<V>& from, const Wide3<V
     // Through a place three margins farther out than the light: n·|n| + 3 m (n × side) / |n|, and
     // the way out is the other one where n points outwards.
     const auto slack = hn::CopySign(hn::Div(hn::Mul(all(3.0f), slab), length), inside);
-    const Wide3<V> t = cross(n, side);
+    const SimdVec3<V> t = cross(n, side);
     n = {hn::MulAdd(t.x, slack, n.x), hn::MulAdd(t.y, slack, n.y), hn::MulAdd(t.z, slack, n.z)};
     length = hn::Sqrt(dotFused(n, n));
   }

@@ -8,7 +8,7 @@
 
 #include "renderer/backends/cpu/irradiance/light_sums.h"
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"

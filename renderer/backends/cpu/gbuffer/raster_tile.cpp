@@ -10,8 +10,8 @@ namespace {
 
 using raster::Floats;
 using raster::Pixels;
-using Mask = hn::Mask<WideTag>;
-using IntTag = hn::RebindToSigned<WideTag>;
+using Mask = hn::Mask<FloatTag>;
+using IntTag = hn::RebindToSigned<FloatTag>;
 
 // The corners of a triangle, each coordinate in every lane.
 class Corners {

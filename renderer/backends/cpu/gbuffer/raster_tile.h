@@ -2,12 +2,12 @@
 #pragma once
 
 #include "renderer/backends/cpu/gbuffer/raster.h"
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter::cpu {
 namespace raster {
 
-using Floats = WideFloats;
+using Floats = Floats8;
 static_assert(hn::MaxLanes(kTag) == kLanes);
 
 // Where the lanes of a packet lie within it.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "renderer/backends/cpu/irradiance/wide_light.h"
+#include "renderer/backends/cpu/irradiance/simd_light.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -41,7 +41,7 @@ HWY_INLINE void replaceIn(int32_t (&sum)[3][kLanes], Floats weight, const Vector
 // What it gives where it arrives [1/m² of its intensity]. v: from the light to the point; z: its
 // height over the light's plane; s: −n·v, or n·(the light's direction) of a parallel one.
 template <LightRecord::Kind kKind>
-HWY_INLINE Floats weightOf(const WideLight& light, const WideConstants& c, const Vector3& v,
+HWY_INLINE Floats weightOf(const SimdLight& light, const SimdConstants& c, const Vector3& v,
                            Floats z, Floats s) {
   if constexpr (kKind == LightRecord::Kind::directional) {
     return s;
@@ -61,7 +61,7 @@ HWY_INLINE Vector3 loadNormals(const float* from) {
           hn::LoadU(kTag, from + size_t{2} * kLanes)};
 }
 
-HWY_INLINE Vector3 fromLight(const Vector3& p, const WideLight& light) {
+HWY_INLINE Vector3 fromLight(const Vector3& p, const SimdLight& light) {
   return {hn::Sub(p.x, light.position.x), hn::Sub(p.y, light.position.y),
           hn::Sub(p.z, light.position.z)};
 }
@@ -73,8 +73,8 @@ template <LightRecord::Kind kKind, LightUse kUse>
 void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
               const LightRecord& record, const SumConstants& constants, LitOfList& lit) {
   constexpr bool kLooksUp = kUse != LightUse::add, kSums = kUse != LightUse::takeShadow;
-  const WideLight light(record, isNegative, constants);
-  const WideConstants c(constants, record.resolution);
+  const SimdLight light(record, isNegative, constants);
+  const SimdConstants c(constants, record.resolution);
   const Floats zero = hn::Zero(kTag);
   // Of the packets' plane, in the light's frame; most have that of the packet before them.
   Vector3 normal{zero, zero, zero};
@@ -131,9 +131,9 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
 
 // Calls add(sum, weight) in those lanes.
 template <LightRecord::Kind kKind, typename F>
-void forEachLit(PacketBlock& block, const PacketList& packets, const WideLight& light,
+void forEachLit(PacketBlock& block, const PacketList& packets, const SimdLight& light,
                 const SumConstants& constants, const LitOfList& lit, F&& add) {
-  const WideConstants c(constants, 1);  // no map is looked up
+  const SimdConstants c(constants, 1);  // no map is looked up
   // Which packets there are is found first, without a branch that nobody can foretell.
   std::array<uint8_t, PacketBlock::kMost> some;
   size_t count = 0;
@@ -162,7 +162,7 @@ void forEachLit(PacketBlock& block, const PacketList& packets, const WideLight& 
 template <LightRecord::Kind kKind>
 void addLit(PacketBlock& block, const PacketList& packets, bool isNegative,
             const LightRecord& record, const SumConstants& constants, const LitOfList& lit) {
-  const WideLight light(record, isNegative, constants);
+  const SimdLight light(record, isNegative, constants);
   forEachLit<kKind>(
       block, packets, light, constants, lit,
       [&](int32_t(&sum)[3][kLanes], Floats weight) { addTo(sum, weight, light.units); });
@@ -262,7 +262,7 @@ void replaceLit(PacketBlock& block, const PacketList& packets, LightUse use,
                 const LitOfList& lit) {
   if (packets.count() == 0) return;
   const bool negative = isNegative(use, Sign::add);
-  const WideLight light(now, negative, constants), was(before, negative, constants);
+  const SimdLight light(now, negative, constants), was(before, negative, constants);
   byKind(now.kind, [&]<LightRecord::Kind kKind>() {
     forEachLit<kKind>(block, packets, light, constants, lit,
                       [&](int32_t(&sum)[3][kLanes], Floats weight) {

@@ -9,7 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/backends/cpu/irradiance/sum_unit.h"
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/visibility/hard_lights.h"
 
 namespace lamplighter::cpu {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "shaders/shared/octahedral.h"
 #include "shaders/shared/vpl_shading.h"
 
@@ -84,29 +84,28 @@ void PlaceSpheres::findReached(const LightRecord& light, const MapChange& change
   if (change.extent == MapChange::Extent::nothing) return;
   const bool isParallel = light.kind == LightRecord::Kind::directional;
   const mat3 frame(light.tangent, light.bitangent, light.normal);
-  const Wide3<WideFloats> position = wide(light.position);
-  const Wide3<WideFloats> axis = wide(frame * change.axis);
-  const Wide3<WideFloats> tangent = wide(light.tangent), bitangent = wide(light.bitangent);
-  const WideFloats one = wide(1.0f), perSide = wide(1.0f / light.side);
+  const SimdVec3<Floats8> position = wide(light.position);
+  const SimdVec3<Floats8> axis = wide(frame * change.axis);
+  const SimdVec3<Floats8> tangent = wide(light.tangent), bitangent = wide(light.bitangent);
+  const Floats8 one = wide(1.0f), perSide = wide(1.0f / light.side);
   const float cosine = std::cos(change.reach), sine = std::sin(change.reach);
   for (size_t i = 0; i < x_.size(); i += kWide) {
     const auto load = [&](const std::vector<float>& v) { return hn::LoadU(kTag, &v[i]); };
-    const auto way = Wide3<WideFloats>{load(x_), load(y_), load(z_)} - position;
-    const WideFloats radius = hn::MulAdd(load(radius_), wide(1.001f), wide(1e-4f));
-    hn::Mask<WideTag> meets;
+    const auto way = SimdVec3<Floats8>{load(x_), load(y_), load(z_)} - position;
+    const Floats8 radius = hn::MulAdd(load(radius_), wide(1.001f), wide(1e-4f));
+    hn::Mask<FloatTag> meets;
     if (isParallel) {
-      const WideFloats dx = hn::Sub(hn::Mul(dotFused(way, tangent), perSide), wide(change.axis.x));
-      const WideFloats dy =
-          hn::Sub(hn::Mul(dotFused(way, bitangent), perSide), wide(change.axis.y));
-      const WideFloats most = hn::MulAdd(radius, perSide, wide(change.reach));
+      const Floats8 dx = hn::Sub(hn::Mul(dotFused(way, tangent), perSide), wide(change.axis.x));
+      const Floats8 dy = hn::Sub(hn::Mul(dotFused(way, bitangent), perSide), wide(change.axis.y));
+      const Floats8 most = hn::MulAdd(radius, perSide, wide(change.reach));
       meets = hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most));
     } else {
       // The sphere is seen within an angle b of its middle; a, the change's reach, and b are less
       // than right angles, so that cos(a + b) falls as they grow.
-      const WideFloats distance2 = dotFused(way, way);
-      const WideFloats sineB2 = hn::Div(hn::Mul(radius, radius), distance2);
-      const WideFloats cosineB = hn::Sqrt(hn::Max(hn::Sub(one, sineB2), hn::Zero(kTag)));
-      const WideFloats least =
+      const Floats8 distance2 = dotFused(way, way);
+      const Floats8 sineB2 = hn::Div(hn::Mul(radius, radius), distance2);
+      const Floats8 cosineB = hn::Sqrt(hn::Max(hn::Sub(one, sineB2), hn::Zero(kTag)));
+      const Floats8 least =
           hn::Sub(hn::Mul(wide(cosine), cosineB), hn::Mul(wide(sine), hn::Sqrt(sineB2)));
       const auto isSeen = hn::Ge(dotFused(way, axis), hn::Mul(least, hn::Sqrt(distance2)));
       // Around the light itself, or where numbers fail, it may be anywhere.

@@ -1,6 +1,6 @@
 #include "renderer/backends/cpu/irradiance/specular_kernel.h"
 
-#include "renderer/backends/cpu/irradiance/wide_light.h"
+#include "renderer/backends/cpu/irradiance/simd_light.h"
 #include "renderer/scene/light_linking.h"
 #include "shaders/shared/vpl_speculars.h"
 
@@ -84,8 +84,8 @@ HWY_INLINE void addLobe(const GlossyPoints& p, const Vector3& colour, Floats wei
 
 // Adds what the light gives the eye.
 template <LightRecord::Kind kKind>
-HWY_INLINE void addSpecular(const GlossyPoints& p, const WideLight& light, float footprint,
-                            bool looksUp, const WideConstants& c, Vector3& sum) {
+HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float footprint,
+                            bool looksUp, const SimdConstants& c, Vector3& sum) {
   const Floats zero = hn::Zero(kTag);
   const Vector3 v{hn::Sub(p.position.x, light.position.x), hn::Sub(p.position.y, light.position.y),
                   hn::Sub(p.position.z, light.position.z)};
@@ -177,8 +177,8 @@ void SpecularBlock::add(size_t first, uint8_t lanes, std::span<const Gloss, kLan
 template <LightRecord::Kind kKind>
 void SpecularBlock::addLight(const SpecularLight& specular) {
   const LightRecord& record = specular.record;
-  const WideLight light(record, false, constants_);
-  const WideConstants c(constants_, record.resolution);
+  const SimdLight light(record, false, constants_);
+  const SimdConstants c(constants_, record.resolution);
   for (Place& place : places_) {
     if (isLeftOut(place.leftOutBy, record.link)) continue;
     bool looksUp = record.map != nullptr;

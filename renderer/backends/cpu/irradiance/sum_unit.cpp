@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "renderer/backends/cpu/irradiance/wide_light.h"
+#include "renderer/backends/cpu/irradiance/simd_light.h"
 
 namespace lamplighter::cpu {
 namespace {

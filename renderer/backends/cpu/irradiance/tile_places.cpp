@@ -5,7 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -23,12 +23,12 @@ bool lieIn(const ObjectPatches& patches, int leaf, const GBuffer& g, size_t firs
   const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
   if (patch.chart == kNone) return true;
   const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
-  const WideTag tag;
+  const FloatTag tag;
   const auto load = [&](const std::vector<float>& v) { return hn::LoadU(tag, &v[first]); };
-  const auto way = Wide3<WideFloats>{load(g.px), load(g.py), load(g.pz)} - wide(chart.origin);
-  const WideFloats x = dotInTurn(way, wide(chart.tangent));
-  const WideFloats y = dotInTurn(way, wide(chart.bitangent));
-  const auto within = [](WideFloats v, float low, float high) {
+  const auto way = SimdVec3<Floats8>{load(g.px), load(g.py), load(g.pz)} - wide(chart.origin);
+  const Floats8 x = dotUnfused(way, wide(chart.tangent));
+  const Floats8 y = dotUnfused(way, wide(chart.bitangent));
+  const auto within = [](Floats8 v, float low, float high) {
     return hn::And(hn::Ge(v, wide(low)), hn::Lt(v, wide(high)));
   };
   return hn::AllTrue(

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -40,19 +40,19 @@ SphereInMap::SphereInMap(const LightSpace& light, const TexelDirections& directi
 
 uint32_t SphereInMap::blocks(size_t first) const {
   const TexelDirections& d = directions_;
-  const WideFloats x = wideAt(d.midX, first), y = wideAt(d.midY, first);
+  const Floats8 x = wideAt(d.midX, first), y = wideAt(d.midY, first);
   if (isParallel_) {
-    const WideFloats dx = hn::Sub(x, wide(axis_.x)), dy = hn::Sub(y, wide(axis_.y)),
-                     most = hn::Add(wideAt(d.cosine, first), wide(reach_));
+    const Floats8 dx = hn::Sub(x, wide(axis_.x)), dy = hn::Sub(y, wide(axis_.y)),
+                  most = hn::Add(wideAt(d.cosine, first), wide(reach_));
     return bitsOf(hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most)));
   }
-  const WideFloats cosines =
+  const Floats8 cosines =
       hn::MulAdd(x, wide(axis_.x),
                  hn::MulAdd(y, wide(axis_.y), hn::Mul(wideAt(d.midZ, first), wide(axis_.z))));
   // Both angles, the sphere's and a block's, are less than a right one: cos(a + b) falls from 1 to
   // −1.
-  const WideFloats least = hn::Sub(hn::Mul(wideAt(d.cosine, first), wide(cosine_)),
-                                   hn::Mul(wideAt(d.sine, first), wide(reach_)));
+  const Floats8 least = hn::Sub(hn::Mul(wideAt(d.cosine, first), wide(cosine_)),
+                                hn::Mul(wideAt(d.sine, first), wide(reach_)));
   return bitsOf(hn::Ge(cosines, least));
 }
 

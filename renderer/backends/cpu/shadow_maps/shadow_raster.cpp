@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 
 namespace lamplighter::cpu {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr size_t kTriangles = ShadowTriangles::kLanes;
 static_assert(kTriangles == hn::MaxLanes(kTag));
 using HalfTag = hn::FixedTag<float, kTriangles / 2>;
-using Floats = WideFloats;
+using Floats = Floats8;
 constexpr HalfTag kHalfTag;
 
 // Above these rays are faster: triangles of an object, of all, and objects that are left to rays.

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "renderer/raycast/ray_caster.h"
 
 namespace lamplighter::cpu {
 namespace {
 
-using Floats = WideFloats;
-using Vector3 = Wide3<Floats>;
+using Floats = Floats8;
+using Vector3 = SimdVec3<Floats>;
 
 // Of a function: what it may be wrong by, so that neighbours do not both leave a tile out.
 constexpr float kEdgeRounding = 1e-6f;

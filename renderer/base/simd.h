@@ -17,46 +17,46 @@ namespace lamplighter {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using WideTag = hn::FixedTag<float, 8>;
-using WideFloats = hn::Vec<WideTag>;
-using WideInts = hn::Vec<hn::FixedTag<int32_t, 8>>;
-inline constexpr WideTag kTag;
+using FloatTag = hn::FixedTag<float, 8>;
+using Floats8 = hn::Vec<FloatTag>;
+using Ints8 = hn::Vec<hn::FixedTag<int32_t, 8>>;
+inline constexpr FloatTag kTag;
 
 // Places or directions, as many as V has lanes.
 template <typename V>
-struct Wide3 {
+struct SimdVec3 {
   V x, y, z;
 };
-HWY_INLINE WideFloats wide(float v) { return hn::Set(kTag, v); }
-HWY_INLINE Wide3<WideFloats> wide(const vec3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
-HWY_INLINE WideFloats wideAt(const std::vector<float>& v, size_t at) {
+HWY_INLINE Floats8 wide(float v) { return hn::Set(kTag, v); }
+HWY_INLINE SimdVec3<Floats8> wide(const vec3& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
+HWY_INLINE Floats8 wideAt(const std::vector<float>& v, size_t at) {
   return hn::LoadU(kTag, &v[at]);
 }
 template <typename V>
-HWY_INLINE Wide3<V> operator-(const Wide3<V>& a, const Wide3<V>& b) {
+HWY_INLINE SimdVec3<V> operator-(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
 // The bits of glm's, as the next.
 template <typename V>
-HWY_INLINE Wide3<V> cross(const Wide3<V>& a, const Wide3<V>& b) {
+HWY_INLINE SimdVec3<V> cross(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(b.y, a.z)),
           hn::Sub(hn::Mul(a.z, b.x), hn::Mul(b.z, a.x)),
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(b.x, a.y))};
 }
 template <typename V>
-HWY_INLINE V dotInTurn(const Wide3<V>& a, const Wide3<V>& b) {
+HWY_INLINE V dotUnfused(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 // Quicker, and rounded less.
 template <typename V>
-HWY_INLINE V dotFused(const Wide3<V>& a, const Wide3<V>& b) {
+HWY_INLINE V dotFused(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 
 // A bit for each lane.
-HWY_INLINE uint32_t bitsOf(hn::Mask<WideTag> lanes) {
+HWY_INLINE uint32_t bitsOf(hn::Mask<FloatTag> lanes) {
   uint8_t bits[8];
-  hn::StoreMaskBits(WideTag(), lanes, bits);
+  hn::StoreMaskBits(FloatTag(), lanes, bits);
   return bits[0];
 }
 HWY_INLINE uint32_t bitsOf(hn::Mask<hn::FixedTag<uint8_t, 32>> lanes) {
@@ -69,18 +69,18 @@ HWY_INLINE uint32_t bitsOf(hn::Mask<hn::FixedTag<uint8_t, 32>> lanes) {
 
 // To the nearest, ties to even. This and the next are for what is in range: Highway's own also put
 // right what is not, at twice the cost.
-HWY_INLINE WideInts roundToInts(WideFloats v) {
+HWY_INLINE Ints8 roundToInts(Floats8 v) {
 #if HWY_TARGET == HWY_AVX2
-  return WideInts{_mm256_cvtps_epi32(v.raw)};
+  return Ints8{_mm256_cvtps_epi32(v.raw)};
 #else
   return hn::NearestInt(v);
 #endif
 }
 
 // Towards zero.
-HWY_INLINE WideInts truncateToInts(WideFloats v) {
+HWY_INLINE Ints8 truncateToInts(Floats8 v) {
 #if HWY_TARGET == HWY_AVX2
-  return WideInts{_mm256_cvttps_epi32(v.raw)};
+  return Ints8{_mm256_cvttps_epi32(v.raw)};
 #else
   return hn::ConvertTo(hn::FixedTag<int32_t, 8>(), v);
 #endif

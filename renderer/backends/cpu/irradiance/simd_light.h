@@ -6,14 +6,14 @@
 #include <algorithm>
 
 #include "renderer/backends/cpu/irradiance/light_kernel.h"
-#include "renderer/base/wide.h"
+#include "renderer/base/simd.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::cpu {
 
-using Tag = WideTag;
+using Tag = FloatTag;
 using IntTag = hn::RebindToSigned<Tag>;
-using Floats = WideFloats;
+using Floats = Floats8;
 using Mask = hn::Mask<Tag>;
 static_assert(hn::MaxLanes(kTag) == kLanes);
 
@@ -34,7 +34,7 @@ inline float mostWeight(LightRecord::Kind kind, float clampDistance2) {
   return 1.0f;
 }
 
-using Vector3 = Wide3<Floats>;
+using Vector3 = SimdVec3<Floats>;
 
 using Ints = hn::Vec<IntTag>;
 
@@ -52,8 +52,8 @@ struct Vectors {
 };
 
 // The light in every lane, so that the loop over pixels takes it as vector operands from the stack.
-struct WideLight {
-  WideLight(const LightRecord& light, bool isNegative, const SumConstants& c)
+struct SimdLight {
+  SimdLight(const LightRecord& light, bool isNegative, const SumConstants& c)
       : map(light.map),
         position(wide(light.position)),
         normal(wide(light.normal)),
@@ -77,9 +77,9 @@ struct WideLight {
 };
 
 // Numbers of the map's grid and of the test in every lane.
-struct WideConstants {
+struct SimdConstants {
   // side: of the light's map [texels].
-  WideConstants(const SumConstants& c, int side)
+  SimdConstants(const SumConstants& c, int side)
       : resolution(wide(static_cast<float>(side))),
         middle(wide(0.5f * static_cast<float>(side))),
         half(wide(0.5f * static_cast<float>(side) * (1.0f - 0x1p-21f))),
@@ -101,16 +101,16 @@ struct WideConstants {
 
 // The texel's column or row of a square coordinate in [-1, 1]; `half` is a little less than it is,
 // so that no rounding leads out of the map.
-HWY_INLINE Floats texelOf(Floats s, const WideConstants& c) {
+HWY_INLINE Floats texelOf(Floats s, const SimdConstants& c) {
   return hn::Floor(hn::MulAdd(s, c.half, c.middle));
 }
-HWY_INLINE Floats centreOf(Floats texel, const WideConstants& c) {
+HWY_INLINE Floats centreOf(Floats texel, const SimdConstants& c) {
   return hn::MulAdd(texel, c.step, c.first);
 }
 
 // The index of a texel is a whole number that a float holds: maps have at most 1024² texels. The
 // bound is for coordinates that are no numbers.
-HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const WideConstants& c) {
+HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const SimdConstants& c) {
   const Ints texel = truncateToInts(hn::MulAdd(t, c.resolution, s));
   const hn::RebindToUnsigned<Tag> unsignedTag;
   const auto bounded = hn::Min(hn::BitCast(unsignedTag, texel), c.lastTexel);
@@ -118,7 +118,7 @@ HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const WideConstant
 }
 
 // A normal in the light's frame: along tangent, bitangent, and its own normal.
-HWY_INLINE Vector3 inFrameOf(const WideLight& light, const Vector3& n) {
+HWY_INLINE Vector3 inFrameOf(const SimdLight& light, const Vector3& n) {
   return {dot(n, light.tangent), dot(n, light.bitangent), dot(n, light.normal)};
 }
 
@@ -126,7 +126,7 @@ HWY_INLINE Vector3 inFrameOf(const WideLight& light, const Vector3& n) {
 // normal of the point's plane in the light's frame, asked for when needed. kIsMostly: something is
 // mostly occluded, so that to leave out what is asked of those that are costs more than it spares.
 template <bool kIsMostly = false, typename F>
-HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& c, const Vector3& v,
+HWY_INLINE Mask hemisphereOccluded(const SimdLight& light, const SimdConstants& c, const Vector3& v,
                                    Floats z, F&& geometric, Floats facing) {
   const Floats x = dot(v, light.tangent), y = dot(v, light.bitangent);
   const Floats w = hn::Add(hn::Add(hn::Abs(x), hn::Abs(y)), z);
@@ -150,7 +150,7 @@ HWY_INLINE Mask hemisphereOccluded(const WideLight& light, const WideConstants& 
 }
 
 // q: the point in the light's frame.
-HWY_INLINE Mask directionalOccluded(const WideLight& light, const WideConstants& c,
+HWY_INLINE Mask directionalOccluded(const SimdLight& light, const SimdConstants& c,
                                     const Vector3& q, const Vector3& geometric, Floats facing) {
   // Within the square in the lanes that count.
   const auto inSquare = [](Floats v) { return hn::Max(hn::Min(v, wide(1.0f)), wide(-1.0f)); };
