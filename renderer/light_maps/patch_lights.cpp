@@ -4,32 +4,33 @@
 
 namespace lamplighter {
 
-void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const {
-  usesOfAll(object, leaf, mapped, bySlot.first(visibility_.slots()));
+void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<ShadowMode> bySlot) const {
+  shadowModesOfAll(object, leaf, mapped, bySlot.first(visibility_.slots()));
   standIn(object, leaf, nullptr, bySlot);
 }
 
 void PatchLights::uses(uint32_t object, int leaf, const StandIns::Lobes& lobes,
-                       std::span<LightUse> bySlot) const {
-  usesOfAll(object, leaf, false, bySlot.first(visibility_.slots()));
+                       std::span<ShadowMode> bySlot) const {
+  shadowModesOfAll(object, leaf, false, bySlot.first(visibility_.slots()));
   standIn(object, leaf, &lobes, bySlot);
 }
 
 void PatchLights::standIn(uint32_t object, int leaf, const StandIns::Lobes* lobes,
-                          std::span<LightUse> bySlot) const {
+                          std::span<ShadowMode> bySlot) const {
   if (standIns_ == nullptr) return;
   const Patch& patch = patches(object).patches[static_cast<size_t>(leaf)];
   standIns_->apply(patch.centre, patch.radius, lobes, bySlot);
 }
 
 // As if all had their maps.
-void PatchLights::usesOfAll(uint32_t object, int leaf, bool mapped,
-                            std::span<LightUse> bySlot) const {
+void PatchLights::shadowModesOfAll(uint32_t object, int leaf, bool mapped,
+                                   std::span<ShadowMode> bySlot) const {
   static_assert(static_cast<int>(Occlusion::none) == 0 &&
                 static_cast<int>(Occlusion::partial) == 1 &&
                 static_cast<int>(Occlusion::full) == 2);
-  constexpr LightUse kUses[2][3] = {{LightUse::add, LightUse::addShadowed, LightUse::skip},
-                                    {LightUse::skip, LightUse::takeShadow, LightUse::skip}};
+  constexpr ShadowMode kUses[2][3] = {
+      {ShadowMode::add, ShadowMode::addShadowed, ShadowMode::skip},
+      {ShadowMode::skip, ShadowMode::subtractShadow, ShadowMode::skip}};
   const auto states = visibility_.row(object, leaf);
   if (!mapped) {
     for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[0][states[i]];
@@ -38,7 +39,7 @@ void PatchLights::usesOfAll(uint32_t object, int leaf, bool mapped,
   if (hasTransfer(object, leaf)) {  // with shadows, so that none are to be taken away
     const auto held = prt_->held(object);
     for (size_t i = 0; i < bySlot.size(); ++i)
-      bySlot[i] = held[i] != 0 ? LightUse::skip : kUses[0][states[i]];
+      bySlot[i] = held[i] != 0 ? ShadowMode::skip : kUses[0][states[i]];
     return;
   }
   const auto held = maps_->held(object, leaf);

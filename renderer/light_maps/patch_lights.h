@@ -6,7 +6,7 @@
 #include <span>
 
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/light_maps/light_use.h"
+#include "renderer/light_maps/shadow_mode.h"
 #include "renderer/light_maps/stand_ins.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/visibility/visibility_database.h"
@@ -53,15 +53,15 @@ class PatchLights {
   }
   // By slot, slots() of them. `mapped`: for pixels that begin with the light map, or with light by
   // transfer.
-  void uses(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
+  void uses(uint32_t object, int leaf, bool mapped, std::span<ShadowMode> bySlot) const;
   // The same for lobes of glossy pixels.
   void uses(uint32_t object, int leaf, const StandIns::Lobes& lobes,
-            std::span<LightUse> bySlot) const;
+            std::span<ShadowMode> bySlot) const;
 
  private:
   void standIn(uint32_t object, int leaf, const StandIns::Lobes* lobes,
-               std::span<LightUse> bySlot) const;
-  void usesOfAll(uint32_t object, int leaf, bool mapped, std::span<LightUse> bySlot) const;
+               std::span<ShadowMode> bySlot) const;
+  void shadowModesOfAll(uint32_t object, int leaf, bool mapped, std::span<ShadowMode> bySlot) const;
 
   const VisibilityDatabase& visibility_;
   const LightMaps* maps_;

@@ -224,25 +224,25 @@ void StandIns::standForGroups(Numbers& numbers, const Groups& groups) {
 }
 
 void StandIns::apply(const vec3& centre, float radius, const Lobes* lobes,
-                     std::span<LightUse> bySlot) const {
-  std::fill(bySlot.begin() + static_cast<ptrdiff_t>(slots_), bySlot.end(), LightUse::skip);
+                     std::span<ShadowMode> bySlot) const {
+  std::fill(bySlot.begin() + static_cast<ptrdiff_t>(slots_), bySlot.end(), ShadowMode::skip);
   for (size_t i = 0; i < slots_; ++i) {
-    if (hasMap_[i] != 0 || !looksUp(bySlot[i])) continue;
+    if (hasMap_[i] != 0 || !readsShadowMap(bySlot[i])) continue;
     if (standIn_[i] >= 0) bySlot[static_cast<size_t>(standIn_[i])] = bySlot[i];
-    bySlot[i] = LightUse::skip;
+    bySlot[i] = ShadowMode::skip;
   }
   const float far = lobes == nullptr ? kFar : std::min(kFar, kFarForLobes * lobes->alpha);
   for (const Group& group : groups_) {
     const int* members = &members_[group.first];
-    const LightUse use = bySlot[static_cast<size_t>(members[0])];
+    const ShadowMode use = bySlot[static_cast<size_t>(members[0])];
     // Of irradiance what has no shadow is in light maps.
-    if (lobes == nullptr ? !looksUp(use) : use == LightUse::skip) continue;
+    if (lobes == nullptr ? !readsShadowMap(use) : use == ShadowMode::skip) continue;
     if (group.radius > far * (glm::distance(group.place, centre) - radius)) continue;
     if (!std::all_of(members + 1, members + group.count,
                      [&](int slot) { return bySlot[static_cast<size_t>(slot)] == use; }))
       continue;
     for (size_t i = 0; i < group.count; ++i)
-      bySlot[static_cast<size_t>(members[i])] = LightUse::skip;
+      bySlot[static_cast<size_t>(members[i])] = ShadowMode::skip;
     bySlot[static_cast<size_t>(group.slot)] = use;
   }
 }

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "renderer/base/math.h"
-#include "renderer/light_maps/light_use.h"
+#include "renderer/light_maps/shadow_mode.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {
@@ -57,7 +57,7 @@ class StandIns {
   // Makes of how the pixels of a patch would use each VPL, if all had maps, how they use VPLs and
   // stand-ins. `lobes`: null: for irradiance; else for these.
   void apply(const vec3& centre, float radius, const Lobes* lobes,
-             std::span<LightUse> bySlot) const;
+             std::span<ShadowMode> bySlot) const;
 
  private:
   struct Group {

@@ -49,7 +49,7 @@ Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
     const bool isGlossy = shared::isGlossy(gloss.metallic, gloss.roughness);
     const shared::Lobe lobe =
         shared::makeLobe(s.albedo, gloss.metallic, gloss.roughness, least, nv);
-    std::vector<LightUse> uses;
+    std::vector<ShadowMode> uses;
     if (visibility != nullptr) {
       uses.resize(visibility->slots());
       const int leaf = visibility->patches(hit.object).leafAt(hit.triangle, s.position);
@@ -59,10 +59,10 @@ Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
     for (const shared::Vpl& vpl : vpls) {
       const float g = shared::vplGeometry(vpl, s.position, ns, ng, clampDistance);
       if (g == 0.0f) continue;
-      const LightUse use =
-          uses.empty() ? LightUse::addShadowed : uses[static_cast<size_t>(vpl.intensity.w)];
-      if (use == LightUse::skip) continue;
-      if (use == LightUse::addShadowed && isShadowed(rays, start, vpl)) continue;
+      const ShadowMode use =
+          uses.empty() ? ShadowMode::addShadowed : uses[static_cast<size_t>(vpl.intensity.w)];
+      if (use == ShadowMode::skip) continue;
+      if (use == ShadowMode::addShadowed && isShadowed(rays, start, vpl)) continue;
       e += g * vec3(vpl.intensity);
       if (isGlossy)
         reflected += vec3(vpl.intensity) *

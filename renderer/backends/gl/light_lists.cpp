@@ -67,12 +67,12 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
     Block& block = blocks[b];
     const SeenObject& object = block.object;
     const ObjectPatches& tree = patches.patches(object.object);
-    std::vector<LightUse> uses(patches.slots());
+    std::vector<ShadowMode> uses(patches.slots());
     block.longest.assign(groups.size(), 0);
     block.longestPlain.assign(groups.size(), 0);
     const auto useOf = [&](const shared::Vpl& vpl) {
       const int slot = static_cast<int>(vpl.intensity.w);
-      return slot < 0 ? LightUse::add : uses[static_cast<size_t>(slot)];
+      return slot < 0 ? ShadowMode::add : uses[static_cast<size_t>(slot)];
     };
     const auto addPlace = [&](int leaf, bool mapped) {
       const size_t place =
@@ -80,19 +80,19 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
       block.places.push_back(place);
       patches.uses(object.object, leaf, mapped, uses);
       for (const int slot : hard) {
-        const LightUse use = uses[static_cast<size_t>(slot)];
-        if (looksUp(use)) hardPlaces_[place] = 1;
+        const ShadowMode use = uses[static_cast<size_t>(slot)];
+        if (readsShadowMap(use)) hardPlaces_[place] = 1;
       }
       for (size_t g = 0; g < groups.size(); ++g) {
         const auto lights = vpls.subspan(groups[g].first, groups[g].count);
         const size_t first = block.entries.size();
         for (uint32_t i = 0; i < lights.size(); ++i)
-          if (useOf(lights[i]) == LightUse::add) block.entries.push_back(i);
+          if (useOf(lights[i]) == ShadowMode::add) block.entries.push_back(i);
         const size_t shadowed = block.entries.size();
         for (uint32_t i = 0; i < lights.size(); ++i) {
-          const LightUse use = useOf(lights[i]);
-          if (use == LightUse::addShadowed) block.entries.push_back(i);
-          if (use == LightUse::takeShadow) block.entries.push_back(i + shared::kTakeShadow);
+          const ShadowMode use = useOf(lights[i]);
+          if (use == ShadowMode::addShadowed) block.entries.push_back(i);
+          if (use == ShadowMode::subtractShadow) block.entries.push_back(i + shared::kTakeShadow);
         }
         const size_t end = block.entries.size();
         ranges_[g * stride + place] = {first, (shadowed - first) | (end - shadowed) << 16};

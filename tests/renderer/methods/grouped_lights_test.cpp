@@ -104,15 +104,15 @@ TEST(StandIns, OneWithoutMapLooksUpThatOfItsNeighbour) {
   EXPECT_EQ(standIns.mapSlot(slot), 2);
   EXPECT_EQ(standIns.mapSlot(3), 3);
   EXPECT_FALSE(standIns.isGroup(slot));
-  std::vector<LightUse> uses(standIns.slots(), LightUse::skip);
-  uses[0] = LightUse::takeShadow;
-  uses[1] = LightUse::add;
-  uses[3] = LightUse::addShadowed;
+  std::vector<ShadowMode> uses(standIns.slots(), ShadowMode::skip);
+  uses[0] = ShadowMode::subtractShadow;
+  uses[1] = ShadowMode::add;
+  uses[3] = ShadowMode::addShadowed;
   standIns.apply(vec3(0, -5, 0), 1.0f, nullptr, uses);
-  EXPECT_EQ(uses[0], LightUse::takeShadow);
-  EXPECT_EQ(uses[1], LightUse::add);
-  EXPECT_EQ(uses[3], LightUse::skip);
-  EXPECT_EQ(uses[static_cast<size_t>(slot)], LightUse::addShadowed);
+  EXPECT_EQ(uses[0], ShadowMode::subtractShadow);
+  EXPECT_EQ(uses[1], ShadowMode::add);
+  EXPECT_EQ(uses[3], ShadowMode::skip);
+  EXPECT_EQ(uses[static_cast<size_t>(slot)], ShadowMode::addShadowed);
 }
 
 TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
@@ -124,21 +124,21 @@ TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
   const auto slot = static_cast<size_t>(group.intensity.w);
   EXPECT_EQ(group.intensity.r, 4.0f);
   EXPECT_TRUE(standIns.isGroup(static_cast<int>(slot)));
-  const auto usesAt = [&](float y, LightUse second) {
-    std::vector<LightUse> uses(standIns.slots(), LightUse::skip);
-    for (size_t i = 0; i < 4; ++i) uses[i] = LightUse::takeShadow;
+  const auto usesAt = [&](float y, ShadowMode second) {
+    std::vector<ShadowMode> uses(standIns.slots(), ShadowMode::skip);
+    for (size_t i = 0; i < 4; ++i) uses[i] = ShadowMode::subtractShadow;
     uses[1] = second;
     standIns.apply(vec3(0, -y, 0), 0.5f, nullptr, uses);
     return uses;
   };
-  const auto far = usesAt(5.0f, LightUse::takeShadow);
-  EXPECT_EQ(far[slot], LightUse::takeShadow);
-  EXPECT_EQ(std::count(far.begin(), far.end(), LightUse::skip),
+  const auto far = usesAt(5.0f, ShadowMode::subtractShadow);
+  EXPECT_EQ(far[slot], ShadowMode::subtractShadow);
+  EXPECT_EQ(std::count(far.begin(), far.end(), ShadowMode::skip),
             static_cast<std::ptrdiff_t>(far.size() - 1));
-  for (const auto& uses : {usesAt(0.5f, LightUse::takeShadow),  // near
-                           usesAt(5.0f, LightUse::skip)}) {     // not all are looked up
-    EXPECT_EQ(uses[slot], LightUse::skip);
-    EXPECT_EQ(uses[0], LightUse::takeShadow);
+  for (const auto& uses : {usesAt(0.5f, ShadowMode::subtractShadow),  // near
+                           usesAt(5.0f, ShadowMode::skip)}) {         // not all are looked up
+    EXPECT_EQ(uses[slot], ShadowMode::skip);
+    EXPECT_EQ(uses[0], ShadowMode::subtractShadow);
   }
   standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 0.3f, .sees = {}});  // too bright
   EXPECT_EQ(standIns.groups(), 0u);
@@ -150,8 +150,8 @@ TEST(StandIns, AGroupIsOneLightForWideLobes) {
   for (shared::Vpl& vpl : vpls) vpl.footprint.x = 0.25f;
   StandIns standIns;
   standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
-  const auto groupUse = [&](float alpha, LightUse use) {
-    std::vector<LightUse> uses(standIns.slots(), LightUse::skip);
+  const auto groupUse = [&](float alpha, ShadowMode use) {
+    std::vector<ShadowMode> uses(standIns.slots(), ShadowMode::skip);
     std::fill_n(uses.begin(), 4, use);
     const StandIns::Lobes lobes{alpha};
     standIns.apply(vec3(0, -5, 0), 0.5f, &lobes, uses);
@@ -159,10 +159,10 @@ TEST(StandIns, AGroupIsOneLightForWideLobes) {
     EXPECT_EQ(coarsest.footprint.x, 1.0f);
     return uses[static_cast<size_t>(coarsest.intensity.w)];
   };
-  for (const LightUse use : {LightUse::add, LightUse::addShadowed}) {
+  for (const ShadowMode use : {ShadowMode::add, ShadowMode::addShadowed}) {
     EXPECT_EQ(groupUse(0.3f, use), use);
-    EXPECT_EQ(groupUse(0.02f, use), LightUse::skip);  // narrow
-    EXPECT_EQ(groupUse(0.0f, use), LightUse::skip);
+    EXPECT_EQ(groupUse(0.02f, use), ShadowMode::skip);  // narrow
+    EXPECT_EQ(groupUse(0.0f, use), ShadowMode::skip);
   }
 }
 

@@ -64,7 +64,8 @@ void LightAdder::addAs(uint64_t uses, const LightRecord& light, Sign sign, TileP
   if (table_ != nullptr && light.slot >= 0) {
     if (uses == kManyRows) findUses(light.slot, when);
     if (!listAs(uses)) return;
-    for (const LightUse use : {LightUse::add, LightUse::addShadowed, LightUse::takeShadow})
+    for (const ShadowMode use :
+         {ShadowMode::add, ShadowMode::addShadowed, ShadowMode::subtractShadow})
       sum(lists_[static_cast<size_t>(use)], use, sign, light);
     return;
   }
@@ -73,14 +74,14 @@ void LightAdder::addAs(uint64_t uses, const LightRecord& light, Sign sign, TileP
   for (const PacketLanes& row : inRows_) lanes.add(row);
   if (light.link != 0 && !leftOutBy_.empty()) leaveOut(light.link, lanes);
   lists_[0].take(lanes);
-  sum(lists_[0], light.map == nullptr ? LightUse::add : LightUse::addShadowed, sign, light);
+  sum(lists_[0], light.map == nullptr ? ShadowMode::add : ShadowMode::addShadowed, sign, light);
 }
 
 void LightAdder::replace(const PlaceTable::Staying& light) {
   const LightRecord& is = *light.is;
   counts_.lightPixels += pixels_;
   if (!listAs(findUses(is.slot, TilePlaces::When::untouched))) return;
-  for (const LightUse use : {LightUse::addShadowed, LightUse::takeShadow}) {
+  for (const ShadowMode use : {ShadowMode::addShadowed, ShadowMode::subtractShadow}) {
     const PacketList& packets = lists_[static_cast<size_t>(use)];
     LitOfList lit;
     findLit(packets, is.slot, lit);
@@ -117,8 +118,8 @@ uint64_t LightAdder::findUses(int slot, TilePlaces::When when) {
     uint64_t uses = 1;
     for (size_t i = 0; i < rows_.size(); ++i) {
       const uint32_t row = rows_[i];
-      const LightUse* of = when == When::before ? table_->before(row) : table_->now(row);
-      uses_[i] = isMeant(row) ? of[slot] : LightUse::skip;
+      const ShadowMode* of = when == When::before ? table_->before(row) : table_->now(row);
+      uses_[i] = isMeant(row) ? of[slot] : ShadowMode::skip;
       uses = uses << 2 | static_cast<uint64_t>(uses_[i]);
     }
     return rows_.size() > kMostRows ? kManyRows : uses;
@@ -131,7 +132,7 @@ uint64_t LightAdder::findUses(int slot, TilePlaces::When when) {
 // Lights that are used alike have the same lists. Of kManyRows, those of uses_. Returns whether
 // there is anything in them.
 bool LightAdder::listAs(uint64_t uses) {
-  static_assert(static_cast<int>(LightUse::skip) == 0);
+  static_assert(static_cast<int>(ShadowMode::skip) == 0);
   if (uses != kManyRows && std::has_single_bit(uses)) return false;
   if (uses != kManyRows && uses == listedUses_) return true;
   listedUses_ = uses;
@@ -142,16 +143,17 @@ bool LightAdder::listAs(uint64_t uses) {
   return true;
 }
 
-void LightAdder::sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light) {
+void LightAdder::sum(const PacketList& packets, ShadowMode use, Sign sign,
+                     const LightRecord& light) {
   if (packets.count() == 0) return;
   LitOfList lit;
-  const bool isKept = use != LightUse::add && light.slot >= 0 && !lit_.empty();
+  const bool isKept = use != ShadowMode::add && light.slot >= 0 && !lit_.empty();
   if (isKept && sign == Sign::takeAway) {
     findLit(packets, light.slot, lit);
     return addLit(block_, packets, use, sign, light, constants_, lit);
   }
   addLight(block_, packets, use, sign, light, constants_, lit);
-  if (use != LightUse::add) counts_.lookUps += packets.count() * kLanes;
+  if (use != ShadowMode::add) counts_.lookUps += packets.count() * kLanes;
   for (size_t k = 0; isKept && k < packets.count(); ++k) {
     uint8_t& note = noteOf(packets.packet(k), light.slot);
     note = static_cast<uint8_t>((note & ~*packets.lanes(k)) | lit[k]);

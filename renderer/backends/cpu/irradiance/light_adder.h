@@ -56,7 +56,7 @@ class LightAdder {
   bool listAs(uint64_t uses);
   uint8_t& noteOf(size_t packet, int slot) const;
   void findLit(const PacketList& packets, int slot, LitOfList& lit) const;
-  void sum(const PacketList& packets, LightUse use, Sign sign, const LightRecord& light);
+  void sum(const PacketList& packets, ShadowMode use, Sign sign, const LightRecord& light);
 
   const GBuffer& gbuffer_;
   const PlaceTable* table_;
@@ -68,9 +68,9 @@ class LightAdder {
   uint64_t pixels_ = 0;
   std::vector<uint32_t> rows_;       // of the table, in these tiles
   std::vector<PacketLanes> inRows_;  // what lies in each of them
-  std::vector<LightUse> uses_;       // by rows_, of the light that was asked for last
+  std::vector<ShadowMode> uses_;     // by rows_, of the light that was asked for last
   uint64_t listedUses_ = 0;          // that lists_ are for; 0: none
-  PacketList lists_[4];              // by LightUse
+  PacketList lists_[4];              // by ShadowMode
   std::vector<std::pair<uint64_t, const LightRecord*>> order_;
 };
 

@@ -66,13 +66,13 @@ HWY_INLINE Vector3 fromLight(const Vector3& p, const SimdLight& light) {
           hn::Sub(p.z, light.position.z)};
 }
 
-// kUse: add, addShadowed or takeShadow. Of the last it only finds where, without branches: half of
-// all packets of a partly hidden patch are somewhere, so that they would be foretold wrongly.
+// kUse: add, addShadowed or subtractShadow. Of the last it only finds where, without branches: half
+// of all packets of a partly hidden patch are somewhere, so that they would be foretold wrongly.
 // addLit() sums it then.
-template <LightRecord::Kind kKind, LightUse kUse>
+template <LightRecord::Kind kKind, ShadowMode kUse>
 void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
               const LightRecord& record, const SumConstants& constants, LitOfList& lit) {
-  constexpr bool kLooksUp = kUse != LightUse::add, kSums = kUse != LightUse::takeShadow;
+  constexpr bool kLooksUp = kUse != ShadowMode::add, kSums = kUse != ShadowMode::subtractShadow;
   const SimdLight light(record, isNegative, constants);
   const SimdConstants c(constants, record.resolution);
   const Floats zero = hn::Zero(kTag);
@@ -119,8 +119,8 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
             },
             facing);
     }
-    if constexpr (kUse == LightUse::addShadowed) reached = hn::AndNot(occluded, reached);
-    if constexpr (kUse == LightUse::takeShadow) reached = hn::And(occluded, reached);
+    if constexpr (kUse == ShadowMode::addShadowed) reached = hn::AndNot(occluded, reached);
+    if constexpr (kUse == ShadowMode::subtractShadow) reached = hn::And(occluded, reached);
     if constexpr (kLooksUp) lit[k] = static_cast<uint8_t>(bitsOf(reached));
     if constexpr (kSums) {
       const Floats weight = hn::IfThenElseZero(reached, weightOf<kKind>(light, c, v, z, s));
@@ -168,24 +168,24 @@ void addLit(PacketBlock& block, const PacketList& packets, bool isNegative,
       [&](int32_t(&sum)[3][kLanes], Floats weight) { addTo(sum, weight, light.units); });
 }
 
-bool isNegative(LightUse use, Sign sign) {
-  return (sign == Sign::takeAway) != (use == LightUse::takeShadow);
+bool isNegative(ShadowMode use, Sign sign) {
+  return (sign == Sign::takeAway) != (use == ShadowMode::subtractShadow);
 }
 
 template <LightRecord::Kind kKind>
-void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
               const LightRecord& light, const SumConstants& constants, LitOfList& lit) {
   const bool negative = isNegative(use, sign);
   switch (use) {
-    case LightUse::skip:
+    case ShadowMode::skip:
       break;
-    case LightUse::add:
-      return addLight<kKind, LightUse::add>(block, packets, negative, light, constants, lit);
-    case LightUse::addShadowed:
-      return addLight<kKind, LightUse::addShadowed>(block, packets, negative, light, constants,
-                                                    lit);
-    case LightUse::takeShadow:
-      addLight<kKind, LightUse::takeShadow>(block, packets, negative, light, constants, lit);
+    case ShadowMode::add:
+      return addLight<kKind, ShadowMode::add>(block, packets, negative, light, constants, lit);
+    case ShadowMode::addShadowed:
+      return addLight<kKind, ShadowMode::addShadowed>(block, packets, negative, light, constants,
+                                                      lit);
+    case ShadowMode::subtractShadow:
+      addLight<kKind, ShadowMode::subtractShadow>(block, packets, negative, light, constants, lit);
       return addLit<kKind>(block, packets, negative, light, constants, lit);
   }
 }
@@ -241,7 +241,7 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map, int resolu
   return light;
 }
 
-void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
               const LightRecord& light, const SumConstants& constants, LitOfList& lit) {
   if (packets.count() == 0) return;
   byKind(light.kind, [&]<LightRecord::Kind kKind>() {
@@ -249,7 +249,7 @@ void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign 
   });
 }
 
-void addLit(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+void addLit(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
             const LightRecord& light, const SumConstants& constants, const LitOfList& lit) {
   if (packets.count() == 0) return;
   byKind(light.kind, [&]<LightRecord::Kind kKind>() {
@@ -257,7 +257,7 @@ void addLit(PacketBlock& block, const PacketList& packets, LightUse use, Sign si
   });
 }
 
-void replaceLit(PacketBlock& block, const PacketList& packets, LightUse use,
+void replaceLit(PacketBlock& block, const PacketList& packets, ShadowMode use,
                 const LightRecord& before, const LightRecord& now, const SumConstants& constants,
                 const LitOfList& lit) {
   if (packets.count() == 0) return;

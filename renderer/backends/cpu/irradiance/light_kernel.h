@@ -75,16 +75,16 @@ using LitOfList = std::array<uint8_t, PacketBlock::kMost>;
 
 // Adds what the light gives these pixels by `use` (not skip) to the block's sums, or takes it away
 // again. Where it looks its shadow map up, `lit` tells afterwards what addLit() takes.
-void addLight(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
               const LightRecord& light, const SumConstants& constants, LitOfList& lit);
 
 // The same, for a light that adds or takes its shadow in those lanes, without a look-up.
-void addLit(PacketBlock& block, const PacketList& packets, LightUse use, Sign sign,
+void addLit(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
             const LightRecord& light, const SumConstants& constants, const LitOfList& lit);
 
 // Takes it away in those lanes as it was before, and adds it as it is now: it differs in nothing
 // but its intensity.
-void replaceLit(PacketBlock& block, const PacketList& packets, LightUse use,
+void replaceLit(PacketBlock& block, const PacketList& packets, ShadowMode use,
                 const LightRecord& before, const LightRecord& now, const SumConstants& constants,
                 const LitOfList& lit);
 

@@ -410,9 +410,9 @@ LightSums::HardShadows LightSums::findHardShadows() const {
     for (const uint32_t row : tile.places.rows()) isHard[row] = 1;  // in use
   for (uint32_t row = 0; row < isHard.size(); ++row) {
     if (isHard[row] == 0) continue;
-    const LightUse* uses = table_.now(row);
-    isHard[row] =
-        std::any_of(slots.begin(), slots.end(), [&](int slot) { return looksUp(uses[slot]); });
+    const ShadowMode* uses = table_.now(row);
+    isHard[row] = std::any_of(slots.begin(), slots.end(),
+                              [&](int slot) { return readsShadowMap(uses[slot]); });
   }
   for (const Tile& tile : tiles_)
     tile.places.forEachRow([&](size_t packet, uint8_t lanes, uint32_t row) {

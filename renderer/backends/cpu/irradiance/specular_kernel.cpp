@@ -85,7 +85,7 @@ HWY_INLINE void addLobe(const GlossyPoints& p, const Vector3& colour, Floats wei
 // Adds what the light gives the eye.
 template <LightRecord::Kind kKind>
 HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float footprint,
-                            bool looksUp, const SimdConstants& c, Vector3& sum) {
+                            bool readsShadowMap, const SimdConstants& c, Vector3& sum) {
   const Floats zero = hn::Zero(kTag);
   const Vector3 v{hn::Sub(p.position.x, light.position.x), hn::Sub(p.position.y, light.position.y),
                   hn::Sub(p.position.z, light.position.z)};
@@ -104,7 +104,7 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
     lv = dot(light.normal, p.toEye);
     weight = nl;
     solidAngle = wide(footprint);
-    if (looksUp) occluded = directionalOccluded(light, c, q, geometric, facing);
+    if (readsShadowMap) occluded = directionalOccluded(light, c, q, geometric, facing);
   } else {
     const Floats z = dot(v, light.normal);
     const Floats s = hn::Neg(dot(p.shading, v));
@@ -112,7 +112,7 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
     lit =
         hn::And(hn::And(p.meant, hn::Gt(z, zero)), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
     if (hn::AllFalse(kTag, lit)) return;
-    if (looksUp)
+    if (readsShadowMap)
       occluded = hemisphereOccluded(
           light, c, v, hn::IfThenElse(lit, z, wide(1.0f)),
           [&] { return inFrameOf(light, geometric); }, facing);
@@ -152,7 +152,7 @@ struct SpecularBlock::Place {
   GlossyPoints points;
   Vector3 sum;
   uint8_t lanes;
-  const LightUse* uses;
+  const ShadowMode* uses;
   uint32_t leftOutBy;
 };
 
@@ -165,7 +165,7 @@ SpecularBlock::SpecularBlock(const GBuffer& gbuffer, const vec3& eye, const SumC
 SpecularBlock::~SpecularBlock() = default;
 
 void SpecularBlock::add(size_t first, uint8_t lanes, std::span<const Gloss, kLanes> gloss,
-                        const LightUse* uses, uint32_t leftOutBy) {
+                        const ShadowMode* uses, uint32_t leftOutBy) {
   const Floats zero = hn::Zero(kTag);
   places_.push_back({pointsAt(gbuffer_, eye_, first, lanes, gloss, leastRoughness_),
                      {zero, zero, zero},
@@ -181,13 +181,13 @@ void SpecularBlock::addLight(const SpecularLight& specular) {
   const SimdConstants c(constants_, record.resolution);
   for (Place& place : places_) {
     if (isLeftOut(place.leftOutBy, record.link)) continue;
-    bool looksUp = record.map != nullptr;
+    bool readsShadowMap = record.map != nullptr;
     if (place.uses != nullptr && record.slot >= 0) {
-      const LightUse use = place.uses[record.slot];
-      if (use == LightUse::skip) continue;
-      looksUp = looksUp && use != LightUse::add;
+      const ShadowMode use = place.uses[record.slot];
+      if (use == ShadowMode::skip) continue;
+      readsShadowMap = readsShadowMap && use != ShadowMode::add;
     }
-    addSpecular<kKind>(place.points, light, specular.footprint, looksUp, c, place.sum);
+    addSpecular<kKind>(place.points, light, specular.footprint, readsShadowMap, c, place.sum);
   }
 }
 

@@ -31,8 +31,8 @@ class SpecularBlock {
   // Some lanes of the packet that begins at the pixel `first`, and their gloss.
   //   uses: by slot, skip, add or addShadowed; null: with a look-up, or without where a light has
   //   no map. leftOutBy: the links of lights that do not light them.
-  void add(size_t first, uint8_t lanes, std::span<const Gloss, kLanes> gloss, const LightUse* uses,
-           uint32_t leftOutBy);
+  void add(size_t first, uint8_t lanes, std::span<const Gloss, kLanes> gloss,
+           const ShadowMode* uses, uint32_t leftOutBy);
 
   void sum(std::span<const SpecularLight> lights);
   // The radiance that the k-th place has of them [W/(m² sr)], into its lanes.

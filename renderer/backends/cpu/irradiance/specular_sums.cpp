@@ -93,9 +93,9 @@ std::vector<bool> SpecularSums::findUses(const RenderScene& scene, float leastRo
     for (Part& part : tile.parts) {
       part.row = rows_.try_emplace(part.patch, static_cast<uint32_t>(rows_.size())).first->second;
     }
-  std::vector<LightUse> last = std::move(uses_);
+  std::vector<ShadowMode> last = std::move(uses_);
   slots_ = patches.slots();
-  uses_.assign(rows_.size() * slots_, LightUse::skip);
+  uses_.assign(rows_.size() * slots_, ShadowMode::skip);
   for (const auto& [patch, row] : rows_)
     patches.uses(patch.first, patch.second, lobesOf(scene, patch.first, leastRoughness),
                  {uses_.data() + row * slots_, slots_});

@@ -64,7 +64,7 @@ class SpecularSums {
   std::vector<SpecularLight> lights_;
   std::vector<Tile> tiles_;
   std::map<Patch, uint32_t> rows_;
-  std::vector<LightUse> uses_;  // rows × slots
+  std::vector<ShadowMode> uses_;  // rows × slots
   size_t slots_ = 0;
 };
 

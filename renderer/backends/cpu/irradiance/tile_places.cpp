@@ -81,8 +81,8 @@ void PlaceTable::update(const PatchLights& lights, const std::vector<bool>& inUs
     const Place& place = places_[row];
     const Patch& patch = lights.patches(place.object).patches[static_cast<size_t>(place.leaf)];
     spheres_.set(row, patch.centre, patch.radius);
-    LightUse* uses = now_.data() + row * slots_;
-    LightUse* last = before_.data() + row * slots_;
+    ShadowMode* uses = now_.data() + row * slots_;
+    ShadowMode* last = before_.data() + row * slots_;
     lights.uses(place.object, place.leaf, place.isMapped, {uses, slots_});
     if (!wasKnown) {
       std::copy_n(uses, slots_, last);
@@ -101,9 +101,9 @@ void PlaceTable::findTouched(std::span<const Staying> lights) {
     std::vector<uint8_t>& touched = touched_[slot];
     spheres_.findReached(*light.is, light.change, touched);
     for (size_t row = 0; row < places_.size(); ++row) {
-      const LightUse before = before_[row * slots_ + slot], now = now_[row * slots_ + slot];
-      const bool isLit = now == LightUse::add && light.isReplaced();
-      touched[row] = now != before || isLit || (looksUp(now) && touched[row] != 0) ? 1 : 0;
+      const ShadowMode before = before_[row * slots_ + slot], now = now_[row * slots_ + slot];
+      const bool isLit = now == ShadowMode::add && light.isReplaced();
+      touched[row] = now != before || isLit || (readsShadowMap(now) && touched[row] != 0) ? 1 : 0;
     }
   });
 }

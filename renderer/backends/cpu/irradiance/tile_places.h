@@ -32,8 +32,8 @@ class PlaceTable {
 
   // Brings the rows in use up to date. The others are forgotten: their patches may be gone.
   void update(const PatchLights& lights, const std::vector<bool>& inUse);
-  const LightUse* now(uint32_t row) const { return now_.data() + row * slots_; }
-  const LightUse* before(uint32_t row) const { return before_.data() + row * slots_; }
+  const ShadowMode* now(uint32_t row) const { return now_.data() + row * slots_; }
+  const ShadowMode* before(uint32_t row) const { return before_.data() + row * slots_; }
   // Slots that are used in another way than before.
   std::span<const int> changed(uint32_t row) const { return changed_[row]; }
 
@@ -62,7 +62,7 @@ class PlaceTable {
   size_t slots_ = 0;
   std::map<Place, uint32_t> rowOf_;
   std::vector<Place> places_;
-  std::vector<LightUse> now_, before_;         // rows × slots
+  std::vector<ShadowMode> now_, before_;       // rows × slots
   std::vector<std::vector<int>> changed_;      // by row
   std::vector<uint8_t> isKnown_;               // by row: before_ is what was summed
   PlaceSpheres spheres_;                       // of rows in use
