@@ -6,20 +6,20 @@ namespace lamplighter {
 
 void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<ShadowMode> bySlot) const {
   shadowModesOfAll(object, leaf, mapped, bySlot.first(visibility_.slots()));
-  standIn(object, leaf, nullptr, bySlot);
+  proxy(object, leaf, nullptr, bySlot);
 }
 
-void PatchLights::uses(uint32_t object, int leaf, const StandIns::Lobes& lobes,
+void PatchLights::uses(uint32_t object, int leaf, const LightProxies::Lobes& lobes,
                        std::span<ShadowMode> bySlot) const {
   shadowModesOfAll(object, leaf, false, bySlot.first(visibility_.slots()));
-  standIn(object, leaf, &lobes, bySlot);
+  proxy(object, leaf, &lobes, bySlot);
 }
 
-void PatchLights::standIn(uint32_t object, int leaf, const StandIns::Lobes* lobes,
-                          std::span<ShadowMode> bySlot) const {
-  if (standIns_ == nullptr) return;
+void PatchLights::proxy(uint32_t object, int leaf, const LightProxies::Lobes* lobes,
+                        std::span<ShadowMode> bySlot) const {
+  if (lightProxies_ == nullptr) return;
   const Patch& patch = patches(object).patches[static_cast<size_t>(leaf)];
-  standIns_->apply(patch.centre, patch.radius, lobes, bySlot);
+  lightProxies_->apply(patch.centre, patch.radius, lobes, bySlot);
 }
 
 // As if all had their maps.

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "renderer/light_maps/light_maps.h"
+#include "renderer/light_maps/light_proxies.h"
 #include "renderer/light_maps/shadow_mode.h"
-#include "renderer/light_maps/stand_ins.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/visibility/visibility_database.h"
 
@@ -19,15 +19,15 @@ class PatchLights {
   // maps: null when there are none; those that have no room are none. mergesPasses: lights that
   // need their shadow maps are to be summed by merged passes (pass_merging.h), where the backend
   // sums by passes at all. prt: null where there is none, and for backends that do not take it
-  // (BackendInfo::takesTransfer). standIns: which VPLs have maps, and what stands for those that
-  // have none; null: all have.
+  // (BackendInfo::takesTransfer). lightProxies: which VPLs have maps, and what stands for those
+  // that have none; null: all have.
   PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps,
               bool mergesPasses = false, const PrtLights* prt = nullptr,
-              const StandIns* standIns = nullptr)
+              const LightProxies* lightProxies = nullptr)
       : visibility_(visibility),
         maps_(maps != nullptr && maps->texel() > 0.0f ? maps : nullptr),
         prt_(prt),
-        standIns_(standIns),
+        lightProxies_(lightProxies),
         mergesPasses_(mergesPasses) {}
 
   const VisibilityDatabase& visibility() const { return visibility_; }
@@ -35,11 +35,11 @@ class PatchLights {
   const PrtLights* prt() const { return prt_; }
   bool mergesPasses() const { return mergesPasses_; }
   // Of the database's lights and of what stands for some of them.
-  size_t slots() const { return standIns_ ? standIns_->slots() : visibility_.slots(); }
+  size_t slots() const { return lightProxies_ ? lightProxies_->slots() : visibility_.slots(); }
   // Whose shadow map the light in a slot looks up.
-  int mapSlot(int slot) const { return standIns_ ? standIns_->mapSlot(slot) : slot; }
+  int mapSlot(int slot) const { return lightProxies_ ? lightProxies_->mapSlot(slot) : slot; }
   // Whether it stands for several.
-  bool isGroup(int slot) const { return standIns_ && standIns_->isGroup(slot); }
+  bool isGroup(int slot) const { return lightProxies_ && lightProxies_->isGroup(slot); }
   const ObjectPatches& patches(uint32_t object) const { return visibility_.patches(object); }
 
   // Whether pixels on the front of this leaf begin with what the light map says. Its back, and what
@@ -55,18 +55,18 @@ class PatchLights {
   // transfer.
   void uses(uint32_t object, int leaf, bool mapped, std::span<ShadowMode> bySlot) const;
   // The same for lobes of glossy pixels.
-  void uses(uint32_t object, int leaf, const StandIns::Lobes& lobes,
+  void uses(uint32_t object, int leaf, const LightProxies::Lobes& lobes,
             std::span<ShadowMode> bySlot) const;
 
  private:
-  void standIn(uint32_t object, int leaf, const StandIns::Lobes* lobes,
-               std::span<ShadowMode> bySlot) const;
+  void proxy(uint32_t object, int leaf, const LightProxies::Lobes* lobes,
+             std::span<ShadowMode> bySlot) const;
   void shadowModesOfAll(uint32_t object, int leaf, bool mapped, std::span<ShadowMode> bySlot) const;
 
   const VisibilityDatabase& visibility_;
   const LightMaps* maps_;
   const PrtLights* prt_;
-  const StandIns* standIns_;
+  const LightProxies* lightProxies_;
   bool mergesPasses_;
 };
 

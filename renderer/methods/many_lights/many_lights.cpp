@@ -40,7 +40,7 @@ bool hasGlossy(const RenderScene& scene) {
 // With fewer VPLs each counts, the faint ones too where nothing else lights.
 constexpr int kFewestForGroups = 800;
 
-StandIns::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
+LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
   return {vpls < kFewestForGroups ? 0.0f : share,
           [&rays = in.rays](const vec3& a, const vec3& b) {
             return !rays.occluded({a, 0.0f, b - a, 1.0f});
@@ -290,8 +290,8 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
   stats.mapsRendered =
       lights_.updateMaps(in.backend, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
   if (visibility_)
-    standIns_.update(lights_.shown(), slots, lights_.hasMap(), wanted_,
-                     groupsOf(in, options.groupShare, lights_.slots()));
+    lightProxies_.update(lights_.shown(), slots, lights_.hasMap(), wanted_,
+                         groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 // Once all else is done: the frame that follows an edit has enough to do.
@@ -414,10 +414,10 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   else
     takePart(in, options, vpls, isMiddle);
   if (visibility_) {
-    const StandIns& standIns = isWhole ? standIns_ : partLights_.standIns();
-    vpls.insert(vpls.end(), standIns.lights().begin(), standIns.lights().end());
+    const LightProxies& lightProxies = isWhole ? lightProxies_ : partLights_.lightProxies();
+    vpls.insert(vpls.end(), lightProxies.lights().begin(), lightProxies.lights().end());
     const PatchLights patches(*visibility_, isWhole ? lightMaps_.get() : partLights_.maps(),
-                              options.mergePasses, isWhole ? prt_.get() : nullptr, &standIns);
+                              options.mergePasses, isWhole ? prt_.get() : nullptr, &lightProxies);
     in.backend.sumVpls(vpls, params, &patches);
   } else {
     in.backend.sumVpls(vpls, params, nullptr);

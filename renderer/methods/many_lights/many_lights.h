@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/light_maps/stand_ins.h"
+#include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/corner_light.h"
 #include "renderer/methods/many_lights/live_lights.h"
@@ -71,7 +71,7 @@ class ManyLights final : public GiMethod {
   size_t visibilityNeeds_ = 0;                      // bytes at least, as found last
   int neededFor_ = 0;                               // so many slots
   std::vector<uint8_t> wanted_;                     // by slot: its map is looked up
-  StandIns standIns_;                               // for those that have none
+  LightProxies lightProxies_;                       // for those that have none
   std::unique_ptr<LightMaps> lightMaps_;            // likewise
   std::unique_ptr<PrtLights> prt_;                  // likewise
   bool gbufferIsCurrent_ = false;

@@ -21,8 +21,8 @@ std::vector<shared::Vpl> PartLights::lightsOf(LightPart part, std::span<const sh
 void PartLights::update(const RenderScene& scene, const VisibilityDatabase& visibility,
                         std::span<const shared::Vpl> lights, size_t slots, const Maps& maps,
                         const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
-                        const StandIns::Groups& groups) {
-  standIns_.update(lights, slots, hasMap, isWanted, groups);
+                        const LightProxies::Groups& groups) {
+  lightProxies_.update(lights, slots, hasMap, isWanted, groups);
   maps_.reset();
   if (!maps.used) return;
   std::vector<shared::Vpl> bySlot(slots);

@@ -8,7 +8,7 @@
 
 #include "renderer/backends/kernels.h"
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/light_maps/stand_ins.h"
+#include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/methods/light_part.h"
 
@@ -25,19 +25,19 @@ class PartLights {
     LightMaps::Options options;
   };
   // Made anew: views are looked at while little changes. By slot `hasMap` and `isWanted` as
-  // StandIns takes them.
+  // LightProxies takes them.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
               std::span<const shared::Vpl> lights, size_t slots, const Maps& maps,
               const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
-              const StandIns::Groups& groups);
+              const LightProxies::Groups& groups);
   void forget() { *this = PartLights(); }
 
   const LightMaps* maps() const { return maps_.get(); }
-  const StandIns& standIns() const { return standIns_; }
+  const LightProxies& lightProxies() const { return lightProxies_; }
 
  private:
   std::unique_ptr<LightMaps> maps_;
-  StandIns standIns_;
+  LightProxies lightProxies_;
 };
 
 // The picture without what `unlit` has: what shines itself, and the sky.

@@ -7,7 +7,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/light_maps/stand_ins.h"
+#include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/asset_room.h"
@@ -95,40 +95,40 @@ std::vector<shared::Vpl> row(int count, const vec3& step) {
   return vpls;
 }
 
-TEST(StandIns, OneWithoutMapLooksUpThatOfItsNeighbour) {
+TEST(LightProxies, OneWithoutMapLooksUpThatOfItsNeighbour) {
   const auto vpls = row(4, vec3(1, 0, 0));
-  StandIns standIns;
-  standIns.update(vpls, 4, {1, 0, 1, 0}, {1, 0, 1, 1}, {.share = 0.0f, .sees = {}});
-  ASSERT_EQ(standIns.lights().size(), 1u);  // nothing looks up that of light 1
-  const int slot = static_cast<int>(standIns.lights()[0].intensity.w);
-  EXPECT_EQ(standIns.mapSlot(slot), 2);
-  EXPECT_EQ(standIns.mapSlot(3), 3);
-  EXPECT_FALSE(standIns.isGroup(slot));
-  std::vector<ShadowMode> uses(standIns.slots(), ShadowMode::skip);
+  LightProxies lightProxies;
+  lightProxies.update(vpls, 4, {1, 0, 1, 0}, {1, 0, 1, 1}, {.share = 0.0f, .sees = {}});
+  ASSERT_EQ(lightProxies.lights().size(), 1u);  // nothing looks up that of light 1
+  const int slot = static_cast<int>(lightProxies.lights()[0].intensity.w);
+  EXPECT_EQ(lightProxies.mapSlot(slot), 2);
+  EXPECT_EQ(lightProxies.mapSlot(3), 3);
+  EXPECT_FALSE(lightProxies.isGroup(slot));
+  std::vector<ShadowMode> uses(lightProxies.slots(), ShadowMode::skip);
   uses[0] = ShadowMode::subtractShadow;
   uses[1] = ShadowMode::add;
   uses[3] = ShadowMode::addShadowed;
-  standIns.apply(vec3(0, -5, 0), 1.0f, nullptr, uses);
+  lightProxies.apply(vec3(0, -5, 0), 1.0f, nullptr, uses);
   EXPECT_EQ(uses[0], ShadowMode::subtractShadow);
   EXPECT_EQ(uses[1], ShadowMode::add);
   EXPECT_EQ(uses[3], ShadowMode::skip);
   EXPECT_EQ(uses[static_cast<size_t>(slot)], ShadowMode::addShadowed);
 }
 
-TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
+TEST(LightProxies, AGroupIsLookedUpOnceWhereItIsFar) {
   const auto vpls = row(4, vec3(0.01f, 0, 0));
-  StandIns standIns;
-  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
-  ASSERT_GE(standIns.groups(), 1u);
-  const shared::Vpl group = standIns.lights()[0];
+  LightProxies lightProxies;
+  lightProxies.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  ASSERT_GE(lightProxies.groups(), 1u);
+  const shared::Vpl group = lightProxies.lights()[0];
   const auto slot = static_cast<size_t>(group.intensity.w);
   EXPECT_EQ(group.intensity.r, 4.0f);
-  EXPECT_TRUE(standIns.isGroup(static_cast<int>(slot)));
+  EXPECT_TRUE(lightProxies.isGroup(static_cast<int>(slot)));
   const auto usesAt = [&](float y, ShadowMode second) {
-    std::vector<ShadowMode> uses(standIns.slots(), ShadowMode::skip);
+    std::vector<ShadowMode> uses(lightProxies.slots(), ShadowMode::skip);
     for (size_t i = 0; i < 4; ++i) uses[i] = ShadowMode::subtractShadow;
     uses[1] = second;
-    standIns.apply(vec3(0, -y, 0), 0.5f, nullptr, uses);
+    lightProxies.apply(vec3(0, -y, 0), 0.5f, nullptr, uses);
     return uses;
   };
   const auto far = usesAt(5.0f, ShadowMode::subtractShadow);
@@ -140,22 +140,23 @@ TEST(StandIns, AGroupIsLookedUpOnceWhereItIsFar) {
     EXPECT_EQ(uses[slot], ShadowMode::skip);
     EXPECT_EQ(uses[0], ShadowMode::subtractShadow);
   }
-  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 0.3f, .sees = {}});  // too bright
-  EXPECT_EQ(standIns.groups(), 0u);
+  lightProxies.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1},
+                      {.share = 0.3f, .sees = {}});  // too bright
+  EXPECT_EQ(lightProxies.groups(), 0u);
 }
 
 // With a shadow or without, where it is small beside the lobe.
-TEST(StandIns, AGroupIsOneLightForWideLobes) {
+TEST(LightProxies, AGroupIsOneLightForWideLobes) {
   auto vpls = row(4, vec3(0.1f, 0, 0));
   for (shared::Vpl& vpl : vpls) vpl.footprint.x = 0.25f;
-  StandIns standIns;
-  standIns.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  LightProxies lightProxies;
+  lightProxies.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
   const auto groupUse = [&](float alpha, ShadowMode use) {
-    std::vector<ShadowMode> uses(standIns.slots(), ShadowMode::skip);
+    std::vector<ShadowMode> uses(lightProxies.slots(), ShadowMode::skip);
     std::fill_n(uses.begin(), 4, use);
-    const StandIns::Lobes lobes{alpha};
-    standIns.apply(vec3(0, -5, 0), 0.5f, &lobes, uses);
-    const shared::Vpl& coarsest = standIns.lights()[0];
+    const LightProxies::Lobes lobes{alpha};
+    lightProxies.apply(vec3(0, -5, 0), 0.5f, &lobes, uses);
+    const shared::Vpl& coarsest = lightProxies.lights()[0];
     EXPECT_EQ(coarsest.footprint.x, 1.0f);
     return uses[static_cast<size_t>(coarsest.intensity.w)];
   };
@@ -184,33 +185,35 @@ TEST(GroupedLights, ShowTheSameInLobes) {
 }
 
 // On both sides of a wall, for which there is one shadow less.
-TEST(StandIns, WhatDoesNotSeeEachOtherIsNoGroup) {
+TEST(LightProxies, WhatDoesNotSeeEachOtherIsNoGroup) {
   const auto vpls = row(4, vec3(0.01f, 0, 0));
   const std::vector<uint8_t> all(4, 1);
-  StandIns standIns;
+  LightProxies lightProxies;
   const auto wallAt = [](float x) {
     return [x](const vec3& a, const vec3& b) { return (a.x < x) == (b.x < x); };
   };
-  standIns.update(vpls, 4, all, all, {.share = 1.0f, .sees = wallAt(0.025f)});
-  EXPECT_EQ(standIns.groups(), 0u);
+  lightProxies.update(vpls, 4, all, all, {.share = 1.0f, .sees = wallAt(0.025f)});
+  EXPECT_EQ(lightProxies.groups(), 0u);
   // It is gone, and back.
-  standIns.update(vpls, 4, all, all, {.share = 1.0f, .sees = wallAt(9.0f), .sceneChanged = true});
-  EXPECT_GE(standIns.groups(), 1u);
-  standIns.update(vpls, 4, all, all, {.share = 1.0f, .sees = wallAt(0.025f), .sceneChanged = true});
-  EXPECT_EQ(standIns.groups(), 0u);
+  lightProxies.update(vpls, 4, all, all,
+                      {.share = 1.0f, .sees = wallAt(9.0f), .sceneChanged = true});
+  EXPECT_GE(lightProxies.groups(), 1u);
+  lightProxies.update(vpls, 4, all, all,
+                      {.share = 1.0f, .sees = wallAt(0.025f), .sceneChanged = true});
+  EXPECT_EQ(lightProxies.groups(), 0u);
 }
 
 // One light that is far brighter, as the sunny ground outside is, makes no groups of all others.
-TEST(StandIns, AFewBrightLightsAreNoMeasure) {
+TEST(LightProxies, AFewBrightLightsAreNoMeasure) {
   auto vpls = row(8, vec3(0.01f, 0, 0));
   const std::vector<uint8_t> all(8, 1);
   vpls[7].position += vec4(50.0f, 0, 0, 0);
-  StandIns standIns;
-  standIns.update(vpls, 8, all, all, {.share = 0.2f, .sees = {}});
-  EXPECT_EQ(standIns.groups(), 0u);
+  LightProxies lightProxies;
+  lightProxies.update(vpls, 8, all, all, {.share = 0.2f, .sees = {}});
+  EXPECT_EQ(lightProxies.groups(), 0u);
   vpls[7].intensity = vec4(vec3(1e4f), vpls[7].intensity.w);
-  standIns.update(vpls, 8, all, all, {.share = 0.15f, .sees = {}});
-  EXPECT_EQ(standIns.groups(), 0u);
+  lightProxies.update(vpls, 8, all, all, {.share = 0.15f, .sees = {}});
+  EXPECT_EQ(lightProxies.groups(), 0u);
 }
 
 }  // namespace

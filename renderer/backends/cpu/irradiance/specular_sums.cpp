@@ -31,7 +31,7 @@ Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
 }
 
 // All that a texture may say is taken for possible.
-StandIns::Lobes lobesOf(const RenderScene& scene, uint32_t object, float leastRoughness) {
+LightProxies::Lobes lobesOf(const RenderScene& scene, uint32_t object, float leastRoughness) {
   const Material& m = scene.materials[static_cast<size_t>(scene.objects[object].material)];
   const bool isKnown = m.metallicRoughnessTexture.texture == kNone;
   const float roughness = std::max(isKnown ? m.roughness : 0.0f, leastRoughness);

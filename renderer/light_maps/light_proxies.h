@@ -21,7 +21,7 @@
 
 namespace lamplighter {
 
-class StandIns {
+class LightProxies {
  public:
   // What a group may be.
   struct Groups {
@@ -67,8 +67,8 @@ class StandIns {
     size_t first = 0, count = 0;
   };
   struct Numbers;
-  void standForOne(Numbers& numbers);
-  void standForGroups(Numbers& numbers, const Groups& groups);
+  void addSingleProxies(Numbers& numbers);
+  void addGroupProxies(Numbers& numbers, const Groups& groups);
   void add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const vec3& intensity,
            bool isGroup);
 
@@ -80,7 +80,7 @@ class StandIns {
   // By stand-in's slot behind the VPLs'.
   std::vector<int> mapSlots_;
   std::vector<uint8_t> isGroup_;
-  std::vector<int> standIn_;          // by slot of a VPL without a map
+  std::vector<int> proxy_;            // by slot of a VPL without a map
   std::vector<Group> groups_;         // large ones first
   std::vector<int> members_;          // slots
   std::map<uint64_t, int> numberOf_;  // of what there was last: it keeps its slot while it is there

@@ -1,4 +1,4 @@
-#include "renderer/light_maps/stand_ins.h"
+#include "renderer/light_maps/light_proxies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +76,7 @@ bool sameBits(std::span<const shared::Vpl> a, std::span<const shared::Vpl> b) {
 }  // namespace
 
 // Gives out the numbers of stand-ins.
-struct StandIns::Numbers {
+struct LightProxies::Numbers {
   std::map<uint64_t, int> before, now;
   std::vector<bool> isTaken;
   size_t free = 0;
@@ -99,9 +99,9 @@ struct StandIns::Numbers {
   }
 };
 
-void StandIns::update(std::span<const shared::Vpl> shown, size_t slots,
-                      const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
-                      const Groups& groups) {
+void LightProxies::update(std::span<const shared::Vpl> shown, size_t slots,
+                          const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
+                          const Groups& groups) {
   const bool seeOthers = groups.sceneChanged && groups.share > 0.0f;
   if (!seeOthers && slots == slots_ && hasMap == hasMap_ && isWanted == isWanted_ &&
       groups.share == groupShare_ && sameBits(shown, shown_))
@@ -114,12 +114,12 @@ void StandIns::update(std::span<const shared::Vpl> shown, size_t slots,
   lights_.clear();
   groups_.clear();
   members_.clear();
-  standIn_.assign(slots, -1);
+  proxy_.assign(slots, -1);
   std::fill(mapSlots_.begin(), mapSlots_.end(), 0);
   std::fill(isGroup_.begin(), isGroup_.end(), uint8_t{0});
   Numbers numbers(std::move(numberOf_));
-  standForOne(numbers);
-  if (groups.share > 0.0f) standForGroups(numbers, groups);
+  addSingleProxies(numbers);
+  if (groups.share > 0.0f) addGroupProxies(numbers, groups);
   numberOf_ = std::move(numbers.now);
   int most = 0;
   for (const auto& [key, number] : numberOf_) most = std::max(most, number + 1);
@@ -128,8 +128,8 @@ void StandIns::update(std::span<const shared::Vpl> shown, size_t slots,
   isGroup_.resize(room_, 0);
 }
 
-void StandIns::add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const vec3& intensity,
-                   bool isGroup) {
+void LightProxies::add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const vec3& intensity,
+                       bool isGroup) {
   const auto number = static_cast<size_t>(numbers.take(key));
   if (number >= mapSlots_.size()) {
     mapSlots_.resize(number + 1, 0);
@@ -141,7 +141,7 @@ void StandIns::add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const 
   vpl.intensity = vec4(intensity, static_cast<float>(slots_ + number));
 }
 
-void StandIns::standForOne(Numbers& numbers) {
+void LightProxies::addSingleProxies(Numbers& numbers) {
   std::vector<const shared::Vpl*> without, with;
   for (const shared::Vpl& vpl : shown_) {
     const auto slot = static_cast<size_t>(vpl.intensity.w);
@@ -165,12 +165,12 @@ void StandIns::standForOne(Numbers& numbers) {
     const auto slot = static_cast<size_t>(without[i]->intensity.w);
     add(numbers, kIsOfOne | slot, *nearest[i], vec3(without[i]->intensity), false);
     lights_.back().footprint = without[i]->footprint;
-    standIn_[slot] = static_cast<int>(lights_.back().intensity.w);
+    proxy_[slot] = static_cast<int>(lights_.back().intensity.w);
   }
 }
 
 // In cells of finer and finer grids, what is not too bright for one shadow.
-void StandIns::standForGroups(Numbers& numbers, const Groups& groups) {
+void LightProxies::addGroupProxies(Numbers& numbers, const Groups& groups) {
   const float most = groups.share * allLight(shown_);
   std::vector<const shared::Vpl*> lights;  // those that may be in groups
   for (const shared::Vpl& v : shown_) {
@@ -223,12 +223,12 @@ void StandIns::standForGroups(Numbers& numbers, const Groups& groups) {
   }
 }
 
-void StandIns::apply(const vec3& centre, float radius, const Lobes* lobes,
-                     std::span<ShadowMode> bySlot) const {
+void LightProxies::apply(const vec3& centre, float radius, const Lobes* lobes,
+                         std::span<ShadowMode> bySlot) const {
   std::fill(bySlot.begin() + static_cast<ptrdiff_t>(slots_), bySlot.end(), ShadowMode::skip);
   for (size_t i = 0; i < slots_; ++i) {
     if (hasMap_[i] != 0 || !readsShadowMap(bySlot[i])) continue;
-    if (standIn_[i] >= 0) bySlot[static_cast<size_t>(standIn_[i])] = bySlot[i];
+    if (proxy_[i] >= 0) bySlot[static_cast<size_t>(proxy_[i])] = bySlot[i];
     bySlot[i] = ShadowMode::skip;
   }
   const float far = lobes == nullptr ? kFar : std::min(kFar, kFarForLobes * lobes->alpha);
