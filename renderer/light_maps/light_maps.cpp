@@ -12,7 +12,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/light_maps/accumulate.h"
-#include "renderer/light_maps/mappable.h"
+#include "renderer/light_maps/light_map_eligibility.h"
 #include "renderer/light_maps/texel_grid.h"
 #include "renderer/scene/vpl.h"
 #include "renderer/visibility/seen_patches.h"
@@ -240,7 +240,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     for (const shared::Vpl& vpl : lights_) taken.emplace_back(vpl, -1.0f);
     for (const shared::Vpl& vpl : bySlot) added.emplace_back(vpl, 1.0f);
   }
-  const MappableLights newOnes(bySlot, newLights, options.clampDistance);
+  const EligibleLights newOnes(bySlot, newLights, options.clampDistance);
   std::atomic<uint64_t> written = 0;
   std::vector<uint8_t> wrote(jobs.size(), 0);
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t j) {
@@ -275,9 +275,9 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
         const size_t slot = 64 * w + static_cast<size_t>(std::countr_zero(asked));
         const bool has = (held & bit) != 0, isOther = (isNew[w] & bit) != 0;
         const bool mayWant = (isThere[w] & ~isFull & bit) != 0;
-        const bool wants =
-            mayWant && (isOther ? (newMappable[w] & bit) != 0
-                                : has || isMappable(bySlot[slot], place, options.clampDistance));
+        const bool wants = mayWant && (isOther ? (newMappable[w] & bit) != 0
+                                               : has || isLightMapEligible(bySlot[slot], place,
+                                                                           options.clampDistance));
         if (mayWant && !wants) refused |= bit;
         if (has && (!wants || isOther)) changes.push_back(&taken[slot]);
         if (wants && (!has || isOther)) changes.push_back(&added[slot]);

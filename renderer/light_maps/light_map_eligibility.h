@@ -27,13 +27,13 @@ struct TilePlace {
 
 // Whether a light is smooth enough over the patch to be interpolated, and not too bright to be
 // summed.
-bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance);
+bool isLightMapEligible(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance);
 
 // The same for many lights and tile after tile, eight lights at a time.
-class MappableLights {
+class EligibleLights {
  public:
   // slots: of the lights to be asked for.
-  MappableLights(std::span<const shared::Vpl> bySlot, std::span<const uint32_t> slots,
+  EligibleLights(std::span<const shared::Vpl> bySlot, std::span<const uint32_t> slots,
                  float clampDistance);
   // Sets their bits, 64 slots a word, and leaves all others.
   void find(const TilePlace& tile, std::span<uint64_t> bits) const;

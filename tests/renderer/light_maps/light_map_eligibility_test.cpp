@@ -1,4 +1,4 @@
-#include "renderer/light_maps/mappable.h"
+#include "renderer/light_maps/light_map_eligibility.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ constexpr float kClamp = 0.5f;
 
 // Eight lights at a time are told as one by one: of every kind, far from the tile and near it, in
 // its plane, behind it, and too bright.
-TEST(MappableLights, AreThoseThatAreMappableOneByOne) {
+TEST(EligibleLights, AreThoseThatAreMappableOneByOne) {
   std::vector<shared::Vpl> lights = test::randomVpls(180, 7);
   for (size_t i = 0; i < lights.size(); ++i) {
     if (i % 5 == 0) lights[i].position.y = 0.3f;  // the plane of the tile
@@ -34,7 +34,7 @@ TEST(MappableLights, AreThoseThatAreMappableOneByOne) {
   chart.tangent = vec3(1, 0, 0);
   chart.bitangent = vec3(0, 0, -1);
   chart.normal = vec3(0, 1, 0);
-  const MappableLights many(lights, slots, kClamp);
+  const EligibleLights many(lights, slots, kClamp);
   int mappable = 0, tiles = 0;
   for (float at = -3.0f; at < 3.0f; at += 0.4f, ++tiles) {
     Patch patch;
@@ -45,7 +45,7 @@ TEST(MappableLights, AreThoseThatAreMappableOneByOne) {
     many.find(tile, bits);
     for (uint32_t i = 0; i < lights.size(); ++i) {
       const bool isAsked = std::find(slots.begin(), slots.end(), i) != slots.end();
-      const bool expected = !isAsked || isMappable(lights[i], tile, kClamp);
+      const bool expected = !isAsked || isLightMapEligible(lights[i], tile, kClamp);
       EXPECT_EQ((bits[i / 64] >> i % 64 & 1) != 0, expected) << i << ", " << at;
       mappable += isAsked && expected;
     }

@@ -1,4 +1,4 @@
-#include "renderer/light_maps/mappable.h"
+#include "renderer/light_maps/light_map_eligibility.h"
 
 #include <algorithm>
 #include <limits>
@@ -21,7 +21,8 @@ bool isSpot(const shared::Vpl& vpl) {
   return vpl.position.w == shared::kVplUniform && vpl.normal.w != 0.0f;
 }
 
-using Vector3 = SimdVec3<Floats>;  // summed in glm's order, so that all is as isMappable() finds it
+using Vector3 =
+    SimdVec3<Floats>;  // summed in glm's order, so that all is as isLightMapEligible() finds it
 
 // Whether the light's plane crosses the patch: there is none of its light behind it, and before it
 // it grows from nothing, which texels on both sides would round off.
@@ -38,7 +39,7 @@ bool isCrossed(const shared::Vpl& vpl, const TilePlace& tile) {
 
 }  // namespace
 
-bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance) {
+bool isLightMapEligible(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance) {
   const float brightest = brightness(vpl);
   const vec3 position(vpl.position), normal(vpl.normal), tangent(vpl.tangent);
   if (vpl.position.w == shared::kVplDirectional) {
@@ -68,7 +69,7 @@ bool isMappable(const shared::Vpl& vpl, const TilePlace& tile, float clampDistan
   return distance2 >= nearest * nearest && brightest <= kMostBrightness * bounded;
 }
 
-MappableLights::MappableLights(std::span<const shared::Vpl> bySlot, std::span<const uint32_t> slots,
+EligibleLights::EligibleLights(std::span<const shared::Vpl> bySlot, std::span<const uint32_t> slots,
                                float clampDistance)
     : bySlot_(bySlot), clampDistance_(clampDistance) {
   for (const uint32_t slot : slots) {
@@ -92,12 +93,13 @@ MappableLights::MappableLights(std::span<const shared::Vpl> bySlot, std::span<co
   for (auto* v : {&px_, &py_, &pz_, &nx_, &ny_, &nz_, &brightest_, &least_}) v->resize(whole, 0.0f);
 }
 
-void MappableLights::find(const TilePlace& tile, std::span<uint64_t> bits) const {
+void EligibleLights::find(const TilePlace& tile, std::span<uint64_t> bits) const {
   const auto set = [&](uint32_t slot, bool is) {
     const uint64_t bit = uint64_t{1} << slot % 64;
     bits[slot / 64] = is ? bits[slot / 64] | bit : bits[slot / 64] & ~bit;
   };
-  for (const uint32_t slot : others_) set(slot, isMappable(bySlot_[slot], tile, clampDistance_));
+  for (const uint32_t slot : others_)
+    set(slot, isLightMapEligible(bySlot_[slot], tile, clampDistance_));
   const float behind = kBehindTexels * tile.spacing, nearest = kNearTexels * tile.spacing;
   const auto minus = [](const Vector3& a, const vec3& b) {
     return Vector3{hn::Sub(a.x, wide(b.x)), hn::Sub(a.y, wide(b.y)), hn::Sub(a.z, wide(b.z))};
