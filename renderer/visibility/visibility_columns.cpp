@@ -75,7 +75,7 @@ VisibilityDatabase::Column VisibilityDatabase::takeWaiting(int slot) {
   Column column;
   column.slot = slot;
   const auto add = [&](const Caster& caster) {
-    const ShadowReach reach(vpl, caster);
+    const ShadowVolume reach(vpl, caster);
     if (!reach.isEmpty())
       (column.reach.isEmpty() ? column.reach : column.more.emplace_back()) = reach;
   };
@@ -117,7 +117,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
                         columns[i] = takeWaiting(taken[i]);
                     });
   SimpleColumns simple{MoverShadows(occluders_, movers_, lights_, path_),
-                       ShadowReaches(lights_.size()),
+                       ShadowVolumes(lights_.size()),
                        std::vector<const Column*>(lights_.size(), nullptr)};
   for (const Column& c : columns) {
     const auto slot = static_cast<size_t>(c.slot);

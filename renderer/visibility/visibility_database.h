@@ -14,7 +14,7 @@
 #include "renderer/visibility/movers/mover_path.h"
 #include "renderer/visibility/object_identity.h"
 #include "renderer/visibility/occlusion/occluders.h"
-#include "renderer/visibility/occlusion/shadow_reach.h"
+#include "renderer/visibility/occlusion/shadow_volume.h"
 
 namespace lamplighter {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/visibility/movers/mover_shadows.h"
-#include "renderer/visibility/movers/shadow_reaches.h"
+#include "renderer/visibility/movers/shadow_volumes.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -24,13 +24,13 @@ struct VisibilityDatabase::Column {
   bool moversAreAll = true;      // what it waits for are the movers of now, and no more
   bool moversHidNothing = true;  // nor could what it waits for hide a patch alone
   // Of what it waits for, before and now; most wait for one thing.
-  ShadowReach reach;
-  std::vector<ShadowReach> more;
+  ShadowVolume reach;
+  std::vector<ShadowVolume> more;
   std::vector<int> objects;  // that it waits for: all their entries
   bool mayFallOn(const vec3& centre, float radius) const {
     return reach.mayFallOn(centre, radius) ||
            std::any_of(more.begin(), more.end(),
-                       [&](const ShadowReach& r) { return r.mayFallOn(centre, radius); });
+                       [&](const ShadowVolume& r) { return r.mayFallOn(centre, radius); });
   }
 };
 
@@ -38,7 +38,7 @@ struct VisibilityDatabase::Column {
 // (visibility_simple.cpp).
 struct VisibilityDatabase::SimpleColumns {
   MoverShadows shadows;
-  ShadowReaches reaches;
+  ShadowVolumes reaches;
   std::vector<const Column*> bySlot;  // null: it is not simple
 };
 

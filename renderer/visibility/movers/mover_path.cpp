@@ -20,7 +20,7 @@ constexpr float kAcross = 8.0f;
 constexpr float kMostTimes = 2.0f;
 
 float farthestStep(std::span<const MoverPlace> before, std::span<const MoverPlace> now,
-                   const Way& way) {
+                   const MotionMetric& way) {
   float step = 0.0f;
   for (size_t m = 0; m < now.size(); ++m)
     step = std::max(step, farthestStep(before[m], now[m], way));
@@ -29,7 +29,7 @@ float farthestStep(std::span<const MoverPlace> before, std::span<const MoverPlac
 
 }  // namespace
 
-float farthestStep(const MoverPlace& before, const MoverPlace& now, const Way& way) {
+float farthestStep(const MoverPlace& before, const MoverPlace& now, const MotionMetric& way) {
   if (before.groups.size() != now.groups.size() || before.caster.box.empty())
     return std::numeric_limits<float>::infinity();
   float farthest = way.lengthOf(now.caster.box.centre() - before.caster.box.centre()) +
@@ -50,7 +50,7 @@ MoverPath::Mark MoverPath::makeVoid() {
 // Whether it goes another way from now on.
 bool MoverPath::turn(std::span<const MoverPlace> before, std::span<const MoverPlace> now) {
   const vec3 shift = now[0].caster.box.centre() - before[0].caster.box.centre();
-  Way way = way_;
+  MotionMetric way = way_;
   if (const float length = glm::length(shift); length > 0.0f) {
     const vec3 direction = shift / length;
     const auto isAlong = [&](const vec3& other) {
@@ -59,7 +59,8 @@ bool MoverPath::turn(std::span<const MoverPlace> before, std::span<const MoverPl
     if (isAlong(direction_) && !isAlong(way.axis)) way = {direction, kAcross};
     direction_ = direction;
   }
-  if (farthestStep(before, now, way) > kMostTimes * farthestStep(before, now, Way())) way = Way();
+  if (farthestStep(before, now, way) > kMostTimes * farthestStep(before, now, MotionMetric()))
+    way = MotionMetric();
   if (way == way_) return false;
   way_ = way;
   return true;

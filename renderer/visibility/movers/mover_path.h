@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "renderer/visibility/occlusion/shadow_reach.h"
-#include "renderer/visibility/occlusion/way.h"
+#include "renderer/visibility/occlusion/motion_metric.h"
+#include "renderer/visibility/occlusion/shadow_volume.h"
 
 namespace lamplighter {
 
@@ -19,7 +19,7 @@ struct MoverPlace {
 };
 // How far one of them went or grew, at most, as the way counts it [m]; infinite where they are not
 // the same number.
-float farthestStep(const MoverPlace& before, const MoverPlace& now, const Way& way);
+float farthestStep(const MoverPlace& before, const MoverPlace& now, const MotionMetric& way);
 
 class MoverPath {
  public:
@@ -35,7 +35,7 @@ class MoverPath {
   Mark advance(float distance, float size);
 
   // As distances are counted. It changes only where advance() makes all marks void.
-  const Way& way() const { return way_; }
+  const MotionMetric& way() const { return way_; }
 
   size_t steps() const { return steps_; }
   float lastStep() const { return lastStep_; }  // as way() counts it [m]
@@ -59,7 +59,7 @@ class MoverPath {
   float count_ = 0.0f;  // [m]; 0: not known yet
   size_t steps_ = 0;
   float lastStep_ = 0.0f;
-  Way way_;
+  MotionMetric way_;
   vec3 direction_{0.0f};  // of the step before
 };
 

@@ -32,7 +32,7 @@ MoverShadows::MoverShadows(const Occluders& occluders, std::span<const uint32_t>
                                                         !occluders.mayHide(mover);
                                                })),
       way_(path.way()),
-      enough_(path.way() == Way() ? 0.0f : kStepsToStand * path.lastStep()),
+      enough_(path.way() == MotionMetric() ? 0.0f : kStepsToStand * path.lastStep()),
       turn_(path.steps()) {
   if (!isUseful_) return;
   lights_.reserve(lights.size());
@@ -40,7 +40,7 @@ MoverShadows::MoverShadows(const Occluders& occluders, std::span<const uint32_t>
   for (const shared::Vpl& vpl : lights) {
     lights_.push_back({PyramidApex(vpl), vpl.position.w == shared::kVplDirectional});
     for (const uint32_t mover : movers)
-      cones_.push_back(ShadowReach(vpl, occluders.caster(mover)).cone());
+      cones_.push_back(ShadowVolume(vpl, occluders.caster(mover)).cone());
   }
   size_t boxes = 0;
   for (const uint32_t object : movers) boxes += occluders.groups(object).size();
@@ -99,7 +99,7 @@ void MoverShadows::ask(const Asked& asked, size_t mover, Answer& answer) const {
   forEachBit(wanted & ~open,
              [&](size_t i) { answer.slack[i] = std::min(answer.slack[i], -sphere[i]); });
   if (open == 0) return;
-  ShadowReachLanes reaches;
+  ShadowVolumeX8 reaches;
   for (size_t i = 0; i < asked.lights.size(); ++i)
     reaches.set(i, cones_[asked.lights[i].slot * movers_.size() + mover]);
   const Mask reached = reaches.mayFallOn(asked.region.centre, asked.region.radius);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/visibility/movers/mover_path.h"
-#include "renderer/visibility/movers/shadow_reaches.h"
+#include "renderer/visibility/movers/shadow_volumes.h"
 #include "renderer/visibility/occlusion/occluders.h"
 #include "renderer/visibility/occlusion/pyramid_batch.h"
 
@@ -64,13 +64,13 @@ class MoverShadows {
 
   std::vector<Mover> movers_;
   bool isUseful_;
-  Way way_;
+  MotionMetric way_;
   float enough_;  // what answers are to stand for, if that is easily had [m]
   size_t turn_;
   std::vector<Light> lights_;
-  std::vector<ShadowReach::Cone> cones_;  // of shadows, by light and mover
-  size_t boxesAHint_ = 1;                 // as few as fit what a hint can say
-  float rounding_ = 0.0f;                 // of places of movers [m]
+  std::vector<ShadowVolume::Cone> cones_;  // of shadows, by light and mover
+  size_t boxesAHint_ = 1;                  // as few as fit what a hint can say
+  float rounding_ = 0.0f;                  // of places of movers [m]
 };
 
 }  // namespace lamplighter

@@ -153,7 +153,7 @@ bool Occluders::hiddenFromEye(const RenderScene& s, const OcclusionPyramid& pyra
   const auto enter = [&](const Bounds& b) { return axis.mayMeet(b); };
   return !polygonTree_.visit(enter, [&](uint32_t i) {
     return objects_[i].polygonTree.visit(enter, [&](uint32_t p) {
-      const HidingPolygon& polygon = objects_[i].polygons[p];
+      const OccluderPolygon& polygon = objects_[i].polygons[p];
       const float before = glm::dot(polygon.normal, eye - polygon.corners[0]);
       const bool isDrawn = before > kNotClipped || (before < -kNotClipped && !s.backIsUnseen(i));
       return !(isDrawn && pyramid.isCutBy(polygon));

@@ -12,7 +12,7 @@
 
 namespace lamplighter {
 
-class HidingBatch;
+class FullOccluderX8;
 
 // What a pyramid met: an item of an object. Most of what meets a pyramid meets the next one too,
 // that of a child or of a light nearby, so that there it is asked first.
@@ -67,15 +67,15 @@ class Occluders {
  private:
   struct Object {
     Caster caster;
-    std::vector<uint32_t> flat;           // triangles that are tested themselves
-    std::vector<int> roughChart;          // of each of them; empty: none is in one
-    BoundsTree tree;                      // over those, then groups
-    std::vector<Bounds> groups;           // of loose triangles
-    std::vector<HidingPolygon> polygons;  // large ones, which may hide whole patches
+    std::vector<uint32_t> flat;             // triangles that are tested themselves
+    std::vector<int> roughChart;            // of each of them; empty: none is in one
+    BoundsTree tree;                        // over those, then groups
+    std::vector<Bounds> groups;             // of loose triangles
+    std::vector<OccluderPolygon> polygons;  // large ones, which may hide whole patches
     BoundsTree polygonTree;
   };
   class Search;
-  LightLanes::Mask hiddenWithout(const HidingBatch& batch, LightLanes::Mask of,
+  LightLanes::Mask hiddenWithout(const FullOccluderX8& batch, LightLanes::Mask of,
                                  std::span<const uint32_t> objects) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
              uint32_t item, vec3& at) const;

@@ -8,7 +8,7 @@
 
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/visibility/occlusion/bits.h"
-#include "renderer/visibility/occlusion/hiding_batch.h"
+#include "renderer/visibility/occlusion/full_occluder_x8.h"
 #include "renderer/visibility/occlusion/occluders.h"
 #include "renderer/visibility/occlusion/pyramid_batch.h"
 
@@ -173,7 +173,7 @@ class Occluders::Search {
         glm::max(glm::max(glm::abs(corners[0]), glm::abs(corners[1])), glm::abs(corners[2])));
   }
   bool mayBeShadowed(size_t light, uint32_t object) const {
-    return ShadowReach(*lights_.vpls[light], occluders_.objects_[object].caster)
+    return ShadowVolume(*lights_.vpls[light], occluders_.objects_[object].caster)
         .mayFallOn(lights_.region.centre, lights_.region.radius);
   }
 
@@ -210,21 +210,21 @@ Occluders::States Occluders::occlusionsWithout(const RenderScene& s, const Light
     std::copy_n(search.first().begin(), first.size(), first.begin());
   }
   if (met == 0) return states;
-  const Mask hidden = hiddenWithout(HidingBatch(lanes, lights.region), met, objects);
+  const Mask hidden = hiddenWithout(FullOccluderX8(lanes, lights.region), met, objects);
   forEachBit(met, [&](size_t i) {
     states[i] = (hidden >> i & 1) != 0 ? Occlusion::full : Occlusion::partial;
   });
   return states;
 }
 
-Mask Occluders::hiddenWithout(const HidingBatch& batch, Mask of,
+Mask Occluders::hiddenWithout(const FullOccluderX8& batch, Mask of,
                               std::span<const uint32_t> objects) const {
   Mask open = of;
   const auto enter = [&](const Bounds& b) { return (open & batch.mayMeet(b)) != 0; };
   polygonTree_.visit(enter, [&](uint32_t object) {
     if (std::find(objects.begin(), objects.end(), object) != objects.end()) return true;
     objects_[object].polygonTree.visit(enter, [&](uint32_t p) {
-      const HidingPolygon& polygon = objects_[object].polygons[p];
+      const OccluderPolygon& polygon = objects_[object].polygons[p];
       if (const Mask some = open & batch.mayMeet(polygon.box); some != 0)
         open &= ~batch.cut(polygon, some);
       return open != 0;

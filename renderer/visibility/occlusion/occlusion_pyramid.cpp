@@ -195,7 +195,7 @@ OcclusionPyramid::Axis::Axis(const OcclusionPyramid& p)
     inverse_[c] = 1.0f / (std::abs(way[c]) > 1e-20f ? way[c] : std::copysign(1e-20f, way[c]));
 }
 
-HidingPolygon::HidingPolygon(std::span<const vec3> outline, const vec3& n)
+OccluderPolygon::OccluderPolygon(std::span<const vec3> outline, const vec3& n)
     : corners(outline.begin(), outline.end()), normal(n) {
   for (size_t i = 0; i < corners.size(); ++i) {
     const vec3 edge = corners[(i + 1) % corners.size()] - corners[i];
@@ -204,7 +204,7 @@ HidingPolygon::HidingPolygon(std::span<const vec3> outline, const vec3& n)
   }
 }
 
-bool OcclusionPyramid::isCutBy(const HidingPolygon& polygon) const {
+bool OcclusionPyramid::isCutBy(const OccluderPolygon& polygon) const {
   const vec3 &on = polygon.corners[0], &n = polygon.normal;
   const float inset = 8.0f * margin_ + region_.thickness;
   const float lightSide = parallel_ ? glm::dot(n, towards_) : glm::dot(n, apex_ - on);
@@ -215,7 +215,7 @@ bool OcclusionPyramid::isCutBy(const HidingPolygon& polygon) const {
     const vec3 across = parallel_ ? corner - (side / lightSide) * towards_
                                   : apex_ + (lightSide / (lightSide - side)) * (corner - apex_);
     for (size_t i = 0; i < polygon.edges.size(); ++i) {
-      const HidingPolygon::Edge& edge = polygon.edges[i];
+      const OccluderPolygon::Edge& edge = polygon.edges[i];
       if (glm::dot(edge.inwards, across - polygon.corners[i]) < inset * edge.length) return false;
     }
     return true;

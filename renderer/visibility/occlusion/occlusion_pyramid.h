@@ -9,7 +9,7 @@
 
 #include "renderer/patches/patch_set.h"
 #include "renderer/visibility/occlusion/pyramid_planes.h"
-#include "renderer/visibility/occlusion/shadow_reach.h"
+#include "renderer/visibility/occlusion/shadow_volume.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {
@@ -44,7 +44,7 @@ struct PatchRegion {
 };
 
 // A convex polygon that may hide whole patches, with what is asked of it for every pyramid.
-struct HidingPolygon {
+struct OccluderPolygon {
   struct Edge {
     vec3 inwards{0.0f};   // in its plane, as long as the edge
     float length = 0.0f;  // [m]
@@ -54,7 +54,7 @@ struct HidingPolygon {
   vec3 normal{0.0f};        // unit
   Bounds box;
 
-  HidingPolygon(std::span<const vec3> corners, const vec3& normal);
+  OccluderPolygon(std::span<const vec3> corners, const vec3& normal);
 };
 
 class OcclusionPyramid {
@@ -71,7 +71,7 @@ class OcclusionPyramid {
   // Whether the shadow of it may fall on the patch: a sieve before the tests below, and part of
   // them, for these take a little more than the pyramid.
   bool mayBeShadowedBy(const Caster& caster) const {
-    return ShadowReach(vpl_, caster).mayFallOn(region_.centre, region_.radius);
+    return ShadowVolume(vpl_, caster).mayFallOn(region_.centre, region_.radius);
   }
 
   // It is that of a patch of this chart, which is rough.
@@ -92,7 +92,7 @@ class OcclusionPyramid {
   // Whether a point is in it, by more than rounding.
   bool holds(const vec3& point) const { return !mayBeOutside(point, margin_); }
   // Whether a polygon stands wholly across it, between light and patch.
-  bool isCutBy(const HidingPolygon& polygon) const;
+  bool isCutBy(const OccluderPolygon& polygon) const;
 
   // The segment from the middle of the patch to the light. Only what that meets can stand across
   // all of the pyramid, and it meets far less.

@@ -98,7 +98,7 @@ PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
 
 // What moves by a vector d gets nearer to a plane with the normal n by n·d, which is no more than
 // the larger of |n·axis| and |n×axis| / across times its length.
-void PyramidBatch::weighBy(const Way& way) {
+void PyramidBatch::weighBy(const MotionMetric& way) {
   const SimdVec3<Vec> axis = set(way.axis);
   const auto one = set(1.0f), across = set(1.0f / way.across);
   for (Plane& p : planes_) {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "renderer/visibility/occlusion/light_lanes.h"
+#include "renderer/visibility/occlusion/motion_metric.h"
 #include "renderer/visibility/occlusion/occlusion_pyramid.h"
-#include "renderer/visibility/occlusion/way.h"
 
 namespace lamplighter {
 
@@ -45,7 +45,7 @@ class PyramidBatch {
   // Of lights for which the rectangle is neither dark nor degenerate.
   PyramidBatch(const LightLanes& lights, const PatchRegion& region);
   // Before depths are asked for.
-  void weighBy(const Way& way);
+  void weighBy(const MotionMetric& way);
 
   Mask all() const { return all_; }
   Mask mayMeetSphere(const vec3& centre, float radius, Depths& depths) const;

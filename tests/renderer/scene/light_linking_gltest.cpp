@@ -12,14 +12,14 @@
 namespace lamplighter {
 namespace {
 
-struct Way {
+struct MotionMetric {
   const char* technique;
   const char* block;
   bool speculars;
 };
-void PrintTo(const Way& w, std::ostream* out) { *out << w.technique << w.block; }
+void PrintTo(const MotionMetric& w, std::ostream* out) { *out << w.technique << w.block; }
 
-class GlLinking : public test::GlTest, public testing::WithParamInterface<Way> {};
+class GlLinking : public test::GlTest, public testing::WithParamInterface<MotionMetric> {};
 
 TEST_P(GlLinking, LooksTheSameOnBothBackends) {
   Scene scene;
@@ -60,9 +60,10 @@ TEST_P(GlLinking, LooksTheSameOnBothBackends) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GlLinking,
-                         testing::Values(Way{"naive", "1", false}, Way{"naive", "1", true},
-                                         Way{"light_maps", "1", true},
-                                         Way{"light_maps", "4", false}));
+                         testing::Values(MotionMetric{"naive", "1", false},
+                                         MotionMetric{"naive", "1", true},
+                                         MotionMetric{"light_maps", "1", true},
+                                         MotionMetric{"light_maps", "4", false}));
 
 }  // namespace
 }  // namespace lamplighter

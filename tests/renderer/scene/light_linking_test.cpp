@@ -115,7 +115,7 @@ Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& c
   return test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
 }
 
-struct Way {
+struct MotionMetric {
   const char* name;
   const char* technique;
   bool prt;
@@ -123,8 +123,8 @@ struct Way {
   bool speculars;
   int prtBounces = 0;
 };
-void PrintTo(const Way& w, std::ostream* out) { *out << w.name; }
-class LiveLinking : public testing::TestWithParam<Way> {};
+void PrintTo(const MotionMetric& w, std::ostream* out) { *out << w.name; }
+class LiveLinking : public testing::TestWithParam<MotionMetric> {};
 
 // Lists change, with a light under way and an object moved: the same bits as opened afresh.
 TEST_P(LiveLinking, IsTheRebuiltPicture) {
@@ -160,14 +160,15 @@ TEST_P(LiveLinking, IsTheRebuiltPicture) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LiveLinking,
-                         testing::Values(Way{"naive", "naive", false, "1", true},
-                                         Way{"visibility", "visibility", false, "1", false},
-                                         Way{"light_maps", "light_maps", false, "1", true},
-                                         Way{"low_resolution", "light_maps", false, "4", false},
-                                         Way{"transfer", "light_maps", true, "1", false},
-                                         Way{"reflecting", "light_maps", true, "1", false, 4}),
-                         [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, LiveLinking,
+    testing::Values(MotionMetric{"naive", "naive", false, "1", true},
+                    MotionMetric{"visibility", "visibility", false, "1", false},
+                    MotionMetric{"light_maps", "light_maps", false, "1", true},
+                    MotionMetric{"low_resolution", "light_maps", false, "4", false},
+                    MotionMetric{"transfer", "light_maps", true, "1", false},
+                    MotionMetric{"reflecting", "light_maps", true, "1", false, 4}),
+    [](const auto& i) { return std::string(i.param.name); });
 
 // All techniques give nearly one picture, and it is the path tracer's.
 TEST(LightLinking, MethodsAgree) {

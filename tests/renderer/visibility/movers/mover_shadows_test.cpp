@@ -8,7 +8,7 @@
 
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "renderer/visibility/movers/shadow_reaches.h"
+#include "renderer/visibility/movers/shadow_volumes.h"
 #include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
@@ -119,7 +119,7 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
     random = random * 1664525u + 1013904223u;
     return static_cast<float>(random >> 8) * 0x1p-24f;
   };
-  const Way ways[] = {Way(), {glm::normalize(vec3(1.0f, 0.2f, -0.5f)), 8.0f}};
+  const MotionMetric ways[] = {MotionMetric(), {glm::normalize(vec3(1.0f, 0.2f, -0.5f)), 8.0f}};
   size_t met = 0, asked = 0, differ = 0;
   forEachBatch([&](const PatchRegion& region, const std::vector<size_t>& slots) {
     std::vector<PyramidApex> apices;
@@ -167,8 +167,8 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
 
 TEST_F(MoversOfARoom, ShadowsReachTogetherWhatEachReachesAlone) {
   const Caster caster(scene_.objects[moverObject()].bounds);
-  ShadowReaches reaches(lights_.size());
-  std::vector<ShadowReach> each;
+  ShadowVolumes reaches(lights_.size());
+  std::vector<ShadowVolume> each;
   for (size_t i = 0; i < lights_.size(); ++i) {
     each.emplace_back(lights_[i], caster);
     if (i % 7 != 0) reaches.set(i, each[i]);  // the others stay empty

@@ -7,19 +7,19 @@
 
 namespace lamplighter {
 
-class HidingBatch {
+class FullOccluderX8 {
  public:
   using Mask = LightLanes::Mask;
 
   // Of lights for which the patch is neither dark nor degenerate. Refers to both, which must
   // outlive it.
-  HidingBatch(const LightLanes& lights, const PatchRegion& region);
-  HidingBatch(const LightLanes& lights, PatchRegion&& region) = delete;
+  FullOccluderX8(const LightLanes& lights, const PatchRegion& region);
+  FullOccluderX8(const LightLanes& lights, PatchRegion&& region) = delete;
 
   // Whose axis may meet the box, see OcclusionPyramid::Axis.
   Mask mayMeet(const Bounds& box) const;
   // Of some lights, those whose pyramid the polygon stands wholly across.
-  Mask cut(const HidingPolygon& polygon, Mask of) const;
+  Mask cut(const OccluderPolygon& polygon, Mask of) const;
 
  private:
   const LightLanes& lights_;

@@ -1,23 +1,23 @@
-// The reaches of shadows of many point lights (shadow_reach.h), eight at a time.
+// The reaches of shadows of many point lights (shadow_volume.h), eight at a time.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "renderer/visibility/occlusion/shadow_reach.h"
+#include "renderer/visibility/occlusion/shadow_volume.h"
 
 namespace lamplighter {
 
 // Eight of them, a lane each; none where nothing is set.
-class ShadowReachLanes {
+class ShadowVolumeX8 {
  public:
   static constexpr size_t kLanes = 8;
   using Lanes = std::array<float, kLanes>;
 
-  ShadowReachLanes();
+  ShadowVolumeX8();
 
   // Not that of a parallel light.
-  void set(size_t lane, const ShadowReach::Cone& cone);
+  void set(size_t lane, const ShadowVolume::Cone& cone);
   // Bit i is that of lane i. The same as each says itself.
   uint32_t mayFallOn(const vec3& centre, float radius) const;
   // Of those that may fall on the sphere, how far the caster may go or shrink and still reach it
@@ -29,21 +29,21 @@ class ShadowReachLanes {
   alignas(32) Lanes nearest_, sine_{}, cosine_{}, before_{}, radius_{};
 };
 
-class ShadowReaches {
+class ShadowVolumes {
  public:
-  explicit ShadowReaches(size_t count)  // all none
-      : groups_((count + ShadowReachLanes::kLanes - 1) / ShadowReachLanes::kLanes) {}
+  explicit ShadowVolumes(size_t count)  // all none
+      : groups_((count + ShadowVolumeX8::kLanes - 1) / ShadowVolumeX8::kLanes) {}
 
   // Not of a parallel light.
-  void set(size_t i, const ShadowReach& reach) {
-    groups_[i / ShadowReachLanes::kLanes].set(i % ShadowReachLanes::kLanes, reach.cone());
+  void set(size_t i, const ShadowVolume& reach) {
+    groups_[i / ShadowVolumeX8::kLanes].set(i % ShadowVolumeX8::kLanes, reach.cone());
   }
   // Of those wanted, whether they may fall on some of the sphere: bit i is that with index
   // 64 * word + i. The same as each says itself.
   uint64_t mayFallOn(size_t word, uint64_t wanted, const vec3& centre, float radius) const;
 
  private:
-  std::vector<ShadowReachLanes> groups_;
+  std::vector<ShadowVolumeX8> groups_;
 };
 
 }  // namespace lamplighter

@@ -19,11 +19,11 @@ struct Caster {
   Caster(const Caster& a, const Caster& b);  // both
 };
 
-class ShadowReach {
+class ShadowVolume {
  public:
-  ShadowReach() = default;  // none
+  ShadowVolume() = default;  // none
   // An empty box casts none.
-  ShadowReach(const shared::Vpl& vpl, const Caster& caster);
+  ShadowVolume(const shared::Vpl& vpl, const Caster& caster);
 
   bool isEmpty() const { return kind_ == Kind::none; }
   // What mayFallOn() goes by where the light is not parallel, and what says by how much [m].

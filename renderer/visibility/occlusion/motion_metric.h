@@ -8,11 +8,11 @@
 namespace lamplighter {
 
 // How a distance is counted: as what is gone along the axis, and some times what is gone across it.
-struct Way {
+struct MotionMetric {
   vec3 axis{0.0f};      // unit; zero: all directions are alike
   float across = 1.0f;  // of a metre at right angles to the axis, at least one [m]
 
-  bool operator==(const Way&) const = default;
+  bool operator==(const MotionMetric&) const = default;
 
   float lengthOf(const vec3& shift) const {
     const float along = glm::dot(shift, axis);

@@ -1,4 +1,4 @@
-#include "renderer/visibility/movers/shadow_reaches.h"
+#include "renderer/visibility/movers/shadow_volumes.h"
 
 #include <bit>
 #include <limits>
@@ -8,16 +8,16 @@
 namespace lamplighter {
 namespace {
 
-Floats8 lanesOf(const ShadowReachLanes::Lanes& lanes) { return hn::Load(kTag, lanes.data()); }
-SimdVec3<Floats8> lanesOf(const std::array<ShadowReachLanes::Lanes, 3>& v) {
+Floats8 lanesOf(const ShadowVolumeX8::Lanes& lanes) { return hn::Load(kTag, lanes.data()); }
+SimdVec3<Floats8> lanesOf(const std::array<ShadowVolumeX8::Lanes, 3>& v) {
   return {lanesOf(v[0]), lanesOf(v[1]), lanesOf(v[2])};
 }
 
 }  // namespace
 
-ShadowReachLanes::ShadowReachLanes() { nearest_.fill(std::numeric_limits<float>::infinity()); }
+ShadowVolumeX8::ShadowVolumeX8() { nearest_.fill(std::numeric_limits<float>::infinity()); }
 
-void ShadowReachLanes::set(size_t lane, const ShadowReach::Cone& cone) {
+void ShadowVolumeX8::set(size_t lane, const ShadowVolume::Cone& cone) {
   for (int c = 0; c < 3; ++c) {
     apex_[static_cast<size_t>(c)][lane] = cone.apex[c];
     axis_[static_cast<size_t>(c)][lane] = cone.axis[c];
@@ -29,8 +29,8 @@ void ShadowReachLanes::set(size_t lane, const ShadowReach::Cone& cone) {
   radius_[lane] = cone.radius;
 }
 
-// As ShadowReach::mayFallOn() adds it up.
-uint32_t ShadowReachLanes::mayFallOn(const vec3& centre, float radius) const {
+// As ShadowVolume::mayFallOn() adds it up.
+uint32_t ShadowVolumeX8::mayFallOn(const vec3& centre, float radius) const {
   const Floats8 zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
   const SimdVec3<Floats8> v = wide(centre) - lanesOf(apex_), axis = lanesOf(axis_);
   const Floats8 distance2 = dotUnfused(v, v), gap = hn::Sub(lanesOf(nearest_), wide(radius));
@@ -51,7 +51,7 @@ uint32_t ShadowReachLanes::mayFallOn(const vec3& centre, float radius) const {
 // By the sphere of the caster made smaller: what that reaches, one as large as before does that
 // still holds it. Only the sine is other then, by what is taken off over the distance, and the
 // cosine grows by less than the tangent times as much.
-void ShadowReachLanes::slack(const vec3& centre, float radius, Lanes& out) const {
+void ShadowVolumeX8::slack(const vec3& centre, float radius, Lanes& out) const {
   const Floats8 zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
   const Floats8 nearest = lanesOf(nearest_), before = lanesOf(before_), size = lanesOf(radius_);
   const SimdVec3<Floats8> v = wide(centre) - lanesOf(apex_);
@@ -68,9 +68,9 @@ void ShadowReachLanes::slack(const vec3& centre, float radius, Lanes& out) const
   hn::Store(hn::Max(hn::IfThenElse(isAround, before, least), zero), kTag, out.data());
 }
 
-uint64_t ShadowReaches::mayFallOn(size_t word, uint64_t wanted, const vec3& centre,
+uint64_t ShadowVolumes::mayFallOn(size_t word, uint64_t wanted, const vec3& centre,
                                   float radius) const {
-  constexpr size_t kLanes = ShadowReachLanes::kLanes;
+  constexpr size_t kLanes = ShadowVolumeX8::kLanes;
   constexpr uint64_t kAll = (uint64_t{1} << kLanes) - 1;
   uint64_t mask = 0;
   for (uint64_t rest = wanted; rest != 0;) {

@@ -1,4 +1,4 @@
-#include "renderer/visibility/occlusion/shadow_reach.h"
+#include "renderer/visibility/occlusion/shadow_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ Caster::Caster(const Caster& a, const Caster& b) {
       radius = std::max(radius, glm::distance(box.centre(), c->box.centre()) + c->radius);
 }
 
-ShadowReach::ShadowReach(const shared::Vpl& vpl, const Caster& caster) {
+ShadowVolume::ShadowVolume(const shared::Vpl& vpl, const Caster& caster) {
   const Bounds& box = caster.box;
   if (box.empty()) return;
   // Rays begin and end a little off what they join, and the sums here are rounded.
@@ -49,7 +49,7 @@ ShadowReach::ShadowReach(const shared::Vpl& vpl, const Caster& caster) {
   sine_ = std::min(1.0f, 1.0001f * sine_ + 1e-6f);
 }
 
-ShadowReach::Cone ShadowReach::cone() const {
+ShadowVolume::Cone ShadowVolume::cone() const {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   if (kind_ == Kind::cone) return {apex_, axis_, nearest_, sine_, cosine_, before_, radius_};
   // All of space, or what nothing is as far off as.

@@ -1,4 +1,4 @@
-#include "renderer/visibility/occlusion/hiding_batch.h"
+#include "renderer/visibility/occlusion/full_occluder_x8.h"
 
 #include "renderer/base/simd.h"
 #include "renderer/visibility/occlusion/lane_sums.h"
@@ -7,7 +7,7 @@ namespace lamplighter {
 
 using namespace lanes;
 
-HidingBatch::HidingBatch(const LightLanes& lights, const PatchRegion& region)
+FullOccluderX8::FullOccluderX8(const LightLanes& lights, const PatchRegion& region)
     : lights_(lights), region_(region) {
   const Vec rounding = hn::Max(load(lights.rounding), set(region.rounding));
   const Vec thickness = set(region.thickness), eight = set(8.0f);
@@ -26,7 +26,7 @@ HidingBatch::HidingBatch(const LightLanes& lights, const PatchRegion& region)
   }
 }
 
-HidingBatch::Mask HidingBatch::mayMeet(const Bounds& box) const {
+FullOccluderX8::Mask FullOccluderX8::mayMeet(const Bounds& box) const {
   Vec first = hn::Zero(kTag), last = set(1.0f);
   for (int c = 0; c < 3; ++c) {
     const auto axis = static_cast<size_t>(c);
@@ -39,7 +39,7 @@ HidingBatch::Mask HidingBatch::mayMeet(const Bounds& box) const {
   return lights_.all() & bitsOf(hn::Le(first, last));
 }
 
-HidingBatch::Mask HidingBatch::cut(const HidingPolygon& polygon, Mask of) const {
+FullOccluderX8::Mask FullOccluderX8::cut(const OccluderPolygon& polygon, Mask of) const {
   const vec3 &on = polygon.corners[0], &n = polygon.normal;
   const Vec3 apex = load(lights_.position);
   const Vec inset = load(inset_), zero = hn::Zero(kTag);
@@ -55,7 +55,7 @@ HidingBatch::Mask HidingBatch::cut(const HidingPolygon& polygon, Mask of) const 
     const Vec3 across{hn::Add(apex.x, hn::Mul(part, way.x)), hn::Add(apex.y, hn::Mul(part, way.y)),
                       hn::Add(apex.z, hn::Mul(part, way.z))};
     for (size_t i = 0; i < polygon.edges.size() && cut != 0; ++i) {
-      const HidingPolygon::Edge& edge = polygon.edges[i];
+      const OccluderPolygon::Edge& edge = polygon.edges[i];
       const Vec inwards = dot(set(edge.inwards), across - set(polygon.corners[i]));
       cut &= bitsOf(hn::Ge(inwards, hn::Mul(inset, set(edge.length))));
     }
