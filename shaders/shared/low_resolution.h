@@ -12,7 +12,7 @@
 //     into this cell without reaching a corner. Where no light makes hard shadows, only corners of
 //     one surface are compared, as each surface has its own light;
 //   - none of the few lights that make hard shadows is partly hidden from the patch of a corner
-//     (renderer/backends/cpu/irradiance/light_sums.h): what they light may be narrower than a block.
+//     (renderer/backends/cpu/irradiance/irradiance_accumulator.h): what they light may be narrower than a block.
 // The pixels of all other cells are summed one by one.
 //
 // In haste (ShadingParams::block.y), while the camera moves, samples are pixels of a smaller picture

@@ -5,12 +5,12 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
+#include "renderer/backends/cpu/adaptive_antialiasing.h"
 #include "renderer/backends/cpu/composition.h"
 #include "renderer/backends/cpu/gbuffer/gbuffer.h"
-#include "renderer/backends/cpu/irradiance/light_sums.h"
-#include "renderer/backends/cpu/irradiance/specular_sums.h"
+#include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
+#include "renderer/backends/cpu/irradiance/specular_accumulator.h"
 #include "renderer/backends/cpu/low_resolution.h"
-#include "renderer/backends/cpu/sample_sharing.h"
 #include "renderer/backends/cpu/shadow_maps/map_store.h"
 #include "renderer/backends/image_pool.h"
 #include "shaders/shared/low_resolution.h"
@@ -23,13 +23,15 @@ struct Picture {
   cpu::GBuffer gbuffer;
   View view;  // of the G-buffer
   vec2 jitter{0.0f};
-  cpu::LightSums sums;  // at its pixels; with blocks, at those of cells that are not interpolated
-  int block = 1;        // pixels, as summed
+  cpu::IrradianceAccumulator
+      sums;       // at its pixels; with blocks, at those of cells that are not interpolated
+  int block = 1;  // pixels, as summed
   cpu::LowResolution low;
-  cpu::LightSums sampleSums;  // at the samples of `low`; in haste but for those between coarse ones
-  cpu::LowResolution lowSamples;  // in haste: of the samples of `low`
-  cpu::LightSums coarseSums;      // at its own; never kept
-  cpu::SpecularSums speculars;
+  cpu::IrradianceAccumulator
+      sampleSums;  // at the samples of `low`; in haste but for those between coarse ones
+  cpu::LowResolution lowSamples;          // in haste: of the samples of `low`
+  cpu::IrradianceAccumulator coarseSums;  // at its own; never kept
+  cpu::SpecularAccumulator speculars;
   vec3 eye{0.0f};
 
   template <typename F>
@@ -48,7 +50,7 @@ struct Picture {
 class CpuBackend final : public Backend {
  public:
   CpuBackend() {
-    still_.forEachSums([](cpu::LightSums& sums) { sums.noteLit(); });
+    still_.forEachSums([](cpu::IrradianceAccumulator& sums) { sums.cacheShadowMasks(); });
   }
 
   const BackendInfo& info() const override { return info_; }
@@ -79,7 +81,7 @@ class CpuBackend final : public Backend {
     if (changes.rebuilt || changes.materials) {
       stillIsKnown_ = false;
       for (Picture* p : {&still_, &shifted_}) {
-        p->forEachSums([](cpu::LightSums& sums) { sums.forgetPlaces(); });
+        p->forEachSums([](cpu::IrradianceAccumulator& sums) { sums.forgetPlaces(); });
         p->speculars.forgetPlaces();
       }
       return;
@@ -91,25 +93,25 @@ class CpuBackend final : public Backend {
   void reserveShadowMaps(int slots, const MapRoom& coarse, const MapRoom& fine) override {
     if (!maps_.reserve(slots, coarse, fine)) return;
     for (Picture* p : {&still_, &shifted_}) {
-      p->forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
+      p->forEachSums([](cpu::IrradianceAccumulator& sums) { sums.forgetMaps(); });
       p->speculars.mapsChange();
     }
   }
 
   void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
-    shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
+    shifted_.forEachSums([](cpu::IrradianceAccumulator& sums) { sums.forgetMaps(); });
     for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
     const auto slotOf = [](const shared::Vpl& vpl) { return static_cast<int>(vpl.intensity.w); };
-    const auto tellOfOld = [&](cpu::LightSums& sums) {
+    const auto tellOfOld = [&](cpu::IrradianceAccumulator& sums) {
       for (const shared::Vpl& vpl : vpls)
         if (const auto map = maps_.map(slotOf(vpl)); !map.empty())
           sums.mapChanges(slotOf(vpl), map);
     };
     tbb::parallel_invoke([&] { tellOfOld(still_.sums); }, [&] { tellOfOld(still_.sampleSums); });
-    std::vector<cpu::MapChange> changes(vpls.size());
+    std::vector<cpu::ShadowMapDiff> changes(vpls.size());
     counts_.rays += maps_.render(*scene_, *rays_, vpls, size, changes);
     counts_.shadowMaps += vpls.size();
-    still_.forEachSums([&](cpu::LightSums& sums) {
+    still_.forEachSums([&](cpu::IrradianceAccumulator& sums) {
       for (size_t i = 0; i < vpls.size(); ++i) sums.mapChanged(slotOf(vpls[i]), changes[i]);
     });
   }
@@ -118,8 +120,8 @@ class CpuBackend final : public Backend {
     for (const int slot : slots) {
       const std::span<const float> map = maps_.map(slot);
       if (map.empty()) continue;
-      still_.forEachSums([&](cpu::LightSums& sums) { sums.mapChanges(slot, map); });
-      shifted_.forEachSums([](cpu::LightSums& sums) { sums.forgetMaps(); });
+      still_.forEachSums([&](cpu::IrradianceAccumulator& sums) { sums.mapChanges(slot, map); });
+      shifted_.forEachSums([](cpu::IrradianceAccumulator& sums) { sums.forgetMaps(); });
       for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
       maps_.drop(slot);
     }
@@ -155,7 +157,7 @@ class CpuBackend final : public Backend {
     }
     const float d0 = params.clampAndBias.x;
     const cpu::SumConstants constants{d0 * d0, params.clampAndBias.y, 1.0f};
-    const auto update = [&](cpu::LightSums& sums, const cpu::GBuffer& gbuffer,
+    const auto update = [&](cpu::IrradianceAccumulator& sums, const cpu::GBuffer& gbuffer,
                             std::span<const uint32_t> wanted) {
       const cpu::SumCounts counts =
           sums.update(gbuffer, lights, constants, patches, wanted, leftOutBy_);
@@ -283,11 +285,11 @@ class CpuBackend final : public Backend {
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;
   cpu::MapStore maps_;
-  Picture still_, shifted_;           // pixels in their places, and moved for antialiasing
-  Picture* shown_ = &still_;          // the one that was rendered last
-  cpu::SampleSharing sharing_;        // of still_
-  std::span<const uint32_t> shared_;  // packets of shown_ with light of their own; empty: all
-  bool stillIsKnown_ = false;         // still_ shows stillView_, but for what moved
+  Picture still_, shifted_;            // pixels in their places, and moved for antialiasing
+  Picture* shown_ = &still_;           // the one that was rendered last
+  cpu::AdaptiveAntialiasing sharing_;  // of still_
+  std::span<const uint32_t> shared_;   // packets of shown_ with light of their own; empty: all
+  bool stillIsKnown_ = false;          // still_ shows stillView_, but for what moved
   View stillView_;
   std::vector<uint32_t> leftOutBy_;  // by object, where the scene has any; else empty
   std::vector<Bounds> moves_;        // where something was or is that moved since

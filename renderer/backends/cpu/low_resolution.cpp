@@ -330,7 +330,7 @@ uint32_t LowResolution::edgesOf(int tile) const {
 }
 
 void LowResolution::findEdges(const GBuffer& picture, const PictureLight& light) {
-  const LightSums::HardShadows hard = light.sums.findHardShadows();
+  const IrradianceAccumulator::HardShadows hard = light.sums.findHardShadows();
   tbb::parallel_for(0, samples_.height + 1, [&](int row) { takeLight(light, hard.at, row); });
   tbb::parallel_for(0, cellsY_, [&](int row) { findContrast(row, hard.hasLights); });
   std::atomic<uint64_t> interpolated = 0;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/gbuffer/gbuffer.h"
-#include "renderer/backends/cpu/irradiance/light_sums.h"
+#include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
 
 namespace lamplighter::cpu {
 
@@ -22,7 +22,7 @@ struct PictureLight;
 class LowResolution {
  public:
   // Takes the samples and looks where cells lie on one surface, in tiles that were traced since the
-  // last call. block: 2, 4 or 8 pixels. leftOutBy: of LightSums::update().
+  // last call. block: 2, 4 or 8 pixels. leftOutBy: of IrradianceAccumulator::update().
   void update(const GBuffer& picture, int block, std::span<const uint32_t> leftOutBy);
   const GBuffer& samples() const { return samples_; }
 

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <span>
 
-#include "renderer/backends/cpu/irradiance/light_sums.h"
+#include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
 #include "renderer/backends/cpu/low_resolution.h"
 
 namespace lamplighter::cpu {
 
 struct PictureLight {
   using Irradiance = LowResolution::Irradiance;
-  const LightSums& sums;
+  const IrradianceAccumulator& sums;
   const LowResolution* low = nullptr;  // what is between the samples; null: all are summed
   // Another picture of the view, of which all but `own` packets take theirs (by tile, a bit each);
   // null: there is none.

@@ -74,7 +74,7 @@ class Room {
 };
 
 uint64_t render(cpu::MapStore& store, const Room& room, std::span<const shared::Vpl> lights,
-                std::vector<cpu::MapChange>& changes, MapSize size = MapSize::coarse) {
+                std::vector<cpu::ShadowMapDiff>& changes, MapSize size = MapSize::coarse) {
   changes.assign(lights.size(), {});
   return store.render(room.world, *room.rays, lights, size, changes);
 }
@@ -91,10 +91,10 @@ TEST_P(KeptMaps, AreThoseMadeFromNothing) {
   const int slots = static_cast<int>(room.lights.size());
   cpu::MapStore kept;
   kept.reserve(slots, {resolution, slots}, {});
-  std::vector<cpu::MapChange> changes;
+  std::vector<cpu::ShadowMapDiff> changes;
   render(kept, room, room.lights, changes);
-  for (const cpu::MapChange& change : changes)
-    EXPECT_EQ(change.extent, cpu::MapChange::Extent::everything);
+  for (const cpu::ShadowMapDiff& change : changes)
+    EXPECT_EQ(change.extent, cpu::ShadowMapDiff::Extent::everything);
   uint64_t rays = 0, raysAnew = 0;
   size_t parts = 0;
   for (int step = 0; step < 12; ++step) {
@@ -108,14 +108,14 @@ TEST_P(KeptMaps, AreThoseMadeFromNothing) {
     rays += render(kept, room, some, changes);
     cpu::MapStore anew;
     anew.reserve(slots, {resolution, slots}, {});
-    std::vector<cpu::MapChange> ofNew;
+    std::vector<cpu::ShadowMapDiff> ofNew;
     raysAnew += render(anew, room, some, ofNew);
     for (size_t i = 0; i < some.size(); ++i) {
       const int slot = static_cast<int>(some[i].intensity.w);
       const std::vector<float> map = copyOf(kept.map(slot));
       ASSERT_EQ(map, copyOf(anew.map(slot))) << "slot " << slot << ", step " << step;
-      ASSERT_EQ(map == before[i], changes[i].extent == cpu::MapChange::Extent::nothing);
-      parts += changes[i].extent == cpu::MapChange::Extent::part ? 1 : 0;
+      ASSERT_EQ(map == before[i], changes[i].extent == cpu::ShadowMapDiff::Extent::nothing);
+      parts += changes[i].extent == cpu::ShadowMapDiff::Extent::part ? 1 : 0;
     }
   }
   std::cout << 100 * rays / raysAnew << "% of the rays, " << parts << " changed in part\n";
@@ -132,7 +132,7 @@ TEST(KeptMaps, OfAnyResolutionAreThoseMadeFromNothing) {
   Room room(Kind::drawn, 5);
   const int slots = static_cast<int>(room.lights.size()), resolution = 18;
   cpu::MapStore kept, anew;
-  std::vector<cpu::MapChange> changes;
+  std::vector<cpu::ShadowMapDiff> changes;
   kept.reserve(slots, {resolution, slots}, {});
   render(kept, room, room.lights, changes);
   kept.castersMove(room.world, room.moveSomething());
@@ -148,7 +148,7 @@ TEST(KeptMaps, ForgetWhatNoLongerHolds) {
   Room room(Kind::drawn, 6);
   const int slots = static_cast<int>(room.lights.size()), resolution = 32;
   cpu::MapStore kept;
-  std::vector<cpu::MapChange> changes;
+  std::vector<cpu::ShadowMapDiff> changes;
   kept.reserve(slots, {resolution, slots}, {});
   render(kept, room, room.lights, changes);
   const auto expectAsNew = [&](const char* what) {
@@ -161,8 +161,8 @@ TEST(KeptMaps, ForgetWhatNoLongerHolds) {
   };
   for (shared::Vpl& light : room.lights) light.position += vec4(0.1f, 0.0f, 0.1f, 0.0f);
   render(kept, room, room.lights, changes);
-  for (const cpu::MapChange& change : changes)
-    EXPECT_EQ(change.extent, cpu::MapChange::Extent::everything);
+  for (const cpu::ShadowMapDiff& change : changes)
+    EXPECT_EQ(change.extent, cpu::ShadowMapDiff::Extent::everything);
   expectAsNew("a light elsewhere");
   for (int i = 0; i < 2500; ++i) kept.castersMove(room.world, room.moveSomething());
   expectAsNew("many moves");
@@ -182,7 +182,7 @@ TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
     const MapRoom coarse{16, slots}, fine{64, slots};
     cpu::MapStore kept;
     kept.reserve(slots, coarse, fine);
-    std::vector<cpu::MapChange> changes;
+    std::vector<cpu::ShadowMapDiff> changes;
     render(kept, room, room.lights, changes);
     std::vector<MapSize> sizes(room.lights.size(), MapSize::coarse);
     for (int step = 0; step < 12; ++step) {
@@ -194,7 +194,7 @@ TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
         render(kept, room, some, changes, size);
         cpu::MapStore anew;
         anew.reserve(slots, coarse, fine);
-        std::vector<cpu::MapChange> ofNew;
+        std::vector<cpu::ShadowMapDiff> ofNew;
         render(anew, room, some, ofNew, size);
         const int resolution = size == MapSize::coarse ? 16 : 64;
         for (size_t i = 0; i < some.size(); ++i) {
@@ -203,7 +203,7 @@ TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
           ASSERT_EQ(kept.resolution(slot), resolution);
           ASSERT_EQ(copyOf(kept.map(slot)), copyOf(anew.map(slot))) << "step " << step;
           if (was != size) {
-            ASSERT_EQ(changes[i].extent, cpu::MapChange::Extent::everything);
+            ASSERT_EQ(changes[i].extent, cpu::ShadowMapDiff::Extent::everything);
           }
           was = size;
         }
@@ -222,14 +222,14 @@ TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
 }
 
 // Whatever looks up a texel that changed is in reach of the change.
-TEST(MapChange, ReachesWhateverLooksItUp) {
+TEST(ShadowMapDiff, ReachesWhateverLooksItUp) {
   constexpr int kPoints = 4000;
   for (const int resolution : {16, 64, 256}) {
     Room room(Kind::drawn, 7);
     const int slots = static_cast<int>(room.lights.size());
     cpu::MapStore store;
     store.reserve(slots, {resolution, slots}, {});
-    std::vector<cpu::MapChange> changes;
+    std::vector<cpu::ShadowMapDiff> changes;
     render(store, room, room.lights, changes);
     size_t reached = 0, asked = 0, lookedUp = 0;
     for (int step = 0; step < 6; ++step) {
@@ -251,7 +251,7 @@ TEST(MapChange, ReachesWhateverLooksItUp) {
         spheres.set(i, p + away, glm::length(away));
       }
       for (size_t k = 0; k < room.lights.size(); ++k) {
-        if (changes[k].extent == cpu::MapChange::Extent::everything) continue;
+        if (changes[k].extent == cpu::ShadowMapDiff::Extent::everything) continue;
         const shared::Vpl& vpl = room.lights[k];
         const std::span<const float> now = store.map(static_cast<int>(k));
         std::vector<uint8_t> isReached;

@@ -6,7 +6,7 @@
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>
 
-#include "renderer/backends/cpu/irradiance/light_sums.h"
+#include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
 #include "renderer/base/simd.h"
 #include "renderer/sampling/emitters/lights.h"
@@ -122,7 +122,7 @@ void bareKernel(benchmark::State& state) {
 void ownKernel(benchmark::State& state) {
   const LitRoom& lit = room();
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  cpu::LightSums sums;
+  cpu::IrradianceAccumulator sums;
   for (auto _ : state) {
     sums.forgetMaps();
     sums.update(lit.gbuffer, lit.lights, {kClamp2, kBias, 1.0f}, nullptr);

@@ -18,7 +18,8 @@ bool LightAdder::hasRoomFor(uint32_t packets) const {
   return block_.count() + static_cast<size_t>(std::popcount(packets)) <= PacketBlock::kMost;
 }
 
-void LightAdder::addPackets(int tile, uint32_t packets, const TilePlaces& places, TileLit* lit) {
+void LightAdder::addPackets(int tile, uint32_t packets, const TilePlaces& places,
+                            ShadowMaskCache* lit) {
   listedUses_ = 0;
   pixels_ += static_cast<uint64_t>(gbuffer_.pixelsOf(tile, packets));
   packets &= places.hit();
@@ -83,9 +84,9 @@ void LightAdder::replace(const PlaceTable::Staying& light) {
   if (!listAs(findUses(is.slot, TilePlaces::When::untouched))) return;
   for (const ShadowMode use : {ShadowMode::addShadowed, ShadowMode::subtractShadow}) {
     const PacketList& packets = lists_[static_cast<size_t>(use)];
-    LitOfList lit;
+    ShadowMasks lit;
     findLit(packets, is.slot, lit);
-    replaceLit(block_, packets, use, *light.was, is, constants_, lit);
+    replaceMasked(block_, packets, use, *light.was, is, constants_, lit);
   }
 }
 
@@ -95,7 +96,7 @@ uint8_t& LightAdder::noteOf(size_t packet, int slot) const {
 }
 
 // Where it was summed, of these lanes.
-void LightAdder::findLit(const PacketList& packets, int slot, LitOfList& lit) const {
+void LightAdder::findLit(const PacketList& packets, int slot, ShadowMasks& lit) const {
   for (size_t k = 0; k < packets.count(); ++k)
     lit[k] = static_cast<uint8_t>(noteOf(packets.packet(k), slot) & *packets.lanes(k));
 }
@@ -146,11 +147,11 @@ bool LightAdder::listAs(uint64_t uses) {
 void LightAdder::sum(const PacketList& packets, ShadowMode use, Sign sign,
                      const LightRecord& light) {
   if (packets.count() == 0) return;
-  LitOfList lit;
+  ShadowMasks lit;
   const bool isKept = use != ShadowMode::add && light.slot >= 0 && !lit_.empty();
   if (isKept && sign == Sign::takeAway) {
     findLit(packets, light.slot, lit);
-    return addLit(block_, packets, use, sign, light, constants_, lit);
+    return addMasked(block_, packets, use, sign, light, constants_, lit);
   }
   addLight(block_, packets, use, sign, light, constants_, lit);
   if (use != ShadowMode::add) counts_.lookUps += packets.count() * kLanes;

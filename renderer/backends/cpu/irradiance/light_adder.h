@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/irradiance/light_kernel.h"
-#include "renderer/backends/cpu/irradiance/lit_lanes.h"
+#include "renderer/backends/cpu/irradiance/shadow_mask_cache.h"
 #include "renderer/backends/cpu/irradiance/tile_places.h"
 
 namespace lamplighter::cpu {
@@ -20,7 +20,7 @@ struct SumCounts {
 class LightAdder {
  public:
   // table: how each patch comes by each light; null: with a look-up, or without where the light has
-  // no map. leftOutBy: as for LightSums::update().
+  // no map. leftOutBy: as for IrradianceAccumulator::update().
   LightAdder(const GBuffer& gbuffer, const PlaceTable* table, std::span<const uint32_t> leftOutBy,
              const SumConstants& constants, SumCounts& counts)
       : gbuffer_(gbuffer),
@@ -31,7 +31,7 @@ class LightAdder {
 
   bool hasRoomFor(uint32_t packets) const;
   // lit: where what is lit is noted; null: it is not.
-  void addPackets(int tile, uint32_t packets, const TilePlaces& places, TileLit* lit);
+  void addPackets(int tile, uint32_t packets, const TilePlaces& places, ShadowMaskCache* lit);
 
   void add(const LightRecord& light, Sign sign, TilePlaces::When when);
   // All of these, those that are used alike one after the other.
@@ -55,7 +55,7 @@ class LightAdder {
   uint64_t findUses(int slot, TilePlaces::When when);
   bool listAs(uint64_t uses);
   uint8_t& noteOf(size_t packet, int slot) const;
-  void findLit(const PacketList& packets, int slot, LitOfList& lit) const;
+  void findLit(const PacketList& packets, int slot, ShadowMasks& lit) const;
   void sum(const PacketList& packets, ShadowMode use, Sign sign, const LightRecord& light);
 
   const GBuffer& gbuffer_;

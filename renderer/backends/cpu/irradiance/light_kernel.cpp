@@ -68,10 +68,10 @@ HWY_INLINE Vector3 fromLight(const Vector3& p, const SimdLight& light) {
 
 // kUse: add, addShadowed or subtractShadow. Of the last it only finds where, without branches: half
 // of all packets of a partly hidden patch are somewhere, so that they would be foretold wrongly.
-// addLit() sums it then.
+// addMasked() sums it then.
 template <LightRecord::Kind kKind, ShadowMode kUse>
 void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
-              const LightRecord& record, const SumConstants& constants, LitOfList& lit) {
+              const LightRecord& record, const SumConstants& constants, ShadowMasks& lit) {
   constexpr bool kLooksUp = kUse != ShadowMode::add, kSums = kUse != ShadowMode::subtractShadow;
   const SimdLight light(record, isNegative, constants);
   const SimdConstants c(constants, record.resolution);
@@ -132,7 +132,7 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
 // Calls add(sum, weight) in those lanes.
 template <LightRecord::Kind kKind, typename F>
 void forEachLit(PacketBlock& block, const PacketList& packets, const SimdLight& light,
-                const SumConstants& constants, const LitOfList& lit, F&& add) {
+                const SumConstants& constants, const ShadowMasks& lit, F&& add) {
   const SimdConstants c(constants, 1);  // no map is looked up
   // Which packets there are is found first, without a branch that nobody can foretell.
   std::array<uint8_t, PacketBlock::kMost> some;
@@ -160,8 +160,8 @@ void forEachLit(PacketBlock& block, const PacketList& packets, const SimdLight& 
 }
 
 template <LightRecord::Kind kKind>
-void addLit(PacketBlock& block, const PacketList& packets, bool isNegative,
-            const LightRecord& record, const SumConstants& constants, const LitOfList& lit) {
+void addMasked(PacketBlock& block, const PacketList& packets, bool isNegative,
+               const LightRecord& record, const SumConstants& constants, const ShadowMasks& lit) {
   const SimdLight light(record, isNegative, constants);
   forEachLit<kKind>(
       block, packets, light, constants, lit,
@@ -174,7 +174,7 @@ bool isNegative(ShadowMode use, Sign sign) {
 
 template <LightRecord::Kind kKind>
 void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
-              const LightRecord& light, const SumConstants& constants, LitOfList& lit) {
+              const LightRecord& light, const SumConstants& constants, ShadowMasks& lit) {
   const bool negative = isNegative(use, sign);
   switch (use) {
     case ShadowMode::skip:
@@ -186,7 +186,7 @@ void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sig
                                                       lit);
     case ShadowMode::subtractShadow:
       addLight<kKind, ShadowMode::subtractShadow>(block, packets, negative, light, constants, lit);
-      return addLit<kKind>(block, packets, negative, light, constants, lit);
+      return addMasked<kKind>(block, packets, negative, light, constants, lit);
   }
 }
 
@@ -242,24 +242,24 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map, int resolu
 }
 
 void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
-              const LightRecord& light, const SumConstants& constants, LitOfList& lit) {
+              const LightRecord& light, const SumConstants& constants, ShadowMasks& lit) {
   if (packets.count() == 0) return;
   byKind(light.kind, [&]<LightRecord::Kind kKind>() {
     addLight<kKind>(block, packets, use, sign, light, constants, lit);
   });
 }
 
-void addLit(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
-            const LightRecord& light, const SumConstants& constants, const LitOfList& lit) {
+void addMasked(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
+               const LightRecord& light, const SumConstants& constants, const ShadowMasks& lit) {
   if (packets.count() == 0) return;
   byKind(light.kind, [&]<LightRecord::Kind kKind>() {
-    addLit<kKind>(block, packets, isNegative(use, sign), light, constants, lit);
+    addMasked<kKind>(block, packets, isNegative(use, sign), light, constants, lit);
   });
 }
 
-void replaceLit(PacketBlock& block, const PacketList& packets, ShadowMode use,
-                const LightRecord& before, const LightRecord& now, const SumConstants& constants,
-                const LitOfList& lit) {
+void replaceMasked(PacketBlock& block, const PacketList& packets, ShadowMode use,
+                   const LightRecord& before, const LightRecord& now, const SumConstants& constants,
+                   const ShadowMasks& lit) {
   if (packets.count() == 0) return;
   const bool negative = isNegative(use, Sign::add);
   const SimdLight light(now, negative, constants), was(before, negative, constants);

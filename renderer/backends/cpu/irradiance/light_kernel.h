@@ -3,7 +3,7 @@
 //
 // Irradiance is summed in whole numbers: each contribution is rounded to a multiple of a unit and
 // added as an integer. So lights may come and go in any order, and what is left has the very bits
-// of a sum made from nothing (light_sums.h).
+// of a sum made from nothing (irradiance_accumulator.h).
 #pragma once
 
 #include <array>
@@ -71,21 +71,21 @@ class PacketList {
 enum class Sign : uint8_t { add, takeAway };
 
 // Of each packet of a list, the lanes in which a light gives or takes something.
-using LitOfList = std::array<uint8_t, PacketBlock::kMost>;
+using ShadowMasks = std::array<uint8_t, PacketBlock::kMost>;
 
 // Adds what the light gives these pixels by `use` (not skip) to the block's sums, or takes it away
-// again. Where it looks its shadow map up, `lit` tells afterwards what addLit() takes.
+// again. Where it looks its shadow map up, `lit` tells afterwards what addMasked() takes.
 void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
-              const LightRecord& light, const SumConstants& constants, LitOfList& lit);
+              const LightRecord& light, const SumConstants& constants, ShadowMasks& lit);
 
 // The same, for a light that adds or takes its shadow in those lanes, without a look-up.
-void addLit(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
-            const LightRecord& light, const SumConstants& constants, const LitOfList& lit);
+void addMasked(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
+               const LightRecord& light, const SumConstants& constants, const ShadowMasks& lit);
 
 // Takes it away in those lanes as it was before, and adds it as it is now: it differs in nothing
 // but its intensity.
-void replaceLit(PacketBlock& block, const PacketList& packets, ShadowMode use,
-                const LightRecord& before, const LightRecord& now, const SumConstants& constants,
-                const LitOfList& lit);
+void replaceMasked(PacketBlock& block, const PacketList& packets, ShadowMode use,
+                   const LightRecord& before, const LightRecord& now, const SumConstants& constants,
+                   const ShadowMasks& lit);
 
 }  // namespace lamplighter::cpu

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/irradiance/light_kernel.h"
-#include "renderer/backends/cpu/irradiance/map_change.h"
+#include "renderer/backends/cpu/irradiance/shadow_map_diff.h"
 
 namespace lamplighter::cpu {
 
@@ -41,7 +41,7 @@ class PlaceTable {
   // have changed.
   struct Staying {
     const LightRecord *was, *is;
-    MapChange change;  // nothing, or a part
+    ShadowMapDiff change;  // nothing, or a part
     bool isReplaced() const { return was->intensity != is->intensity; }
   };
   // Finds the rows in which these are to be taken away and added again. In others they are the same

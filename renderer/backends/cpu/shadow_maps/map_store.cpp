@@ -100,7 +100,7 @@ std::vector<uint8_t> MapStore::outdated(const Map& map) const {
 
 uint64_t MapStore::render(const RenderScene& scene, const RayCaster& rays,
                           std::span<const shared::Vpl> lights, MapSize size,
-                          std::span<MapChange> changes) {
+                          std::span<ShadowMapDiff> changes) {
   if (castersChanged_ || !movedSince_.empty())
     raster_.setScene(scene, castersChanged_ ? nullptr : &movedSince_);
   castersChanged_ = false;
@@ -123,7 +123,7 @@ uint64_t MapStore::render(const RenderScene& scene, const RayCaster& rays,
 }
 
 uint64_t MapStore::render(const RayCaster& rays, const shared::Vpl& light, bool isNew, Map& map,
-                          MapChange& change) {
+                          ShadowMapDiff& change) {
   const std::span<float> texels = texelsOf(map);
   std::vector<float> before;
   std::vector<uint8_t> wanted;
@@ -141,9 +141,9 @@ uint64_t MapStore::render(const RayCaster& rays, const shared::Vpl& light, bool 
     cast +=
         raster_.render(rays, of(map.size).grid, light, first, last, texels, wanted, map.isTraced);
   });
-  change =
-      isNew ? MapChange()
-            : compareMaps(before, texels, resolution, light.position.w == shared::kVplDirectional);
+  change = isNew ? ShadowMapDiff()
+                 : diffShadowMaps(before, texels, resolution,
+                                  light.position.w == shared::kVplDirectional);
   return cast;
 }
 

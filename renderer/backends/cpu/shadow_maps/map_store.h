@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/backends/cpu/irradiance/map_change.h"
+#include "renderer/backends/cpu/irradiance/shadow_map_diff.h"
 #include "renderer/backends/cpu/shadow_maps/map_memory.h"
 #include "renderer/backends/cpu/shadow_maps/shadow_raster.h"
 #include "renderer/backends/kernels.h"
@@ -26,7 +26,8 @@ class MapStore {
   // each: what of its map changed; everything, where it had none of this size or was elsewhere.
   // Throws InputError where there is no memory. The number of rays that were cast.
   uint64_t render(const RenderScene& scene, const RayCaster& rays,
-                  std::span<const shared::Vpl> lights, MapSize size, std::span<MapChange> changes);
+                  std::span<const shared::Vpl> lights, MapSize size,
+                  std::span<ShadowMapDiff> changes);
   void drop(int slot);
 
   // Row after row; empty: there is none.
@@ -72,7 +73,7 @@ class MapStore {
   void drop(Map& map);
   std::vector<uint8_t> outdated(const Map& map) const;
   uint64_t render(const RayCaster& rays, const shared::Vpl& light, bool isNew, Map& map,
-                  MapChange& change);
+                  ShadowMapDiff& change);
 
   std::array<Size, 2> sizes_;
   std::vector<Map> maps_;

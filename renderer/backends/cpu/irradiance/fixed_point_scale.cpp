@@ -1,4 +1,4 @@
-#include "renderer/backends/cpu/irradiance/sum_unit.h"
+#include "renderer/backends/cpu/irradiance/fixed_point_scale.h"
 
 #include <algorithm>
 #include <array>

@@ -12,7 +12,7 @@
 
 namespace lamplighter::cpu {
 
-class SampleSharing {
+class AdaptiveAntialiasing {
  public:
   // The picture of pixels' middles, and its light.
   void take(const GBuffer& middle, const PictureLight& light);

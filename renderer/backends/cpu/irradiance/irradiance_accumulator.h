@@ -12,7 +12,7 @@
 
 namespace lamplighter::cpu {
 
-class LightSums {
+class IrradianceAccumulator {
  public:
   // Brings E up to date. `patches`: how each patch comes by each light; null: with a look-up, or
   // without where the light has no map. `wanted`: by tile, the packets where E is wanted, a bit
@@ -26,14 +26,14 @@ class LightSums {
   bool isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights, SumConstants constants,
             const PatchLights* patches) const;
 
-  // For sums that change from frame to frame: memory to take lights away quickly (TileLit).
-  void noteLit() { keepsLit_ = true; }
+  // For sums that change from frame to frame: memory to take lights away quickly (ShadowMaskCache).
+  void cacheShadowMasks() { cachesMasks_ = true; }
 
   // To be called before a shadow map changes, with what it holds: its light may have to be taken
   // away with it.
   void mapChanges(int slot, std::span<const float> map);
   // After that, where it is rendered anew: what changed. Else all of it did.
-  void mapChanged(int slot, const MapChange& change);
+  void mapChanged(int slot, const ShadowMapDiff& change);
   // All maps are lost.
   void forgetMaps();
   // Objects are numbered anew, or have other patches though they stayed where they were.
@@ -62,7 +62,7 @@ class LightSums {
     uint32_t summed = 0;    // packets, of the lights as they were
     uint32_t wanted = 0;    // packets; those that are summed go on from there, others begin anew
     TilePlaces places;
-    TileLit lit;  // of what is summed
+    ShadowMaskCache lit;  // of what is summed
     uint32_t kept() const { return wanted & summed; }
     uint32_t begun() const { return wanted & ~summed; }
   };
@@ -71,8 +71,8 @@ class LightSums {
   void compareWithLast(const Frame& frame);
   bool isMost(size_t changed, size_t all) const;
   void findChanges(Frame& frame);
-  bool fitLit(const Frame& frame);
-  void keepLit();
+  bool fitMasks(const Frame& frame);
+  void keepMasks();
   void findPlaces(const Frame& frame);
   SumCounts sumTiles(const Frame& frame, int first, int last);
   void clearPackets(int tile, uint32_t packets);
@@ -85,13 +85,13 @@ class LightSums {
   std::vector<LightRecord> lights_;  // as summed
   struct OldMap {
     std::vector<float> texels;  // as summed; none where notes of what is lit are kept
-    MapChange change;
+    ShadowMapDiff change;
     bool isChangedOnce = true;
   };
   std::map<int, OldMap> oldMaps_;  // by slot, of those that changed since
-  bool keepsLit_ = false;
-  bool litIsKept_ = false;
-  size_t litSlots_ = 0;
+  bool cachesMasks_ = false;
+  bool masksAreCached_ = false;
+  size_t maskSlots_ = 0;
   PlaceTable table_;
   std::vector<Tile> tiles_;
   std::vector<Revision> mapRevisions_;       // of light maps, by object

@@ -1,4 +1,4 @@
-#include "renderer/backends/cpu/irradiance/specular_sums.h"
+#include "renderer/backends/cpu/irradiance/specular_accumulator.h"
 
 #include <algorithm>
 #include <atomic>
@@ -48,12 +48,13 @@ std::vector<uint8_t> findGlossy(const RenderScene& scene) {
 
 }  // namespace
 
-void SpecularSums::clear() {
-  if (isOn_) *this = SpecularSums();
+void SpecularAccumulator::clear() {
+  if (isOn_) *this = SpecularAccumulator();
 }
 
-void SpecularSums::findParts(const RenderScene& scene, const GBuffer& g, size_t index,
-                             std::span<const uint8_t> mayBeGlossy, const PatchLights* patches) {
+void SpecularAccumulator::findParts(const RenderScene& scene, const GBuffer& g, size_t index,
+                                    std::span<const uint8_t> mayBeGlossy,
+                                    const PatchLights* patches) {
   Tile& tile = tiles_[index];
   tile.parts.clear();
   tile.gloss.clear();
@@ -86,8 +87,8 @@ void SpecularSums::findParts(const RenderScene& scene, const GBuffer& g, size_t 
 }
 
 // By row, whether it says something else than before.
-std::vector<bool> SpecularSums::findUses(const RenderScene& scene, float leastRoughness,
-                                         const PatchLights& patches) {
+std::vector<bool> SpecularAccumulator::findUses(const RenderScene& scene, float leastRoughness,
+                                                const PatchLights& patches) {
   rows_.clear();
   for (Tile& tile : tiles_)
     for (Part& part : tile.parts) {
@@ -107,9 +108,10 @@ std::vector<bool> SpecularSums::findUses(const RenderScene& scene, float leastRo
   return isOther;
 }
 
-uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const vec3& eye,
-                              std::vector<SpecularLight> lights, const SumConstants& constants,
-                              float leastRoughness, const PatchLights* patches) {
+uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g, const vec3& eye,
+                                     std::vector<SpecularLight> lights,
+                                     const SumConstants& constants, float leastRoughness,
+                                     const PatchLights* patches) {
   const bool hasPatches = patches != nullptr;
   if (tiles_.size() != static_cast<size_t>(g.tiles())) {
     tiles_.assign(static_cast<size_t>(g.tiles()), {});
@@ -177,7 +179,7 @@ uint64_t SpecularSums::update(const RenderScene& scene, const GBuffer& g, const 
   return pixels * lights_.size();
 }
 
-void SpecularSums::addTo(const GBuffer& g, Image& picture) const {
+void SpecularAccumulator::addTo(const GBuffer& g, Image& picture) const {
   if (!isOn_) return;
   tbb::parallel_for(0, g.tiles(), [&](int t) {
     const Tile& tile = tiles_[static_cast<size_t>(t)];
@@ -201,7 +203,7 @@ void SpecularSums::addTo(const GBuffer& g, Image& picture) const {
   });
 }
 
-size_t SpecularSums::bytes() const {
+size_t SpecularAccumulator::bytes() const {
   size_t bytes = uses_.size() + lights_.size() * sizeof(SpecularLight);
   for (const Tile& tile : tiles_)
     bytes +=

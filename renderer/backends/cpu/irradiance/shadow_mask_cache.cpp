@@ -1,4 +1,4 @@
-#include "renderer/backends/cpu/irradiance/lit_lanes.h"
+#include "renderer/backends/cpu/irradiance/shadow_mask_cache.h"
 
 #include <algorithm>
 #include <array>
@@ -14,11 +14,11 @@ size_t rankOf(uint32_t packets, int packet) {
 
 }  // namespace
 
-size_t TileLit::stride() const { return static_cast<size_t>(std::popcount(packets_)); }
+size_t ShadowMaskCache::stride() const { return static_cast<size_t>(std::popcount(packets_)); }
 
-uint8_t* TileLit::of(int packet) { return &lanes_[rankOf(packets_, packet)]; }
+uint8_t* ShadowMaskCache::of(int packet) { return &lanes_[rankOf(packets_, packet)]; }
 
-void TileLit::keep(uint32_t packets, size_t slots) {
+void ShadowMaskCache::keep(uint32_t packets, size_t slots) {
   const size_t before = stride(), now = static_cast<size_t>(std::popcount(packets));
   if (packets == packets_) {
     if (lanes_.size() < slots * now) lanes_.resize(slots * now, 0);

@@ -10,7 +10,7 @@
 
 namespace lamplighter::cpu {
 
-struct MapChange {
+struct ShadowMapDiff {
   enum class Extent : uint8_t { nothing, part, everything };
   Extent extent = Extent::everything;
   // Of a part: what looks up a texel that changed lies, in light space, within this angle [rad] of
@@ -21,8 +21,8 @@ struct MapChange {
 };
 
 // Both of resolution², row after row.
-MapChange compareMaps(std::span<const float> before, std::span<const float> now, int resolution,
-                      bool isParallel);
+ShadowMapDiff diffShadowMaps(std::span<const float> before, std::span<const float> now,
+                             int resolution, bool isParallel);
 
 // Spheres around places, eight side by side.
 class PlaceSpheres {
@@ -33,7 +33,7 @@ class PlaceSpheres {
 
   // By sphere, whether the change of this light's map, nothing or a part, may be looked up in it: 1
   // or 0.
-  void findReached(const LightRecord& light, const MapChange& change,
+  void findReached(const LightRecord& light, const ShadowMapDiff& change,
                    std::vector<uint8_t>& isReached) const;
 
  private:

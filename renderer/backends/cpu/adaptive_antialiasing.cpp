@@ -1,4 +1,4 @@
-#include "renderer/backends/cpu/sample_sharing.h"
+#include "renderer/backends/cpu/adaptive_antialiasing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ bool isSameSurface(const GBuffer& a, const GBuffer& b, size_t first) {
 
 }  // namespace
 
-void SampleSharing::take(const GBuffer& g, const PictureLight& light) {
+void AdaptiveAntialiasing::take(const GBuffer& g, const PictureLight& light) {
   isTaken_ = true;
   // Of pixels in rows; past the edges as in the last ones.
   const auto width = static_cast<size_t>(g.width), height = static_cast<size_t>(g.height);
@@ -98,7 +98,8 @@ void SampleSharing::take(const GBuffer& g, const PictureLight& light) {
   });
 }
 
-std::span<const uint32_t> SampleSharing::findOwn(const GBuffer& middle, const GBuffer& moved) {
+std::span<const uint32_t> AdaptiveAntialiasing::findOwn(const GBuffer& middle,
+                                                        const GBuffer& moved) {
   own_.resize(even_.size());
   tbb::parallel_for(0, middle.tiles(), [&](int tile) {
     const size_t first = static_cast<size_t>(tile) * kTilePixels;

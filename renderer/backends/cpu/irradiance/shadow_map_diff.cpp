@@ -1,4 +1,4 @@
-#include "renderer/backends/cpu/irradiance/map_change.h"
+#include "renderer/backends/cpu/irradiance/shadow_map_diff.h"
 
 #include <algorithm>
 #include <bit>
@@ -37,10 +37,10 @@ std::vector<uint32_t> changedTexels(std::span<const float> before, std::span<con
 
 }  // namespace
 
-MapChange compareMaps(std::span<const float> before, std::span<const float> now, int resolution,
-                      bool isParallel) {
+ShadowMapDiff diffShadowMaps(std::span<const float> before, std::span<const float> now,
+                             int resolution, bool isParallel) {
   const std::vector<uint32_t> changed = changedTexels(before, now);
-  if (changed.empty()) return {MapChange::Extent::nothing, vec3(0.0f), 0.0f};
+  if (changed.empty()) return {ShadowMapDiff::Extent::nothing, vec3(0.0f), 0.0f};
   if (static_cast<float>(changed.size()) > kMostOfMap * static_cast<float>(now.size())) return {};
   const auto size = static_cast<float>(resolution);
   const auto way = [&](uint32_t texel) {
@@ -50,7 +50,7 @@ MapChange compareMaps(std::span<const float> before, std::span<const float> now,
   };
   vec3 sum(0.0f);
   for (const uint32_t texel : changed) sum += way(texel);
-  MapChange change{MapChange::Extent::part, sum / static_cast<float>(changed.size()), 0.0f};
+  ShadowMapDiff change{ShadowMapDiff::Extent::part, sum / static_cast<float>(changed.size()), 0.0f};
   if (isParallel) {
     float most = 0.0f;
     for (const uint32_t texel : changed)
@@ -63,7 +63,7 @@ MapChange compareMaps(std::span<const float> before, std::span<const float> now,
   float least = 1.0f;
   for (const uint32_t texel : changed) least = std::min(least, glm::dot(way(texel), change.axis));
   change.reach = std::acos(std::max(least, 0.0f)) + kTexelAngle / size + kMapRounding;
-  return change.reach < kMostAngle ? change : MapChange();
+  return change.reach < kMostAngle ? change : ShadowMapDiff();
 }
 
 void PlaceSpheres::resize(size_t count) {
@@ -78,10 +78,10 @@ void PlaceSpheres::set(size_t i, const vec3& centre, float radius) {
   radius_[i] = radius;
 }
 
-void PlaceSpheres::findReached(const LightRecord& light, const MapChange& change,
+void PlaceSpheres::findReached(const LightRecord& light, const ShadowMapDiff& change,
                                std::vector<uint8_t>& isReached) const {
   isReached.assign(x_.size(), 0);
-  if (change.extent == MapChange::Extent::nothing) return;
+  if (change.extent == ShadowMapDiff::Extent::nothing) return;
   const bool isParallel = light.kind == LightRecord::Kind::directional;
   const mat3 frame(light.tangent, light.bitangent, light.normal);
   const SimdVec3<Floats8> position = wide(light.position);

@@ -103,7 +103,7 @@ vec3 expectedRadiance(const LitScene& lit, Backend& backend, const View& view, i
 
 const View kView = test::lookAt(vec3(3, 3, 4), vec3(0, 0.7f, 0), 61, 47, 0.8f);
 
-TEST(SpecularSums, FollowTheSharedDefinition) {
+TEST(SpecularAccumulator, FollowTheSharedDefinition) {
   LitScene lit(blocks());
   lit.sum(lights(), kView, kResolution, true, kClamp, kBias);  // with its maps
   lit.backend->sumVpls(lights(), paramsOf(true), nullptr);
@@ -122,7 +122,7 @@ TEST(SpecularSums, FollowTheSharedDefinition) {
   EXPECT_LE(wrong, kView.width * kView.height / 500);
 }
 
-TEST(SpecularSums, AreThereOnlyWhereAskedFor) {
+TEST(SpecularAccumulator, AreThereOnlyWhereAskedFor) {
   LitScene lit(blocks());
   const Image matt = lit.sum(lights(), kView, kResolution, true, kClamp, kBias);
   lit.backend->sumVpls(lights(), paramsOf(true), nullptr);
@@ -136,7 +136,7 @@ TEST(SpecularSums, AreThereOnlyWhereAskedFor) {
 }
 
 // What is kept must be what would be summed anew: a light that changes, a map that does.
-TEST(SpecularSums, KeptAreTheBitsOfFreshOnes) {
+TEST(SpecularAccumulator, KeptAreTheBitsOfFreshOnes) {
   LitScene lit(blocks());
   lit.sum(lights(), kView, kResolution, true, kClamp, kBias);
   std::vector<shared::Vpl> vpls = lights();

@@ -14,7 +14,7 @@
 
 namespace lamplighter::cpu {
 
-class SpecularSums {
+class SpecularAccumulator {
  public:
   // Brings all glossy pixels up to date, as seen from `eye`. `patches`: null: look-ups everywhere.
   // Returns lights × pixels that were summed.

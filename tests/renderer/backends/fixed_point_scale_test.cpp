@@ -1,4 +1,4 @@
-#include "renderer/backends/cpu/irradiance/sum_unit.h"
+#include "renderer/backends/cpu/irradiance/fixed_point_scale.h"
 
 #include <algorithm>
 #include <random>
@@ -36,7 +36,7 @@ float mostAt(const vec3& point, const std::vector<LightRecord>& lights, float cl
 
 // Wherever it is taken, also where lights are, no sum is more than 32 bits hold; and with a small
 // clamp the unit is not that of a point that all lights touch.
-TEST(SumUnit, IsFineAndNoSumOverflows) {
+TEST(FixedPointScale, IsFineAndNoSumOverflows) {
   for (const float clampDistance : {0.5f, 0.2f, 0.05f, 0.01f}) {
     for (uint32_t seed = 1; seed <= 5; ++seed) {
       const std::vector<LightRecord> lights = randomLights(seed);

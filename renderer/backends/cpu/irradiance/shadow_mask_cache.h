@@ -11,12 +11,12 @@ namespace lamplighter::cpu {
 // Of one tile: a byte for each light and packet, a bit for each lane. What belongs to a light lies
 // side by side, and only packets that are summed have any, so that what tiles that are summed
 // together have of some lights stays in the caches.
-class TileLit {
+class ShadowMaskCache {
  public:
   // Makes room for these packets (a bit each) and this many slots at least. What is noted of
   // packets that had room before stays.
   void keep(uint32_t packets, size_t slots);
-  void forget() { *this = TileLit(); }
+  void forget() { *this = ShadowMaskCache(); }
 
   // The byte of a packet that there is room for and of slot 0; of each next slot: stride() on.
   uint8_t* of(int packet);

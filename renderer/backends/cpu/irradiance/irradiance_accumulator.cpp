@@ -1,4 +1,4 @@
-#include "renderer/backends/cpu/irradiance/light_sums.h"
+#include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/backends/cpu/irradiance/sum_unit.h"
+#include "renderer/backends/cpu/irradiance/fixed_point_scale.h"
 #include "renderer/base/simd.h"
 #include "renderer/visibility/hard_lights.h"
 
@@ -22,7 +22,7 @@ constexpr size_t kMostOldBytes = size_t{16} << 20;
 // Of notes of what is lit; of more none are kept. Slots are added in such steps.
 constexpr size_t kMostLitBytes = size_t{32} << 20;
 constexpr size_t kLitStep = 64;
-constexpr MapChange kNoChange{MapChange::Extent::nothing};
+constexpr ShadowMapDiff kNoChange{ShadowMapDiff::Extent::nothing};
 // Tiles that are summed together, so that each shadow map is fetched from memory once for all.
 constexpr int kDenseTilesPerTask = 16;
 // The same where few of their packets are wanted.
@@ -67,7 +67,7 @@ bool revised(std::vector<Revision>& last, const Source* source) {
 
 }  // namespace
 
-struct LightSums::Frame {
+struct IrradianceAccumulator::Frame {
   const GBuffer& gbuffer;
   std::vector<const LightRecord*> slots;
   const PatchLights* patches;
@@ -79,7 +79,7 @@ struct LightSums::Frame {
   std::vector<PlaceTable::Staying> staying;      // of these
 };
 
-void LightSums::mapChanges(int slot, std::span<const float> map) {
+void IrradianceAccumulator::mapChanges(int slot, std::span<const float> map) {
   if (!knowsSums_) return;
   if (const auto old = oldMaps_.find(slot); old != oldMaps_.end()) {
     old->second.isChangedOnce = false;
@@ -88,7 +88,7 @@ void LightSums::mapChanges(int slot, std::span<const float> map) {
   const bool isSummed = std::any_of(lights_.begin(), lights_.end(),
                                     [&](const LightRecord& l) { return l.mapSlot == slot; });
   if (!isSummed) return;
-  if (litIsKept_) {
+  if (masksAreCached_) {
     oldMaps_.emplace(slot, OldMap());
     return;
   }
@@ -97,23 +97,23 @@ void LightSums::mapChanges(int slot, std::span<const float> map) {
   oldMaps_.emplace(slot, OldMap{std::vector<float>(map.begin(), map.end()), {}});
 }
 
-void LightSums::mapChanged(int slot, const MapChange& change) {
+void IrradianceAccumulator::mapChanged(int slot, const ShadowMapDiff& change) {
   const auto old = oldMaps_.find(slot);
   if (old != oldMaps_.end() && old->second.isChangedOnce) old->second.change = change;
 }
 
 // Whether to take away so many lights and add them anew is more work than to begin with all.
-bool LightSums::isMost(size_t changed, size_t all) const {
-  return litIsKept_ ? 4 * changed > 3 * all : 2 * changed > all;
+bool IrradianceAccumulator::isMost(size_t changed, size_t all) const {
+  return masksAreCached_ ? 4 * changed > 3 * all : 2 * changed > all;
 }
 
-void LightSums::forgetMaps() {
+void IrradianceAccumulator::forgetMaps() {
   knowsSums_ = false;
   oldMaps_.clear();
 }
 
 // What of the sums and places holds for this frame.
-void LightSums::compareWithLast(const Frame& frame) {
+void IrradianceAccumulator::compareWithLast(const Frame& frame) {
   const GBuffer& g = frame.gbuffer;
   const bool hasPatches = frame.patches != nullptr;
   const bool hasMaps = hasPatches && frame.patches->maps() != nullptr;
@@ -141,33 +141,33 @@ void LightSums::compareWithLast(const Frame& frame) {
 
 // Decides whether to note what is lit: while the view stays and as far as it fits. Returns whether
 // that is as it was.
-bool LightSums::fitLit(const Frame& frame) {
+bool IrradianceAccumulator::fitMasks(const Frame& frame) {
   const GBuffer& g = frame.gbuffer;
   size_t same = 0;  // tiles
   for (size_t i = 0; i < std::min(tiles_.size(), g.revision.size()); ++i)
     same += tiles_[i].revision == g.revision[i] ? 1 : 0;
   const bool isStill = sums_.r.size() == g.px.size() && 2 * same > g.revision.size();
-  litSlots_ = std::max(litSlots_, (frame.slots.size() + kLitStep - 1) / kLitStep * kLitStep);
+  maskSlots_ = std::max(maskSlots_, (frame.slots.size() + kLitStep - 1) / kLitStep * kLitStep);
   size_t packets = 0;
   for (const uint32_t wanted : frame.wanted) packets += static_cast<size_t>(std::popcount(wanted));
   if (frame.wanted.empty()) packets = g.px.size() / kLanes;
-  const bool was = litIsKept_;
-  litIsKept_ = keepsLit_ && isStill && packets * litSlots_ <= kMostLitBytes;
-  if (was && !litIsKept_)
+  const bool was = masksAreCached_;
+  masksAreCached_ = cachesMasks_ && isStill && packets * maskSlots_ <= kMostLitBytes;
+  if (was && !masksAreCached_)
     for (Tile& tile : tiles_) tile.lit.forget();
-  return was == litIsKept_;
+  return was == masksAreCached_;
 }
 
-void LightSums::keepLit() {
-  if (!litIsKept_) return;
+void IrradianceAccumulator::keepMasks() {
+  if (!masksAreCached_) return;
   tbb::parallel_for(size_t{0}, tiles_.size(),
-                    [&](size_t i) { tiles_[i].lit.keep(tiles_[i].wanted, litSlots_); });
+                    [&](size_t i) { tiles_[i].lit.keep(tiles_[i].wanted, maskSlots_); });
 }
 
-void LightSums::findChanges(Frame& frame) {
+void IrradianceAccumulator::findChanges(Frame& frame) {
   for (LightRecord& light : lights_) {
     const auto old = oldMaps_.find(light.mapSlot);
-    if (old != oldMaps_.end() && !litIsKept_) light.map = old->second.texels.data();
+    if (old != oldMaps_.end() && !masksAreCached_) light.map = old->second.texels.data();
   }
   const bool hasPatches = frame.patches != nullptr && hasPatches_;
   const auto before = bySlot(lights_);
@@ -181,8 +181,8 @@ void LightSums::findChanges(Frame& frame) {
       const auto old = oldMaps_.find(is->mapSlot);
       const PlaceTable::Staying light{was, is,
                                       old == oldMaps_.end() ? kNoChange : old->second.change};
-      if (light.change.extent == MapChange::Extent::nothing && !light.isReplaced()) continue;
-      if (light.change.extent != MapChange::Extent::everything && litIsKept_ && hasPatches)
+      if (light.change.extent == ShadowMapDiff::Extent::nothing && !light.isReplaced()) continue;
+      if (light.change.extent != ShadowMapDiff::Extent::everything && masksAreCached_ && hasPatches)
         frame.staying.push_back(light);
     }
     if (was != nullptr) frame.taken.push_back(was);
@@ -191,7 +191,7 @@ void LightSums::findChanges(Frame& frame) {
   }
 }
 
-void LightSums::findPlaces(const Frame& frame) {
+void IrradianceAccumulator::findPlaces(const Frame& frame) {
   const bool anew = !knowsPlaces_;
   std::vector<size_t> found;
   for (size_t i = 0; i < tiles_.size(); ++i) {
@@ -217,9 +217,10 @@ void LightSums::findPlaces(const Frame& frame) {
   table_.update(*frame.patches, inUse);
 }
 
-SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
-                            SumConstants constants, const PatchLights* patches,
-                            std::span<const uint32_t> wanted, std::span<const uint32_t> leftOutBy) {
+SumCounts IrradianceAccumulator::update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
+                                        SumConstants constants, const PatchLights* patches,
+                                        std::span<const uint32_t> wanted,
+                                        std::span<const uint32_t> leftOutBy) {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
   Frame frame{gbuffer, bySlot(lights), patches, wanted, leftOutBy, {}, {}, {}, {}, {}};
   for (const LightRecord& light : lights) frame.all.push_back(&light);
@@ -228,7 +229,7 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   if (constants != constants_ || !std::all_of(lights.begin(), lights.end(), hasSlot) ||
       !std::all_of(lights_.begin(), lights_.end(), hasSlot))
     knowsSums_ = false;
-  if (!fitLit(frame)) knowsSums_ = false;
+  if (!fitMasks(frame)) knowsSums_ = false;
   if (knowsSums_) {
     findChanges(frame);
     // What stays is mostly left or replaced.
@@ -237,7 +238,7 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   }
   constants_ = constants;
   compareWithLast(frame);
-  keepLit();
+  keepMasks();
   findPlaces(frame);
   if (patches != nullptr && knowsSums_) table_.findTouched(frame.staying);
   frame.isChanged.resize(std::max(frame.isChanged.size(), table_.slots()), false);
@@ -270,8 +271,8 @@ SumCounts LightSums::update(const GBuffer& gbuffer, std::span<const LightRecord>
   return {lightPixels, lookUps};
 }
 
-bool LightSums::isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights,
-                     SumConstants constants, const PatchLights* patches) const {
+bool IrradianceAccumulator::isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights,
+                                 SumConstants constants, const PatchLights* patches) const {
   constants.unitsPerIrradiance = unitsPerIrradiance(lights, constants.clampDistance2);
   if (!knowsSums_ || !oldMaps_.empty() || constants != constants_ ||
       hasPatches_ != (patches != nullptr) || !std::ranges::equal(lights, lights_) ||
@@ -281,7 +282,7 @@ bool LightSums::isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights
   return std::ranges::equal(tiles_, gbuffer.revision, {}, &Tile::revision);
 }
 
-void LightSums::clearPackets(int tile, uint32_t packets) {
+void IrradianceAccumulator::clearPackets(int tile, uint32_t packets) {
   const size_t first = static_cast<size_t>(tile) * kTilePixels;
   for (; packets != 0; packets &= packets - 1) {
     const size_t at = first + static_cast<size_t>(std::countr_zero(packets)) * kLanes;
@@ -289,7 +290,7 @@ void LightSums::clearPackets(int tile, uint32_t packets) {
   }
 }
 
-SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
+SumCounts IrradianceAccumulator::sumTiles(const Frame& frame, int first, int last) {
   using When = TilePlaces::When;
   SumCounts counts;
   std::vector<LightAdder> kept, begun;
@@ -301,7 +302,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
     Tile& t = tiles_[static_cast<size_t>(tile)];
     if ((packets & t.places.hit()) == 0) return false;
     if (adders.empty() || !adders.back().hasRoomFor(packets)) adders.push_back(newAdder());
-    adders.back().addPackets(tile, packets, t.places, litIsKept_ ? &t.lit : nullptr);
+    adders.back().addPackets(tile, packets, t.places, masksAreCached_ ? &t.lit : nullptr);
     return true;
   };
   for (int i = first; i < last; ++i) {
@@ -318,7 +319,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
     if (slots.empty()) continue;
     LightAdder here = newAdder();
-    here.addPackets(i, tile.kept(), tile.places, litIsKept_ ? &tile.lit : nullptr);
+    here.addPackets(i, tile.kept(), tile.places, masksAreCached_ ? &tile.lit : nullptr);
     for (const int slot : slots) {
       if (static_cast<size_t>(slot) >= frame.slots.size()) continue;
       const LightRecord* light = frame.slots[static_cast<size_t>(slot)];
@@ -354,7 +355,7 @@ SumCounts LightSums::sumTiles(const Frame& frame, int first, int last) {
 }
 
 // The light map or light by transfer, if any, and what its pixels sum themselves.
-void LightSums::finishTile(const Frame& frame, int tile) {
+void IrradianceAccumulator::finishTile(const Frame& frame, int tile) {
   const GBuffer& g = frame.gbuffer;
   const size_t first = static_cast<size_t>(tile) * kTilePixels;
   const float unit = 1.0f / constants_.unitsPerIrradiance;
@@ -392,7 +393,7 @@ void LightSums::finishTile(const Frame& frame, int tile) {
   });
 }
 
-LightSums::HardShadows LightSums::findHardShadows() const {
+IrradianceAccumulator::HardShadows IrradianceAccumulator::findHardShadows() const {
   HardShadows found{true, std::vector<uint8_t>(red_.size(), 0)};
   if (!hasPatches_) return found;
   std::vector<LightStrength> strengths;
@@ -423,7 +424,7 @@ LightSums::HardShadows LightSums::findHardShadows() const {
   return found;
 }
 
-size_t LightSums::bytes() const {
+size_t IrradianceAccumulator::bytes() const {
   size_t bytes = sums_.r.size() * 3 * (sizeof(int32_t) + sizeof(float)) + table_.bytes();
   for (const Tile& tile : tiles_) bytes += tile.lit.bytes();
   for (const auto& [slot, old] : oldMaps_) bytes += old.texels.size() * sizeof(float);
