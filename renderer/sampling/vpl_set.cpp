@@ -1,7 +1,7 @@
 #include "renderer/sampling/vpl_set.h"
 
 #include "renderer/sampling/light_paths.h"
-#include "renderer/sampling/sun_squares.h"
+#include "renderer/sampling/sun_shadow_tiles.h"
 
 namespace lamplighter {
 

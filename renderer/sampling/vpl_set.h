@@ -59,7 +59,7 @@ struct VplCounts {
   // As many times as many samples of bounced light and of the sky, of which others choose some
   // (view_importance.h).
   int candidates = 1;
-  int sunMaps = 128;  // squares of each sun, which come on top of the total (sun_squares.h)
+  int sunMaps = 128;  // squares of each sun, which come on top of the total (sun_shadow_tiles.h)
 
   bool operator==(const VplCounts&) const = default;
 };

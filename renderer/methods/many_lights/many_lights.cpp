@@ -6,7 +6,7 @@
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/emitters/lights.h"
-#include "renderer/sampling/sun_squares.h"
+#include "renderer/sampling/sun_shadow_tiles.h"
 #include "renderer/sampling/view_importance.h"
 #include "renderer/sampling/vpl_footprints.h"
 #include "renderer/scene/surface.h"

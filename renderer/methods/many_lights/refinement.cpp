@@ -22,8 +22,8 @@ constexpr int kBatchVpls = 512;
 // what `antialias` did for edges.
 constexpr int kShifts = 4;
 
-// Squares of a sun (sun_squares.h): fewer than live, for each batch has them turned otherwise; but
-// what leaks along an edge leaks in each of them.
+// Squares of a sun (sun_shadow_tiles.h): fewer than live, for each batch has them turned otherwise;
+// but what leaks along an edge leaks in each of them.
 constexpr int kSunMaps = 64;
 
 // Maps that are kept at a time: as many as fill a draw of the gl backend well, in so many bytes.

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/sun_squares.h"
+#include "renderer/sampling/sun_shadow_tiles.h"
 #include "renderer/sampling/vpl_counts.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/scenes.h"
@@ -233,7 +233,7 @@ TEST(VplSet, AnotherSeedGivesOtherPlaces) {
 }
 
 // The squares cover every object once, and are small where there is much.
-TEST(SunSquares, CoverTheSceneOnceAndFollowItsDetail) {
+TEST(SunShadowTiles, CoverTheSceneOnceAndFollowItsDetail) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(100.0f));
   for (int i = 0; i < 30; ++i) {
@@ -248,20 +248,20 @@ TEST(SunSquares, CoverTheSceneOnceAndFollowItsDetail) {
   const auto across = [&](const vec3& p) {
     return vec2(glm::dot(p - middle, axes[0]), glm::dot(p - middle, axes[1]));
   };
-  const auto covering = [&](const std::vector<SunSquare>& squares, const vec2& p) {
-    std::vector<SunSquare> found;
-    for (const SunSquare& s : squares) {
+  const auto covering = [&](const std::vector<SunShadowTile>& squares, const vec2& p) {
+    std::vector<SunShadowTile> found;
+    for (const SunShadowTile& s : squares) {
       const vec2 d = p - s.centre;
       if (d.x >= -s.side && d.x < s.side && d.y >= -s.side && d.y < s.side) found.push_back(s);
     }
     return found;
   };
-  EXPECT_EQ(sunSquares(lit.render, axes, middle, whole, 1).size(), 1u);
-  const auto squares = sunSquares(lit.render, axes, middle, whole, 40);
+  EXPECT_EQ(sunShadowTiles(lit.render, axes, middle, whole, 1).size(), 1u);
+  const auto squares = sunShadowTiles(lit.render, axes, middle, whole, 40);
   EXPECT_LE(squares.size(), 40u);
   EXPECT_GT(squares.size(), 25u);
   std::set<uint32_t> codes;
-  for (const SunSquare& s : squares) EXPECT_TRUE(codes.insert(s.code).second);
+  for (const SunShadowTile& s : squares) EXPECT_TRUE(codes.insert(s.code).second);
   for (int i = -49; i < 50; i += 7) {
     for (int k = -49; k < 50; k += 7) {
       EXPECT_EQ(covering(squares, across(vec3(i, 0, k))).size(), 1u) << i << " " << k;

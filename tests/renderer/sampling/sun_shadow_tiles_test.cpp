@@ -1,5 +1,5 @@
 // Where a sun's shadow maps lie.
-#include "renderer/sampling/sun_squares.h"
+#include "renderer/sampling/sun_shadow_tiles.h"
 
 #include <algorithm>
 
@@ -47,7 +47,7 @@ float sideAt(const std::vector<SceneVpl>& vpls, const vec3& place) {
   return side;
 }
 
-TEST(SunSquares, AreSmallWhereTheCameraLooks) {
+TEST(SunShadowTiles, AreSmallWhereTheCameraLooks) {
   const Level level;
   const View near = test::lookAt(vec3(-28, 3, -28), vec3(-30, 0, -30), 64, 48);
   const auto seen = level.squares(&near, 64);
@@ -60,13 +60,13 @@ TEST(SunSquares, AreSmallWhereTheCameraLooks) {
   EXPECT_LT(there, sideAt(unseen, vec3(-30, 0, -30)));
 }
 
-TEST(SunSquares, OneIsTheWhole) {
+TEST(SunShadowTiles, OneIsTheWhole) {
   const Level level;
   EXPECT_EQ(level.squares(nullptr, 1).size(), 1u);
 }
 
 // A place in the sun counts more than one in shadow: neither is left out.
-TEST(SunSquares, CoverEverything) {
+TEST(SunShadowTiles, CoverEverything) {
   const Level level;
   const View view = test::lookAt(vec3(24, 4, 24), vec3(20, 0, 20), 64, 48);
   const auto squares = level.squares(&view, 128);

@@ -1,4 +1,4 @@
-#include "renderer/sampling/sun_squares.h"
+#include "renderer/sampling/sun_shadow_tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ struct Footprint {
   vec2 min, max;
   float weight;  // √triangles: detail counts, but a mesh of a million is not a thousand boxes
 
-  float shareWithin(const SunSquare& s) const {
+  float shareWithin(const SunShadowTile& s) const {
     const vec2 low = glm::max(min, s.centre - s.side), high = glm::min(max, s.centre + s.side);
     if (low.x >= high.x || low.y >= high.y) return 0.0f;
     return (high.x - low.x) * (high.y - low.y) / ((max.x - min.x) * (max.y - min.y));
@@ -57,7 +57,7 @@ class Gain {
     ofPoints_ = seen > 0.0f ? seenShare / seen : 0.0f;
   }
 
-  float of(const SunSquare& s) const {
+  float of(const SunShadowTile& s) const {
     float objects = 0.0f, seen = 0.0f;
     for (const Footprint& f : footprints_) objects += f.weight * f.shareWithin(s);
     for (const SunPoint& p : points_) {
@@ -87,35 +87,36 @@ std::vector<SunPoint> pointsOf(std::span<const SeenPoint> seen, const mat3& axes
 
 }  // namespace
 
-std::vector<SunSquare> sunSquares(const RenderScene& scene, const mat3& axes, const vec3& middle,
-                                  float whole, int count, std::span<const SunPoint> points) {
+std::vector<SunShadowTile> sunShadowTiles(const RenderScene& scene, const mat3& axes,
+                                          const vec3& middle, float whole, int count,
+                                          std::span<const SunPoint> points) {
   const Gain gain(scene, axes, middle, points);
   struct Leaf {
-    SunSquare square;
+    SunShadowTile square;
     float gain;
   };
-  const auto isLast = [](const SunSquare& s) {
+  const auto isLast = [](const SunShadowTile& s) {
     return 0.5f * s.side < kLeastSide || s.code >= kLastCode;
   };
-  const SunSquare all{vec2(0.0f), whole, 1};
+  const SunShadowTile all{vec2(0.0f), whole, 1};
   std::vector<Leaf> leaves{{all, isLast(all) ? 0.0f : gain.of(all)}};
   while (static_cast<int>(leaves.size()) + 3 <= count) {
     const auto best = std::max_element(
         leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.gain < b.gain; });
     if (!(best->gain > 0.0f)) break;
-    const SunSquare s = best->square;
+    const SunShadowTile s = best->square;
     const float half = 0.5f * s.side;
     leaves.erase(best);
     for (uint32_t quarter = 0; quarter < 4; ++quarter) {
       const vec2 corner((quarter & 1u) != 0 ? half : -half, (quarter & 2u) != 0 ? half : -half);
-      const SunSquare part{s.centre + corner, half, 4 * s.code + quarter};
+      const SunShadowTile part{s.centre + corner, half, 4 * s.code + quarter};
       const float more = gain.of(part);
       if (more > 0.0f) leaves.push_back({part, isLast(part) ? 0.0f : more});
     }
   }
   std::sort(leaves.begin(), leaves.end(),
             [](const Leaf& a, const Leaf& b) { return a.square.code < b.square.code; });
-  std::vector<SunSquare> squares;
+  std::vector<SunShadowTile> squares;
   for (const Leaf& leaf : leaves) squares.push_back(leaf.square);
   return squares;
 }
@@ -135,8 +136,8 @@ void divideSuns(std::vector<SceneVpl>& vpls, const RenderScene& scene, const Ray
     const vec3 tangent(v.vpl.tangent), towards(v.vpl.normal), middle(v.vpl.position);
     const mat3 axes(tangent, glm::cross(towards, tangent), towards);
     const std::vector<SunPoint> points = pointsOf(seen, axes, middle, rays);
-    for (const SunSquare& s :
-         sunSquares(scene, axes, middle, v.vpl.tangent.w, count, std::span(points))) {
+    for (const SunShadowTile& s :
+         sunShadowTiles(scene, axes, middle, v.vpl.tangent.w, count, std::span(points))) {
       SceneVpl& part = divided.emplace_back(v);
       part.id.index = s.code;
       part.vpl.position += vec4(axes * vec3(s.centre, 0.0f), 0.0f);

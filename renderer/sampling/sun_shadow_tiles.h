@@ -13,7 +13,7 @@
 
 namespace lamplighter {
 
-struct SunSquare {
+struct SunShadowTile {
   vec2 centre{0.0f};  // along the frame's first two axes, from the middle of the whole [m]
   float side = 0.0f;  // half of its width [m]
   uint32_t code = 1;  // names its place: 1 is the whole, 4·code + 0 … 3 are its quarters
@@ -21,7 +21,7 @@ struct SunSquare {
 
 // A place that is seen and that faces the sun.
 struct SunPoint {
-  vec2 at{0.0f};        // as SunSquare::centre
+  vec2 at{0.0f};        // as SunShadowTile::centre
   float weight = 1.0f;  // how much it counts beside others
 };
 
@@ -29,8 +29,9 @@ struct SunPoint {
 // most, until there would be more than `count`: at the points, and by a smaller part where most of
 // the scene is. Squares without any object are left out. `axes`: the frame's tangent, bitangent and
 // normal.
-std::vector<SunSquare> sunSquares(const RenderScene& scene, const mat3& axes, const vec3& middle,
-                                  float whole, int count, std::span<const SunPoint> points = {});
+std::vector<SunShadowTile> sunShadowTiles(const RenderScene& scene, const mat3& axes,
+                                          const vec3& middle, float whole, int count,
+                                          std::span<const SunPoint> points = {});
 
 // Puts squares, at most `count` of them, in the place of each VPL that is the whole of a sun
 // (parallel and no sample). `view`: whose picture they are for, if any.
