@@ -8,7 +8,7 @@
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/gi_method.h"
-#include "renderer/methods/many_lights/corner_light.h"
+#include "renderer/methods/many_lights/live_bias_compensation.h"
 #include "renderer/methods/many_lights/live_lights.h"
 #include "renderer/methods/many_lights/options.h"
 #include "renderer/methods/many_lights/part_lights.h"
@@ -83,7 +83,7 @@ class ManyLights final : public GiMethod {
   Image sum_;
   int samples_ = 0, samplesWanted_ = 1;
   std::shared_ptr<RadianceImage> mean_;
-  CornerLight corners_;
+  LiveBiasCompensation corners_;
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with it
   Refinement refinement_;
 };

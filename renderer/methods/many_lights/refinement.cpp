@@ -7,7 +7,7 @@
 
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
-#include "renderer/methods/many_lights/near_light_smoothing.h"
+#include "renderer/methods/many_lights/bias_compensation_filter.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_footprints.h"
 
@@ -123,12 +123,13 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   batch.image = Image(in.view.width, in.view.height);
   if (options.clampDistance > 0.0f) {
     batch.nearPixels.resize(batch.image.pixels.size());
-    batch.nearLight.emplace(
+    batch.biasCompensation.emplace(
         in.scene, in.rays, batch.vpls,
-        NearLight::Options{counts_.directShare < 1.0f ? counts_.bounces : 0,
-                           counts_.directShare > 0.0f || counts_.bounces == 0,
-                           options.clampDistance, kNearPaths, hash4(counts_.seed, 0, 0, kNearSet),
-                           counts_.batch, in.lightOnly, options.speculars, options.leastRoughness});
+        BiasCompensation::Options{counts_.directShare < 1.0f ? counts_.bounces : 0,
+                                  counts_.directShare > 0.0f || counts_.bounces == 0,
+                                  options.clampDistance, kNearPaths,
+                                  hash4(counts_.seed, 0, 0, kNearSet), counts_.batch, in.lightOnly,
+                                  options.speculars, options.leastRoughness});
   }
 }
 
@@ -159,19 +160,20 @@ void Refinement::addPart(const FrameInputs& in, const Options& options, int firs
                       vec4(options.speculars ? 1.0f : 0.0f, options.leastRoughness, 0.0f, 0.0f)},
                      nullptr);
   addScaled(batch.image, in.backend.compose(in.lightOnly)->pixels(), share);
-  if (batch.nearLight) {
+  if (batch.biasCompensation) {
     const auto row = [&](size_t vpls) {
       return all == 0 ? in.view.height
                       : static_cast<int>(static_cast<size_t>(in.view.height) * vpls / all);
     };
-    batch.nearLight->findRows(in.view, batch.jitter, row(batch.summed), row(end), batch.nearPixels);
+    batch.biasCompensation->findRows(in.view, batch.jitter, row(batch.summed), row(end),
+                                     batch.nearPixels);
   }
   batch.summed = end;
 }
 
 void Refinement::finishBatch(int target) {
-  if (batch_->nearLight)
-    addSmoothed(batch_->nearPixels, smoothingRadius(counts_.batch, batch_->image.height),
+  if (batch_->biasCompensation)
+    addSmoothed(batch_->nearPixels, filterRadius(counts_.batch, batch_->image.height),
                 batch_->image);
   // All batches count the same, however many VPLs their paths left.
   addScaled(sum_, batch_->image, static_cast<float>(kBatchVpls));

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "renderer/methods/gi_method.h"
-#include "renderer/methods/many_lights/near_light.h"
+#include "renderer/methods/many_lights/bias_compensation.h"
 #include "renderer/sampling/vpl_set.h"
 
 namespace lamplighter {
@@ -52,8 +52,8 @@ class Refinement {
     int samples = 0;  // that they are
     int shift = -1;   // of the pixels, the one that the G-buffer has
     vec2 jitter{0.0f};
-    std::optional<NearLight> nearLight;
-    std::vector<NearLight::Pixel> nearPixels;
+    std::optional<BiasCompensation> biasCompensation;
+    std::vector<BiasCompensation::Pixel> nearPixels;
     size_t summed = 0;
     Image image;
   };

@@ -7,16 +7,16 @@
 #include <span>
 
 #include "renderer/image/image.h"
-#include "renderer/methods/many_lights/near_light.h"
+#include "renderer/methods/many_lights/bias_compensation.h"
 
 namespace lamplighter {
 
 // Pixels to each side that the batch (from 1) shares with in a picture of so many rows; 0 from the
 // 37th on, and in the smallest pictures.
-int smoothingRadius(uint32_t batch, int height);
+int filterRadius(uint32_t batch, int height);
 
 // Adds to the picture the mean of what pixels within `radius` to each side have found that show the
 // same surface (nearly in its plane, nearly the same normal), times each pixel's own albedo.
-void addSmoothed(std::span<const NearLight::Pixel> pixels, int radius, Image& image);
+void addSmoothed(std::span<const BiasCompensation::Pixel> pixels, int radius, Image& image);
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-#include "renderer/methods/many_lights/near_light.h"
+#include "renderer/methods/many_lights/bias_compensation.h"
 
 #include <algorithm>
 #include <array>
@@ -27,8 +27,8 @@ constexpr int kRaysAtOnce = 8;
 
 }  // namespace
 
-NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
-                     std::span<const SceneVpl> vpls, const Options& options)
+BiasCompensation::BiasCompensation(const RenderScene& scene, const RayCaster& rays,
+                                   std::span<const SceneVpl> vpls, const Options& options)
     : scene_(scene), rays_(rays), options_(options) {
   for (const SceneVpl& v : vpls) {
     if (!v.isOfSun()) continue;
@@ -61,7 +61,7 @@ NearLight::NearLight(const RenderScene& scene, const RayCaster& rays,
   }
 }
 
-void NearLight::Choice::makeGuide() {
+void BiasCompensation::Choice::makeGuide() {
   uint32_t i = 0;
   for (size_t part = 0; part < upTo.size(); ++part) {
     const float from = static_cast<float>(part) / static_cast<float>(upTo.size()) * upTo.back();
@@ -70,7 +70,7 @@ void NearLight::Choice::makeGuide() {
   }
 }
 
-size_t NearLight::Choice::find(float below) const {
+size_t BiasCompensation::Choice::find(float below) const {
   const float part = below / upTo.back() * static_cast<float>(guide.size());
   size_t i = guide[std::min(static_cast<size_t>(part), guide.size() - 1)];
   // Rounding may have taken the next part.
@@ -79,8 +79,8 @@ size_t NearLight::Choice::find(float below) const {
   return i;
 }
 
-void NearLight::findRows(const View& view, vec2 jitter, int first, int last,
-                         std::span<Pixel> pixels) const {
+void BiasCompensation::findRows(const View& view, vec2 jitter, int first, int last,
+                                std::span<Pixel> pixels) const {
   tbb::parallel_for(first, last, [&](int y) {
     for (int x0 = 0; x0 < view.width; x0 += kRaysAtOnce) {
       std::array<Ray, kRaysAtOnce> rays;
@@ -100,7 +100,8 @@ void NearLight::findRows(const View& view, vec2 jitter, int first, int last,
   });
 }
 
-NearLight::Pixel NearLight::pixel(const vec3& direction, const Hit& hit, uint32_t index) const {
+BiasCompensation::Pixel BiasCompensation::pixel(const vec3& direction, const Hit& hit,
+                                                uint32_t index) const {
   if (!hit) return {};
   const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
   const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
@@ -127,8 +128,8 @@ NearLight::Pixel NearLight::pixel(const vec3& direction, const Hit& hit, uint32_
 // By directions in proportion to the cosine, the true light less the clamped is
 //   mean of L(y) (1 − d²/d0²) over those whose surface y is nearer than d0, times π,
 // and L(y) is what y emits, and reflects of the VPLs' clamped light and, walking on, of the rest.
-vec3 NearLight::gather(Place from, uint32_t whole, const vec3& shadingNormal,
-                       PathSampler& sampler) const {
+vec3 BiasCompensation::gather(Place from, uint32_t whole, const vec3& shadingNormal,
+                              PathSampler& sampler) const {
   const float reach = options_.clampDistance;
   vec3 sum(0.0f), throughput(1.0f), about = shadingNormal;
   for (int bounces = options_.bounces; bounces >= 0; --bounces) {
@@ -155,7 +156,7 @@ vec3 NearLight::gather(Place from, uint32_t whole, const vec3& shadingNormal,
   return sum;
 }
 
-vec3 NearLight::irradianceOfSuns(const Place& at) const {
+vec3 BiasCompensation::irradianceOfSuns(const Place& at) const {
   vec3 sum(0.0f);
   for (const Sun& sun : suns_) {
     if (isLeftOut(at.leftOutBy, sun.link)) continue;
@@ -169,7 +170,7 @@ vec3 NearLight::irradianceOfSuns(const Place& at) const {
 // An estimate of the other VPLs' clamped irradiance: of those tried, rays go to some in proportion
 // to what they would give if nothing stood between (Talbot et al., "Importance Resampling for
 // Global Illumination", 2005).
-vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const {
+vec3 BiasCompensation::irradiance(const Place& at, const Choice& choice, vec2 u) const {
   vec3 sum(0.0f);
   if (choice.entries.empty()) return sum;
   struct Candidate {
@@ -204,7 +205,7 @@ vec3 NearLight::irradiance(const Place& at, const Choice& choice, vec2 u) const 
   return sum * (1.0f / (kVplsTried * kRaysAPoint));
 }
 
-bool NearLight::sees(const Place& at, const shared::Vpl& vpl) const {
+bool BiasCompensation::sees(const Place& at, const shared::Vpl& vpl) const {
   Ray ray{at.position, 0.0f, vec3(vpl.normal)};
   if (vpl.position.w != shared::kVplDirectional) {
     const vec3 way = vec3(vpl.position) - at.position;

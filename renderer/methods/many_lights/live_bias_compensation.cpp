@@ -1,10 +1,10 @@
-#include "renderer/methods/many_lights/corner_light.h"
+#include "renderer/methods/many_lights/live_bias_compensation.h"
 
 #include <algorithm>
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/methods/many_lights/near_light_smoothing.h"
+#include "renderer/methods/many_lights/bias_compensation_filter.h"
 
 namespace lamplighter {
 namespace {
@@ -15,23 +15,23 @@ constexpr float kMostGain = 2.0f;
 
 }  // namespace
 
-void CornerLight::goOn(const FrameInputs& in, const std::vector<InspectedLight>& lights,
-                       NearLight::Options options) {
+void LiveBiasCompensation::goOn(const FrameInputs& in, const std::vector<InspectedLight>& lights,
+                                BiasCompensation::Options options) {
   const View& view = in.view;
   std::vector<SceneVpl> vpls;
   for (const InspectedLight& light : lights)
     if (light.isLive) vpls.push_back({light.vpl, light.id, light.isSample});
-  const NearLight nearLight(in.scene, in.rays, vpls, options);
+  const BiasCompensation biasCompensation(in.scene, in.rays, vpls, options);
   pixels_.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
   const int end = std::min(view.height, rows_ + std::max(1, kPixelsAFrame / view.width));
-  nearLight.findRows(view, vec2(0.0f), rows_, end, pixels_);
+  biasCompensation.findRows(view, vec2(0.0f), rows_, end, pixels_);
   rows_ = end;
 }
 
-std::shared_ptr<RadianceImage> CornerLight::addTo(RadianceImage& settled) {
+std::shared_ptr<RadianceImage> LiveBiasCompensation::addTo(RadianceImage& settled) {
   const Image& without = settled.pixels();
   Image with = without;
-  addSmoothed(pixels_, smoothingRadius(1, with.height), with);
+  addSmoothed(pixels_, filterRadius(1, with.height), with);
   pixels_ = {};
   gains_ = Image(with.width, with.height);
   tbb::parallel_for(0, with.height, [&](int y) {
@@ -46,7 +46,8 @@ std::shared_ptr<RadianceImage> CornerLight::addTo(RadianceImage& settled) {
   return std::make_shared<HostImage>(std::move(with));
 }
 
-std::shared_ptr<RadianceImage> CornerLight::scale(const std::shared_ptr<RadianceImage>& picture) {
+std::shared_ptr<RadianceImage> LiveBiasCompensation::scale(
+    const std::shared_ptr<RadianceImage>& picture) {
   if (gains_.width != picture->width() || gains_.height != picture->height()) return picture;
   const Image& from = picture->pixels();
   const auto scaled = scaled_.take(from.width, from.height);

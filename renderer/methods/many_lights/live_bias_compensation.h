@@ -1,7 +1,7 @@
 // What the clamp near VPLs takes away from the live picture, given back once it is settled: the
 // refinement's rays to near surfaces, once, from the live VPLs, with what pixels of one surface
-// find shared among them (near_light.h). While an edit is on its way the corners of a camera at
-// rest keep the share of light that they gained, so that they do not darken and brighten again.
+// find shared among them (bias_compensation.h). While an edit is on its way the corners of a camera
+// at rest keep the share of light that they gained, so that they do not darken and brighten again.
 #pragma once
 
 #include <memory>
@@ -9,21 +9,21 @@
 
 #include "renderer/backends/image_pool.h"
 #include "renderer/methods/gi_method.h"
-#include "renderer/methods/many_lights/near_light.h"
+#include "renderer/methods/many_lights/bias_compensation.h"
 
 namespace lamplighter {
 
-class CornerLight {
+class LiveBiasCompensation {
  public:
   // The camera moved, or what is shown is another thing: nothing is kept.
-  void forget() { *this = CornerLight(); }
+  void forget() { *this = LiveBiasCompensation(); }
   // The picture changed: it is to be found anew.
   void outdate() { rows_ = 0; }
 
   bool isWhole(const View& view) const { return rows_ == view.height; }
   // Goes on by some rows of pixels, as many as a frame has time for.
   void goOn(const FrameInputs& in, const std::vector<InspectedLight>& lights,
-            NearLight::Options options);
+            BiasCompensation::Options options);
 
   // The settled picture with what it lacks; isWhole().
   std::shared_ptr<RadianceImage> addTo(RadianceImage& settled);
@@ -33,7 +33,7 @@ class CornerLight {
 
  private:
   int rows_ = 0;  // found so far
-  std::vector<NearLight::Pixel> pixels_;
+  std::vector<BiasCompensation::Pixel> pixels_;
   Image gains_;  // with it over without it
   ImagePool scaled_;
 };

@@ -17,7 +17,7 @@ namespace lamplighter {
 
 // Under one set of VPLs, of which each pixel takes other ones: an estimate whose mean over many
 // sets is exact.
-class NearLight {
+class BiasCompensation {
  public:
   struct Options {
     int bounces = 0;
@@ -33,8 +33,8 @@ class NearLight {
     // that. Empty: of none. Must outlive this.
     std::span<const uint8_t> reflectsWithin = {};
   };
-  NearLight(const RenderScene& scene, const RayCaster& rays, std::span<const SceneVpl> vpls,
-            const Options& options);
+  BiasCompensation(const RenderScene& scene, const RayCaster& rays, std::span<const SceneVpl> vpls,
+                   const Options& options);
 
   // What is found for one pixel, and where.
   struct Pixel {

@@ -1,4 +1,4 @@
-#include "renderer/methods/many_lights/near_light_smoothing.h"
+#include "renderer/methods/many_lights/bias_compensation_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr float kFirstRadius = 6.0f, kMostOfRows = 1.0f / 60.0f;
 // it, so that round things share too.
 constexpr float kLeastCosine = 0.9f, kMostSlope = 0.2f;
 
-bool isSameSurface(const NearLight::Pixel& own, const NearLight::Pixel& other) {
+bool isSameSurface(const BiasCompensation::Pixel& own, const BiasCompensation::Pixel& other) {
   const vec3 way = other.position - own.position;
   const float off = glm::dot(way, own.normal);
   return glm::dot(other.normal, own.normal) >= kLeastCosine &&
@@ -25,14 +25,14 @@ bool isSameSurface(const NearLight::Pixel& own, const NearLight::Pixel& other) {
 
 }  // namespace
 
-int smoothingRadius(uint32_t batch, int height) {
+int filterRadius(uint32_t batch, int height) {
   const float first = std::min(kFirstRadius, kMostOfRows * static_cast<float>(height));
   return static_cast<int>(first / std::sqrt(static_cast<float>(std::max(batch, 1u))));
 }
 
 // Along a row and then along columns of what came: where both ways run over one surface that is
 // the mean over the whole square, at a sixth of the look-ups.
-void addSmoothed(std::span<const NearLight::Pixel> pixels, int radius, Image& image) {
+void addSmoothed(std::span<const BiasCompensation::Pixel> pixels, int radius, Image& image) {
   const int width = image.width, height = image.height;
   const auto index = [&](int x, int y) {
     return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
@@ -44,11 +44,11 @@ void addSmoothed(std::span<const NearLight::Pixel> pixels, int radius, Image& im
   std::vector<Sum> rows(pixels.size());
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const NearLight::Pixel& own = pixels[index(x, y)];
+      const BiasCompensation::Pixel& own = pixels[index(x, y)];
       if (own.albedo == vec3(0.0f)) continue;
       Sum& sum = rows[index(x, y)];
       for (int px = std::max(x - radius, 0); px <= std::min(x + radius, width - 1); ++px) {
-        const NearLight::Pixel& other = pixels[index(px, y)];
+        const BiasCompensation::Pixel& other = pixels[index(px, y)];
         if (!isSameSurface(own, other)) continue;
         sum.light += other.light;
         sum.count += 1.0f;
@@ -57,7 +57,7 @@ void addSmoothed(std::span<const NearLight::Pixel> pixels, int radius, Image& im
   });
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const NearLight::Pixel& own = pixels[index(x, y)];
+      const BiasCompensation::Pixel& own = pixels[index(x, y)];
       if (own.albedo == vec3(0.0f)) continue;
       Sum sum;
       for (int py = std::max(y - radius, 0); py <= std::min(y + radius, height - 1); ++py) {
