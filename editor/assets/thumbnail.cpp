@@ -8,10 +8,10 @@
 #include "editor/document/write_file.h"
 #include "editor/input/recording.h"
 #include "renderer/base/error.h"
+#include "renderer/debug_views/view_picture.h"
 #include "renderer/image/image_io.h"
 #include "renderer/scene/gltf/files_named.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "renderer/views/view_picture.h"
 
 namespace lamplighter {
 

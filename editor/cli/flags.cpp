@@ -12,7 +12,7 @@
 #include "editor/cli/manual.h"
 #include "editor/cli/subcommands.h"
 #include "editor/document/sky_text.h"
-#include "renderer/views/debug_view.h"
+#include "renderer/debug_views/debug_view.h"
 
 namespace lamplighter::cli {
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "editor/debug_views/view_display.h"
 #include "editor/document/document.h"
 #include "editor/edits/clipping.h"
 #include "editor/edits/editing.h"
@@ -26,7 +27,6 @@
 #include "editor/tools/gizmo.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/viewport_input.h"
-#include "editor/views/view_display.h"
 #include "renderer/frame/frame.h"
 #include "renderer/scene/camera.h"
 

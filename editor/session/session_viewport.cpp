@@ -1,6 +1,7 @@
 // What a session does with the pointer in the viewport, and what its tools draw there.
 #include <algorithm>
 
+#include "editor/debug_views/vpl_overlay.h"
 #include "editor/edits/placement.h"
 #include "editor/edits/tree.h"
 #include "editor/session/placing.h"
@@ -8,7 +9,6 @@
 #include "editor/tools/picker.h"
 #include "editor/tools/scene_overlay.h"
 #include "editor/tools/surface_search.h"
-#include "editor/views/vpl_overlay.h"
 
 namespace lamplighter {
 

@@ -5,7 +5,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "renderer/views/view_colours.h"
+#include "renderer/debug_views/view_colours.h"
 
 namespace lamplighter {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "renderer/debug_views/view_picture.h"
 #include "renderer/image/image.h"
-#include "renderer/views/view_picture.h"
 
 namespace lamplighter {
 

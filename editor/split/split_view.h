@@ -9,9 +9,9 @@
 #include "editor/document/document.h"
 #include "editor/error_meter/error_meter.h"
 #include "editor/tools/viewport_input.h"
+#include "renderer/debug_views/view_picture.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/tone_map.h"
-#include "renderer/views/view_picture.h"
 
 namespace lamplighter {
 

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/debug_views/debug_view.h"
 #include "renderer/image/image_io.h"
-#include "renderer/views/debug_view.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "renderer/backends/kernels.h"
+#include "renderer/debug_views/view_picture.h"
 #include "renderer/gl/objects.h"
-#include "renderer/views/view_picture.h"
 
 namespace lamplighter {
 

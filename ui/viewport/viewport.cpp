@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "editor/views/legend.h"
+#include "editor/debug_views/legend.h"
 #include "ui/viewport/label_place.h"
 #include "ui/viewport/split_sides.h"
 #include "ui/widgets/theme.h"

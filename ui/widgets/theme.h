@@ -3,7 +3,7 @@
 
 #include <imgui.h>
 
-#include "editor/views/look.h"
+#include "editor/debug_views/look.h"
 
 namespace lamplighter::theme {
 

@@ -1,4 +1,4 @@
-#include "editor/views/view_display.h"
+#include "editor/debug_views/view_display.h"
 
 #include <algorithm>
 #include <utility>

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "renderer/views/painter.h"
-#include "renderer/views/views.h"
+#include "renderer/debug_views/debug_views.h"
+#include "renderer/debug_views/painter.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::views {

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "renderer/backends/kernels.h"
+#include "renderer/debug_views/debug_view.h"
 #include "renderer/image/image.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/camera.h"
-#include "renderer/views/debug_view.h"
 
 namespace lamplighter {
 

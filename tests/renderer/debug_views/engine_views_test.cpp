@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/debug_views/view_colours.h"
+#include "renderer/debug_views/view_picture.h"
 #include "renderer/frame/frame.h"
-#include "renderer/views/view_colours.h"
-#include "renderer/views/view_picture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"

@@ -2,7 +2,7 @@
 // others. What they need must be there (problemOf).
 #pragma once
 
-#include "renderer/views/view_picture.h"
+#include "renderer/debug_views/view_picture.h"
 
 namespace lamplighter::views {
 

@@ -1,5 +1,5 @@
 // Views of a session: switched by name and key, the chosen light sample, marks of the samples.
-#include "editor/views/view_display.h"
+#include "editor/debug_views/view_display.h"
 
 #include "editor/input/recording.h"
 #include "renderer/image/tone_map.h"

@@ -1,4 +1,4 @@
-#include "renderer/views/view_colours.h"
+#include "renderer/debug_views/view_colours.h"
 
 #include <algorithm>
 #include <array>

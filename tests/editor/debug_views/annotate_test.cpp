@@ -1,11 +1,11 @@
 // What is drawn into pictures: shapes, text, legends; and where marks of light samples lie.
-#include "editor/views/annotate.h"
+#include "editor/debug_views/annotate.h"
 
 #include <gtest/gtest.h>
 
-#include "editor/views/legend.h"
-#include "editor/views/look.h"
-#include "editor/views/vpl_overlay.h"
+#include "editor/debug_views/legend.h"
+#include "editor/debug_views/look.h"
+#include "editor/debug_views/vpl_overlay.h"
 #include "renderer/base/error.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/scenes.h"

@@ -1,12 +1,12 @@
-#include "editor/views/annotate.h"
+#include "editor/debug_views/annotate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "editor/debug_views/legend.h"
+#include "editor/debug_views/look.h"
 #include "editor/tools/projection.h"
-#include "editor/views/legend.h"
-#include "editor/views/look.h"
 
 namespace lamplighter {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <functional>
 
+#include "renderer/debug_views/debug_views.h"
+#include "renderer/debug_views/painter.h"
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/prt/prt_lights.h"
-#include "renderer/views/painter.h"
-#include "renderer/views/views.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::views {

@@ -1,8 +1,8 @@
-#include "renderer/views/view_picture.h"
+#include "renderer/debug_views/view_picture.h"
 
+#include "renderer/debug_views/debug_views.h"
+#include "renderer/debug_views/painter.h"
 #include "renderer/image/tone_map.h"
-#include "renderer/views/painter.h"
-#include "renderer/views/views.h"
 
 namespace lamplighter {
 namespace {

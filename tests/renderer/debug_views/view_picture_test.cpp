@@ -1,16 +1,16 @@
 // Views of a small level whose states are known: floors under, beside and half beside a plate that
 // stands between them and a small lamp.
-#include "renderer/views/view_picture.h"
+#include "renderer/debug_views/view_picture.h"
 
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
+#include "renderer/debug_views/view_colours.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/views/view_colours.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"

@@ -1,10 +1,10 @@
 // What is known of the light itself: light maps, and how old the light is.
 #include <cmath>
 
+#include "renderer/debug_views/debug_views.h"
+#include "renderer/debug_views/painter.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/views/painter.h"
-#include "renderer/views/views.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::views {

@@ -8,10 +8,10 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/debug_views/patch_lookup.h"
+#include "renderer/debug_views/view_colours.h"
+#include "renderer/debug_views/view_picture.h"
 #include "renderer/scene/surface.h"
-#include "renderer/views/patch_lookup.h"
-#include "renderer/views/view_colours.h"
-#include "renderer/views/view_picture.h"
 
 namespace lamplighter {
 

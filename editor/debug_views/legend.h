@@ -5,7 +5,7 @@
 #include <string>
 
 #include "editor/tools/overlay.h"
-#include "renderer/views/view_picture.h"
+#include "renderer/debug_views/view_picture.h"
 
 namespace lamplighter {
 

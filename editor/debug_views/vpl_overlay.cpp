@@ -1,4 +1,4 @@
-#include "editor/views/vpl_overlay.h"
+#include "editor/debug_views/vpl_overlay.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "renderer/views/debug_view.h"
+#include "renderer/debug_views/debug_view.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "editor/tools/overlay.h"
+#include "renderer/debug_views/view_picture.h"
 #include "renderer/image/font.h"
-#include "renderer/views/view_picture.h"
 
 namespace lamplighter {
 

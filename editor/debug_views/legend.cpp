@@ -1,8 +1,8 @@
-#include "editor/views/legend.h"
+#include "editor/debug_views/legend.h"
 
 #include <algorithm>
 
-#include "editor/views/look.h"
+#include "editor/debug_views/look.h"
 
 namespace lamplighter {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "editor/document/document.h"
+#include "renderer/debug_views/view_picture.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/histogram.h"
-#include "renderer/views/view_picture.h"
 
 namespace lamplighter {
 

@@ -1,4 +1,4 @@
-#include "renderer/views/patch_lookup.h"
+#include "renderer/debug_views/patch_lookup.h"
 
 #include <tbb/parallel_for.h>
 
