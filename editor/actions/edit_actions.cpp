@@ -2,7 +2,7 @@
 #include <unordered_set>
 
 #include "editor/actions/arguments.h"
-#include "editor/edits/clipping.h"
+#include "editor/edits/clipboard_fragment.h"
 #include "editor/edits/edits.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
@@ -15,7 +15,7 @@ void copy(Session& s) { s.setClipboard(clip(s.document().scene, s.document().sel
 
 // The copied nodes again, with new ids, where they were, in this level or another.
 void paste(Session& s) {
-  Pasting pasting = pasteInto(s.document().scene, s.clipboard(), s.clipboardIsOfThisLevel());
+  PastedNodes pasting = pasteInto(s.document().scene, s.clipboard(), s.clipboardIsOfThisLevel());
   requireRoomFor(s.document().scene, pasting.nodes.size());
   const std::string label =
       pasting.nodes.size() == 1 ? "Paste " + pasting.nodes[0].name : "Paste objects";

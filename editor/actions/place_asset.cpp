@@ -7,9 +7,9 @@
 namespace lamplighter {
 
 void placeAsset(Session& s, const std::filesystem::path& file) {
-  const auto clipping = s.home().assets.load(file);
+  const auto fragment = s.home().assets.load(file);
   Scene& scene = s.document().scene;
-  Pasting pasting = pasteInto(scene, *clipping, false);
+  PastedNodes pasting = pasteInto(scene, *fragment, false);
   NodeId root = pasting.roots.front();
   if (pasting.roots.size() > 1) {
     // One object to move about, whatever it is made of.

@@ -10,7 +10,7 @@ namespace lamplighter {
 
 namespace fs = std::filesystem;
 
-std::shared_ptr<const Clipping> AssetLibrary::load(const fs::path& file) {
+std::shared_ptr<const ClipboardFragment> AssetLibrary::load(const fs::path& file) {
   std::error_code error;
   const fs::path path = fs::absolute(file, error).lexically_normal();
   fs::file_time_type time = fs::last_write_time(path, error);
@@ -26,7 +26,7 @@ std::shared_ptr<const Clipping> AssetLibrary::load(const fs::path& file) {
   if (it != entries_.end()) {
     if (!error && it->time == time && it->size == size) {
       entries_.splice(entries_.begin(), entries_, it);
-      return entries_.front().clipping;
+      return entries_.front().fragment;
     }
     entries_.erase(it);
   }
@@ -34,15 +34,15 @@ std::shared_ptr<const Clipping> AssetLibrary::load(const fs::path& file) {
   std::vector<NodeId> roots;
   for (const Node& n : loaded.scene.nodes)
     if (n.parent == kNoNode) roots.push_back(n.id);
-  auto clipping = std::make_shared<const Clipping>(clip(loaded.scene, roots));
-  if (clipping->meshes.empty() &&
-      std::none_of(clipping->nodes.begin(), clipping->nodes.end(),
+  auto fragment = std::make_shared<const ClipboardFragment>(clip(loaded.scene, roots));
+  if (fragment->meshes.empty() &&
+      std::none_of(fragment->nodes.begin(), fragment->nodes.end(),
                    [](const Node& n) { return n.area || n.punctual; })) {
     throw InputError(file.string(), "holds nothing to place", "give a file with a mesh or a light");
   }
-  entries_.push_front({path, time, size, clipping});
+  entries_.push_front({path, time, size, fragment});
   if (entries_.size() > kMost) entries_.pop_back();
-  return clipping;
+  return fragment;
 }
 
 }  // namespace lamplighter

@@ -6,7 +6,7 @@
 #include <list>
 #include <memory>
 
-#include "editor/edits/clipping.h"
+#include "editor/edits/clipboard_fragment.h"
 
 namespace lamplighter {
 
@@ -14,7 +14,7 @@ class AssetLibrary {
  public:
   // The whole of the file's scene. Read anew where it or a file that it names changed. Throws
   // InputError.
-  std::shared_ptr<const Clipping> load(const std::filesystem::path& file);
+  std::shared_ptr<const ClipboardFragment> load(const std::filesystem::path& file);
 
  private:
   static constexpr size_t kMost = 32;  // the last used
@@ -22,7 +22,7 @@ class AssetLibrary {
     std::filesystem::path file;
     std::filesystem::file_time_type time;  // of it and the files that it names: the newest
     uintmax_t size = 0;                    // and all together
-    std::shared_ptr<const Clipping> clipping;
+    std::shared_ptr<const ClipboardFragment> fragment;
   };
   std::list<Entry> entries_;  // the last used first
 };

@@ -13,7 +13,7 @@
 
 #include "editor/debug_views/view_display.h"
 #include "editor/document/document.h"
-#include "editor/edits/clipping.h"
+#include "editor/edits/clipboard_fragment.h"
 #include "editor/edits/editing.h"
 #include "editor/edits/placement.h"
 #include "editor/explain/point_tools.h"
@@ -151,9 +151,9 @@ class Session {
   const HomeState& home() const { return *home_; }
   void setKeys(KeyMap keys) { actions_.setKeys(std::move(keys)); }
   // What edit.copy has put by; opening another level leaves it.
-  const Clipping& clipboard() const { return clipboard_; }
-  void setClipboard(Clipping clipping) {
-    clipboard_ = std::move(clipping);
+  const ClipboardFragment& clipboard() const { return clipboard_; }
+  void setClipboard(ClipboardFragment fragment) {
+    clipboard_ = std::move(fragment);
     clipboardLevel_ = level_;
   }
   bool clipboardIsOfThisLevel() const { return clipboardLevel_ == level_; }
@@ -220,7 +220,7 @@ class Session {
   std::vector<FileStamp> disk_;  // the level's files as opened or saved
   bool quit_ = false, shadersRequested_ = false;
   std::string methodBeforeReference_ = "many_lights";
-  Clipping clipboard_;
+  ClipboardFragment clipboard_;
   Keeper keeper_;
   int level_ = 0, clipboardLevel_ = 0;  // counts what was opened
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;

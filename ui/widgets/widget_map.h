@@ -15,7 +15,7 @@ class WidgetMap {
  public:
   struct Place {
     Rect rect;
-    Rect visible;   // what clipping leaves of it
+    Rect visible;   // what fragment leaves of it
     int order = 0;  // later ones lie on top
   };
 

@@ -1,4 +1,4 @@
-#include "editor/edits/clipping.h"
+#include "editor/edits/clipboard_fragment.h"
 
 #include <algorithm>
 #include <unordered_set>
@@ -74,8 +74,8 @@ bool hasMaterials(const Mesh& mesh, const std::map<int, int>& newIndex) {
 
 }  // namespace
 
-Clipping clip(const Scene& scene, const std::vector<NodeId>& ids) {
-  Clipping out;
+ClipboardFragment clip(const Scene& scene, const std::vector<NodeId>& ids) {
+  ClipboardFragment out;
   const std::unordered_set<NodeId> given(ids.begin(), ids.end());
   std::unordered_set<NodeId> taken;
   for (const Node& n : scene.nodes) {  // parents come first
@@ -124,19 +124,19 @@ size_t AddAssets::bytes() const {
   return sum;
 }
 
-Pasting pasteInto(Scene& scene, const Clipping& clipping, bool isSameLevel) {
-  Pasting out;
+PastedNodes pasteInto(Scene& scene, const ClipboardFragment& fragment, bool isSameLevel) {
+  PastedNodes out;
   out.assets = std::make_unique<AddAssets>();
   AddAssets& assets = *out.assets;
   std::map<int, int> textures, materials, meshes;
-  for (const auto& [index, texture] : clipping.textures)
+  for (const auto& [index, texture] : fragment.textures)
     textures[index] = indexOf(texture, scene.textures, assets.textures);
-  for (const auto& [index, material] : clipping.materials) {
+  for (const auto& [index, material] : fragment.materials) {
     Material m = material;
     eachTexture(m, [&](int& t) { t = textures.at(t); });
     materials[index] = indexOf(m, scene.materials, assets.materials);
   }
-  for (const auto& [index, mesh] : clipping.meshes) {
+  for (const auto& [index, mesh] : fragment.meshes) {
     std::shared_ptr<const Mesh> here = mesh;
     if (!hasMaterials(*mesh, materials)) {
       auto changed = std::make_shared<Mesh>(*mesh);
@@ -149,8 +149,8 @@ Pasting pasteInto(Scene& scene, const Clipping& clipping, bool isSameLevel) {
 
   std::map<NodeId, NodeId> newId;
   NodeId nextId = scene.nextId;
-  for (const Node& n : clipping.nodes) newId[n.id] = nextId++;
-  for (Node n : clipping.nodes) {
+  for (const Node& n : fragment.nodes) newId[n.id] = nextId++;
+  for (Node n : fragment.nodes) {
     const NodeId was = n.id;
     n.id = scene.nextId++;
     n.light.leftOut = leftOutOf(n.light, newId, isSameLevel);
@@ -161,7 +161,7 @@ Pasting pasteInto(Scene& scene, const Clipping& clipping, bool isSameLevel) {
       out.roots.push_back(n.id);
       if (n.parent != kNoNode && (!isSameLevel || scene.find(n.parent) == nullptr)) {
         n.parent = kNoNode;
-        n.local = clipping.places.at(was);
+        n.local = fragment.places.at(was);
       }
     }
     if (!isSameLevel) {

@@ -11,7 +11,7 @@
 
 namespace lamplighter {
 
-struct Clipping {
+struct ClipboardFragment {
   std::vector<Node> nodes;  // parents before children; those on top keep the id of their parent
   // Where those on top are in the world, for levels where their parent is not.
   std::map<NodeId, Transform> places;
@@ -24,7 +24,7 @@ struct Clipping {
 };
 
 // The nodes with all that hangs below them.
-Clipping clip(const Scene& scene, const std::vector<NodeId>& ids);
+ClipboardFragment clip(const Scene& scene, const std::vector<NodeId>& ids);
 
 // Meshes, materials and textures at the ends of the scene's lists.
 class AddAssets final : public Command {
@@ -45,13 +45,13 @@ class AddAssets final : public Command {
 
 // What a paste adds: nodes with new ids taken from Scene::nextId, and of assets those that the
 // scene does not have yet.
-struct Pasting {
+struct PastedNodes {
   std::vector<Node> nodes;
   std::vector<NodeId> roots;
   std::unique_ptr<AddAssets> assets;
 };
 // Nodes stay below their parents in the level that they come from, and come to stand on their own
 // at the same place in the world elsewhere.
-Pasting pasteInto(Scene& scene, const Clipping& clipping, bool isSameLevel);
+PastedNodes pasteInto(Scene& scene, const ClipboardFragment& fragment, bool isSameLevel);
 
 }  // namespace lamplighter
