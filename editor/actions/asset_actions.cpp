@@ -4,9 +4,9 @@
 #include "editor/actions/arguments.h"
 #include "editor/actions/place_asset.h"
 #include "editor/assets/asset_folder.h"
-#include "editor/session/home_state.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 
 namespace lamplighter {

@@ -1,9 +1,9 @@
 // Which lights shine: on, solo, groups; the light table, and the work light.
 #include "editor/actions/arguments.h"
 #include "editor/lights/light_edits.h"
-#include "editor/session/home_state.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 
 namespace lamplighter {

@@ -1,7 +1,7 @@
 // Edits of all selected lights at once.
 #include "editor/actions/arguments.h"
-#include "editor/lights/light_cells.h"
 #include "editor/lights/light_edits.h"
+#include "editor/lights/light_table_edits.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
@@ -86,7 +86,7 @@ void addLightsActions(ActionRegistry& r) {
                 {LightColumn::name, LightColumn::strength, LightColumn::temperature,
                  LightColumn::size, LightColumn::group}) {
              if (a[0] == columnName(column))
-               return editLightCells(s.editing(), column, a[1], s.lighting().unit);
+               return editLightTableCells(s.editing(), column, a[1], s.lighting().unit);
            }
            throw InputError(a[0], "is no column to type in",
                             "give name, strength, temperature, size or group");

@@ -1,8 +1,8 @@
 #include "editor/actions/place_asset.h"
 
 #include "editor/edits/edits.h"
-#include "editor/session/home_state.h"
 #include "editor/session/session.h"
+#include "editor/session/user_state.h"
 
 namespace lamplighter {
 

@@ -1,9 +1,9 @@
 // The user's settings, and the panels that belong to no level.
 #include "editor/actions/arguments.h"
 #include "editor/session/apply.h"
-#include "editor/session/home_state.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 
 namespace lamplighter {

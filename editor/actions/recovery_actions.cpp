@@ -11,7 +11,7 @@ namespace {
 // From 0; the newest where none is given.
 size_t numberFrom(const Session& s, const Arguments& a, const std::string& usage) {
   requireArguments(a, 0, 1, usage);
-  const size_t count = s.keeper().found().size();
+  const size_t count = s.crashRecovery().found().size();
   const float n = a.empty() ? 1.0f : numberOf(a[0]);
   if (n >= 1.0f && n <= static_cast<float>(count)) return static_cast<size_t>(n) - 1;
   throw InputError(usage, "there are " + std::to_string(count) + " levels to recover",
@@ -21,7 +21,7 @@ size_t numberFrom(const Session& s, const Arguments& a, const std::string& usage
 }  // namespace
 
 void addRecoveryActions(ActionRegistry& r) {
-  const auto hasFound = [](const Session& s) { return !s.keeper().found().empty(); };
+  const auto hasFound = [](const Session& s) { return !s.crashRecovery().found().empty(); };
   r.add({"recovery.recover", "Recover", "[NUMBER]",
          "Takes up the work that a killed process has left; the newest is number 1.", "",
          [](Session& s, const Arguments& a) {
@@ -37,7 +37,7 @@ void addRecoveryActions(ActionRegistry& r) {
   r.add({"recovery.autosave", "Autosave now", "",
          "Writes the level to a side file in the user's state folder, never over its own file.", "",
          [](Session& s, const Arguments&) { s.autosave(); },
-         [](const Session& s) { return s.keeper().isOn(); }});
+         [](const Session& s) { return s.crashRecovery().isOn(); }});
 }
 
 }  // namespace lamplighter

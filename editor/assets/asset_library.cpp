@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "renderer/base/error.h"
-#include "renderer/scene/gltf/files_named.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "renderer/scene/gltf/referenced_files.h"
 
 namespace lamplighter {
 
@@ -15,7 +15,7 @@ std::shared_ptr<const ClipboardFragment> AssetLibrary::load(const fs::path& file
   const fs::path path = fs::absolute(file, error).lexically_normal();
   fs::file_time_type time = fs::last_write_time(path, error);
   uintmax_t size = error ? 0 : fs::file_size(path, error);
-  for (const FileStamp& stamp : filesNamedIn(path)) {
+  for (const FileStamp& stamp : referencedFiles(path)) {
     std::error_code gone;
     if (const auto theirs = fs::last_write_time(stamp.path, gone); !gone)
       time = std::max(time, theirs);

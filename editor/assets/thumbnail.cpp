@@ -10,8 +10,8 @@
 #include "renderer/base/error.h"
 #include "renderer/debug_views/view_picture.h"
 #include "renderer/image/image_io.h"
-#include "renderer/scene/gltf/files_named.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "renderer/scene/gltf/referenced_files.h"
 
 namespace lamplighter {
 
@@ -40,7 +40,7 @@ View viewOf(const Bounds& bounds, int size) {
 // while it is the same.
 uint64_t hashOfAsset(const fs::path& file) {
   uint64_t hash = fileHash(file);
-  for (const FileStamp& stamp : filesNamedIn(file)) {
+  for (const FileStamp& stamp : referencedFiles(file)) {
     for (const uint64_t part : {stamp.size, static_cast<uint64_t>(stamp.modified)})
       hash = (hash ^ part) * 0x100000001b3ull;  // FNV-1a's prime
   }

@@ -10,7 +10,7 @@
 
 #include "editor/document/document.h"
 #include "editor/document/write_file.h"
-#include "renderer/bake/page_fill.h"
+#include "renderer/bake/page_dilation.h"
 #include "renderer/bake/second_uvs.h"
 #include "renderer/base/error.h"
 #include "renderer/image/image_io.h"

@@ -95,7 +95,7 @@ int script(const ScriptOptions& options, const Frontend& frontend) {
     }
     if (session.quitRequested()) break;
   }
-  session.keeper().close();
+  session.crashRecovery().close();
   return 0;
 }
 

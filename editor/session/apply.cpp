@@ -2,8 +2,8 @@
 
 #include "editor/keys/key_presets.h"
 #include "editor/presets/presets.h"
-#include "editor/session/home_state.h"
 #include "editor/session/session.h"
+#include "editor/session/user_state.h"
 #include "renderer/image/tone_map.h"
 
 namespace lamplighter {

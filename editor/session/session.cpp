@@ -2,16 +2,16 @@
 #include <unordered_set>
 
 #include "editor/edits/edits.h"
-#include "editor/session/home_state.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session_tools.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 #include "renderer/methods/common_parameters.h"
 
 namespace lamplighter {
 
 Session::Session(std::unique_ptr<FrameRenderer> renderer)
-    : home_(std::make_unique<HomeState>()),
+    : home_(std::make_unique<UserState>()),
       renderer_(std::move(renderer)),
       tools_(std::make_unique<Tools>()) {
   addAllActions(actions_);
@@ -34,7 +34,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   tools_->pointerKnown = false;
   points_.forget();
   disk_ = filesOf(document_.scene);
-  keeper_.opened(document_);
+  crashRecovery_.opened(document_);
 
   RenderScene world;
   update(world, document_.scene, SceneChanges::all());

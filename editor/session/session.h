@@ -20,7 +20,7 @@
 #include "editor/keys/action.h"
 #include "editor/lights/work_light.h"
 #include "editor/notices/notices.h"
-#include "editor/recovery/keeper.h"
+#include "editor/recovery/crash_recovery.h"
 #include "editor/session/frame_watch.h"
 #include "editor/session/lighting_state.h"
 #include "editor/split/split_view.h"
@@ -32,7 +32,7 @@
 
 namespace lamplighter {
 
-struct HomeState;
+struct UserState;
 
 class Session {
  public:
@@ -147,8 +147,8 @@ class Session {
   const std::string& status() const { return status_; }
   void setStatus(std::string text, NoticeKind kind = NoticeKind::info);
   // Settings, keys, notices: what is the user's and not the level's.
-  HomeState& home() { return *home_; }
-  const HomeState& home() const { return *home_; }
+  UserState& home() { return *home_; }
+  const UserState& home() const { return *home_; }
   void setKeys(KeyMap keys) { actions_.setKeys(std::move(keys)); }
   // What edit.copy has put by; opening another level leaves it.
   const ClipboardFragment& clipboard() const { return clipboard_; }
@@ -163,9 +163,9 @@ class Session {
 
   // Every committed edit is kept on the disk in `root` from now on (editor/recovery).
   void keepJournal(const std::filesystem::path& root, int process, Journal::Clock clock);
-  Keeper& keeper() { return keeper_; }
-  const Keeper& keeper() const { return keeper_; }
-  void recoverWork(size_t number);  // one of keeper().found(); throws InputError
+  CrashRecovery& crashRecovery() { return crashRecovery_; }
+  const CrashRecovery& crashRecovery() const { return crashRecovery_; }
+  void recoverWork(size_t number);  // one of crashRecovery().found(); throws InputError
   void discardWork(size_t number);
   void autosave();
 
@@ -200,7 +200,7 @@ class Session {
   Document document_;
   History history_{document_};
   ActionRegistry actions_;
-  std::unique_ptr<HomeState> home_;
+  std::unique_ptr<UserState> home_;
   std::unique_ptr<FrameRenderer> renderer_;
   std::unique_ptr<Tools> tools_;
   View view_;
@@ -221,7 +221,7 @@ class Session {
   bool quit_ = false, shadersRequested_ = false;
   std::string methodBeforeReference_ = "many_lights";
   ClipboardFragment clipboard_;
-  Keeper keeper_;
+  CrashRecovery crashRecovery_;
   int level_ = 0, clipboardLevel_ = 0;  // counts what was opened
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 

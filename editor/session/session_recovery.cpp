@@ -5,16 +5,16 @@
 namespace lamplighter {
 
 void Session::keepJournal(const std::filesystem::path& root, int process, Journal::Clock clock) {
-  keeper_.start(root, process, std::move(clock), document_);
+  crashRecovery_.start(root, process, std::move(clock), document_);
   history_.setListener([this](const std::string& label) {
-    if (std::string why = keeper_.committed(document_, label); !why.empty()) setStatus(why);
+    if (std::string why = crashRecovery_.committed(document_, label); !why.empty()) setStatus(why);
   });
 }
 
 void Session::recoverWork(size_t number) {
   if (modified())
     throw InputError("recovery.recover", "this level has changes", "save them or undo them first");
-  Recovered recovered = recover(keeper_.found().at(number).folder);
+  Recovered recovered = recover(crashRecovery_.found().at(number).folder);
   const Document document = recovered.document;
   open(recovered.base, document.path, {});
   document_.scene = document.scene;
@@ -25,22 +25,22 @@ void Session::recoverWork(size_t number) {
                 ? "Recovered " + std::to_string(recovered.edits) + " edits of " +
                       (document.path.empty() ? "a new level" : document.path.filename().string())
                 : recovered.warning;
-  keeper_.adopt(std::move(recovered));
+  crashRecovery_.adopt(std::move(recovered));
 }
 
 void Session::autosave() {
-  if (keeper_.journal() == nullptr) return;
+  if (crashRecovery_.journal() == nullptr) return;
   history_.commit();
-  const auto work = keeper_.journal()->autosave(document_);
+  const auto work = crashRecovery_.journal()->autosave(document_);
   if (!work) return;
   work->write();
-  keeper_.journal()->restart(document_, work->needsLevel);
+  crashRecovery_.journal()->restart(document_, work->needsLevel);
   status_ = "Autosaved to " + (work->folder / "autosave.glb").string();
 }
 
 void Session::discardWork(size_t number) {
-  discard(keeper_.found().at(number).folder);
-  keeper_.look();
+  discard(crashRecovery_.found().at(number).folder);
+  crashRecovery_.look();
   status_ = "Discarded";
 }
 

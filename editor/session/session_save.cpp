@@ -1,8 +1,8 @@
 // Saving, and what others have done to the level's files meanwhile.
 #include <algorithm>
 
-#include "editor/session/home_state.h"
 #include "editor/session/session.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
@@ -46,14 +46,15 @@ void Session::save(const fs::path& wanted, bool forced) {
     throw InputError(changed.front().string(),
                      "another program has changed or removed it since it was opened",
                      "save under another name (file.save_as), or over it (file.save force)");
-  std::string problem = keeper_.saving();
+  std::string problem = crashRecovery_.saving();
   const std::vector<fs::path> written = saveGltf(document_.scene, path, changed.empty());
   if (!isElsewhere) {
     takeWritten(path, written, changed.empty());
     document_.path = path;
   }
   savedHash_ = sceneHash(document_.scene);
-  if (std::string after = keeper_.saved(document_); problem.empty()) problem = std::move(after);
+  if (std::string after = crashRecovery_.saved(document_); problem.empty())
+    problem = std::move(after);
   home_->preferences.addRecent(path);
   setStatus(problem.empty() ? "Saved " + wanted.filename().string() : "Saved. " + problem);
 }

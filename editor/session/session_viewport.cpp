@@ -4,7 +4,7 @@
 #include "editor/debug_views/vpl_overlay.h"
 #include "editor/edits/placement.h"
 #include "editor/edits/tree.h"
-#include "editor/session/placing.h"
+#include "editor/session/click_to_place.h"
 #include "editor/session/session_tools.h"
 #include "editor/tools/picker.h"
 #include "editor/tools/scene_overlay.h"

@@ -15,7 +15,7 @@
 #include "renderer/light_maps/light_map_eligibility.h"
 #include "renderer/light_maps/texel_grid.h"
 #include "renderer/scene/vpl.h"
-#include "renderer/visibility/seen_patches.h"
+#include "renderer/visibility/potentially_visible_patches.h"
 
 namespace lamplighter {
 namespace {
@@ -218,7 +218,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     uint32_t object, tile;
   };
   std::vector<Job> jobs;
-  std::optional<SeenPatches> seen;
+  std::optional<PotentiallyVisiblePatches> seen;
   if (view != nullptr) seen.emplace(*view);
   for (uint32_t object = 0; object < objects_.size(); ++object) {
     Object& o = objects_[object];

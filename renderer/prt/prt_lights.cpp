@@ -9,9 +9,9 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/prt/incident_light.h"
-#include "renderer/prt/prt_room.h"
+#include "renderer/prt/prt_memory.h"
 #include "renderer/scene/vpl.h"
-#include "renderer/visibility/hard_lights.h"
+#include "renderer/visibility/hard_shadow_lights.h"
 
 namespace lamplighter {
 namespace {
@@ -197,7 +197,7 @@ PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
     o.checked[slot] = isChecked && mayTake(take) && !isFull
                           ? checkLight(o.checks, o.space, frame.rays, vpl, o.places, hidden,
                                        options_.clampDistance, rays)
-                          : CheckedLights();
+                          : LightErrors();
     traced += rays;
   });
   raysTraced_ += traced;
@@ -260,12 +260,12 @@ bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const u
 
 void PrtLights::Object::countBytes() {
   bytes = transfer->vertices.size() *
-              (sizeof(Transfer::Vertex) + sizeof(LightPoints::Blend) + sizeof(vec3)) +
+              (sizeof(Transfer::Vertex) + sizeof(IncidentLightPoints::Blend) + sizeof(vec3)) +
           sums.size() * sizeof(double) + hidden.size();
-  for (const CheckPoint& check : checks)
-    bytes += sizeof(CheckPoint) + check.terms.size() * sizeof(CheckPoint::Term);
-  for (const CheckedLights& lights : checked)
-    bytes += sizeof(CheckedLights) + lights.size() * sizeof(CheckedLight);
+  for (const ValidationPoint& check : checks)
+    bytes += sizeof(ValidationPoint) + check.terms.size() * sizeof(ValidationPoint::Term);
+  for (const LightErrors& lights : checked)
+    bytes += sizeof(LightErrors) + lights.size() * sizeof(LightError);
 }
 
 void PrtLights::lightVertices(Object& o) {
@@ -274,9 +274,9 @@ void PrtLights::lightVertices(Object& o) {
     for (size_t i = 0; i < 2 * kSums; ++i)
       light[p][i] = static_cast<float>(o.sums[p * 2 * kSums + i]);
   tbb::parallel_for(size_t{0}, o.irradiance.size(), [&](size_t v) {
-    const LightPoints::Blend& blend = o.points.ofVertex[v];
+    const IncidentLightPoints::Blend& blend = o.points.ofVertex[v];
     std::array<float, 2 * kSums> here{};
-    for (size_t k = 0; k < LightPoints::kBlended; ++k) {
+    for (size_t k = 0; k < IncidentLightPoints::kBlended; ++k) {
       if (!(blend.weight[k] > 0.0f)) continue;
       const std::array<float, 2 * kSums>& from = light[blend.point[k]];
       for (size_t i = 0; i < here.size(); ++i) here[i] += blend.weight[k] * from[i];
@@ -324,8 +324,8 @@ bool PrtLights::update(const RenderScene& scene, const RenderSceneChanges& chang
     if (!o.isWanted || o.transfer) continue;
     o.transfer = transfers_.find(o.key);
     if (!o.transfer) continue;
-    o.points = placeLightPoints(*o.own, o.shape.points);
-    o.checks = placeCheckPoints(*o.own, *o.transfer, o.points, o.shape.isLoose);
+    o.points = placeIncidentLightPoints(*o.own, o.shape.points);
+    o.checks = placeValidationPoints(*o.own, *o.transfer, o.points, o.shape.isLoose);
     o.own.reset();
     isFresh[i] = true;
     coverage_.advance();

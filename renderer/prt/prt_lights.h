@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/prt/check_points.h"
 #include "renderer/prt/prt_shape.h"
+#include "renderer/prt/transfer_validation.h"
 #include "renderer/prt/transfers.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/visibility/visibility_database.h"
@@ -112,15 +112,15 @@ class PrtLights {
     std::shared_ptr<const RenderScene> own;  // until its transfer is there
     std::shared_ptr<const Transfer> transfer;
     OwnSpace space;
-    LightPoints points;
+    IncidentLightPoints points;
     std::vector<vec3> places;  // of the points, in the world
-    std::vector<CheckPoint> checks;
-    std::vector<double> sums;            // points × 2 · kSums
-    std::vector<Take> takes;             // by slot, as summed
-    std::vector<CheckedLights> checked;  // by slot
-    std::vector<uint8_t> hidden;         // slots × points, as summed
-    std::vector<uint8_t> held;           // by slot
-    std::vector<vec3> irradiance;        // by vertex
+    std::vector<ValidationPoint> checks;
+    std::vector<double> sums;          // points × 2 · kSums
+    std::vector<Take> takes;           // by slot, as summed
+    std::vector<LightErrors> checked;  // by slot
+    std::vector<uint8_t> hidden;       // slots × points, as summed
+    std::vector<uint8_t> held;         // by slot
+    std::vector<vec3> irradiance;      // by vertex
     Revision revision;
     int lightsLeft = 0;   // to pixels for their error
     bool isLeft = false;  // so that transfer has none

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderer/prt/light_points.h"
+#include "renderer/prt/incident_light_points.h"
 #include "renderer/prt/transfer.h"
 
 namespace lamplighter {

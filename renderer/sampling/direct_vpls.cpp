@@ -24,7 +24,7 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
     case EmitterKind::surface:
       for (id.index = begin; id.index < end; ++id.index) {
         const EmitterSample p =
-            sampleEmitter(scene_, lights_, numbers_, source, id.index, SampleNumbers::direct);
+            sampleEmitter(scene_, lights_, numbers_, source, id.index, SampleStreams::direct);
         if (p.flux == vec3(0.0f)) continue;  // a dark place, which would cost a shadow map
         const vec3 intensity = scale * p.flux / (kPi * static_cast<float>(count));
         vpls.push_back(numbers_.makeVpl(id, shared::kVplCosine, p.position, p.normal, intensity));
@@ -42,7 +42,7 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
       }
       for (id.index = begin; id.index < end; ++id.index) {
         const SkyMap::Light light = lights_.sky().sample(numbers_.point(
-            id, id.index, SampleNumbers::kDirectionDimension, SampleNumbers::direct));
+            id, id.index, SampleStreams::kDirectionDimension, SampleStreams::direct));
         const vec3 irradiance = scale / static_cast<float>(count) * light.irradiance;
         vpls.push_back(directional(id, light.towards, irradiance));
       }
@@ -56,7 +56,7 @@ SkyMap::Light DirectVpls::skySun(const Emitter& e, const VplId& id) const {
   const size_t sun = e.skySun - 1;
   if (batch_ == 0) return lights_.sky().sun(sun);
   return lights_.sky().sun(
-      sun, numbers_.point(id, batch_ - 1, SampleNumbers::kPlaceDimension, SampleNumbers::direct));
+      sun, numbers_.point(id, batch_ - 1, SampleStreams::kPlaceDimension, SampleStreams::direct));
 }
 
 void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, float scale,

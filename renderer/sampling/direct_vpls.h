@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "renderer/sampling/path_walk.h"
+#include "renderer/sampling/path_tracing.h"
 
 namespace lamplighter {
 
@@ -26,7 +26,7 @@ class DirectVpls {
 
   const RenderScene& scene_;
   const LightSet& lights_;
-  SampleNumbers numbers_;
+  SampleStreams numbers_;
   uint32_t batch_;
 };
 

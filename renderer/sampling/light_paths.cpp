@@ -6,7 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/sampling/direct_vpls.h"
-#include "renderer/sampling/path_following.h"
+#include "renderer/sampling/path_reuse.h"
 #include "renderer/sampling/vpl_counts.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/surface.h"
@@ -341,7 +341,7 @@ bool LightPaths::isExact(const PathWalker& walker) {
 VplSet LightPaths::set(const RenderScene& scene) const {
   VplSet result;
   result.rays = work_.rays;
-  const SampleNumbers numbers(counts_);
+  const SampleStreams numbers(counts_);
   const DirectVpls direct(scene, lightSet_, counts_);
   for (const Light& light : lights_) {
     direct.add(light.source, light.direct, light.directScale, result.vpls);

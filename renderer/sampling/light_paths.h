@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/sampling/path_walk.h"
+#include "renderer/sampling/path_tracing.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/shadow_maps/refresh_scheduler.h"
 

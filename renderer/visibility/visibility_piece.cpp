@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "renderer/scene/light_linking.h"
-#include "renderer/visibility/occlusion/light_sides.h"
+#include "renderer/visibility/occlusion/back_facing_lights.h"
 
 namespace lamplighter {
 
@@ -75,7 +75,7 @@ void VisibilityDatabase::Update::Piece::findSides() {
     apices[i] = PyramidApex(lightOf(*unknown_[i]));
     lights[i] = &apices[i];
   }
-  const LightSides sides(LightLanes({lights.data(), unknownCount_}), region_);
+  const BackFacingLights sides(LightPacket({lights.data(), unknownCount_}), region_);
   for (size_t i = 0; i < unknownCount_; ++i) {
     Task& task = *unknown_[i];
     if ((sides.dark >> i & 1) != 0) {

@@ -26,7 +26,7 @@ class VisibilityDatabase::Update::Piece {
   bool run(std::span<Task> tasks);
 
  private:
-  static constexpr size_t kTogether = LightLanes::kLights;
+  static constexpr size_t kTogether = LightPacket::kLights;
   static constexpr size_t kWorthTogether = 3;  // fewer are quicker alone
 
   const shared::Vpl& lightOf(const Task& task) const {

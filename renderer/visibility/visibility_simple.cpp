@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "renderer/base/simd.h"
-#include "renderer/visibility/occlusion/bits.h"
+#include "renderer/visibility/occlusion/bit_iteration.h"
 #include "renderer/visibility/visibility_update.h"
 
 namespace lamplighter {

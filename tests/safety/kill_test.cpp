@@ -45,7 +45,7 @@ int editForEver(uint64_t seed, const fs::path& journal, const fs::path& level) {
     edits.step();
     if (edits.below(40) == 0) session->autosave();
     if (edits.below(60) == 0) session->save(level);
-    if (!session->keeper().journal()) return 1;
+    if (!session->crashRecovery().journal()) return 1;
     const std::string line = hashText(documentHash(session->document())) + "\n";
     if (::write(STDOUT_FILENO, line.data(), line.size()) < 0) return 1;
   }

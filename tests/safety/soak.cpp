@@ -170,7 +170,7 @@ int Soak::run() {
     if (step_ % options_.every == options_.every - 1) compareWithFreshStart();
     if (step_ % 10 == 9) memory.push_back(residentMebibytes());
   }
-  session_->keeper().close();
+  session_->crashRecovery().close();
   const size_t quarter = memory.size() / 4;
   double early = 0.0, late = 0.0;
   if (quarter > 0) {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "tests/support/scenes.h"
 #include "ui/app/application.h"

@@ -7,7 +7,7 @@
 #include <spdlog/spdlog.h>
 
 #include "editor/actions/arguments.h"
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/base/error.h"
 #include "renderer/image/exposure.h"
@@ -122,7 +122,7 @@ bool Application::rendersFrame() {
 
 void Application::close() {
   autosave_.finish();
-  session_->keeper().close();
+  session_->crashRecovery().close();
 }
 
 // Each edit once, when its picture has settled. A replay has a report for that.

@@ -7,7 +7,7 @@
 
 #include "editor/document/cache_folder.h"
 #include "editor/session/apply.h"
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "ui/app/application.h"
 #include "ui/platform/ui_scale.h"
 

@@ -19,7 +19,7 @@ void AutosaveWorker::finish() {
 }
 
 void AutosaveWorker::frame(Session& session, double seconds) {
-  Journal* journal = session.keeper().journal();
+  Journal* journal = session.crashRecovery().journal();
   if (journal == nullptr) return;
   // Not in the middle of a drag: what it has done so far may be taken back.
   if (session.history().inTransaction()) return;

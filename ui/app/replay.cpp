@@ -9,7 +9,7 @@
 #include "editor/document/write_file.h"
 #include "editor/input/player.h"
 #include "editor/latency/latency_report.h"
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
 #include "renderer/gl/headless_context.h"

@@ -7,7 +7,7 @@
 #include <imgui_stdlib.h>
 
 #include "editor/actions/arguments.h"
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/theme.h"
@@ -53,7 +53,7 @@ void drawThumbnail(const Thumbnails::Thumbnail& thumbnail, const ImVec2& low, fl
 }
 
 void bar(const PanelContext& ui, AssetPanelState& state, Requests& requests) {
-  const HomeState& home = ui.session.home();
+  const UserState& home = ui.session.home();
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Assets");
   ImGui::SameLine();
@@ -113,7 +113,7 @@ void grid(const PanelContext& ui, const std::vector<AssetFile>& files, Thumbnail
 void assetPanel(PanelContext ui, AssetPanelState& state, Thumbnails* thumbnails,
                 Requests& requests) {
   ui.prefix = "assets/";
-  const HomeState& home = ui.session.home();
+  const UserState& home = ui.session.home();
   const std::filesystem::path& folder = home.preferences.assetFolder;
   if (folder != home.assetsListed && !state.listed)
     requests.actions.push_back("asset.folder " + quoted(folder.string()));

@@ -1,8 +1,8 @@
 // What happened: toasts for the newest, the log for all.
 #include <algorithm>
 
-#include "editor/session/home_state.h"
-#include "ui/panels/home_panels.h"
+#include "editor/session/user_state.h"
+#include "ui/panels/user_panels.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/theme.h"
 

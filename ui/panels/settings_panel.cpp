@@ -4,9 +4,9 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
-#include "editor/session/home_state.h"
-#include "ui/panels/home_panels.h"
+#include "editor/session/user_state.h"
 #include "ui/panels/panels.h"
+#include "ui/panels/user_panels.h"
 #include "ui/widgets/theme.h"
 #include "ui/widgets/value_slider.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "editor/debug_views/legend.h"
-#include "ui/viewport/label_place.h"
+#include "ui/viewport/label_placement.h"
 #include "ui/viewport/split_sides.h"
 #include "ui/widgets/theme.h"
 

@@ -142,7 +142,7 @@ Image GlGBuffer::readNormals() const {
 Image GlGBuffer::readAlbedo() const { return readBack(albedo_.name(), width_, height_); }
 
 uint64_t GlGBuffer::bytes() const {
-  return SeenPoints::bytes(width_, height_) +
+  return ShadingPoints::bytes(width_, height_) +
          uint64_t{16 + 8 + 4 + 4} * static_cast<uint64_t>(width_) * height_;
 }
 

@@ -6,7 +6,7 @@
 
 #include "renderer/backends/gl/frustum.h"
 #include "renderer/backends/gl/gl_scene.h"
-#include "renderer/backends/gl/seen_points.h"
+#include "renderer/backends/gl/shading_points.h"
 #include "renderer/gl/program.h"
 #include "renderer/scene/camera.h"
 
@@ -20,7 +20,7 @@ class GlGBuffer {
   void render(const GlScene& scene, const View& view, vec2 jitter);
   // To the units of shaders/shared/bindings.h.
   void bind() const;
-  const SeenPoints& points() const { return points_; }
+  const ShadingPoints& points() const { return points_; }
   Image readNormals() const;
   Image readAlbedo() const;
 
@@ -43,7 +43,7 @@ class GlGBuffer {
   Program normals_;
   VertexArray emptyVertexArray_;
   Framebuffer framebuffer_;
-  SeenPoints points_;
+  ShadingPoints points_;
   Texture albedo_, emission_, gloss_, depth_;
   Frustum frustum_;
   View view_;

@@ -153,7 +153,7 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
   isEmpty_ = false;
 }
 
-void GlLighting::sumListed(const GlScene& scene, const Sum& sum, const SeenPoints& points,
+void GlLighting::sumListed(const GlScene& scene, const Sum& sum, const ShadingPoints& points,
                            SumTarget& target, size_t level, glm::ivec2 blocks) {
   const auto grids = std::span(grids_).subspan(level);
   if (grids.empty() || !grids[0].resize(target.width, target.height, blocks.x)) {

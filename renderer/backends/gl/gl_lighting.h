@@ -71,8 +71,8 @@ class GlLighting {
   void zero();
   // By lists of patches: with blocks.x, samples first and only then what lies between them and
   // cannot be interpolated; with blocks.y, the samples likewise.
-  void sumListed(const GlScene& scene, const Sum& sum, const SeenPoints& points, SumTarget& target,
-                 size_t level, glm::ivec2 blocks);
+  void sumListed(const GlScene& scene, const Sum& sum, const ShadingPoints& points,
+                 SumTarget& target, size_t level, glm::ivec2 blocks);
   // What the light maps and light by transfer say at the points that are bound; `unmarked`: only
   // where the stencil buffer has no mark.
   void begin(const GlScene& scene, const SumTarget& target, bool unmarked);

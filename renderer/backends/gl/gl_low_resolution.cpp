@@ -22,14 +22,14 @@ void GlLowResolution::draw(const Framebuffer& framebuffer, int width, int height
   drawFullScreen(emptyVertexArray_.name());
 }
 
-void GlLowResolution::take(const SeenPoints& points, const SampleGrid& grid) const {
+void GlLowResolution::take(const ShadingPoints& points, const SampleGrid& grid) const {
   points.bind();
   takeSamples_.use();
   takeSamples_.set(0, grid.block);
   draw(grid.pointsFramebuffer, grid.sums.width, grid.sums.height);
 }
 
-void GlLowResolution::interpolate(const SeenPoints& points, SumTarget& pixels,
+void GlLowResolution::interpolate(const ShadingPoints& points, SumTarget& pixels,
                                   const SampleGrid& grid, const GlScene& scene,
                                   const Buffer& hardPlaces, bool hasHard) const {
   points.bind();

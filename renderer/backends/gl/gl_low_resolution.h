@@ -16,12 +16,12 @@ class GlLowResolution {
   void reload(const std::filesystem::path& shaders);
 
   // The grid's points, from those of the picture that it is of.
-  void take(const SeenPoints& points, const SampleGrid& grid) const;
+  void take(const ShadingPoints& points, const SampleGrid& grid) const;
 
   // Once the samples are summed: cells that may be, marked in the stencil buffer of `pixels`, whose
   // points these are. The others are left as they are. hardPlaces: a buffer with
   // LightLists::hardPlaces(), hasHard: whether it has any.
-  void interpolate(const SeenPoints& points, SumTarget& pixels, const SampleGrid& grid,
+  void interpolate(const ShadingPoints& points, SumTarget& pixels, const SampleGrid& grid,
                    const GlScene& scene, const Buffer& hardPlaces, bool hasHard) const;
 
  private:

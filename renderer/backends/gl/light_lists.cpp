@@ -4,7 +4,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/visibility/hard_lights.h"
+#include "renderer/visibility/hard_shadow_lights.h"
 #include "shaders/shared/patches.h"
 
 namespace lamplighter::gl {

@@ -45,7 +45,7 @@ class LightLists {
   std::span<const int> longest() const { return longest_; }
   std::span<const int> longestPlain() const { return longestPlain_; }
   // By place, 1: one of the lights that make hard shadows is partly hidden from it
-  // (hard_lights.h). Empty: no place is.
+  // (hard_shadow_lights.h). Empty: no place is.
   std::span<const uint32_t> hardPlaces() const { return hardPlaces_; }
   // By group, and what merging spared of all.
   std::span<const int> passes() const { return passes_; }

@@ -58,7 +58,7 @@ std::vector<uint8_t> SampleGrid::read(int width, int height) const {
 uint64_t SampleGrid::bytes() const {
   if (!cells) return 0;
   const uint64_t each = static_cast<uint64_t>(columns()) * static_cast<uint64_t>(rows());
-  return sums.bytes() + SeenPoints::bytes(sums.width, sums.height) + 2 * each;
+  return sums.bytes() + ShadingPoints::bytes(sums.width, sums.height) + 2 * each;
 }
 
 }  // namespace lamplighter::gl

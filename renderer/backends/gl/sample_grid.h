@@ -4,14 +4,14 @@
 
 #include <vector>
 
-#include "renderer/backends/gl/seen_points.h"
+#include "renderer/backends/gl/shading_points.h"
 #include "renderer/backends/gl/sum_target.h"
 
 namespace lamplighter::gl {
 
 struct SampleGrid {
   int block = 1;  // pixels a side, or samples
-  SeenPoints points;
+  ShadingPoints points;
   SumTarget sums;
   Texture contrasts, cells;  // R8UI, by cell: shaders/shared/bindings.h
   Framebuffer pointsFramebuffer, contrastsFramebuffer, cellsFramebuffer;

@@ -10,7 +10,7 @@
 #include "renderer/sampling/view_importance.h"
 #include "renderer/sampling/vpl_footprints.h"
 #include "renderer/scene/surface.h"
-#include "renderer/visibility/seen_lights.h"
+#include "renderer/visibility/shadow_map_demand.h"
 
 namespace lamplighter {
 namespace {
@@ -279,7 +279,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
   } else if (lights_.changed() || !in.changes.none() || in.view != view_ ||
              wanted_.size() != slots || options.useVisibility != options_.useVisibility ||
              options.speculars != options_.speculars) {
-    wanted_ = lightsToLookUp(*visibility_, in.scene, in.view);
+    wanted_ = shadowMapDemand(*visibility_, in.scene, in.view);
   }
   if (visibility_ && options.speculars && in.backend.info().specularsTakeAllMaps &&
       hasGlossy(in.scene))

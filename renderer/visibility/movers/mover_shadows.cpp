@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/visibility/occlusion/bits.h"
+#include "renderer/visibility/occlusion/bit_iteration.h"
 
 namespace lamplighter {
 namespace {
@@ -132,7 +132,7 @@ MoverShadows::Answer MoverShadows::of(const PatchRegion& region,
                                       std::span<const Question> lights) const {
   std::array<const PyramidApex*, kLights> apices;
   for (size_t i = 0; i < lights.size(); ++i) apices[i] = &lights_[lights[i].slot].apex;
-  PyramidBatch pyramids(LightLanes({apices.data(), lights.size()}), region);
+  PyramidBatch pyramids(LightPacket({apices.data(), lights.size()}), region);
   pyramids.weighBy(way_);
   Answer answer;
   answer.slack.fill(std::numeric_limits<float>::max());

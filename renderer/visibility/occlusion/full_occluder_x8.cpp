@@ -1,13 +1,13 @@
 #include "renderer/visibility/occlusion/full_occluder_x8.h"
 
 #include "renderer/base/simd.h"
-#include "renderer/visibility/occlusion/lane_sums.h"
+#include "renderer/visibility/occlusion/packet_math.h"
 
 namespace lamplighter {
 
 using namespace lanes;
 
-FullOccluderX8::FullOccluderX8(const LightLanes& lights, const PatchRegion& region)
+FullOccluderX8::FullOccluderX8(const LightPacket& lights, const PatchRegion& region)
     : lights_(lights), region_(region) {
   const Vec rounding = hn::Max(load(lights.rounding), set(region.rounding));
   const Vec thickness = set(region.thickness), eight = set(8.0f);

@@ -2,19 +2,19 @@
 // OcclusionPyramid says of each.
 #pragma once
 
-#include "renderer/visibility/occlusion/light_lanes.h"
+#include "renderer/visibility/occlusion/light_packet.h"
 #include "renderer/visibility/occlusion/occlusion_pyramid.h"
 
 namespace lamplighter {
 
 class FullOccluderX8 {
  public:
-  using Mask = LightLanes::Mask;
+  using Mask = LightPacket::Mask;
 
   // Of lights for which the patch is neither dark nor degenerate. Refers to both, which must
   // outlive it.
-  FullOccluderX8(const LightLanes& lights, const PatchRegion& region);
-  FullOccluderX8(const LightLanes& lights, PatchRegion&& region) = delete;
+  FullOccluderX8(const LightPacket& lights, const PatchRegion& region);
+  FullOccluderX8(const LightPacket& lights, PatchRegion&& region) = delete;
 
   // Whose axis may meet the box, see OcclusionPyramid::Axis.
   Mask mayMeet(const Bounds& box) const;
@@ -22,11 +22,11 @@ class FullOccluderX8 {
   Mask cut(const OccluderPolygon& polygon, Mask of) const;
 
  private:
-  const LightLanes& lights_;
+  const LightPacket& lights_;
   const PatchRegion& region_;
   // Of the axes: their beginnings, give or take the margin, and one over their lengths.
-  alignas(32) std::array<LightLanes::Floats, 3> low_, high_, inverse_;
-  alignas(32) LightLanes::Floats inset_;  // by how much a polygon has to be larger [m]
+  alignas(32) std::array<LightPacket::Floats, 3> low_, high_, inverse_;
+  alignas(32) LightPacket::Floats inset_;  // by how much a polygon has to be larger [m]
 };
 
 }  // namespace lamplighter

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/visibility/occlusion/light_lanes.h"
+#include "renderer/visibility/occlusion/light_packet.h"
 #include "renderer/visibility/occlusion/occlusion_pyramid.h"
 
 namespace lamplighter {
@@ -31,7 +31,7 @@ class Occluders {
     std::span<const shared::Vpl* const> vpls;
     const PatchRegion& region;
   };
-  using States = std::array<Occlusion, LightLanes::kLights>;
+  using States = std::array<Occlusion, LightPacket::kLights>;
 
   void resize(size_t objects) { objects_.resize(objects); }
   // One object where it is now; call finish() after the last.
@@ -75,8 +75,8 @@ class Occluders {
     BoundsTree polygonTree;
   };
   class Search;
-  LightLanes::Mask hiddenWithout(const FullOccluderX8& batch, LightLanes::Mask of,
-                                 std::span<const uint32_t> objects) const;
+  LightPacket::Mask hiddenWithout(const FullOccluderX8& batch, LightPacket::Mask of,
+                                  std::span<const uint32_t> objects) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
              uint32_t item, vec3& at) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,

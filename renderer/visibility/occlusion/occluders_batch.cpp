@@ -7,14 +7,14 @@
 #include <bit>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/visibility/occlusion/bits.h"
+#include "renderer/visibility/occlusion/bit_iteration.h"
 #include "renderer/visibility/occlusion/full_occluder_x8.h"
 #include "renderer/visibility/occlusion/occluders.h"
 #include "renderer/visibility/occlusion/pyramid_batch.h"
 
 namespace lamplighter {
 
-using Mask = LightLanes::Mask;
+using Mask = LightPacket::Mask;
 
 namespace {
 
@@ -27,7 +27,7 @@ constexpr int kWorthSieve = 2;
 class Occluders::Search {
  public:
   Search(const Occluders& occluders, const RenderScene& scene, const Lights& lights,
-         const LightLanes& lanes, std::span<const Blocker> first)
+         const LightPacket& lanes, std::span<const Blocker> first)
       : occluders_(occluders),
         scene_(scene),
         lights_(lights),
@@ -62,7 +62,7 @@ class Occluders::Search {
 
   // Points where one of the lights met something above, and then what that is, for all of them.
   void askWhereMetBefore() {
-    const std::array<Blocker, LightLanes::kLights> first = first_;
+    const std::array<Blocker, LightPacket::kLights> first = first_;
     const auto isNew = [&](size_t i, const auto& isSame) {
       return first[i].object != kNone &&
              std::none_of(first.begin(), first.begin() + static_cast<ptrdiff_t>(i), isSame);
@@ -182,10 +182,10 @@ class Occluders::Search {
   const Lights& lights_;
   const PyramidBatch pyramids_;
   const size_t count_;
-  std::array<Blocker, LightLanes::kLights> first_;  // by light: what is asked first, or was met
-  Mask open_;                                       // lights of which nothing is known to be met
-  Mask known_ = 0;                                  // lights that have planes_
-  std::array<PyramidPlanes, LightLanes::kLights> planes_;
+  std::array<Blocker, LightPacket::kLights> first_;  // by light: what is asked first, or was met
+  Mask open_;                                        // lights of which nothing is known to be met
+  Mask known_ = 0;                                   // lights that have planes_
+  std::array<PyramidPlanes, LightPacket::kLights> planes_;
   std::array<Question, 64> unsure_;
   size_t unsureCount_ = 0;
 };
@@ -193,13 +193,13 @@ class Occluders::Search {
 Occluders::States Occluders::occlusionsWithout(const RenderScene& s, const Lights& lights,
                                                std::span<const uint32_t> objects,
                                                std::span<Blocker> first) const {
-  std::array<PyramidApex, LightLanes::kLights> apices;
-  std::array<const PyramidApex*, LightLanes::kLights> pointers;
+  std::array<PyramidApex, LightPacket::kLights> apices;
+  std::array<const PyramidApex*, LightPacket::kLights> pointers;
   for (size_t i = 0; i < lights.vpls.size(); ++i) {
     apices[i] = PyramidApex(*lights.vpls[i]);
     pointers[i] = &apices[i];
   }
-  const LightLanes lanes({pointers.data(), lights.vpls.size()});
+  const LightPacket lanes({pointers.data(), lights.vpls.size()});
   States states;
   states.fill(Occlusion::none);
   // A cluster of a complex mesh stands in its own light.

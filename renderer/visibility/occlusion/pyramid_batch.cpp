@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "renderer/base/simd.h"
-#include "renderer/visibility/occlusion/lane_sums.h"
+#include "renderer/visibility/occlusion/packet_math.h"
 
 namespace lamplighter {
 namespace {
@@ -63,7 +63,7 @@ BoxBatches::BoxBatches(std::span<const Bounds> boxes) : size_(boxes.size()) {
   around_ = batchesOf(around);
 }
 
-PyramidBatch::PyramidBatch(const LightLanes& lights, const PatchRegion& region)
+PyramidBatch::PyramidBatch(const LightPacket& lights, const PatchRegion& region)
     : all_(lights.all()) {
   const SimdVec3<Vec> apex = load(lights.position), towards = load(lights.normal);
   const auto margin = hn::Max(load(lights.rounding), set(region.rounding));

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/visibility/occlusion/light_lanes.h"
+#include "renderer/visibility/occlusion/light_packet.h"
 #include "renderer/visibility/occlusion/motion_metric.h"
 #include "renderer/visibility/occlusion/occlusion_pyramid.h"
 
@@ -35,15 +35,15 @@ class BoxBatches {
 
 class PyramidBatch {
  public:
-  static constexpr size_t kLights = LightLanes::kLights;
+  static constexpr size_t kLights = LightPacket::kLights;
   static_assert(kLights == BoxBatch::kBoxes);
-  using Mask = LightLanes::Mask;
+  using Mask = LightPacket::Mask;
   // How far what is asked about may move, as the way counts it, and still is met, for it is inside
   // of all planes by as much; negative: and still is not, outside of one. By light [m].
-  using Depths = LightLanes::Floats;
+  using Depths = LightPacket::Floats;
 
   // Of lights for which the rectangle is neither dark nor degenerate.
-  PyramidBatch(const LightLanes& lights, const PatchRegion& region);
+  PyramidBatch(const LightPacket& lights, const PatchRegion& region);
   // Before depths are asked for.
   void weighBy(const MotionMetric& way);
 
@@ -78,11 +78,11 @@ class PyramidBatch {
  private:
   static constexpr size_t kPlanes = 6;
   struct Plane {
-    LightLanes::Floats x, y, z, offset;
-    LightLanes::Floats weight;  // of a metre towards it, at least one
+    LightPacket::Floats x, y, z, offset;
+    LightPacket::Floats weight;  // of a metre towards it, at least one
   };
   alignas(32) std::array<Plane, kPlanes> planes_;
-  alignas(32) LightLanes::Floats margin_;  // what rounding may make of a place here [m]
+  alignas(32) LightPacket::Floats margin_;  // what rounding may make of a place here [m]
   Mask all_;
 };
 

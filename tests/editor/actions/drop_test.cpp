@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "renderer/image/image_io.h"
 #include "tests/editor/session_fixture.h"
 

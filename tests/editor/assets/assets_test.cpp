@@ -9,10 +9,10 @@
 #include "editor/assets/asset_folder.h"
 #include "editor/assets/asset_library.h"
 #include "editor/assets/thumbnail.h"
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
-#include "renderer/scene/gltf/files_named.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "renderer/scene/gltf/referenced_files.h"
 #include "tests/editor/session_fixture.h"
 
 namespace lamplighter {
@@ -167,9 +167,9 @@ TEST_F(Assets, ThumbnailsShowThePropUponNothingAndAreKept) {
 // The .gltf stays as it is when a texture beside it is painted over.
 TEST_F(Assets, OfAFolderAreReadAnewWhenAFileBesideThemChanges) {
   const fs::path file = folder_ / "kit/deep/green crate.gltf";
-  const std::vector<FileStamp> beside = filesNamedIn(file);
+  const std::vector<FileStamp> beside = referencedFiles(file);
   ASSERT_FALSE(beside.empty());
-  ASSERT_TRUE(filesNamedIn(folder_ / "kit/crate.glb").empty());
+  ASSERT_TRUE(referencedFiles(folder_ / "kit/crate.glb").empty());
   const fs::path cache = folder_ / "cache";
   const auto pictures = [&] {
     return std::distance(fs::directory_iterator(cache), fs::directory_iterator());

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "editor/edits/object_edits.h"
-#include "editor/lights/light_cells.h"
+#include "editor/lights/light_table_edits.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/editor/session_fixture.h"
 #include "tests/support/gltf_files.h"

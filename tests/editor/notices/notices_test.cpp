@@ -1,7 +1,7 @@
 // What happened, as it is told.
 #include "editor/notices/notices.h"
 
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "tests/editor/session_fixture.h"
 
 namespace lamplighter {

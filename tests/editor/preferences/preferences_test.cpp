@@ -7,7 +7,7 @@
 
 #include "editor/preferences/preferences_file.h"
 #include "editor/session/apply.h"
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 #include "tests/editor/session_fixture.h"
 

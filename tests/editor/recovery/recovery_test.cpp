@@ -57,7 +57,7 @@ class Recovery : public testing::Test {
     EXPECT_EQ(r.document.scene.nodes, was.scene.nodes);
     return r;
   }
-  fs::path journal() { return session_->keeper().journal()->folder() / "journal.jsonl"; }
+  fs::path journal() { return session_->crashRecovery().journal()->folder() / "journal.jsonl"; }
 };
 
 TEST_F(Recovery, WritesNothingUntilSomethingIsEdited) {
@@ -123,13 +123,13 @@ TEST_F(Recovery, ATornLastLineDoesNotCount) {
 TEST_F(Recovery, AProcessThatLivesIsNotOffered) {
   act("light.add disk");
   EXPECT_TRUE(findRecoverable(root_).empty());
-  EXPECT_THROW(recover(session_->keeper().journal()->folder()), InputError);
-  EXPECT_THROW(discard(session_->keeper().journal()->folder()), InputError);
+  EXPECT_THROW(recover(session_->crashRecovery().journal()->folder()), InputError);
+  EXPECT_THROW(discard(session_->crashRecovery().journal()->folder()), InputError);
 }
 
 TEST_F(Recovery, NothingIsLeftOfASessionThatEnds) {
   act("light.add disk");
-  session_->keeper().close();
+  session_->crashRecovery().close();
   EXPECT_TRUE(fs::is_empty(root_));
 }
 
@@ -165,7 +165,7 @@ TEST_F(Recovery, GoesOnAfterASaveBeforeTheFirstEdit) {
 
 TEST_F(Recovery, RefusesALevelThatWasChangedMeanwhile) {
   act("light.add sphere");
-  const fs::path state = session_->keeper().journal()->folder();
+  const fs::path state = session_->crashRecovery().journal()->folder();
   session_.reset();
   std::ofstream(level_, std::ios::app) << ' ';
   try {
@@ -180,7 +180,7 @@ TEST_F(Recovery, AnAutosaveStandsOnItsOwn) {
   act("light.add sphere");
   act("recovery.autosave");
   act("edit.rename after");
-  const fs::path state = session_->keeper().journal()->folder();
+  const fs::path state = session_->crashRecovery().journal()->folder();
   EXPECT_TRUE(fs::exists(level_));
   fs::remove(level_);
   fs::remove(folder_.path() / "level.bin");
@@ -201,7 +201,7 @@ TEST_F(Recovery, TheActionTakesTheWorkUpAndGoesOn) {
   act("recovery.recover");
   EXPECT_EQ(documentHash(session_->document()), documentHash(was));
   EXPECT_TRUE(session_->modified());
-  EXPECT_TRUE(session_->keeper().found().empty());
+  EXPECT_TRUE(session_->crashRecovery().found().empty());
   act("select.name mine");
   act("edit.rename again");
   session_->renderFrame();
@@ -235,7 +235,8 @@ TEST_F(Recovery, DiscardDeletesIt) {
   session_ = sessionWith(root_, 8);
   act("recovery.discard");
   EXPECT_TRUE(fs::is_empty(root_));
-  EXPECT_FALSE(session_->runAction("recovery.discard") && !session_->keeper().found().empty());
+  EXPECT_FALSE(session_->runAction("recovery.discard") &&
+               !session_->crashRecovery().found().empty());
 }
 
 TEST_F(Recovery, KeepsWhatWasPastedFromAnotherLevel) {

@@ -148,14 +148,15 @@ TEST_F(Saving, TheJournalCatchesUpWhenThereIsSpaceAgain) {
   session_.keepJournal(root, 1, [] { return int64_t{1}; });
   act("light.add disk");
   {
-    const FullDisk full(fs::file_size(session_.keeper().journal()->folder() / "journal.jsonl") + 9);
+    const FullDisk full(
+        fs::file_size(session_.crashRecovery().journal()->folder() / "journal.jsonl") + 9);
     act("light.add tube");
     EXPECT_NE(session_.status().find("The journal is not complete"), std::string::npos);
     EXPECT_EQ(session_.document().scene.nodes.size(), 4u);
   }
   act("edit.rename last");
   // Read beside the process that lives.
-  fs::copy(session_.keeper().journal()->folder(), root / "copy");
+  fs::copy(session_.crashRecovery().journal()->folder(), root / "copy");
   const Recovered r = recover(root / "copy");
   EXPECT_EQ(documentHash(r.document), documentHash(session_.document()));
 }

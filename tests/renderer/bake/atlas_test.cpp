@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/bake/bake_points.h"
-#include "renderer/bake/page_fill.h"
+#include "renderer/bake/page_dilation.h"
 #include "renderer/bake/second_uvs.h"
 #include "renderer/bake/skyline.h"
 #include "renderer/base/error.h"

@@ -423,20 +423,20 @@ TEST(PrtLights, HaveTheSameBitsAtAnyNumberOfThreads) {
 }
 
 // Points that all blend are those a vertex is nearest to, and blending is continuous.
-TEST(LightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
+TEST(IncidentLightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(0.5f, 48));
   RenderScene render;
   update(render, scene, SceneChanges::all());
   const RenderScene own = ownSceneOf(render, 0, ownSpaceOf(render.objects[0]).value());
-  EXPECT_EQ(placeLightPoints(own, 1).places.size(), 1u);
-  EXPECT_LT(glm::length(placeLightPoints(own, 1).places[0]), 1e-3f);
-  const LightPoints points = placeLightPoints(own, 16);
+  EXPECT_EQ(placeIncidentLightPoints(own, 1).places.size(), 1u);
+  EXPECT_LT(glm::length(placeIncidentLightPoints(own, 1).places[0]), 1e-3f);
+  const IncidentLightPoints points = placeIncidentLightPoints(own, 16);
   ASSERT_EQ(points.places.size(), 16u);
   EXPECT_LT(points.spacing, 0.45f);
   const auto weightsOf = [&](size_t v) {
     std::array<float, 16> out{};
-    for (size_t k = 0; k < LightPoints::kBlended; ++k)
+    for (size_t k = 0; k < IncidentLightPoints::kBlended; ++k)
       out[points.ofVertex[v].point[k]] += points.ofVertex[v].weight[k];
     return out;
   };
@@ -455,7 +455,7 @@ TEST(LightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
   }
 }
 
-TEST(LightPoints, AreAsManyAsTheSizeAsksFor) {
+TEST(IncidentLightPoints, AreAsManyAsTheSizeAsksFor) {
   EXPECT_EQ(lightPointsFor(0.1f, 32), 1);
   EXPECT_EQ(lightPointsFor(1.0f, 128), 64);
   EXPECT_EQ(lightPointsFor(1.0f, 8), 8);

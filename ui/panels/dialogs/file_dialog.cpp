@@ -7,7 +7,7 @@
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
-#include "editor/session/home_state.h"
+#include "editor/session/user_state.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/keyboard.h"
 #include "ui/widgets/theme.h"

@@ -29,7 +29,7 @@ void line(const PanelContext& ui, const char* label, const std::string& value) {
 std::string RecoveryDialog::draw(PanelContext ui) {
   constexpr const char* kTitle = "Recover unsaved work?";
   ui.prefix = "recovery/";
-  const auto& found = ui.session.keeper().found();
+  const auto& found = ui.session.crashRecovery().found();
   if (later_ || found.empty()) return {};
   if (!ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});

@@ -8,8 +8,8 @@
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
-#include "editor/lights/light_cells.h"
 #include "editor/lights/light_edits.h"
+#include "editor/lights/light_table_edits.h"
 #include "renderer/base/error.h"
 #include "ui/panels/light_table/light_table_panel.h"
 
@@ -116,7 +116,7 @@ void LightCells::field(const LightRow& row, LightColumn column) const {
   state.row = kNoNode;
   if (!takes || state.text == cellText(row, column)) return;
   try {
-    editLightCells(ui.session.editing(), column, state.text, ui.session.lighting().unit);
+    editLightTableCells(ui.session.editing(), column, state.text, ui.session.lighting().unit);
   } catch (const InputError& e) {
     ui.session.setStatus(e.what());
   }

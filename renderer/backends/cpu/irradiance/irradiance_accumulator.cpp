@@ -10,7 +10,7 @@
 
 #include "renderer/backends/cpu/irradiance/fixed_point_scale.h"
 #include "renderer/base/simd.h"
-#include "renderer/visibility/hard_lights.h"
+#include "renderer/visibility/hard_shadow_lights.h"
 
 namespace lamplighter::cpu {
 namespace {

@@ -126,7 +126,7 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
     for (const size_t slot : slots) apices.emplace_back(lights_[slot]);
     std::vector<const PyramidApex*> pointers;
     for (const PyramidApex& a : apices) pointers.push_back(&a);
-    PyramidBatch batch(LightLanes(pointers), region);
+    PyramidBatch batch(LightPacket(pointers), region);
     batch.weighBy(ways[random % 2]);
     std::array<Bounds, 13> each;
     for (size_t i = 0; i < each.size(); ++i) {

@@ -8,7 +8,7 @@
 
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "renderer/visibility/occlusion/light_sides.h"
+#include "renderer/visibility/occlusion/back_facing_lights.h"
 #include "renderer/visibility/occlusion/occluders.h"
 
 namespace lamplighter {
@@ -82,7 +82,7 @@ TEST_P(OccluderHints, OfOtherLightsChangeNoAnswer) {
   std::array<size_t, 3> found{};
   uint32_t random = 1;
   forEachPatch([&](const PatchRegion& region) {
-    std::array<Blocker, LightLanes::kLights> hints;  // of the lights before
+    std::array<Blocker, LightPacket::kLights> hints;  // of the lights before
     for (size_t first = 0, last = 0; first < lights_.size(); first = last) {
       random = random * 1664525u + 1013904223u;
       last = std::min(first + 1 + (random >> 29), lights_.size());
@@ -90,7 +90,7 @@ TEST_P(OccluderHints, OfOtherLightsChangeNoAnswer) {
       std::vector<const PyramidApex*> pointers;
       for (size_t i = first; i < last; ++i) apices.emplace_back(lights_[i]);
       for (const PyramidApex& a : apices) pointers.push_back(&a);
-      const LightSides sides(LightLanes(pointers), region);
+      const BackFacingLights sides(LightPacket(pointers), region);
       std::vector<const shared::Vpl*> open;
       for (size_t i = first; i < last; ++i) {
         const OcclusionPyramid pyramid(lights_[i], region);

@@ -34,7 +34,7 @@ TEST(PyramidBatch, MeetsTrianglesAsEachPyramidDoesAlone) {
     for (const shared::Vpl* light : some) apices.emplace_back(*light);
     std::vector<const PyramidApex*> pointers;
     for (const PyramidApex& apex : apices) pointers.push_back(&apex);
-    const PyramidBatch batch(LightLanes(pointers), region);
+    const PyramidBatch batch(LightPacket(pointers), region);
     std::array<vec3, 3> t;  // some of them small, some that go through all of the room
     const float size = next();
     for (vec3& corner : t)
@@ -66,7 +66,7 @@ TEST(PyramidBatch, MeetsTrianglesAsEachPyramidDoesAlone) {
       for (const shared::Vpl& light : lights) {
         const OcclusionPyramid alone(light, region);
         if (!alone.isDark() && !alone.isDegenerate()) some.push_back(&light);
-        if (some.size() < LightLanes::kLights && &light != &lights.back()) continue;
+        if (some.size() < LightPacket::kLights && &light != &lights.back()) continue;
         if (!some.empty()) askOf(region, some);
         some.clear();
       }

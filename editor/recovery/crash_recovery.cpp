@@ -1,0 +1,53 @@
+#include "editor/recovery/crash_recovery.h"
+
+#include "renderer/base/error.h"
+
+namespace lamplighter {
+
+void CrashRecovery::start(std::filesystem::path root, int process, Journal::Clock clock,
+                          const Document& document) {
+  root_ = std::move(root);
+  journal_ = std::make_unique<Journal>(root_, process, std::move(clock));
+  journal_->begin(document);
+  look();
+}
+
+void CrashRecovery::look() { found_ = findRecoverable(root_); }
+
+void CrashRecovery::opened(const Document& document) {
+  if (journal_) journal_->begin(document);
+}
+
+template <typename Write>
+std::string CrashRecovery::tried(Write write) {
+  if (!journal_) return {};
+  try {
+    write(*journal_);
+    return {};
+  } catch (const InputError& e) {
+    return std::string("The journal is not complete: ") + e.what();
+  }
+}
+
+std::string CrashRecovery::committed(const Document& document, const std::string& label) {
+  return tried([&](Journal& j) { j.record(document, label); });
+}
+
+std::string CrashRecovery::saving() {
+  return tried([](Journal& j) { j.saving(); });
+}
+
+std::string CrashRecovery::saved(const Document& document) {
+  return tried([&](Journal& j) { j.saved(document); });
+}
+
+void CrashRecovery::adopt(Recovered recovered) {
+  if (journal_) journal_->adopt(std::move(recovered));
+  look();
+}
+
+void CrashRecovery::close() {
+  if (journal_) journal_->close();
+}
+
+}  // namespace lamplighter

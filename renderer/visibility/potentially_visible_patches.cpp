@@ -1,0 +1,37 @@
+#include "renderer/visibility/potentially_visible_patches.h"
+
+#include <cmath>
+
+namespace lamplighter {
+namespace {
+
+// By which pixels are shifted at most.
+constexpr float kShift = 1.0f;
+// The sine of the angle by which a triangle may be turned from a chart that is not rough, and more.
+constexpr float kTurned = 0.05f;
+
+Frustum frustumOf(View view) {
+  const float pixels = static_cast<float>(view.height);
+  view.yfov = 2.0f * std::atan(std::tan(0.5f * view.yfov) * (1.0f + 2.0f * kShift / pixels));
+  return Frustum(view.worldToClip());
+}
+
+}  // namespace
+
+PotentiallyVisiblePatches::PotentiallyVisiblePatches(const View& view)
+    : eye_(view.eye), frustum_(frustumOf(view)) {}
+
+bool PotentiallyVisiblePatches::mayShow(const Patch& patch) const {
+  // With room for rounding.
+  const vec3 half(1.01f * patch.radius + 0.001f);
+  return frustum_.mayMeet({patch.centre - half, patch.centre + half});
+}
+
+bool PotentiallyVisiblePatches::mayShowFront(const Chart& chart, const Patch& patch) const {
+  const vec3 way = eye_ - patch.centre;
+  const float slack = chart.thickness + 0.001f + kTurned * (glm::length(way) + patch.radius);
+  if (!chart.isRough && glm::dot(way, chart.normal) < -slack) return false;
+  return mayShow(patch);
+}
+
+}  // namespace lamplighter
