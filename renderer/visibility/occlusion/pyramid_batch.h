@@ -53,14 +53,14 @@ class PyramidBatch {
   Mask mayMeetSphere(const vec3& centre, float radius) const;
   // Those that a point is in, by more than rounding.
   Mask hold(const vec3& point) const;
-  // Those that corners of a triangle are in, and those where only fragment it tells: planesOf().
+  // Those that corners of a triangle are in, and those where only clipping it tells: planesOf().
   struct Met {
     std::array<Mask, 3> byCorner{};
     Mask unsure = 0;
     Mask met() const { return byCorner[0] | byCorner[1] | byCorner[2]; }
   };
   Met meets(const std::array<vec3, 3>& triangle) const;
-  // Of those, some where fragment it would leave nothing, by more than rounding; `rounding`: of the
+  // Of those, some where clipping it would leave nothing, by more than rounding; `rounding`: of the
   // triangle's corners [m].
   Mask surelyMiss(const std::array<vec3, 3>& triangle, float rounding) const;
   PyramidPlanes planesOf(size_t light) const;

@@ -77,14 +77,14 @@ void MapStore::castersMove(const RenderScene& scene, const RenderSceneChanges& c
 // Blocks that may show something else now, where that is less than all; else empty.
 std::vector<uint8_t> MapStore::outdated(const Map& map) const {
   if (!map.moves || moveCount_ - *map.moves > moves_.size()) return {};
-  struct MotionMetric {
+  struct ObjectMotion {
     uint32_t object;
     const Bounds *from, *to;
   };
-  std::vector<MotionMetric> ways;  // from where it shows them
+  std::vector<ObjectMotion> ways;  // from where it shows them
   for (size_t i = moves_.size() - (moveCount_ - *map.moves); i < moves_.size(); ++i) {
     const Move& move = moves_[i];
-    const auto way = std::ranges::find(ways, move.object, &MotionMetric::object);
+    const auto way = std::ranges::find(ways, move.object, &ObjectMotion::object);
     if (way != ways.end())
       way->to = &move.after;
     else if (ways.size() < kMostMoved)
@@ -93,7 +93,7 @@ std::vector<uint8_t> MapStore::outdated(const Map& map) const {
       return {};
   }
   std::vector<Sphere> spheres;
-  for (const MotionMetric& way : ways)
+  for (const ObjectMotion& way : ways)
     for (const Bounds* box : {way.from, way.to}) spheres.push_back({box->centre(), box->radius()});
   return raster_.blocksThatSee(of(map.size).grid, map.light, spheres);
 }
