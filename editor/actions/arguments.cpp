@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "editor/session/session.h"
 #include "renderer/base/error.h"
 
 namespace lamplighter {
@@ -51,5 +52,7 @@ const Node& activeNode(const Document& document) {
   if (n == nullptr) throw InputError("selection", "nothing is selected", "select an object first");
   return *n;
 }
+
+bool hasSelection(const Session& session) { return !session.document().selection.empty(); }
 
 }  // namespace lamplighter

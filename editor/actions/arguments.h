@@ -1,4 +1,4 @@
-// Reading the arguments of actions.
+// Reading the arguments of actions, and what many of them ask of the session.
 #pragma once
 
 #include <string>
@@ -8,6 +8,8 @@
 #include "renderer/base/math.h"
 
 namespace lamplighter {
+
+class Session;
 
 using Arguments = std::vector<std::string>;
 
@@ -23,5 +25,7 @@ vec3 vectorOf(const Arguments& arguments, size_t from);
 const Node& nodeNamed(const Document& document, const std::string& name);
 // The active node; throws InputError when nothing is selected.
 const Node& activeNode(const Document& document);
+// Whether anything is selected: what actions on the selection need to be enabled.
+bool hasSelection(const Session& session);
 
 }  // namespace lamplighter

@@ -35,8 +35,6 @@ std::vector<std::string> split(std::string_view text) {
 
 }  // namespace
 
-bool hasSelection(const Session& session) { return !session.document().selection.empty(); }
-
 void ActionRegistry::add(Action action) {
   const std::string name = action.name;
   addKey(name, action.shortcut);

@@ -35,9 +35,6 @@ struct Action {
 // The keys of action texts: "tool.move", "bookmark.go 3".
 using KeyMap = std::map<std::string, std::vector<Chord>>;
 
-// For Action::enabled.
-bool hasSelection(const Session& session);
-
 class ActionRegistry {
  public:
   void add(Action action);
