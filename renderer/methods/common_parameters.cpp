@@ -4,7 +4,7 @@ namespace lamplighter::parameters {
 
 const ParameterSpec& bounces() {
   static const ParameterSpec spec{"bounces", "Bounces",
-                                  "",        "Indirect bounces; 0 is direct light only.",
+                                  "",        "Number of indirect bounces. 0: direct light only.",
                                   2,         0,
                                   64,        false,
                                   {},        ParameterGroup::lightSamples};
@@ -13,7 +13,7 @@ const ParameterSpec& bounces() {
 
 const ParameterSpec& seed() {
   static const ParameterSpec spec{"seed",  "Seed",
-                                  "",      "Chooses another set of random numbers.",
+                                  "",      "Selects another set of random numbers.",
                                   1,       0,
                                   1000000, false,
                                   {},      ParameterGroup::lightSamples};
@@ -21,11 +21,17 @@ const ParameterSpec& seed() {
 }
 
 const ParameterSpec& vpls() {
-  static const ParameterSpec spec{"vpls", "Light samples",
-                                  "",     "Virtual point lights in all, direct and indirect.",
-                                  300,    1,
-                                  65536,  true,
-                                  {},     ParameterGroup::lightSamples};
+  static const ParameterSpec spec{"vpls",
+                                  "Light samples",
+                                  "",
+                                  "Number of virtual point lights (VPLs), direct and indirect "
+                                  "together. Cost grows with it, a little less than linearly.",
+                                  300,
+                                  1,
+                                  65536,
+                                  true,
+                                  {},
+                                  ParameterGroup::lightSamples};
   return spec;
 }
 
@@ -34,7 +40,7 @@ const ParameterSpec& directShare() {
       "direct_share",
       "Direct share",
       "",
-      "Share of the light samples that lie on the lights themselves; the rest carry bounced light.",
+      "Share of the light samples that are placed on the lights. The rest carry bounced light.",
       0.5f,
       0.0,
       1.0,
@@ -48,7 +54,8 @@ const ParameterSpec& mapResolution() {
   static const ParameterSpec spec{"map_resolution",
                                   "Shadow map size",
                                   "texels",
-                                  "Side of each light sample's shadow map while things change.",
+                                  "Resolution (width and height) of each light sample's shadow map "
+                                  "while the scene changes.",
                                   64,
                                   8,
                                   1024,
@@ -59,11 +66,17 @@ const ParameterSpec& mapResolution() {
 }
 
 const ParameterSpec& updates() {
-  static const ParameterSpec spec{"updates", "Updates a frame",
-                                  "",        "Light samples that may change in one frame, at most.",
-                                  100,       1,
-                                  65536,     true,
-                                  {},        ParameterGroup::budgets};
+  static const ParameterSpec spec{"updates",
+                                  "Updates a frame",
+                                  "",
+                                  "Maximum number of light samples that change per frame. Lower: "
+                                  "shorter frames, but an edit takes longer to arrive.",
+                                  100,
+                                  1,
+                                  65536,
+                                  true,
+                                  {},
+                                  ParameterGroup::budgets};
   return spec;
 }
 
@@ -72,7 +85,8 @@ const ParameterSpec& clampDistance() {
       "clamp_distance",
       "Clamp distance",
       "m",
-      "Light samples nearer than this light as if they were this far: bounds 1/d².",
+      "Minimum distance in the 1/d² term of a light sample. Larger values hide bright spots near "
+      "light samples but remove light from corners (see corner_light).",
       0.5f,
       0.0,
       10.0,
@@ -87,7 +101,8 @@ const ParameterSpec& shadowBias() {
       "shadow_bias",
       "Shadow bias",
       "",
-      "An occluder must be nearer than the receiver by this share of the distance.",
+      "An occluder casts a shadow only if it is nearer than the receiver by this share of the "
+      "distance. Larger: less shadow acne, more light leaks.",
       0.002f,
       0.0,
       0.1,
@@ -101,7 +116,7 @@ const ParameterSpec& samplesPerPixel() {
   static const ParameterSpec spec{"samples_per_pixel",
                                   "Paths a pixel",
                                   "",
-                                  "Paths traced for each pixel until the picture is settled.",
+                                  "Paths traced per pixel until the picture is settled.",
                                   64,
                                   1,
                                   1048576,
@@ -115,7 +130,8 @@ const ParameterSpec& samplesPerFrame() {
   static const ParameterSpec spec{"samples_per_frame",
                                   "Paths a frame",
                                   "",
-                                  "Paths traced for each pixel in one frame.",
+                                  "Paths traced per pixel in one frame. Higher: longer frames, "
+                                  "fewer of them.",
                                   1,
                                   1,
                                   4096,
@@ -130,8 +146,8 @@ const ParameterSpec& speculars() {
       "speculars",
       "Speculars",
       "",
-      "Surfaces that are seen reflect light by their metallic and roughness. Light bounces on as "
-      "from matt surfaces all the same. Off: what is seen is matt too.",
+      "Surfaces that the camera sees reflect light by their metallic and roughness values. Bounces "
+      "remain diffuse. Off: visible surfaces are diffuse, too. Costs time per glossy pixel.",
       true,
       0,
       0,
@@ -145,9 +161,8 @@ const ParameterSpec& leastRoughness() {
   static const ParameterSpec spec{"least_roughness",
                                   "Least roughness",
                                   "",
-                                  "Smoother surfaces are seen as if they were this rough: a mirror "
-                                  "would show light samples and "
-                                  "point lights as dots.",
+                                  "Minimum roughness for reflections. Smoother surfaces are shown "
+                                  "with this roughness; a mirror would show light samples as dots.",
                                   0.1f,
                                   0.05,
                                   1.0,

@@ -7,10 +7,10 @@ const ParameterSpec& technique() {
       "technique",
       "Technique",
       "",
-      "naive: every light sample with its shadow map at every pixel. visibility: maps are looked "
-      "up only where the geometry cannot tell whether something stands between. light_maps: "
-      "besides, light without shadows is summed once for flat surfaces, and pixels only take "
-      "shadows away.",
+      "naive: every light sample with its shadow map at every pixel. visibility: reads shadow maps "
+      "only where the geometry cannot decide whether the light is blocked. light_maps: also sums "
+      "unshadowed light once for flat surfaces; pixels only subtract shadows. All show the same "
+      "light; light_maps is fastest for edits.",
       std::string("light_maps"),
       0,
       0,
@@ -26,9 +26,9 @@ ParameterSpec limitOf(const char* name, const char* label, const char* what) {
   return {name,
           label,
           "",
-          std::string(what) +
-              " in one frame, at most; one light sample is refreshed in any case. "
-              "0: no limit.",
+          std::string("Maximum number of ") + what +
+              " per frame; at least one light sample is refreshed. Lower: shorter frames, but an "
+              "edit takes longer to arrive. 0: no limit.",
           0,
           0,
           1000000000,
@@ -44,8 +44,9 @@ const ParameterSpec& importance() {
       "importance",
       "Candidates",
       "",
-      "Samples of bounced light and of the sky that are tried for each that is wanted: those that "
-      "bring most to what the camera sees are taken. 1: all are taken.",
+      "Candidates that are traced for each sample of bounced light and sky light. The samples that "
+      "contribute most to what the camera sees are kept. 1: all candidates are kept. Costs rays "
+      "after each edit.",
       8,
       1,
       64,
@@ -60,8 +61,9 @@ const ParameterSpec& sunMaps() {
       "sun_maps",
       "Maps of a sun",
       "",
-      "Shadow maps among which each sun's light is divided, at most, small ones where the camera "
-      "sees what it may light. They come on top of the light samples.",
+      "Maximum number of shadow maps per sun, in addition to the light samples. Maps are small "
+      "where the camera sees what the sun may light. More maps: sharper sun shadows, more maps to "
+      "render.",
       128,
       1,
       4096,
@@ -76,9 +78,9 @@ const ParameterSpec& settledMapScale() {
       "settled_map_scale",
       "Finer maps at rest",
       "",
-      "Once nothing else is left to do, shadow maps are rendered again with so many times the "
-      "texels a side, as far as map memory goes: shadows at rest are sharper and leak less. "
-      "Whatever an edit touches has a small map again at once. 1: maps stay as they are.",
+      "Factor for the resolution of shadow maps once all other work is done, as far as map_memory "
+      "allows. Shadows at rest are sharper and leak less. An edit returns the maps that it affects "
+      "to the small size. 1: off.",
       6,
       1,
       16,
@@ -90,28 +92,26 @@ const ParameterSpec& settledMapScale() {
 
 const ParameterSpec& maxShadowMaps() {
   static const ParameterSpec spec =
-      limitOf("max_shadow_maps", "Maps a frame", "Shadow maps rendered");
+      limitOf("max_shadow_maps", "Maps a frame", "shadow maps rendered");
   return spec;
 }
 
 const ParameterSpec& maxVisibilityTests() {
-  static const ParameterSpec spec =
-      limitOf("max_visibility_tests", "Tests a frame",
-              "Occlusion pyramids of light samples tested against the scene");
+  static const ParameterSpec spec = limitOf("max_visibility_tests", "Tests a frame",
+                                            "occlusion pyramids tested against the scene");
   return spec;
 }
 
 const ParameterSpec& maxLightMapTexels() {
   static const ParameterSpec spec =
       limitOf("max_light_map_texels", "Texels a frame",
-              "Texels of light maps, times lights added or taken away,");
+              "light map texels updated, counted once per light that is added or removed,");
   return spec;
 }
 
 const ParameterSpec& maxRays() {
   static const ParameterSpec spec =
-      limitOf("max_rays", "Rays a frame",
-              "Rays for shadow maps and light points of transfer (cpu backend)");
+      limitOf("max_rays", "Rays a frame", "rays for shadow maps and transfer (cpu backend)");
   return spec;
 }
 
@@ -120,8 +120,8 @@ const ParameterSpec& maxPaths() {
       "max_paths",
       "Paths a frame",
       "",
-      "Paths of bounced light that are walked again in one frame after an edit, at most. 0: no "
-      "limit.",
+      "Maximum number of paths of bounced light that are traced again per frame after an edit. "
+      "0: no limit.",
       0,
       0,
       1000000,
@@ -136,11 +136,10 @@ const ParameterSpec& groupShare() {
       "group_share",
       "Group share",
       "%",
-      "Where shadow maps are looked up, one look-up may do for a group of light samples near each "
-      "other that is far away, as long as the group has no more than this share of all light. So "
-      "that more light samples cost less than their number. Highlights of the cpu backend show "
-      "such a group as one light where it is small beside them. 0: a look-up for each. Nothing for "
-      "naive, and with fewer than 800 light samples.",
+      "Several distant light samples close to each other may share one shadow look-up if together "
+      "they have at most this share of all light. Reduces the cost of many light samples. On the "
+      "cpu backend their highlights may be shown as one. 0: off. No effect with naive or below 800 "
+      "light samples.",
       0.2f,
       0.0,
       5.0,
@@ -155,9 +154,9 @@ const ParameterSpec& mapMemory() {
       "map_memory",
       "Map memory",
       "MiB",
-      "Shadow maps take no more memory than this. They are made for light samples that the view "
-      "looks up and dropped when others need the room; where even those do not fit, some look "
-      "up the map of their nearest neighbour (naive: their share goes to the others).",
+      "Memory limit for shadow maps. Maps exist only for light samples that the view needs. If "
+      "they do not fit, a light sample uses the map of its nearest neighbour (naive: its light "
+      "goes to the others).",
       512,
       1,
       65536,
@@ -172,10 +171,9 @@ const ParameterSpec& visibilityMemory() {
       "visibility_memory",
       "Visibility memory",
       "MiB",
-      "What is known of each light sample at each patch takes no more memory than this. Where "
-      "thousands of light samples on a large level would need more, patches are divided less far, "
-      "so that more shadow maps are looked up; where even whole patches do not fit, all are looked "
-      "up as by naive. The light stays the same. Nothing for naive.",
+      "Memory limit for the visibility database. If a large level with many light samples needs "
+      "more, patches are divided less and more shadow maps are read; if even whole patches do not "
+      "fit, all maps are read as with naive. The picture keeps its light. No effect with naive.",
       1024,
       1,
       65536,
@@ -190,9 +188,9 @@ const ParameterSpec& lightMapMemory() {
       "light_map_memory",
       "Light map memory",
       "MiB",
-      "Light maps take no more memory than this. Where a large level would need more, their texels "
-      "are larger than light_map_texel everywhere; where even two texels a side of each patch are "
-      "too many, pixels sum all light. Only for light_maps.",
+      "Memory limit for light maps. If a level needs more, all texels become larger than "
+      "light_map_texel; if two texels per side of each patch are too many, light is summed per "
+      "pixel. Only with light_maps.",
       1024,
       1,
       65536,
@@ -207,8 +205,8 @@ const ParameterSpec& prtMemory() {
       "prt_memory",
       "Transfer memory",
       "MiB",
-      "Transfer and the light by it take no more memory than this. Where not all complex meshes "
-      "fit, the largest are lit pixel by pixel. Only with prt.",
+      "Memory limit for precomputed radiance transfer. If not all complex meshes fit, the largest "
+      "are lit per pixel. Only with prt.",
       1024,
       1,
       65536,
@@ -223,9 +221,9 @@ const ParameterSpec& frameTime() {
       "frame_time",
       "Frame time",
       "ms",
-      "How long a frame may take in the editor's window: light samples are refreshed as far as "
-      "what they cost before allows. 0: counts alone. Recordings, replays and rendering without a "
-      "window go by counts.",
+      "Target duration of a frame in the editor's window. Limits the refreshed light samples by "
+      "their measured cost. 0: only the counts limit a frame. Recordings, replays and rendering "
+      "without a window always use counts.",
       50.0f,
       0.0,
       1000.0,
@@ -240,7 +238,8 @@ const ParameterSpec& lightMapTexel() {
       "light_map_texel",
       "Light map texel",
       "m",
-      "Spacing of the light maps' texels; patches that would need more than 33 a side get 33.",
+      "Size of light map texels. Patches that need more than 33 texels per side get 33. Smaller: "
+      "more memory and more work per edit.",
       0.1f,
       0.01,
       2.0,
@@ -255,8 +254,8 @@ const ParameterSpec& lightsPerPass() {
       "lights_per_pass",
       "Lights a pass",
       "",
-      "The gl backend adds at most this many light samples to a pixel in one draw. Fewer make for "
-      "more draws and the same picture; a driver may want draws to be short.",
+      "Maximum number of light samples per draw call on the gl backend. Lower values mean more and "
+      "shorter draw calls, for drivers that limit their duration; the picture is the same.",
       1024,
       1,
       1024,
@@ -271,11 +270,9 @@ const ParameterSpec& mergePasses() {
       "merge_passes",
       "Merge passes",
       "",
-      "The gl backend sums lights that need their shadow maps by passes, each at most \"Lights a "
-      "pass\" of them on all objects that want them, merged as in the paper, and counts them. It "
-      "is "
-      "slower than the lists of each patch, and the same picture. Nothing on the cpu backend, nor "
-      "for naive.",
+      "The gl backend draws lights with shadow maps in passes of at most lights_per_pass lights, "
+      "merged over objects as in the paper, and counts them. Same picture, slower than the light "
+      "lists per patch. No effect on the cpu backend or with naive.",
       false,
       0,
       0,
@@ -290,10 +287,9 @@ const ParameterSpec& block() {
       "block",
       "Block",
       "pixels",
-      "Light is summed at one pixel of each block of as many pixels a side and interpolated "
-      "between; "
-      "at edges of surfaces and shadows it is summed at each pixel. 1: at each everywhere. Nothing "
-      "for naive.",
+      "Light is summed at one pixel of each block of this size and interpolated between; pixels at "
+      "edges of surfaces and shadows are summed in full. 1: every pixel. Larger: faster, softer "
+      "detail. No effect with naive.",
       std::string("4"),
       0,
       0,
@@ -308,9 +304,9 @@ const ParameterSpec& prt() {
       "prt",
       "Transfer",
       "",
-      "Complex meshes are lit at their vertices by precomputed radiance transfer: smoothly, with "
-      "their own soft shadows, if asked for with what their parts reflect onto each other "
-      "(prt_bounces), and without shadow maps. Computed once for each shape. Nothing for naive.",
+      "Lights complex meshes at their vertices by precomputed radiance transfer: smooth, with soft "
+      "self-shadows and, with prt_bounces, reflections between parts of a mesh, without shadow "
+      "maps. Computed once per shape. No effect with naive.",
       false,
       0,
       0,
@@ -325,8 +321,9 @@ const ParameterSpec& prtPoints() {
       "prt_points",
       "Light points",
       "",
-      "With transfer, places on a complex mesh at which light is sampled, at most; how many by "
-      "its size. With 1, as in the paper, no shadow ends upon the mesh.",
+      "Maximum number of points on a complex mesh where incident light is sampled for transfer; "
+      "larger meshes get more. 1, as in the paper: no shadow edge falls onto the mesh. More points "
+      "cost visibility tests per edit.",
       128,
       1,
       255,
@@ -341,9 +338,9 @@ const ParameterSpec& prtBounces() {
       "prt_bounces",
       "Transfer bounces",
       "",
-      "With transfer, how often light goes between the parts of a mesh within its transfer, as far "
-      "as there are bounces at all: smoother than by the few light samples on it. 0: these light "
-      "it, as they do elsewhere and as in naive.",
+      "Bounces between the parts of a mesh inside its transfer, up to the parameter bounces. "
+      "Smoother than the few light samples on the mesh. 0: light samples carry them, as elsewhere "
+      "and as with naive.",
       0,
       0,
       4,
@@ -358,9 +355,8 @@ const ParameterSpec& prtError() {
       "prt_error",
       "Transfer error",
       "",
-      "With transfer, how much of the light that falls straight on a mesh it may get wrong: lights "
-      "of which it gets more wrong are summed at pixels, with their shadow maps, those first of "
-      "which it gets most wrong. 1: none is.",
+      "Maximum relative error of direct light by transfer. Lights that exceed it are summed per "
+      "pixel with shadow maps, the worst first. 1: no limit.",
       0.15f,
       0.0f,
       1.0f,
@@ -375,7 +371,8 @@ const ParameterSpec& antialias() {
       "antialias",
       "Samples a pixel",
       "",
-      "Pictures with shifted pixels that are averaged, one a frame, once the lights are settled.",
+      "Number of pictures with shifted pixels that are averaged once the light is settled, one per "
+      "frame.",
       4,
       1,
       256,
@@ -390,9 +387,8 @@ const ParameterSpec& cornerLight() {
       "corner_light",
       "Corner light",
       "",
-      "The light that the clamp near light samples takes away, most of it in corners, is given "
-      "back "
-      "to a picture that is settled: found once by a short ray a pixel and smoothed.",
+      "Adds the light that clamp_distance removed, mostly in corners, once the picture is settled: "
+      "one short ray per pixel, then smoothed.",
       true,
       0,
       0,
@@ -407,9 +403,9 @@ const ParameterSpec& refine() {
       "refine",
       "Refine to",
       "",
-      "Light samples in all to which a picture at rest is refined in the editor's window, batch by "
-      "batch, with the light that the clamp takes away given back. 0: not at all. Recordings and "
-      "replays do without; render does only where it is set.",
+      "Total number of light samples that a picture at rest is refined with in the editor's "
+      "window, in batches, including the light that clamp_distance removed. 0: off. Recordings and "
+      "replays do not refine; render does only if this is set.",
       65536,
       0,
       1 << 24,
