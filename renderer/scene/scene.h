@@ -171,8 +171,7 @@ struct Scene {
   LightState skyLight;
   std::vector<LightGroup> lightGroups;    // sorted by name, unique
   std::vector<CameraBookmark> bookmarks;  // sorted by slot, unique
-  bool skyIsDefault =
-      false;  // it was put there because the file has no light; then it is not saved
+  bool skyIsDefault = false;              // the file has no light, so this sky was added; not saved
   std::shared_ptr<const SceneSource> source;
 
   const Node* find(NodeId id) const;
