@@ -17,7 +17,7 @@ vec2 sobol2(uint32_t index, uint32_t scramble);
 vec2 sobol2Ordered(uint32_t index, uint32_t scramble);
 
 // Random numbers of one path. Each dimension is a scrambled sequence of its own over the samples of
-// the pixel (padding); dimensions are drawn one after the other. The numbers depend only on (pixel,
+// the pixel (padding); dimensions are drawn in order. The numbers depend only on (pixel,
 // sample, dimension, seed).
 class PathSampler {
  public:

@@ -51,7 +51,7 @@ class MoverShadows {
   struct Mover {
     Caster caster;
     BoxBatches groups;
-    size_t firstHint = 0;  // of all movers' hints one after the other
+    size_t firstHint = 0;  // the hints of all movers are numbered consecutively
   };
   // Searches more only for some lights in each step: most results with too little slack never get
   // enough.

@@ -36,7 +36,7 @@ const char* mimeType(const std::vector<uint8_t>& bytes) {
   return "image/png";
 }
 
-// The buffer files that belong only to the file at `path`, which is about to be replaced.
+// The buffer URIs of the file at `path`, which is about to be replaced.
 std::set<std::string> bufferNames(const fs::path& path) {
   std::set<std::string> names;
   try {

@@ -299,7 +299,7 @@ class NodeSaver {
       if (s == shown) {
         nodes = std::move(roots);
       } else if (scenes[s].contains("nodes")) {
-        // A root of this scene may have become a child in another one.
+        // A root of this other scene may have become a child of a saved node.
         for (const Json& root : remapped(scenes[s]["nodes"], map_)) {
           if (!isChild[root.get<size_t>()]) nodes.push_back(root);
         }
