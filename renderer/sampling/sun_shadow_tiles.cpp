@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kLeastSide = 0.25f;  // metres; finer shadows do not justify a map
 constexpr uint32_t kLastCode =
-    1u << 28;  // of those that are quartered: what follows has a code too
+    1u << 28;  // largest code of a tile that may be divided; the codes of its quarters fit, too
 // Number of visible points to test. Points in shadow have a lower weight than lit ones: shadow
 // borders are among lit points, but a coarse map may leak light into the shadow.
 constexpr int kSeenPoints = 1024;

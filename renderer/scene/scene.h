@@ -106,10 +106,9 @@ struct PunctualLight {
   vec3 intensity{1.0f};    // color × intensity: W/sr for point and spot, W/m² for directional
   float range = 0.0f;      // metres, 0: infinite
   float innerCone = 0.0f;  // radians, spot
-  float outerCone = 0.78539816339f;  // Point and spot: measured angular distribution that replaces
-                                     // the uniform one or the cones. `intensity` is then the value
-                                     // in the brightest direction. Null: none.
-  // in its brightest direction. Null: none.
+  float outerCone = 0.78539816339f;  // radians, spot
+  // Point and spot: measured angular distribution that replaces the uniform one or the cones.
+  // `intensity` is then the value in the brightest direction. Null: none.
   std::shared_ptr<const IesProfile> profile;
   bool operator==(const PunctualLight& other) const;  // compares the content of profiles
 };

@@ -53,8 +53,8 @@ class MoverShadows {
     BoxBatches groups;
     size_t firstHint = 0;  // the hints of all movers are numbered consecutively
   };
-  // Searches more only for some lights in each step: most results with too little slack never get
-  // enough.
+  // Whether to search for a box with more depth in this step. Only some lights do in each step,
+  // because most lights without a box of enough depth never find one.
   bool looksFurther(size_t slot) const { return (slot + turn_) % kTurns == 0; }
 
   static constexpr size_t kTurns = 4;

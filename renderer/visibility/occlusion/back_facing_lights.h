@@ -9,7 +9,7 @@ namespace lamplighter {
 
 struct BackFacingLights {
   LightPacket::Mask dark = 0;
-  LightPacket::Mask degenerate = 0;  // only lights that are not dark
+  LightPacket::Mask degenerate = 0;  // bit i: light i; only lights that are not dark
 
   BackFacingLights(const LightPacket& lights, const PatchRegion& region);
 };
