@@ -44,7 +44,7 @@ struct SceneVpl {
 
 struct VplCounts {
   int total = 300;
-  float directShare = 0.5f;  // 1 if there are no bounces
+  float directShare = 0.5f;  // ignored without bounces: then all are direct
   int bounces = 2;
   uint32_t seed = 1;
   // 0: the set that is shown live. Batches 1, 2, … of the same counts continue sequences of their

@@ -13,8 +13,8 @@ struct Scene;
 
 struct LightState {
   bool on = true;
-  bool solo = false;                 // while any light or group is solo, all others are dark
-  std::string group;                 // name of a LightGroup, or empty
+  bool solo = false;  // while any light or group is solo, those that are not are dark
+  std::string group;  // name of a LightGroup, or empty
   std::vector<NodeId> leftOut = {};  // sorted; objects that get none of its light (light_linking.h)
 
   bool operator==(const LightState&) const = default;

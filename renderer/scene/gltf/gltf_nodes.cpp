@@ -11,7 +11,7 @@ namespace {
 bool isReasonable(const mat4& m) {
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) {
-      if (!(std::abs(m[c][r]) <= 1e9f)) return false;  // also false for NaN
+      if (!(std::abs(m[c][r]) <= 1e9f)) return false;  // also for NaN
     }
   }
   return true;
