@@ -20,23 +20,23 @@ bool isBaked(const RenderScene& scene, const RenderObject& o) {
   return !o.isAreaLight && !scene.materials[static_cast<size_t>(o.material)].isClear();
 }
 
-// A node's charts, on their way to a page.
+// The charts of one node, before they are placed on a page.
 struct Group {
   NodeId node = kNoNode;
   std::vector<PlacedChart> charts;
-  float area = 0.0f;  // of their boxes [m²]
+  float area = 0.0f;  // total area of their bounding rectangles [m²]
 };
 
 void setDensity(Group& group, float texelsPerMetre) {
   for (PlacedChart& c : group.charts) {
     c.texelsPerMetre = texelsPerMetre;
-    // Whole texels, and one more where a chart ends just beyond: at least one.
+    // Rounds up to whole texels, with a tolerance; at least one.
     const vec2 texels = glm::ceil(texelsPerMetre * c.chart.extent() - 1e-3f);
     c.size = glm::ivec2(glm::max(texels, vec2(1.0f))) + 2 * kGutter;
   }
 }
 
-// On this page, which is left as it is where they do not all fit. Tall ones first.
+// Places the charts on the page, tall ones first. If they do not all fit, the page is unchanged.
 bool place(Group& group, Skyline& page, int number) {
   Skyline tried = page;
   std::vector<size_t> order(group.charts.size());

@@ -1,4 +1,4 @@
-// Where the light map of each part of a scene lies: pages of charts.
+// Light map atlas: the position of each chart of a scene on pages.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,20 @@ namespace lamplighter {
 
 struct AtlasOptions {
   float texelsPerMetre = 8.0f;
-  int pageSize = 1024;  // texels a side
+  int pageSize = 1024;  // texels per side
 };
-// Texels around each chart that belong to it, so that filters do not reach its neighbours.
+// Width of the border around each chart [texels]. It belongs to the chart, so that filters do not
+// read neighbouring charts.
 inline constexpr int kGutter = 2;
 
 struct PlacedChart {
   BakeChart chart;
   int page = 0;
-  glm::ivec2 at{0}, size{0};  // on the page, gutter included [texels]
+  glm::ivec2 at{0}, size{0};  // on the page, including the gutter [texels]
   float texelsPerMetre = 1.0f;
 
-  // A point of the chart on the page; the centre of texel (0, 0) is at (0.5, 0.5). Row 0 is the
-  // top, as in images.
+  // Projects a point of the chart to the page [texels]. The centre of texel (0, 0) is (0.5, 0.5).
+  // Row 0 is the top row, as in images.
   vec2 texelsOf(const vec3& p) const {
     return vec2(at + kGutter) + texelsPerMetre * (chart.project(p) - chart.min);
   }
@@ -29,17 +30,17 @@ struct PlacedChart {
 
 struct LightMapAtlas {
   int pageSize = 0, pages = 0;
-  std::vector<PlacedChart> charts;  // by object
+  std::vector<PlacedChart> charts;  // ordered by object
   struct Coarser {
     NodeId node = kNoNode;
     float texelsPerMetre = 0.0f;
   };
-  std::vector<Coarser> coarser;  // nodes of which a page holds no more
+  std::vector<Coarser> coarser;  // nodes with reduced resolution, because a page cannot hold more
 };
 
-// All charts of a node are on one page; what would not fit on an empty one is made coarser. Light
-// maps are for the surfaces of meshes: not for area lights, nor for panes that light passes.
-// Throws InputError when a node's charts fit on no page however coarse they are.
+// Puts all charts of a node on one page. If they do not fit on an empty page, their resolution is
+// reduced. Only surfaces of meshes get light maps: area lights and transparent panes do not. Throws
+// InputError if the charts of a node fit on no page at any resolution.
 LightMapAtlas makeAtlas(const RenderScene& scene, const AtlasOptions& options);
 
 }  // namespace lamplighter

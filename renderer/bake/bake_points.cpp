@@ -6,11 +6,11 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kQuarters = 2;  // along a side of a texel
-// As far beyond its chart a texel is wanted [quarters].
+constexpr int kQuarters = 2;  // per side of a texel
+// Largest distance from its chart at which a texel still gets a value [quarters].
 constexpr float kReach = kQuarters * (kGutter + 1);
-// Points on an edge move inwards by this share of the triangle, or their rays might start in the
-// wall that stands there.
+// Points on an edge are moved inwards by this fraction of the triangle; otherwise their rays might
+// start inside an adjacent wall.
 constexpr float kFromEdges = 1e-3f;
 
 struct Nearest {
@@ -19,8 +19,7 @@ struct Nearest {
   float u = 0.0f, v = 0.0f;
 };
 
-// Weights of the second and third corner at the point of the triangle that is nearest to p: within
-// it, or else on one of its edges.
+// Barycentric weights of the second and third vertex at the point of the triangle nearest to p.
 Nearest nearestOf(const std::array<vec2, 3>& t, const vec2& p, uint32_t triangle) {
   const auto cross = [](const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; };
   const float area = cross(t[1] - t[0], t[2] - t[0]);
@@ -42,7 +41,7 @@ Nearest nearestOf(const std::array<vec2, 3>& t, const vec2& p, uint32_t triangle
   return best;
 }
 
-// The nearest points of one chart to all quarters of its texels, gutter included.
+// The points of one chart that are nearest to each quarter of its texels, including the gutter.
 std::vector<Nearest> nearestPoints(const RenderScene& scene, const PlacedChart& placed) {
   const glm::ivec2 size = kQuarters * placed.size;
   std::vector<Nearest> nearest(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));

@@ -12,7 +12,7 @@
 namespace lamplighter {
 namespace {
 
-// Rays that look whether a point lies inside of something: then most of them meet back faces.
+// Number of rays for testing whether a point is inside an object: then most of them hit back faces.
 constexpr uint32_t kInsideRays = 16;
 constexpr uint32_t kInsideSet = 0x7d;
 
@@ -21,7 +21,7 @@ constexpr uint32_t kInsideSet = 0x7d;
 BakedLight::BakedLight(const RenderScene& scene, const RayCaster& rays,
                        const BakeLightOptions& options)
     : scene_(scene), rays_(rays), options_(options), lights_(scene) {
-  // Suns stay whole: rays need no maps.
+  // Suns are not divided into tiles, because rays need no shadow maps.
   if (!options.reference) vpls_ = LightPaths::generate(scene, rays, lights_, options.counts).vpls;
 }
 
@@ -37,7 +37,7 @@ vec3 BakedLight::irradiance(std::span<const BakePoint> points, uint32_t texel) c
     for (const ReceivingPlace& at : places) sum += ofSamples(at);
     return sum / static_cast<float>(places.size());
   }
-  // Paths take turns among the points.
+  // Paths are distributed over the points in turn.
   for (uint32_t i = 0; i < static_cast<uint32_t>(options_.samples); ++i) {
     sum += traceIrradiance(scene_, rays_, lights_, places[i % places.size()], texel, i,
                            options_.paths);
@@ -64,7 +64,7 @@ bool BakedLight::isBuried(const ReceivingPlace& at, uint32_t texel) const {
   for (uint32_t i = 0; i < kInsideRays; ++i) {
     const vec3 direction = frame.toWorld(sampleCosineHemisphere(sobol2(i, scramble)));
     const Hit hit = rays_.intersect({from, 0.0f, direction});
-    // What has two sides, such as a curtain, has no inside.
+    // Double-sided surfaces such as a curtain have no inside.
     if (!hit || !scene_.backIsUnseen(hit.object)) continue;
     const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
     inside += glm::dot(s.geometricNormal, direction) > 0.0f;

@@ -1,5 +1,5 @@
-// The irradiance at points of surfaces: of the settled light samples with exact shadows, or of the
-// path-traced reference.
+// Irradiance at surface points: from the settled VPLs with exact shadows, or from the path-traced
+// reference.
 #pragma once
 
 #include <span>
@@ -15,18 +15,19 @@ namespace lamplighter {
 struct BakeLightOptions {
   bool reference = false;
   VplCounts counts;            // settled
-  float clampDistance = 0.5f;  // settled: bounds 1/d² of light samples [m]
+  float clampDistance = 0.5f;  // settled: bound on 1/d² of a VPL [m]
   PathTracerOptions paths;     // reference
-  int samples = 64;            // reference: paths a texel
+  int samples = 64;            // reference: paths per texel
 };
 
 class BakedLight {
  public:
   BakedLight(const RenderScene& scene, const RayCaster& rays, const BakeLightOptions& options);
 
-  // The mean irradiance [W/m²] over the points of one texel, without the normal map: that is finer
-  // than texels. Points inside of another object do not count; negative where all are: then nothing
-  // is known. `texel` numbers it among all texels. A function of its arguments alone.
+  // Mean irradiance [W/m²] over the points of one texel. Ignores the normal map, which is finer
+  // than texels. Points inside other objects do not count. If all points are inside, the result is
+  // negative, which means unknown. `texel` is the index among all texels. The result depends only
+  // on the arguments.
   vec3 irradiance(std::span<const BakePoint> points, uint32_t texel) const;
 
  private:

@@ -1,12 +1,12 @@
-// Fills the texels of a light map of which nothing is known, so that filters find light there.
+// Fills the unknown texels of a light map, so that filters read plausible light there.
 #pragma once
 
 #include "renderer/image/image.h"
 
 namespace lamplighter {
 
-// Negative texels take the mean of their neighbours that are known, ring by ring; far from all
-// they become 0.
+// Gives each negative (unknown) texel the mean of its known neighbours, ring by ring. Texels far
+// from all known ones become 0.
 void fillUnknown(Image& page);
 
 }  // namespace lamplighter

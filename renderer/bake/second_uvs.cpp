@@ -21,7 +21,7 @@ void copyVertex(std::vector<T>& to, const std::vector<T>& from, uint32_t vertex)
   if (!from.empty()) to.push_back(from[vertex]);
 }
 
-// `charts`: of this primitive, as object `o` of the rendered scene.
+// `charts`: those of this primitive, which is object `o` of the rendered scene.
 Primitive withUvs(const Primitive& p, const RenderScene& render, const RenderObject& o,
                   const std::vector<const PlacedChart*>& charts, int pageSize) {
   std::vector<const PlacedChart*> chartOf(o.triangleCount(), nullptr);
@@ -58,7 +58,7 @@ Scene withLightMapUvs(const Scene& scene, const RenderScene& render, const Light
   std::map<uint32_t, std::vector<const PlacedChart*>> byObject;
   for (const PlacedChart& c : atlas.charts) byObject[c.chart.object].push_back(&c);
   Scene out = scene;
-  std::set<int> replaced;  // meshes of the scene whose place another has taken
+  std::set<int> replaced;  // meshes of the scene that were already replaced
   uint32_t object = 0;
   for (Node& node : out.nodes) {
     std::shared_ptr<Mesh> mesh;

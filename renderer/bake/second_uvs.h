@@ -1,14 +1,15 @@
-// A scene whose meshes carry the places of their light maps.
+// Adds light map coordinates to the meshes of a scene.
 #pragma once
 
 #include "renderer/bake/atlas.h"
 
 namespace lamplighter {
 
-// A copy in which each node with light maps has a mesh of its own, its second UV set on the page
-// [0, 1]², (0, 0) the upper left as in glTF; vertices between charts are doubled. The mesh's name
-// ends in " (light map N)", N its page. `render`: of this scene. Throws InputError where a material
-// uses the second UV set already.
+// Returns a copy in which each node with light maps has its own mesh. The second UV set of that
+// mesh is the position on the page in [0, 1]², with (0, 0) at the upper left as in glTF. Vertices
+// shared by several charts are duplicated. The mesh name gets the suffix " (light map N)" with N
+// the page. `render` must be made from `scene`. Throws InputError if a material already uses the
+// second UV set.
 Scene withLightMapUvs(const Scene& scene, const RenderScene& render, const LightMapAtlas& atlas);
 
 }  // namespace lamplighter

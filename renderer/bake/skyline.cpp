@@ -15,7 +15,7 @@ std::optional<glm::ivec2> Skyline::place(glm::ivec2 size) {
     if (y + size.y <= side_ && (!best || y < best->y)) best = glm::ivec2(spans_[i].x, y);
   }
   if (!best) return best;
-  // The new span, with what is left of those that it covers.
+  // Inserts the new span and keeps the uncovered parts of the spans below it.
   std::vector<Span> next;
   const int end = best->x + size.x;
   for (const Span& s : spans_) {

@@ -1,5 +1,5 @@
-// Packs rectangles into a page, each as low as it can lie and then as far left (the skyline
-// heuristic: Jylänki, "A Thousand Ways to Pack the Bin", 2010, section 5).
+// Packs rectangles into a page. Each is placed as low as possible, then as far left as possible
+// (the skyline heuristic: Jylänki, "A Thousand Ways to Pack the Bin", 2010, section 5).
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@ class Skyline {
  public:
   explicit Skyline(int side) : side_(side), spans_{{0, 0, side}} {}
 
-  // Where the rectangle's corner nearest the origin lies; nothing, and no change, where it does not
-  // fit.
+  // Returns the corner of the rectangle that is nearest the origin. If the rectangle does not fit,
+  // returns nothing and changes nothing.
   std::optional<glm::ivec2> place(glm::ivec2 size);
 
  private:
   struct Span {
-    int x, y, width;  // from x on everything below y is taken
+    int x, y, width;  // from x on, everything below y is occupied
   };
   int side_;
-  std::vector<Span> spans_;  // side by side
+  std::vector<Span> spans_;  // adjacent, ordered by x
 };
 
 }  // namespace lamplighter

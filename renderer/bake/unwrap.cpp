@@ -12,25 +12,25 @@
 namespace lamplighter {
 namespace {
 
-// Cells a side at most of the grid that overlaps are looked for on.
+// Largest number of cells per side of the grid for overlap tests.
 constexpr float kMostCellsOfChart = 1024.0f;
-// Edges that are tried for the chart's axes.
+// Number of edges that are tried as axes of the chart.
 constexpr size_t kMostEdges = 24;
-// A cell's centre is within a triangle when it is so by this share of it: triangles that share an
-// edge do not overlap.
+// A cell's centre counts as covered if it is inside the triangle by this fraction, so triangles
+// that share an edge do not overlap.
 constexpr float kInside = 1e-4f;
 
 struct Triangles {
   std::vector<std::array<vec3, 3>> corners;
-  std::vector<vec3> normals;  // unit; zero where there is no area
+  std::vector<vec3> normals;  // unit; zero if the triangle has no area
   std::vector<float> areas;
-  std::vector<std::vector<uint32_t>> neighbours;  // across an edge
+  std::vector<std::vector<uint32_t>> neighbours;  // triangles across an edge
 };
 
 Triangles trianglesOf(const RenderScene& scene, const RenderObject& object) {
   Triangles t;
   const uint32_t count = object.triangleCount();
-  // Vertices at one place are one, whatever else they carry.
+  // Welds vertices at equal positions, independent of other attributes.
   const auto byPlace = [](const vec3& a, const vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
   };
@@ -52,7 +52,8 @@ Triangles trianglesOf(const RenderScene& scene, const RenderObject& object) {
     if (!(twice > 0.0f)) continue;
     for (uint32_t k = 0; k < 3; ++k) edges[std::minmax(place[k], place[(k + 1) % 3])].push_back(i);
   }
-  // Where more than two meet, each is the neighbour of the next: a file may let thousands meet.
+  // If more than two triangles share an edge, each is connected only to the next: a file may
+  // contain thousands.
   for (const auto& [edge, users] : edges) {
     for (size_t i = 1; i < users.size(); ++i) {
       t.neighbours[users[i - 1]].push_back(users[i]);
@@ -62,12 +63,13 @@ Triangles trianglesOf(const RenderScene& scene, const RenderObject& object) {
   return t;
 }
 
-// Which cells of a chart's plane are taken.
+// The occupied cells of a chart's plane.
 class Grid {
  public:
   Grid(const BakeChart& chart, float cellsPerMetre) : chart_(chart), cells_(cellsPerMetre) {}
 
-  // Takes the cells whose centres the triangle covers, unless one of them is taken already.
+  // Occupies the cells whose centres the triangle covers. Does nothing and returns false if one is
+  // occupied.
   bool take(const std::array<vec3, 3>& corners) {
     std::array<vec2, 3> p;
     for (size_t k = 0; k < 3; ++k) p[k] = cells_ * chart_.project(corners[k]);
@@ -96,10 +98,11 @@ class Grid {
   static float cross(const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; }
   const BakeChart& chart_;
   float cells_;
-  std::unordered_set<uint64_t> taken_;  // y, x of each
+  std::unordered_set<uint64_t> taken_;  // y and x of each cell
 };
 
-// Turns the chart in its plane so that its first axis runs along `direction`, and finds its box.
+// Rotates the chart in its plane so that its first axis is along `direction`, and computes its
+// bounds.
 void turn(BakeChart& chart, const vec3& direction, const Triangles& t) {
   const vec3 along = direction - glm::dot(direction, chart.normal) * chart.normal;
   chart.tangent = glm::normalize(along);
@@ -114,7 +117,8 @@ void turn(BakeChart& chart, const vec3& direction, const Triangles& t) {
   }
 }
 
-// The smallest box about a polygon lies along one of its edges: the longest ones are tried.
+// The smallest rectangle around a polygon is aligned with one of its edges: tries the longest
+// edges.
 void turnToSmallestBox(BakeChart& chart, const Triangles& t) {
   std::vector<vec3> edges;
   for (const uint32_t i : chart.triangles)
@@ -159,7 +163,7 @@ std::vector<BakeChart> unwrap(const RenderScene& scene, uint32_t object, float c
     chart.tangent = frame.tangent;
     chart.bitangent = frame.bitangent;
     Grid grid(chart, cells);
-    // Neighbours in the order in which they are found; what overlaps is left for another chart.
+    // Adds neighbours in breadth-first order; triangles that overlap are left for another chart.
     std::deque<uint32_t> open{seed};
     std::set<uint32_t> seen{seed};
     while (!open.empty()) {

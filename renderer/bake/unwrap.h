@@ -1,7 +1,7 @@
-// Cuts an object into charts that lie flat on a plane each, so that light maps have a place on it
-// (the segmentation and parametrisation step of Lévy et al., "Least Squares Conformal Maps for
-// Automatic Texture Atlas Generation", SIGGRAPH 2002, with a projection in the place of the
-// conformal map: charts bend by no more than kMostBend, so that it stretches little).
+// Segments an object into charts for light maps and projects each chart onto a plane (the
+// segmentation and parametrisation step of Lévy et al., "Least Squares Conformal Maps for Automatic
+// Texture Atlas Generation", SIGGRAPH 2002, but with a projection instead of the conformal map:
+// charts bend by at most kMostBend, so the distortion is small).
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,23 @@
 
 namespace lamplighter {
 
-// Connected triangles that do not overlap in their plane.
+// Connected triangles that do not overlap when projected onto the chart's plane.
 struct BakeChart {
   uint32_t object = 0;                                         // index into RenderScene::objects
   std::vector<uint32_t> triangles;                             // within the object, ascending
   vec3 tangent{1, 0, 0}, bitangent{0, 1, 0}, normal{0, 0, 1};  // unit, right-handed, world space
-  vec2 min{0.0f}, max{0.0f};  // what it covers along tangent and bitangent [m]
+  vec2 min{0.0f}, max{0.0f};  // bounds along tangent and bitangent [m]
 
   vec2 project(const vec3& p) const { return {glm::dot(p, tangent), glm::dot(p, bitangent)}; }
   vec2 extent() const { return max - min; }
 };
 
-// Triangles are turned from their chart's plane by no more than this: lengths across the bend are
-// at least 0.77 of what they are in space.
+// Largest angle between a triangle and the plane of its chart. Projected lengths across the bend
+// are at least 0.77 of the true lengths.
 inline constexpr float kMostBend = 40.0f * kPi / 180.0f;
 
-// Every triangle of the object that has an area is in one chart. Overlaps are looked for on a grid
-// of so many cells a metre. Deterministic.
+// Puts each triangle with non-zero area into exactly one chart. Overlaps are found on a grid with
+// `cellsPerMetre` cells per metre. Deterministic.
 std::vector<BakeChart> unwrap(const RenderScene& scene, uint32_t object, float cellsPerMetre);
 
 }  // namespace lamplighter

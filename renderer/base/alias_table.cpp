@@ -11,7 +11,7 @@ AliasTable::AliasTable(std::span<const float> weights) {
   if (!(sum > 0.0) || !std::isfinite(sum)) return;
 
   bins_.resize(weights.size());
-  // Each entry's share of n bins; the poor are filled up by the rich (Vose).
+  // Each entry's share of n bins; small shares are filled up by large ones (Vose).
   std::vector<double> share(weights.size());
   std::vector<uint32_t> poor, rich;
   for (uint32_t i = 0; i < weights.size(); ++i) {
@@ -31,13 +31,13 @@ AliasTable::AliasTable(std::span<const float> weights) {
       poor.push_back(r);
     }
   }
-  for (const auto* rest : {&poor, &rich}) {  // one each, but for rounding
+  for (const auto* rest : {&poor, &rich}) {  // exactly 1, except for rounding errors
     for (const uint32_t i : *rest) {
       bins_[i].q = 1.0f;
       bins_[i].alias = i;
     }
   }
-  // Rounding must not let an entry of weight zero be drawn.
+  // Because of rounding errors, an entry of weight zero could be sampled; prevent that.
   const auto heaviest =
       static_cast<uint32_t>(std::max_element(weights.begin(), weights.end()) - weights.begin());
   for (uint32_t i = 0; i < bins_.size(); ++i) {

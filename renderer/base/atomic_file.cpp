@@ -64,7 +64,7 @@ PendingFile::~PendingFile() {
 
 void PendingFile::putInPlace() {
   std::error_code error;
-  // What is there now can be had back until the last of several files is in its place.
+  // Keeps a backup of the old file until the last of several files is in place.
   if (fs::exists(target_, error)) {
     const fs::path backup = temporary_.string() + ".old";
     fs::create_hard_link(target_, backup, error);
@@ -80,7 +80,8 @@ void PendingFile::putInPlace() {
   if (error) cannotWrite(target_, error.message());
   temporary_.clear();
   isInPlace_ = true;
-  // The new name, too, is there after a power failure; some file systems cannot say so.
+  // Flushes the folder, so that the new name survives a power failure; some file systems do not
+  // support this, so errors are ignored.
   const int folder = ::open(folderOf(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
   if (::fsync(folder) != 0) errno = 0;
@@ -106,8 +107,8 @@ void PendingFile::writeAll(int descriptor, std::span<const uint8_t> bytes) const
     if (written <= 0) cannotWrite(target_, std::strerror(written < 0 ? errno : ENOSPC));
     done += static_cast<size_t>(written);
   }
-  // Temporary files are private; this one becomes an ordinary file. umask() can only be read by
-  // setting it, so what is replaced, or else the usual, is taken.
+  // Temporary files are private; this one needs ordinary permissions. umask() can only be read by
+  // setting it, so the permissions of the replaced file are used, or else the usual ones.
   struct stat old {};
   const bool replaces = ::stat(target_.c_str(), &old) == 0;
   const mode_t mode = replaces ? old.st_mode & 0777 : 0644;

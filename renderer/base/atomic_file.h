@@ -1,4 +1,4 @@
-// Files that are there as a whole or not at all.
+// Writes files atomically: afterwards a file is either complete or unchanged.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace lamplighter {
 
-// A file in the making, under another name beside its place: on the disk once it is made, in its
-// place once it is put there, gone if it is not. Errors are InputError with what was there as it
-// was.
+// A file that is written in two steps. The constructor writes it under a temporary name in the same
+// folder; putInPlace() renames it to the target. The destructor deletes the temporary file if that
+// did not happen. Errors throw InputError and leave the previous file as it was.
 class PendingFile {
  public:
-  // Refuses to replace what is no regular file or is write-protected.
+  // Refuses to replace a target that is not a regular file or is write-protected.
   PendingFile(const std::filesystem::path& target, std::span<const uint8_t> bytes);
   PendingFile(PendingFile&& other) noexcept;
   PendingFile& operator=(PendingFile&&) = delete;
   ~PendingFile();
 
   void putInPlace();
-  void undo();  // what was replaced is there again, as long as this object is
+  void undo();  // restores the replaced file; possible while this object exists
 
  private:
   void writeAll(int descriptor, std::span<const uint8_t> bytes) const;
@@ -30,7 +30,7 @@ class PendingFile {
   bool isInPlace_ = false;
 };
 
-// One file at once.
+// Writes one file atomically.
 void writeWhole(const std::filesystem::path& target, std::span<const uint8_t> bytes);
 
 }  // namespace lamplighter

@@ -1,12 +1,12 @@
-// Where the files are that the program reads besides its user's: shaders and assets.
+// The folder of the program's own files: shaders and assets.
 #pragma once
 
 #include <filesystem>
 
 namespace lamplighter {
 
-// share/lamplighter beside the folder of the running program, where the program was installed, and
-// wherever that was moved; else the folder of the sources that it was built from.
+// An installed program, also one that was moved, uses share/lamplighter beside the folder of its
+// executable. Otherwise this is the source folder that the program was built from.
 std::filesystem::path dataFolder();
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// The one exception for bad input and bad use. main() prints `error: ` and what() and exits with 2.
+// The exception for bad input and wrong use. main() prints `error: ` and what(), and exits with 2.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// JSON from outside.
+// Parsing of untrusted JSON.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +6,11 @@
 
 namespace lamplighter {
 
-// The JSON library copies and writes values recursively: a file of nothing but brackets would run
-// over the stack. The depth has to be bounded before it sees the text.
+// The JSON library copies and writes values recursively, so deep nesting would overflow the stack.
+// The depth is checked before the library sees the text.
 inline constexpr size_t kDeepestJson = 200;
 
-// How deep arrays and objects nest.
+// Depth of nested arrays and objects.
 inline size_t nestingDepth(std::string_view text) {
   size_t depth = 0, deepest = 0;
   bool inString = false;
@@ -30,7 +30,7 @@ inline size_t nestingDepth(std::string_view text) {
   return deepest;
 }
 
-// Discarded (is_discarded()) where the text is no JSON, or nests too deep.
+// Returns a discarded value (is_discarded()) if the text is not JSON or nests too deeply.
 template <class Json>
 Json parseJson(std::string_view text) {
   if (nestingDepth(text) > kDeepestJson) return Json(Json::value_t::discarded);

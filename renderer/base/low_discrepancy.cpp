@@ -13,9 +13,9 @@ uint32_t reverseBits(uint32_t x) {
   return __builtin_bswap32(x);
 }
 
-// Owen scrambling as a hash in which every bit depends on the lower bits only, on reversed bits;
-// the permutation of Laine and Karras with the constants found by N. Vegdahl (2021). Takes the
-// reversed bits and gives the number.
+// Owen scrambling as a hash on reversed bits, in which every bit depends only on the lower bits:
+// the permutation of Laine and Karras with the constants by N. Vegdahl (2021). Takes the reversed
+// bits and returns the number.
 uint32_t owenScrambleReversed(uint32_t x, uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -29,10 +29,10 @@ uint32_t owenScramble(uint32_t x, uint32_t seed) {
   return owenScrambleReversed(reverseBits(x), seed);
 }
 
-// The second Sobol dimension, its bits reversed. Column k of its generator matrix, that of the
-// primitive polynomial x + 1, has a bit j where the binomial coefficient (k over j) is odd, which
-// is where j's bits are among k's (Lucas): bit j is the sum of the index's bits k of which it is
-// so, added up over one binary digit of their places at a time.
+// The second Sobol dimension, with reversed bits. Column k of its generator matrix (primitive
+// polynomial x + 1) has bit j set if the binomial coefficient (k over j) is odd, that is, if the
+// bits of j are a subset of those of k (Lucas). So bit j is the sum of the index's bits k with that
+// property. It is computed in log steps, one per binary digit of the bit positions.
 uint32_t sobolSecondReversed(uint32_t index) {
   index ^= index >> 1 & 0x55555555u;
   index ^= index >> 2 & 0x33333333u;

@@ -1,4 +1,4 @@
-// Low-discrepancy points, stateless: a function of index and scramble.
+// Stateless low-discrepancy points: functions of index and scramble.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,13 @@ namespace lamplighter {
 // aligned power of two of consecutive indices is a (0, 2)-net; prefixes of a sequence are stable.
 vec2 sobol2(uint32_t index, uint32_t scramble);
 
-// The same without the shuffle of indices: neighbouring counts share their first points, so that a
-// set that grows keeps what it had.
+// The same without shuffling the indices: sets of different size share their first points, so a set
+// that grows keeps its points.
 vec2 sobol2Ordered(uint32_t index, uint32_t scramble);
 
-// Random numbers of one path: dimensions drawn one after the other, each its own scrambled sequence
-// over the samples of the pixel (padding), a function of (pixel, sample, dimension, seed) alone.
+// Random numbers of one path. Each dimension is a scrambled sequence of its own over the samples of
+// the pixel (padding); dimensions are drawn in order. The numbers depend only on (pixel,
+// sample, dimension, seed).
 class PathSampler {
  public:
   PathSampler(uint32_t pixel, uint32_t sample, uint32_t seed)

@@ -1,4 +1,4 @@
-// The vector types that all layers use, and axis-aligned bounds. Right-handed, Y up, metres.
+// Vector types of all layers, and axis-aligned bounds. Right-handed, Y up, metres.
 #pragma once
 
 #include <cmath>
@@ -19,7 +19,7 @@ using glm::vec4;
 
 inline constexpr float kPi = 3.14159265358979323846f;
 
-// Of a linear colour in Rec. 709 primaries.
+// Luminance of a linear colour with Rec. 709 primaries.
 inline float luminance(const vec3& c) { return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 // An axis-aligned box; empty (min > max) until a point is added.

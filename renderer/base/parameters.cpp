@@ -12,7 +12,7 @@ namespace lamplighter {
 
 namespace {
 
-// As a message of one line may hold it, whatever a file or a caller gave.
+// Makes any text from a file or caller fit into a one-line message.
 std::string shown(std::string_view text) {
   constexpr size_t kLongest = 60;
   std::string out(text.substr(0, kLongest));
@@ -78,7 +78,7 @@ std::string Settings::format(const ParameterValue& value) {
     std::string operator()(int v) const { return fmt::format("{}", v); }
     std::string operator()(float v) const {
       return fmt::format("{}", v);
-    }  // shortest that reads back
+    }  // shortest text that gives the same value
     std::string operator()(const std::string& v) const { return v; }
   };
   return std::visit(Visitor(), value);

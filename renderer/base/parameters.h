@@ -1,4 +1,5 @@
-// Parameters as data: declared once, and panel, command line, recordings and docs follow.
+// Parameters as data: each is declared once; panel, command line, recordings and docs use that
+// declaration.
 #pragma once
 
 #include <map>
@@ -11,7 +12,7 @@ namespace lamplighter {
 
 using ParameterValue = std::variant<bool, int, float, std::string>;
 
-// What a parameter is about: panels show those of a group together, in this order.
+// Panels show the parameters of a group together, in this order.
 enum class ParameterGroup { lightSamples, budgets, quality, technique, picture };
 inline constexpr ParameterGroup kParameterGroups[] = {
     ParameterGroup::lightSamples, ParameterGroup::budgets, ParameterGroup::quality,
@@ -30,10 +31,10 @@ struct ParameterSpec {
   ParameterGroup group = ParameterGroup::quality;
 };
 
-// The values of a set of declared parameters. Unset ones have their default.
+// Values of a set of declared parameters. A parameter that is not set has its default value.
 class Settings {
  public:
-  // Throws InputError for a text that is no value in the parameter's range.
+  // Throws InputError if the text is not a value in the parameter's range.
   static ParameterValue parse(const ParameterSpec& spec, std::string_view text);
   static std::string format(const ParameterValue& value);
 

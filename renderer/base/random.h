@@ -1,5 +1,5 @@
-// Stateless random numbers: a function of seed, pixel, sample and dimension, so that the order of
-// threads cannot matter.
+// Stateless random numbers: functions of seed, pixel, sample and dimension. The result does not
+// depend on the order of threads.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace lamplighter {
 
-// A 32-bit hash with full avalanche of a 4-word key: PCG4D of Jarzynski and Olano, "Hash Functions
-// for GPU Rendering", JCGT 9(3), 2020; the first word of its result.
+// A 32-bit hash of four words with full avalanche: the first word of PCG4D (Jarzynski and Olano,
+// "Hash Functions for GPU Rendering", JCGT 9(3), 2020).
 inline uint32_t hash4(uint32_t x, uint32_t y, uint32_t z, uint32_t w) {
   x = x * 1664525u + 1013904223u;
   y = y * 1664525u + 1013904223u;
@@ -33,14 +33,13 @@ inline uint32_t hash4(uint32_t x, uint32_t y, uint32_t z, uint32_t w) {
 // Uniform in [0, 1), 24 bits.
 inline float toUnitFloat(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
 
-// Base-2 radical inverse with Owen scrambling by hash (Burley, "Practical Hash-based Owen
-// Scrambling", JCGT 9(4), 2020), and the second Sobol dimension: see low_discrepancy.h.
+// For low-discrepancy points see low_discrepancy.h.
 
 // Maps the unit square to the unit disk with little distortion (Shirley and Chiu 1997).
 vec2 sampleDisk(vec2 u);
-// A direction about +Z with density cos θ/π.
+// A direction in the hemisphere around +Z with density cos θ/π.
 vec3 sampleCosineHemisphere(vec2 u);
-// A direction with density 1/4π.
+// A direction on the sphere with density 1/4π.
 vec3 sampleSphere(vec2 u);
 
 }  // namespace lamplighter

@@ -1,12 +1,13 @@
-// Which state something is in, for those who keep copies of it.
+// Identifies the state of an object, so that caches can detect changes.
 #pragma once
 
 #include <memory>
 
 namespace lamplighter {
 
-// Equal ones mean that nothing changed, whatever was made, copied or destroyed in between: each
-// state has a token of its own, whose address stays taken while anyone remembers it.
+// Equal revisions mean that nothing changed, even if objects were created, copied or destroyed
+// meanwhile. Each state has its own token; its address is not reused while any Revision refers to
+// it.
 class Revision {
  public:
   void advance() { token_ = std::make_shared<char>(); }

@@ -1,8 +1,8 @@
-// Vectors of floats, or of as many bytes as these are, for whichever kernel needs them; and the one
-// place that includes Highway.
+// Vectors of 8 floats, or of the same number of bytes, for all kernels. This is the only file that
+// includes Highway.
 #pragma once
 
-// x86-64-v3 has no AES instructions, which Highway wants of its AVX2 target unless told otherwise.
+// Highway's AVX2 target expects AES instructions by default; x86-64-v3 does not have them.
 #define HWY_DISABLE_PCLMUL_AES 1
 
 #include <cstdint>
@@ -22,7 +22,7 @@ using Floats8 = hn::Vec<FloatTag>;
 using Ints8 = hn::Vec<hn::FixedTag<int32_t, 8>>;
 inline constexpr FloatTag kTag;
 
-// Places or directions, as many as V has lanes.
+// One position or direction per lane of V.
 template <typename V>
 struct SimdVec3 {
   V x, y, z;
@@ -36,7 +36,7 @@ template <typename V>
 HWY_INLINE SimdVec3<V> operator-(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
-// The bits of glm's, as the next.
+// Bit-equal to glm; so is the next function.
 template <typename V>
 HWY_INLINE SimdVec3<V> cross(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(b.y, a.z)),
@@ -47,13 +47,13 @@ template <typename V>
 HWY_INLINE V dotUnfused(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
-// Quicker, and rounded less.
+// Faster and with less rounding error than dotUnfused().
 template <typename V>
 HWY_INLINE V dotFused(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 
-// A bit for each lane.
+// One bit per lane.
 HWY_INLINE uint32_t bitsOf(hn::Mask<FloatTag> lanes) {
   uint8_t bits[8];
   hn::StoreMaskBits(FloatTag(), lanes, bits);
@@ -67,8 +67,8 @@ HWY_INLINE uint32_t bitsOf(hn::Mask<hn::FixedTag<uint8_t, 32>> lanes) {
   return bits;
 }
 
-// To the nearest, ties to even. This and the next are for what is in range: Highway's own also put
-// right what is not, at twice the cost.
+// Rounds to nearest, ties to even. This function and the next require values in the range of int32;
+// Highway's own functions also handle others, at twice the cost.
 HWY_INLINE Ints8 roundToInts(Floats8 v) {
 #if HWY_TARGET == HWY_AVX2
   return Ints8{_mm256_cvtps_epi32(v.raw)};
@@ -77,7 +77,7 @@ HWY_INLINE Ints8 roundToInts(Floats8 v) {
 #endif
 }
 
-// Towards zero.
+// Rounds towards zero.
 HWY_INLINE Ints8 truncateToInts(Floats8 v) {
 #if HWY_TARGET == HWY_AVX2
   return Ints8{_mm256_cvttps_epi32(v.raw)};

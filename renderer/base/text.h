@@ -1,4 +1,4 @@
-// Texts from outside.
+// Helpers for text from files and users.
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,14 @@
 
 namespace lamplighter {
 
-// ASCII letters as small ones.
+// Converts ASCII letters to lower case.
 inline std::string lowerCase(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
-// Line breaks as spaces, none of them at the end.
+// Replaces line breaks by spaces and removes trailing spaces.
 inline std::string oneLine(std::string text) {
   for (char& c : text) {
     if (c == '\n' || c == '\r') c = ' ';

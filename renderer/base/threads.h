@@ -1,11 +1,11 @@
-// How many threads the parallel parts may use; the results do not depend on it.
+// Limits the number of threads. Results do not depend on it.
 #pragma once
 
 #include <memory>
 
 namespace lamplighter {
 
-// Holds all parallel work to `threads` while it lives; 0: as many as there are cores.
+// Limits all parallel work to `threads` threads during its lifetime; 0: one per core.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

@@ -1,4 +1,4 @@
-// Encoded images in memory to pixels, through OpenImageIO's readers.
+// Decodes encoded images in memory with OpenImageIO's readers.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -17,12 +17,12 @@ namespace lamplighter {
 
 namespace {
 
-// Pixels: 8192 x 8192, the largest size that every graphics driver takes is twice that. A few
-// kilobytes of PNG can ask for any amount of memory.
+// Largest number of pixels: 8192 x 8192; every graphics driver supports twice that side. A limit is
+// necessary, because a few kilobytes of PNG can claim any size.
 constexpr int64_t kMostPixels = int64_t{1} << 26;
 
-// The reader is chosen by the ending of a file name; in memory there is none, so by how the bytes
-// begin. Null for what is unknown.
+// Format by the first bytes; OpenImageIO would use the file extension, which data in memory does
+// not have. Null if unknown.
 const char* formatOf(std::span<const uint8_t> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   using namespace std::string_view_literals;
@@ -40,10 +40,10 @@ const char* formatOf(std::span<const uint8_t> bytes) {
 
 struct Opened {
   std::unique_ptr<OIIO::Filesystem::IOMemReader> memory;
-  std::unique_ptr<OIIO::ImageInput> input;  // destroyed before the memory it reads
+  std::unique_ptr<OIIO::ImageInput> input;  // destroyed before the memory that it reads
 };
 
-// Opens the image and checks its size; `why` is set and the input null when it is none.
+// Opens the image and checks its size. On failure sets `why` and returns a null input.
 Opened open(std::span<const uint8_t> bytes, std::string& why) {
   Opened opened;
   const char* format = formatOf(bytes);
@@ -52,8 +52,8 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
     return opened;
   }
   const std::string name = format;
-  // OpenImageIO makes room for what a GIF says its size is before anyone can ask for that, and glTF
-  // knows none.
+  // OpenImageIO allocates memory for the size that a GIF claims before the size can be checked.
+  // glTF does not allow GIF.
   if (name == "ktx2" || name == "dds" || name == "gif") {
     why = "is a " + name + " picture, which cannot be decoded here; make it a PNG";
     return opened;
@@ -61,12 +61,12 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
   opened.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(
       const_cast<uint8_t*>(bytes.data()), bytes.size());
   OIIO::ImageSpec config;
-  // Alpha is coverage in the file's own terms: colours are not to be multiplied by it.
+  // Do not multiply colours by alpha.
   config.attribute("oiio:UnassociatedAlpha", 1);
   auto input = OIIO::ImageInput::create(name, false, &config, opened.memory.get());
   if (input == nullptr || !input->supports("ioproxy")) {
     why = "is a " + name + " image, which cannot be decoded here";
-    OIIO::geterror();  // else it is kept and reported at exit
+    OIIO::geterror();  // otherwise OpenImageIO keeps the error and prints it at exit
     return opened;
   }
   input->set_ioproxy(opened.memory.get());

@@ -17,7 +17,7 @@ float autoExposureEv(const Image& radiance) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kept - 1),
                    values.end());
   values.resize(kept);
-  std::sort(values.begin(), values.end());  // the sum's order is then the same everywhere
+  std::sort(values.begin(), values.end());  // makes the order of the sum the same everywhere
   double sum = 0.0;
   for (const float y : values) sum += std::log2(static_cast<double>(y));
   const double middle = std::log2(0.18) - sum / static_cast<double>(kept);

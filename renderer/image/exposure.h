@@ -1,14 +1,14 @@
-// An exposure for a picture that nobody has chosen one for.
+// Automatic exposure.
 #pragma once
 
 #include "renderer/image/image.h"
 
 namespace lamplighter {
 
-// The EV at which the picture's middle lies at middle grey (0.18): the log-average of luminance
-// (Reinhard et al. 2002, eq. 1), with the brightest 2% (lamps in view) and black pixels left out;
-// but never so high that more than 15% of the rest are over 1, as in a dark room with white trim.
-// Rounded to a quarter stop, in [-16, 16]; 0 for a black picture.
+// Returns the EV that maps the log-average luminance of the picture (Reinhard et al. 2002, eq. 1)
+// to middle grey (0.18). The brightest 2% of the pixels (visible lamps) and black pixels do not
+// count. The EV is limited so that at most 15% of the counted pixels exceed 1, as could happen in a
+// dark room with white trim. Rounded to a quarter stop, in [-16, 16]; 0 for a black picture.
 float autoExposureEv(const Image& radiance);
 
 }  // namespace lamplighter

@@ -16,7 +16,7 @@ Font::Font(const std::filesystem::path& file, int size, const std::string& wante
     descent_ = letters.yend;
     return;
   }
-  // Only drawing says why.
+  // OpenImageIO reports the reason only when drawing.
   OIIO::ImageBuf probe(OIIO::ImageSpec(8, 8, 4, OIIO::TypeDesc::UINT8));
   OIIO::ImageBufAlgo::render_text(probe, 0, 8, "x", size_, file_);
   throw InputError(wantedBy, "nothing can be written: " + probe.geterror(),
@@ -29,7 +29,7 @@ float Font::width(const std::string& text) const {
 }
 
 void Font::draw(Image8& image, const vec2& at, const std::string& text, const vec3& colour) const {
-  // As four channels without a meaning: an alpha channel would be written into.
+  // Four channels without a meaning: OpenImageIO would draw into an alpha channel.
   OIIO::ImageSpec spec(image.width, image.height, 4, OIIO::TypeDesc::UINT8);
   spec.alpha_channel = -1;
   OIIO::ImageBuf buffer(spec, image.pixels.data());

@@ -1,4 +1,4 @@
-// Text into a picture.
+// Draws text into an image.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@ namespace lamplighter {
 
 class Font {
  public:
-  // size: of the em [px]. Throws InputError, about `wantedBy`, when nothing can be written with
-  // the file.
+  // size: of the em [px]. Throws InputError if the file is not a usable font; `wantedBy` is named
+  // in the message.
   Font(const std::filesystem::path& file, int size, const std::string& wantedBy);
 
   float lineHeight() const { return static_cast<float>(ascent_ + descent_); }
   float width(const std::string& text) const;
-  // at: the upper left corner of the text [px], y down; colour: sRGB. What lies outside of the
-  // picture is cut off.
+  // at: the upper left corner of the text [px], y down; colour: sRGB. Text outside the image is
+  // clipped.
   void draw(Image8& image, const vec2& at, const std::string& text, const vec3& colour) const;
 
  private:

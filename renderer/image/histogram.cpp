@@ -9,7 +9,7 @@
 namespace lamplighter {
 namespace {
 
-// The exposed grey from which on the display shows at least `shown` of 255.
+// The smallest exposed grey that the display shows as at least `shown` of 255.
 float greyShownAs(float shown, ToneMapper mapper) {
   float low = 0.0f, high = 1e4f;
   for (int i = 0; i < 60; ++i) {
@@ -42,7 +42,7 @@ Histogram histogramOf(const Image& radiance, float exposureEv, ToneMapper mapper
       const vec3 p = scale * radiance.at(x, y);
       const float brightest = std::max({p.r, p.g, p.b});
       if (brightest >= white) ++counts.white;
-      if (!(brightest >= black)) ++counts.black;  // no numbers too: they are shown black
+      if (!(brightest >= black)) ++counts.black;  // NaN is displayed as black, too
       const float l = luminance(p);
       const float stops = l > 0.0f ? std::log2(l) : Histogram::kLowest;
       const float at = std::isnan(stops) ? 0.0f : (stops - Histogram::kLowest) * kPerStop;

@@ -1,4 +1,4 @@
-// How often each brightness is in a picture, and how much of it the display cannot show.
+// Luminance histogram of a picture, and the share of pixels that the display cannot show.
 #pragma once
 
 #include <array>
@@ -9,17 +9,18 @@
 namespace lamplighter {
 
 struct Histogram {
-  // Exposed luminance in stops over 1, evenly; what is darker or brighter counts in the first and
-  // last bin.
+  // Bins are uniform in stops relative to an exposed luminance of 1. Values outside the range count
+  // in the first or last bin.
   static constexpr float kLowest = -12.0f, kHighest = 6.0f;
-  static constexpr int kBins = 108;  // a sixth of a stop each
+  static constexpr int kBins = 108;  // each bin is a sixth of a stop
 
   std::array<uint64_t, kBins> bins{};
   uint64_t pixels = 0;
-  // Shares in [0, 1]: of pixels of which a channel is shown as white as can be, and of those of
-  // which all are black. By the curve of grey, which all mappers but agx have for each channel.
+  // Shares of pixels in [0, 1]. white: at least one channel is displayed at its maximum; black: all
+  // channels are displayed as 0. Uses the curve for grey; all tone mappers except agx apply it per
+  // channel.
   float white = 0.0f, black = 0.0f;
-  float median = 0.0f;  // luminance, to a bin [nt]; 0: the picture is black
+  float median = 0.0f;  // median luminance, to the precision of a bin [nt]; 0: the picture is black
 
   uint64_t most() const;
 };

@@ -23,7 +23,7 @@ struct Image {
   bool empty() const { return pixels.empty(); }
 };
 
-// Eight bits a channel, display-referred (sRGB-encoded) or data, as the user of it says. RGBA
+// Eight bits per channel: display-referred (sRGB-encoded) or data, depending on the use. RGBA
 // interleaved, row 0 is the top.
 struct Image8 {
   int width = 0;

@@ -17,8 +17,8 @@ namespace lamplighter {
 
 namespace {
 
-// Encoded in memory, so that what is there stays whole until the new one is, and so that a full
-// disk is found by us: the encoders do not all look.
+// Encodes in memory first. So the old file stays intact until the new one is complete, and a full
+// disk is detected here: not all encoders check for it.
 void writeEncoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
                   OIIO::TypeDesc type, const void* pixels) {
   const auto fail = [&](const std::string& why) {
@@ -27,7 +27,7 @@ void writeEncoded(const std::filesystem::path& path, const OIIO::ImageSpec& spec
   };
   std::vector<unsigned char> bytes;
   OIIO::Filesystem::IOVecOutput memory(bytes);
-  // The format is told by the name's end.
+  // OpenImageIO selects the format by the file extension.
   const auto out = OIIO::ImageOutput::create(path.filename().string());
   if (!out) fail(OIIO::geterror());
   if (!out->supports("ioproxy") || !out->set_ioproxy(&memory) ||
@@ -74,7 +74,7 @@ Image readImage(const std::filesystem::path& path) {
 void writeExr(const Image& image, const std::filesystem::path& path) {
   OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "zip");
-  // Else the time of day would be in it: the same picture is the same file.
+  // A fixed time instead of the time of day, so that equal pictures give equal files.
   spec.attribute("DateTime", "1970:01:01 00:00:00");
   writeEncoded(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
 }

@@ -1,4 +1,4 @@
-// Reading and writing images, through OpenImageIO.
+// Reads and writes images with OpenImageIO.
 #pragma once
 
 #include <filesystem>
@@ -11,24 +11,24 @@
 
 namespace lamplighter {
 
-// Any format that OpenImageIO reads, as linear floats (EXR as it is; 8-bit files sRGB-decoded).
+// Reads any format of OpenImageIO as linear floats (EXR unchanged; 8-bit files sRGB-decoded).
 // Throws InputError.
 Image readImage(const std::filesystem::path& path);
 
-// EXR: 32-bit float RGB, linear radiance, ZIP. PNG and others: 8 bits as they are in `image`, which
-// must be display-referred already. Atomic (temporary file, then renamed). Throws InputError.
+// EXR: 32-bit float RGB, linear radiance, ZIP. PNG: the 8-bit values of `image`, which must be
+// display-referred. Atomic (temporary file, then renamed). Throws InputError.
 void writeExr(const Image& image, const std::filesystem::path& path);
 void writePng(const Image8& image, const std::filesystem::path& path);
 
-// The bytes of a PNG, 8 bits RGBA.
+// Encodes an 8-bit RGBA PNG in memory.
 std::vector<uint8_t> encodePng(const Image8& image);
 
-// Decodes a PNG, JPEG, … in memory, as encoded (no colour conversion), RGBA. Empty and `why` set
-// when it cannot be decoded or is unreasonably large.
+// Decodes a PNG, JPEG, … in memory to RGBA without colour conversion. If decoding fails or the
+// image is unreasonably large, the result is empty and `why` is set.
 std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& why);
-// The same as linear floats: EXR and HDR as they are, 8- and 16-bit files sRGB-decoded.
+// The same as linear floats: EXR and HDR unchanged, 8- and 16-bit files sRGB-decoded.
 std::optional<Image> decodeImage(std::span<const uint8_t> bytes, std::string& why);
-// Whether the bytes begin as an image that decodeImage8() might decode; `why` set when not.
+// Whether the header looks like an image that decodeImage8() can decode; sets `why` if not.
 bool checkImageHeader(std::span<const uint8_t> bytes, std::string& why);
 
 }  // namespace lamplighter

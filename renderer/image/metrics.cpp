@@ -21,7 +21,7 @@ void requireSameSize(const Image& a, const Image& b, const std::string& what) {
                    "render both at the same size");
 }
 
-// The tone-mapped picture's luma, in [0, 1].
+// Luma of the tone-mapped picture, in [0, 1].
 std::vector<float> luma(const Image& image) {
   std::vector<float> out(image.pixels.size());
   std::transform(image.pixels.begin(), image.pixels.end(), out.begin(),
@@ -29,7 +29,7 @@ std::vector<float> luma(const Image& image) {
   return out;
 }
 
-// Filters with the separable Gaussian window of Wang et al. 2004 (11 wide, σ = 1.5), edges
+// Filters with the separable Gaussian window of Wang et al. 2004 (11 wide, σ = 1.5); borders are
 // repeated.
 std::vector<float> gaussian(const std::vector<float>& in, int width, int height) {
   constexpr int kRadius = 5;
@@ -55,8 +55,8 @@ std::vector<float> gaussian(const std::vector<float>& in, int width, int height)
   return pass(pass(in, 1, 0), 0, 1);
 }
 
-// Structural similarity, Wang, Bovik, Sheikh and Simoncelli 2004, eq. 13, its mean over the
-// pixels that count.
+// Structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004, eq. 13): mean over the pixels
+// that count.
 template <typename Counts>
 double ssim(const Image& a, const Image& b, const Counts& counts) {
   const int w = a.width, h = a.height;
@@ -82,7 +82,7 @@ double ssim(const Image& a, const Image& b, const Counts& counts) {
   return sum / static_cast<double>(n);
 }
 
-// Black through deep red and orange to white, brighter for more: a black body that grows hotter.
+// Colour ramp of a black body: black, deep red, orange, white.
 vec3 heatColour(float t) {
   t = std::clamp(t, 0.0f, 1.0f);
   return {std::clamp(2.6f * t, 0.0f, 1.0f), std::clamp(2.6f * t - 0.9f, 0.0f, 1.0f),
@@ -116,9 +116,9 @@ Metrics compareImages(const Image& a, const Image& b, const Image* mask) {
       const double r = static_cast<double>(b.pixels[i][c]),
                    d = static_cast<double>(a.pixels[i][c]) - r;
       squares += d * d;
-      // Two black pictures are the same.
+      // Two black pixels are equal.
       if (d != 0.0) relative += d * d / (r * r + epsilon);
-      if (!(std::abs(d) <= m.max)) m.max = std::abs(d);  // NaN stays
+      if (!(std::abs(d) <= m.max)) m.max = std::abs(d);  // keeps NaN
     }
   }
   if (std::isnan(squares)) m.max = std::numeric_limits<double>::quiet_NaN();

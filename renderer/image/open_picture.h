@@ -1,16 +1,15 @@
-// Pictures are opened one at a time: OpenImageIO 2.4 keeps the names of tags of colour profiles in
-// a table that all threads share, and adds to it each tag that it does not know (its issue 3756,
-// mended after 2.4.7), so that two threads that open such pictures may crash. Pixels are read
-// outside of this.
+// Serialises the opening of pictures. OpenImageIO 2.4 adds each unknown tag of a colour profile to
+// a table that all threads share, without a lock (issue 3756, fixed after 2.4.7). Two threads that
+// open such pictures at the same time may crash. Reading pixels needs no lock.
 #pragma once
 
 #include <mutex>
 
 namespace lamplighter {
 
-// The lock, while a picture is opened.
+// Returns the lock; hold it while a picture is opened.
 inline std::unique_lock<std::mutex> openingAPicture() {
-  static std::mutex mutex;  // the table is one for the whole program
+  static std::mutex mutex;  // the table is global, so is the lock
   return std::unique_lock(mutex);
 }
 

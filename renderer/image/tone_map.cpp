@@ -24,22 +24,23 @@ constexpr std::array kMappers = {
                    "Bright colours fade to white without a turn of hue (Sobotka 2022, a fit)."},
 };
 
-// The filmic curve of K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016), fitted to the
-// Academy's.
+// The filmic curve of K. Narkowicz, "ACES Filmic Tone Mapping Curve" (2016), a fit of the Academy's
+// curve.
 float filmic(float x) {
   return std::clamp(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 0.0f, 1.0f);
 }
 
-constexpr float kMost = 1e4f;  // exposed radiance, from which on all is white
+constexpr float kMost = 1e4f;  // exposed radiance above which everything is white
 
-// Infinite radiance is white; what is no number is black, so that it stands out in a lit picture.
+// Infinite radiance is white. NaN is black, so that it is noticed in a lit picture.
 float channel(float radiance, float scale) {
   const float x = radiance * scale;
   if (std::isnan(x)) return 0.0f;
   return encodeSrgb(x > kMost ? 1.0f : filmic(std::max(x, 0.0f)));
 }
 
-// Reinhard et al., "Photographic Tone Reproduction for Digital Images" (2002), eq. 4, of luminance.
+// Reinhard et al., "Photographic Tone Reproduction for Digital Images" (2002), eq. 4, applied to
+// luminance.
 vec3 reinhard(const vec3& x) {
   constexpr float kWhite = 4.0f;
   const float l = luminance(x);
@@ -56,9 +57,9 @@ vec3 hable(const vec3& x) {
   return curve(kExposure * x) / curve(vec3(kWhite));
 }
 
-// T. Sobotka's AgX (2022): towards less saturated primaries, a sigmoid of the logarithm, and back.
-// The sigmoid is the polynomial that B. Wrensch fitted, "Minimal AgX Implementation" (2023). The
-// result is of the display, as a power of 2.2 has it.
+// T. Sobotka's AgX (2022): transforms to less saturated primaries, applies a sigmoid to the
+// logarithm, and transforms back. The sigmoid is the polynomial fit of B. Wrensch, "Minimal AgX
+// Implementation" (2023). The result is display-referred, encoded with a power of 2.2.
 vec3 agx(const vec3& x) {
   const mat3 inset(0.842479062f, 0.0423282423f, 0.0423756549f, 0.0784336f, 0.878468636f, 0.0784336f,
                    0.0792237451f, 0.0791661275f, 0.879142974f);
@@ -112,7 +113,7 @@ const ToneMapperInfo& findToneMapper(std::string_view name) {
 }
 
 float encodeSrgb(float v) {
-  if (v >= 1.0f) return 1.0f;  // the curve ends one bit below
+  if (v >= 1.0f) return 1.0f;  // the formula would be one bit below 1
   return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
 }
 

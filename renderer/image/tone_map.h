@@ -1,4 +1,4 @@
-// From scene-referred radiance to a picture on a display.
+// Tone mapping: scene-referred radiance to display-referred pictures.
 #pragma once
 
 #include <cmath>
@@ -17,18 +17,18 @@ struct ToneMapperInfo {
   const char* label;  // as in panels
   const char* help;   // one sentence
 };
-// In the order they are shown.
+// In display order.
 std::span<const ToneMapperInfo> toneMappers();
 const ToneMapperInfo& infoOf(ToneMapper mapper);
-// Throws InputError when there is none of that name.
+// Throws InputError if the name is unknown.
 const ToneMapperInfo& findToneMapper(std::string_view name);
 
-// colour × 2^exposureEv, then the curve, then sRGB encoding. shaders/passes/tone_map.glsl does the
-// same on the GPU.
+// colour × 2^exposureEv, then the curve, then sRGB encoding. Must match
+// shaders/passes/tone_map.glsl.
 Image8 toneMap(const Image& radiance, float exposureEv, ToneMapper mapper = ToneMapper::filmic);
-// The sRGB encoding of a linear value; 1 and more is 1.
+// sRGB encoding of a linear value; values ≥ 1 give 1.
 float encodeSrgb(float v);
-// And back.
+// The inverse of encodeSrgb().
 inline float decodeSrgb(float s) {
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }

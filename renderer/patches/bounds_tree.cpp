@@ -16,7 +16,8 @@ BoundsTree::BoundsTree(std::span<const Bounds> boxes) {
   split(0, boxes);
 }
 
-// By the median of the middles along the longest side: depth is logarithmic, so the stack holds.
+// Splits at the median of the centres along the longest axis. The depth is logarithmic, so the
+// stack of visit() is large enough.
 void BoundsTree::split(uint32_t index, std::span<const Bounds> boxes) {
   const uint32_t first = nodes_[index].first, count = nodes_[index].count;
   Bounds all, middles;
@@ -42,7 +43,7 @@ void BoundsTree::split(uint32_t index, std::span<const Bounds> boxes) {
   split(children + 1, boxes);
 }
 
-// Children stand after their parents.
+// Children follow their parents.
 void BoundsTree::refit(std::span<const Bounds> boxes) {
   for (size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];

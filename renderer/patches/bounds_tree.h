@@ -1,4 +1,5 @@
-// A binary tree over boxes, for pyramids to search: what is near the pyramid costs, not the scene.
+// A binary tree (BVH) over boxes. A pyramid search visits only the boxes near it, not the whole
+// scene.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +17,13 @@ class BoundsTree {
   BoundsTree() = default;
   explicit BoundsTree(std::span<const Bounds> boxes);
 
-  // The same tree over boxes that moved.
+  // Updates the boxes and keeps the structure of the tree.
   void refit(std::span<const Bounds> boxes);
   size_t size() const { return order_.size(); }
   Bounds bounds() const { return nodes_.empty() ? Bounds() : nodes_[0].bounds; }
 
-  // Calls take(i) for each box i in a subtree that enter(bounds) does not refuse; stops when take
-  // returns false. Returns whether it went through.
+  // Visits each subtree for which enter(bounds) returns true and calls take(i) for each of its
+  // boxes i. Stops when take() returns false. Returns whether the traversal was complete.
   template <typename Enter, typename Take>
   bool visit(const Enter& enter, const Take& take) const {
     if (nodes_.empty()) return true;
@@ -43,8 +44,9 @@ class BoundsTree {
     return true;
   }
 
-  // The same for many searches at once: narrow(bounds) says what is left of them in a subtree, and
-  // whether anything; widen() is called when it is left again.
+  // The same for many searches in one traversal. narrow(bounds) restricts the active searches to
+  // those that enter the subtree and returns whether any remain; widen() is called when the subtree
+  // is left.
   template <typename Narrow, typename Take, typename Widen>
   void descend(const Narrow& narrow, const Take& take, const Widen& widen) const {
     if (!nodes_.empty()) descend(0, narrow, take, widen);
@@ -53,7 +55,8 @@ class BoundsTree {
  private:
   struct Node {
     Bounds bounds;
-    uint32_t first = 0, count = 0;  // leaf: into order_; else count 0 and the first of two children
+    uint32_t first = 0, count = 0;  // leaf: range in order_; inner node: count 0, `first` is the
+                                    // first of two children
   };
   void split(uint32_t node, std::span<const Bounds> boxes);
   template <typename Narrow, typename Take, typename Widen>

@@ -10,10 +10,11 @@ namespace lamplighter {
 namespace {
 
 constexpr int kMostSplits = 7;
-// Neither half is shorter [m]. Smaller ones would spare look-ups of shadows, but more entries cost
-// a light that moves more than that: docs/results/performance.md, the visibility database.
+// Smallest length of both halves [m]. Smaller patches need fewer shadow map look-ups, but their
+// additional entries cost more when a light moves: docs/results/performance.md, the visibility
+// database.
 constexpr float kSmallest = 0.6f;
-// By which a sphere is larger than those that it holds: more than sums are rounded.
+// Factor by which a sphere is larger than those that it contains: more than rounding errors.
 constexpr float kNested = 1.0001f;
 
 void splitRectangle(ObjectPatches& out, int index, int splits) {
@@ -35,7 +36,7 @@ void splitRectangle(ObjectPatches& out, int index, int splits) {
   splitRectangle(out, first + 1, splits - 1);
 }
 
-// Children stand after their parents.
+// Children follow their parents.
 void findLevels(ObjectPatches& out) {
   std::vector<size_t> levels(out.patches.size(), 0);
   for (size_t i = 0; i < out.patches.size(); ++i) {
@@ -50,8 +51,9 @@ void findLevels(ObjectPatches& out) {
   }
 }
 
-// Spheres around patches, and a tree over those of the roots. A sphere holds those of all patches
-// below it: what cannot reach the one cannot reach the others, by more than rounding.
+// Computes bounding spheres of patches, and a tree over those of the roots. A sphere contains those
+// of all patches below it, with a margin for rounding errors: what cannot reach a patch cannot
+// reach its descendants.
 void surround(ObjectPatches& out) {
   for (auto p = out.patches.rbegin(); p != out.patches.rend(); ++p) {
     if (p->chart == kNone) {
@@ -132,7 +134,7 @@ ObjectPatches placePatches(const RenderScene& scene, uint32_t object,
     if (cluster.firstChild != kNone) {
       patch.firstChild = first + cluster.firstChild;
     } else {
-      // It is of whole groups.
+      // A cluster consists of whole groups.
       for (size_t i = 0; i < cluster.count; i += kGroupTriangles)
         patch.box.add(out.groups[(cluster.first + i) / kGroupTriangles]);
       for (const uint32_t t : triangles) out.patchOfTriangle[t] = index;

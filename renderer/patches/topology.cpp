@@ -17,14 +17,14 @@ namespace {
 
 constexpr float kSameDirection = 0.99995f;  // cos 0.57°
 constexpr float kRoughDirection = 0.9976f;  // cos 4°
-constexpr float kRough = 0.0025f;           // m to both sides of the plane,
-constexpr float kRoughShare = 0.0005f;      // and of the object's size
-constexpr float kLargeRough = 1.0f;         // m²: a bend is not this large that near to a plane
-constexpr int kMostFits = 12;               // of a plane to what lies near it
+constexpr float kRough = 0.0025f;           // m, on both sides of the plane
+constexpr float kRoughShare = 0.0005f;      // and as a fraction of the object's size
+constexpr float kLargeRough = 1.0f;         // m²: no bent surface has so large a part near a plane
+constexpr int kMostFits = 12;               // iterations of fitting a plane
 constexpr float kLargeShare = 0.02f;        // of the object's size squared
 constexpr float kLarge = 0.25f;             // m²
-constexpr size_t kClusterTriangles = 1024;  // more are halved,
-constexpr float kSmallestCluster = 2.0f;    // if they fill more than this [m]
+constexpr size_t kClusterTriangles = 1024;  // larger clusters are halved
+constexpr float kSmallestCluster = 2.0f;    // if they are larger than this [m]
 
 constexpr size_t kNoCluster = static_cast<size_t>(-1);
 
@@ -36,8 +36,8 @@ struct MeshTraits : OpenMesh::DefaultTraits {
 };
 using TriMesh = OpenMesh::TriMesh_ArrayKernelT<MeshTraits>;
 
-// The object's triangles before they were turned and moved: its own vertices, scaled. Those of a
-// mirrored object show their backs here.
+// The object's triangles in object space: its own vertices, scaled but not rotated or moved. In a
+// mirrored object they show their back faces here.
 class Shape {
  public:
   Shape(const RenderScene& s, const RenderObject& o) : count_(o.triangleCount()) {
@@ -65,12 +65,12 @@ class Shape {
   uint32_t triangles() const { return count_; }
   const Bounds& bounds() const { return bounds_; }
   float area(uint32_t t) const { return areas_[t]; }
-  const vec3& normal(uint32_t t) const { return normals_[t]; }  // zero: it has no area
+  const vec3& normal(uint32_t t) const { return normals_[t]; }  // zero: the triangle has no area
   uint32_t vertex(uint32_t t, size_t corner) const { return corners_[size_t{3} * t + corner]; }
   const vec3& at(uint32_t t, size_t corner) const { return positions_[vertex(t, corner)]; }
   const vec3& position(uint32_t vertex) const { return positions_[vertex]; }
 
-  // The triangle across each side, kNone at a border.
+  // The triangle across each edge; kNone at a border.
   std::array<int, 3> neighbours(uint32_t t) const {
     std::array<int, 3> out;
     size_t side = 0;
@@ -78,7 +78,7 @@ class Shape {
       out[side++] = mesh_.opposite_face_handle(h).idx();
     return out;
   }
-  // Its sides, as from and to: welded vertices with a corner of the triangle at each.
+  // An edge: its two welded vertices, and a vertex of the triangle at each.
   struct Side {
     int from, to;
     uint32_t fromVertex, toVertex;
@@ -93,10 +93,11 @@ class Shape {
   }
 
  private:
-  // Vertices at the same place are one: those of a mesh are split where normals or textures break.
-  // Triangles that OpenMesh can't join, since three meet at an edge, stand alone.
+  // Welds vertices with equal positions, because meshes are split where normals or textures are
+  // discontinuous. Triangles that OpenMesh cannot connect, because three meet at an edge, stay
+  // separate.
   void join() {
-    // A face that can't be joined is no error here, and nothing to say on standard error.
+    // Faces that cannot be connected are expected; suppress OpenMesh's messages on standard error.
     static std::once_flag isQuiet;
     std::call_once(isQuiet, [] { omerr().disable(); });
     std::map<std::tuple<float, float, float>, int> known;
@@ -121,7 +122,7 @@ class Shape {
     }
   }
 
-  // Whether all three sides are free.
+  // Whether all three edges are free.
   bool canJoin(const std::array<OpenMesh::VertexHandle, 3>& v) const {
     for (size_t c = 0; c < 3; ++c) {
       if (!mesh_.is_boundary(v[c])) return false;
@@ -141,7 +142,7 @@ class Shape {
   TriMesh mesh_;  // face t is triangle t
 };
 
-// The border's vertices in order where it is one loop; empty else.
+// The vertices of the border in order if it is a single loop; otherwise empty.
 std::vector<uint32_t> borderLoop(const Shape& shape, const std::vector<uint32_t>& triangles) {
   std::map<std::pair<int, int>, int> uses;
   for (const uint32_t t : triangles)
@@ -171,7 +172,7 @@ std::vector<uint32_t> borderLoop(const Shape& shape, const std::vector<uint32_t>
   return loop;
 }
 
-// The corners of the border, where it is convex.
+// The corners of the border if it is convex.
 std::vector<uint32_t> convexOutline(const Shape& shape, const ChartTopology& chart) {
   const std::vector<uint32_t> loop = borderLoop(shape, chart.triangles);
   const vec3& normal = shape.normal(chart.seed);
@@ -189,7 +190,8 @@ std::vector<uint32_t> convexOutline(const Shape& shape, const ChartTopology& cha
   return outline.size() >= 3 ? outline : std::vector<uint32_t>();
 }
 
-// Of the outline, so that a rectangle's is one of its sides; of all triangles where there is none.
+// Longest edge of the outline, so that a rectangle gets one of its sides; without an outline, of
+// all triangles.
 std::array<uint32_t, 2> longestEdge(const Shape& shape, const ChartTopology& chart) {
   std::array<uint32_t, 2> best{};
   float longest = 0.0f;
@@ -207,10 +209,11 @@ std::array<uint32_t, 2> longestEdge(const Shape& shape, const ChartTopology& cha
   return best;
 }
 
-// Those of an area of `least` [m²] or more, or a share of the object.
+// Finds charts with an area of at least `least` [m²], or at least a fraction of the object's size
+// squared.
 void findCharts(const Shape& shape, float least, std::vector<ChartTopology>& charts,
                 std::vector<bool>& taken) {
-  // Charts grow from the largest triangles, whose planes are known best.
+  // Charts grow from the largest triangles, whose planes are the most precise.
   std::vector<uint32_t> order(shape.triangles());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
@@ -239,8 +242,8 @@ void findCharts(const Shape& shape, float least, std::vector<ChartTopology>& cha
     }
     float area = 0.0f;
     for (const uint32_t t : members) area += shape.area(t);
-    // What is too small to be one is not asked again: a chart that it could be part of would have
-    // had it now.
+    // The triangles of a part that is too small are not tried again: a larger chart that contains
+    // them would have been found now.
     if (area < std::min(least, kLargeShare * size * size)) continue;
     ChartTopology& chart = charts.emplace_back();
     chart.seed = seed;
@@ -252,8 +255,9 @@ void findCharts(const Shape& shape, float least, std::vector<ChartTopology>& cha
   }
 }
 
-// Of what is left: parts that are planes but for small bumps. A first triangle does not say well
-// where the plane is, so that it is fitted again to all that was near it until no more is.
+// Finds rough charts in the remaining triangles: parts that are planar except for small bumps. One
+// triangle does not define the plane precisely. So the plane is fitted repeatedly to all triangles
+// near it, until no more are added.
 void findRoughCharts(const Shape& shape, std::vector<ChartTopology>& charts,
                      std::vector<bool>& taken) {
   std::vector<uint32_t> order;
@@ -263,7 +267,7 @@ void findRoughCharts(const Shape& shape, std::vector<ChartTopology>& charts,
                    [&](uint32_t a, uint32_t b) { return shape.area(a) > shape.area(b); });
   const float size = glm::length(shape.bounds().extent());
   const float tolerance = std::min(kRough, kRoughShare * size);
-  std::vector<uint32_t> found(shape.triangles(), 0);  // by which search
+  std::vector<uint32_t> found(shape.triangles(), 0);  // index of the search that found the triangle
   std::vector<bool> tried = taken;
   uint32_t search = 0;
   for (const uint32_t seed : order) {
@@ -320,8 +324,8 @@ void findRoughCharts(const Shape& shape, std::vector<ChartTopology>& charts,
   }
 }
 
-// Puts the triangles into the order of a tree that halves them by the median of their middles along
-// the longest side; makes clusters of its first levels.
+// Sorts the triangles into the order of a tree that splits at the median of their centres along the
+// longest axis. Makes clusters of its first levels.
 void sortLoose(const Shape& shape, MeshTopology& out, uint32_t first, uint32_t count,
                size_t cluster) {
   if (count <= kGroupTriangles) return;
@@ -336,7 +340,7 @@ void sortLoose(const Shape& shape, MeshTopology& out, uint32_t first, uint32_t c
   };
   std::stable_sort(triangles.begin(), triangles.end(),
                    [&](uint32_t a, uint32_t b) { return middle(a) < middle(b); });
-  // Whole groups on the left, so that none lies across.
+  // The left half consists of whole groups, so that no group is split.
   const uint32_t half = (count / 2 + kGroupTriangles - 1) / kGroupTriangles * kGroupTriangles;
   const bool divides =
       cluster != kNoCluster && count > kClusterTriangles && size[axis] > kSmallestCluster;
@@ -350,7 +354,7 @@ void sortLoose(const Shape& shape, MeshTopology& out, uint32_t first, uint32_t c
   sortLoose(shape, out, first + half, count - half, divides ? children + 1 : kNoCluster);
 }
 
-// Boxes to search for what stands between: charts' triangles one by one, loose ones by groups.
+// Makes the boxes for occluder searches: triangles of charts one by one, loose triangles in groups.
 void findOccluders(const Shape& shape, MeshTopology& out) {
   std::vector<Bounds> boxes;
   const auto add = [&](uint32_t t) {

@@ -1,5 +1,6 @@
-// Which triangles of an object belong together, before where they are: found once for a shape, and
-// kept while it only moves and turns, so that a dragged object costs little.
+// Splits the triangles of an object into charts and clusters, independent of their position. The
+// result is computed once per shape and kept while the object only moves or rotates, so dragging an
+// object is cheap.
 #pragma once
 
 #include <array>
@@ -12,8 +13,8 @@
 
 namespace lamplighter {
 
-// All that a topology depends on, beside the object's own vertices. Lengths of the world matrix's
-// columns, rounded to a thousandth, so that turning does not change them.
+// All inputs of a topology besides the object's own vertices. `scale`: lengths of the columns of
+// the world matrix, rounded to a thousandth, so that rotation does not change them.
 struct ShapeKey {
   vec3 scale{1.0f};
   bool mirrored = false;
@@ -22,42 +23,44 @@ struct ShapeKey {
 };
 ShapeKey shapeOf(const RenderObject& object);
 
-// Connected triangles in one plane, or nearly in one.
+// Connected triangles in one plane, or nearly in one plane (rough).
 struct ChartTopology {
-  uint32_t seed = 0;                // the largest triangle: gives the plane
-  bool isRough = false;             // nearly: all triangles give the plane
-  std::vector<uint32_t> triangles;  // within the object, ascending
-  // Vertices within the object: corners of the border, counter-clockwise as seen from the front,
-  // where all of it is one convex polygon; else empty.
+  uint32_t seed = 0;                // the largest triangle; it defines the plane
+  bool isRough = false;             // nearly planar: all triangles together define the plane
+  std::vector<uint32_t> triangles;  // indices within the object, ascending
+  // Border vertices (indices within the object), counter-clockwise seen from the front, if the
+  // chart is one convex polygon; otherwise empty.
   std::vector<uint32_t> outline;
-  std::array<uint32_t, 2> longestEdge{};  // vertices within the object
+  std::array<uint32_t, 2> longestEdge{};  // vertex indices within the object
 };
 
-// A tree of clusters of triangles that are in no chart.
+// Node of a tree of clusters. Clusters hold triangles that are in no chart.
 struct ClusterTopology {
   uint32_t first = 0, count = 0;  // into MeshTopology::loose
-  int firstChild = kNone;         // its two children stand one after the other
+  int firstChild = kNone;         // the two children are consecutive
 };
 
-// Loose triangles that stand one after the other and are one occluder: the box around them.
+// Number of consecutive loose triangles that form one occluder, their bounding box.
 inline constexpr size_t kGroupTriangles = 16;
 
 struct MeshTopology {
   ShapeKey shape;
   std::vector<ChartTopology> charts;
-  std::vector<uint32_t> flat;             // triangles in charts, in their order
-  std::vector<uint32_t> loose;            // triangles in no chart, neighbours together
-  std::vector<ClusterTopology> clusters;  // the first is the root; children after their parents
-  BoundsTree occluders;                   // over each of `flat`, then each group of `loose`
+  std::vector<uint32_t> flat;             // triangles in charts, ordered by chart
+  std::vector<uint32_t> loose;            // triangles in no chart, ordered so that neighbours are
+                                          // close
+  std::vector<ClusterTopology> clusters;  // the first is the root; children follow their parents
+  BoundsTree occluders;                   // over each triangle of `flat`, then each group of
+                                          // `loose`
 };
 
-// The triangles of a rough chart are turned from its plane by no more than this: the sine of 4°.
+// Sine of 4°, the largest angle between a triangle and the plane of its rough chart.
 inline constexpr float kRoughSine = 0.07f;
 
-// Charts are parts of a quarter of a square metre, or a fiftieth of the object's size squared; what
-// is smaller or curved is loose. What is flat but for
-// a few millimetres and degrees, a square metre of it at least, is rough. Of a
-// simple mesh all planar parts are charts, of a complex one none. Deterministic.
+// Deterministic. A planar part becomes a chart if its area is at least a quarter of a square metre,
+// or a fiftieth of the object's size squared. Smaller or curved parts are loose. A part of at least
+// one square metre that is planar within a few millimetres and degrees becomes a rough chart. In a
+// simple mesh all planar parts are charts; in a complex mesh there are none.
 MeshTopology findTopology(const RenderScene& scene, uint32_t object);
 
 }  // namespace lamplighter

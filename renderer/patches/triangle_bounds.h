@@ -1,4 +1,5 @@
-// Boxes around some triangles of an object: what moves gets all of its own anew in each frame.
+// Bounding boxes of triangles of an object. They are recomputed in each frame for objects that
+// move.
 #pragma once
 
 #include <span>
@@ -7,7 +8,7 @@
 
 namespace lamplighter {
 
-// Triangles are counted from the object's first; world space [m].
+// Triangle indices are relative to the object. The result is in world space [m].
 Bounds boundsOf(const RenderScene& scene, const RenderObject& object,
                 std::span<const uint32_t> triangles);
 

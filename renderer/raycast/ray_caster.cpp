@@ -16,7 +16,7 @@ namespace lamplighter {
 
 namespace {
 
-// Keeps the first error, for RayCaster::Impl::check(): nothing may be thrown through Embree itself.
+// Stores the first error for RayCaster::Impl::check(): exceptions must not pass through Embree.
 void onError(void* first, RTCError code, const char* message) {
   auto& text = *static_cast<std::string*>(first);
   if (text.empty())
@@ -28,7 +28,7 @@ const uint32_t* cornersOf(const RenderScene& scene, uint32_t object, uint32_t tr
   return &scene.indices[scene.objects[object].firstIndex + 3 * triangle];
 }
 
-// The place of a hit on a triangle that Embree names: all that is kept of its answer.
+// Computes the hit from the triangle that Embree found; nothing else of Embree's result is used.
 Hit placed(const RenderScene& scene, const Ray& ray, uint32_t object, uint32_t triangle) {
   const uint32_t* i = cornersOf(scene, object, triangle);
   const TriangleHit at =
@@ -37,8 +37,8 @@ Hit placed(const RenderScene& scene, const Ray& ray, uint32_t object, uint32_t t
   return {at.t, object, triangle, at.u, at.v};
 }
 
-// Calls take(lane, corners) with the three indices of the triangle that each lane hit; a lane that
-// hit nothing gets those of the lane before, or null.
+// Calls take(lane, corners) with the three vertex indices of the triangle that each lane hit. A
+// lane without a hit gets those of the previous lane, or null.
 template <typename Take>
 void forEachLane(const RenderScene& scene, const RTCRayHit8& r, const Take& take) {
   const uint32_t* corners = nullptr;
@@ -54,7 +54,7 @@ void forEachLane(const RenderScene& scene, const RTCRayHit8& r, const Take& take
   }
 }
 
-// Eight points, directions or distances, one a lane.
+// Eight points or directions, one per lane.
 struct Lanes3 {
   alignas(32) float x[8], y[8], z[8];
   void set(size_t lane, const vec3& v) {
@@ -69,7 +69,7 @@ SimdVec3<Floats8> load(const float* x, const float* y, const float* z) {
 }
 SimdVec3<Floats8> load(const Lanes3& v) { return load(v.x, v.y, v.z); }
 
-// placed() for eight lanes; those that hit nothing give something that is not looked at.
+// placed() for eight lanes; the values of lanes without a hit are undefined.
 struct PlacedLanes {
   alignas(32) float t[8], u[8], v[8];
 };
@@ -84,7 +84,7 @@ void placeLanes(const RenderScene& scene, const RTCRayHit8& r, const float* tFar
   const auto direction = load(r.ray.dir_x, r.ray.dir_y, r.ray.dir_z);
   const auto a = load(corner[0]), ab = load(corner[1]) - a, ac = load(corner[2]) - a;
   const auto oa = a - load(r.ray.org_x, r.ray.org_y, r.ray.org_z);
-  // As triangleHit(), with the same bits.
+  // Bit-equal to triangleHit().
   const auto normal = cross(ab, ac), side = cross(oa, direction);
   const auto along = dotUnfused(direction, normal);
   const auto zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
@@ -101,8 +101,8 @@ void placeLanes(const RenderScene& scene, const RTCRayHit8& r, const float* tFar
   hn::Store(hn::IfThenElse(inPlane, nearest, t), tag, out.t);
 }
 
-// Distances alone: from one corner and Embree's normal of the triangle, which is made of products
-// and differences only.
+// Only the distances: from one vertex and Embree's triangle normal, which consists only of products
+// and differences.
 void placeDistances(const RenderScene& scene, const RTCRayHit8& r, const float* tFar, float* out) {
   constexpr FloatTag tag;
   Lanes3 corner;
@@ -118,7 +118,7 @@ void placeDistances(const RenderScene& scene, const RTCRayHit8& r, const float* 
   hn::Store(hn::IfThenElse(hn::Eq(along, hn::Zero(tag)), nearest, t), tag, out);
 }
 
-// Leaves out hits where the alpha mask has a hole. N is 1 or 8; valid lanes are −1.
+// Rejects hits in holes of the alpha mask. N is 1 or 8; valid lanes are −1.
 void alphaFilter(const RTCFilterFunctionNArguments* a) {
   const auto& scene = *static_cast<const RenderScene*>(a->geometryUserPtr);
   for (unsigned int i = 0; i < a->N; ++i) {
@@ -150,19 +150,19 @@ RTCRay toEmbree(const Ray& r) {
   return e;
 }
 
-// Of eight rays as far as they have come, −1 for those of `valid` that touch the box, or nearly.
+// Of eight ray segments, keeps −1 in `valid` for those that touch the box (conservative).
 void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
   constexpr hn::FixedTag<float, 8> tag;
   constexpr hn::FixedTag<int32_t, 8> ints;
-  // A direction that is almost across an axis is as if it were a little less so: what is outside
-  // is still left out, and nothing divides by zero.
+  // A direction almost perpendicular to an axis is replaced by a slightly less perpendicular one.
+  // The test stays conservative, and there is no division by zero.
   const auto least = hn::Set(tag, 1e-30f), one = hn::Set(tag, 1.0f);
   auto from = hn::Zero(tag), to = hn::Load(tag, r.tfar);
   auto slack = from;
   const float* const origins[3] = {r.org_x, r.org_y, r.org_z};
   const float* const directions[3] = {r.dir_x, r.dir_y, r.dir_z};
   for (const float* origin : origins) slack = hn::Max(slack, hn::Abs(hn::Load(tag, origin)));
-  // As rayEpsilon().
+  // Like rayEpsilon().
   slack = hn::Max(hn::Mul(slack, hn::Set(tag, 0x1p-17f)), hn::Set(tag, 1e-5f));
   for (int axis = 0; axis < 3; ++axis) {
     const auto origin = hn::Load(tag, origins[axis]);
@@ -175,41 +175,41 @@ void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
     from = hn::Max(from, hn::Min(a, b));
     to = hn::Min(to, hn::Max(a, b));
   }
-  // Not: those that surely miss, so that what is no number stays.
+  // Negated test for a certain miss, so that NaN counts as touching.
   const auto misses = hn::Gt(from, hn::MulAdd(to, hn::Set(tag, 1.0002f), slack));
   const auto all = hn::Load(ints, valid);
   hn::Store(hn::IfThenZeroElse(hn::RebindMask(ints, misses), all), ints, valid);
 }
 
-// Triangles of a scene whose tree is built in some 10 ms, which an edit may take once in a while.
+// Number of triangles for which the tree is built in about 10 ms, acceptable during an edit.
 constexpr size_t kQuicklyBuilt = 50000;
 
 }  // namespace
 
-// One geometry an object, with the object's number as its id, in two scenes: one tree over all
-// triangles, which is built at medium quality (by the surface area heuristic) and whose packets may
-// be told coherent; and a small one for what has moved since, a tree an object and one above them,
-// which is brought up to date quickly. Movers are taken out of the first where that is built anew
-// quickly, and else passed over by a filter. What a ray hits does not depend on which of them an
-// object is in.
+// One geometry per object, with the object's index as its id, in two Embree scenes. The first has
+// one tree over all triangles, built with medium quality (surface area heuristic); it accepts
+// packets flagged as coherent. The second is small: a tree of trees for the objects that moved
+// since, which is updated quickly. If the first scene can be rebuilt quickly, the moved objects are
+// removed from it; otherwise a filter ignores them there. The hits do not depend on the scene in
+// which an object is.
 //
-// In Embree 3.13 packets that are told coherent never come back from a tree of trees.
+// Embree 3.13 does not return from coherent packets in a tree of trees.
 struct RayCaster::Impl {
   const RenderScene& scene;
-  std::string error;  // the first that Embree reported
+  std::string error;  // the first error that Embree reported
   RTCDevice device = nullptr;
   RTCScene still = nullptr, moving = nullptr;
-  std::vector<uint8_t> isMoving;  // by object: it is in `moving`
+  std::vector<uint8_t> isMoving;  // by object: it is in the scene `moving`
   std::vector<uint32_t> movers;
-  Bounds movingBounds;  // of these, and a little more
+  Bounds movingBounds;  // bounds of the movers, slightly enlarged
   struct Passing {
     bool isClear, isMasked;
     bool operator==(const Passing&) const = default;
   };
-  std::vector<Passing> passing;  // by object, as built
+  std::vector<Passing> passing;  // by object, when the tree was built
 
   explicit Impl(const RenderScene& s) : scene(s) {
-    // One instruction set on every machine, so that rays give the same bits on all of them.
+    // A fixed instruction set, so that rays give bit-equal results on all machines.
     device = rtcNewDevice("isa=avx2,set_affinity=0");
     if (device == nullptr)
       throw std::runtime_error("Embree cannot start: it needs a processor with AVX2");
@@ -241,7 +241,7 @@ struct RayCaster::Impl {
     auto* to = static_cast<vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
     std::copy_n(scene.positions.begin() + o.firstVertex, o.vertexCount, to);
   }
-  // Indices too: a mirrored object has its corners in another order.
+  // Copies the indices too: a mirrored object has a different vertex order.
   void copyIndices(RTCGeometry geometry, const RenderObject& o) const {
     auto* to = static_cast<uint32_t*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0));
     std::transform(scene.indices.begin() + o.firstIndex,
@@ -257,14 +257,14 @@ struct RayCaster::Impl {
                             o.vertexCount);
     rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                             3 * sizeof(uint32_t), o.triangleCount());
-    if (!error.empty()) {  // no room for the buffers
+    if (!error.empty()) {  // no memory for the buffers
       rtcReleaseGeometry(geometry);
       throw std::runtime_error(std::exchange(error, {}));
     }
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
     copyVertices(geometry, o);
     copyIndices(geometry, o);
-    // The scene belongs to the FrameRenderer, which outlives this; the filter only reads it.
+    // The scene belongs to the FrameRenderer, which outlives this object; the filter only reads it.
     rtcSetGeometryUserData(geometry, const_cast<RenderScene*>(&scene));
     if (passing[object].isMasked) {
       rtcSetGeometryIntersectFilterFunction(geometry, alphaFilter);
@@ -293,9 +293,10 @@ struct RayCaster::Impl {
     commit(moving);
   }
 
-  // What came to rest goes back when other things begin to move, if it is enough to slow rays down.
+  // Objects at rest return to the first scene when other objects start to move, if they are large
+  // enough to slow rays down.
   bool shouldJoin(const std::vector<uint32_t>& moved) const {
-    constexpr size_t kFew = 10000, kShare = 20;  // triangles; one in so many
+    constexpr size_t kFew = 10000, kShare = 20;  // triangles; one in this many
     if (std::any_of(moved.begin(), moved.end(), [&](uint32_t i) { return isMoving[i] != 0; }))
       return false;
     size_t triangles = 0;
@@ -338,15 +339,15 @@ struct RayCaster::Impl {
     movingBounds.min -= slack;
     movingBounds.max += slack;
   }
-  // Else rays that meet what moved where it was are told to go on, at a cost for each.
+  // Otherwise a filter ignores moved objects at their old position, with a cost per hit.
   bool isQuicklyBuilt() const { return scene.triangleCount() <= kQuicklyBuilt; }
 
-  // Whether a ray may meet what moved: most pass it by, and are not asked.
+  // Whether the ray may hit a moved object: most rays do not and skip the second scene.
   bool mayMeetMovers(const Ray& ray) const {
     return !movers.empty() && mayTouch(ray, movingBounds);
   }
 
-  // A query of one of the scenes.
+  // A query in one of the two scenes.
   struct Query {
     RTCIntersectContext embree;
     const Impl* impl;
@@ -360,11 +361,11 @@ struct RayCaster::Impl {
     return q;
   }
 
-  // Eight rays against both scenes; `tFar` becomes theirs, which Embree writes over in `r`.
+  // Traces eight rays in both scenes; `tFar` gets their tFar, which Embree overwrites in `r`.
   void cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRayHit8& r, float* tFar) const;
 
-  // Leaves out what has moved away, and back faces that no camera sees. N is 1 or 8; valid lanes
-  // are −1.
+  // Rejects hits on objects that have moved away, and on back faces that cameras do not see. N is 1
+  // or 8; valid lanes are −1.
   static void passOver(const RTCFilterFunctionNArguments* a) {
     const auto& q = *reinterpret_cast<const Query*>(a->context);
     for (unsigned int i = 0; i < a->N; ++i) {
@@ -483,8 +484,8 @@ bool mayTouch(const Ray& ray, const Bounds& box) {
 }
 
 float rayEpsilon(const vec3& p) {
-  // Coordinates carry a relative error of 2⁻²⁴; transforms, barycentrics and the intersection add
-  // some tens of such. A floor of a hundredth of a millimetre for points near the origin.
+  // Coordinates have a relative error of 2⁻²⁴; transforms, barycentrics and the intersection add
+  // tens of such errors. The minimum is a hundredth of a millimetre, for points near the origin.
   const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   return std::max(1e-5f, largest * 0x1p-17f);
 }

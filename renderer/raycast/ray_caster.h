@@ -1,8 +1,9 @@
-// The only wrapper of Embree: world-space rays against a RenderScene. Alpha masks are tested;
-// clear (transmissive) materials are not in it. The same bits at any number of threads and on every
-// x86-64-v3 processor: one fixed instruction set, and distances and barycentrics computed from the
-// triangle (triangle_hit.h). Which of two triangles is hit where both are equally far, as at a
-// shared edge, is left to Embree and may differ between processors.
+// The only wrapper of Embree: traces world-space rays against a RenderScene. Alpha masks are
+// tested; clear (transmissive) materials are excluded. Results are bit-equal at any number of
+// threads and on every x86-64-v3 processor, because the instruction set is fixed and distances and
+// barycentrics are computed from the triangle (triangle_hit.h). Exception: if two triangles are hit
+// at the same distance, for example at a shared edge, Embree chooses one, and the choice may differ
+// between processors.
 #pragma once
 
 #include <memory>
@@ -28,25 +29,27 @@ struct Hit {
   explicit operator bool() const { return object != 0xffffffffu; }
 };
 
-// What a ray meets: all surfaces, or those that a camera sees (RenderScene::backIsUnseen).
+// Which surfaces a ray can hit: all, or only those that a camera sees (RenderScene::backIsUnseen).
 enum class Surfaces { all, seen };
 
 class RayCaster {
  public:
-  explicit RayCaster(const RenderScene& scene);  // keeps a reference: the scene must outlive it
+  explicit RayCaster(const RenderScene& scene);  // keeps a reference; the scene must outlive this
+                                                 // object
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  // After the scene was updated. Moved objects alone are refreshed; `rebuilt` builds anew.
+  // Call this after the scene was updated. Refits moved objects; `rebuilt` rebuilds everything.
   void update(const RenderSceneChanges& changes);
 
   Hit intersect(const Ray& ray, Surfaces which = Surfaces::all) const;
   bool occluded(const Ray& ray) const;
-  // Eight rays at a time; tFar < 0 switches a lane off. Fastest where they start or go alike.
+  // Traces eight rays; tFar < 0 disables a lane. Fastest for coherent rays (similar origins or
+  // directions).
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                   Surfaces which = Surfaces::all) const;
-  // Their distances alone; infinity where nothing is hit. A little faster.
+  // Only the distances, infinity for a miss. Slightly faster than intersect8().
   void distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const;
 
  private:
@@ -54,11 +57,11 @@ class RayCaster {
   std::unique_ptr<Impl> impl_;
 };
 
-// Whether the ray up to its end touches the box, or nearly.
+// Conservative test whether the ray segment touches the box.
 bool mayTouch(const Ray& ray, const Bounds& box);
 
-// A distance to leave a surface by, so that a ray does not hit it again: proportional to the
-// magnitude of the coordinates (float spacing), in metres.
+// Offset [m] for rays that leave a surface, so that they do not hit it again. Proportional to the
+// magnitude of the coordinates (float spacing).
 float rayEpsilon(const vec3& position);
 
 }  // namespace lamplighter

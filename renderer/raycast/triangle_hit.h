@@ -1,5 +1,5 @@
-// Where a ray meets a triangle that it is known to hit, in IEEE arithmetic alone. Embree's own
-// distances and barycentrics come from approximate reciprocals, which differ between processors.
+// Intersection of a ray with a triangle that it is known to hit, in plain IEEE arithmetic. Embree's
+// own distances and barycentrics use approximate reciprocals, which differ between processors.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,13 @@ namespace lamplighter {
 
 struct TriangleHit {
   float t;     // distance in units of |direction|
-  float u, v;  // weights of the second and third vertex; u, v and 1 − u − v are not below 0
+  float u, v;  // weights of the second and third vertex; u, v and 1 − u − v are ≥ 0
 };
 
 // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, without the tests.
-// Barycentrics that rounding put outside the triangle are moved onto its edge, and t into [tNear,
-// tFar]. A ray in the triangle's plane, whose hit has no place of its own, gets tNear and a corner.
+// Barycentrics outside the triangle due to rounding are clamped to its edge, and t is clamped to
+// [tNear, tFar]. A ray in the plane of the triangle has no unique hit; it gets tNear and the first
+// corner.
 inline TriangleHit triangleHit(const vec3& origin, const vec3& direction, float tNear, float tFar,
                                const vec3& a, const vec3& b, const vec3& c) {
   const vec3 ab = b - a, ac = c - a, oa = a - origin;

@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// A square around the scene, with what lies on its very edge.
+// Half-width of the square around the scene, slightly enlarged to include its edge.
 constexpr float kWholeScene = 1.0001f;
 
 }  // namespace
@@ -25,7 +25,7 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
       for (id.index = begin; id.index < end; ++id.index) {
         const EmitterSample p =
             sampleEmitter(scene_, lights_, numbers_, source, id.index, SampleStreams::direct);
-        if (p.flux == vec3(0.0f)) continue;  // a dark place, which would cost a shadow map
+        if (p.flux == vec3(0.0f)) continue;  // a dark point; it would cost a shadow map
         const vec3 intensity = scale * p.flux / (kPi * static_cast<float>(count));
         vpls.push_back(numbers_.makeVpl(id, shared::kVplCosine, p.position, p.normal, intensity));
         vpls.back().area = p.area / static_cast<float>(count);
@@ -51,7 +51,7 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
   for (size_t i = first; i < vpls.size(); ++i) vpls[i].vpl.footprint.y = static_cast<float>(e.link);
 }
 
-// Batches shine from places all over it, so that their mean has soft shadows.
+// Batches use different positions on the sun, so that their mean has soft shadows.
 SkyMap::Light DirectVpls::skySun(const Emitter& e, const VplId& id) const {
   const size_t sun = e.skySun - 1;
   if (batch_ == 0) return lights_.sky().sun(sun);
@@ -96,7 +96,7 @@ void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, float scale,
   }
 }
 
-// Whole, to be divided into the squares of its maps.
+// Adds one VPL for the whole sun, which is divided into shadow tiles later.
 void DirectVpls::addSun(const vec3& towards, const vec3& irradiance, VplId id,
                         std::vector<SceneVpl>& vpls) const {
   id.index = 1;

@@ -1,4 +1,4 @@
-// The VPLs on the lights themselves (paper 1, 4.1).
+// Generates the VPLs on the lights themselves (paper 1, 4.1).
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ class DirectVpls {
   DirectVpls(const RenderScene& scene, const LightSet& lights, const VplCounts& counts)
       : scene_(scene), lights_(lights), numbers_(counts), batch_(counts.batch) {}
 
-  // Appends `count` samples of one emitter, all of them `scale` times as bright as they are.
+  // Appends `count` samples of one emitter with their brightness multiplied by `scale`.
   void add(const PathWalker::Source& source, int count, float scale,
            std::vector<SceneVpl>& vpls) const;
 

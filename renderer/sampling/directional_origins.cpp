@@ -8,7 +8,7 @@ namespace lamplighter {
 
 namespace {
 
-// The share of paths that are spread over the whole level evenly, so that none of it goes without.
+// The fraction of paths that is distributed uniformly over the level, so that every part gets some.
 constexpr float kEvenStarts = 0.25f;
 
 }  // namespace
@@ -26,7 +26,7 @@ DirectionalOrigins::DirectionalOrigins(const RenderScene& scene, const vec3& cen
 }
 
 DirectionalOrigins::Point DirectionalOrigins::sample(const vec3& towards, vec2 u, float v) const {
-  size_t chosen = balls_.size();  // the whole
+  size_t chosen = balls_.size();  // the whole level
   if (v >= kEvenStarts && !choice_.empty()) {
     float rest;
     chosen = choice_.sample((v - kEvenStarts) / (1.0f - kEvenStarts), rest);
@@ -38,8 +38,8 @@ DirectionalOrigins::Point DirectionalOrigins::sample(const vec3& towards, vec2 u
   return {p, pdfAt(p, towards, chosen)};
 }
 
-// The density of the mixture: every disc that holds the point has its part; the chosen one holds
-// it, whatever rounding says at its rim.
+// The density of the mixture: the sum over all discs that contain the point. The chosen disc always
+// counts, even if rounding puts the point outside its rim.
 float DirectionalOrigins::pdfAt(const vec3& position, const vec3& towards, size_t chosen) const {
   const auto density = [&](const Ball& b, bool isChosen) {
     const vec3 d = position - b.centre;

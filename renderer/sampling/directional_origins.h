@@ -1,5 +1,5 @@
-// Where paths of parallel light (a sun, one direction of the sky) cross the level: more of them
-// where the level has its detail, so that a room in a wide landscape gets its share.
+// Samples where paths of parallel light (a sun, one direction of the sky) enter the level. Detailed
+// parts of the level get more paths, so that a room in a wide landscape gets enough.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,15 @@ class DirectionalOrigins {
   DirectionalOrigins(const RenderScene& scene, const vec3& centre, float radius);
 
   struct Point {
-    vec3 position{0.0f};  // on the plane through the scene's middle across the direction
+    vec3 position{0.0f};  // on the plane through the centre of the scene, perpendicular to the
+                          // direction
     float pdf = 0.0f;     // 1/m² on that plane
   };
-  // `towards`: unit, against the light's way. u: two numbers for the place, v: one for the choice.
+  // `towards`: unit, towards the light. u selects the position, v the ball.
   Point sample(const vec3& towards, vec2 u, float v) const;
 
  private:
-  // A ball round each object; seen along any direction it is a disc.
+  // A bounding sphere of each object; its projection along any direction is a disc.
   struct Ball {
     vec3 centre{0.0f};
     float radius = 0.0f;
@@ -32,7 +33,7 @@ class DirectionalOrigins {
 
   Ball whole_;
   std::vector<Ball> balls_;
-  AliasTable choice_;  // by triangles: a measure of detail
+  AliasTable choice_;  // by number of triangles: a measure of detail
 };
 
 }  // namespace lamplighter

@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-// Paths that may be begun for each VPL wanted: in an open scene most escape.
+// Largest number of paths per wanted VPL: in an open scene most paths escape.
 constexpr size_t kPathsPerVpl = 16;
 
 bool sameHit(const Hit& a, const Hit& b) {
@@ -33,8 +33,9 @@ bool meetSame(const LightPath& a, const LightPath& b) {
                     });
 }
 
-// The samples that an emitter cannot do without: a two-sided one takes turns, a point light is two
-// hemispheres, one with a profile its lobes. A sun is one, whatever squares it is divided into.
+// The minimum number of samples of an emitter. The sides of a double-sided one alternate; a point
+// light is two hemispheres; one with a profile has its lobes. A sun is one sample, independent of
+// its tiles.
 SampleShare shareOf(const RenderScene& scene, const Emitter& e) {
   const float weight = luminance(e.flux);
   if (e.kind == EmitterKind::sky && e.skySun > 0) return {weight, 1, true};
@@ -132,8 +133,7 @@ void LightPaths::findTouched(const PathWalker& walker, const RenderSceneChanges&
           break;
         }
         if (s >= p.touched) continue;
-        // A light that moves does not stand in its own way: what its path's start was is not there
-        // any more.
+        // A moved light does not block its own paths: it is no longer at the start of the old path.
         const bool isTouched =
             std::any_of(movers.begin(), movers.end(), [&](const MoverFinder::Mover& m) {
               const bool isOwnBody = s == 0 && p.hasMoved && m.node == light.source.id.light;
@@ -145,7 +145,7 @@ void LightPaths::findTouched(const PathWalker& walker, const RenderSceneChanges&
   }
 }
 
-// What its vertices reflect now; they stay where they are.
+// Updates the reflectance at the path's vertices; the vertices stay where they are.
 void LightPaths::takeMaterials(const PathWalker& walker, const Light& light, Path& p) {
   std::vector<PathStep>& steps = p.path.steps;
   for (size_t s = 0; s < steps.size() && steps[s].hit; ++s) {
@@ -156,12 +156,13 @@ void LightPaths::takeMaterials(const PathWalker& walker, const Light& light, Pat
     if (steps[s].ends()) {
       steps.resize(s + 1);
     } else if (ended && steps.size() < walker.bounces()) {
-      p.broken = std::min(p.broken, s);  // it goes on from there now
+      p.broken = std::min(p.broken, s);  // the path continues from there now
     }
   }
 }
 
-// What is to be looked at now: what an edit touched, and at rest some of what is not its own.
+// Selects the paths to process: those that an edit affects and, at rest, some that are not their
+// own.
 std::vector<LightPaths::Task> LightPaths::tasksOf(bool isResting, int mostPaths) {
   std::vector<Task> stale, strange;
   size_t count = 0;
@@ -192,8 +193,8 @@ void LightPaths::lookAgain(const PathWalker& walker, bool isResting, int mostPat
   std::vector<Task> tasks = tasksOf(isResting, mostPaths);
   tbb::parallel_for(size_t{0}, tasks.size(),
                     [&](size_t i) { lookAgain(walker, isResting, tasks[i]); });
-  // A light that went far takes its own paths along: those drawn anew would be exchanged for them
-  // at rest, and cost their maps twice.
+  // If a light went far, its paths become its own paths again. Redrawn paths would be replaced by
+  // those at rest, and need new shadow maps twice.
   for (const Light& light : lights_) {
     const auto isOf = [&](const Task& t) { return t.light == &light && t.follows; };
     const auto following = std::count_if(tasks.begin(), tasks.end(), isOf);
@@ -226,7 +227,7 @@ void LightPaths::lookAgain(const PathWalker& walker, bool isResting, Task& task)
   if (isResting && (p.hasMoved || !p.isOwn)) {
     walkOwn(walker, task);
   } else {
-    // First what moved into the way of the path as it was, then the path with its light.
+    // First process what moved into the old path, then move the path with its light.
     for (size_t s = std::min(p.touched, p.broken); s < p.path.steps.size(); ++s) {
       const PathStep& step = p.path.steps[s];
       if (s < p.broken) {
@@ -251,7 +252,7 @@ int LightPaths::follow(const PathWalker& walker, const Light& light, Path& p,
                        const Departure& now) const {
   int traced = 0;
   if (now.spread == Departure::Spread::parallel || p.start.spread != now.spread) {
-    // Parallel light starts at the scene's edge, which may be all that has moved.
+    // Parallel light starts at the edge of the scene, which may be all that has moved.
     LightPath own{p.path.index, {}, {}};
     traced = walker.walk(light.source, now, own);
     p.isOwn = !isNearly(own, p.path, 1e-4f * lightSet_.sceneRadius());
@@ -281,9 +282,9 @@ void LightPaths::walkMore(const PathWalker& walker, Light& light, size_t count) 
   work_.walked += static_cast<int>(traced.size());
 }
 
-// As many paths as leave the VPLs that are wanted. One that would leave too many is not begun, so
-// that its last bounces are not cut off: that would favour the first ones. kNoStep where more would
-// have to be walked to know.
+// The number of paths that leave the wanted number of VPLs. A path that would leave too many is not
+// started: cutting off its last bounces would favour the first bounces. Returns kNoStep if more
+// paths would have to be walked to find out.
 size_t LightPaths::exactCount(const PathWalker& walker, Light& light, bool mayWalk) {
   if (light.wanted <= 0) return 0;
   const auto wanted = static_cast<size_t>(light.wanted);
@@ -294,7 +295,7 @@ size_t LightPaths::exactCount(const PathWalker& walker, Light& light, bool mayWa
   while (count < cap && vpls < most) {
     if (count == light.paths.size()) {
       if (!mayWalk) return kNoStep;
-      // So many are needed in any case.
+      // At least this many are necessary.
       const size_t needed =
           countsPaths ? cap : (most - vpls + walker.bounces() - 1) / walker.bounces();
       walkMore(walker, light, std::min(count + needed, cap));
@@ -307,8 +308,8 @@ size_t LightPaths::exactCount(const PathWalker& walker, Light& light, bool mayWa
   return count;
 }
 
-// While the scene is being changed the number of paths stays, unless there would be far too few
-// VPLs or too many: each path more makes all others darker.
+// During an edit the number of paths stays constant, unless there are far too few or too many VPLs,
+// because each additional path makes all others darker.
 void LightPaths::fitCounts(const PathWalker& walker, bool isResting) {
   const auto isPending = [&](const Path& p) { return p.isStale() || !p.isOwn; };
   for (Light& light : lights_) {
@@ -352,7 +353,7 @@ VplSet LightPaths::set(const RenderScene& scene) const {
       addVpls(numbers, light.source.id, path, share, result.vpls);
       result.pathIds.push_back({light.source.id.light, light.source.id.emitter, 1, path.index});
     }
-    // Only a path longer than all VPLs together is cut.
+    // A path is only cut if it is longer than all VPLs together.
     const auto most = static_cast<size_t>(std::max(light.wanted, 0));
     if (counts_.paths == 0 && result.vpls.size() - first > most &&
         result.vpls[first].id.path() == result.vpls.back().id.path())

@@ -1,12 +1,12 @@
-// The paths of all lights, kept from edit to edit (paper 1, 6.3: dynamic light sets): only those
-// that an edit touches are looked at, and of a light that moves a little most stay as they are.
+// The paths of all lights, kept between edits (paper 1, 6.3: dynamic light sets). An edit processes
+// only the paths that it affects; if a light moves a little, most of its paths stay unchanged.
 //
 // Laine et al., "Incremental Instant Radiosity for Real-Time Indirect Illumination" (2007), keep
-// VPLs of a moved light that it still sees and choose which others to drop and to add so that their
-// directions are spread as they should be. Here each path is kept with the probability that
-// leaves its first vertex distributed exactly as light leaves the moved light, and is drawn anew
-// from what is lacking otherwise (maximal coupling of both densities; Thorisson, "Coupling,
-// Stationarity, and Regeneration", 2000, chapter 1): no path changes its weight, so that brightness
+// the VPLs that a moved light still sees, and choose which VPLs to drop and add so that the
+// directions stay well distributed. Here each path is kept with the probability that makes its
+// first vertex distributed exactly as light leaves the moved light; otherwise it is redrawn from
+// the density that is missing (maximal coupling of both densities; Thorisson, "Coupling,
+// Stationarity, and Regeneration", 2000, chapter 1). No path changes its weight, so the brightness
 // cannot jump.
 #pragma once
 
@@ -22,40 +22,42 @@ namespace lamplighter {
 
 class LightPaths {
  public:
-  // In so many frames at rest kept paths are exchanged for those of a scene opened afresh.
+  // When nothing changes, kept paths are replaced within this number of frames by those of a newly
+  // opened scene.
   static constexpr int kRestingFrames = 8;
-  // A light of which more than one in so many paths cannot stay has gone far. Dragged by a hand it
-  // loses one in fifteen a frame.
+  // A light has moved far if more than one in this number of its paths cannot stay. A light dragged
+  // by hand loses one in fifteen per frame.
   static constexpr int kFarShare = 5;
 
-  struct Work {        // of the last update()
-    int walked = 0;    // for which rays were traced
-    int replaced = 0;  // of these, those that meet something else now
-    int kept = 0;      // paths that are as they were
-    int pending = 0;   // that wait for their turn, or to be what they are when opened afresh
+  struct Work {        // in the last update()
+    int walked = 0;    // paths for which rays were traced
+    int replaced = 0;  // walked paths that hit something else now
+    int kept = 0;      // unchanged paths
+    int pending = 0;   // paths that must still be walked, or replaced by those of a newly opened
+                       // scene
     uint64_t rays = 0;
   };
 
-  // Brings the paths up to date with the scene. `changes` and `movers` are those since the last
-  // call. Where they say none, the scene is at rest and the set becomes generateVpls()'s, bit for
-  // bit, whatever was before, a part a frame. Of a light
-  // of which too few paths can stay all are walked anew at once. Rays are traced for mostPaths
-  // paths at most (brightest × longest waiting first; 0: no limit), but after a change of the
-  // counts or of which objects there are all are walked at once. Returns whether the set may have
-  // changed.
+  // Updates the paths for the scene. `changes` and `movers` are those since the last call. If they
+  // are empty, the scene is at rest: over several frames the set becomes bit-equal to that of
+  // generateVpls(), independent of the history. If too few paths of a light can stay, all its paths
+  // are walked again at once. Rays are traced for at most mostPaths paths (brightness × waiting
+  // time decides; 0: no limit). After a change of the counts or of the list of objects, all paths
+  // are walked at once. Returns whether the set may have changed.
   bool update(const RenderScene& scene, const RayCaster& rays, const RenderSceneChanges& changes,
               std::span<const MoverFinder::Mover> movers, const VplCounts& counts,
               int mostPaths = 0);
 
-  // The set of a scene from nothing; suns are whole.
+  // Generates the set without history; suns are not divided into tiles.
   static VplSet generate(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                          const VplCounts& counts);
 
   const LightSet& lights() const { return lightSet_; }
-  // All VPLs, direct ones made anew: sorted by emitter, direct ones first. Suns are whole.
+  // All VPLs, with new direct ones: sorted by emitter, direct ones first. Suns are not divided into
+  // tiles.
   VplSet set(const RenderScene& scene) const;
 
-  // The set is generateVpls()'s.
+  // Whether the set is equal to that of generateVpls().
   bool isAtRest() const { return atRest_; }
   const Work& work() const { return work_; }
 
@@ -63,19 +65,20 @@ class LightPaths {
   static constexpr size_t kNoStep = static_cast<size_t>(-1);
   struct Path {
     LightPath path;
-    Departure start;           // that its first step is distributed by
-    bool isOwn = true;         // it departs, moreover, as its own sample numbers say
-    bool hasMoved = false;     // its light has, since it was looked at
-    size_t touched = kNoStep;  // first step that something may have moved into or away from
-    size_t broken = kNoStep;   // first step whose end has moved
+    Departure start;           // the distribution of its first step
+    bool isOwn = true;         // it also departs as its own sample numbers say
+    bool hasMoved = false;     // its light has moved since the path was last processed
+    size_t touched = kNoStep;  // first step that a moved object may block or no longer block
+    size_t broken = kNoStep;   // first step whose hit point has moved
     int framesWaiting = 0;
     bool isStale() const { return hasMoved || touched != kNoStep || broken != kNoStep; }
   };
   struct Light {
     PathWalker::Source source;
-    int direct = 0, wanted = 0;  // VPLs on it; bounced ones, or paths where the counts say so
+    int direct = 0, wanted = 0;  // wanted numbers of direct VPLs and of indirect VPLs (or paths, if
+                                 // the counts say so)
     float directScale = 1.0f, scale = 1.0f;
-    size_t count = 0;  // paths in the set; behind them there may be more, whose turn it is not
+    size_t count = 0;  // paths in the set; more may be stored behind them
     std::vector<Path> paths;
   };
   struct Task {
@@ -106,7 +109,8 @@ class LightPaths {
   VplCounts counts_;
   LightSet lightSet_;
   std::vector<Light> lights_;  // one for each emitter
-  uint32_t edits_ = 0;         // so far: which numbers paths are kept or drawn by
+  uint32_t edits_ = 0;         // number of edits so far; selects the random numbers for keeping or
+                               // redrawing paths
   Work work_;
 };
 

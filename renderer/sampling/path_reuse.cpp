@@ -9,14 +9,14 @@ namespace lamplighter {
 namespace {
 
 constexpr uint32_t kMostTries = 1000;
-// Dimensions of the tries' directions are 1 and up; of what decides about them these.
+// The candidates' directions use dimensions 1 and up; the decisions use those from here on.
 constexpr uint32_t kChanceDimension = 2000;
-// A light's own parts that a ray may pass.
+// Largest number of the light's own surfaces that a ray may pass.
 constexpr int kMostParts = 8;
-// A vertex is seen when the ray to it ends this near, as a share of the distance.
+// A vertex is visible if the ray to it ends this close to it, as a fraction of the distance.
 constexpr float kSeen = 1e-3f;
 
-// Of a first step from `start`: per m² of what it meets, or per steradian where it meets nothing.
+// Density of a first step from `start`: per m² at its hit, or per steradian if it hits nothing.
 float densityOf(const Departure& start, const PathStep& step) {
   if (!step.hit) return start.density(step.direction);
   const vec3 v = step.position - start.origin;
@@ -34,7 +34,7 @@ bool isSeenAt(const vec3& from, const vec3& place, const PathStep& step) {
   return glm::distance(place, step.position) <= kSeen * glm::distance(from, step.position);
 }
 
-// Whether nothing but the light itself stands between a point and what a step meets.
+// Whether only the light itself may be between a point and the hit of a step.
 bool sees(const PathWalker& walker, NodeId light, const vec3& from, const PathStep& step,
           int& traced) {
   const vec3 direction = directionTo(from, step);

@@ -12,13 +12,14 @@
 namespace lamplighter {
 namespace {
 
-// Dimension pairs of a path's points: where and whereto it leaves; those of bounce b > 0 follow.
-// And through which part of the level parallel light goes; behind those of all bounces.
+// Dimension pairs: 0 and 1 are the start position and direction of a path; those of bounce b > 0
+// follow. This one, after those of all bounces, selects the part of the level that parallel light
+// passes through.
 constexpr uint32_t kChoiceDimension = 100;
 
 bool isBlack(const vec3& c) { return !(c.r > 0.0f || c.g > 0.0f || c.b > 0.0f); }
 
-// Uniform over a cap about Z.
+// Uniform over a cap around Z.
 vec3 sampleCap(float cap, vec2 u) {
   const float z = 1.0f - u.x * cap;
   const float r = std::sqrt(std::max(0.0f, 1.0f - z * z));
@@ -50,7 +51,7 @@ EmitterSample sampleEmitter(const RenderScene& scene, const LightSet& lights,
                             const SampleStreams& numbers, const PathWalker::Source& source,
                             uint32_t index, uint32_t set) {
   const Emitter& e = lights.emitters()[static_cast<size_t>(source.emitter)];
-  const uint32_t parts = e.bothSides ? 2 : 1;  // which take turns
+  const uint32_t parts = e.bothSides ? 2 : 1;  // the sides alternate
   const EmitterPoint at = lights.samplePoint(
       scene, source.emitter,
       numbers.point(source.id, index / parts, SampleStreams::kPlaceDimension, set));
@@ -140,7 +141,8 @@ Departure PathWalker::departPunctual(const Source& source, const RenderPunctual&
   return d;
 }
 
-// From the edge of the scene, towards where the level has its detail: flux = E / density.
+// Starts at the edge of the scene, preferably towards detailed parts of the level: flux = E /
+// density.
 Departure PathWalker::departParallel(const Source& source, const vec3& towards,
                                      const vec3& irradiance, uint32_t index) const {
   const DirectionalOrigins::Point p = parallelStart_.sample(

@@ -1,5 +1,5 @@
-// The walk of one path from a light through the scene (paper 1, 4.1; Keller 1997): how it departs,
-// what it meets, and the bounced VPLs that it leaves.
+// Walks one path from a light through the scene (paper 1, 4.1; Keller 1997): its departure, its
+// hits and its indirect VPLs.
 #pragma once
 
 #include <vector>
@@ -12,65 +12,66 @@
 
 namespace lamplighter {
 
-// How a path leaves its light. World space.
+// How a path leaves its light, in world space.
 struct Departure {
-  // The density of directions about the normal: cos θ/π; the same everywhere within a cap; or one
-  // direction alone (then where it starts is drawn).
+  // Density of directions around the normal: cos θ/π, uniform within a cap, or a single direction
+  // (then the start position is sampled).
   enum class Spread : uint8_t { cosine, cap, parallel };
   vec3 origin{0.0f}, direction{0.0f};
   vec3 normal{0.0f, 0.0f, 1.0f};
-  vec3 flux{0.0f};  // that it carries if it were the only one [W]
+  vec3 flux{0.0f};  // the flux of the path if it were the only one [W]
   Spread spread = Spread::cosine;
-  float cap = 2.0f;  // 1 − cos of its edge; 2: the whole sphere
+  float cap = 2.0f;  // 1 − cos of the half-angle; 2: the whole sphere
 
-  // Per steradian; 0 for parallel.
+  // Density of a direction [1/sr]; 0 for parallel.
   float density(const vec3& towards) const;
   bool startsAs(const Departure& o) const { return origin == o.origin && direction == o.direction; }
 };
 
-// One ray of a path and what it met.
+// One ray of a path and its hit.
 struct PathStep {
   vec3 origin{0.0f}, direction{0.0f};
-  Hit hit;              // none: it left the scene
-  vec3 position{0.0f};  // off the surface, on the side that it came from
-  vec3 normal{0.0f};    // of the surface, to that side
+  Hit hit;              // no hit: it left the scene
+  vec3 position{0.0f};  // offset from the surface to the side of the ray
+  vec3 normal{0.0f};    // of the surface, on the side of the ray
   vec3 albedo{0.0f};
 
-  bool ends() const;  // nothing goes on from there
+  bool ends() const;  // whether no light continues from here
 };
 
-// One path, as one of its light's sequence. Which steps it has does not depend on its flux.
+// One path of its light's sequence. Its steps do not depend on its flux.
 struct LightPath {
   uint32_t index = 0;
-  vec3 flux{0.0f};  // of its departure
+  vec3 flux{0.0f};  // at its departure
   std::vector<PathStep> steps;
 };
 
 class PathWalker {
  public:
-  // Keeps references to all but the counts.
+  // Keeps references to all arguments except the counts.
   PathWalker(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
              const VplCounts& counts);
 
-  // One of LightSet::emitters(), and its id: that of its VPLs without bounce and index.
+  // One of LightSet::emitters(), and the id of its VPLs with bounce and index 0.
   struct Source {
     int emitter = 0;
     VplId id;
   };
-  // How path `index` departs by its own sample numbers. Traces nothing.
+  // The departure of path `index` according to its own sample numbers. Traces no rays.
   Departure depart(const Source& source, uint32_t index) const;
-  // The same start, towards another direction that two numbers in [0, 1)² choose.
+  // A direction from the same start, selected by u in [0, 1)².
   vec3 directionFrom(const Departure& start, vec2 u) const;
-  // Its flux, did it leave that way.
+  // The flux of a path that leaves in this direction.
   vec3 fluxAlong(const Source& source, const Departure& start, const vec3& direction) const;
 
-  // Walks from the departure until the path ends or has all bounces. Returns the rays traced.
+  // Walks from the departure until the path ends or has all bounces. Returns the number of rays
+  // traced.
   int walk(const Source& source, const Departure& departure, LightPath& path) const;
-  // Walks on: steps from `from` on are traced anew, the first of them along the ray it has.
+  // Traces the steps from index `from` on again; the first of them keeps its ray.
   int walkOn(const Source& source, LightPath& path, size_t from) const;
-  // What one ray meets.
+  // Traces one ray.
   PathStep step(const vec3& origin, const vec3& direction) const;
-  // Nothing goes on from what the light leaves out.
+  // Ends the path if the light leaves out the object that was hit (light_linking.h).
   void receive(const Source& source, PathStep& first) const;
 
   size_t bounces() const { return bounces_; }
@@ -93,21 +94,21 @@ class PathWalker {
   DirectionalOrigins parallelStart_;
 };
 
-// The VPLs of a path of which there are 1/share, in the order of its bounces. `light`: a Source's
-// id.
+// Appends the VPLs of one of 1/share paths, in the order of its bounces. `light`: the id of its
+// Source.
 void addVpls(const SampleStreams& numbers, const VplId& light, const LightPath& path, float share,
              std::vector<SceneVpl>& vpls);
-// How many those are.
+// The number of VPLs that addVpls() appends.
 size_t vplCount(const LightPath& path);
 
-// The ids of all emitters, in their order: bounce and index are 0.
+// The ids of all emitters, in order; bounce and index are 0.
 std::vector<VplId> emitterIds(const LightSet& lights);
 
-// A point on an emitter that is a surface, the `index`th of the sequence.
+// Sample number `index` on an emitter that is a surface.
 struct EmitterSample {
   vec3 position, normal;
-  vec3 flux;   // that it stands for, were it the only one [W]
-  float area;  // the same [m²]
+  vec3 flux;   // flux if it were the only sample [W]
+  float area;  // area if it were the only sample [m²]
 };
 EmitterSample sampleEmitter(const RenderScene& scene, const LightSet& lights,
                             const SampleStreams& numbers, const PathWalker::Source& source,

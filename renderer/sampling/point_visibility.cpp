@@ -27,14 +27,14 @@ Ray rayFrom(const vec3& point, const shared::Vpl& vpl) {
   return ray;
 }
 
-// But for how bright it is.
+// Compares everything except the brightness.
 bool isSamePlace(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent;
 }
 
-// Whether a way from `from` along `half` and back again as far as that touches a box about the
-// origin with half of its size: no axis of either, or across both, parts them (Gottschalk, Lin and
-// Manocha, "OBBTree", 1996).
+// Conservative test whether a segment with the given middle, extending by ±half, touches a box
+// around the origin with half-size `size`: separating axis test with the box axes and their cross
+// products with the segment (Gottschalk, Lin and Manocha, "OBBTree", 1996).
 hn::Mask<FloatTag> mayTouchBox(const Wide& middle, const Wide& half, const vec3& size) {
   const Wide along{hn::Abs(half.x), hn::Abs(half.y), hn::Abs(half.z)};
   const Wide e = wide(size);
@@ -61,10 +61,10 @@ hn::Mask<FloatTag> mayTouchBox(const Wide& middle, const Wide& half, const vec3&
 
 }  // namespace
 
-// What moved.
+// A moved object.
 struct PointVisibility::Obstacle {
   Bounds box;
-  float rounding;  // of its coordinates [m]
+  float rounding;  // rounding error of its coordinates [m]
 };
 
 size_t PointVisibility::IdHash::operator()(const VplId& id) const {
@@ -133,9 +133,9 @@ void PointVisibility::takePoints(std::span<const SeenPoint> points) {
   }
 }
 
-// Most lights stand in the order in which they stood: only the others are looked for.
+// Most lights keep their position in the list; only the others are searched.
 void PointVisibility::findRows(std::span<const SceneVpl> lights) {
-  constexpr size_t kAhead = 8;  // past those of a path or two that went
+  constexpr size_t kAhead = 8;  // larger than the number of VPLs of one or two removed paths
   std::vector<Known> found;
   found.reserve(lights.size());
   std::vector<uint8_t> isFound(known_.size(), 0);
@@ -173,7 +173,7 @@ void PointVisibility::take(const shared::Vpl& light, float clampDistance, size_t
   }
 }
 
-// As shared::vplGeometry, bit for bit.
+// Bit-equal to shared::vplGeometry.
 void PointVisibility::measure(Row& row, size_t block) const {
   const size_t first = block * kLanes;
   if (row.vpl.position.w != shared::kVplCosine) {

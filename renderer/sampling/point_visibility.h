@@ -1,6 +1,6 @@
-// Which of some points light samples see, and what reaches these, kept from edit to edit: of the
-// samples of a light that is dragged most bounce where they did, and a ray that nothing moved
-// across finds what it found. Points are taken eight at a time.
+// Which points are visible from VPLs, and the irradiance at the points, cached between edits. While
+// a light is dragged, most VPLs stay in place, and rays that no moved object crosses stay valid.
+// Points are processed eight at a time.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace lamplighter {
 
-// A place that the camera sees: off its surface, on the side that is seen. World space, metres.
+// A point that the camera sees, offset from its surface to the visible side. World space, metres.
 struct SeenPoint {
   vec3 position, normal;
   uint32_t leftOutBy = 0;  // light_linking.h
@@ -25,30 +25,30 @@ class PointVisibility {
  public:
   static constexpr size_t kMostPoints = 128;
 
-  // To be called before a scene that changed is asked about again.
+  // Invalidates cached results after a change of the scene. Call it before the next irradiance().
   void outdate(const RenderSceneChanges& changes, std::span<const MoverFinder::Mover> movers);
 
-  // Luminance of the irradiance that each point has from each light, whose ids differ: a row of
-  // kMostPoints a light, 0 past the last of the points, which are no more. Good until the next
-  // call. 1/d² is bounded at clampDistance [m].
+  // Luminance of the irradiance at each point from each light; the ids of the lights must differ.
+  // One row of kMostPoints values per light, 0 after the last point; at most kMostPoints points.
+  // The result is valid until the next call. 1/d² is bounded at clampDistance [m].
   std::span<const float> irradiance(std::span<const SceneVpl> lights,
                                     std::span<const SeenPoint> points, const RayCaster& rays,
                                     float clampDistance);
 
  private:
   static constexpr size_t kLanes = 8, kBlocks = kMostPoints / kLanes;
-  using Points = std::array<uint8_t, kBlocks>;  // a bit for each
-  // A light sample, and what is known of it so far.
+  using Points = std::array<uint8_t, kBlocks>;  // one bit per point
+  // A VPL and its cached results.
   struct Row {
     shared::Vpl vpl{};
     float clampDistance = 0.0f;
-    size_t at = 0;           // in known_
-    Points known{}, seen{};  // whether nothing stands between it and the point
-    uint32_t measured = 0;   // blocks, a bit for each
+    size_t at = 0;           // index in known_
+    Points known{}, seen{};  // visibility tested; VPL visible from the point
+    uint32_t measured = 0;   // one bit per block whose geometry is computed
     alignas(
         32) std::array<float, kMostPoints> geometry{};  // E there if nothing does, over I [1/m²]
   };
-  // All x, all y, all z; what is past the last is nothing.
+  // Arrays of x, y and z; unused entries are 0.
   struct Vectors {
     alignas(32) std::array<float, kMostPoints> x{}, y{}, z{};
     void set(size_t i, const vec3& v) { x[i] = v.x, y[i] = v.y, z[i] = v.z; }
@@ -69,10 +69,10 @@ class PointVisibility {
 
   std::vector<SeenPoint> points_;
   Vectors positions_, normals_;
-  float rounding_ = 0.0f;  // of their coordinates [m]
-  Points same_{};          // of the points: as they were in the last call
+  float rounding_ = 0.0f;  // rounding error of their coordinates [m]
+  Points same_{};          // points that are unchanged since the last call
   std::unordered_map<VplId, Row, IdHash> rows_;
-  // All rows, in the order of the lights that were asked about last.
+  // All rows, in the order of the lights of the last call.
   struct Known {
     VplId id;
     Row* row;

@@ -17,7 +17,7 @@ SampleStreams::SampleStreams(const VplCounts& counts)
 vec2 SampleStreams::point(const VplId& light, uint32_t index, uint32_t dimension,
                           uint32_t set) const {
   const uint32_t scramble = hash4(light.light, light.emitter, seed_, set);
-  // Padded dimensions must not walk in step, so all but the first are shuffled.
+  // Padded dimensions must not be correlated, so all but the first are shuffled.
   return dimension == 0 ? sobol2Ordered(index, scramble)
                         : sobol2(index, hash4(scramble, dimension, 0, 0));
 }

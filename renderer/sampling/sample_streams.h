@@ -1,28 +1,29 @@
-// The numbers by which light samples are drawn, and how a VPL is made of a place.
+// The random numbers of VPLs, and the construction of a VPL from a position.
 #pragma once
 
 #include "renderer/sampling/vpl_set.h"
 
 namespace lamplighter {
 
-// Stateless: each is a function of the light's id, the sample's index and the dimension alone.
+// Stateless: each number depends only on the light's id, the sample's index and the dimension.
 class SampleStreams {
  public:
   explicit SampleStreams(const VplCounts& counts);
 
-  // Which sequence: of points on lights, of paths, and of paths that follow a moved light.
+  // The sequence: points on lights, paths, or paths that follow a moved light.
   enum Set : uint32_t { direct = 0x0d, indirect = 0x1d, following = 0x5d };
-  // Which dimension a light's own points and directions take; paths go on after these.
+  // Dimensions of positions and directions on a light; paths use the following ones.
   static constexpr uint32_t kPlaceDimension = 0, kDirectionDimension = 1;
-  // Two coordinates of the point `index` of the light's sequence, in [0, 1)², stable in index.
-  // Dimension 0 is neither shuffled nor hashed, so that neighbouring counts share their points.
+  // Point `index` of the light's sequence, in [0, 1)²; it does not depend on the number of points.
+  // Dimension 0 is neither shuffled nor hashed, so that sets of different size share their first
+  // points.
   vec2 point(const VplId& light, uint32_t index, uint32_t dimension, uint32_t set) const;
 
-  // A unit tangent turned about the unit normal by chance, so that the texel grids of many maps do
-  // not line up on the walls of a room.
+  // A unit tangent with a random rotation around the unit normal, so that the texel grids of many
+  // shadow maps are not aligned with the walls of a room.
   vec3 turnedTangent(const VplId& id, const vec3& normal) const;
 
-  // A VPL of one of shared::kVpl…, world space, intensity [W/sr] or irradiance [W/m²].
+  // Makes a VPL of kind shared::kVpl…, in world space; intensity [W/sr] or irradiance [W/m²].
   SceneVpl makeVpl(const VplId& id, float kind, const vec3& position, const vec3& normal,
                    const vec3& intensity) const;
 

@@ -8,20 +8,21 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kLeastSide = 0.25f;  // metres; finer shadows are not worth a map
+constexpr float kLeastSide = 0.25f;  // metres; finer shadows do not justify a map
 constexpr uint32_t kLastCode =
-    1u << 28;  // of those that are quartered: what follows has a code too
-// Places in the picture that are looked at, and what those in shadow count beside those in light:
-// edges of shadows lie among the latter, but a coarse map may leak into the former.
+    1u << 28;  // largest code of a tile that may be divided; the codes of its quarters fit, too
+// Number of visible points to test. Points in shadow have a lower weight than lit ones: shadow
+// borders are among lit points, but a coarse map may leak light into the shadow.
 constexpr int kSeenPoints = 1024;
 constexpr float kInShadow = 0.25f;
-// Share of the choice by what is seen; the rest is for where the camera may turn to.
+// Weight of visible points; the remainder is for places to which the camera may turn.
 constexpr float kSeenShare = 0.8f;
 
-// What an object covers of the plane across the sun's direction.
+// The area that an object covers in the plane perpendicular to the sun's direction.
 struct Footprint {
   vec2 min, max;
-  float weight;  // √triangles: detail counts, but a mesh of a million is not a thousand boxes
+  float weight;  // √triangles: detail counts, but a mesh of a million triangles does not equal a
+                 // thousand boxes
 
   float shareWithin(const SunShadowTile& s) const {
     const vec2 low = glm::max(min, s.centre - s.side), high = glm::min(max, s.centre + s.side);
@@ -31,17 +32,18 @@ struct Footprint {
 };
 
 Footprint footprintOf(const RenderObject& object, const mat3& axes, const vec3& middle) {
-  // Half extents of the box along the axes.
+  // Half-size of the box along the axes.
   const vec3 half = 0.5f * object.bounds.extent();
   const vec3 from = object.bounds.centre() - middle;
   const vec2 at(glm::dot(from, axes[0]), glm::dot(from, axes[1]));
-  const float thin = 1e-4f * (1.0f + object.bounds.radius());  // gives a flat one an area
+  const float thin = 1e-4f * (1.0f + object.bounds.radius());  // gives a flat object a non-zero
+                                                               // area
   const vec2 reach(glm::dot(glm::abs(axes[0]), half) + thin,
                    glm::dot(glm::abs(axes[1]), half) + thin);
   return {at - reach, at + reach, std::sqrt(static_cast<float>(object.triangleCount()))};
 }
 
-// How much would be gained by halving the width of a square's texels.
+// The gain of halving the texel size of a tile.
 class Gain {
  public:
   Gain(const RenderScene& scene, const mat3& axes, const vec3& middle,

@@ -1,5 +1,5 @@
-// Where a sun's shadow maps lie: squares across its direction, small where the camera sees places
-// that it may light and where the level has its detail.
+// Divides a sun into shadow map tiles: squares perpendicular to its direction, small where the
+// camera sees lit surfaces and where the level has detail.
 #pragma once
 
 #include <cstdint>
@@ -14,27 +14,28 @@
 namespace lamplighter {
 
 struct SunShadowTile {
-  vec2 centre{0.0f};  // along the frame's first two axes, from the middle of the whole [m]
+  vec2 centre{0.0f};  // along the first two axes of the frame, from the centre of the undivided
+                      // square [m]
   float side = 0.0f;  // half of its width [m]
-  uint32_t code = 1;  // names its place: 1 is the whole, 4·code + 0 … 3 are its quarters
+  uint32_t code = 1;  // position in the quadtree: 1 is the whole, 4·code + 0 … 3 are the quarters
 };
 
-// A place that is seen and that faces the sun.
+// A visible point that faces the sun.
 struct SunPoint {
-  vec2 at{0.0f};        // as SunShadowTile::centre
-  float weight = 1.0f;  // how much it counts beside others
+  vec2 at{0.0f};        // like SunShadowTile::centre
+  float weight = 1.0f;  // relative weight among the points
 };
 
-// Quarters a square of half-width `whole` about `middle`, always where halving the texels gains
-// most, until there would be more than `count`: at the points, and by a smaller part where most of
-// the scene is. Squares without any object are left out. `axes`: the frame's tangent, bitangent and
-// normal.
+// Divides a square with half-width `whole` around `middle` into quarters, up to `count` tiles. Each
+// step divides the tile where halving the texel size gains most: at the points, and with a smaller
+// weight where most of the scene is. Tiles without objects are dropped. `axes`: tangent, bitangent
+// and normal of the frame.
 std::vector<SunShadowTile> sunShadowTiles(const RenderScene& scene, const mat3& axes,
                                           const vec3& middle, float whole, int count,
                                           std::span<const SunPoint> points = {});
 
-// Puts squares, at most `count` of them, in the place of each VPL that is the whole of a sun
-// (parallel and no sample). `view`: whose picture they are for, if any.
+// Replaces each VPL that is a whole sun (parallel and not a sample) by at most `count` tiles.
+// `view`: the view to optimise for, or null.
 void divideSuns(std::vector<SceneVpl>& vpls, const RenderScene& scene, const RayCaster& rays,
                 const View* view, int count);
 

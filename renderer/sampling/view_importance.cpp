@@ -17,25 +17,26 @@
 namespace lamplighter {
 namespace {
 
-// Points that are looked at; with many candidates fewer, so that there are at most so many rays.
+// Number of visible points; with many candidates fewer are used, to limit the number of rays.
 constexpr int kMostPoints = PointVisibility::kMostPoints, kFewestPoints = 32;
 constexpr size_t kMostRays = size_t{1} << 19;
-// How far beyond the picture's edges they may lie, as a share of its size.
+// How far beyond the picture's edges points may be, as a fraction of its size.
 constexpr float kMargin = 0.1f;
-// Share of the choice that does not look at importance: what no point sees may still light what is
-// between them, and nothing stands for more than 1/kEvenShare of what it would without.
+// Fraction of the choice that ignores importance. VPLs that no point sees may still light the space
+// between the points. It also limits the scaling of any VPL to 1/kEvenShare times.
 constexpr float kEvenShare = 0.25f;
-// What is darker than this share of the mean does not count for more than if it were as bright.
+// Points darker than this fraction of the mean get the weight of this brightness.
 constexpr double kDarkest = 0.01;
 constexpr float kEyeGrid = 0.5f;  // metres
 constexpr float kTurnGrid = 15.0f * kPi / 180.0f;
-constexpr int kSteadyHeight = 1024;  // a picture of another size and the same ratio is the same
+constexpr int kSteadyHeight = 1024;  // makes the result depend only on the aspect ratio of the
+                                     // picture
 constexpr uint32_t kPointSet = 0x5d, kRankSet = 0x6d;
 
 constexpr hn::FixedTag<double, 4> kDoubles;
 constexpr hn::FixedTag<float, 4> kFloats;
 
-// Of all points.
+// One column per point.
 constexpr size_t kColumns = PointVisibility::kMostPoints;
 using Columns = std::array<double, kColumns>;
 
@@ -46,7 +47,7 @@ void addTo(Columns& sums, const float* row) {
   for (size_t j = 0; j < kColumns; j += 4)
     hn::StoreU(hn::Add(hn::LoadU(kDoubles, &sums[j]), loadDoubles(row + j)), kDoubles, &sums[j]);
 }
-// What of each column's whole a row is, squared.
+// Squared ratio of each row element to the sum of its column.
 void squareShares(const float* row, const Columns& whole, Columns& out) {
   for (size_t j = 0; j < kColumns; j += 4) {
     const auto share = hn::Div(loadDoubles(row + j), hn::LoadU(kDoubles, &whole[j]));
@@ -93,7 +94,8 @@ View steadyView(const View& view, const RayCaster& rays) {
   const vec3 eye(onGrid(view.eye.x, kEyeGrid), onGrid(view.eye.y, kEyeGrid),
                  onGrid(view.eye.z, kEyeGrid));
   const float way = glm::length(eye - view.eye);
-  // Beyond it too, so that it does not look out of a wall that it touches.
+  // Tests slightly further than the grid point, so that the eye is not inside a wall that it
+  // touches.
   if (way > 0.0f && !rays.occluded({view.eye, 0.0f, (eye - view.eye) / way, way + 0.1f}))
     steady.eye = eye;
   return steady;
@@ -117,7 +119,7 @@ std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
   if (!(mean > 0.0)) return importance;
   Columns whole;
   for (size_t j = 0; j < kColumns; ++j) whole[j] = std::max(sums[j], kDarkest * mean);
-  // Four at a time: each sum waits for itself alone.
+  // Sums four rows at a time, to hide the latency of additions.
   constexpr size_t kAtOnce = 4;
   tbb::parallel_for(size_t{0}, (candidates.size() + kAtOnce - 1) / kAtOnce, [&](size_t group) {
     const size_t first = group * kAtOnce, last = candidates.size() - 1;
@@ -138,7 +140,7 @@ std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
   const size_t wanted = static_cast<size_t>(std::max(count, 0));
   if (candidates.size() <= wanted) return {candidates.begin(), candidates.end()};
   if (wanted == 0) return {};
-  // How many points each sequence has.
+  // Number of points of each sequence.
   std::map<VplId, uint32_t> lengths;
   const auto sequence = [](const VplId& id) {
     return VplId{id.light, id.emitter, id.bounce > 0 ? 1u : 0u, 0};
@@ -150,12 +152,13 @@ std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
   const float sum = std::accumulate(importance.begin(), importance.end(), 0.0f);
   const float scale =
       sum > 0.0f ? (1.0f - kEvenShare) * static_cast<float>(candidates.size()) / sum : 0.0f;
-  // Shares of the candidates to take at their places, but for a factor; and what factor would take
-  // each.
+  // share: fraction of the candidates to take at each position, up to a common factor; taken: the
+  // factor at which each candidate is taken.
   std::vector<float> share(candidates.size()), taken(candidates.size());
   for (size_t i = 0; i < candidates.size(); ++i) {
     const VplId of = sequence(candidates[i].id);
-    // Sequences do not end together, or few points of many lights would all come or go at once.
+    // An offset per sequence, so that sequences do not end at the same factor; otherwise the VPLs
+    // of many small sequences would appear and disappear together.
     const float offset = toUnitFloat(hash4(of.light, of.emitter, of.bounce, kRankSet));
     const float rank =
         (static_cast<float>(candidates[i].id.index) + offset) / static_cast<float>(lengths[of]);
@@ -193,7 +196,7 @@ VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderSce
     (isCandidate(v) ? candidates : chosen.vpls).push_back(v);
     sky += isCandidate(v) && v.id.bounce == 0;
   }
-  // What lights themselves have no use for is there for the light that they bounce.
+  // Samples that direct light does not need are used for indirect light.
   const int wanted = counts.bounces > 0 ? counts.total - static_cast<int>(chosen.vpls.size())
                                         : sky / counts.candidates;
   const size_t mostPoints = kMostRays / std::max<size_t>(set.vpls.size(), 1);

@@ -1,7 +1,8 @@
-// Samples where light arrives: of more candidate VPLs than are wanted, those that bring most to
-// what the camera sees get their shadow maps (Georgiev and Slusallek, "Simple and Robust Iterative
-// Importance Sampling of Virtual Point Lights", Eurographics 2010 short papers). It is an answer to
-// paper 1, section 6.1, figure 6-1: behind a narrow gap few of a random walk's samples arrive.
+// Chooses VPLs by their contribution to the view: of more candidate VPLs than wanted, only those
+// that contribute most to what the camera sees are used and get shadow maps (Georgiev and
+// Slusallek, "Simple and Robust Iterative Importance Sampling of Virtual Point Lights",
+// Eurographics 2010 short papers). Solves the problem of paper 1, section 6.1, figure 6-1: few
+// samples of a random walk pass through a narrow gap.
 #pragma once
 
 #include <span>
@@ -15,39 +16,40 @@
 
 namespace lamplighter {
 
-// At most `count` places that the camera sees, evenly over the picture and a little beyond its
-// edges, in an order of which any part is even too. A function of scene, view and count alone; the
-// view's size counts only by its ratio.
+// At most `count` points that the camera sees, evenly distributed over the picture and slightly
+// beyond its edges. Each subrange of the result is also evenly distributed. Depends only on scene,
+// view and count; of the view's size only the aspect ratio matters.
 std::vector<SeenPoint> seenPoints(const RenderScene& scene, const RayCaster& rays, const View& view,
                                   int count);
 
-// The view for which samples are chosen: the camera's, with eye and direction on a grid (half a
-// metre, 15°), so that small moves change no sample. Where a surface stands between the eye and the
-// grid's point, the eye itself. So it depends on the present camera and scene alone, not on the way
-// there.
+// The view for which VPLs are chosen: eye and direction of the camera snapped to a grid (half a
+// metre, 15°), so that small camera motions change no VPL. If a surface is between the eye and the
+// grid point, the eye is not snapped. Depends only on the present camera and scene, not on earlier
+// ones.
 View steadyView(const View& view, const RayCaster& rays);
 
-// What each candidate brings: √mean over the points of (E/ΣE)², E its irradiance there with its
-// shadow found by a ray and 1/d² bounded as when it is shown, ΣE that of all candidates and of
-// `others`. So the error of the picture relative to its brightness at each place is least for
-// samples in proportion to it. Unit 1, relative to each other only.
+// Importance of each candidate: √mean over the points of (E/ΣE)². E is its irradiance at the point,
+// with the shadow found by a ray and 1/d² clamped as in the picture; ΣE is the sum over all
+// candidates and `others`. VPLs in proportion to it minimise the error relative to the local
+// brightness. Unit 1, only relative values matter.
 std::vector<float> importanceOf(std::span<const SceneVpl> candidates,
                                 std::span<const SceneVpl> others, std::span<const SeenPoint> points,
                                 const RayCaster& rays, float clampDistance, PointVisibility& kept);
 
-// `count` of the candidates, in their order, each brighter by what it stands for. The candidates
-// are the first points of sequences, one an emitter; of these each place in the scene takes as many
-// of the first as its importance says, as sequences of points of varying density are made from
-// ranks (Ostromoukhov, Donohue, Jodoin, "Fast Hierarchical Importance Sampling with Blue Noise
-// Properties", 2004). Where all are as important it is the first points, as without. Importance
-// counts in steps of 2, so that an edit changes few samples and the brightness of few. The mean
-// over scrambles is that of all candidates.
+// Chooses `count` candidates, in their order, and scales each to the flux of those that it
+// replaces. The candidates are the first points of one sequence per emitter. Each region of the
+// scene takes the first of its points, as many as its importance requires, like sequences with
+// varying density made from ranks (Ostromoukhov, Donohue, Jodoin, "Fast Hierarchical Importance
+// Sampling with Blue Noise Properties", 2004). With uniform importance the result is the first
+// points, as without importance sampling. Importance is rounded to powers of 2, so that an edit
+// changes few VPLs and the brightness of few. The mean over scrambles equals the light of all
+// candidates.
 std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
                                          std::span<const float> importance, int count);
 
-// The set with as many of its candidates (VplCounts::candidates) chosen for the view as were
-// wanted. Lights' own samples are as ever; they stand first. `kept` spares rays and changes
-// nothing.
+// Returns the set with the wanted number of candidates (VplCounts::candidates), chosen for the
+// view. The lights' own (direct) VPLs are unchanged and come first. `kept` is a cache that saves
+// rays; it does not change the result.
 VplSet chooseForView(const VplSet& set, const VplCounts& counts, const RenderScene& scene,
                      const RayCaster& rays, const View& view, float clampDistance,
                      PointVisibility& kept);

@@ -7,7 +7,7 @@
 namespace lamplighter {
 namespace {
 
-// Adds `extra` to the counts of those in `open` by weight: largest remainder.
+// Distributes `extra` over the counts of the shares in `open` by weight (largest remainder).
 void addByWeight(std::span<const SampleShare> shares, const std::vector<size_t>& open, int extra,
                  std::vector<int>& counts) {
   double sum = 0.0;

@@ -21,7 +21,7 @@ Sample sampleOf(const shared::Vpl& vpl) {
   return {vec3(vpl.position), std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b})};
 }
 
-// every: of how many each of the others stands for.
+// every: the number of VPLs that each of the others represents.
 float sharedArea(const Sample& at, std::span<const Sample> others, float every, float mostRadius) {
   struct Near {
     float d2, brightness;
@@ -32,7 +32,7 @@ float sharedArea(const Sample& at, std::span<const Sample> others, float every, 
   for (const Sample& s : others) {
     const vec3 d = s.position - at.position;
     const float d2 = glm::dot(d, d);
-    if (d2 > 0.0f) near.push_back({d2, s.brightness});  // not itself
+    if (d2 > 0.0f) near.push_back({d2, s.brightness});  // skips itself
   }
   if (near.empty() || !(at.brightness > 0.0f)) return kPi * mostRadius * mostRadius;
   const size_t count = std::min(kNeighbours, near.size());
@@ -45,7 +45,7 @@ float sharedArea(const Sample& at, std::span<const Sample> others, float every, 
 }  // namespace
 
 void findFootprints(const LightSet& lights, std::span<SceneVpl> vpls) {
-  std::map<VplId, float> skyAngle;  // by set: 4π sr
+  std::map<VplId, float> skyAngle;  // by set: solid angle [sr] of the sky
   std::map<NodeId, uint32_t> emittersOfNode;
   for (const Emitter& e : lights.emitters()) {
     const VplId id{e.node, emittersOfNode[e.node]++, 0, 0};

@@ -1,4 +1,5 @@
-// How much light each VPL stands for, so that speculars can blur its highlight by that much.
+// The footprint of each VPL: the surface area or solid angle that it represents. Specular
+// highlights are blurred by it.
 #pragma once
 
 #include <span>
@@ -8,14 +9,13 @@
 
 namespace lamplighter {
 
-// Sets Vpl::footprint of all.
-//   On a light's surface: its area over the number of its VPLs. Of the sky: 4π over their number.
-//   Where light has bounced: of the disc around the VPL that holds its kNeighbours nearest ones
-//   (the radius of Hašan et al., "Virtual Spherical Lights", 2009), a share by brightness,
-//     A = π r² I / ΣI,
-//   so that I / A, the radiance that its highlight shows, is what the surface there has on average.
-//   Of more than kMostCompared VPLs, every n-th one is compared with.
-// A function of the VPLs and lights alone.
+// Sets Vpl::footprint of all VPLs, as a function of the VPLs and lights only.
+//   On a light's surface: its area divided by the number of its VPLs. Sky: 4π divided by their
+//   number. Indirect: a share, by brightness, of the disc around the VPL that contains its
+//   kNeighbours nearest ones (the radius of Hašan et al., "Virtual Spherical Lights", 2009):
+//     A = π r² I / ΣI.
+//   So I / A, the radiance of its highlight, is the average radiance of the surface there.
+//   Of more than kMostCompared VPLs, only every n-th is compared.
 void findFootprints(const LightSet& lights, std::span<SceneVpl> vpls);
 
 }  // namespace lamplighter

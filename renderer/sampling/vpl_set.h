@@ -1,5 +1,5 @@
-// Light samples (paper 1, 4.1): the virtual point lights that stand for a scene's lights and for
-// what they bounce.
+// VPLs (light samples; paper 1, 4.1): virtual point lights that represent the lights of a scene and
+// the light that surfaces reflect.
 #pragma once
 
 #include <compare>
@@ -15,51 +15,50 @@
 
 namespace lamplighter {
 
-// Which sample of which light a VPL is. The same id after a change is the same point on the
-// emitter, or the same bounce of the same path, so a light that moves a little moves its VPLs a
-// little.
+// Identifies a sample of a light. After an edit the same id is the same point on the emitter, or
+// the same bounce of the same path. So the VPLs of a light that moves a little move a little.
 struct VplId {
   NodeId light = kNoNode;
-  uint32_t emitter = 0;  // counts the emitters of one node
-  uint32_t bounce = 0;   // 0: on the light itself
-  uint32_t index = 0;    // of the point, or of the path
+  uint32_t emitter = 0;  // index among the emitters of one node
+  uint32_t bounce = 0;   // 0: direct
+  uint32_t index = 0;    // of the point or path
 
   auto operator<=>(const VplId&) const = default;
-  // VPLs of one set share in one light's flux at one bounce.
+  // VPLs of one set share the flux of one light at one bounce.
   VplId set() const { return {light, emitter, bounce, 0}; }
-  // VPLs of one path, the points at which it bounces, are there all or none; one on a light is a
-  // path of its own.
+  // VPLs of one path (its bounces) are added and removed together. A direct VPL is a path of its
+  // own.
   VplId path() const { return {light, emitter, bounce == 0 ? 0u : 1u, index}; }
 };
 
 struct SceneVpl {
-  shared::Vpl vpl;  // intensity.w is −1: the slot is not the sampler's business
+  shared::Vpl vpl;  // intensity.w is −1: the sampler does not assign slots
   VplId id;
-  // False for the parts of a punctual light, of which each is all there is in its directions.
+  // False for VPLs of a punctual light: each one carries all light in its directions.
   bool isSample = true;
-  float area = 0.0f;  // of the surface of its light that it stands for [m²]; 0: no such
+  float area = 0.0f;  // area of its light that it represents [m²]; 0: none
 
-  // A sun, or one of the squares into which it is divided.
+  // Whether it is a sun, or one of its shadow tiles.
   bool isOfSun() const { return !isSample && vpl.position.w == shared::kVplDirectional; }
 };
 
 struct VplCounts {
   int total = 300;
-  float directShare = 0.5f;  // without bounces all are direct
+  float directShare = 0.5f;  // ignored without bounces: then all are direct
   int bounces = 2;
   uint32_t seed = 1;
-  // 0: the set that is shown live. Batches 1, 2, … of the same counts go on one after the other in
-  // sequences of their own, each with its maps turned otherwise, so that their mean is a picture
-  // with as many samples as all of them together. They want `paths`.
+  // 0: the set that is shown live. Batches 1, 2, … of the same counts continue sequences of their
+  // own, each with differently rotated shadow maps. Their mean equals a picture with the samples of
+  // all batches. They require `paths`.
   uint32_t batch = 0;
-  // Paths to walk, however many indirect VPLs they leave; 0: until there are enough of these. Then
-  // how many there are depends on how long they are, a small error that the mean of many sets
-  // keeps.
+  // Number of paths to walk, independent of the number of indirect VPLs that they leave; 0: until
+  // there are enough VPLs. In the latter case the number of paths depends on their lengths: a small
+  // bias that remains in the mean of many sets.
   int paths = 0;
-  // As many times as many samples of bounced light and of the sky, of which others choose some
-  // (view_importance.h).
+  // Factor for the number of samples of indirect light and of the sky, of which view_importance.h
+  // chooses some.
   int candidates = 1;
-  int sunMaps = 128;  // squares of each sun, which come on top of the total (sun_shadow_tiles.h)
+  int sunMaps = 128;  // shadow tiles per sun, in addition to the total (sun_shadow_tiles.h)
 
   bool operator==(const VplCounts&) const = default;
 };
@@ -68,25 +67,25 @@ struct VplSet {
   std::vector<SceneVpl> vpls;  // sorted by emitter, direct ones first
   uint64_t rays = 0;           // traced to find them
   int paths = 0;               // walked
-  std::vector<VplId> pathIds;  // of these (VplId::path), those that left no VPL included
+  std::vector<VplId> pathIds;  // ids of all walked paths (VplId::path), including those without
+                               // VPLs
 };
 
-// Whether both are of one sun, which is one sample.
+// Whether both belong to the same sun. A sun counts as one sample.
 bool isSameSun(const SceneVpl& a, const SceneVpl& b);
-// How many samples they are, in the order of a set.
+// The number of samples in these VPLs, which must be in the order of a set.
 int sampleCount(std::span<const SceneVpl> vpls);
 
-// Where a batch goes on in a sequence of which each takes `count` points.
+// First index of a batch in a sequence of which each batch takes `count` points.
 inline uint32_t firstIndex(uint32_t batch, int count) {
   return batch == 0 ? 0 : (batch - 1) * static_cast<uint32_t>(count);
 }
 
-// Lights get samples in proportion to their flux, each at least one; when there are not enough for
-// that the brightest get them and stand for the flux of all. A point light is two VPLs
-// (hemispheres) and a spot one, however many samples there are; a sun is one sample too, but is
-// divided into the squares of its maps, for the view if one is given; KHR_lights_punctual's range,
-// which bends the inverse-square law, is ignored. May return fewer than `total`, and more by the
-// squares.
+// Lights get samples in proportion to their flux, each at least one. If there are not enough
+// samples, the brightest lights get them and represent the flux of all. A point light is always two
+// VPLs (hemispheres), a spot one. A sun counts as one sample but is divided into shadow tiles, for
+// the view if one is given. The range of KHR_lights_punctual, which bends the inverse-square law,
+// is ignored. The result may have fewer than `total` VPLs, or more because of shadow tiles.
 VplSet generateVpls(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                     const VplCounts& counts, const View* view = nullptr);
 

@@ -47,7 +47,7 @@ View viewOfCamera(const Scene& scene, const Node& node, int width, int height) {
   view.height = height;
   const mat4 world = worldMatrix(scene, node.id);
   view.eye = vec3(world[3]);
-  // Scale and shear of the node change nothing but the axes' directions.
+  // Scale and shear of the node only affect the directions of the axes.
   const vec3 back = glm::normalize(vec3(world[2]));
   const vec3 right = glm::normalize(glm::cross(vec3(world[1]), back));
   view.orientation = glm::normalize(glm::quat_cast(mat3(right, glm::cross(back, right), back)));
@@ -66,8 +66,8 @@ View viewOfBounds(const Bounds& bounds, int width, int height) {
   const vec3 back = glm::normalize(vec3(0.6f, 0.45f, 1.0f));
   const vec3 right = glm::normalize(glm::cross(vec3(0, 1, 0), back));
   view.orientation = glm::normalize(glm::quat_cast(mat3(right, glm::cross(back, right), back)));
-  // As near as every corner of the box allows: a corner at p (relative to the middle) is in the
-  // picture when |p·right| and |p·up| are within the frustum at its depth.
+  // The smallest distance at which every corner of the box is visible: a corner at p (relative to
+  // the centre) is in the picture if |p·right| and |p·up| are within the frustum at its depth.
   const float radius = std::max(bounds.radius(), 1e-3f);
   const float vertical = std::tan(0.5f * view.yfov), horizontal = vertical * view.aspect();
   const vec3 half = 0.5f * bounds.extent();

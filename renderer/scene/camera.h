@@ -19,15 +19,15 @@ struct View {
   vec3 forward() const { return orientation * vec3(0, 0, -1); }
   float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
   mat4 worldToView() const;
-  // Reversed Z with the far plane at infinity; clip-space depth 1 at znear, 0 at infinity.
+  // Reversed Z with an infinite far plane: clip-space depth is 1 at znear and 0 at infinity.
   mat4 viewToClip() const;
   mat4 worldToClip() const { return viewToClip() * worldToView(); }
-  // Unit direction through the image point (x, y) in pixels; (0.5, 0.5) is the middle of the
-  // top-left pixel.
+  // Unit direction through the image point (x, y) [px]; (0.5, 0.5) is the centre of the top-left
+  // pixel.
   vec3 rayDirection(float x, float y) const;
-  // The same before it is made a unit vector: linear in x and y, and 1 along forward().
+  // The same without normalisation: linear in x and y, with a component of 1 along forward().
   vec3 rayPlane(float x, float y) const;
-  // Image position of a world point in pixels, y down; w ≤ 0 behind the eye.
+  // Image position of a world-space point [px], y down; w ≤ 0 behind the eye.
   vec3 project(const vec3& world) const;  // x, y, distance along forward()
 
   bool operator==(const View&) const = default;
@@ -35,7 +35,7 @@ struct View {
 
 // The view of a scene's camera node at the given size.
 View viewOfCamera(const Scene& scene, const Node& node, int width, int height);
-// A view that shows the whole of `bounds` from a little above, when a scene has no camera.
+// A view from slightly above that shows all of `bounds`, for a scene without a camera.
 View viewOfBounds(const Bounds& bounds, int width, int height);
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// A place to look from that the user put by, under a number; saved as a note of the scene.
+// A camera position that the user saved under a number; stored in the extras of the scene.
 #pragma once
 
 #include "renderer/base/math.h"
@@ -10,7 +10,7 @@ inline constexpr int kCameraBookmarks = 9;
 struct CameraBookmark {
   int slot = 1;  // 1 to kCameraBookmarks
   vec3 eye{0.0f};
-  quat orientation{1.0f, 0.0f, 0.0f, 0.0f};  // as View's
+  quat orientation{1.0f, 0.0f, 0.0f, 0.0f};  // as in View
   float yfov = 0.9f;                         // radians, vertical
   bool operator==(const CameraBookmark&) const = default;
 };

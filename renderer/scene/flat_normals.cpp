@@ -13,11 +13,11 @@ void repeat(std::vector<T>& attribute, uint32_t vertex) {
 
 void addFlatNormals(Primitive& primitive, const std::vector<bool>& missing) {
   constexpr uint32_t kEnd = UINT32_MAX;
-  // Faces that differ by less than rounding error share their vertices: cos of 0.08 degrees.
+  // Faces whose normals differ by less than rounding errors share vertices: cos of 0.08 degrees.
   constexpr float kSameFacing = 0.999999f;
 
   primitive.normals.resize(primitive.positions.size(), vec3(0.0f, 1.0f, 0.0f));
-  // Copies of a vertex are a list: nextCopy leads from one to the next.
+  // Copies of a vertex form a linked list: nextCopy is the index of the next copy.
   std::vector<uint32_t> nextCopy(primitive.positions.size(), kEnd);
   std::vector<bool> hasNormal(primitive.positions.size());
   for (size_t v = 0; v < missing.size(); ++v) hasNormal[v] = !missing[v];
@@ -25,11 +25,12 @@ void addFlatNormals(Primitive& primitive, const std::vector<bool>& missing) {
   for (size_t first = 0; first + 2 < primitive.indices.size(); first += 3) {
     uint32_t* corners = &primitive.indices[first];
     const vec3& a = primitive.positions[corners[0]];
-    // In double: the cross product of short edges of a large model loses all digits of a float.
+    // In double: with short edges in a large model, the cross product would lose all digits of a
+    // float.
     const glm::dvec3 cross = glm::cross(glm::dvec3(primitive.positions[corners[1]] - a),
                                         glm::dvec3(primitive.positions[corners[2]] - a));
     const double length = glm::length(cross);
-    if (!(length > 0.0)) continue;  // no area: nothing of it is seen
+    if (!(length > 0.0)) continue;  // no area: the face is invisible
     const vec3 normal(cross / length);
     for (int c = 0; c < 3; ++c) {
       uint32_t vertex = corners[c];

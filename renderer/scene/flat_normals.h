@@ -1,4 +1,4 @@
-// Normals for triangles whose file has none.
+// Computes normals for triangles whose file has none.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace lamplighter {
 
-// Gives the vertices marked in `missing` (as many as positions) the normal of their face. A vertex
-// that several faces share is split where they face different ways; all attributes follow.
+// Gives each vertex marked in `missing` (one entry per position) the normal of its face. A vertex
+// shared by faces with different normals is split, with all its attributes.
 void addFlatNormals(Primitive& primitive, const std::vector<bool>& missing);
 
 }  // namespace lamplighter

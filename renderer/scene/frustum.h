@@ -1,4 +1,4 @@
-// What a view can see.
+// The view frustum, for conservative tests.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ class Frustum {
   }
 
  private:
-  std::array<vec4, 5> planes_{};  // but the far one, which is at infinity: inside is positive
+  std::array<vec4, 5> planes_{};  // without the far plane, which is at infinity; inside is positive
 };
 
 }  // namespace lamplighter

@@ -11,14 +11,14 @@ namespace {
 
 using List = std::vector<NodeId>;
 
-// The list, without what is there no more.
+// The list without nodes that no longer exist.
 List listOf(const Scene& scene, const LightState& state) {
   List list = state.leftOut;
   std::erase_if(list, [&](NodeId id) { return scene.find(id) == nullptr; });
   return list;
 }
 
-// Calls visit(index of the node, or −1 for the sky, list) for each light that leaves something out.
+// Calls visit(index of the node or −1 for the sky, list) for each light with a non-empty list.
 template <typename Visit>
 void forEachList(const Scene& scene, Visit visit) {
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -48,7 +48,7 @@ LightLinks lightLinks(const Scene& scene) {
   });
   links.count = static_cast<uint32_t>(linkOf.size());
   if (links.count == 0) return links;
-  // Parents come before children, which are left out with them.
+  // Parents precede children, which inherit their bits.
   std::map<NodeId, uint32_t> bits;
   for (const auto& [list, link] : linkOf)
     for (const NodeId id : list) bits[id] |= 1u << (link - 1);

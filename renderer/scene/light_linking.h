@@ -1,11 +1,12 @@
-// Which objects get no light of which lights: a light's list names nodes, and means all below them.
+// Light linking: each light has a list of nodes that it leaves out, including all nodes below them.
 //
-// What a light leaves out receives none of its direct light, and so reflects none of it; it casts
-// shadows in it as ever, and gets what others reflect of it. In terms of paths: those are left out
-// whose last vertex before the light is on such an object. The same in all methods.
+// An object that a light leaves out receives no direct light from it, and so reflects none of it.
+// It still casts shadows in that light and receives what other objects reflect of it. In terms of
+// paths: a path is excluded if its last vertex before the light is on such an object. This is the
+// same in all methods.
 //
-// Lights with one and the same list share a link, a number from 1 on; each object has a bit for
-// each link that leaves it out.
+// Lights with the same list share a link, numbered from 1. Each object has one bit per link that
+// leaves it out.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +18,24 @@ namespace lamplighter {
 
 struct Scene;
 
-// Lists that differ, that a scene can have: so many bits has an object.
+// Largest number of different lists in a scene, one bit each.
 inline constexpr uint32_t kMostLinks = 32;
 
 struct LightLinks {
-  std::vector<uint8_t> ofLight;     // by node: its light's link; 0: it leaves nothing out
-  uint8_t ofSky = 0;                // likewise
-  std::vector<uint32_t> leftOutBy;  // by node
+  std::vector<uint8_t> ofLight;     // by node: the link of its light; 0: it leaves nothing out
+  uint8_t ofSky = 0;                // the same for the sky
+  std::vector<uint32_t> leftOutBy;  // by node: bits of the links
   uint32_t count = 0;
 
   bool operator==(const LightLinks&) const = default;
 };
 
-// In the order of Scene::nodes. Lists beyond kMostLinks leave nothing out.
+// In the order of Scene::nodes. Lists beyond kMostLinks are ignored.
 LightLinks lightLinks(const Scene& scene);
-// How many lists there are that differ, however many may be.
+// Number of different lists, without the limit kMostLinks.
 uint32_t countLinks(const Scene& scene);
 
-// Whether an object with these bits gets no light of that link.
+// Whether an object with these bits receives no light of this link.
 inline bool isLeftOut(uint32_t leftOutBy, uint32_t link) {
   return link != 0 && (leftOutBy >> (link - 1) & 1u) != 0;
 }

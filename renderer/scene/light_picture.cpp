@@ -10,13 +10,13 @@ namespace lamplighter {
 
 namespace {
 
-// IEC 61966-2-1.
+// sRGB decoding (IEC 61966-2-1).
 double decoded(uint8_t value) {
   const double v = value / 255.0;
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-// Bilinear filtering with clamped borders keeps the mean of the texels.
+// Means of the texels: bilinear filtering with clamped borders has the same mean.
 void findMeans(LightPicture& picture) {
   std::array<double, 256> linear;
   for (size_t i = 0; i < linear.size(); ++i) linear[i] = decoded(static_cast<uint8_t>(i));

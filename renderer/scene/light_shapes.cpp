@@ -41,7 +41,7 @@ Primitive disk(float diameter) {
   return p;
 }
 
-// An icosahedron whose faces are split in four, again and again, on the unit sphere.
+// An icosahedron on the unit sphere, with each face split into four several times.
 Primitive unitIcosphere() {
   Primitive p;
   const float t = 0.5f * (1.0f + std::sqrt(5.0f));
@@ -88,9 +88,9 @@ Primitive sphere(float diameter) {
   return p;
 }
 
-// Its lateral surface: a prism of the same area, 2πrl, so that the sides of its polygon are those
-// of a circle's circumference: n · 2R sin(π/n) = 2πr. Cut along its length as well, so that
-// triangles are no slivers.
+// The lateral surface of a tube: a prism of the same area 2πrl. The perimeter of its polygon equals
+// the circumference of the circle: n · 2R sin(π/n) = 2πr. It is also divided along its length, to
+// avoid thin triangles.
 Primitive tube(float length, float diameter) {
   Primitive p;
   const float half = kPi / static_cast<float>(kTubeSides);

@@ -1,22 +1,21 @@
-// The surfaces of area lights as triangles, so that everything downstream knows one kind of
-// emitter.
+// Tessellates area lights, so that all later stages have only one kind of emitter.
 #pragma once
 
 #include "renderer/scene/scene.h"
 
 namespace lamplighter {
 
-// In the node's space, front faces towards −Z (a sphere or tube: outwards). A disk is a regular
-// polygon, a sphere an icosphere and a tube a prism, all of exactly the true shape's area, so that
-// flux is exact and only the outline is an approximation. The count of triangles depends on the
-// shape alone.
+// In the space of the node; front faces point to −Z (sphere and tube: outwards). A disk becomes a
+// regular polygon, a sphere an icosphere and a tube a prism. The area equals that of the true
+// shape, so the flux is exact; only the outline is approximate. The number of triangles depends
+// only on the shape.
 Primitive tessellate(const AreaLight& light);
 
-// Emitting area [m²] of a light whose node has this world matrix. Exact where the scale is equal on
-// the axes that the shape has, else a disk is taken as an ellipse, a sphere by its mean radius and
-// a tube by the mean radius of its section.
+// Emitting area [m²] of a light whose node has this world matrix. Exact if the scale is equal on
+// all axes of the shape. Otherwise a disk is treated as an ellipse, a sphere has its mean radius
+// and a tube the mean radius of its cross section.
 float areaOf(const AreaLight& light, const mat4& world);
-// What is seen of it from the side that shows most: a sphere's circle, a tube's length × diameter.
+// Largest projected area [m²]: the circle of a sphere, length × diameter of a tube.
 float projectedAreaOf(const AreaLight& light, const mat4& world);
 
 }  // namespace lamplighter

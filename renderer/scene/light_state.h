@@ -1,5 +1,5 @@
-// Which lights shine: on and off, solo, and groups that are muted or solo together. Part of the
-// scene, so that it is saved and undone; what does not shine gives no light in any method.
+// Which lights are on: on/off, solo, and groups with mute and solo. It is part of the scene, so it
+// is saved and can be undone. Lights that are not on give no light in any method.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ struct Scene;
 
 struct LightState {
   bool on = true;
-  bool solo = false;                 // while anything is solo, nothing else shines
-  std::string group;                 // a LightGroup's name, or empty
-  std::vector<NodeId> leftOut = {};  // objects that get none of its light (light_linking.h); sorted
+  bool solo = false;  // while any light or group is solo, those that are not are dark
+  std::string group;  // name of a LightGroup, or empty
+  std::vector<NodeId> leftOut = {};  // sorted; objects that get none of its light (light_linking.h)
 
   bool operator==(const LightState&) const = default;
 };
@@ -29,16 +29,16 @@ struct LightGroup {
 };
 
 struct ShiningLights {
-  std::vector<bool> nodes;  // in the order of Scene::nodes; true for what is no light
+  std::vector<bool> nodes;  // in the order of Scene::nodes; true for nodes that are not lights
   bool sky = true;
 
   bool operator==(const ShiningLights&) const = default;
 };
 
-// A light shines when it is on, its group is not muted and, if any light or any light's group is
-// solo, it is or its group is.
+// A light shines if it is on and its group is not muted. If any light or group is solo, the light
+// or its group must also be solo.
 ShiningLights shiningLights(const Scene& scene);
-// Whether anything is off, muted or solo.
+// Whether any light is off, or any light or group is muted or solo.
 bool anyLightDark(const Scene& scene);
 
 const LightGroup* findLightGroup(const Scene& scene, const std::string& name);

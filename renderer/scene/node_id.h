@@ -1,11 +1,11 @@
-// How nodes are told apart.
+// The type of node ids.
 #pragma once
 
 #include <cstdint>
 
 namespace lamplighter {
 
-// Stable for the life of a document; never given twice. 0 is no node.
+// Stable during the life of a document; never reused. 0 means no node.
 using NodeId = uint32_t;
 inline constexpr NodeId kNoNode = 0;
 

@@ -12,7 +12,7 @@ namespace lamplighter {
 
 namespace {
 
-// Black as long as the light does not shine: it is there all the same, dark, to be seen and chosen.
+// Black while the light does not shine: its surface stays visible, dark and selectable.
 Material emitterMaterial(const AreaLight& light, bool shines, int picture) {
   Material m;
   m.name = "area light";
@@ -20,14 +20,14 @@ Material emitterMaterial(const AreaLight& light, bool shines, int picture) {
   m.metallic = 0.0f;
   m.emissive = shines ? light.radiance : vec3(0.0f);
   m.emissiveTexture.texture = picture;
-  // The surface's u grows along the node's X, which points left to who sees its front.
+  // The surface's u points along the node's X, which is to the left when its front is seen.
   m.emissiveTexture.offset = vec2(1.0f, 0.0f);
   m.emissiveTexture.scale = vec2(-1.0f, 1.0f);
   return m;
 }
 
-// The textures of area lights' pictures, behind those of the scene: of each node its number, or
-// kNone. Lights with one picture share it.
+// Textures of pictures on area lights, after those of the scene; by node: its texture index or
+// kNone. Lights with the same picture share a texture.
 struct Pictures {
   explicit Pictures(const Scene& scene) : ofNode(scene.nodes.size(), kNone) {
     std::map<const LightPicture*, int> known;
@@ -51,11 +51,13 @@ Material darkCopy(const Material& material) {
   return m;
 }
 
-// Writes the primitive's vertices in world space over the object's range and finds its bounds.
+// Writes the primitive's vertices in world space to the range of the object, and computes its
+// bounds.
 void place(RenderScene& render, RenderObject& object, const Primitive& p, const mat4& world) {
   const mat3 linear(world);
   const float determinant = glm::determinant(linear);
-  // The cofactor matrix takes normals along also where scale is zero; its sign undoes a mirror.
+  // The cofactor matrix transforms normals correctly even if the scale is zero; its sign
+  // compensates for mirroring.
   const mat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                       glm::cross(linear[0], linear[1]));
   object.bounds = Bounds();
@@ -77,7 +79,7 @@ void place(RenderScene& render, RenderObject& object, const Primitive& p, const 
       render.tangents[to] = vec4(t, determinant < 0.0f ? -p.tangents[i].w : p.tangents[i].w);
     }
   }
-  // A mirrored object is turned inside out: swap two corners so that its front stays its front.
+  // Mirroring reverses the winding: swap two vertices so that the front stays the front.
   for (uint32_t i = 0; i < object.indexCount; i += 3) {
     uint32_t* out = &render.indices[object.firstIndex + i];
     out[0] = object.firstVertex + p.indices[i];
@@ -125,7 +127,7 @@ RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
   const float length = glm::length(aim);
   if (length > 0.0f) r.direction = aim / length;
   if (r.light.profile) r.light.intensity *= r.light.profile->atTilt(r.direction);
-  // Scale, shear and mirroring change nothing of it but where X is.
+  // Scale, shear and mirroring only affect the direction of X.
   const vec3 z = -r.direction, x = vec3(world[0]) - glm::dot(vec3(world[0]), z) * z;
   const vec3 right = glm::length(x) > 0.0f ? glm::normalize(x) : Frame(z).tangent;
   r.axes = mat3(right, glm::cross(z, right), z);
@@ -199,8 +201,8 @@ void findBounds(RenderScene& render) {
   for (const RenderObject& o : render.objects) render.bounds.add(o.bounds);
 }
 
-// Moves what moved in place. Objects stand in the order of nodes and primitives, as rebuild() put
-// them.
+// Updates moved objects in place. Objects are in the order of nodes and primitives, as rebuild()
+// created them.
 void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& changes,
                  RenderSceneChanges& out) {
   const std::vector<mat4> world = worldMatrices(scene);
@@ -234,14 +236,15 @@ void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& ch
     const auto it = std::find_if(scene.nodes.begin(), scene.nodes.end(),
                                  [&](const Node& n) { return n.id == p.node; });
     const auto index = static_cast<size_t>(it - scene.nodes.begin());
-    const uint32_t link = p.link;  // another one would have been another structure
+    const uint32_t link = p.link;  // a different link would be a change of structure
     p = placed(*it, world[index], shining[index]);
     p.link = link;
     out.lights = true;
   }
 }
 
-// Materials that follow those of the scene: of area lights, and dark copies. True when one changed.
+// Updates the materials derived from the scene: of area lights, and dark copies. Returns whether
+// one changed.
 bool takeEmitters(RenderScene& render, const Scene& scene) {
   size_t next = scene.materials.size() + 1;
   bool changed = false;
@@ -276,7 +279,7 @@ void RenderSceneChanges::merge(const RenderSceneChanges& later) {
   }
   for (size_t i = 0; i < later.movedObjects.size(); ++i) {
     const uint32_t object = later.movedObjects[i];
-    // One that moved before keeps the bounds that it had at first.
+    // An object that moved before keeps its first bounds.
     if (std::find(movedObjects.begin(), movedObjects.end(), object) != movedObjects.end()) continue;
     movedObjects.push_back(object);
     movedBounds.push_back(later.movedBounds[i]);

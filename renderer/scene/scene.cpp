@@ -11,8 +11,8 @@ namespace lamplighter {
 
 const Node* Scene::find(NodeId id) const {
   if (id == kNoNode) return nullptr;
-  // New nodes have larger ids and stand at the end, so that ids mostly grow; all are looked through
-  // where one is not found so, because it was moved.
+  // New nodes get larger ids and are appended, so ids are mostly ascending: binary search first. If
+  // that fails because nodes were reordered, all nodes are searched.
   size_t first = 0, last = nodes.size();
   while (first < last) {
     const size_t middle = first + (last - first) / 2;

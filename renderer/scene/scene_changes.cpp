@@ -16,7 +16,7 @@ void mergeSorted(std::vector<T>& into, const std::vector<T>& from) {
   into.erase(std::unique(into.begin(), into.end()), into.end());
 }
 
-// Equal but for the name, which nothing is rendered anew for.
+// Compares everything except the name, which does not affect rendering.
 bool looksEqual(Material a, const Material& b) {
   a.name = b.name;
   return a == b;
@@ -40,9 +40,9 @@ bool sameStructure(const Scene& a, const Scene& b) {
         m.punctual.has_value() != n.punctual.has_value()) {
       return false;
     }
-    // Another shape has another count of triangles.
+    // A different shape has a different number of triangles.
     if (m.area && m.area->shape != n.area->shape) return false;
-    // And another picture is another texture.
+    // A different picture is a different texture.
     if (m.area && shownPicture(*m.area) != shownPicture(*n.area)) return false;
   }
   return true;
@@ -65,15 +65,15 @@ SceneChanges compare(const Scene& before, const Scene& after) {
   for (size_t i = 0; i < std::min(before.materials.size(), after.materials.size()); ++i) {
     if (looksEqual(before.materials[i], after.materials[i])) continue;
     changes.materials.push_back(static_cast<int>(i));
-    // Clear and masked surfaces are other occluders; emitters are other lights.
+    // Clear and masked surfaces change the occluders; emission changes the lights.
     if (before.materials[i].isClear() != after.materials[i].isClear()) changes.structure = true;
-    // An object that does not shine has a material of its own.
+    // An object that is switched off has a material of its own.
     if (before.materials[i].emits() != after.materials[i].emits() && anyLightDark(after))
       changes.structure = true;
   }
   if (!sameStructure(before, after) || lightLinks(before) != lightLinks(after)) {
     changes.structure = true;
-    return changes;  // everything of the nodes is looked at again anyhow
+    return changes;  // all nodes are updated in any case
   }
 
   const ShiningLights shone = shiningLights(before), shining = shiningLights(after);
@@ -85,13 +85,13 @@ SceneChanges compare(const Scene& before, const Scene& after) {
     if (n.mesh != kNone) changes.structure |= meshEmits(after, n);
   }
 
-  // A node has moved when its own or any parent's transform differs; parents come first.
+  // A node has moved if its own transform or that of any parent differs; parents come first.
   std::vector<NodeId> moved;
   for (size_t i = 0; i < after.nodes.size(); ++i) {
     const Node &m = before.nodes[i], &n = after.nodes[i];
     const bool parentMoved =
         n.parent != kNoNode && std::find(moved.begin(), moved.end(), n.parent) != moved.end();
-    // A light's size is in its surface as its place is.
+    // The size of an area light changes its surface, like a move.
     const bool resized = n.area && m.area->size != n.area->size;
     if (parentMoved || resized || !(m.local == n.local)) moved.push_back(n.id);
     if ((n.area && !(*m.area == *n.area)) || (n.punctual && !(*m.punctual == *n.punctual)))

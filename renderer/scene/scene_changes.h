@@ -1,5 +1,5 @@
-// What changed between two states of a scene, typed, so that each part of the renderer refreshes
-// what it must and no more. Made by comparing (never by hand), so undo refreshes what do did.
+// The differences between two states of a scene by type, so that each part of the renderer updates
+// only what is necessary. They come from a comparison, so undo causes the same updates as the edit.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 namespace lamplighter {
 
 struct SceneChanges {
-  bool everything = false;  // another scene altogether
-  bool structure = false;   // nodes or meshes came or went, or hid or showed
+  bool everything = false;  // a different scene
+  bool structure = false;   // nodes or meshes were added, removed, hidden or shown
   bool sky = false;
-  std::vector<NodeId> moved;   // world transform changed (children of a moved node included)
-  std::vector<NodeId> lights;  // light parameters (not the place) changed
+  std::vector<NodeId> moved;   // world transform changed (includes children of a moved node)
+  std::vector<NodeId> lights;  // light parameters (not the position) changed
   std::vector<int> materials;  // material parameters changed
 
   bool none() const {
@@ -28,7 +28,7 @@ struct SceneChanges {
   }
 };
 
-// Finds what differs. Names do not count: nothing is rendered anew for them.
+// Compares two scenes. Names are ignored, because they do not affect rendering.
 SceneChanges compare(const Scene& before, const Scene& after);
 
 }  // namespace lamplighter

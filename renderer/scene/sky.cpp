@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostWidth = 4096;
 
-// Half the size, each pixel the mean of up to four.
+// Halves width and height; each pixel is the mean of up to four.
 Image halved(const Image& image) {
   Image out((image.width + 1) / 2, (image.height + 1) / 2);
   for (int y = 0; y < out.height; ++y) {

@@ -11,11 +11,12 @@ namespace {
 
 constexpr int kMostCells = 512;  // along the horizon
 
-// What counts as a sun.
+// Limits that define a sun.
 constexpr int kMostSuns = 4, kMostCandidates = 16;
-constexpr float kSunShare = 0.02f;                // of all light
-constexpr float kSunReach = 2.0f / 180.0f * kPi;  // from its brightest pixel [rad]
-constexpr float kSunContrast = 0.125f;            // of its brightest pixel's luminance
+constexpr float kSunShare = 0.02f;                // fraction of the total light
+constexpr float kSunReach = 2.0f / 180.0f * kPi;  // largest angle from its brightest pixel [rad]
+constexpr float kSunContrast = 0.125f;            // smallest luminance relative to its brightest
+                                                  // pixel
 
 // v: from the top [0, 1]; u: along the horizon.
 vec3 directionOfCell(float u, float cosPolar) {
@@ -24,7 +25,7 @@ vec3 directionOfCell(float u, float cosPolar) {
   return {sine * std::sin(azimuth), cosPolar, -sine * std::cos(azimuth)};
 }
 
-// The solid angle of one pixel of row y: Δφ (cos θ0 − cos θ1), written so that nothing cancels.
+// The solid angle of one pixel of row y: Δφ (cos θ0 − cos θ1), in a form without cancellation.
 float pixelSolidAngle(const Image& image, int y) {
   const double step = static_cast<double>(kPi) / image.height;
   return static_cast<float>(2.0 * static_cast<double>(kPi) / image.width * 2.0 *
@@ -37,19 +38,19 @@ vec3 pixelDirection(const Image& image, int x, int y) {
       std::cos(kPi * (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height)));
 }
 
-// Where u falls among the cumulative values first[0 … count], which begin with 0 and end with 1.
+// Finds the interval of u among the cumulative values first[0 … count], from 0 to 1.
 int findInterval(const float* first, int count, float u, float& within) {
   const float* above = std::upper_bound(first + 1, first + count, u);
   int i = static_cast<int>(above - first) - 1;
-  // Never one of no width.
+  // Never selects an interval of zero width.
   while (i > 0 && !(first[i + 1] > first[i])) --i;
   while (i + 1 < count && !(first[i + 1] > first[i])) ++i;
   within = std::clamp((u - first[i]) / (first[i + 1] - first[i]), 0.0f, 0x1.fffffep-1f);
   return i;
 }
 
-// Cumulative values of `count` weights, from 0 to 1, appended; returns their sum. All weights 0:
-// even ones.
+// Appends the cumulative values of `count` weights, from 0 to 1, and returns the sum of the
+// weights. If all weights are 0, the values are uniform.
 double appendCumulative(const float* weights, int count, std::vector<float>& out) {
   double total = 0.0;
   for (int i = 0; i < count; ++i) total += static_cast<double>(weights[i]);
@@ -106,8 +107,8 @@ SkyMap::SkyMap(const Image& image) {
   std::vector<uint8_t> isSun(image.pixels.size(), 0);
   findSuns(image, isSun);
 
-  // Cells without the suns; and for the density of all, with a pixel more on each side, since
-  // interpolation carries light that far.
+  // Mean radiance of cells without the suns, and weights for the density with the suns. The weights
+  // include one more pixel on each side, because interpolation spreads light that far.
   cells_.assign(static_cast<size_t>(width_) * height_, vec3(0.0f));
   std::vector<float> weights(cells_.size()), wide(cells_.size());
   glm::dvec3 total(0.0);
@@ -145,7 +146,8 @@ SkyMap::SkyMap(const Image& image) {
 
 void SkyMap::findSuns(const Image& image, std::vector<uint8_t>& isSun) {
   double all = 0.0;
-  std::vector<size_t> brightest(static_cast<size_t>(width_) * height_, 0);  // pixel of each cell
+  std::vector<size_t> brightest(static_cast<size_t>(width_) * height_, 0);  // by cell: index of its
+                                                                            // brightest pixel
   std::vector<float> peak(brightest.size(), -1.0f);
   for (int y = 0; y < image.height; ++y) {
     const double solid = static_cast<double>(pixelSolidAngle(image, y));
@@ -160,7 +162,7 @@ void SkyMap::findSuns(const Image& image, std::vector<uint8_t>& isSun) {
       }
     }
   }
-  // Candidates by their cells' brightest pixels; those near one that was looked at are done.
+  // Candidates are the brightest pixels of cells, except those close to an earlier candidate.
   std::vector<vec3> looked;
   std::vector<size_t> order(peak.size());
   for (size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -223,13 +225,13 @@ float SkyMap::cellSolidAngle(int y) const {
   const double step = static_cast<double>(kPi) / static_cast<double>(pixels_.y);
   const double top = step * y * factor_;
   const double bottom = std::min(top + step * factor_, static_cast<double>(kPi));
-  // Of a cell of full width; the last of a row may be narrower, see directionIn().
+  // For a cell of full width; the last cell of a row may be narrower, see directionIn().
   return static_cast<float>(2.0 * static_cast<double>(kPi) / static_cast<double>(pixels_.x) *
                             factor_ * 2.0 * std::sin(0.5 * (top + bottom)) *
                             std::sin(0.5 * (bottom - top)));
 }
 
-// Evenly by solid angle within the cell.
+// Uniform over the solid angle of the cell.
 vec3 SkyMap::directionIn(const GridChoice::Cell& cell) const {
   const auto factor = static_cast<float>(factor_);
   const vec2 low = vec2(cell.x, cell.y) * factor;

@@ -1,5 +1,5 @@
-// Where the light of a sky's picture comes from: tables to choose directions by. In the picture's
-// own frame, unturned, at scale 1 (shaders/shared/sky.h).
+// Tables for sampling directions of a sky picture by radiance. In the frame of the picture, without
+// rotation, at scale 1 (shaders/shared/sky.h).
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace lamplighter {
 
-// Chooses a cell of a grid by weight, by inverting the cumulative distribution of its rows and then
-// that within the row: neighbouring numbers give neighbouring cells, so that low-discrepancy points
-// stay evenly spread.
+// Samples a cell of a grid by weight. Inverts the cumulative distribution of the rows, then that
+// within the row. Close numbers give close cells, so that low-discrepancy points stay well
+// distributed.
 class GridChoice {
  public:
   GridChoice() = default;
@@ -21,16 +21,16 @@ class GridChoice {
 
   struct Cell {
     int x = 0, y = 0;
-    vec2 within{0.0f};  // what is left of u, uniform in [0, 1)²
+    vec2 within{0.0f};  // the unused part of u, uniform in [0, 1)²
     float probability = 0.0f;
   };
-  bool empty() const { return rows_.empty(); }  // also when all weights were 0
+  bool empty() const { return rows_.empty(); }  // also if all weights are 0
   Cell sample(vec2 u) const;
   float probability(int x, int y) const;
 
  private:
   int width_ = 0;
-  std::vector<float> rows_, cells_;  // cumulative, begin with 0; width + 1 entries for each row
+  std::vector<float> rows_, cells_;  // cumulative, starting with 0; width + 1 entries per row
 };
 
 class SkyMap {
@@ -38,30 +38,33 @@ class SkyMap {
   SkyMap() = default;
   explicit SkyMap(const Image& equirectangular);
 
-  // ∫ L dω over all directions, the suns left out [W/m²].
+  // ∫ L dω over all directions without the suns [W/m²].
   vec3 irradiance() const { return irradiance_; }
 
   struct Light {
     vec3 towards{0.0f, 1.0f, 0.0f};  // unit
-    vec3 irradiance{0.0f};           // across that direction, were this the only sample [W/m²]
+    vec3 irradiance{0.0f};           // perpendicular to that direction, if this is the only sample
+                                     // [W/m²]
   };
-  // A direction of all but the suns. All samples have the same luminance and their colours add up
-  // to irradiance(): the picture is taken as cells of 0.7° at least with their mean.
+  // A direction of the sky without suns. All samples have the same luminance, and the mean of their
+  // colours is irradiance(). The picture is treated as cells of at least 0.7° with their mean
+  // radiance.
   Light sample(vec2 u) const;
 
-  // Spots of at most 2° about their brightest pixel that give more than 2% of all light: each is
-  // best a light of its own. The brightest first.
+  // Spots within 2° of their brightest pixel that give more than 2% of the total light. Each is
+  // sampled as a separate light. Brightest first.
   struct Sun {
-    Light mean;                    // mean direction, weighted by radiance, and all of its light
-    std::vector<vec3> towards;     // of its pixels
-    std::vector<vec2> halfSize;    // of those: half their angles along azimuth and elevation [rad]
-    AliasTable choice;             // of a pixel by its light
-    vec3 direction(vec2 u) const;  // a place on it, by its light
+    Light mean;                    // mean direction, weighted by radiance, and the total irradiance
+    std::vector<vec3> towards;     // directions of its pixels
+    std::vector<vec2> halfSize;    // half the angular size of its pixels along azimuth and
+                                   // elevation [rad]
+    AliasTable choice;             // selects a pixel by its irradiance
+    vec3 direction(vec2 u) const;  // samples a direction within the sun by radiance
   };
   const std::vector<Sun>& suns() const { return suns_; }
 
-  // For unbiased sampling of the interpolated picture, suns and all: a direction and its density
-  // [1/sr], which is nowhere 0 where there is light.
+  // For unbiased sampling of the interpolated picture including the suns: a direction and its
+  // density [1/sr], which is positive wherever the radiance is.
   struct Direction {
     vec3 towards{0.0f, 1.0f, 0.0f};
     float pdf = 0.0f;
@@ -74,11 +77,11 @@ class SkyMap {
   vec3 directionIn(const GridChoice::Cell& cell) const;
   void findSuns(const Image& image, std::vector<uint8_t>& isSun);
 
-  int width_ = 0, height_ = 0;  // of the grid of cells
-  int factor_ = 1;              // pixels a side of a cell
-  vec2 pixels_{1.0f};           // of the picture
+  int width_ = 0, height_ = 0;  // size of the grid of cells
+  int factor_ = 1;              // width and height of a cell in pixels
+  vec2 pixels_{1.0f};           // size of the picture in pixels
   vec3 irradiance_{0.0f};
-  std::vector<vec3> cells_;  // mean radiance without the suns
+  std::vector<vec3> cells_;  // mean radiance without suns
   GridChoice light_, density_;
   std::vector<Sun> suns_;
 };

@@ -13,7 +13,7 @@ float srgbToLinear(float s) {
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);
 }
 
-// 256 values, so that a texel costs no pow().
+// A table of 256 values avoids pow() per texel.
 struct SrgbTable {
   float linear[256];
   SrgbTable() {
@@ -55,7 +55,7 @@ vec4 texel(const Texture& t, int x, int y, bool srgb) {
   return {table[p[0]], table[p[1]], table[p[2]], alpha};
 }
 
-// The three corners of a triangle and their weights.
+// The three vertices of a triangle and their weights.
 struct Corners {
   uint32_t i[3];
   float w[3];
@@ -83,7 +83,8 @@ vec4 look(const RenderScene& s, const TextureRef& ref, const Corners& c, bool sr
                        transformed(ref, interpolate(ref.texCoord == 1 ? s.uv1 : s.uv0, c)), srgb);
 }
 
-// Tangents where the file has none: along growing u in the plane of the triangle, orthogonal to n.
+// Tangents if the file has none: in the direction of increasing u in the triangle's plane,
+// orthogonal to n.
 vec4 tangentOf(const RenderScene& s, const Corners& c, int texCoord, const vec3& n) {
   const vec4 given = interpolate(s.tangents, c);
   const float length = glm::length(vec3(given));
@@ -177,9 +178,10 @@ Surface surfaceAt(const RenderScene& s, uint32_t object, uint32_t triangle, floa
   vec3 n = interpolate(s.normals, c);
   const float length = glm::length(n);
   n = length > 0.0f ? n / length : out.geometricNormal;
-  // The front is where the winding says; normals that disagree are turned.
+  // The winding defines the front; normals on the other side are flipped.
   if (glm::dot(n, out.geometricNormal) < 0.0f) n = -n;
-  // Of a flat face the two are the same but for rounding, and cost half as much when they are.
+  // On a flat face both normals are equal except for rounding errors. Exactly equal normals halve
+  // the cost of shading.
   if (glm::distance(n, out.geometricNormal) < kSameNormal) n = out.geometricNormal;
   out.normal = mappedNormal(s, m, c, n);
   vec4 colour = m.baseColor * interpolate(s.colors, c);

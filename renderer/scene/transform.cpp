@@ -7,7 +7,7 @@ namespace lamplighter {
 
 mat4 toMatrix(const Transform& t) {
   const mat3 r = glm::mat3_cast(t.rotation);
-  // Columns of S·H, H unit upper triangular.
+  // Columns of S·H, with H unit upper triangular.
   const vec3 c0 = r * (t.scale * vec3(1.0f, 0.0f, 0.0f));
   const vec3 c1 = r * (t.scale * vec3(t.shear.x, 1.0f, 0.0f));
   const vec3 c2 = r * (t.scale * vec3(t.shear.y, t.shear.z, 1.0f));
@@ -26,8 +26,8 @@ Transform decompose(const mat4& m) {
   t.translation = vec3(m[3]);
   const vec3 a(m[0]), b(m[1]), c(m[2]);
 
-  // Gram-Schmidt (QR): Q holds the rotation, R = S·H the rest. A column that collapses gets an axis
-  // of its own choosing, so that Q stays a rotation.
+  // Gram-Schmidt (QR): Q is the rotation, R = S·H the rest. A collapsed column gets an arbitrary
+  // perpendicular axis, so that Q stays a rotation.
   const float largest = std::max({glm::length(a), glm::length(b), glm::length(c)});
   const float tiny = 1e-7f * largest;
   vec3 q0 = a, q1, q2;
@@ -57,7 +57,7 @@ Transform decompose(const mat4& m) {
 
   t.rotation = glm::normalize(glm::quat_cast(mat3(q0, q1, q2)));
   t.scale = vec3(s0, s1, s2);
-  // Shear below rounding error is none, so that a T·R·S matrix comes back as one.
+  // Shear below the rounding error becomes 0, so that a T·R·S matrix is recovered exactly.
   const auto share = [&](float r, float s) {
     return std::abs(r) > 1e-5f * largest && s != 0.0f ? r / s : 0.0f;
   };

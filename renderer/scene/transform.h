@@ -1,15 +1,15 @@
-// An affine transform in the parts that a person edits.
+// An affine transform in components that a user can edit.
 #pragma once
 
 #include "renderer/base/math.h"
 
 namespace lamplighter {
 
-// local = T(translation) · R(rotation) · S(scale) · H(shear), H = unit upper triangular with
-// xy, xz, yz above the diagonal. Shear is zero but for glTF nodes whose matrix is no T·R·S product,
-// so that every affine matrix has a place here (QR decomposition).
+// local = T(translation) · R(rotation) · S(scale) · H(shear), with H unit upper triangular and xy,
+// xz, yz above the diagonal. Every affine matrix has this form (QR decomposition). Shear is
+// non-zero only for glTF nodes whose matrix is not a product T·R·S.
 struct Transform {
-  vec3 translation{0.0f};                 // metres, in the parent's space
+  vec3 translation{0.0f};                 // metres, in the space of the parent
   quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  // unit
   vec3 scale{1.0f};
   vec3 shear{0.0f};  // xy, xz, yz
@@ -19,7 +19,7 @@ struct Transform {
 
 mat4 toMatrix(const Transform& t);
 
-// The parts of an affine matrix. A singular matrix gives scale 0 on the axes that collapse.
+// Decomposes an affine matrix. A singular matrix gives scale 0 on the collapsed axes.
 Transform decompose(const mat4& m);
 
 }  // namespace lamplighter

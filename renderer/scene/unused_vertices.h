@@ -1,12 +1,12 @@
-// Vertices that no triangle of a primitive uses.
+// Removes vertices that no triangle uses.
 #pragma once
 
 #include "renderer/scene/scene.h"
 
 namespace lamplighter {
 
-// Takes them out where they are the greater part: some exporters give all primitives of a level one
-// list of vertices, which would be laid out again for each of them.
+// Removes unused vertices if they are the majority. Some exporters share one vertex list between
+// all primitives of a level, which would otherwise be copied for each primitive.
 void dropUnusedVertices(Primitive& primitive);
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// What is often asked of a VPL.
+// Helpers for VPLs.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 
 namespace lamplighter {
 
-// Slots without a VPL have no axis.
+// Whether the slot contains a VPL; empty slots have a zero normal.
 inline bool isLight(const shared::Vpl& vpl) { return vec3(vpl.normal) != vec3(0.0f); }
 
-// Of the brightest channel.
+// The largest channel of the intensity.
 inline float brightness(const shared::Vpl& vpl) {
   return std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b});
 }
 
-// Which of the six sides of a cube a direction points to, 0 to 5.
+// The side of a cube, 0 to 5, to which the direction points.
 inline uint64_t sideOf(const vec3& n) {
   const vec3 a = glm::abs(n);
   const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;

@@ -10,7 +10,7 @@ namespace lamplighter {
 
 std::vector<int> hardLights(std::span<const LightStrength> lights) {
   using Kind = LightStrength::Kind;
-  // The squares of a parallel light lie side by side: one of each direction counts.
+  // The tiles of a parallel light do not overlap: only one tile per direction counts.
   std::map<std::array<float, 3>, float> squares;
   float others = 0.0f, parallel = 0.0f;
   for (const LightStrength& light : lights) {

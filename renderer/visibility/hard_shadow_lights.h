@@ -1,5 +1,5 @@
-// Which lights make hard shadows that the low-resolution pass must not interpolate
-// (shaders/shared/low_resolution.h).
+// Finds the lights with hard shadows: the low-resolution pass must not interpolate across their
+// shadow borders (shaders/shared/low_resolution.h).
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@
 namespace lamplighter {
 
 struct LightStrength {
-  // As in Vpl.position.w.
+  // The kinds of Vpl.position.w.
   enum class Kind : uint8_t { cosine, uniform, directional } kind = Kind::cosine;
-  vec3 direction{0.0f};    // of parallel light
-  float brightest = 0.0f;  // channel of its intensity
+  vec3 direction{0.0f};    // for parallel light
+  float brightest = 0.0f;  // largest channel of the intensity
   int slot = -1;           // < 0: casts no shadow
 };
 
-// Slots of the parallel or punctual ones with more than kHardShare of the light of all parallel or
-// all other lights.
+// Returns the slots of hard-shadow lights. A parallel light is one if it has more than kHardShare
+// of all parallel light; a punctual one if it has more than kHardShare of all other light.
 std::vector<int> hardLights(std::span<const LightStrength> lights);
 
 }  // namespace lamplighter

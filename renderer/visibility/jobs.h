@@ -1,4 +1,4 @@
-// Jobs of very different sizes, shared out among threads.
+// Distributes jobs of very different sizes over threads.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,9 @@
 
 namespace lamplighter {
 
-// Each thread takes the next job whenever it is done with one, so that where the largest come first
-// all are done at about the same time. makeWorker(): a function of a job's index, one for a thread.
+// Each thread takes the next job when it has finished one. If the largest jobs come first, all
+// threads finish at about the same time. makeWorker() is called once per thread and returns a
+// function of a job's index.
 template <typename MakeWorker>
 void doInTurn(size_t jobs, const MakeWorker& makeWorker) {
   std::atomic<size_t> next = 0;

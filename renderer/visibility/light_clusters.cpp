@@ -12,7 +12,7 @@ namespace {
 constexpr size_t kMostLights = 16;
 constexpr float kMostExtent = 2.0f;  // [m]
 
-uint64_t spread(uint64_t v) {  // 10 bits to every third
+uint64_t spread(uint64_t v) {  // spreads 10 bits to every third bit
   v = (v | v << 16) & 0x030000ff;
   v = (v | v << 8) & 0x0300f00f;
   v = (v | v << 4) & 0x030c30c3;
@@ -31,7 +31,7 @@ LightClusters clusterLights(std::span<const shared::Vpl> bySlot) {
   for (const shared::Vpl& v : bySlot)
     if (isClustered(v)) all.add(vec3(v.position));
   const vec3 scale = 1023.0f / glm::max(all.empty() ? vec3(1.0f) : all.extent(), vec3(1e-6f));
-  std::vector<std::pair<uint64_t, int>> keys;  // along a Morton curve for each side
+  std::vector<std::pair<uint64_t, int>> keys;  // Morton codes per side of a cube of normals
   for (size_t slot = 0; slot < bySlot.size(); ++slot) {
     const shared::Vpl& v = bySlot[slot];
     if (!isClustered(v)) {

@@ -1,5 +1,6 @@
-// Lights near each other that look the same way, so that what may stand between them and a patch is
-// looked for once (paper 1, 6.2: "a larger bounding shape").
+// Clusters of lights that are close to each other and have similar normals. Possible occluders
+// between a cluster and a patch are searched once for the whole cluster (paper 1, 6.2: "a larger
+// bounding shape").
 #pragma once
 
 #include <span>
@@ -10,11 +11,12 @@
 namespace lamplighter {
 
 struct LightClusters {
-  std::vector<int> order;      // all slots, those of a cluster one after the other
-  std::vector<int> clusterOf;  // by slot; −1: in none (parallel lights, empty slots)
+  std::vector<int> order;      // all slots; those of a cluster are consecutive
+  std::vector<int> clusterOf;  // by slot; −1: not in a cluster (parallel lights, empty slots)
 };
 
-// At most 16 lights within 2 m of each other, whose normals have the same greatest component.
+// A cluster has at most 16 lights within 2 m of each other; their normals have the same largest
+// component.
 LightClusters clusterLights(std::span<const shared::Vpl> bySlot);
 
 }  // namespace lamplighter

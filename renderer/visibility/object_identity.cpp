@@ -11,7 +11,7 @@
 namespace lamplighter {
 namespace {
 
-// FNV-1a over words, in some sums of their own, for one has to wait for each multiplication.
+// FNV-1a over words, in several independent sums to hide the latency of the multiplication.
 class Hash {
  public:
   template <typename T>
@@ -24,7 +24,7 @@ class Hash {
       return word;
     });
   }
-  // wordAt(i) for each below count.
+  // Adds wordAt(i) for each i < count.
   template <typename WordAt>
   void add(size_t count, const WordAt& wordAt) requires std::invocable<WordAt, size_t> {
     size_t i = 0;

@@ -1,5 +1,5 @@
-// Which objects are the same as before, across a rebuild of the scene: adding, removing or hiding
-// one renumbers all, but changes nothing about the others.
+// Finds unchanged objects across a rebuild of the scene. Adding, removing or hiding an object
+// renumbers all objects but does not change the others.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace lamplighter {
 
-// All of an object that patches and occluders are made of.
+// All properties of an object from which patches and occluders are made.
 struct ObjectIdentity {
   NodeId node = kNoNode;
-  uint64_t geometry = 0;  // hash of its vertices in the world and of its indices
+  uint64_t geometry = 0;  // hash of its world-space vertices and its indices
   MeshKind kind = MeshKind::automatic;
   uint32_t leftOutBy = 0;  // light_linking.h
   bool isClear = false, isMasked = false, backIsUnseen = false, hasNormalTexture = false;
@@ -20,7 +20,7 @@ struct ObjectIdentity {
 ObjectIdentity identify(const RenderScene& scene, uint32_t object);
 std::vector<ObjectIdentity> identify(const RenderScene& scene);
 
-// For each object now the index of the same one before; kNone: there was none.
+// For each present object the index of the identical object in `before`; kNone if there was none.
 std::vector<int> findSame(const std::vector<ObjectIdentity>& before,
                           const std::vector<ObjectIdentity>& now);
 

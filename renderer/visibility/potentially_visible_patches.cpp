@@ -5,9 +5,9 @@
 namespace lamplighter {
 namespace {
 
-// By which pixels are shifted at most.
+// Largest pixel offset of antialiasing.
 constexpr float kShift = 1.0f;
-// The sine of the angle by which a triangle may be turned from a chart that is not rough, and more.
+// Sine of an upper bound of the angle between a triangle and a chart that is not rough.
 constexpr float kTurned = 0.05f;
 
 Frustum frustumOf(View view) {
@@ -22,7 +22,7 @@ PotentiallyVisiblePatches::PotentiallyVisiblePatches(const View& view)
     : eye_(view.eye), frustum_(frustumOf(view)) {}
 
 bool PotentiallyVisiblePatches::mayShow(const Patch& patch) const {
-  // With room for rounding.
+  // Slightly enlarged because of rounding errors.
   const vec3 half(1.01f * patch.radius + 0.001f);
   return frustum_.mayMeet({patch.centre - half, patch.centre + half});
 }

@@ -1,4 +1,4 @@
-// Which patches a view may show.
+// Conservative test of which patches a view shows.
 #pragma once
 
 #include "renderer/patches/patch_set.h"
@@ -9,13 +9,13 @@ namespace lamplighter {
 
 class PotentiallyVisiblePatches {
  public:
-  // Pixels may be shifted for smooth edges.
+  // The frustum allows for the pixel offsets of antialiasing.
   explicit PotentiallyVisiblePatches(const View& view);
 
   bool mayShow(const Bounds& box) const { return frustum_.mayMeet(box); }
   bool mayShow(const Patch& patch) const;
-  // Whether it may show the side of the chart's patch that its normal points to. Triangles that are
-  // turned a little otherwise than the chart are allowed for.
+  // Whether the view may show the front of the chart's patch (the side of its normal). Allows for
+  // triangles whose normals differ slightly from the chart's.
   bool mayShowFront(const Chart& chart, const Patch& patch) const;
 
  private:

@@ -30,7 +30,8 @@ class Walk {
       visit(patch.firstChild + 1);
       return;
     }
-    // Most lights are found on the first patches: whether others are hidden need not be asked.
+    // Most lights are found on the first patches, so the other patches need no test of whether they
+    // are hidden.
     const auto states = visibility_.row(object_, index);
     uint8_t isNew = 0;
     for (size_t slot = 0; slot < states.size(); ++slot)
@@ -46,7 +47,7 @@ class Walk {
   bool isTurnedAway(const Patch& patch) const {
     if (!backIsUnseen_ || patch.chart == kNone) return false;
     const Chart& chart = patches_.charts[static_cast<size_t>(patch.chart)];
-    // A rough one's bumps are turned otherwise than it is.
+    // The bumps of a rough chart face other directions than the chart.
     if (chart.isRough) return false;
     return glm::dot(vec3(eye_.position) - patch.centre, chart.normal) < -chart.thickness - 0.001f;
   }
@@ -71,7 +72,7 @@ std::vector<uint8_t> shadowMapDemand(const VisibilityDatabase& visibility, const
                         vec4(view.right(), 1.0f), vec4(0.0f)};
   tbb::enumerable_thread_specific<std::vector<uint8_t>> found(
       [&] { return std::vector<uint8_t>(slots, 0); });
-  // A level may be one object.
+  // The jobs are roots and not objects, because a level may be a single object.
   struct Root {
     uint32_t object;
     int patch;

@@ -1,5 +1,5 @@
-// Which lights a view wants shadow maps of: of all others the visibility database knows wherever
-// the view may look (paper 1, 6.2).
+// Finds the lights that need shadow maps for a view. For all other lights the visibility database
+// alone decides every visible pixel (paper 1, 6.2).
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace lamplighter {
 
-// By slot, 1: the light is partial on some patch that may be seen. Patches outside of the view, and
-// those whose backs are turned to the eye where backs are not drawn, are not, nor are those that
-// one polygon hides from it.
+// By slot, 1: the light is partial on some patch that may be visible. Not visible are patches
+// outside the frustum, back faces of objects whose backs are not drawn, and patches that one
+// polygon hides completely from the eye.
 std::vector<uint8_t> shadowMapDemand(const VisibilityDatabase& visibility, const RenderScene& scene,
                                      const View& view);
 

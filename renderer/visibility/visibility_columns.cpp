@@ -1,5 +1,5 @@
-// Which columns of the visibility database are to be brought up to date, and where: all patches for
-// a light that is new, and those that a shadow may reach for one that waits.
+// Selects what to compute when columns of the visibility database are updated: all patches for a
+// new light; for a waiting light, only the patches that a shadow may reach.
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -15,21 +15,22 @@
 namespace lamplighter {
 namespace {
 
-// A patch is divided where more lights than this share of all, and than this many, are partial.
+// A patch is divided if the number of lights that are partial on it exceeds both this share of all
+// lights and the constant below.
 constexpr float kMostPartialShare = 0.05f;
 constexpr int kMostPartial = 4;
 
-// Of work for a thread, at least: rooms have few, but large ones.
+// Smallest job of a thread: rooms have few roots, but large ones.
 constexpr size_t kRootsAPiece = 2;
 
 constexpr size_t kColumnsAPiece = 64;
 
-// Objects of no more roots than this have them looked at one by one, by whichever thread; those of
-// more by their tree first.
+// Objects with at most this many roots test them one by one, distributed over threads; other
+// objects test their tree first.
 constexpr size_t kFewRoots = 16;
 
-// Where an object is and was before are looked at as one if the sphere around both is no larger
-// than this times its own.
+// The old and new positions of an object are tested as one if their common bounding sphere is at
+// most this many times as large as its own.
 constexpr float kOneReach = 1.3f;
 
 }  // namespace
@@ -39,7 +40,7 @@ int VisibilityDatabase::mostPartial() const {
   return std::max(kMostPartial, static_cast<int>(kMostPartialShare * lights));
 }
 
-// All columns of lights that are new.
+// Computes all columns of new lights.
 void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const int> slots,
                                     bool mayDivide) {
   const int most = mostPartial();
@@ -103,7 +104,7 @@ VisibilityDatabase::Column VisibilityDatabase::takeWaiting(int slot) {
   return column;
 }
 
-// Whole objects are left out where no shadow of what moved may fall on them, and then their roots.
+// Skips whole objects on which no shadow of a moved object may fall, then skips roots.
 void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<const int> slots) {
   std::vector<int> taken;
   for (const int slot : slots)
@@ -126,13 +127,13 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
     simple.reaches.set(slot, c.reach);
   }
 
-  // Of objects that a column waits for all entries are looked at.
+  // For objects that a column waits for, all entries are computed.
   std::vector<bool> isWaitedFor(patches_.size(), false);
   for (const Column& c : columns)
     for (const int object : c.objects) isWaitedFor[static_cast<size_t>(object)] = true;
 
-  // Columns that reach what the trees come to: those of a node follow those of its parent. Simple
-  // ones are bits by slot.
+  // The columns that reach each tree node: a subset of those of its parent. Simple columns are bits
+  // by slot.
   const size_t words = (lights_.size() + 63) / 64;
   std::vector<uint32_t> reaching;
   std::vector<size_t> begins(1, 0);
@@ -168,8 +169,8 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
     uint32_t object;
     int root;
     std::vector<Task> tasks;
-    std::vector<uint64_t> simple;  // by slot, a bit each
-    float size = 0.0f;             // about how much there is to do
+    std::vector<uint64_t> simple;  // one bit per slot
+    float size = 0.0f;             // estimate of the amount of work
     void add(const Column& column, bool isOfMover) {
       Task& task = tasks.emplace_back();
       task.column = &column;
@@ -213,7 +214,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
   }
   std::vector<int> order(lights_.size());
   std::iota(order.begin(), order.end(), 0);
-  // Large patches are divided more, and more is to be looked at where more columns reach.
+  // Large patches are divided more often, and more columns mean more entries to test.
   for (Job& job : jobs) {
     size_t reached = job.tasks.size();
     for (const uint64_t word : job.simple) reached += static_cast<size_t>(std::popcount(word));

@@ -13,10 +13,10 @@
 namespace lamplighter {
 namespace {
 
-// More objects that move at once are not told apart from the others.
+// If more objects move at once, they are not treated as movers.
 constexpr size_t kMostMovers = 16;
 
-// All but the slot and the brightness, which change nothing here.
+// Compares everything except the slot and the brightness, which do not affect visibility.
 bool sameLight(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
          a.footprint.y == b.footprint.y;
@@ -56,7 +56,7 @@ void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) 
         stride_, static_cast<uint8_t>(Occlusion::partial));
   divided_[object].assign(patches, 0);
   changed_[object].assign(patches, 1);
-  // What a light leaves out it does not light for a while either.
+  // For objects that a light leaves out, entries are set to full even in columns that wait.
   for (size_t slot = 0; slot < lights_.size(); ++slot) {
     if (!isLeftOut(o.leftOutBy, static_cast<uint32_t>(lights_[slot].footprint.y))) continue;
     for (const int root : patches_[object].roots)
@@ -64,8 +64,8 @@ void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) 
   }
 }
 
-// Objects are numbered anew, or their materials changed: those that are the same keep all that is
-// known of them, the others went and came.
+// Called if objects were renumbered or their materials changed. Identical objects keep their
+// entries; all others count as removed and added.
 void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move>& moves) {
   std::vector<ObjectIdentity> now = identify(scene);
   const std::vector<int> same = findSame(identities_, now);
@@ -112,7 +112,7 @@ void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move
   tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) { placeObject(scene, fresh[i]); });
   tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(scene.objects.size()),
                     [&](uint32_t i) { occluders_.place(scene, i, topologies_[i], patches_[i]); });
-  // When all is new nothing is told apart from the rest.
+  // If all objects are new, none are treated as movers.
   setMovers(fresh.size() < scene.objects.size() ? fresh : std::vector<uint32_t>());
   forgetOthers();
 }
@@ -202,7 +202,7 @@ bool VisibilityDatabase::isHiddenFromEye(const RenderScene& scene, const shared:
 }
 
 void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const shared::Vpl> bySlot) {
-  // Patches may be divided for lights that are gone.
+  // The present division of patches may be due to lights that were removed.
   bool areGone = false;
   for (size_t i = 0; i < lights_.size(); ++i)
     areGone = areGone || (isLight(lights_[i]) && (i >= bySlot.size() || !isLight(bySlot[i])));

@@ -1,9 +1,10 @@
-// For each patch and light sample whether anything can stand between (paper 1, 4.3.1 and 4.5.1):
-// kept from edit to edit, and brought up to date where something changed. What a light leaves out
-// (light_linking.h) is as if all of it were hidden from the light.
+// The visibility database: for each patch and VPL, whether anything can block the light (paper 1,
+// 4.3.1 and 4.5.1). It is kept between edits and updated where something changed. For an object
+// that a light leaves out (light_linking.h) the entries are `full`, as if the light were hidden.
 //
-// Columns, one a light, are the unit of update: what moves is taken in at once, but a
-// column that it may touch waits until it is refreshed, with its light's shadow map.
+// The unit of update is a column (all entries of one light). The database registers movements at
+// once, but a column that may be affected waits until it is refreshed together with the shadow map
+// of its light.
 #pragma once
 
 #include <limits>
@@ -20,40 +21,42 @@ namespace lamplighter {
 
 struct VisibilityCounts {
   size_t patches = 0;                      // nodes of all trees
-  size_t divided = 0;                      // of them, those whose children are looked at apart
-  size_t rows = 0;                         // of them, those that have entries of their own
-  size_t none = 0, partial = 0, full = 0;  // entries of leaves, as they are
+  size_t divided = 0;                      // patches whose children have entries of their own
+  size_t rows = 0;                         // patches that have entries of their own
+  size_t none = 0, partial = 0, full = 0;  // entries of leaves, in their stored state
   size_t bytes = 0;
 };
 
 class VisibilityDatabase {
  public:
-  // Takes in what changed in the scene: moved, added, removed, hidden and rescaled objects, and
-  // materials. Rows of objects that are new or moved are partial in columns that wait.
+  // Registers changes of the scene: moved, added, removed, hidden and rescaled objects, and
+  // materials. Entries of new or moved objects are partial in columns that wait.
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes);
 
-  // Entries take no more than this: patches are not divided so far down that they could. The roots
-  // have theirs in any case, see leastBytes(). Holds from the next setLights() on; SIZE_MAX: no
-  // limit.
+  // Limits the memory of the entries: patches are divided only as far as the limit allows. The
+  // roots always have entries, see leastBytes(). Takes effect with the next setLights(); SIZE_MAX:
+  // no limit.
   void limitMemory(size_t bytes) { mostBytes_ = bytes; }
-  // What those of the roots take for so many lights.
+  // Memory of the entries of the roots for this number of lights.
   size_t leastBytes(size_t slots) const { return rowBytes(slots) * patchesAtLevels()[0]; }
 
-  // The light samples by slot; a normal of zero: none is there. Those that differ from what was
-  // there get new columns.
+  // Sets the VPLs by slot; a normal of zero means an empty slot. A VPL that differs from the
+  // previous one in its slot gets a new column.
   void setLights(const RenderScene& scene, std::span<const shared::Vpl> bySlot);
 
-  // Brings these columns up to date with all that moved. Of other objects only those entries are
-  // looked at whose pyramid a mover met before or meets now: where it meets neither, it was no
-  // blocker and is none. They are tested against the movers alone when the same ones moved before.
+  // Updates these columns for everything that moved. For objects that did not move, only those
+  // entries are tested whose pyramid a mover intersected before or intersects now; otherwise the
+  // mover blocked nothing and blocks nothing. If the same objects moved before, only the movers are
+  // tested.
   void refresh(const RenderScene& scene, std::span<const int> slots);
   void refreshAll(const RenderScene& scene);
   bool isWaiting(int slot) const { return !waiting_[static_cast<size_t>(slot)].empty(); }
 
-  // Whether everything that moved in the last setScene() was and is hidden from the light by one
-  // polygon, so that its shadow map does not change.
+  // Whether each object that moved in the last setScene() was and is hidden from the light by one
+  // polygon, so that the light's shadow map does not change.
   bool moversAreHidden(const shared::Vpl& vpl) const;
-  // Whether one polygon hides all of a patch from the eye, a light at its place that looks on.
+  // Whether one polygon hides the whole patch from the eye. `eye`: a VPL at the eye that faces the
+  // view direction.
   bool isHiddenFromEye(const RenderScene& scene, const shared::Vpl& eye, uint32_t object,
                        int patch) const;
   size_t moversFound() const { return moves_.size(); }  // in the last setScene()
@@ -64,12 +67,12 @@ class VisibilityDatabase {
   Occlusion state(uint32_t object, int patch, int slot) const {
     return static_cast<Occlusion>(row(object, patch)[static_cast<size_t>(slot)]);
   }
-  // All slots of a patch.
+  // The entries of a patch, by slot.
   std::span<const uint8_t> row(uint32_t object, int patch) const {
     const int whole = wholeOf(object, patch);
     return {rows_[object][static_cast<size_t>(whole)].states.data(), lights_.size()};
   }
-  // The patch, or the one above it that is looked at as a whole.
+  // The patch itself, or its nearest ancestor that has entries of its own.
   int wholeOf(uint32_t object, int patch) const {
     const std::vector<Patch>& patches = patches_[object].patches;
     int whole = patch, parent = patches[static_cast<size_t>(patch)].parent;
@@ -78,13 +81,14 @@ class VisibilityDatabase {
       whole = parent;
     return whole;
   }
-  // Whether the children of a patch are looked at apart: enough lights are partial on it, and
-  // memory goes so far. Where not they are as it is. None is below one that is not.
+  // Whether the children of a patch have entries of their own: enough lights are partial on the
+  // patch, and the memory limit allows it. Otherwise the children share its entries. No patch below
+  // an undivided one is divided.
   bool isDivided(uint32_t object, int patch) const {
     return divided_[object][static_cast<size_t>(patch)] != 0;
   }
 
-  // For each object its index before the last setScene(); kNone: its patches are new.
+  // By object: its index before the last setScene(); kNone: its patches are new.
   const std::vector<int>& cameFrom() const { return cameFrom_; }
   // Whether an entry of the patch changed since clearChanged().
   bool rowChanged(uint32_t object, int patch) const {
@@ -92,45 +96,45 @@ class VisibilityDatabase {
   }
   void clearChanged();
 
-  // Whether several lights are looked at together, which changes nothing but the time.
+  // Whether several lights are tested together. This changes only the time, not the result.
   void useClusters(bool use) { useClusters_ = use; }
 
-  // Pyramids against the scene, since the database was made.
+  // Number of pyramids tested against the scene since construction.
   uint64_t tests() const { return tests_; }
-  // For a light that moved, by the last ones that did.
+  // Tests for one moved light, from the last lights that moved.
   uint64_t testsPerColumn() const { return testsPerColumn_; }
-  VisibilityCounts counts() const;  // goes through all entries
-  size_t bytes() const;             // of the entries
+  VisibilityCounts counts() const;  // iterates over all entries
+  size_t bytes() const;             // memory of the entries
 
  private:
-  // An object that a column does not know the place of yet.
+  // An object whose new position a column has not processed yet.
   struct Waiting {
-    int object;              // kNone: it is gone
-    Caster before;           // where the column has it; empty: nowhere
-    bool couldHide = false;  // a whole patch, there
+    int object;              // kNone: the object was removed
+    Caster before;           // the position that the column has processed; empty: none
+    bool couldHide = false;  // whether it could hide a whole patch at that position
   };
   struct Move {
     Bounds before, after;
   };
-  struct Column;  // a light, and what of the scene it has to take in
+  struct Column;  // a light, and the changes of the scene that it must process
   struct SimpleColumns;
   enum class Work : uint8_t;
   struct Task;   // one light at one patch
-  class Update;  // brings columns up to date (visibility_update.h)
+  class Update;  // updates columns (visibility_update.h)
   static constexpr uint8_t kUnknown = 255, kNoneAndMet = 3;
-  static constexpr size_t kSlotsAStep = 64;  // by which rows grow
+  static constexpr size_t kSlotsAStep = 64;  // increment by which rows grow
   static constexpr size_t kAllLevels = std::numeric_limits<size_t>::max();
-  // What is known of a patch that is looked at: a root, or a part of one that is divided. By slot,
-  // stride_ of them. Most patches are neither, which keeps large levels small.
+  // Entries of a root, or of a part of a divided patch; by slot, stride_ of each. Most patches are
+  // neither, so that large levels need little memory.
   struct Row {
-    std::vector<uint8_t> states;  // Occlusion; empty: it is as the patch above it
-    // By all objects but those that moved last, from kNoneAndMet on none and where those were met
-    // (MoverShadows::Hint); kUnknown: not asked yet; empty: none was, or
-    // nothing moved, or there is no room. While the same ones move on, as in a drag, nothing else
-    // is tested again (table 4-1).
+    std::vector<uint8_t> states;  // Occlusion; empty: the patch shares the entries of its parent
+    // The entries without the objects that moved last; values from kNoneAndMet on mean none, plus
+    // where the movers were met (MoverShadows::Hint); kUnknown: not tested yet. Empty: nothing was
+    // tested, nothing moved, or the memory limit does not allow it. While the same objects keep
+    // moving, as in a drag, only they are tested again (table 4-1).
     std::vector<uint8_t> withoutMovers;
-    // Until when what the movers of now make of an entry that is none without them is sure to stay;
-    // empty: not known, or there is no room.
+    // For entries that are none without the movers: the mark up to which the result with the movers
+    // is certain to stay valid. Empty: unknown, or the memory limit does not allow it.
     std::vector<MoverPath::Mark> standsTill;
   };
   using Flags = std::vector<std::vector<uint8_t>>;  // by object and patch
@@ -144,14 +148,14 @@ class VisibilityDatabase {
   void forgetOthers();
   void lowerMarks(MoverPath::Mark by);
   void growTree();
-  // mayDivide: patches may be divided otherwise than they are, though nothing changed on them:
-  // others are gone, or there is more memory or less.
+  // mayDivide: the division of unchanged patches may change too, because other patches were removed
+  // or the memory limit changed.
   void computeNew(const RenderScene& scene, std::span<const int> slots, bool mayDivide);
   void computeWaiting(const RenderScene& scene, std::span<const int> slots);
   Column takeWaiting(int slot);
   int mostPartial() const;
   void resize(size_t slots);
-  std::vector<size_t> patchesAtLevels() const;  // one at least
+  std::vector<size_t> patchesAtLevels() const;  // has at least one element
   static size_t rowBytes(size_t slots) {
     return (slots + kSlotsAStep - 1) / kSlotsAStep * kSlotsAStep;
   }
@@ -163,28 +167,29 @@ class VisibilityDatabase {
   std::vector<ObjectIdentity> identities_;
   std::vector<ObjectPatches> patches_;
   std::vector<int> cameFrom_;
-  std::vector<std::vector<Row>> rows_;  // and patch
+  std::vector<std::vector<Row>> rows_;  // by object and patch
   Flags divided_, changed_;
-  std::vector<uint32_t> movers_;  // that moved last
-  MoverPath path_;                // of these
-  std::vector<Move> moves_;       // of the last setScene()
+  std::vector<uint32_t> movers_;  // objects that moved last
+  MoverPath path_;                // path of the movers
+  std::vector<Move> moves_;       // in the last setScene()
 
   Occluders occluders_;
-  BoundsTree tree_;                            // over objects' patches
+  BoundsTree tree_;                            // over the bounds of the objects' patches
   std::vector<shared::Vpl> lights_;            // by slot
   std::vector<uint8_t> isLive_;                // by slot
   LightClusters clusters_;                     // of all lights
   std::vector<std::vector<Waiting>> waiting_;  // by slot
-  // By slot: some of the waiting column was computed where the movers are now.
+  // By slot: part of the waiting column was computed with the present positions of the movers.
   std::vector<uint8_t> knowsNow_;
   bool useClusters_ = true;
-  int most_ = -1;  // that a patch that is not divided may have
+  int most_ = -1;  // largest number of partial lights on a patch that is not divided
   size_t mostBytes_ = std::numeric_limits<size_t>::max();
-  size_t levels_ = kAllLevels;  // that may have entries of their own; the roots are the first
-  bool keepsOthers_ = true;     // there is room for Row::withoutMovers
-  bool keepsMarks_ = true;      // and for Row::standsTill
+  size_t levels_ = kAllLevels;  // number of tree levels that may have entries of their own; the
+                                // first are the roots
+  bool keepsOthers_ = true;     // memory allows Row::withoutMovers
+  bool keepsMarks_ = true;      // memory allows Row::standsTill
   bool limitChanged_ = false;
-  size_t stride_ = 0;  // of rows, in slots
+  size_t stride_ = 0;  // entries per row, in slots
   uint64_t tests_ = 0, testsPerColumn_ = 0;
 };
 

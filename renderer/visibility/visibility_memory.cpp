@@ -1,4 +1,4 @@
-// What the visibility database has entries for, within bounds.
+// Allocates the entries of the visibility database within the memory limit.
 #include <algorithm>
 #include <type_traits>
 #include <utility>
@@ -16,14 +16,14 @@ void VisibilityDatabase::resize(size_t slots) {
   const size_t stride = rowBytes(slots);
   if (stride == stride_) return;
   const auto fit = [&](std::vector<uint8_t>& row, uint8_t fill) {
-    std::vector<uint8_t> next(stride, fill);  // of just that many bytes
+    std::vector<uint8_t> next(stride, fill);  // allocated with exactly this size
     std::copy_n(row.begin(), std::min(row.size(), stride), next.begin());
     row.swap(next);
   };
   for (size_t object = 0; object < rows_.size(); ++object) {
     for (size_t patch = 0; patch < rows_[object].size(); ++patch) {
       Row& row = rows_[object][patch];
-      // Before there were lights not even roots had any.
+      // Before the first lights, not even roots had entries.
       const bool isRoot = patches_[object].patches[patch].parent == kNone;
       if (isRoot || !row.states.empty()) fit(row.states, static_cast<uint8_t>(Occlusion::partial));
       if (!row.withoutMovers.empty()) fit(row.withoutMovers, kUnknown);
@@ -43,13 +43,13 @@ std::vector<size_t> VisibilityDatabase::patchesAtLevels() const {
   return patches;
 }
 
-// How far patches may be divided with rows of so many bytes: by what is there and nothing else, so
-// that it is the same however that came about. Whether it is otherwise than before.
+// Finds how many levels may have entries for rows of `stride` bytes. Depends only on the present
+// patches, so the result is the same for any history. Returns whether it changed.
 bool VisibilityDatabase::takeMemoryLimit(size_t stride) {
   const std::vector<size_t> patches = patchesAtLevels();
   const size_t before = levels_;
   levels_ = kAllLevels;
-  size_t bytes = 0;  // of states
+  size_t bytes = 0;  // of Row::states
   for (size_t level = 0; level < patches.size(); ++level) {
     const size_t more = bytes + patches[level] * stride;
     if (level > 0 && more > mostBytes_) {
@@ -65,12 +65,12 @@ bool VisibilityDatabase::takeMemoryLimit(size_t stride) {
   return levels_ != before;
 }
 
-// At once, so that rows are not made longer of what is to go.
+// Done at once, so that rows which are about to be removed are not enlarged.
 void VisibilityDatabase::forgetBelow() {
   for (uint32_t object = 0; object < patches_.size(); ++object) {
     const std::vector<Patch>& patches = patches_[object].patches;
     std::vector<size_t> levels(patches.size(), 0);
-    for (size_t i = 0; i < patches.size(); ++i) {  // children stand after their parents
+    for (size_t i = 0; i < patches.size(); ++i) {  // children follow their parents
       if (patches[i].parent != kNone)
         levels[i] = levels[static_cast<size_t>(patches[i].parent)] + 1;
       if (levels[i] >= levels_) rows_[object][i] = Row();

@@ -42,8 +42,8 @@ bool VisibilityDatabase::Update::Piece::run(std::span<Task> tasks) {
   return changed_;
 }
 
-// Table 4-1: where nothing that moved can be between, before or now, nothing is looked at. Whether
-// that, or what is known, tells the state.
+// Table 4-1: if no mover can be between light and patch, before or now, no test is done. Returns
+// whether this, or a known state, decides the entry.
 bool VisibilityDatabase::Update::Piece::settle(Task& task, uint8_t& others) const {
   const auto is = [&](Occlusion state) {
     task.state = state;
@@ -55,14 +55,14 @@ bool VisibilityDatabase::Update::Piece::settle(Task& task, uint8_t& others) cons
   const bool wasFound = task.work == Work::check && !task.isOfMover && !task.parentWasNone;
   task.isSieved = wasFound && !task.column->mayFallOn(patch_.centre, patch_.radius);
   if (task.isSieved) return is(task.was);
-  // What all hid, and the movers did not, the others hide.
+  // If the patch was hidden, and not by the movers, then other objects hide it.
   if (wasFound && others == kUnknown && task.was == Occlusion::full && task.column->moversAreAll &&
       task.column->moversHidNothing) {
     others = static_cast<uint8_t>(Occlusion::full);
     return is(Occlusion::full);
   }
   if (update_.isDecided(others)) return is(static_cast<Occlusion>(others));
-  // Where nothing stood between, only the movers can.
+  // If nothing was between light and patch, only the movers can be.
   if (others == kUnknown && wasFound && task.column->moversAreAll && task.was == Occlusion::none)
     others = static_cast<uint8_t>(Occlusion::none);
   return false;
@@ -115,7 +115,7 @@ void VisibilityDatabase::Update::Piece::findOthers() {
 }
 
 void VisibilityDatabase::Update::Piece::finish(Task& task, uint8_t others) {
-  // Where no mover is met nothing changes either.
+  // If the pyramid meets no mover, the state does not change either.
   if (!update_.isDecided(others) && !db_.movers_.empty()) {
     checkAlone(task, others);
     return;

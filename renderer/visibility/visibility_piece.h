@@ -1,5 +1,5 @@
-// Some of the lights at one patch, the work of one thread; the database's own files only include
-// this.
+// Some of the lights at one patch, processed by one thread. Only the database's own files include
+// this header.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace lamplighter {
 
 class VisibilityDatabase::Update::Piece {
  public:
-  // `leftOutBy`: of the object.
+  // `leftOutBy`: the bits of the object (light_linking.h).
   Piece(Update& update, uint32_t leftOutBy, const Patch& patch, const PatchRegion& region, Row& row,
         bool keepsOthers)
       : update_(update),
@@ -22,28 +22,29 @@ class VisibilityDatabase::Update::Piece {
         row_(row),
         keepsOthers_(keepsOthers) {}
 
-  // Whether an entry changed.
+  // Computes the entries. Returns whether any changed.
   bool run(std::span<Task> tasks);
 
  private:
   static constexpr size_t kTogether = LightPacket::kLights;
-  static constexpr size_t kWorthTogether = 3;  // fewer are quicker alone
+  static constexpr size_t kWorthTogether = 3;  // fewer are faster one by one
 
   const shared::Vpl& lightOf(const Task& task) const {
     return db_.lights_[static_cast<size_t>(task.slot)];
   }
-  // Whether the entry is decided without a pyramid, and how.
+  // Decides the entry without a pyramid if possible; returns whether it did.
   bool settle(Task& task, uint8_t& others) const;
   bool mayBeTogether(const Task& task) const {
     return db_.useClusters_ && lightOf(task).position.w != shared::kVplDirectional;
   }
-  // Where nothing is known of all but the movers, many entries are looked at together: first which
-  // lights need a pyramid at all, then eight of these at a time.
+  // If the state without the movers is unknown, many entries are tested together: first findSides()
+  // finds the lights that need a pyramid, then these are tested eight at a time.
   void findSides();
   void findOthers();
-  // By a pyramid for the light alone.
+  // Tests one light with its own pyramid.
   void checkAlone(Task& task, uint8_t others);
-  void finish(Task& task, uint8_t others);  // what they are is known
+  void finish(Task& task, uint8_t others);  // completes the entry; `others` is the state without
+                                            // the movers
   void take(const Task& task) {
     if (task.state == task.was) return;
     row_.states[static_cast<size_t>(task.slot)] = static_cast<uint8_t>(task.state);
@@ -52,7 +53,7 @@ class VisibilityDatabase::Update::Piece {
   void keep(const Task& task, uint8_t others) {
     if (keepsOthers_) row_.withoutMovers[static_cast<size_t>(task.slot)] = others;
   }
-  // What is asked first; then it is kept for the patches below.
+  // The blockers to test first; keep() stores them for the patches below.
   Hints hintsFor(const Task& task) const;
   void keep(Task& task, const Hints& hints);
 
@@ -65,9 +66,9 @@ class VisibilityDatabase::Update::Piece {
   const bool keepsOthers_;
   bool changed_ = false;
   uint64_t tests_ = 0;
-  Hints before_;  // of the light before
+  Hints before_;  // of the previous light
   std::array<Task*, kTogether> unknown_;
-  std::array<Task*, 2 * kTogether> open_;  // those of them that need a pyramid
+  std::array<Task*, 2 * kTogether> open_;  // the elements of unknown_ that need a pyramid
   size_t unknownCount_ = 0, openCount_ = 0;
 };
 

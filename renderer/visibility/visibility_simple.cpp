@@ -1,5 +1,5 @@
-// Most of what a drag asks of the visibility database: columns that know what all others do at a
-// patch and only wait for the movers, many at a time and without a task for each.
+// The most frequent updates during a drag: columns that know the state without the movers and wait
+// only for the movers. Many are tested at once, without a task for each.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr hn::FixedTag<uint8_t, 32> kBytes;
 
-// Of which of 64 bytes something is so.
+// Bit mask of those of 64 bytes for which a condition is true.
 template <typename Is>
 uint64_t which(const uint8_t* bytes, const Is& is) {
   return bitsOf(is(hn::LoadU(kBytes, bytes))) | uint64_t{bitsOf(is(hn::LoadU(kBytes, bytes + 32)))}
@@ -29,7 +29,7 @@ uint64_t atLeast(const uint8_t* bytes, uint8_t value) {
 
 }  // namespace
 
-// A part that was not apart has all lights that are partial as tasks.
+// A part that had no entries of its own gets tasks for all partial lights.
 bool VisibilityDatabase::Update::passSimpleDown(size_t level, bool wasDivided) {
   simple_.resize(std::max(simple_.size(), (level + 2) * simpleWords_));
   const std::span<uint64_t> from = simpleAt(level), to = simpleAt(level + 1);
@@ -41,8 +41,8 @@ bool VisibilityDatabase::Update::passSimpleDown(size_t level, bool wasDivided) {
   return any;
 }
 
-// Leaves those that are partial and stay so, which are to be checked below; makes tasks of those
-// that change or are not known well enough.
+// Keeps the columns whose entries are partial and stay so; they are tested again in the parts of
+// the patch. Makes tasks for entries that change or are not known well enough.
 void VisibilityDatabase::Update::checkSimple(uint32_t object, int patch, size_t first,
                                              std::span<uint64_t> simple) {
   const ObjectPatches& patches = db_.patches_[object];
@@ -97,14 +97,14 @@ void VisibilityDatabase::Update::checkSimple(uint32_t object, int patch, size_t 
       unknown = some & equal(without, kUnknown);
       none = some & ~unknown & ~partial;
       unknown &= simpleColumns_->reaches.mayFallOn(w, unknown, p.centre, p.radius);
-      // What stands is as it was.
+      // Entries that are still valid are unchanged.
       uint64_t stands = 0;
       if (!row.standsTill.empty())
         stands = none & atLeast(&row.standsTill[64 * w], db_.path_.now());
       none &= ~stands;
       const uint64_t isNone = equal(&row.states[64 * w], static_cast<uint8_t>(Occlusion::none));
-      // What is partial whatever moves is only there for its parts, of which shadows nearly always
-      // reach one.
+      // Entries that are partial independent of the movers remain only for the parts of the patch;
+      // shadows almost always reach one of the parts.
       simple[w] = (passesDown ? partial : 0) | unknown | none | (stands & ~isNone);
     }
     forEachBit(none, [&](size_t i) {

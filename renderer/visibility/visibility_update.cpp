@@ -8,12 +8,11 @@
 namespace lamplighter {
 namespace {
 
-// Lights to be looked at that are one piece of work for a thread, at least: some times as many as
-// are looked at together.
+// Smallest number of lights per job of a thread: several times the number that is tested together.
 constexpr size_t kLightsAPiece = 16;
-constexpr size_t kLightsToShare = 32;  // fewer are not shared out
+constexpr size_t kLightsToShare = 32;  // fewer are not distributed over threads
 
-// Entries that are partial, of lights that are live (1, else 0).
+// Number of partial entries of live lights (isLive is 1 or 0).
 int countPartial(std::span<const uint8_t> states, std::span<const uint8_t> isLive) {
   const hn::FixedTag<uint8_t, 32> tag;
   const auto partial = hn::Set(tag, static_cast<uint8_t>(Occlusion::partial));
@@ -43,8 +42,8 @@ void VisibilityDatabase::Update::run(uint32_t object, int root, std::span<const 
   visit(object, root, 0, 0, allMayDivide_);
 }
 
-// One that is looked at, and all below it that are. Where neither it nor a light is new and no
-// entry is other than before it is divided as it was.
+// Processes a patch and all divided patches below it. If neither the patch nor a light is new and
+// no entry changed, the division stays as it was.
 void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level, size_t first,
                                        bool mayDivide) {
   const auto index = static_cast<size_t>(patch);
@@ -52,8 +51,8 @@ void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level,
   const size_t last = tasks_.size();
   const bool changedBefore = db_.changed_[object][index] != 0;
   const std::span<Task> tasks = std::span(tasks_).subspan(first);
-  // A new light counts also where its entry is what the slot had, and so does each light on what
-  // was placed anew.
+  // A new light counts even if its entry equals the previous one of the slot; so does each light on
+  // an object that was placed again.
   mayDivide = mayDivide || std::any_of(tasks.begin(), tasks.end(),
                                        [](const Task& t) { return t.isNew || t.isOfMover; });
   if (compute(object, patch, tasks)) {
@@ -78,7 +77,7 @@ void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level,
   }
 }
 
-// They have been as the patch was before its tasks, which are done.
+// Until now the parts shared the entries of the patch, as they were before its tasks.
 void VisibilityDatabase::Update::beginParts(uint32_t object, int patch, std::span<const Task> tasks,
                                             bool changedBefore) {
   db_.divided_[object][static_cast<size_t>(patch)] = 1;
@@ -93,7 +92,7 @@ void VisibilityDatabase::Update::beginParts(uint32_t object, int patch, std::spa
   }
 }
 
-// From now on they are as the patch is.
+// From now on the parts share the entries of the patch.
 void VisibilityDatabase::Update::forgetParts(uint32_t object, int patch) {
   if (!db_.isDivided(object, patch)) return;
   const auto index = static_cast<size_t>(patch);
@@ -106,13 +105,13 @@ void VisibilityDatabase::Update::forgetParts(uint32_t object, int patch) {
   }
 }
 
-// All tasks at one patch; whether an entry changed.
+// Computes all tasks at one patch. Returns whether an entry changed.
 bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<Task> tasks) {
   if (tasks.empty()) return false;
   const ObjectPatches& patches = db_.patches_[object];
   const Patch& p = patches.patches[static_cast<size_t>(patch)];
   Row& row = db_.rows_[object][static_cast<size_t>(patch)];
-  // Where nothing moves it is the state itself.
+  // If nothing moves, the state without movers is the state itself.
   const bool keepsOthers = db_.keepsOthers_ && !db_.movers_.empty();
   if (keepsOthers && row.withoutMovers.empty()) row.withoutMovers.assign(db_.stride_, kUnknown);
   const auto toLookAt = static_cast<size_t>(std::count_if(
@@ -133,15 +132,15 @@ bool VisibilityDatabase::Update::compute(uint32_t object, int patch, std::span<T
   return changed;
 }
 
-// Adds the tasks of a part of a divided patch after those of the patch, which are done. One that
-// was or becomes none or full tells its parts so (table 4-1).
+// Appends the tasks of a part of a divided patch after the finished tasks of the patch. If an entry
+// of the patch was or becomes none or full, the parts inherit it (table 4-1).
 void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child, bool wasDivided,
                                           size_t first, size_t last) {
   const Row& row = db_.rows_[object][static_cast<size_t>(child)];
   const bool childIsDivided = db_.isDivided(object, child);
   tasks_.reserve(tasks_.size() + order_.size());  // parents are among them
   const auto pass = [&](const Task& parent) {
-    // Most entries that a mover may touch are decided by the others.
+    // Most entries that a mover may affect are decided by the other objects.
     const auto s = static_cast<size_t>(parent.slot);
     if (parent.work == Work::check && parent.state == Occlusion::partial && !childIsDivided &&
         !row.withoutMovers.empty() && isDecided(row.withoutMovers[s]) &&
@@ -167,7 +166,7 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
     for (size_t t = first; t < last; ++t) pass(tasks_[t]);
     return;
   }
-  // Lights of which nothing changed here are to be looked at as well.
+  // Lights for which nothing changed at this patch must be tested as well.
   const uint8_t* states = db_.rows_[object][static_cast<size_t>(patch)].states.data();
   size_t t = first;
   for (const int next : order_) {
@@ -178,7 +177,7 @@ void VisibilityDatabase::Update::passDown(uint32_t object, int patch, int child,
       Task& task = tasks_.emplace_back();
       task.slot = static_cast<int>(slot);
       task.work = Work::anew;
-      // A column that waits has taken in what moved here, but not elsewhere.
+      // A waiting column has processed the movement here, but not elsewhere.
       if (!db_.waiting_[slot].empty())
         std::atomic_ref(db_.knowsNow_[slot]).store(1, std::memory_order_relaxed);
     }

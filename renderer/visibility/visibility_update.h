@@ -1,4 +1,4 @@
-// How columns of the visibility database are brought up to date; its own files only include this.
+// Updates columns of the visibility database. Only the database's own files include this header.
 #pragma once
 
 #include <algorithm>
@@ -12,21 +12,22 @@
 
 namespace lamplighter {
 
-// What is to be done for a light at a patch.
+// What to do for a light at a patch.
 enum class VisibilityDatabase::Work : uint8_t {
-  inherit,  // it is as it is at the parent
-  check,    // it is as it was, but for what moved
+  inherit,  // take the entry of the parent
+  check,    // keep the entry, except for the effect of the movers
   anew
 };
 
 struct VisibilityDatabase::Column {
   int slot = 0;
-  bool moversAreAll = true;      // what it waits for are the movers of now, and no more
-  bool moversHidNothing = true;  // nor could what it waits for hide a patch alone
-  // Of what it waits for, before and now; most wait for one thing.
+  bool moversAreAll = true;      // the column waits only for the present movers
+  bool moversHidNothing = true;  // no object that it waits for could hide a patch by itself
+  // Shadow volumes of the objects that it waits for, before and now. Most columns wait for one
+  // object.
   ShadowVolume reach;
   std::vector<ShadowVolume> more;
-  std::vector<int> objects;  // that it waits for: all their entries
+  std::vector<int> objects;  // objects that it waits for: all their entries are computed
   bool mayFallOn(const vec3& centre, float radius) const {
     return reach.mayFallOn(centre, radius) ||
            std::any_of(more.begin(), more.end(),
@@ -34,36 +35,36 @@ struct VisibilityDatabase::Column {
   }
 };
 
-// Columns that wait for the movers alone, by slot: most of their entries are checked many at a time
+// Columns that wait only for the movers, by slot. Most of their entries are tested many at a time
 // (visibility_simple.cpp).
 struct VisibilityDatabase::SimpleColumns {
   MoverShadows shadows;
   ShadowVolumes reaches;
-  std::vector<const Column*> bySlot;  // null: it is not simple
+  std::vector<const Column*> bySlot;  // null: not a simple column
 };
 
-// Small: a step of a drag passes down tens of thousands.
+// Keep this small: one step of a drag creates tens of thousands.
 struct VisibilityDatabase::Task {
-  const Column* column = nullptr;  // null: that of a light of which nothing moved
+  const Column* column = nullptr;  // null: nothing moved for this light
   int slot = 0;
-  int hints = kNone;  // index of those found here, or else at the nearest patch above
+  int hints = kNone;  // index of the hints found here, or else at the nearest ancestor
   Work work = Work::anew;
   bool isNew = false;
-  bool isOfMover = false;  // the column waits for the object
-  // The entry before was not found by its own pyramid, which is not quite in that of the parent.
+  bool isOfMover = false;  // the column waits for this object
+  // The previous entry was not found with its own pyramid, which the parent's does not fully
+  // contain.
   bool parentWasNone = false;
   bool isFound = false;                  // the state is known
-  bool isSieved = false;                 // nothing that moved can be between: it stays
-  Occlusion was = Occlusion::partial;    // the entry before
-  Occlusion state = Occlusion::partial;  // inherit: the parent's; afterwards the entry
+  bool isSieved = false;                 // no mover can be between light and patch: the entry stays
+  Occlusion was = Occlusion::partial;    // the previous entry
+  Occlusion state = Occlusion::partial;  // inherit: the parent's entry; afterwards the result
 };
 
-// Goes patch by patch from the roots, at each for all lights at once, so that it is known there
-// whether the patch is divided before its children are looked at.
+// Traverses the patches from the roots and processes all lights at each patch together. So it knows
+// whether the patch is divided before it visits the children.
 class VisibilityDatabase::Update {
  public:
-  // allMayDivide: patches may be divided otherwise than they are though nothing changed on them.
-  // `order`: all slots.
+  // allMayDivide: the division of unchanged patches may change too. `order`: all slots.
   Update(VisibilityDatabase& database, const RenderScene& scene, bool allMayDivide,
          std::span<const int> order, std::atomic<uint64_t>& tests)
       : db_(database), scene_(scene), allMayDivide_(allMayDivide), order_(order), tests_(tests) {
@@ -71,17 +72,17 @@ class VisibilityDatabase::Update {
       moversMayHide_ = moversMayHide_ || database.occluders_.mayHide(mover);
   }
 
-  // What simple columns are checked by; it must outlive this.
+  // Sets the data for testing simple columns; it must outlive this object.
   void useSimple(const SimpleColumns& columns) { simpleColumns_ = &columns; }
 
-  // The root and all below it; tasks in the order of slots. `simple`: besides, a bit for each slot
-  // of a simple column that is to be checked there if its shadow may fall there, or empty.
+  // Processes the root and all patches below it; tasks are ordered by slot. `simple`: one bit per
+  // slot, set for simple columns to be tested wherever their shadow volume reaches; or empty.
   void run(uint32_t object, int root, std::span<const Task> tasks,
            std::span<const uint64_t> simple);
 
  private:
   void visit(uint32_t object, int patch, size_t level, size_t first, bool mayDivide);
-  // Simple columns at a patch, and at a part of it; whether any are left there.
+  // Simple columns at a patch and at its parts. They return whether any columns remain.
   void checkSimple(uint32_t object, int patch, size_t first, std::span<uint64_t> simple);
   bool passSimpleDown(size_t level, bool wasDivided);
   std::span<uint64_t> simpleAt(size_t level) {
@@ -90,17 +91,17 @@ class VisibilityDatabase::Update {
   void beginParts(uint32_t object, int patch, std::span<const Task> tasks, bool changedBefore);
   void forgetParts(uint32_t object, int patch);
   bool compute(uint32_t object, int patch, std::span<Task> tasks);
-  // What an entry's pyramid met: of all but the movers, and of these.
+  // The blockers that the pyramid of an entry met: among other objects, and among the movers.
   struct Hints {
     Blocker met, metMover;
   };
   class Piece;  // some of the tasks at a patch (visibility_piece.h)
-  // Whether no mover makes a difference where this is the state by all others.
+  // Whether the movers cannot change this state, which was found without them.
   bool isDecided(uint8_t others) const {
     return others == static_cast<uint8_t>(Occlusion::full) ||
            (others == static_cast<uint8_t>(Occlusion::partial) && !moversMayHide_);
   }
-  // Whether Row::withoutMovers says none, with a hint or without.
+  // Whether this value of Row::withoutMovers means none, with or without a hint.
   static bool isNone(uint8_t others) {
     return others == static_cast<uint8_t>(Occlusion::none) ||
            (others >= kNoneAndMet && others != kUnknown);
@@ -122,10 +123,10 @@ class VisibilityDatabase::Update {
   const SimpleColumns* simpleColumns_ = nullptr;
   bool moversMayHide_ = false;
   std::atomic<uint64_t>& tests_;
-  std::vector<Task> tasks_;   // those of the patch that is visited are the last
-  std::vector<Hints> hints_;  // by task; those that Task::hints tells of
+  std::vector<Task> tasks_;   // a stack; the last are those of the visited patch
+  std::vector<Hints> hints_;  // indexed by Task::hints
   size_t simpleWords_ = 0;
-  std::vector<uint64_t> simple_;  // by level and slot, a bit each
+  std::vector<uint64_t> simple_;  // one bit per level and slot
 };
 
 }  // namespace lamplighter

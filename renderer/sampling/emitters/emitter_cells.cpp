@@ -13,21 +13,21 @@ namespace lamplighter {
 
 namespace {
 
-// Of one object; those of many triangles have one each beyond.
+// Upper limit of the cells of one object; if it has more triangles, one cell per triangle.
 constexpr float kCells = 8192.0f;
 constexpr int kFinest = 6;
-// Of the mean brightness, given to each cell: points may have missed what is bright in it, and a
-// density of zero there would be a bias.
+// Fraction of the mean brightness that is added to each cell. The sample points may have missed a
+// bright spot in a cell, and a density of zero there would be a bias.
 constexpr double kFloor = 1.0 / 32.0;
 
-// A part of a triangle as barycentric weights of second and third corner: one corner, and the way
-// to its own second and third, which point along the triangle's axes, or against them in a middle
-// part.
+// A part of a triangle in barycentric weights of the second and third vertex: its first corner and
+// the signed length of its sides. They are parallel to the sides of the triangle, or opposite in a
+// middle part.
 struct Part {
   vec2 corner{0.0f};
   float side = 1.0f;  // signed
 
-  // 0 at the first corner, 1 the middle, 2 and 3 at the other corners.
+  // 0: part at the first corner, 1: the middle part, 2 and 3: parts at the other corners.
   Part child(uint32_t i) const {
     const float half = 0.5f * side;
     switch (i) {
@@ -51,7 +51,7 @@ Part partOf(uint32_t index, int level) {
   return part;
 }
 
-// The part in which a point is.
+// The index of the part that contains a point.
 uint32_t indexOf(vec2 w, int level) {
   uint32_t index = 0;
   for (int i = 0; i < level; ++i) {
@@ -71,7 +71,7 @@ uint32_t indexOf(vec2 w, int level) {
 
 constexpr uint32_t partsAt(int level) { return 1u << (2 * level); }
 
-// Of all that cells depend on. In words, so that it costs little at each edit.
+// Hash of all inputs of the cells, over words so that it is fast at each edit.
 class ContentHash {
  public:
   void add(uint32_t word) {
@@ -93,7 +93,7 @@ class ContentHash {
   uint64_t value_ = 0x243f6a8885a308d3ull;
 };
 
-// Null where the reference is to none.
+// Null if the reference has no texture.
 std::shared_ptr<const Image8> imageOf(const RenderScene& s, const TextureRef& ref) {
   if (ref.texture == kNone) return nullptr;
   return s.textures[static_cast<size_t>(ref.texture)].image;
@@ -142,7 +142,7 @@ CellBrightness::Key::Key(const RenderScene& s, uint32_t object)
 CellBrightness::CellBrightness(const RenderScene& s, uint32_t object, Key of) : key(std::move(of)) {
   const RenderObject& o = s.objects[object];
   const uint32_t count = o.triangleCount();
-  // Their areas in the object's own space: moving and turning it changes no cell.
+  // Areas in object space, so that moving and rotating the object changes no cell.
   std::vector<float> share(count);
   double sum = 0.0;
   for (uint32_t t = 0; t < count; ++t) {
@@ -208,7 +208,7 @@ EmitterCells::Point EmitterCells::sample(vec2 u) const {
   constexpr float kBelowOne = 0x1.fffffep-1f;
   const double target = static_cast<double>(u.x) * upTo_.back();
   auto it = std::upper_bound(upTo_.begin(), upTo_.end(), target);
-  if (it == upTo_.end())  // by rounding: the last that has any weight
+  if (it == upTo_.end())  // due to rounding errors: use the last cell with a non-zero weight
     it = std::lower_bound(upTo_.begin(), upTo_.end(), upTo_.back());
   const auto cell = static_cast<size_t>(it - upTo_.begin());
   const double below = cell == 0 ? 0.0 : upTo_[cell - 1];

@@ -19,7 +19,7 @@ float triangleArea(const RenderScene& s, const RenderObject& o, uint32_t t) {
                                        s.positions[i[2]] - s.positions[i[0]]));
 }
 
-// Of the same mesh and texture among those that there are, or made.
+// Reuses the brightness of the same mesh and texture, or computes it.
 std::shared_ptr<const CellBrightness> brightnessOf(const RenderScene& s, uint32_t object,
                                                    std::span<const Emitter> before,
                                                    std::span<const Emitter> now) {
@@ -59,7 +59,7 @@ Emitter surfaceEmitter(const RenderScene& s, uint32_t object, std::span<const Em
   return e;
 }
 
-// The cone's solid angle weighted by KHR_lights_punctual's falloff, ((cos θ − cos o)/(cos i − cos
+// Solid angle of the cone weighted by KHR_lights_punctual's falloff, ((cos θ − cos o)/(cos i − cos
 // o))² between outer and inner cone: ∫ = 2π [(1 − cos i) + (cos i − cos o)/3].
 float spotSolidAngle(const PunctualLight& l) {
   const float ci = std::cos(l.innerCone), co = std::cos(l.outerCone);
@@ -89,7 +89,7 @@ LightSet::LightSet(const RenderScene& s, const LightSet& before) {
     const Material& m = s.materials[s.objects[i].material];
     if (!m.emits() || m.isClear()) continue;
     Emitter e = surfaceEmitter(s, i, before.emitters_, emitters_);
-    if (e.triangles.empty() || luminance(e.flux) <= 0.0f) continue;  // no area, or all black
+    if (e.triangles.empty() || luminance(e.flux) <= 0.0f) continue;  // no area, or black
     emitterOfObject_[i] = static_cast<int>(emitters_.size());
     emitters_.push_back(std::move(e));
   }

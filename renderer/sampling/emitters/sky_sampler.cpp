@@ -14,9 +14,9 @@ vec3 turnedAboutY(const vec3& d, float angle) {
   return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
 }
 
-// The height y of a direction of a gradient, by luminance: below the horizon even, above it linear,
-// so that the cumulative distribution is a quadratic. It is a density over y, of which every
-// interval has the same solid angle 2π dy.
+// Samples the height y of a direction of a gradient sky by luminance. The luminance is constant
+// below the horizon and linear in y above, so the cumulative distribution is quadratic. It is a
+// density over y; equal intervals of y have equal solid angles 2π dy.
 struct GradientHeight {
   explicit GradientHeight(const Sky& sky)
       : ground(luminance(sky.ground)), a(luminance(sky.horizon)), b(luminance(sky.zenith)) {}
@@ -26,7 +26,7 @@ struct GradientHeight {
     float m = u * total();
     if (m < ground) return std::min(m / ground - 1.0f, -0x1p-24f);
     m -= ground;
-    // a y + (b − a) y²/2 = m, in the form of the solution that does not cancel.
+    // Solves a y + (b − a) y²/2 = m in the form without cancellation.
     const float root = std::sqrt(std::max(0.0f, a * a + 2.0f * (b - a) * m));
     return a + root > 0.0f ? std::clamp(2.0f * m / (a + root), 0.0f, 1.0f) : 0.0f;
   }

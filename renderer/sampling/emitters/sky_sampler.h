@@ -1,4 +1,4 @@
-// The sky as a light: directions by how much comes from them, whatever kind of sky it is.
+// Samples the sky as a light: directions by radiance, for all kinds of sky.
 #pragma once
 
 #include "renderer/scene/sky.h"
@@ -14,24 +14,25 @@ class SkySampler {
   const Sky& sky() const { return sky_; }
   vec3 radiance(const vec3& towards) const { return sky_.radianceFrom(towards); }
 
-  // For VPLs and paths. ∫ L dω, the suns left out [W/m²].
+  // For VPLs and paths: ∫ L dω without the suns [W/m²].
   vec3 irradiance() const;
-  // A direction of all but the suns, with density by luminance: for all u the samples have the same
+  // A direction of the sky without suns, with density by luminance. All samples have the same
   // luminance, that of irradiance().
   SkyMap::Light sample(vec2 u) const;
-  // The suns of a picture, SkyMap::suns(); its mean direction, or a place on it.
+  // The suns of a sky image, see SkyMap::suns(): the mean direction, or a sampled direction within
+  // the sun.
   size_t sunCount() const;
   SkyMap::Light sun(size_t i) const;
   SkyMap::Light sun(size_t i, vec2 u) const;
 
-  // For unbiased estimates: a direction and its density by solid angle [1/sr]. A constant sky needs
-  // no such sampling: directions by the cosine are as good as any.
+  // For unbiased estimates: a direction and its density [1/sr]. Not needed for a constant sky,
+  // where cosine-weighted directions are as good.
   bool isConstant() const { return sky_.kind == SkyKind::constant; }
   SkyMap::Direction sampleDensity(vec2 u) const;
   float density(const vec3& towards) const;
 
  private:
-  vec3 turned(const vec3& d) const;    // from the picture's frame to the world's
+  vec3 turned(const vec3& d) const;    // from the frame of the sky image to world space
   vec3 unturned(const vec3& d) const;  // and back
 
   Sky sky_;

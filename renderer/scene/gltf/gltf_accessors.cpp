@@ -29,7 +29,7 @@ ElementLayout elementLayout(const std::string& type, size_t componentType) {
   if (type == "VEC2") return {2, 2 * size};
   if (type == "VEC3") return {3, 3 * size};
   if (type == "VEC4") return {4, 4 * size};
-  // Columns of matrices begin at multiples of four bytes (glTF 2.0, 3.6.2.4).
+  // Columns of matrices are aligned to four bytes (glTF 2.0, 3.6.2.4).
   const auto matrix = [&](size_t n) { return ElementLayout{n * n, n * ((n * size + 3) / 4 * 4)}; };
   if (type == "MAT2") return matrix(2);
   if (type == "MAT3") return matrix(3);
@@ -61,7 +61,7 @@ AccessorView accessorView(const GltfDocument& document, size_t accessor) {
 
 namespace {
 
-// What a component is as a float.
+// Converts a component to float.
 template <typename T>
 float toFloat(T value, bool normalized) {
   if constexpr (std::is_same_v<T, float>) {

@@ -1,5 +1,5 @@
-// From the JSON of a glTF file to the parts of a Scene, list by list: entry i of each result
-// belongs to entry i of the file's list. They expect checkStructure() to have passed.
+// Converts the JSON of a glTF file to parts of a Scene, list by list: entry i of each result
+// corresponds to entry i of the file's list. Requires that checkStructure() has passed.
 #pragma once
 
 #include <memory>
@@ -11,53 +11,55 @@
 
 namespace lamplighter {
 
-// gltf_meshes.cpp. Warns of what was left out (points and lines) and mended (normals).
+// gltf_meshes.cpp. Warns about skipped data (points and lines) and repaired data (normals).
 std::vector<std::shared_ptr<const Mesh>> readMeshes(GltfDocument& document);
 
 // gltf_materials.cpp
 Material readMaterial(const GltfDocument& document, size_t index);
 std::vector<Material> readMaterials(GltfDocument& document);
 
-// gltf_textures.cpp. Decodes what `materials` use, on all cores, and fills document.imageFiles; the
-// other textures have a white pixel. Warns of every image that cannot be had.
+// gltf_textures.cpp. Decodes the textures that `materials` use, on all cores, and fills
+// document.imageFiles. Other textures get a white pixel. Warns about every image that is not
+// available.
 std::vector<Texture> readTextures(GltfDocument& document, const std::vector<Material>& materials,
                                   const LoadProgress& progress);
 
-// Magenta and black squares, not to be overlooked.
+// A checkerboard of magenta and black, easy to notice.
 std::shared_ptr<const Image8> placeholderImage();
 
 // gltf_lights.cpp
 std::optional<PunctualLight> readPunctual(const GltfDocument& document, size_t node);
-// The light as the file has it: its size takes the largest of the node's world scales, not each
-// axis its own as AreaLight's does. `worldScale`: the node's, by axis.
+// The light as in the file: EXT_lights_area scales its size by the largest world scale of the node,
+// whereas AreaLight scales each axis separately. `worldScale`: of the node, by axis.
 std::optional<AreaLight> readArea(const GltfDocument& document, size_t node,
                                   const vec3& worldScale);
-// A spot's or rectangle's light that cannot be read right is an error; lights of unknown kinds are
-// left out with a warning.
+// A spot or rectangle light that cannot be read correctly is an error. Lights of unknown kinds are
+// skipped with a warning.
 void warnOfUnknownLights(GltfDocument& document);
-// gltf_light_notes.cpp: on, solo, group and profile of the nodes' lights; groups and the sky's
-// state.
+// gltf_light_notes.cpp: on, solo, group and profile of the nodes' lights; groups and the state of
+// the sky.
 void readLightNotes(GltfDocument& document, std::vector<Node>& nodes);
 void readSceneLightNotes(GltfDocument& document, Scene& scene);
-// gltf_bookmarks.cpp: places to look from, by slot; malformed ones are left out with a warning.
+// gltf_bookmarks.cpp: camera bookmarks, by slot; malformed ones are skipped with a warning.
 std::vector<CameraBookmark> readBookmarks(GltfDocument& document);
-// gltf_sphere_meshes.cpp: takes out what saveGltf() put in to show sphere lights to other programs.
+// gltf_sphere_meshes.cpp: removes the meshes that saveGltf() added so that other programs show
+// sphere lights.
 void stripSphereMeshes(GltfDocument& document);
 
 // gltf_nodes.cpp
 Camera readCamera(const GltfDocument& document, size_t index);
 std::vector<Camera> readCameras(GltfDocument& document);
 Transform readTransform(const GltfDocument& document, size_t node);
-// All of a node but its id, parent and area light.
+// Everything of a node except id, parent and area light.
 Node readNode(const GltfDocument& document, size_t node);
-// Nodes of the default scene, parents before children; ids from 1 on.
+// Nodes of the default scene, parents before children; ids start at 1.
 std::vector<Node> readNodes(GltfDocument& document);
 
-// gltf_sky.cpp: of the default scene. One that is malformed, or whose picture cannot be had, is
-// left out with a warning.
+// gltf_sky.cpp: the sky of the default scene. It is skipped with a warning if it is malformed or
+// its picture is not available.
 std::optional<Sky> readSky(GltfDocument& document);
 
-// Of the default scene, or empty.
+// Name of the default scene, or empty.
 std::string sceneName(const GltfDocument& document);
 
 }  // namespace lamplighter

@@ -90,7 +90,7 @@ std::optional<size_t> sizeMember(const GltfDocument& document, const Json& objec
   const Json* value = member(object, key);
   if (value == nullptr) return std::nullopt;
   if (value->is_number_unsigned()) return value->get<size_t>();
-  // Some exporters write 3.0 where 3 is meant.
+  // Some exporters write 3.0 instead of 3.
   if (value->is_number_float()) {
     const double d = value->get<double>();
     if (d >= 0.0 && d < 9007199254740992.0 && d == std::floor(d)) return static_cast<size_t>(d);
@@ -194,7 +194,7 @@ std::string_view jsonOfGlb(GltfDocument& document, const std::vector<uint8_t>& b
           bytes.begin() + static_cast<std::ptrdiff_t>(at),
           bytes.begin() + static_cast<std::ptrdiff_t>(at + length));
     }
-    // Chunks are padded to four bytes; a last one that is not is harmless.
+    // Chunks are padded to four bytes; missing padding of the last one is accepted.
     at = std::min(bytes.size(), at + (length + 3) / 4 * 4);
   }
   return text;

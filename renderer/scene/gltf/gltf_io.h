@@ -1,4 +1,4 @@
-// glTF 2.0 in and out.
+// Reads and writes glTF 2.0.
 #pragma once
 
 #include <filesystem>
@@ -10,33 +10,34 @@
 
 namespace lamplighter {
 
-// Told how far a load has come, in [0, 1], and at what; called from the loading thread. Returning
-// false stops the load, which then throws InputError "cancelled".
+// Receives the progress of a load in [0, 1] and the present step; called from the loading thread.
+// If it returns false, the load stops with InputError "cancelled".
 using LoadProgress = std::function<bool(float done, const std::string& what)>;
 
 struct LoadedScene {
   Scene scene;
-  std::vector<std::string> warnings;  // each one line, "FILE: …", for standard error and the status
+  std::vector<std::string> warnings;  // one line each, "FILE: …", for standard error and the status
+                                      // line
   std::vector<std::string> extensions;  // the file's extensionsUsed
 };
 
-// Reads .gltf or .glb, told apart by content. Throws InputError ("FILE: what is wrong and where;
-// what to do") for anything that is no sound scene; a texture that cannot be decoded becomes a
-// placeholder and a warning. A scene without any light gets kDefaultSky and a warning. Reads
-// nothing outside the file's folder and never a network.
+// Reads .gltf or .glb, recognised by content. Throws InputError ("FILE: what is wrong and where;
+// what to do") if the file is not a valid scene. A texture that cannot be decoded becomes a
+// placeholder with a warning. A scene without any light gets kDefaultSky and a warning. Reads only
+// files in the folder of the file, and never uses a network.
 LoadedScene loadGltf(const std::filesystem::path& path, const LoadProgress& progress = {});
 
-// Writes .gltf (with a .bin beside it) or .glb, by the ending, atomically: to a temporary file
-// first, then renamed. What the source file held that Scene does not know is written again. Throws
-// InputError when it cannot be written; then nothing has changed on disk. Returns the files that
-// were written. Not `besideSource`: refers to none of the source's files, though they lie beside
-// it; somebody may have changed them.
+// Writes .gltf (with a .bin beside it) or .glb, depending on the extension. Atomic: writes
+// temporary files, then renames them. Data of the source file that Scene does not represent is
+// preserved. Throws InputError on failure; then nothing on disk has changed. Returns the written
+// files. `besideSource` false: the result refers to no file of the source even if it is in the same
+// folder, because those files may have changed.
 std::vector<std::filesystem::path> saveGltf(const Scene& scene, const std::filesystem::path& path,
                                             bool besideSource = true);
 
-// The file that the scene came from with all bytes that its lists refer to, as one .glb: loading it
-// gives the same meshes, textures and cameras at the same places. Edits are not in it. Throws
-// InputError.
+// Writes the file from which the scene was loaded, with all referenced bytes, as one .glb. Loading
+// it gives the same meshes, textures and cameras at the same indices. Does not contain edits.
+// Throws InputError.
 void saveSource(const Scene& scene, const std::filesystem::path& glb);
 
 }  // namespace lamplighter

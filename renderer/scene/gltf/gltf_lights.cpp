@@ -1,8 +1,8 @@
-// KHR_lights_punctual; EXT_lights_area (draft, KhronosGroup/glTF pull request 2525): a rectangle
-// or disk that emits towards −Z, size its height or diameter, rect.aspect width over height,
-// intensity in nits; and this program's own note of a sphere or tube, on a node whose mesh shows
-// it to others. A nit is taken as one unit of radiance, as a candela is as one of radiant
-// intensity.
+// Lights in glTF: KHR_lights_punctual; EXT_lights_area (draft, KhronosGroup/glTF pull request
+// 2525): a rectangle or disk that emits towards −Z, size = height or diameter, rect.aspect = width
+// / height, intensity in nits; and this program's own note for a sphere or tube, on a node whose
+// mesh shows the light in other programs. One nit is read as one unit of radiance, and one candela
+// as one unit of radiant intensity.
 #include "renderer/scene/gltf/gltf_lights.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ const Json* lightsOf(const GltfDocument& document, const char* extension) {
   return lights != nullptr && lights->is_array() ? lights : nullptr;
 }
 
-// The light that the node refers to, or null. `index` becomes its place in the list.
+// The light to which the node refers, or null. `index` receives its index in the list.
 const Json* lightOf(const GltfDocument& document, size_t node, const char* extension,
                     size_t& index) {
   const Json* reference = extensionOf(listOf(document, "nodes")[node], extension);
@@ -37,7 +37,7 @@ const Json* lightOf(const GltfDocument& document, size_t node, const char* exten
   return &(*lights)[index];
 }
 
-// color × intensity, in double so that a saved light comes back with the same bits.
+// color × intensity, in double, so that a saved light is read back bit-equal.
 vec3 colored(const GltfDocument& document, const Json& light, double defaultIntensity, At at) {
   std::vector<double> color = numbersMember(document, light, "color", 3, at);
   if (color.empty()) color = {1.0, 1.0, 1.0};
@@ -135,7 +135,7 @@ AxisRatios areaScale(const vec3& worldScale) {
   const double largest = std::max({worldScale.x, worldScale.y, worldScale.z});
   const auto ratio = [&](double s) {
     const double r = s > 1e-6 * largest ? largest / s : 1.0;
-    return std::abs(r - 1.0) < 1e-5 ? 1.0 : r;  // what rotating leaves is no scale
+    return std::abs(r - 1.0) < 1e-5 ? 1.0 : r;  // a deviation due to rotation is not a scale
   };
   return {ratio(worldScale.x), ratio(worldScale.y)};
 }

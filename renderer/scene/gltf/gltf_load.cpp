@@ -8,8 +8,8 @@ namespace lamplighter {
 
 namespace {
 
-// Vertices are laid out for every instance anew (RenderScene); a small file could ask for any
-// number of them.
+// Limit of the number of triangles. RenderScene copies vertices for every instance, so a small file
+// could claim any number.
 constexpr size_t kMostTriangles = 100'000'000;
 
 void checkSize(const GltfDocument& document, const Scene& scene) {
@@ -91,7 +91,7 @@ LoadedScene loadGltf(const std::filesystem::path& path, const LoadProgress& prog
   try {
     return loadScene(path, progress);
   } catch (const Json::exception& e) {
-    // What the checks missed: a member of another type than it must be.
+    // Errors that the checks missed: a member of an unexpected type.
     throw InputError(path.string(), "breaks the rules of glTF (" + printable(e.what()) + ")",
                      kExportAgain);
   } catch (const std::bad_alloc&) {

@@ -42,7 +42,7 @@ Material readMaterial(const GltfDocument& document, size_t index) {
 
   if (const Json* pbr = member(json, "pbrMetallicRoughness")) {
     const std::vector<double> color = numbersMember(document, *pbr, "baseColorFactor", 4, at);
-    // Above one a surface would give back more light than it gets.
+    // An albedo above 1 would reflect more light than it receives.
     if (!color.empty()) {
       m.baseColor = glm::clamp(vec4(color[0], color[1], color[2], color[3]), 0.0f, 1.0f);
     }
@@ -62,7 +62,7 @@ Material readMaterial(const GltfDocument& document, size_t index) {
     if (const Json* extension = extensionOf(json, "KHR_materials_emissive_strength")) {
       strength = numberMember(document, *extension, "emissiveStrength", 1.0, at);
     }
-    // The product in double, so that what is saved as factor and strength comes back as it was.
+    // The product in double, so that a saved factor and strength are read back bit-equal.
     for (int c = 0; c < 3; ++c) {
       const double value = std::max(emissive[static_cast<size_t>(c)] * strength, 0.0);
       if (value > 1e30) document.fail(at, "emits more than a float can hold", kExportAgain);

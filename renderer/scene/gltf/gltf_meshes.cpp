@@ -10,7 +10,7 @@ namespace lamplighter {
 
 namespace {
 
-// Beyond this a float has no millimetre left, and squared distances begin to overflow further on.
+// Numbers of skipped and repaired items, for warnings.
 struct Counts {
   size_t notTriangles = 0;   // primitives of points and lines
   size_t mendedNormals = 0;  // vertices
@@ -22,7 +22,7 @@ bool isFinite(const vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); 
 bool isFinite(const vec3& v) { return isFinite(vec2(v)) && std::isfinite(v.z); }
 bool isFinite(const vec4& v) { return isFinite(vec3(v)) && std::isfinite(v.w); }
 
-// Triangle lists from strips and fans (glTF 2.0, 3.7.2.1).
+// Converts strips and fans to triangle lists (glTF 2.0, 3.7.2.1).
 std::vector<uint32_t> asTriangles(const std::vector<uint32_t>& in, size_t mode) {
   if (mode == 4) return {in.begin(), in.end() - static_cast<std::ptrdiff_t>(in.size() % 3)};
   std::vector<uint32_t> out;
@@ -47,21 +47,21 @@ void mendUvs(std::vector<vec2>& uvs, Counts& counts) {
   }
 }
 
-// Unit normals; those that are none are marked.
+// Normalises the normals and marks those that cannot be normalised.
 std::vector<bool> checkNormals(std::vector<vec3>& normals) {
   std::vector<bool> missing(normals.size(), false);
   for (size_t i = 0; i < normals.size(); ++i) {
     const float square = glm::dot(normals[i], normals[i]);
     if (!(square > 1e-12f) || !std::isfinite(square)) {
       missing[i] = true;
-    } else if (std::abs(square - 1.0f) > 1e-5f) {  // not those that are unit: they stay as they are
+    } else if (std::abs(square - 1.0f) > 1e-5f) {  // unit normals stay unchanged
       normals[i] /= std::sqrt(square);
     }
   }
   return missing;
 }
 
-// Tangents are used as a whole or not at all: a normal map needs a frame everywhere.
+// Tangents are used for all vertices or for none: a normal map needs a tangent frame everywhere.
 void checkTangents(std::vector<vec4>& tangents) {
   for (vec4& t : tangents) {
     const float square = glm::dot(vec3(t), vec3(t));
@@ -115,7 +115,7 @@ class MeshReader {
       return std::nullopt;
     }
     const auto position = sizeMember(doc_, attributes, "POSITION", at);
-    if (!position) return std::nullopt;  // allowed, and nothing to show
+    if (!position) return std::nullopt;  // allowed, but there is nothing to show
     refuseCompressed(json, at, *position);
 
     Primitive p;
@@ -149,7 +149,7 @@ class MeshReader {
     mendUvs(p.uv0, counts_);
     mendUvs(p.uv1, counts_);
     for (vec4& c : p.colors) c = isFinite(c) ? glm::max(c, vec4(0.0f)) : vec4(1.0f);
-    // Tangents without normals are to be ignored (glTF 2.0, 3.7.2.1).
+    // Tangents without normals must be ignored (glTF 2.0, 3.7.2.1).
     if (p.normals.empty()) p.tangents.clear();
     checkTangents(p.tangents);
     std::vector<bool> missing =
@@ -178,7 +178,7 @@ class MeshReader {
     return out;
   }
 
-  // Draco data may be there although the file does not require it, with nothing to fall back to.
+  // A primitive may have only Draco data even if the file does not require the extension.
   void refuseCompressed(const Json& json, At at, size_t position) {
     if (extensionOf(json, "KHR_draco_mesh_compression") != nullptr &&
         member(accessors_[position], "bufferView") == nullptr) {
@@ -187,8 +187,8 @@ class MeshReader {
     }
   }
 
-  // A small file can name the same large accessor again and again: what is decoded, and more so
-  // what is kept of it, has to be in proportion to what was read.
+  // A small file can refer to the same large accessor many times. The decoded data, and even more
+  // the data that is kept, must be in proportion to the bytes read.
   size_t spend(size_t accessor) {
     decoded_ += accessorView(doc_, accessor).count * sizeof(vec4);
     constexpr size_t kAlwaysGood = size_t{4} << 30, kProportion = 256;

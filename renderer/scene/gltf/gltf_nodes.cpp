@@ -11,14 +11,14 @@ namespace {
 bool isReasonable(const mat4& m) {
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) {
-      if (!(std::abs(m[c][r]) <= 1e9f)) return false;  // also when it is NaN
+      if (!(std::abs(m[c][r]) <= 1e9f)) return false;  // also for NaN
     }
   }
   return true;
 }
 
-// Never empty: a list of nodes shows it. The same whatever the node's index is, which saving may
-// change.
+// Never empty, because lists show it. Does not depend on the node's index, which may change when
+// saving.
 std::string nodeName(const GltfDocument& document, const Json& json, At at) {
   std::string name = textMember(document, json, "name", at);
   if (!name.empty()) return name;
@@ -87,7 +87,8 @@ Transform readTransform(const GltfDocument& document, size_t node) {
     if (!(square > 1e-12f) || !std::isfinite(square)) {
       document.fail(at, "has a rotation that is none", kExportAgain);
     }
-    // Those that are unit but for rounding stay as they are, so that saving gives them back.
+    // Quaternions that are unit except for rounding stay unchanged, so that saving writes the same
+    // values.
     t.rotation = std::abs(square - 1.0f) > 1e-5f ? glm::normalize(q) : q;
   }
   return t;
@@ -145,7 +146,8 @@ std::vector<Node> readNodes(GltfDocument& document) {
                                : "holds no scene; all of its nodes are shown");
   }
 
-  // Depth first, a stack of its own: levels of a hundred thousand nodes one below the other exist.
+  // Depth-first traversal with an explicit stack: some levels have chains of a hundred thousand
+  // nodes.
   struct Open {
     size_t node;
     NodeId parent;

@@ -1,4 +1,4 @@
-// The sky that a scene notes in its extras: extras.lamplighter.sky (docs/reference/gltf.md).
+// The sky in the extras of a scene: extras.lamplighter.sky (docs/reference/gltf.md).
 #include <array>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMostTurns = 1e6;
 
-// Why a note is no sky; the loader says where it stands.
+// Reason why a note is not a sky; the loader adds the location.
 struct Malformed {
   std::string why;
 };

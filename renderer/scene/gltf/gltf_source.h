@@ -1,4 +1,4 @@
-// What is kept of a file that a scene came from, so that saving can patch it. For gltf_*.cpp only.
+// The source file of a scene, kept so that saving can patch it. For gltf_*.cpp only.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,8 @@ namespace lamplighter {
 class SceneSource {
  public:
   GltfDocument document;
-  // As loaded: what is the same in the scene that is saved is written as it was.
+  // The scene as loaded. Parts that are still equal when saving are written as they were in the
+  // file.
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Texture> textures;
   std::vector<Node> nodes;

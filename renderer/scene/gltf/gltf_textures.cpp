@@ -29,7 +29,7 @@ namespace {
 struct Encoded {
   Bytes owner;  // keeps `bytes` alive
   std::span<const uint8_t> bytes;
-  std::string why;  // why there are none
+  std::string why;  // reason if there are no bytes
 };
 
 // The encoded bytes of an image, from its own file or from a buffer view.
@@ -57,7 +57,8 @@ Encoded encodedImage(const GltfDocument& document, size_t index) {
   return out;
 }
 
-// The image of a texture: the core one, which every loader can read, before those of extensions.
+// The image of a texture: the core image, which every loader can read, is preferred to those of
+// extensions.
 std::optional<size_t> sourceOf(const GltfDocument& document, const Json& texture, At at) {
   if (const auto source = sizeMember(document, texture, "source", at)) return source;
   for (const char* name :
@@ -91,7 +92,7 @@ std::set<size_t> texturesInUse(const std::vector<Material>& materials) {
   return used;
 }
 
-// Images that no texture shows, but that are alternatives to one that does, need not be readable.
+// Unused images that are alternatives to a used one; they need not be readable.
 std::set<size_t> alternatives(const GltfDocument& document) {
   std::set<size_t> out;
   for (const Json& texture : listOf(document, "textures")) {
@@ -133,8 +134,8 @@ std::vector<Texture> readTextures(GltfDocument& document, const std::vector<Mate
     }
   }
 
-  // Files are read one after the other, also those that are not shown: saving to another folder
-  // takes them along. Then a batch at a time is decoded, as many as there are cores.
+  // Files are read one after the other, including unused ones, because saving to another folder
+  // copies them. Then one batch at a time is decoded, with as many images as there are cores.
   std::vector<Encoded> encoded;
   document.imageFiles.resize(images.size());
   for (size_t i = 0; i < images.size(); ++i) {
@@ -161,7 +162,7 @@ std::vector<Texture> readTextures(GltfDocument& document, const std::vector<Mate
     });
   }
 
-  // Of images that nothing shows only the head is looked at.
+  // For unused images only the header is checked.
   const std::set<size_t> unneeded = alternatives(document);
   for (size_t i = 0; i < images.size(); ++i) {
     if (!needed[i] && encoded[i].why.empty() && !unneeded.contains(i)) {

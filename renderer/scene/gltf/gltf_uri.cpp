@@ -1,5 +1,5 @@
-// What URIs in a glTF file stand for: data in the URI itself, or files in the document's folder.
-// Nothing else is read: no other folder, no network.
+// Resolves URIs in a glTF file: data URIs, or files in the folder of the document. Nothing else is
+// read: no other folder, no network.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -18,7 +18,7 @@ Bytes readWholeFile(const fs::path& path, std::string& why) {
     why = "is not there";
     return nullptr;
   }
-  // Devices and pipes could be read for ever.
+  // Reading devices and pipes might never end.
   if (error || status.type() != fs::file_type::regular) {
     why = status.type() == fs::file_type::directory ? "is a folder" : "is no regular file";
     return nullptr;
@@ -114,7 +114,7 @@ Bytes dataUri(std::string_view uri, std::string& why) {
 
 bool hasScheme(std::string_view uri) {
   const size_t colon = uri.find(':');
-  // One letter would be a drive, which is refused as well.
+  // A single letter would be a drive, which is refused as well.
   return colon != std::string_view::npos && colon > 0 &&
          std::isalpha(static_cast<unsigned char>(uri[0])) != 0 &&
          std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](char c) {
@@ -142,7 +142,7 @@ Bytes readUri(const GltfDocument& document, const std::string& uri, std::string&
   }
   const fs::path folder = document.path.has_parent_path() ? document.path.parent_path() : ".";
   std::string first;
-  // Names with a bare % are not escaped by every exporter.
+  // Some exporters do not escape names that contain %.
   for (const std::string& name : {percentDecoded(uri), uri}) {
     if (name.find('\0') != std::string::npos) {
       why = "is no file name";
@@ -175,8 +175,8 @@ void readBuffers(GltfDocument& document) {
     const Json* uri = member(buffers[i], "uri");
     Bytes bytes;
     if (uri == nullptr) {
-      // Only the first buffer may be the binary chunk. EXT_meshopt_compression has buffers without
-      // any bytes, for loaders that know it.
+      // Only the first buffer may be the binary chunk. EXT_meshopt_compression allows buffers
+      // without bytes for loaders that support it.
       if (i == 0) bytes = document.binaryChunk;
       if (bytes == nullptr) {
         document.fail(at, "has neither a uri nor the binary chunk of a .glb", kExportAgain);

@@ -1,4 +1,4 @@
-// Everything that would let a reader go astray, checked before anything is read.
+// Validates the structure of a file before any data is read, so that readers need no checks.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -11,14 +11,15 @@ namespace lamplighter {
 
 namespace {
 
-// Extensions without which a file cannot be shown rightly, but that this loader knows.
+// Supported extensions without which a file is not displayed correctly.
 constexpr std::array<std::string_view, 8> kKnown = {
     "KHR_lights_punctual",   "KHR_materials_emissive_strength",
     "KHR_texture_transform", "KHR_materials_transmission",
     "KHR_mesh_quantization", "KHR_node_visibility",
     "EXT_lights_area",       "KHR_materials_ior"};
 
-// Extensions that change the look of a surface or hold notes: the scene is sound without them.
+// Extensions that change the appearance of a surface or contain notes: the scene is valid without
+// them.
 bool isOptionalInEffect(std::string_view name) {
   return name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") ||
          name.starts_with("EXT_texture_") || name.starts_with("MSFT_texture_") ||
@@ -132,7 +133,7 @@ class StructureCheck {
     need(object, key, at);
     return *indexMember(doc_, object, key, at, count);
   }
-  // An array of indices, all less than `count`.
+  // Reads an array of indices, all less than `count`.
   std::vector<size_t> indices(const Json& object, const char* key, At at, size_t count) {
     std::vector<size_t> out;
     const Json* array = arrayMember(doc_, object, key, at);
@@ -168,7 +169,8 @@ class StructureCheck {
     }
   }
 
-  // `count` elements of `size` bytes, `stride` apart, from `object`'s byteOffset on in its view.
+  // Checks that `count` elements of `size` bytes with a stride fit into the view of `object`, from
+  // its byteOffset on.
   void inView(const Json& object, At at, size_t count, size_t size, bool strided) {
     const size_t index = needIndex(object, "bufferView", at, views_.size());
     const size_t offset = sizeMember(doc_, object, "byteOffset", at).value_or(0);
@@ -178,7 +180,7 @@ class StructureCheck {
     if (stride < size) {
       doc_.fail(at, "has elements that overlap: byteStride is less than their size", kExportAgain);
     }
-    // Without overflow: (count − 1) · stride + size ≤ length − offset.
+    // Avoids overflow: (count − 1) · stride + size ≤ length − offset.
     if (count > 0 && (offset > length || length - offset < size ||
                       (length - offset - size) / stride < count - 1)) {
       doc_.fail(at,
@@ -319,7 +321,7 @@ class StructureCheck {
         parent[child] = i;
       }
     }
-    // With one parent each, what no root leads to is in a cycle or below one.
+    // Each node has at most one parent, so nodes that no root reaches are in a cycle or below one.
     std::vector<bool> reached(nodes_.size(), false);
     std::vector<size_t> open;
     for (size_t i = 0; i < nodes_.size(); ++i) {
@@ -354,7 +356,7 @@ class StructureCheck {
         }
       }
     }
-    // A scene index without any scenes is taken care of by the loader.
+    // The loader handles a scene index without any scenes.
     if (!scenes_.empty()) {
       const auto scene = sizeMember(doc_, doc_.json, "scene", {"scenes", 0});
       if (scene && *scene >= scenes_.size()) {

@@ -1,4 +1,4 @@
-// Which files a glTF file stands for besides itself.
+// Finds the files to which a glTF file refers.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace lamplighter {
 
-// What a .gltf or .glb names as its buffers and images, as it is now, without reading any of it;
-// none outside its folder. Throws InputError where it is no glTF.
+// Stamps of the buffer and image files that a .gltf or .glb names, without reading them. Only files
+// in its folder. Throws InputError if it is not glTF.
 std::vector<FileStamp> referencedFiles(const std::filesystem::path& gltf);
 
 }  // namespace lamplighter

@@ -11,11 +11,12 @@ namespace {
 
 constexpr size_t kDirections = 4096;
 constexpr int kSweeps = 60;
-// What is left of the energy when more lobes are not worth their shadow maps.
+// Stop when the remaining fraction of the energy is below this: more lobes do not justify their
+// shadow maps.
 constexpr double kEnough = 2e-4;
 
-// Evenly over the sphere, each for the same solid angle: a Fibonacci spiral (Swinbank and Purser,
-// "Fibonacci grids", 2006).
+// Directions uniform on the sphere, with equal solid angles: a Fibonacci spiral (Swinbank and
+// Purser, "Fibonacci grids", 2006).
 std::vector<vec3> directionsOfSphere() {
   std::vector<vec3> out(kDirections);
   const float turn = kPi * (3.0f - std::sqrt(5.0f));
@@ -35,11 +36,11 @@ SpotLobe lobe(const vec3& axis, float inner, float outer) {
   return l;
 }
 
-// What there is to choose from: hemispheres, and cones of several widths and edges about axes all
-// round.
+// The candidate lobes: hemispheres, and cones of several widths and falloffs around axes in all
+// directions.
 std::vector<SpotLobe> dictionary() {
   std::vector<SpotLobe> out;
-  // Not dark at the horizon: together they are near a cosine, too.
+  // Not dark at the horizon: together they approximate a cosine, too.
   for (const float side : {-1.0f, 1.0f}) {
     for (const float edge : {1.0f, 0.7f, 0.5f, 0.35f, 0.2f, 0.1f})
       out.push_back({vec3(0, 0, side), 1.0f, 1.0f - edge, edge});
@@ -68,7 +69,7 @@ std::vector<SpotLobe> dictionary() {
   return out;
 }
 
-// min |Σ w a − f|² with w ≥ 0 by coordinate descent on the normal equations.
+// Solves min |Σ w a − f|² with w ≥ 0 by coordinate descent on the normal equations.
 void weigh(const std::vector<std::vector<double>>& gram, const std::vector<double>& right,
            std::vector<double>& w) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
@@ -82,14 +83,14 @@ void weigh(const std::vector<std::vector<double>>& gram, const std::vector<doubl
   }
 }
 
-// A lobe of the dictionary over the directions, those where it is dark left out.
+// A candidate lobe, sampled at the directions; dark directions are omitted.
 struct Atom {
-  std::vector<uint16_t> where;  // growing
+  std::vector<uint16_t> where;  // ascending
   std::vector<float> value;
   double length = 0.0;
 };
 
-// Sums go by growing direction everywhere: the same bits as with the zeros.
+// Sums always run over ascending directions: bit-equal to sums that include the zeros.
 double dot(const Atom& a, const std::vector<float>& b) {
   const uint16_t* where = a.where.data();
   const float *value = a.value.data(), *with = b.data();
@@ -114,16 +115,17 @@ void addTimes(float w, const Atom& a, std::vector<float>& sum) {
   for (size_t i = 0, n = a.where.size(); i < n; ++i) out[where[i]] += w * value[i];
 }
 
-// Several atoms side by side, so that the sums, each in its order, need not wait for each other.
+// Several atoms interleaved, so that their sums, each in its order, are independent and hide
+// latency.
 constexpr size_t kSide = 8;
 struct Bundle {
   std::array<size_t, kSide> atoms{};
   size_t count = 0;             // of those
-  std::vector<uint16_t> where;  // kSide in turn; with a value of 0 past an atom's end
+  std::vector<uint16_t> where;  // interleaved from kSide atoms; value 0 after an atom's end
   std::vector<float> value;
 };
 
-// The dictionary and its values: the same for every profile.
+// The candidate lobes and their values: the same for every profile.
 struct Dictionary {
   std::vector<vec3> directions = directionsOfSphere();
   std::vector<SpotLobe> lobes = dictionary();
@@ -163,7 +165,7 @@ struct Dictionary {
     }
   }
 
-  // dot(atoms[a], with) of each.
+  // Computes dot(atoms[a], with) for each atom.
   void dots(const std::vector<float>& with, std::vector<double>& out) const {
     const std::vector<double> wide(with.begin(), with.end());
     out.resize(atoms.size());
@@ -242,7 +244,7 @@ std::vector<SpotLobe> fitLobes(const std::function<float(const vec3&)>& intensit
     out.back().intensity = static_cast<float>(weights[i]);
     flux += weights[i] * sumOf(kAll.atoms[chosen[i]].value);
   }
-  // All of its light, wherever the fit is a little off.
+  // Scales the result so that its total flux is exact.
   const double scale = flux > 0.0 ? sumOf(wanted) / flux : 0.0;
   for (SpotLobe& l : out) l.intensity *= static_cast<float>(scale);
   return out;

@@ -1,5 +1,5 @@
-// A profile as a few spots at one place: virtual point lights know a hemisphere with a cone, on
-// every backend, and no table. Each lobe is one of them, with a shadow map of its own.
+// Approximates a profile by a few spots at one position, because VPLs support a hemisphere with a
+// cone on every backend, but no table. Each lobe becomes one VPL with its own shadow map.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,9 @@
 
 namespace lamplighter {
 
-// intensity × clamp(cos·scale + offset, 0, 1)² about the axis, cos from the axis; none behind it.
+// intensity × clamp(cos·scale + offset, 0, 1)², cos of the angle to the axis; 0 behind it.
 struct SpotLobe {
-  vec3 axis{0.0f, 0.0f, -1.0f};  // unit, in the light's space
+  vec3 axis{0.0f, 0.0f, -1.0f};  // unit, in the space of the light
   float intensity = 0.0f;
   float scale = 0.0f, offset = 1.0f;
 
@@ -20,8 +20,8 @@ struct SpotLobe {
 
 inline constexpr size_t kMostLobes = 16;
 
-// Lobes whose sum is near the function of direction, which is 0 or above, and has its ∫ dω: those
-// that bring most, one after the other, all weighed anew by non-negative least squares each time.
+// Fits lobes to a non-negative function of direction, with the same ∫ dω. Greedy: repeatedly adds
+// the lobe that contributes most, and refits all weights by non-negative least squares.
 std::vector<SpotLobe> fitLobes(const std::function<float(const vec3&)>& intensity);
 
 }  // namespace lamplighter

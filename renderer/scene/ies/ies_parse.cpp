@@ -1,4 +1,4 @@
-// IESNA LM-63: keyword lines, TILT=, then numbers that may be broken into lines anywhere.
+// IESNA LM-63: keyword lines, TILT=, then numbers with arbitrary line breaks.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -37,12 +37,12 @@ class Parser {
     out->isTypeB = type == 2.0;
     for (const char* what : {"units", "a width", "a length", "a height"}) number(what);
     const double ballast = number("a ballast factor");
-    // The 1986 and 1991 standards: ballast-lamp factor; later ones: for future use, 1.
+    // 1986 and 1991 standards: ballast-lamp factor; later ones: reserved, 1.
     const double lamp = number("a ballast-lamp factor");
     number("watts");
     const double factor = multiplier * ballast * lamp;
     if (!(factor > 0.0 && factor < kMostCandela)) fail("has factors that are not above 0");
-    // A number and what parts it from the next are two characters at least.
+    // A number and its separator take at least two characters.
     if (rows + columns + rows * columns > (text_.size() - at_ + 1) / 2 + 1)
       fail("promises more numbers than it has");
     out->vertical = angles(rows, "vertical angles");
@@ -66,10 +66,10 @@ class Parser {
     throw InputError(file_, wrong, kRemedy);
   }
 
-  // Goes past the line TILT=, and takes what is tilted: the lamp's output over the angle of the
-  // luminaire from straight down. How the lamp lies in it (1: upright, 2: across, and staying level
-  // when the luminaire turns about its C0 axis, 3: across, and turning along) is what the factors
-  // were measured for; they are of the luminaire's angle in each case.
+  // Skips all lines up to TILT=, and reads the tilt data if present: the lamp's output by angle of
+  // the luminaire from straight down. The factors were measured for one position of the lamp in the
+  // luminaire (1: upright; 2: horizontal, level when the luminaire turns around its C0 axis; 3:
+  // horizontal, turning with it). The angle is that of the luminaire in each case.
   void readTilt(IesProfile& out) {
     for (;;) {
       const size_t end = text_.find('\n', at_);

@@ -7,13 +7,13 @@ namespace lamplighter {
 
 namespace {
 
-// Where an angle lies between those of a list: the index before it and how far it is to the next.
-// False beyond the list. A list of one holds for every angle.
+// Finds the interval of a list that contains an angle: the index before it, and the fraction to the
+// next. False if the angle is outside the list. A list with one entry applies to every angle.
 bool locate(const std::vector<float>& angles, float angle, size_t& index, float& way) {
   index = 0;
   way = 0.0f;
   if (angles.size() == 1) return true;
-  // What rounding does to the very ends is no reason for a black line.
+  // Tolerance at both ends, so that rounding errors cause no black line.
   constexpr float kSlack = 1e-3f;
   if (angle < angles.front() - kSlack || angle > angles.back() + kSlack) return false;
   const auto after = std::upper_bound(angles.begin() + 1, angles.end() - 1, angle);
@@ -22,10 +22,10 @@ bool locate(const std::vector<float>& angles, float angle, size_t& index, float&
   return true;
 }
 
-// An angle about the nadir, [0, 360), as one that the file has.
+// Maps an angle around the nadir, [0, 360), to the range of the file by symmetry.
 float folded(const std::vector<float>& planes, float angle) {
   const float last = planes.back();
-  if (planes.front() == 90.0f) {  // half, about the plane from C90 to C270
+  if (planes.front() == 90.0f) {  // half, symmetric about the plane from C90 to C270
     if (angle < 90.0f) return 180.0f - angle;
     return angle > 270.0f ? 540.0f - angle : angle;
   }

@@ -1,5 +1,5 @@
-// How a luminaire spreads its light, as manufacturers measure it: IESNA LM-63 files of 1986, 1991,
-// 1995 and 2002, photometry of types B and C.
+// Photometric profiles: the measured angular distribution of luminaires. IESNA LM-63 files of 1986,
+// 1991, 1995 and 2002, photometry of types B and C.
 #pragma once
 
 #include <memory>
@@ -13,39 +13,40 @@
 namespace lamplighter {
 
 struct IesProfile {
-  std::string file;   // its name, beside the scene's file
-  std::string text;   // all of it, to be saved with the scene
-  float peak = 0.0f;  // intensity in the brightest direction [cd], the file's factors included
-  // ∫ at() dω [sr], by the midpoint rule in cells of 1°; peak times this are the file's lumens.
+  std::string file;   // file name; the file is in the folder of the scene's file
+  std::string text;   // the whole file, saved with the scene
+  float peak = 0.0f;  // intensity in the brightest direction [cd], including the file's factors
+  // ∫ at() dω [sr], by the midpoint rule in cells of 1°; peak × solidAngle is the file's luminous
+  // flux [lm].
   float solidAngle = 0.0f;
-  // 1 − cos of the widest angle from −Z at which there is any light; 2: all round.
+  // 1 − cos of the largest angle from −Z with any light; 2: all directions.
   float cap = 2.0f;
-  std::vector<SpotLobe> lobes;  // what virtual point lights make of at()
-  // Intensity over the peak's, [0, 1], at horizontal angle h and vertical angle v at h·vertical +
-  // v, angles in degrees, growing.
-  //   C: v from the nadir, h about it.
-  //   B: h is the latitude towards +X, v the longitude about X, both from the aim.
+  std::vector<SpotLobe> lobes;  // approximation of at() for VPLs
+  // Relative intensity in [0, 1] at horizontal angle index h and vertical angle index v: values[h ·
+  // vertical.size() + v]. Angles in degrees, ascending.
+  //   C: vertical from the nadir, horizontal around it.
+  //   B: horizontal is the latitude towards +X, vertical the longitude around X, both from the aim.
   bool isTypeB = false;
   std::vector<float> vertical, horizontal;
   std::vector<float> values;
-  // TILT=INCLUDE: how much of its light a lamp gives when the luminaire is turned away from
-  // straight down, the attitude in which LM-63 tells how the lamp lies in it: by angle in degrees,
-  // growing. Empty: all of it.
+  // TILT=INCLUDE: relative light output of the lamp when the luminaire is tilted from straight
+  // down, the orientation for which LM-63 describes the lamp's position. By angle [degrees],
+  // ascending. Empty: always 1.
   std::vector<float> tiltAngles, tiltFactors;
 
-  // The factor for a luminaire that aims there, a unit direction in the world whose up is +Y.
-  // Linear between the angles; beyond them, that of the nearest.
+  // Factor for a luminaire with this aim, a unit direction in world space (up is +Y). Interpolated
+  // linearly; beyond the angles the nearest value.
   float atTilt(const vec3& aim) const;
 
-  // Of a unit direction in the light's space: nadir and aim are −Z, the plane C0 is towards +X, C90
-  // and B's V = 90° towards +Y. Linear in both angles, mirrored where the file has one side or a
-  // quarter alone; 0 beyond its angles.
+  // Relative intensity in a unit direction in the space of the light: nadir and aim are −Z, the
+  // plane C0 is towards +X, C90 and V = 90° of type B towards +Y. Bilinear in the angles; mirrored
+  // if the file has only one side or a quarter; 0 beyond its angles.
   float at(const vec3& direction) const;
 
   bool operator==(const IesProfile& o) const { return file == o.file && text == o.text; }
 };
 
-// Reads the text of a file. Throws InputError: what is wrong with `file`.
+// Parses the text of a file. Throws InputError that names `file`.
 std::shared_ptr<const IesProfile> parseIes(std::string_view text, const std::string& file);
 // The same from a file. Throws InputError.
 std::shared_ptr<const IesProfile> readIes(const std::string& path);

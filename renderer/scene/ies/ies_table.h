@@ -1,4 +1,4 @@
-// The part of parseIes() that reads: what the text of a profile says, and nothing computed from it.
+// The first step of parseIes(): reads the text without computing derived values.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace lamplighter {
 
-// Without solid angle, cap and lobes. Throws InputError: what is wrong with `file`.
+// The result has no solid angle, cap and lobes. Throws InputError that names `file`.
 std::shared_ptr<IesProfile> parseIesTable(std::string_view text, const std::string& file);
 
 }  // namespace lamplighter

@@ -6,15 +6,16 @@
 namespace lamplighter {
 namespace {
 
-// Small, for a mark is rounded down, but the path of a few steps has to fit.
+// Counts per mover radius. Small counts are precise, since marks are rounded down; but the path of
+// a few steps must fit into the range.
 constexpr float kCountsASize = 100.0f;
 
-// Distances are rounded, and spheres around what moves are a little larger than it.
+// Factor for rounding errors and for spheres that are slightly larger than the movers.
 constexpr float kWider = 1.01f;
 
-// Two steps make a way where they are as straight as this (cosine), one degree: those along an axis
-// of the level are, those by hand hardly ever. Where a step counts for this many times what it does
-// if all directions are alike, for it leaves the way or the mover turns, they are again.
+// The metric gets an axis if two steps are straight within this cosine (one degree). Drags along an
+// axis of the level are; free drags hardly ever are. The metric becomes isotropic again if a step
+// is longer than kMostTimes its isotropic length, because it leaves the axis or the mover rotates.
 constexpr float kStraight = 0.99985f;
 constexpr float kAcross = 8.0f;
 constexpr float kMostTimes = 2.0f;
@@ -47,7 +48,7 @@ MoverPath::Mark MoverPath::makeVoid() {
   return static_cast<Mark>(kLast);
 }
 
-// Whether it goes another way from now on.
+// Whether the metric changes with this step.
 bool MoverPath::turn(std::span<const MoverPlace> before, std::span<const MoverPlace> now) {
   const vec3 shift = now[0].caster.box.centre() - before[0].caster.box.centre();
   MotionMetric way = way_;
@@ -81,7 +82,7 @@ MoverPath::Mark MoverPath::advance(float distance, float size) {
   ++steps_;
   lastStep_ = distance;
   const float counts = kWider * distance / count_;
-  if (!(at_ + counts < kLast)) return makeVoid();  // also where nothing can be said
+  if (!(at_ + counts < kLast)) return makeVoid();  // also if the distance is NaN or infinite
   at_ += counts;
   if (at_ < kFirst + kLowerBy) return 0;
   at_ -= kLowerBy;

@@ -1,5 +1,6 @@
-// How far what moves has gone, all steps of a drag together, in counts that fit a byte. An answer
-// about it that is right by a distance stays so until that is gone, and is not asked for again.
+// The distance that movers have gone over all steps of a drag, in counts that fit into a byte. A
+// test result that stays valid up to some distance gets a mark; it is not tested again before the
+// movers reach the mark.
 #pragma once
 
 #include <cmath>
@@ -12,40 +13,40 @@
 
 namespace lamplighter {
 
-// Where a mover is: the sphere and the boxes that it is taken for.
+// Position of a mover: its bounding sphere and the boxes of its groups.
 struct MoverPlace {
   Caster caster;
   std::vector<Bounds> groups;
 };
-// How far one of them went or grew, at most, as the way counts it [m]; infinite where they are not
-// the same number.
+// Largest distance that the bounding sphere or one of the boxes moved or grew, in the metric `way`
+// [m]. Infinite if the numbers of boxes differ.
 float farthestStep(const MoverPlace& before, const MoverPlace& now, const MotionMetric& way);
 
 class MoverPath {
  public:
-  using Mark = uint8_t;  // 0: nothing is known
+  using Mark = uint8_t;  // 0: unknown
 
-  // Other things move: marks of before are void.
+  // Other objects move now: invalidates all earlier marks.
   void restart() { *this = MoverPath(); }
 
-  // One step more of all that moves. By how much all marks are to be lowered, down to 0.
+  // Adds one step of all movers. Returns the amount by which all marks must be lowered, down to 0.
   Mark advance(std::span<const MoverPlace> before, std::span<const MoverPlace> now);
-  // The same where no box went or grew by more than this, as way() counts it [m]. `size`: that of
-  // the least mover [m].
+  // The same, given that no box moved or grew by more than `distance`, in the metric of way() [m].
+  // `size`: radius of the smallest mover [m].
   Mark advance(float distance, float size);
 
-  // As distances are counted. It changes only where advance() makes all marks void.
+  // The present metric. It changes only when advance() invalidates all marks.
   const MotionMetric& way() const { return way_; }
 
   size_t steps() const { return steps_; }
-  float lastStep() const { return lastStep_; }  // as way() counts it [m]
+  float lastStep() const { return lastStep_; }  // in the metric of way() [m]
 
-  // Until when an answer stands that holds while less than this is gone [m].
+  // The mark up to which a result is valid that holds while the distance is less than `slack` [m].
   Mark markAfter(float slack) const {
     const float till = at_ + slack / count_;
     return slack > 0.0f && count_ > 0.0f ? static_cast<Mark>(std::fmin(till, kLast)) : Mark{0};
   }
-  // The least mark that still stands.
+  // The smallest mark that is still valid.
   Mark now() const { return static_cast<Mark>(std::ceil(at_)); }
 
  private:
@@ -55,12 +56,12 @@ class MoverPath {
   bool turn(std::span<const MoverPlace> before, std::span<const MoverPlace> now);
   Mark makeVoid();
 
-  float at_ = kFirst;   // in counts
-  float count_ = 0.0f;  // [m]; 0: not known yet
+  float at_ = kFirst;   // present position, in counts
+  float count_ = 0.0f;  // metres per count; 0: not known yet
   size_t steps_ = 0;
   float lastStep_ = 0.0f;
   MotionMetric way_;
-  vec3 direction_{0.0f};  // of the step before
+  vec3 direction_{0.0f};  // of the previous step
 };
 
 }  // namespace lamplighter

@@ -11,7 +11,8 @@ namespace {
 
 using Mask = PyramidBatch::Mask;
 
-// How many steps more an answer is to stand where the path is straight: else few boxes are so deep.
+// For how many further steps a result should stay valid on a straight path. With a larger value few
+// boxes have enough depth.
 constexpr float kStepsToStand = 1.05f;
 
 Mask bit(size_t i) { return Mask{1} << i; }
@@ -44,7 +45,7 @@ MoverShadows::MoverShadows(const Occluders& occluders, std::span<const uint32_t>
   }
   size_t boxes = 0;
   for (const uint32_t object : movers) boxes += occluders.groups(object).size();
-  // One more for what is over of each mover.
+  // One more hint per mover, for the remainder of its boxes.
   boxesAHint_ = boxes / (kHints - std::min<size_t>(movers.size(), kHints / 2)) + 1;
   size_t firstHint = 0;
   for (const uint32_t object : movers) {
@@ -60,7 +61,8 @@ MoverShadows::Hint MoverShadows::hintOf(size_t mover, int box) const {
   return static_cast<Hint>(std::min<size_t>(hint, kNoHint));
 }
 
-// Of the boxes that each light has a hint of, the deepest; which lights meet it.
+// Tests the boxes to which the hints of the lights refer. `depths` gets the largest depth per
+// light. Returns the lights that meet a box.
 Mask MoverShadows::askWhereHinted(const Asked& asked, size_t mover, Mask open,
                                   PyramidBatch::Depths& depths, Answer& answer) const {
   const Mover& m = movers_[mover];
@@ -106,7 +108,7 @@ void MoverShadows::ask(const Asked& asked, size_t mover, Answer& answer) const {
   forEachBit(open & ~reached, [&](size_t i) { answer.slack[i] = 0.0f; });
   open &= reached;
   if (open == 0) return;
-  // Most are met where they were, but some will hardly be there again.
+  // Most lights meet the mover where they met it before, but with little depth for some.
   Mask met = askWhereHinted(asked, mover, open, depths, answer);
   forEachBit(open, [&](size_t i) {
     const bool isMet = (met >> i & 1) != 0;
@@ -137,7 +139,7 @@ MoverShadows::Answer MoverShadows::of(const PatchRegion& region,
   Answer answer;
   answer.slack.fill(std::numeric_limits<float>::max());
   for (size_t m = 0; m < movers_.size(); ++m) ask({region, lights, pyramids}, m, answer);
-  // What sums of such places are rounded by.
+  // Subtracts the rounding error of sums of such positions.
   for (size_t i = 0; i < lights.size(); ++i)
     answer.slack[i] -=
         std::max({rounding_, region.rounding, lights_[lights[i].slot].apex.rounding});

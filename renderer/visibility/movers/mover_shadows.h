@@ -1,5 +1,5 @@
-// Which lights have what moved between them and a patch: eight at a time, and where it was met
-// before first, for that is most of what a drag asks.
+// Tests for which lights a mover is between the light and a patch, eight lights at a time. It first
+// tests where the mover was found last time; these tests are most of the cost of a drag.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace lamplighter {
 
 class MoverShadows {
  public:
-  static constexpr size_t kLights = PyramidBatch::kLights;  // that may be asked for at once
-  // Where what moved was met, as a hint for the next time. It changes no answer.
+  static constexpr size_t kLights = PyramidBatch::kLights;  // maximum per call of of()
+  // Where the mover was met, as a hint for the next test. Hints do not change results.
   using Hint = uint8_t;
   static constexpr Hint kHints = 250, kNoHint = kHints;
   struct Question {
@@ -24,21 +24,23 @@ class MoverShadows {
     Hint hint = kNoHint;
   };
   struct Answer {
-    PyramidBatch::Mask met = 0;       // bit i: the light asked for with index i
-    std::array<Hint, kLights> hints;  // of those that are met
-    // While no box of the movers goes or grows by as much, as the way counts it, the answer is the
-    // same [m]; 0: unknown.
+    PyramidBatch::Mask met = 0;       // bit i: the light of question i
+    std::array<Hint, kLights> hints;  // for the lights that are met
+    // The result stays valid while no box of the movers moves or grows by this much, in the metric
+    // of the path [m]; 0: unknown.
     PyramidBatch::Depths slack;
   };
 
-  // The movers as they are placed; lights by slot; the path that they go.
+  // `occluders` holds the movers at their present positions; `lights` by slot; `path` of the
+  // movers.
   MoverShadows(const Occluders& occluders, std::span<const uint32_t> movers,
                std::span<const shared::Vpl> lights, const MoverPath& path);
 
-  // Not those that are parallel; none where a mover may hide whole patches, or is not of groups.
+  // Whether of() can test for this light. Not for parallel lights; for none if a mover may hide
+  // whole patches or does not consist of groups only.
   bool isAbout(size_t slot) const { return isUseful_ && !lights_[slot].isParallel; }
-  // Of lights it is about, those, for which the patch, a rectangle, is neither dark nor degenerate:
-  // what Occluders::occlusionBy() says, partial where met, else none.
+  // For lights that isAbout() accepts and for which the patch, a rectangle, is neither dark nor
+  // degenerate. Same results as Occluders::occlusionBy(): partial if met, otherwise none.
   Answer of(const PatchRegion& region, std::span<const Question> lights) const;
 
  private:
@@ -49,9 +51,10 @@ class MoverShadows {
   struct Mover {
     Caster caster;
     BoxBatches groups;
-    size_t firstHint = 0;  // of all movers' hints one after the other
+    size_t firstHint = 0;  // the hints of all movers are numbered consecutively
   };
-  // Some in each step: most that are not met deep enough never are.
+  // Whether to search for a box with more depth in this step. Only some lights do in each step,
+  // because most lights without a box of enough depth never find one.
   bool looksFurther(size_t slot) const { return (slot + turn_) % kTurns == 0; }
 
   static constexpr size_t kTurns = 4;
@@ -65,12 +68,12 @@ class MoverShadows {
   std::vector<Mover> movers_;
   bool isUseful_;
   MotionMetric way_;
-  float enough_;  // what answers are to stand for, if that is easily had [m]
+  float enough_;  // desired slack of results, if it is cheap to reach [m]
   size_t turn_;
   std::vector<Light> lights_;
-  std::vector<ShadowVolume::Cone> cones_;  // of shadows, by light and mover
-  size_t boxesAHint_ = 1;                  // as few as fit what a hint can say
-  float rounding_ = 0.0f;                  // of places of movers [m]
+  std::vector<ShadowVolume::Cone> cones_;  // of shadow volumes, by light and mover
+  size_t boxesAHint_ = 1;                  // as few as the range of a hint allows
+  float rounding_ = 0.0f;                  // rounding error of the movers' positions [m]
 };
 
 }  // namespace lamplighter

@@ -29,7 +29,7 @@ void ShadowVolumeX8::set(size_t lane, const ShadowVolume::Cone& cone) {
   radius_[lane] = cone.radius;
 }
 
-// As ShadowVolume::mayFallOn() adds it up.
+// Same order of operations as ShadowVolume::mayFallOn().
 uint32_t ShadowVolumeX8::mayFallOn(const vec3& centre, float radius) const {
   const Floats8 zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
   const SimdVec3<Floats8> v = wide(centre) - lanesOf(apex_), axis = lanesOf(axis_);
@@ -48,9 +48,10 @@ uint32_t ShadowVolumeX8::mayFallOn(const vec3& centre, float radius) const {
       hn::AndNot(isNear, hn::Or(hn::And(isBehind, isAround), hn::AndNot(isBehind, isIn))));
 }
 
-// By the sphere of the caster made smaller: what that reaches, one as large as before does that
-// still holds it. Only the sine is other then, by what is taken off over the distance, and the
-// cosine grows by less than the tangent times as much.
+// Shrinks the sphere of the caster: if the smaller shadow reaches the target, so does that of a
+// moved sphere of the old size that contains the smaller one. Only the sine changes, by the
+// reduction of the radius divided by the distance; the cosine grows by less than the tangent times
+// that.
 void ShadowVolumeX8::slack(const vec3& centre, float radius, Lanes& out) const {
   const Floats8 zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
   const Floats8 nearest = lanesOf(nearest_), before = lanesOf(before_), size = lanesOf(radius_);
@@ -63,7 +64,7 @@ void ShadowVolumeX8::slack(const vec3& centre, float radius, Lanes& out) const {
   const Floats8 past = hn::Sub(hn::Add(hn::Sqrt(distance2), wide(radius)), nearest);
   const Floats8 ofCone = hn::Min(hn::Min(sideways, past), hn::Min(before, size));
   const Floats8 least = hn::IfThenElseZero(hn::Gt(along, zero), ofCone);
-  // All around the light: the caster is over it.
+  // The caster surrounds the light: the shadow is everywhere.
   const auto isAround = hn::Lt(nearest, wide(-std::numeric_limits<float>::max()));
   hn::Store(hn::Max(hn::IfThenElse(isAround, before, least), zero), kTag, out.data());
 }

@@ -1,4 +1,4 @@
-// The reaches of shadows of many point lights (shadow_volume.h), eight at a time.
+// Shadow volumes of many point lights (shadow_volume.h), eight at a time.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace lamplighter {
 
-// Eight of them, a lane each; none where nothing is set.
+// Eight shadow volumes, one per lane; a lane that is not set is empty.
 class ShadowVolumeX8 {
  public:
   static constexpr size_t kLanes = 8;
@@ -16,12 +16,12 @@ class ShadowVolumeX8 {
 
   ShadowVolumeX8();
 
-  // Not that of a parallel light.
+  // Not for parallel lights.
   void set(size_t lane, const ShadowVolume::Cone& cone);
-  // Bit i is that of lane i. The same as each says itself.
+  // Bit i: lane i. Bit-equal to ShadowVolume::mayFallOn().
   uint32_t mayFallOn(const vec3& centre, float radius) const;
-  // Of those that may fall on the sphere, how far the caster may go or shrink and still reach it
-  // [m]; 0 where that is not known.
+  // For lanes whose shadow may fall on the sphere: how far the caster may move or shrink so that
+  // the shadow still reaches the sphere [m]; 0 if unknown.
   void slack(const vec3& centre, float radius, Lanes& out) const;
 
  private:
@@ -31,15 +31,15 @@ class ShadowVolumeX8 {
 
 class ShadowVolumes {
  public:
-  explicit ShadowVolumes(size_t count)  // all none
+  explicit ShadowVolumes(size_t count)  // all empty
       : groups_((count + ShadowVolumeX8::kLanes - 1) / ShadowVolumeX8::kLanes) {}
 
-  // Not of a parallel light.
+  // Not for parallel lights.
   void set(size_t i, const ShadowVolume& reach) {
     groups_[i / ShadowVolumeX8::kLanes].set(i % ShadowVolumeX8::kLanes, reach.cone());
   }
-  // Of those wanted, whether they may fall on some of the sphere: bit i is that with index
-  // 64 * word + i. The same as each says itself.
+  // For the wanted shadow volumes: whether the shadow may fall on part of the sphere. Bit i is the
+  // volume with index 64 * word + i. Bit-equal to ShadowVolume::mayFallOn().
   uint64_t mayFallOn(size_t word, uint64_t wanted, const vec3& centre, float radius) const;
 
  private:

@@ -1,4 +1,5 @@
-// Which lights need no pyramid on a patch, eight at a time: as OcclusionPyramid says of each.
+// Finds the lights that need no pyramid for a patch, eight at a time. Same results as
+// OcclusionPyramid.
 #pragma once
 
 #include "renderer/visibility/occlusion/light_packet.h"
@@ -8,7 +9,7 @@ namespace lamplighter {
 
 struct BackFacingLights {
   LightPacket::Mask dark = 0;
-  LightPacket::Mask degenerate = 0;  // of those that are not dark
+  LightPacket::Mask degenerate = 0;  // bit i: light i; only lights that are not dark
 
   BackFacingLights(const LightPacket& lights, const PatchRegion& region);
 };

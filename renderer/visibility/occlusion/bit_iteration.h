@@ -1,4 +1,4 @@
-// The bits of a word, one after the other.
+// Iterates over the set bits of a word.
 #pragma once
 
 #include <bit>
@@ -7,7 +7,7 @@
 
 namespace lamplighter {
 
-// f(i) for each bit i that is set, in order.
+// Calls f(i) for each set bit i, in ascending order.
 template <typename F>
 void forEachBit(uint64_t mask, const F& f) {
   for (; mask != 0; mask &= mask - 1) f(static_cast<size_t>(std::countr_zero(mask)));

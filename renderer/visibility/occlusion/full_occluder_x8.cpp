@@ -60,7 +60,7 @@ FullOccluderX8::Mask FullOccluderX8::cut(const OccluderPolygon& polygon, Mask of
       cut &= bitsOf(hn::Ge(inwards, hn::Mul(inset, set(edge.length))));
     }
   };
-  // A rough patch is as thick as its bumps, and seen from the side that is much.
+  // A rough patch has the thickness of its bumps, which matters at grazing angles.
   const bool isRough = region_.chart != kNone;
   const vec3 bump = isRough ? region_.thickness * region_.normal : vec3(0.0f);
   for (const vec3& corner : region_.points()) {

@@ -1,5 +1,5 @@
-// From which of up to eight lights one polygon hides all of a patch: the same bits as
-// OcclusionPyramid says of each.
+// Finds for which of up to eight lights one polygon hides a whole patch. Bit-equal to
+// OcclusionPyramid.
 #pragma once
 
 #include "renderer/visibility/occlusion/light_packet.h"
@@ -11,22 +11,23 @@ class FullOccluderX8 {
  public:
   using Mask = LightPacket::Mask;
 
-  // Of lights for which the patch is neither dark nor degenerate. Refers to both, which must
-  // outlive it.
+  // Only for lights for which the patch is neither dark nor degenerate. Keeps references to both
+  // arguments, which must outlive this object.
   FullOccluderX8(const LightPacket& lights, const PatchRegion& region);
   FullOccluderX8(const LightPacket& lights, PatchRegion&& region) = delete;
 
-  // Whose axis may meet the box, see OcclusionPyramid::Axis.
+  // Lights whose axis may meet the box, see OcclusionPyramid::Axis.
   Mask mayMeet(const Bounds& box) const;
-  // Of some lights, those whose pyramid the polygon stands wholly across.
+  // Those of the lights `of` whose pyramid the polygon cuts completely.
   Mask cut(const OccluderPolygon& polygon, Mask of) const;
 
  private:
   const LightPacket& lights_;
   const PatchRegion& region_;
-  // Of the axes: their beginnings, give or take the margin, and one over their lengths.
+  // The axes: start points minus and plus the margin, and the reciprocals of their lengths.
   alignas(32) std::array<LightPacket::Floats, 3> low_, high_, inverse_;
-  alignas(32) LightPacket::Floats inset_;  // by how much a polygon has to be larger [m]
+  alignas(32) LightPacket::Floats inset_;  // distance of the polygon's border from the pyramid that
+                                           // is required [m]
 };
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// Up to eight point lights, a lane of a vector each, for questions to all of them at a time.
+// Up to eight point lights, one per SIMD lane, so that they can be tested together.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace lamplighter {
 
-// What a pyramid wants of a light that is not parallel.
+// The properties of a non-parallel light that a pyramid needs.
 struct PyramidApex {
   vec3 position{0.0f}, normal{0.0f};
-  float rounding = 0.0f;  // rayEpsilon() there [m]
+  float rounding = 0.0f;  // rayEpsilon() at the position [m]
   PyramidApex() = default;
   explicit PyramidApex(const shared::Vpl& vpl);
 };
 
 struct LightPacket {
   static constexpr size_t kLights = 8;
-  // Answers: bit i is that of light i.
+  // Bit i is the result for light i.
   using Mask = uint32_t;
   using Floats = std::array<float, kLights>;
 
@@ -28,7 +28,7 @@ struct LightPacket {
   alignas(32) Floats rounding;
   size_t count;
 
-  // What is left of the lanes repeats the first light.
+  // Unused lanes repeat the first light.
   explicit LightPacket(std::span<const PyramidApex* const> lights);
   Mask all() const { return (Mask{1} << count) - 1; }
 };

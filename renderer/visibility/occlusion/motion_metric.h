@@ -1,4 +1,5 @@
-// What moves mostly goes straight: the planes that it goes along stay as far from it as they are.
+// A metric for straight motion. Planes parallel to the motion keep their distance from the mover,
+// so motion along the axis counts less than motion across it.
 #pragma once
 
 #include <cmath>
@@ -7,10 +8,10 @@
 
 namespace lamplighter {
 
-// How a distance is counted: as what is gone along the axis, and some times what is gone across it.
+// Length = the part along the axis + `across` × the part perpendicular to the axis.
 struct MotionMetric {
-  vec3 axis{0.0f};      // unit; zero: all directions are alike
-  float across = 1.0f;  // of a metre at right angles to the axis, at least one [m]
+  vec3 axis{0.0f};      // unit; zero: all directions count the same
+  float across = 1.0f;  // weight of a metre perpendicular to the axis, ≥ 1 [m]
 
   bool operator==(const MotionMetric&) const = default;
 
@@ -18,7 +19,7 @@ struct MotionMetric {
     const float along = glm::dot(shift, axis);
     return std::abs(along) + across * glm::length(shift - along * axis);
   }
-  // What something comes to that goes by at most a metre whichever way.
+  // Upper bound of the metric for a motion of one metre in any direction.
   float most() const { return std::sqrt(glm::dot(axis, axis) + across * across); }
 };
 

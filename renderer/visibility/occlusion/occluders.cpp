@@ -7,10 +7,10 @@
 namespace lamplighter {
 namespace {
 
-// Only walls and the like are tried as hiding a whole patch. In m².
+// Smallest area of polygons that are tested as full occluders, such as walls [m²].
 constexpr float kLargePolygon = 1.0f;
 
-// What is nearer to the eye than this may be cut by the near plane, at 1 cm [m].
+// Polygons nearer to the eye than this may be clipped by the near plane, at 1 cm [m].
 constexpr float kNotClipped = 0.05f;
 
 }  // namespace
@@ -127,7 +127,7 @@ Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyram
     return std::find(objects.begin(), objects.end(), i) == objects.end();
   };
   const auto enter = [&](const Bounds& b) { return pyramid.mayMeet(b); };
-  // A cluster of a complex mesh stands in its own light.
+  // A cluster of a complex mesh occludes itself.
   const bool isMet =
       pyramid.isOfBox() || stillMeets(s, pyramid, first) ||
       !tree_.visit(enter, [&](uint32_t i) { return !(counts(i) && meets(s, pyramid, i, first)); });

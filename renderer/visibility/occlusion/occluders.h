@@ -1,6 +1,6 @@
-// What can stand between lights and patches: all surfaces but clear ones. Planar parts are tested
-// triangle by triangle, complex ones by boxes around a few triangles each (paper 1 takes a sphere
-// around a whole complex object).
+// The occluders: all surfaces except clear ones. Planar parts are tested triangle by triangle,
+// complex parts by boxes around a few triangles each (paper 1 uses one sphere around a complex
+// object).
 #pragma once
 
 #include <array>
@@ -14,19 +14,20 @@ namespace lamplighter {
 
 class FullOccluderX8;
 
-// What a pyramid met: an item of an object. Most of what meets a pyramid meets the next one too,
-// that of a child or of a light nearby, so that there it is asked first.
+// The item of an object that a pyramid met. It probably meets the next pyramid too (of a child
+// patch or of a light nearby), so that pyramid tests it first.
 struct Blocker {
   int object = kNone;
   uint32_t item = 0;
-  // A point of it where it was met, if that is known: a pyramid that holds it meets the item.
+  // `at` is a point of the item inside the pyramid. A pyramid that contains this point meets the
+  // item.
   bool hasPoint = false;
   vec3 at{0.0f};
 };
 
 class Occluders {
  public:
-  // Up to eight lights that are not parallel, for which a rectangle is neither dark nor degenerate.
+  // Up to eight non-parallel lights for which the rectangle is neither dark nor degenerate.
   struct Lights {
     std::span<const shared::Vpl* const> vpls;
     const PatchRegion& region;
@@ -34,44 +35,46 @@ class Occluders {
   using States = std::array<Occlusion, LightPacket::kLights>;
 
   void resize(size_t objects) { objects_.resize(objects); }
-  // One object where it is now; call finish() after the last.
+  // Places one object at its present position; call finish() after the last.
   void place(const RenderScene& scene, uint32_t object, const MeshTopology& topology,
              const ObjectPatches& patches);
   void finish(const RenderScene& scene);
 
-  // The state of the pyramid's light on its patch by all occluders but these objects, and by these
-  // alone. The state by all is the greater of both: something is met, or one polygon hides it.
-  // `first` is asked first, and becomes what was met; it changes no answer.
+  // The state of the pyramid's light on its patch due to all occluders except these objects, and
+  // due to these objects only. The state due to all occluders is the larger of both. `first` is
+  // tested first and is set to the blocker that was met; it does not change the result.
   Occlusion occlusionWithout(const RenderScene& scene, const OcclusionPyramid& pyramid,
                              std::span<const uint32_t> objects, Blocker& first) const;
   Occlusion occlusionBy(const RenderScene& scene, const OcclusionPyramid& pyramid,
                         std::span<const uint32_t> objects, Blocker& first) const;
-  // The first of both, of several lights; `first` by light.
+  // occlusionWithout() for several lights; `first` by light.
   States occlusionsWithout(const RenderScene& scene, const Lights& lights,
                            std::span<const uint32_t> objects, std::span<Blocker> first) const;
-  // Boxes around some of its triangles each, and whether they are all there is of it.
+  // Boxes around groups of the object's loose triangles. isOfGroups(): the object has no other
+  // parts.
   std::span<const Bounds> groups(uint32_t object) const { return objects_[object].groups; }
   bool isOfGroups(uint32_t object) const {
     return objects_[object].flat.empty() && !objects_[object].groups.empty();
   }
-  // Whether one polygon of other objects hides all of the pyramid's patch.
+  // Whether one polygon of another object hides the whole patch of the pyramid.
   bool hiddenWithout(const OcclusionPyramid& pyramid, std::span<const uint32_t> objects) const;
-  // Whether one polygon stands between an eye, the pyramid's light, and all of its patch, so that
-  // it is drawn over it: its front does, where its back is not drawn.
+  // Whether one polygon stands between the eye (the light of the pyramid) and the whole patch, and
+  // is drawn in front of it: its front side faces the eye if its back is not drawn.
   bool hiddenFromEye(const RenderScene& scene, const OcclusionPyramid& pyramid,
                      const vec3& eye) const;
-  // Whether one of the object's polygons is large enough to hide patches.
+  // Whether a polygon of the object is large enough to hide patches.
   bool mayHide(uint32_t object) const { return !objects_[object].polygons.empty(); }
   const Caster& caster(uint32_t object) const { return objects_[object].caster; }
 
  private:
   struct Object {
     Caster caster;
-    std::vector<uint32_t> flat;             // triangles that are tested themselves
-    std::vector<int> roughChart;            // of each of them; empty: none is in one
-    BoundsTree tree;                        // over those, then groups
+    std::vector<uint32_t> flat;             // triangles that are tested individually
+    std::vector<int> roughChart;            // by index in `flat`; empty: no triangle is in a rough
+                                            // chart
+    BoundsTree tree;                        // over `flat`, then groups
     std::vector<Bounds> groups;             // of loose triangles
-    std::vector<OccluderPolygon> polygons;  // large ones, which may hide whole patches
+    std::vector<OccluderPolygon> polygons;  // large polygons, which may hide whole patches
     BoundsTree polygonTree;
   };
   class Search;
@@ -81,7 +84,7 @@ class Occluders {
              uint32_t item, vec3& at) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
              Blocker& met) const;
-  // A rough chart's bumps do not stand in its own light.
+  // Whether the item belongs to the patch's own rough chart, whose bumps do not shadow the chart.
   bool isItself(const OcclusionPyramid& pyramid, uint32_t object, uint32_t item) const;
   bool stillMeets(const RenderScene& scene, const OcclusionPyramid& pyramid,
                   Blocker& blocker) const;
@@ -89,8 +92,8 @@ class Occluders {
              uint32_t object) const;
 
   std::vector<Object> objects_;
-  BoundsTree tree_;         // over the objects' bounds
-  BoundsTree polygonTree_;  // over those of their large polygons
+  BoundsTree tree_;         // over the bounds of the objects
+  BoundsTree polygonTree_;  // over the bounds of the objects' large polygons
 };
 
 }  // namespace lamplighter

@@ -1,7 +1,7 @@
-// What stands between a patch and several lights, looked for once for all of them: trees are
-// searched for the pyramids of eight together, and most triangles are decided for all eight at
-// once. Only where a triangle neither is outside of one plane of a pyramid nor has a corner in it
-// is it clipped, for that light alone, and at last, since most such lights meet another meanwhile.
+// Finds occluders between a patch and several lights together: the trees are traversed for the
+// pyramids of eight lights, and most triangles are decided for all eight at once. A triangle is
+// clipped for a single light only if it is not outside one plane of the pyramid and has no corner
+// inside. That is done last, because most such lights meet another occluder before.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -18,12 +18,12 @@ using Mask = LightPacket::Mask;
 
 namespace {
 
-// Fewer lights are clipped for at once.
+// For fewer lights the triangle is clipped directly.
 constexpr int kWorthSieve = 2;
 
 }  // namespace
 
-// Which of some lights meet anything.
+// Finds which of some lights meet an occluder.
 class Occluders::Search {
  public:
   Search(const Occluders& occluders, const RenderScene& scene, const Lights& lights,
@@ -37,7 +37,7 @@ class Occluders::Search {
     std::copy(first.begin(), first.end(), first_.begin());
   }
 
-  // Of all but some objects.
+  // Searches all objects except some.
   Mask run(std::span<const uint32_t> without) {
     askWhereMetBefore();
     if (open_ != 0) searchTrees(without);
@@ -45,7 +45,7 @@ class Occluders::Search {
     return pyramids_.all() & ~open_;
   }
 
-  // What was met, or what was asked first.
+  // By light: the blocker that was met, or the one that was tested first.
   std::span<const Blocker> first() const { return first_; }
 
  private:
@@ -54,13 +54,14 @@ class Occluders::Search {
     Mask lights;
   };
 
-  // Of lights that are left, those that may meet anything of the object.
+  // Of the undecided lights, those that may meet something of the object.
   Mask mayMeet(uint32_t object) const {
     const Caster& caster = occluders_.objects_[object].caster;
     return open_ & pyramids_.mayMeetSphere(caster.box.centre(), 1.001f * caster.radius);
   }
 
-  // Points where one of the lights met something above, and then what that is, for all of them.
+  // Tests the points where a light met something at the parent patch, then the items themselves,
+  // for all lights.
   void askWhereMetBefore() {
     const std::array<Blocker, LightPacket::kLights> first = first_;
     const auto isNew = [&](size_t i, const auto& isSame) {
@@ -102,7 +103,7 @@ class Occluders::Search {
     });
   }
 
-  // Takes out of `some` what is decided for all of the object.
+  // Removes the lights from `some` that are decided for the whole object.
   void ask(uint32_t object, uint32_t item, Mask& some) {
     const Object& o = occluders_.objects_[object];
     const auto index = static_cast<int>(object);
@@ -123,7 +124,8 @@ class Occluders::Search {
         take({index, item, true, corners[i]}, met, some);
   }
 
-  // Lights that meet an item, but for those that the object casts no shadow of on the patch.
+  // Registers lights that meet an item, except those for which the object casts no shadow on the
+  // patch.
   void take(const Blocker& blocker, Mask met, Mask& some) {
     some &= ~met;
     forEachBit(met, [&](size_t i) {
@@ -147,7 +149,7 @@ class Occluders::Search {
         known_ |= one;
         vec3 at;
         Mask met = 0;
-        // Where one light meets it others do.
+        // If one light meets it, others probably do.
         if (planes_[i].meet(t[0], t[1], t[2], &at)) met = one | (some & pyramids_.hold(at));
         some &= ~one;
         take({static_cast<int>(question.object), question.item, true, at}, met, some);
@@ -156,7 +158,7 @@ class Occluders::Search {
     unsureCount_ = 0;
   }
 
-  // A rough chart's bumps do not stand in its own light.
+  // The bumps of a rough chart do not block its own light.
   bool isOfPatch(uint32_t object, uint32_t item) const {
     const PatchRegion& region = lights_.region;
     const std::vector<int>& chart = occluders_.objects_[object].roughChart;
@@ -182,9 +184,9 @@ class Occluders::Search {
   const Lights& lights_;
   const PyramidBatch pyramids_;
   const size_t count_;
-  std::array<Blocker, LightPacket::kLights> first_;  // by light: what is asked first, or was met
-  Mask open_;                                        // lights of which nothing is known to be met
-  Mask known_ = 0;                                   // lights that have planes_
+  std::array<Blocker, LightPacket::kLights> first_;  // by light: tested first, or met
+  Mask open_;                                        // lights for which nothing was met yet
+  Mask known_ = 0;                                   // lights whose planes_ are set
   std::array<PyramidPlanes, LightPacket::kLights> planes_;
   std::array<Question, 64> unsure_;
   size_t unsureCount_ = 0;
@@ -202,7 +204,7 @@ Occluders::States Occluders::occlusionsWithout(const RenderScene& s, const Light
   const LightPacket lanes({pointers.data(), lights.vpls.size()});
   States states;
   states.fill(Occlusion::none);
-  // A cluster of a complex mesh stands in its own light.
+  // A cluster of a complex mesh occludes itself.
   Mask met = lanes.all();
   if (!lights.region.isBox()) {
     Search search(*this, s, lights, lanes, first);

@@ -66,11 +66,12 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
       towards_(vpl.normal),
       margin_(parallel_ ? region.rounding : std::max(rayEpsilon(apex_), region.rounding)) {
   const float slab = region_.thickness + margin_;
-  // Behind both planes by more than sums are rounded, the light is none (vplGeometry), not little.
+  // Patch points further behind the planes than rounding errors get exactly no light (vplGeometry),
+  // not just little.
   const float behind = region_.thickness + kSumsRounding * margin_;
 
-  // Only the half-space over the light's own plane gets light; what lies in that plane, the surface
-  // that the light is on before all, is not between.
+  // Only the half-space in front of the light gets light. Geometry in the light's plane, mainly the
+  // surface of the light, does not count as between.
   if (!parallel_) {
     const auto height = [&](const vec3& p) { return glm::dot(p - apex_, towards_); };
     dark_ = std::all_of(region_.points().begin(), region_.points().end(),
@@ -84,7 +85,7 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
     const vec3 middle = region_.middle();
     const float height =
         parallel_ ? glm::dot(towards_, region_.normal) : glm::dot(apex_ - middle, region_.normal);
-    // The bumps of a rough patch are turned to the light before the patch is.
+    // The bumps of a rough patch may face the light before the patch does.
     float turned = 0.0f;
     if (isRough) turned = parallel_ ? 1.0f : glm::distance(apex_, middle) + region_.radius;
     turned *= kRoughSine;
@@ -92,9 +93,9 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
     if (dark_) return;
     degenerate_ = std::abs(height) <= (parallel_ ? 1e-4f : 4.0f * slab);
     if (degenerate_) return;
-    // What lies in the plane of the patch, itself before all, is not between.
+    // Geometry in the plane of the patch, mainly the patch itself, does not count as between.
     const vec3 up = height > 0.0f ? region_.normal : -region_.normal;
-    // On a rough patch there may be something between its bumps.
+    // On a rough patch there may be geometry between its bumps.
     add(up, middle, isRough ? slab : -3.0f * slab);
     addSides(middle, up);
     return;
@@ -108,8 +109,8 @@ OcclusionPyramid::OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& re
     if (parallel_ ? towards_[c] <= 0.0f : apex_[c] <= high[c]) add(-n, high, 3.0f * margin_);
     inside = inside && apex_[c] >= low[c] - margin_ && apex_[c] <= high[c] + margin_;
   }
-  // What stands within a box is met in any case, so its pyramid needs no sides: it only finds what
-  // may hide all of it.
+  // Geometry inside the box always counts as met, so the pyramid needs no sides: it is only used to
+  // find full occluders.
   degenerate_ = inside;
 }
 
@@ -122,7 +123,7 @@ void OcclusionPyramid::add(const vec3& normal, const vec3& on, float margin) {
   planes_.offset[i] = margin - glm::dot(normal, on);
 }
 
-// All four at a time.
+// Computes all four sides at once.
 void OcclusionPyramid::addSides(const vec3& middle, const vec3& up) {
   const hn::FixedTag<float, 4> tag;
   using Vec = hn::Vec<decltype(tag)>;
@@ -220,7 +221,7 @@ bool OcclusionPyramid::isCutBy(const OccluderPolygon& polygon) const {
     }
     return true;
   };
-  // A rough patch is as thick as its bumps, and seen from the side that is much.
+  // A rough patch has the thickness of its bumps, which matters at grazing angles.
   const vec3 bump = region_.chart != kNone ? region_.thickness * region_.normal : vec3(0.0f);
   for (const vec3& corner : region_.points())
     if (!isCut(corner + bump) || (region_.chart != kNone && !isCut(corner - bump))) return false;

@@ -1,6 +1,6 @@
-// The occlusion pyramid (paper 1, 4.3.1, figure 4-5): all segments from a light to the points of a
-// patch. What does not meet it cannot cast a shadow of that light on the patch. A parallel light's
-// is a prism without end; the patch is a rectangle or a box.
+// The occlusion pyramid (paper 1, 4.3.1, figure 4-5): the union of all segments from a light to the
+// points of a patch. Geometry outside it cannot cast a shadow of that light on the patch. For a
+// parallel light it is an infinite prism. The patch is a rectangle or a box.
 #pragma once
 
 #include <array>
@@ -14,25 +14,26 @@
 
 namespace lamplighter {
 
-// State of a light on a patch. Conservative: partial when unsure.
+// State of a light on a patch. Conservative: partial if not certain.
 enum class Occlusion : uint8_t {
-  none,     // nothing stands between the light and any point of the patch
-  partial,  // something may
-  full      // no point that is seen gets light of it: it is hidden, or one is behind the other
+  none,     // nothing blocks the light from any point of the patch
+  partial,  // something may block it
+  full      // no visible point gets light: all is in shadow, or back-facing
 };
 
-// A patch in the world: the corners of its convex hull.
+// A patch in world space: the corners of its convex hull.
 struct PatchRegion {
   std::array<vec3, 8> corners{};
-  int count = 0;           // 4: a rectangle, in order; 8: a box, bit c of the index chooses max[c]
+  int count = 0;           // 4: rectangle, in order; 8: box, bit c of the index selects max[c]
   vec3 normal{0.0f};       // rectangle: unit
-  float thickness = 0.0f;  // rectangle: the surface is within this of it [m]
-  bool frontOnly = false;  // rectangle: its back is never seen
-  int object = kNone, chart = kNone;  // a rough one's, whose bumps are not between: else kNone
-  vec3 centre{0.0f};                  // of a sphere around it
-  float radius = 0.0f;                // of that sphere [m]
-  float rounding = 0.0f;              // what it may make of a place here [m]
-  // Rectangle: corners and the sides from them to the next, all x, all y, all z.
+  float thickness = 0.0f;  // rectangle: largest distance of the surface from it [m]
+  bool frontOnly = false;  // rectangle: its back is never visible
+  int object = kNone, chart = kNone;  // set for a rough chart, whose bumps do not block its own
+                                      // light; otherwise kNone
+  vec3 centre{0.0f};                  // of a bounding sphere
+  float radius = 0.0f;                // of the bounding sphere [m]
+  float rounding = 0.0f;              // rounding error of positions here [m]
+  // Rectangle: corners and edges to the next corner, as arrays of x, y and z.
   std::array<std::array<float, 4>, 3> from{}, sides{};
 
   explicit PatchRegion(const Bounds& box);
@@ -43,10 +44,10 @@ struct PatchRegion {
   vec3 middle() const { return 0.5f * (corners[0] + corners[isBox() ? 7 : 2]); }
 };
 
-// A convex polygon that may hide whole patches, with what is asked of it for every pyramid.
+// A convex polygon that may hide whole patches, with the data that each pyramid test needs.
 struct OccluderPolygon {
   struct Edge {
-    vec3 inwards{0.0f};   // in its plane, as long as the edge
+    vec3 inwards{0.0f};   // in the plane of the polygon, with the length of the edge
     float length = 0.0f;  // [m]
   };
   std::vector<vec3> corners;
@@ -59,43 +60,43 @@ struct OccluderPolygon {
 
 class OcclusionPyramid {
  public:
-  // Refers to both, which must outlive it.
+  // Keeps references to both arguments, which must outlive this object.
   OcclusionPyramid(const shared::Vpl& vpl, const PatchRegion& region);
   OcclusionPyramid(const shared::Vpl& vpl, PatchRegion&& region) = delete;
 
-  // No point of the patch is on the lit side of the light, or the light is behind all that is seen.
+  // No point of the patch is in front of the light, or the light is behind all visible points.
   bool isDark() const { return dark_; }
-  // The light is so near the patch or its plane that nothing can be said.
+  // The light is so close to the patch or its plane that the test is not reliable.
   bool isDegenerate() const { return degenerate_; }
 
-  // Whether the shadow of it may fall on the patch: a sieve before the tests below, and part of
-  // them, for these take a little more than the pyramid.
+  // Whether the shadow of the caster may fall on the patch. A cheap test before those below; it
+  // also decides together with them, because they cover slightly more than the exact pyramid.
   bool mayBeShadowedBy(const Caster& caster) const {
     return ShadowVolume(vpl_, caster).mayFallOn(region_.centre, region_.radius);
   }
 
-  // It is that of a patch of this chart, which is rough.
+  // Whether the patch belongs to this chart and the chart is rough.
   bool isOfRough(uint32_t object, int chart) const {
     return region_.object == static_cast<int>(object) && region_.chart == chart;
   }
 
-  // Its patch is a box around triangles, not a rectangle.
+  // Whether the patch is a box around triangles, not a rectangle.
   bool isOfBox() const { return region_.isBox(); }
 
-  // Whether it may be met; exact for triangles but for a margin of rounding.
+  // Conservative intersection tests; exact for triangles except for a margin for rounding errors.
   bool mayMeet(const Bounds& box) const;
   bool mayMeetSphere(const vec3& centre, float radius) const;
-  // `at`: a point of what is met, if so.
+  // `at`: receives a point of the intersection, if there is one.
   bool meets(const vec3& a, const vec3& b, const vec3& c, vec3* at = nullptr) const {
     return planes_.meet(a, b, c, at);
   }
-  // Whether a point is in it, by more than rounding.
+  // Whether the point is inside by more than the rounding error.
   bool holds(const vec3& point) const { return !mayBeOutside(point, margin_); }
-  // Whether a polygon stands wholly across it, between light and patch.
+  // Whether the polygon cuts the pyramid completely between light and patch.
   bool isCutBy(const OccluderPolygon& polygon) const;
 
-  // The segment from the middle of the patch to the light. Only what that meets can stand across
-  // all of the pyramid, and it meets far less.
+  // The segment from the centre of the patch to the light. A polygon that cuts the whole pyramid
+  // must meet it, and it meets far fewer boxes than the pyramid does.
   class Axis {
    public:
     explicit Axis(const OcclusionPyramid& pyramid);
@@ -107,9 +108,9 @@ class OcclusionPyramid {
     }
 
    private:
-    vec3 low_, high_;  // its beginning, give or take the margin
-    vec3 inverse_;     // one over its length on each axis
-    float last_;       // where it ends, in lengths
+    vec3 low_, high_;  // start point minus and plus the margin
+    vec3 inverse_;     // reciprocal of the length on each axis
+    float last_;       // parameter of its end, in lengths
   };
 
  private:
@@ -121,9 +122,9 @@ class OcclusionPyramid {
   const shared::Vpl& vpl_;
   const PatchRegion& region_;
   bool parallel_ = false, dark_ = false, degenerate_ = false;
-  vec3 apex_{0.0f};      // a parallel light: unused
-  vec3 towards_{0.0f};   // the light's axis; a parallel light: unit, towards the light
-  float margin_ = 0.0f;  // what rounding may make of a place here [m]
+  vec3 apex_{0.0f};      // unused for a parallel light
+  vec3 towards_{0.0f};   // axis of the light; parallel light: unit, towards the light
+  float margin_ = 0.0f;  // rounding error of positions here [m]
   PyramidPlanes planes_;
   int count_ = 0;
 };

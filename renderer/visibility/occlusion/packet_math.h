@@ -1,5 +1,5 @@
-// Sums of places and directions of eight lights, in the order in which glm adds them up, so that
-// they are the same bits.
+// Vector arithmetic for eight lights. Sums have the same order as in glm, so the results are
+// bit-equal.
 #pragma once
 
 #include "renderer/base/simd.h"

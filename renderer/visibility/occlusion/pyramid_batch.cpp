@@ -17,7 +17,7 @@ SimdVec3<Vec> normalOf(const Plane& p) {
   return {load(p.x), load(p.y), load(p.z)};
 }
 
-// By how much boxes are inside of planes, as OcclusionPyramid::mayMeet() adds it up.
+// Depth of boxes inside planes, with the same order of operations as OcclusionPyramid::mayMeet().
 Vec depthOf(const SimdVec3<Vec>& normal, Vec offset, const SimdVec3<Vec>& centre,
             const SimdVec3<Vec>& half) {
   auto farthest = hn::MulAdd(normal.x, centre.x, offset);
@@ -28,7 +28,7 @@ Vec depthOf(const SimdVec3<Vec>& normal, Vec offset, const SimdVec3<Vec>& centre
   return hn::MulAdd(hn::Abs(normal.z), half.z, farthest);
 }
 
-// By how much points are, as OcclusionPyramid::meets() adds it up.
+// Distance of points from planes, with the same order of operations as OcclusionPyramid::meets().
 HWY_INLINE Vec distanceOf(const SimdVec3<Vec>& normal, Vec offset, const SimdVec3<Vec>& point) {
   auto distance = hn::MulAdd(normal.x, point.x, offset);
   distance = hn::MulAdd(normal.y, point.y, distance);
@@ -48,7 +48,7 @@ void BoxBatch::set(size_t i, const Bounds& box) {
   }
 }
 
-// The last is filled up with its last box.
+// The last batch is filled with copies of its last box.
 BoxBatches::BoxBatches(std::span<const Bounds> boxes) : size_(boxes.size()) {
   constexpr size_t kBoxes = BoxBatch::kBoxes;
   const auto batchesOf = [](std::span<const Bounds> some) {
@@ -96,8 +96,8 @@ PyramidBatch::PyramidBatch(const LightPacket& lights, const PatchRegion& region)
   }
 }
 
-// What moves by a vector d gets nearer to a plane with the normal n by n·d, which is no more than
-// the larger of |n·axis| and |n×axis| / across times its length.
+// A shape that moves by a vector d approaches a plane with normal n by n·d. This is at most the
+// larger of |n·axis| and |n×axis| / across, times the length of d in the metric.
 void PyramidBatch::weighBy(const MotionMetric& way) {
   const SimdVec3<Vec> axis = set(way.axis);
   const auto one = set(1.0f), across = set(1.0f / way.across);
@@ -105,7 +105,7 @@ void PyramidBatch::weighBy(const MotionMetric& way) {
     const SimdVec3<Vec> normal = normalOf(p);
     const auto along = dot(normal, axis), squared = dot(normal, normal);
     const auto sideways = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, squared), hn::Zero(kTag)));
-    // Nothing is outside of a plane that is left out.
+    // A plane that is left out has the normal zero; nothing is outside it.
     const auto most = hn::Max(hn::Max(hn::Abs(along), hn::Mul(sideways, across)), set(1e-20f));
     hn::Store(hn::Max(hn::Div(one, most), one), kTag, p.weight.data());
   }
@@ -148,7 +148,7 @@ PyramidBatch::Mask PyramidBatch::hold(const vec3& point) const {
 PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const {
   const SimdVec3<Vec> a = set(triangle[0]), b = set(triangle[1]), c = set(triangle[2]);
   auto leastA = set(std::numeric_limits<float>::max()), leastB = leastA, leastC = leastA;
-  auto leastOfMost = leastA;  // of the corner farthest inside of each plane
+  auto leastOfMost = leastA;  // minimum over planes of the largest distance of a corner
   for (const Plane& p : planes_) {
     const SimdVec3<Vec> normal = normalOf(p);
     const auto offset = load(p.offset);
@@ -166,9 +166,9 @@ PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const
   return met;
 }
 
-// A triangle is past the edge of two planes, though not outside of either, where all of it is
-// outside of a third one through that edge: where heights over both add up, one of them times some
-// factor, to less than nothing at each corner.
+// A triangle that is not outside either of two planes may still be beyond their common edge: all of
+// it is outside a third plane through that edge. This is so if for some positive factor the sum of
+// one distance and the factor times the other is negative at each corner.
 PyramidBatch::Mask PyramidBatch::surelyMiss(const std::array<vec3, 3>& triangle,
                                             float rounding) const {
   const auto margin = hn::Mul(set(2.0f), hn::Max(load(margin_), set(rounding)));
@@ -181,7 +181,7 @@ PyramidBatch::Mask PyramidBatch::surelyMiss(const std::array<vec3, 3>& triangle,
   }
   const auto zero = hn::Zero(kTag);
   const auto isPastEdge = [&](const std::array<Vec, 3>& a, const std::array<Vec, 3>& b) {
-    auto least = zero, most = set(std::numeric_limits<float>::max());  // of the factor
+    auto least = zero, most = set(std::numeric_limits<float>::max());  // bounds of the factor
     for (size_t i = 0; i < 3; ++i) {
       const auto factor = hn::Div(hn::Neg(a[i]), b[i]);
       const auto isLower = hn::Lt(b[i], zero);
@@ -190,7 +190,7 @@ PyramidBatch::Mask PyramidBatch::surelyMiss(const std::array<vec3, 3>& triangle,
     }
     return hn::Lt(hn::Mul(least, set(1.001f)), most);
   };
-  // Edges of the patch's plane with a side, and of two sides.
+  // Edges between the patch's plane and a side, and between two sides.
   auto past = isPastEdge(depths[5], depths[2]);
   for (size_t side = 2; side < 6; ++side) {
     past = hn::Or(past, isPastEdge(depths[1], depths[side]));
@@ -216,7 +216,7 @@ PyramidBatch::Mask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indi
   const float* all = boxes.boxes()[0].centre[0].data();
   const hn::FixedTag<int32_t, kLights> ints;
   const auto box = hn::LoadU(ints, which.data());
-  // 48 floats for each eight of them.
+  // 48 floats per batch of eight boxes.
   const auto lane = hn::And(box, hn::Set(ints, 7));
   const auto eights = hn::Sub(box, lane);
   const auto at = hn::Add(hn::Add(hn::ShiftLeft<2>(eights), hn::ShiftLeft<1>(eights)), lane);
@@ -247,7 +247,7 @@ PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, fl
     const auto around = depthsIn(boxes.around()[a]);
     const auto isOutside = hn::Lt(around, hn::Zero(kTag));
     outside = hn::Max(outside, hn::IfThenElse(isOutside, around, outside));
-    alignas(32) std::array<float, kLights> most;  // that one of its boxes may have
+    alignas(32) std::array<float, kLights> most;  // upper bound of the depth of the boxes inside
     hn::Store(around, kTag, most.data());
     for (uint32_t some = 0xff & ~bitsOf(isOutside); some != 0; some &= some - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(some));
@@ -258,7 +258,7 @@ PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, fl
       const auto deepest = hn::MaxOfLanes(kTag, depths);
       if (hn::GetLane(deepest) <= found.depth) continue;
       const auto first = static_cast<size_t>(std::countr_zero(bitsOf(hn::Eq(depths, deepest))));
-      // The last eight end with its last box again.
+      // The last batch repeats its last box.
       const size_t box = std::min(batch * kLights + first, boxes.size() - 1);
       found = {static_cast<int>(box), hn::GetLane(deepest)};
       if (found.depth >= enough) return found;

@@ -1,5 +1,5 @@
-// The occlusion pyramids of up to eight lights on one rectangle, for one question at a time to all:
-// the same bits as OcclusionPyramid says of each.
+// The occlusion pyramids of up to eight lights on one rectangle. Each test is done for all of them
+// at once, with results bit-equal to OcclusionPyramid.
 #pragma once
 
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace lamplighter {
 
-// Eight boxes, to be asked of at once.
+// Eight boxes that are tested together.
 struct BoxBatch {
   static constexpr size_t kBoxes = 8;
   alignas(32) std::array<std::array<float, kBoxes>, 3> centre{}, half{};
   void set(size_t i, const Bounds& box);
 };
 
-// Boxes, neighbours together, and one around each eight of them.
+// Boxes in batches of eight neighbours, and a bounding box of each batch.
 class BoxBatches {
  public:
   explicit BoxBatches(std::span<const Bounds> boxes);
@@ -38,40 +38,42 @@ class PyramidBatch {
   static constexpr size_t kLights = LightPacket::kLights;
   static_assert(kLights == BoxBatch::kBoxes);
   using Mask = LightPacket::Mask;
-  // How far what is asked about may move, as the way counts it, and still is met, for it is inside
-  // of all planes by as much; negative: and still is not, outside of one. By light [m].
+  // How far the tested shape may move, in the metric, and still intersect: it is inside all planes
+  // by at least this much. Negative: how far it may move and still not intersect, because it is
+  // outside one plane by this much. By light [m].
   using Depths = LightPacket::Floats;
 
-  // Of lights for which the rectangle is neither dark nor degenerate.
+  // Only for lights for which the rectangle is neither dark nor degenerate.
   PyramidBatch(const LightPacket& lights, const PatchRegion& region);
-  // Before depths are asked for.
+  // Sets the metric; call this before asking for depths.
   void weighBy(const MotionMetric& way);
 
   Mask all() const { return all_; }
   Mask mayMeetSphere(const vec3& centre, float radius, Depths& depths) const;
   Mask mayMeet(const Bounds& box) const;
   Mask mayMeetSphere(const vec3& centre, float radius) const;
-  // Those that a point is in, by more than rounding.
+  // The pyramids that contain the point by more than the rounding error.
   Mask hold(const vec3& point) const;
-  // Those that corners of a triangle are in, and those where only clipping it tells: planesOf().
+  // byCorner: pyramids that contain a corner of the triangle; unsure: pyramids for which only
+  // clipping the triangle decides, see planesOf().
   struct Met {
     std::array<Mask, 3> byCorner{};
     Mask unsure = 0;
     Mask met() const { return byCorner[0] | byCorner[1] | byCorner[2]; }
   };
   Met meets(const std::array<vec3, 3>& triangle) const;
-  // Of those, some where clipping it would leave nothing, by more than rounding; `rounding`: of the
-  // triangle's corners [m].
+  // Some of the pyramids for which clipping the triangle certainly leaves nothing, by more than the
+  // rounding error. `rounding`: of the triangle's corners [m].
   Mask surelyMiss(const std::array<vec3, 3>& triangle, float rounding) const;
   PyramidPlanes planesOf(size_t light) const;
-  // Of each light one box, and of lights that are not asked about any of them.
+  // Tests one box per light; the indices of lights that are not tested may be any valid ones.
   using Indices = std::array<int32_t, kLights>;
   Mask mayMeetEach(const BoxBatches& boxes, const Indices& which, Depths& depths) const;
-  // Whether the pyramid of one light may meet any of some boxes: the deepest, or one that is met
-  // deep enough.
+  // Tests several boxes against the pyramid of one light. Finds the box with the largest depth, or
+  // the first whose depth is at least `enough`.
   struct Found {
     int box = kNone;
-    float depth = 0.0f;  // where none is met that of the one least outside
+    float depth = 0.0f;  // if no box is met: depth of the box that is least outside
   };
   Found find(size_t light, const BoxBatches& boxes, float enough) const;
 
@@ -79,10 +81,10 @@ class PyramidBatch {
   static constexpr size_t kPlanes = 6;
   struct Plane {
     LightPacket::Floats x, y, z, offset;
-    LightPacket::Floats weight;  // of a metre towards it, at least one
+    LightPacket::Floats weight;  // factor from depth to motion in the metric, ≥ 1
   };
   alignas(32) std::array<Plane, kPlanes> planes_;
-  alignas(32) LightPacket::Floats margin_;  // what rounding may make of a place here [m]
+  alignas(32) LightPacket::Floats margin_;  // rounding error of positions here [m]
   Mask all_;
 };
 

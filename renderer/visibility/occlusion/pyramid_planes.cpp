@@ -8,13 +8,13 @@
 namespace lamplighter {
 namespace {
 
-// A triangle clipped by each plane gains a corner at most.
+// Clipping by one plane adds at most one corner.
 constexpr size_t kMostCorners = 3 + PyramidPlanes::kMost;
 
 }  // namespace
 
 bool PyramidPlanes::meet(const vec3& a, const vec3& b, const vec3& c, vec3* at) const {
-  // Most triangles are wholly outside of one plane, or have a corner inside all.
+  // Most triangles are completely outside one plane, or have a corner inside all planes.
   static_assert(kMost == hn::MaxLanes(kTag));
   const auto nx = hn::LoadU(kTag, x.data()), ny = hn::LoadU(kTag, y.data()),
              nz = hn::LoadU(kTag, z.data()), beyond = hn::LoadU(kTag, offset.data());
@@ -32,9 +32,9 @@ bool PyramidPlanes::meet(const vec3& a, const vec3& b, const vec3& c, vec3* at) 
     if (at != nullptr) *at = points[i];
     return true;
   }
-  if (at != nullptr) *at = a;  // unless a better one is found
+  if (at != nullptr) *at = a;  // replaced if a better one is found
 
-  // Planes that all corners are inside of cut nothing off.
+  // Planes that have all corners inside clip nothing.
   uint8_t cutting[8];
   hn::StoreMaskBits(kTag, hn::Or(outside[0], hn::Or(outside[1], outside[2])), cutting);
   std::array<std::array<vec3, kMostCorners>, 2> polygons;

@@ -7,15 +7,15 @@
 
 namespace lamplighter {
 
-// Unit normals inwards; inside: dot(normal, x) + offset >= 0. Eight at a time are tested, so that
-// what follows the last are planes that everything is inside of.
+// Unit normals point inwards; inside: dot(normal, x) + offset >= 0. Eight planes are tested at
+// once, so unused entries are planes that contain everything.
 struct PyramidPlanes {
   static constexpr int kMost = 8;
   std::array<float, kMost> x{}, y{}, z{}, offset;
 
   PyramidPlanes() { offset.fill(1.0f); }
 
-  // Whether any of a triangle is inside of all. `at`: a point of what is, if so.
+  // Whether part of the triangle is inside all planes. `at`: receives such a point.
   bool meet(const vec3& a, const vec3& b, const vec3& c, vec3* at = nullptr) const;
 };
 

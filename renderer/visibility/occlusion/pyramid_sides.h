@@ -1,30 +1,31 @@
-// The planes of an occlusion pyramid through its light and the sides of its patch, for
-// occlusion_pyramid.cpp, the four sides of one light at a time, and pyramid_batch.cpp, one side of
-// eight lights: the same operations, so that both get the same bits.
+// The planes of an occlusion pyramid through its light and the edges of its patch.
+// occlusion_pyramid.cpp computes four edges of one light at once, pyramid_batch.cpp one edge of
+// eight lights: the same operations with bit-equal results.
 #pragma once
 
 #include "renderer/base/simd.h"
 
 namespace lamplighter {
 
-// Of rayEpsilon(): what rounding makes of a sum such as the height over a plane. A place may be
-// wrong by more, but then with all that lies there.
+// Fraction of rayEpsilon(): rounding error of sums such as the height above a plane. Positions may
+// have larger errors, but then all nearby positions have the same error.
 inline constexpr float kSumsRounding = 0.125f;
 
 template <typename V>
 struct SidePlanes {
-  SimdVec3<V> normal;  // unit, inwards; zero: it is left out
+  SimdVec3<V> normal;  // unit, inwards; zero: the plane is left out
   V offset;            // inside: dot(normal, x) + offset >= 0
 };
 
-// `from`: a corner of the patch, `side`: from it to the next, `way`: to the corner from the light,
-// or towards the light where that is parallel; `up`: the patch's normal, towards the light. A plane
-// that the rectangle hardly leaves is left out, since it is not known on which side it is.
+// `from`: a corner of the patch; `side`: from it to the next corner; `way`: from the light to the
+// corner, or towards the light if that is parallel; `up`: normal of the patch on the side of the
+// light. A plane is left out if the rectangle lies almost in it, because its inner side is then
+// unknown.
 //
-// Rays begin and end a little off both surfaces, and so may leave the exact pyramid: near the light
-// by what they stand off it, near the patch by what they begin over it, where the side leans
-// inwards. There is no more slack than that at the patch, and what is hardly higher is not between:
-// a wall that the patch ends at would be, for all lights.
+// Rays start and end at small offsets from both surfaces, so they may leave the exact pyramid: near
+// the light by the offset there, near the patch by the offset there where the plane leans inwards.
+// The planes include this slack at the patch and no more. Geometry hardly above the patch does not
+// count as between; otherwise a wall at the edge of the patch would block all lights.
 template <typename Tag, typename V = hwy::HWY_NAMESPACE::Vec<Tag>>
 HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const SimdVec3<V>& from, const SimdVec3<V>& side,
                                     const SimdVec3<V>& way, const SimdVec3<V>& middle,
@@ -41,8 +42,8 @@ HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const SimdVec3<V>& from, const Simd
   const auto known = hn::Gt(hn::Abs(inside), margin);
   const auto slab = hn::Add(thickness, margin);
   if (!parallel) {
-    // Through a place three margins farther out than the light: n·|n| + 3 m (n × side) / |n|, and
-    // the way out is the other one where n points outwards.
+    // Passes through a point three margins outside the light: n·|n| + 3 m (n × side) / |n|. The
+    // sign is reversed if n points outwards.
     const auto slack = hn::CopySign(hn::Div(hn::Mul(all(3.0f), slab), length), inside);
     const SimdVec3<V> t = cross(n, side);
     n = {hn::MulAdd(t.x, slack, n.x), hn::MulAdd(t.y, slack, n.y), hn::MulAdd(t.z, slack, n.z)};

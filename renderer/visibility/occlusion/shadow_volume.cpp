@@ -19,7 +19,7 @@ Caster::Caster(const Caster& a, const Caster& b) {
 ShadowVolume::ShadowVolume(const shared::Vpl& vpl, const Caster& caster) {
   const Bounds& box = caster.box;
   if (box.empty()) return;
-  // Rays begin and end a little off what they join, and the sums here are rounded.
+  // The margin covers the offsets of rays at both ends and rounding errors.
   const vec3 centre = box.centre();
   const float margin = 16.0f * (rayEpsilon(box.min) + rayEpsilon(box.max));
   radius_ = 1.001f * caster.radius + margin;
@@ -45,14 +45,14 @@ ShadowVolume::ShadowVolume(const shared::Vpl& vpl, const Caster& caster) {
   nearest_ = distance - radius_;
   sine_ = radius_ / distance;
   cosine_ = std::sqrt(1.0f - sine_ * sine_);
-  // Rounding grows with the distance from the light.
+  // The rounding error grows with the distance from the light.
   sine_ = std::min(1.0f, 1.0001f * sine_ + 1e-6f);
 }
 
 ShadowVolume::Cone ShadowVolume::cone() const {
   constexpr float kFar = std::numeric_limits<float>::infinity();
   if (kind_ == Kind::cone) return {apex_, axis_, nearest_, sine_, cosine_, before_, radius_};
-  // All of space, or what nothing is as far off as.
+  // Everywhere: minus infinity; empty: farther than anything.
   const bool isNone = kind_ == Kind::none;
   const float over = isNone ? 0.0f : std::min(-nearest_, before_);
   return {apex_, vec3(0.0f), isNone ? kFar : -kFar, 0.0f, 0.0f, over, radius_};

@@ -1,5 +1,6 @@
-// Where the shadow of a moved object may fall: the part of space that its bounding sphere hides
-// from a light. A cheap sieve before occlusion pyramids, the other way round than these look.
+// The region where the shadow of a moved object may fall: the part of space that its bounding
+// sphere hides from a light. A cheap conservative test before occlusion pyramids; it starts at the
+// occluder, pyramids start at the patch.
 #pragma once
 
 #include "renderer/base/math.h"
@@ -7,8 +8,8 @@
 
 namespace lamplighter {
 
-// What casts: all of it is in the box, and in a sphere around the middle of that, which may be
-// smaller than the one around the box.
+// Bounds of an occluder: a box, and a sphere around the centre of the box that may be smaller than
+// the bounding sphere of the box.
 struct Caster {
   Bounds box;
   float radius = 0.0f;
@@ -16,27 +17,30 @@ struct Caster {
   Caster() = default;
   explicit Caster(const Bounds& b) : box(b), radius(b.radius()) {}
   Caster(const Bounds& b, float r) : box(b), radius(r) {}
-  Caster(const Caster& a, const Caster& b);  // both
+  Caster(const Caster& a, const Caster& b);  // bounds of both
 };
 
 class ShadowVolume {
  public:
-  ShadowVolume() = default;  // none
-  // An empty box casts none.
+  ShadowVolume() = default;  // empty
+  // An empty box casts no shadow.
   ShadowVolume(const shared::Vpl& vpl, const Caster& caster);
 
   bool isEmpty() const { return kind_ == Kind::none; }
-  // What mayFallOn() goes by where the light is not parallel, and what says by how much [m].
+  // The data of mayFallOn() and of the slack for a non-parallel light [m].
   struct Cone {
     vec3 apex, axis;
-    float nearest, sine, cosine;  // nearest: from the apex; -infinity: the caster is over the light
-    float before;                 // how far it reaches before the light's plane, and is over it
+    float nearest, sine, cosine;  // distance from the apex; -infinity: the caster surrounds the
+                                  // light
+    float before;                 // how far the caster extends in front of the light's plane, and
+                                  // how far it surrounds the light
     float radius;                 // of the caster
   };
   Cone cone() const;
-  // Whether the shadow may fall on some of a sphere: one no nearer than the caster's near side, and
-  // no farther from the cone or cylinder than its radius. Conservative; and where it may, it may on
-  // a sphere around that sphere, and that of a caster around this one may.
+  // Whether the shadow may fall on part of a sphere: the sphere is not nearer than the near side of
+  // the caster, and its distance from the cone or cylinder is at most its radius. Conservative and
+  // monotonic: if true, it is also true for a larger sphere that contains this one, and for a
+  // larger caster.
   bool mayFallOn(const vec3& centre, float radius) const {
     switch (kind_) {
       case Kind::none:
@@ -50,7 +54,7 @@ class ShadowVolume {
         const float along = glm::dot(v, axis_);
         const float across2 = std::max(distance2 - along * along, 0.0f);
         const float cosine2 = cosine_ * cosine_;
-        // Behind the light, where no place of the cone is nearer than its apex.
+        // Behind the light, where the apex is the nearest point of the cone.
         if (along < 0.0f && across2 * sine_ * sine_ <= along * along * cosine2)
           return distance2 <= radius * radius;
         const float reach = radius + along * sine_;
@@ -70,11 +74,12 @@ class ShadowVolume {
  private:
   enum class Kind : uint8_t { none, everywhere, cone, cylinder };
   Kind kind_ = Kind::none;
-  vec3 apex_{0.0f}, axis_{0.0f};  // a cylinder's apex is the middle of the caster
-  float nearest_ = 0.0f;          // of the caster: from the apex; a cylinder: along the axis [m]
+  vec3 apex_{0.0f}, axis_{0.0f};  // a cylinder's apex is the centre of the caster
+  float nearest_ = 0.0f;          // near side of the caster: distance from the apex; cylinder:
+                                  // along the axis [m]
   float sine_ = 0.0f, cosine_ = 1.0f;
   float radius_ = 0.0f;
-  float before_ = 0.0f;  // how far the caster reaches before the light's plane [m]
+  float before_ = 0.0f;  // how far the caster extends in front of the light's plane [m]
 };
 
 }  // namespace lamplighter

@@ -10,7 +10,7 @@ namespace lamplighter {
 namespace {
 
 constexpr const char* kNote = "bookmarks";
-// Fails where it is no list of as many numbers within ±most.
+// Reads `count` numbers within ±most. Returns false if the member is anything else.
 bool read(const Json& note, const char* key, size_t count, double most, float* out) {
   const Json* list = member(note, key);
   if (list == nullptr || !list->is_array() || list->size() != count) return false;

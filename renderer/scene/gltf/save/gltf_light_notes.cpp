@@ -1,6 +1,6 @@
-// What glTF has no place for about lights: extras.lamplighter.light of a node (on, solo, group,
-// what it leaves out, and the file of its profile or picture) and extras.lamplighter.lights of the
-// scene (groups, the sky's state).
+// Notes for light properties that glTF does not have: extras.lamplighter.light of a node (on, solo,
+// group, light linking, and the file of its profile or picture) and extras.lamplighter.lights of
+// the scene (groups, state of the sky).
 #include <algorithm>
 #include <map>
 
@@ -21,7 +21,7 @@ constexpr const char* kPicture = "picture";
 constexpr const char* kLeavesOut = "leaves_out";  // indices of nodes
 constexpr size_t kMostGroups = 10'000;
 
-// The node of each node of the file, or none where it is not shown.
+// By node of the file: its NodeId, or none if it is not shown.
 using NodeOfJson = std::vector<NodeId>;
 
 NodeOfJson nodesOfJson(const GltfDocument& document, const std::vector<Node>& nodes) {
@@ -73,7 +73,7 @@ const Json* shownScene(const GltfDocument& document) {
   return &scenes[sizeMember(document, document.json, "scene", {"scenes", 0}).value_or(0)];
 }
 
-// One that cannot be had is left out with a warning: the light is a plain one then.
+// A profile that is not available is skipped with a warning; the light then has no profile.
 std::shared_ptr<const IesProfile> readProfile(GltfDocument& document, const std::string& uri) {
   std::string why;
   const Bytes bytes = readUri(document, uri, why);
@@ -100,7 +100,7 @@ std::shared_ptr<const LightPicture> readPicture(GltfDocument& document, const st
   return picture;
 }
 
-// Whether files that the scene now names are as they were; `same` compares two that are there.
+// Whether the files to which the scene refers are unchanged; `same` compares two existing ones.
 template <typename T>
 bool isSameFile(const std::shared_ptr<const T>& now, const std::shared_ptr<const T>& was) {
   return now == was || (now && was && *now == *was);
@@ -167,7 +167,7 @@ void saveLightNotes(GltfOutput& out, Json& json, const Node& now, const Node& wa
   const auto picture = pictureOf(now);
   const bool stays = isSameFile(profile, before) && isSameFile(picture, pictureOf(was)) &&
                      ((!profile && !picture) || out.isSameFolder());
-  // Nodes may be numbered otherwise.
+  // With light linking the note is always written, because nodes may have new indices.
   if (now.light == was.light && stays && now.light.leftOut.empty()) return;
   Json note = stateJson(now.light, jsonNodes);
   if (profile) {

@@ -33,8 +33,8 @@ GltfOutput::GltfOutput(const Scene& savedScene, const std::filesystem::path& tar
   }
   isBinary = ending == ".glb";
   if (!json.is_object()) json = {{"asset", {{"version", "2.0"}, {"generator", "Lamplighter"}}}};
-  // An ordered object is a vector of its members, which copies them when it grows: references into
-  // the lists would dangle. There are fewer lists in glTF than there is room for here.
+  // An ordered JSON object is a vector of its members. If it grew, references to the lists would
+  // dangle, so space is reserved for more lists than glTF has.
   constexpr size_t kMostLists = 32;
   auto& members = json.get_ref<Json::object_t&>();
   members.reserve(members.size() + kMostLists);

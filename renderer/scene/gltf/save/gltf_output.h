@@ -1,6 +1,6 @@
-// A glTF file in the making: the JSON of the source, patched, and the bytes that come with it. For
-// gltf_save*.cpp only. What is the same in the scene as it was loaded stays as it was in the file,
-// to the digit; only differences are written.
+// A glTF file while it is being saved: the patched JSON of the source, and its bytes. For
+// gltf_save*.cpp only. Only differences are written: parts that equal the loaded scene stay as they
+// were in the file, to the digit.
 #pragma once
 
 #include <cstdint>
@@ -20,94 +20,95 @@ class GltfOutput {
   GltfOutput(const Scene& savedScene, const std::filesystem::path& target);
 
   const Scene& scene;
-  const SceneSource& source;  // an empty one for a scene that came from no file
+  const SceneSource& source;  // empty if the scene was not loaded from a file
   std::filesystem::path path;
   bool isBinary = false;     // .glb
-  bool besideSource = true;  // may refer to the source's files
+  bool besideSource = true;  // the result may refer to files of the source
   Json json;
 
   void useExtension(const char* name);
-  // Entries of a top-level list; the list is made where there is none. Returns the entry's index.
+  // Appends an entry to a top-level list, which is created if necessary. Returns its index.
   size_t append(const char* list, Json entry);
-  // Bytes in a new buffer view, at a multiple of eight. `target`: 34962 vertices, 34963 indices, 0.
+  // Appends bytes as a new buffer view, aligned to 8 bytes. `target`: 34962 vertices, 34963
+  // indices, 0 none.
   size_t appendView(std::span<const uint8_t> bytes, int target = 0);
 
   // gltf_save_buffers.cpp
-  void startBuffers();  // takes the source's buffers over
-  void carryImages();   // embeds the source's image files where they would not be found
-  // What to write: the .gltf or .glb last.
+  void startBuffers();  // takes over the source's buffers
+  void carryImages();   // embeds image files of the source that would not be found otherwise
+  // The files to write; the .gltf or .glb is last.
   struct File {
     std::filesystem::path path;
     std::vector<uint8_t> bytes;
   };
-  void addFile(File file) { files_.push_back(std::move(file)); }  // beside them
-  // One of them, or null.
+  void addFile(File file) { files_.push_back(std::move(file)); }  // an additional file
+  // A file from addFile(), or null.
   const File* addedFile(const std::filesystem::path& target) const;
   std::vector<File> finish();
-  bool isSameFolder() const;  // as the source's, whose files are there to be referred to
+  bool isSameFolder() const;  // same folder as the source, so that its files can be referred to
 
  private:
   std::filesystem::path freeBufferName();
 
-  size_t bufferIndex_ = 0;       // the buffer that new bytes go to
-  std::vector<uint8_t> buffer_;  // all of it
-  bool keepsBuffers_ = false;    // the source's buffers stay where they are
-  std::vector<File> files_;      // that were added
+  size_t bufferIndex_ = 0;       // index of the buffer to which new bytes are appended
+  std::vector<uint8_t> buffer_;  // its content
+  bool keepsBuffers_ = false;    // the source's buffers are not rewritten
+  std::vector<File> files_;      // from addFile()
 };
 
-// The shortest decimal that gives this float again; a float as a double has digits nobody wrote.
+// The shortest decimal that gives the same float; a float converted to double prints extra digits.
 Json toJson(float value);
 Json toJson(const vec2& v);
 Json toJson(const vec3& v);
 Json toJson(const vec4& v);
 double shortestDouble(float value);
-// File names in URIs: what is not plain is escaped.
+// File names in URIs: escapes special characters.
 std::string percentEncoded(const std::string& name);
-// Factors in [0, 1] and what to multiply them with, of a colour that may be above one.
+// A colour that may exceed 1, as factors in [0, 1] and a scale.
 struct ScaledColor {
   Json color;
   double scale = 1.0;
 };
 ScaledColor scaledColor(const vec3& color);
 
-// object.extensions.NAME, made where there is none; and taken away again.
+// object.extensions.NAME; the first function creates it if necessary, the second removes it.
 Json& extensionObject(Json& object, const char* name);
 void eraseExtension(Json& object, const char* name);
-// The object's extras.lamplighter, made where there is none. Extras may be anything; what is no
-// object has no place for ours and moves down.
+// The object's extras.lamplighter, created if necessary. Extras can be of any type; extras that are
+// not an object are moved to a member of a new object.
 Json& noteFor(Json& object);
 void eraseNote(Json& object, const char* key);
 
 // gltf_save_materials.cpp
 void saveTextures(GltfOutput& out);
 void saveMaterials(GltfOutput& out);
-// gltf_save_meshes.cpp. Writes the list so that entry i is scene.meshes[i].
+// gltf_save_meshes.cpp. Writes the list so that entry i corresponds to scene.meshes[i].
 void saveMeshes(GltfOutput& out);
 size_t appendFloats(GltfOutput& out, std::span<const float> values, size_t components,
                     bool withBounds);
 size_t appendIndices(GltfOutput& out, std::span<const uint32_t> indices, size_t vertices);
-// gltf_save_nodes.cpp. Returns the JSON index of each of scene.nodes.
+// gltf_save_nodes.cpp. Returns the JSON index of each node of scene.nodes.
 std::vector<size_t> saveNodes(GltfOutput& out);
 // gltf_save_lights.cpp
 void saveLights(GltfOutput& out, const std::vector<size_t>& jsonNodes);
-// gltf_light_notes.cpp: what glTF has no place for, as notes: on and solo, groups, what is left
-// out, profiles, pictures.
-using JsonOfNode = std::map<NodeId, size_t>;  // index in the file that is written
+// gltf_light_notes.cpp: light properties that glTF does not have, as notes: on and solo, groups,
+// light linking, profiles, pictures.
+using JsonOfNode = std::map<NodeId, size_t>;  // index in the written file
 void saveLightNotes(GltfOutput& out, Json& json, const Node& now, const Node& was,
                     const JsonOfNode& jsonNodes);
 void saveSceneLightNotes(GltfOutput& out, const JsonOfNode& jsonNodes);
 // gltf_save_sky.cpp
-// The URI of a file beside the scene with these bytes: one that is there already, or a new one that
-// is added to the output under a name that no other file has.
+// The URI of a file beside the scene with these bytes: an existing one, or a new one that is added
+// to the output under an unused name.
 std::string uriOfFile(GltfOutput& out, const std::filesystem::path& name,
                       std::span<const uint8_t> bytes);
 void saveSky(GltfOutput& out);
 // gltf_bookmarks.cpp
 void saveBookmarks(GltfOutput& out);
-// gltf_save_spheres.cpp. Last of all: see gltf_sphere_meshes.cpp.
+// gltf_save_spheres.cpp. Must be called last: see gltf_sphere_meshes.cpp.
 void saveSphereMeshes(GltfOutput& out, const std::vector<size_t>& jsonNodes);
 
-// gltf_save_files.cpp: all of the files or, when one cannot be written, none. Throws InputError.
+// gltf_save_files.cpp: writes all of the files or, on failure, none. Throws InputError.
 void writeFilesAtomically(const std::vector<GltfOutput::File>& files);
 
 }  // namespace lamplighter

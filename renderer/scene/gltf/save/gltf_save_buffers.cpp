@@ -1,5 +1,6 @@
-// Where the bytes of a saved scene go. A .gltf saved beside its source keeps the source's buffers
-// and has one more for what is new; everything else gets all bytes in one buffer.
+// Where the bytes of a saved scene are stored. A .gltf saved beside its source keeps the source's
+// buffers and gets one additional buffer for new data. All other files get a single buffer with all
+// bytes.
 #include <algorithm>
 #include <cstring>
 #include <set>
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Marks the buffer that holds what was added to a file with buffers of its own.
+// Marks the buffer that was added to a file with buffers of its own.
 constexpr const char* kAdditions = "additions";
 
 void pad(std::vector<uint8_t>& bytes, size_t multiple, uint8_t with) {
@@ -35,7 +36,7 @@ const char* mimeType(const std::vector<uint8_t>& bytes) {
   return "image/png";
 }
 
-// The names of the buffers that the file at `path`, which is about to be replaced, has for itself.
+// The buffer URIs of the file at `path`, which is about to be replaced.
 std::set<std::string> bufferNames(const fs::path& path) {
   std::set<std::string> names;
   try {
@@ -44,7 +45,7 @@ std::set<std::string> bufferNames(const fs::path& path) {
       if (const Json* uri = member(buffer, "uri")) names.insert(uri->get<std::string>());
     }
   } catch (const std::exception&) {
-    names.clear();  // no glTF: then it has none
+    names.clear();  // not glTF, so it has none
   }
   return names;
 }
@@ -74,8 +75,8 @@ bool GltfOutput::isSameFolder() const {
          folder(path) == folder(source.document.path);
 }
 
-// A name for the buffer that no other file's buffer has, and no buffer that is kept: those are not
-// to be overwritten.
+// A file name for the buffer that no other file and no kept buffer uses, because those must not be
+// overwritten.
 fs::path GltfOutput::freeBufferName() {
   std::set<std::string> own = bufferNames(path);
   if (keepsBuffers_) {
@@ -98,7 +99,7 @@ void GltfOutput::startBuffers() {
                               [](const Json& b) { return member(b, "uri") != nullptr; });
   if (keepsBuffers_) {
     bufferIndex_ = buffers.size();
-    // What was added when this very file was saved before is added to, so that it stays one file.
+    // If an earlier save of this file added a buffer, it is extended, so that there is only one.
     if (path.filename() == source.document.path.filename() && isMarked(list.back(), kAdditions)) {
       --bufferIndex_;
       buffer_.assign(buffers.back()->begin(),
@@ -127,7 +128,7 @@ void GltfOutput::startBuffers() {
     const auto extensions = view.find("extensions");
     if (extensions == view.end() || !extensions->is_object()) continue;
     for (auto& [name, extension] : extensions->items()) {
-      // EXT_meshopt_compression names a buffer of its own.
+      // EXT_meshopt_compression refers to a buffer of its own.
       if (name.ends_with("meshopt_compression") && extension.contains("buffer")) move(extension);
     }
   }

@@ -1,4 +1,4 @@
-// All files of a saved scene, or none.
+// Writes all files of a saved scene, or none.
 #include "renderer/base/atomic_file.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf/save/gltf_output.h"

@@ -13,14 +13,15 @@ namespace {
 constexpr const char* kPunctual = "KHR_lights_punctual";
 constexpr const char* kArea = "EXT_lights_area";
 
-// The file's list of lights of one extension, made where there is none.
+// The light list of an extension; created if necessary.
 Json& lights(Json& root, const char* extension) {
   Json& list = extensionObject(root, extension)["lights"];
   if (!list.is_array()) list = Json::array();
   return list;
 }
 
-// The light that a node refers to, to go on from; an empty object where it has none.
+// The JSON of the light to which a node refers, as a starting point; an empty object if it has
+// none.
 Json lightOf(Json& root, const Json& node, const char* extension) {
   const Json* reference = extensionOf(node, extension);
   const Json* light = reference == nullptr ? nullptr : member(*reference, "light");
@@ -98,8 +99,8 @@ void saveArea(GltfOutput& out, Json& json, const Node& now, const Node& was, con
   }
 }
 
-// The light of the list that a node refers to. Nodes that no scene shows are not checked when a
-// file is read, and may refer to anything.
+// The index of the light to which a node refers. Nodes that are in no scene are not validated when
+// a file is read, so their index may be invalid.
 std::optional<size_t> lightOf(const Json& node, const char* extension, size_t count) {
   const Json* reference = extensionOf(node, extension);
   const Json* light = reference == nullptr ? nullptr : member(*reference, "light");
@@ -120,12 +121,12 @@ std::vector<bool> lightsInUse(const Json& root, const char* extension) {
   return used;
 }
 
-// Takes out the lights that lost their last node, so that edits do not pile up. Those that no node
-// used in the source stay.
+// Removes lights that are no longer used by any node, so that they do not accumulate. Lights that
+// were unused in the source stay.
 void dropOrphans(GltfOutput& out, const char* extension) {
   const std::vector<bool> before = lightsInUse(out.source.document.json, extension);
   const std::vector<bool> after = lightsInUse(out.json, extension);
-  // Animations may count lights, by JSON pointers.
+  // Animations may refer to lights by index, with JSON pointers.
   if (after.empty() || out.source.document.usesExtension("KHR_animation_pointer")) return;
   Json kept = Json::array();
   std::vector<size_t> map;

@@ -43,12 +43,12 @@ bool isSameShape(const Mesh& a, const Mesh& b) {
                     });
 }
 
-// A mesh of the file with other materials: what the scene does not know of it is kept.
+// A mesh of the file with other materials; data that Scene does not represent is preserved.
 Json withMaterials(Json json, const Mesh& mesh) {
   if (!mesh.name.empty()) json["name"] = mesh.name;
   size_t next = 0;
   for (Json& primitive : json["primitives"]) {
-    // Those that were not loaded, see readMeshes().
+    // Skips primitives that were not loaded, see readMeshes().
     if (primitive.value("mode", 4) < 4 || !primitive["attributes"].contains("POSITION")) continue;
     const int material = mesh.primitives[next++].material;
     primitive.erase("material");
@@ -127,7 +127,7 @@ void saveMeshes(GltfOutput& out) {
     meshes.push_back(it == old.end() ? newMesh(out, *mesh)
                                      : listOf(out.source.document, "meshes")[it->second]);
   }
-  // Nodes of other scenes in the file may use meshes that this scene has no more.
+  // Nodes in other scenes of the file may use meshes that this scene no longer uses.
   for (size_t i = now.size(); i < was.size(); ++i) {
     meshes.push_back(listOf(out.source.document, "meshes")[i]);
   }

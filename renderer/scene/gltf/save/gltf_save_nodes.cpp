@@ -1,5 +1,5 @@
-// Nodes of a saved scene. Those of the source keep their JSON, patched; deleted ones are taken out,
-// and everything that counts nodes is told.
+// Saves the nodes of a scene. Nodes of the source keep their JSON, patched. Deleted nodes are
+// removed, and all node indices in the file are updated.
 #include <algorithm>
 #include <charconv>
 #include <optional>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kGone = SIZE_MAX;
 
-// Where each entry of a list went, or kGone.
+// New index of each entry of a list, or kGone.
 using IndexMap = std::vector<size_t>;
 
 void saveTransform(Json& json, const Transform& t) {
@@ -41,7 +41,7 @@ void saveIndex(Json& json, const char* key, int index) {
   }
 }
 
-// All but light, children and the mesh of a sphere light.
+// Saves everything except light, children and the mesh of a sphere light.
 void saveNode(GltfOutput& out, Json& json, const Node& now, const Node& was) {
   if (now.name != was.name) json["name"] = now.name;
   if (!(now.local == was.local)) saveTransform(json, now.local);
@@ -89,7 +89,7 @@ void saveCameras(GltfOutput& out) {
   }
 }
 
-// An array of node indices after the nodes moved; those that are gone are left out.
+// Updates an array of node indices; removed nodes are dropped.
 Json remapped(const Json& indices, const IndexMap& map) {
   Json out = Json::array();
   for (const Json& index : indices) {
@@ -99,8 +99,8 @@ Json remapped(const Json& indices, const IndexMap& map) {
   return out;
 }
 
-// A skin without one of its joints means nothing: its weights count joints. It goes, and nodes that
-// used it show their mesh as it is.
+// A skin that lost a joint is invalid, because its weights refer to joints by index. It is removed,
+// and nodes that used it show their mesh undeformed.
 void remapSkins(Json& root, const IndexMap& map) {
   const auto skins = root.find("skins");
   if (skins == root.end()) return;
@@ -140,7 +140,8 @@ void remapSkins(Json& root, const IndexMap& map) {
   }
 }
 
-// KHR_animation_pointer names nodes by JSON pointers: "/nodes/7/…". False when the node is gone.
+// KHR_animation_pointer refers to nodes by JSON pointers: "/nodes/7/…". Returns false if the node
+// was removed.
 bool remapPointer(Json& target, const IndexMap& map) {
   const Json* extension = extensionOf(target, "KHR_animation_pointer");
   const Json* pointer = extension == nullptr ? nullptr : member(*extension, "pointer");
@@ -175,7 +176,7 @@ void remapAnimations(Json& root, const IndexMap& map) {
         if (target != channel.end() && !remapPointer(*target, map)) continue;
         channels.push_back(channel);
       }
-      if (channels.empty()) continue;  // glTF has no animation without channels
+      if (channels.empty()) continue;  // glTF does not allow animations without channels
       animation["channels"] = std::move(channels);
     }
     kept.push_back(animation);
@@ -219,8 +220,8 @@ class NodeSaver {
   }
 
  private:
-  // Which JSON node each node goes on from. A copy goes on from its original's, too, so that what
-  // is not understood is copied as well; the first to claim it keeps its place.
+  // Selects the source JSON of each node. A copy uses that of its original, so that unknown data is
+  // copied too; the first node with the same source keeps its index.
   void matchToSource() {
     loaded_.assign(old_.size(), nullptr);
     for (const Node& node : out_.source.nodes) {
@@ -252,7 +253,8 @@ class NodeSaver {
     return index;
   }
 
-  // Children and roots, in the order of the scene. Nodes of other scenes in the file keep theirs.
+  // Writes children and roots in the order of the scene. Nodes of other scenes in the file keep
+  // theirs.
   void saveTree(const std::vector<size_t>& index) {
     Json& list = out_.json["nodes"];
     for (size_t i = 0; i < old_.size(); ++i) {
@@ -297,7 +299,7 @@ class NodeSaver {
       if (s == shown) {
         nodes = std::move(roots);
       } else if (scenes[s].contains("nodes")) {
-        // A root here may have become a child there.
+        // A root of this other scene may have become a child of a saved node.
         for (const Json& root : remapped(scenes[s]["nodes"], map_)) {
           if (!isChild[root.get<size_t>()]) nodes.push_back(root);
         }
@@ -316,10 +318,11 @@ class NodeSaver {
   GltfOutput& out_;
   const std::vector<Node>& nodes_;
   const Json& old_;                          // the source's nodes
-  std::vector<const Node*> loaded_;          // what became of each of them; null: of another scene
-  std::vector<std::optional<size_t>> from_;  // of each node: the one of old_ to go on from
-  std::vector<bool> isNew_;                  // of each node: not in place of that one
-  IndexMap map_;                             // from old_ to the list that is saved
+  std::vector<const Node*> loaded_;          // by source node: the present node; null: in another
+                                             // scene
+  std::vector<std::optional<size_t>> from_;  // by node: index of its JSON in old_
+  std::vector<bool> isNew_;                  // by node: does not replace that source node
+  IndexMap map_;                             // from old_ to the saved list
   size_t firstNew_ = 0;
 };
 

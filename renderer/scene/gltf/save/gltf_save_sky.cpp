@@ -1,4 +1,5 @@
-// The sky as a note on the scene, its picture as a file beside it (docs/reference/gltf.md).
+// Saves the sky as a note on the scene, and its picture as a file beside it
+// (docs/reference/gltf.md).
 #include <algorithm>
 
 #include "renderer/base/error.h"
@@ -10,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The URI of the picture's file, which is added to the output unless it is there already.
+// The URI of the picture's file, which is added to the output if it does not exist.
 std::string pictureUri(GltfOutput& out, const SkyImage& image) {
   const auto& loaded = out.source.sky.image;
   if (loaded != nullptr && loaded->hash == image.hash && out.isSameFolder()) {
@@ -46,7 +47,7 @@ Json noteOfSky(GltfOutput& out, const Sky& sky) {
 }  // namespace
 
 std::string uriOfFile(GltfOutput& out, const fs::path& name, std::span<const uint8_t> bytes) {
-  // Another file of that name is not overwritten.
+  // Does not overwrite a different file with this name.
   for (int i = 0;; ++i) {
     const std::string free =
         name.stem().string() + (i == 0 ? "" : "-" + std::to_string(i)) + name.extension().string();
@@ -75,7 +76,7 @@ void saveSky(GltfOutput& out) {
   const Scene& now = out.scene;
   const bool isSame = now.sky == out.source.sky && now.skyIsDefault == out.source.skyIsDefault;
   if (isSame && (now.sky.kind != SkyKind::image || out.isSameFolder())) return;
-  // A scene without light and without a note would come back under the plain sky.
+  // Without a note, a scene without light would be loaded with the default sky.
   const bool isNoted = !now.skyIsDefault && (!now.sky.isBlack() || !hasLight(now));
   if (!isNoted && !out.json.contains("scenes")) return;
   Json& scene = out.json["scenes"][out.json.value("scene", size_t{0})];

@@ -1,4 +1,4 @@
-// The file that a scene came from, as one file by itself.
+// Saves the source file of a scene as a single file.
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/gltf/save/gltf_output.h"

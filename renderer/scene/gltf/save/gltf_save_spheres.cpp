@@ -10,7 +10,7 @@ namespace lamplighter {
 namespace {
 
 using Color = std::tuple<float, float, float>;
-using ShapeKey = std::tuple<bool, float, float>;  // a tube; its size
+using ShapeKey = std::tuple<bool, float, float>;  // whether it is a tube; size
 
 class SphereSaver {
  public:
@@ -82,7 +82,7 @@ class SphereSaver {
   struct Shared {
     size_t normals = 0, indices = 0;  // accessors
   };
-  std::map<bool, Shared> shared_;         // that all spheres share, and all tubes
+  std::map<bool, Shared> shared_;         // shared by all spheres, and by all tubes
   std::map<ShapeKey, size_t> positions_;  // accessors
   std::map<Color, size_t> materials_;     // by radiance
   std::map<std::pair<Color, ShapeKey>, size_t> meshes_;
@@ -95,7 +95,8 @@ void saveSphereMeshes(GltfOutput& out, const std::vector<size_t>& jsonNodes) {
   for (size_t i = 0; i < jsonNodes.size(); ++i) {
     const Node& node = out.scene.nodes[i];
     const bool isNoted = node.area && isNotedShape(node.area->shape);
-    // A node has room for one mesh; its own goes first, and the light is in the extras alone.
+    // A node can have only one mesh. If it has a mesh of its own, that is kept and only the extras
+    // store the light.
     if (isNoted && node.mesh == kNone) {
       const size_t mesh = saver.mesh(*node.area);
       out.json["nodes"][jsonNodes[i]]["mesh"] = mesh;
