@@ -1,11 +1,13 @@
-// A glTF file as read: its JSON, its bytes and what is said about it. Shared by the gltf_*.cpp
-// files only; other code sees gltf_io.h.
+// A glTF file as read: its JSON, what tinygltf decoded of it, its bytes and what is said about it.
+// Shared by the gltf_*.cpp files only; other code sees gltf_io.h.
 //
-// The JSON is read here and not by tinygltf, for two reasons: tinygltf 2.7 accepts cycles, indices
-// out of range and counts of four billion, so that everything has to be checked in the JSON anyway;
-// and saving patches the very JSON that was read, so that what is not understood stays as it was.
+// The JSON is parsed and checked here (checkStructure), because tinygltf 2.7 accepts cycles,
+// indices out of range and counts of four billion; what is checked is decoded by tinygltf
+// (decodeModel). Extensions and extras are read from the JSON, and saving patches it, so that what
+// is not understood stays as it was.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -20,9 +23,34 @@
 #include "renderer/base/math.h"
 #include "renderer/scene/gltf/scene_files.h"
 
+namespace tinygltf {
+class Model;
+}
+
 namespace lamplighter {
 
-using Json = nlohmann::ordered_json;  // keeps the order of the members when it is written again
+// nlohmann::ordered_map copies its values when it grows, which is half the time of parsing a large
+// file; this one moves them.
+template <class Key, class T, class Less = std::less<Key>,
+          class Allocator = std::allocator<std::pair<const Key, T>>>
+struct OrderedMap : nlohmann::ordered_map<Key, T, Less, Allocator> {
+  using Base = nlohmann::ordered_map<Key, T, Less, Allocator>;
+  using Base::Base;
+  template <class K>
+  T& operator[](K&& key) {
+    if (this->size() == this->capacity()) {
+      OrderedMap larger;
+      larger.reserve(std::max<size_t>(4, 2 * this->size()));
+      for (auto& [name, value] : *this) larger.emplace_back(name, std::move(value));
+      this->swap(larger);
+    }
+    return Base::operator[](std::forward<K>(key));
+  }
+};
+
+// Keeps the order of the members when it is written again.
+using Json = nlohmann::basic_json<OrderedMap>;
+using NewBytes = std::shared_ptr<std::vector<uint8_t>>;
 using Bytes = std::shared_ptr<const std::vector<uint8_t>>;
 
 // Where in the file something is: "accessors[3]".
@@ -35,8 +63,11 @@ struct At {
 struct GltfDocument {
   std::filesystem::path path;
   Json json;
-  Bytes binaryChunk;              // of a .glb, else null
-  std::vector<Bytes> buffers;     // one for each of json["buffers"], at least byteLength long
+  // Without buffers, images, skins, animations, extensions (but lights) and extras. Null until
+  // decodeModel(), and for a scene that was not loaded.
+  std::shared_ptr<const tinygltf::Model> model;
+  NewBytes binaryChunk;           // of a .glb, else null; moves to buffers
+  std::vector<Bytes> buffers;     // one for each of json["buffers"], of byteLength (at least 1)
   std::vector<Bytes> imageFiles;  // encoded bytes of images with a file of their own, else null
   size_t bytesRead = 0;           // of the file and its buffers
   // Every file that was read, as it was just before.
@@ -58,9 +89,15 @@ inline constexpr const char* kExportAgain =
 // Control characters out, long texts cut: for use in a message of one line.
 std::string printable(std::string_view text);
 
+// The lights of extensions as top-level lists.
+inline constexpr const char* kPunctualLights = "KHR_lights_punctual.lights";
+inline constexpr const char* kAreaLights = "EXT_lights_area.lights";
+
 // A top-level array; an empty one where the file has none. checkStructure() sees to it that its
 // entries are objects.
 const Json& listOf(const GltfDocument& document, const char* name);
+// The default scene, or null where the file has none.
+const Json* shownScene(const GltfDocument& document);
 
 // A member of an object, or null where there is none (or `object` is no object).
 const Json* member(const Json& object, const char* key);
@@ -81,38 +118,38 @@ const Json* noteOf(const Json& object, const char* key);
 // Whether that is true.
 bool isMarked(const Json& object, const char* key);
 
-// Typed members. They throw InputError when the member is there and of another type or not finite.
-std::optional<size_t> sizeMember(const GltfDocument&, const Json& object, const char* key, At at);
-// The same, and less than `count`.
-std::optional<size_t> indexMember(const GltfDocument&, const Json& object, const char* key, At at,
-                                  size_t count);
-double numberMember(const GltfDocument&, const Json& object, const char* key, double otherwise,
-                    At at);
-bool boolMember(const GltfDocument&, const Json& object, const char* key, bool otherwise, At at);
-std::string textMember(const GltfDocument&, const Json& object, const char* key, At at);
-// `count` finite numbers that fit in a float; empty where there is no such member.
-std::vector<double> numbersMember(const GltfDocument&, const Json& object, const char* key,
-                                  size_t count, At at);
-vec3 vec3Member(const GltfDocument&, const Json& object, const char* key, const vec3& otherwise,
-                At at);
-const Json* arrayMember(const GltfDocument&, const Json& object, const char* key, At at);
+// Members of extensions and notes, once checkMembers() has seen to their types.
+double numberIn(const Json& object, const char* key, double otherwise);
+bool flagIn(const Json& object, const char* key, bool otherwise);
+std::string textIn(const Json& object, const char* key);
+size_t sizeIn(const Json& object, const char* key, size_t otherwise = 0);
+// Empty where there is no such member.
+std::vector<double> numbersIn(const Json& object, const char* key);
 
 // gltf_document.cpp: reads the file and parses the JSON; buffers and images are not read yet.
 GltfDocument readGltfJson(const std::filesystem::path& path);
 
 // gltf_uri.cpp: the bytes behind a URI: data, or a file in the folder of the document. Null and
 // `why` set when there are none to be had.
-Bytes readUri(const GltfDocument& document, const std::string& uri, std::string& why);
+NewBytes readUri(const GltfDocument& document, const std::string& uri, std::string& why);
 // %20 and the like; what is no escape stays as it is.
 std::string percentDecoded(std::string_view text);
 // Reads a whole regular file. Null and `why` set when it cannot be read.
-Bytes readWholeFile(const std::filesystem::path& path, std::string& why);
-// gltf_uri.cpp: fills GltfDocument::buffers. Call it after checkStructure().
-void readBuffers(GltfDocument& document);
+NewBytes readWholeFile(const std::filesystem::path& path, std::string& why);
+
+// gltf_members.cpp: throws InputError where a member that is read is of another type than it must
+// be, not finite or an index out of range.
+void checkMembers(const GltfDocument& document);
+// A count or index, or nothing where the value is none.
+std::optional<size_t> sizeOf(const Json& value);
 
 // gltf_validate.cpp. Both throw InputError.
 void checkVersionAndExtensions(GltfDocument& document);
-// Every index in range, every accessor in its view and every view in its buffer, nodes a forest.
+// Members as checkMembers() says, every accessor in its view and every view in its buffer, nodes a
+// forest.
 void checkStructure(const GltfDocument& document);
+
+// gltf_decode.cpp: fills GltfDocument::model and buffers. Call it after checkStructure().
+void decodeModel(GltfDocument& document);
 
 }  // namespace lamplighter

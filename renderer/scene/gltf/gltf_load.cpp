@@ -39,8 +39,8 @@ LoadedScene load(const std::filesystem::path& path, const LoadProgress& progress
   GltfDocument& document = source->document;
   checkVersionAndExtensions(document);
   checkStructure(document);
-  readBuffers(document);
   stripSphereMeshes(document);
+  decodeModel(document);
 
   LoadedScene loaded;
   Scene& scene = loaded.scene;

@@ -21,18 +21,14 @@ void dropMarked(Json& root, const char* list) {
 }
 
 // Shortens a buffer, or takes it away when nothing is left and it is the last.
-void dropBytes(GltfDocument& document, size_t buffer, size_t begin) {
-  Json& root = document.json;
+void dropBytes(Json& root, size_t buffer, size_t begin) {
   if (begin == SIZE_MAX) return;
-  Json& json = root["buffers"][buffer];
-  if (begin == 0) {
-    if (buffer + 1 == root["buffers"].size()) {
-      root["buffers"].erase(buffer);
-      document.buffers.pop_back();
-      if (root["buffers"].empty()) root.erase("buffers");
-    }
-  } else {
-    json["byteLength"] = begin;
+  Json& buffers = root["buffers"];
+  if (begin > 0) {
+    buffers[buffer]["byteLength"] = begin;
+  } else if (buffer + 1 == buffers.size()) {
+    buffers.erase(buffer);
+    if (buffers.empty()) root.erase("buffers");
   }
 }
 
@@ -71,10 +67,10 @@ void stripSphereMeshes(GltfDocument& document) {
   size_t begin = SIZE_MAX, buffer = 0;
   for (size_t i = views.size(); i > 0 && isMarked(views[i - 1], kSphereMark); --i) {
     buffer = views[i - 1]["buffer"].get<size_t>();
-    begin = sizeMember(document, views[i - 1], "byteOffset", {"bufferViews", i - 1}).value_or(0);
+    begin = sizeIn(views[i - 1], "byteOffset");
   }
   dropMarked(root, "bufferViews");
-  dropBytes(document, buffer, begin);
+  dropBytes(root, buffer, begin);
   // Marks can be on anything; what is left has to be whole.
   checkStructure(document);
 }

@@ -11,7 +11,7 @@ namespace lamplighter {
 
 namespace fs = std::filesystem;
 
-Bytes readWholeFile(const fs::path& path, std::string& why) {
+NewBytes readWholeFile(const fs::path& path, std::string& why) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) {
@@ -66,7 +66,7 @@ std::string percentDecoded(std::string_view text) {
 
 namespace {
 
-Bytes base64Decoded(std::string_view text) {
+NewBytes base64Decoded(std::string_view text) {
   static const std::array<int8_t, 256> kValue = [] {
     std::array<int8_t, 256> value;
     value.fill(-1);
@@ -96,7 +96,7 @@ Bytes base64Decoded(std::string_view text) {
   return bytes;
 }
 
-Bytes dataUri(std::string_view uri, std::string& why) {
+NewBytes dataUri(std::string_view uri, std::string& why) {
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos) {
     why = "is a data URI without data";
@@ -104,12 +104,12 @@ Bytes dataUri(std::string_view uri, std::string& why) {
   }
   const std::string_view head = uri.substr(0, comma), data = uri.substr(comma + 1);
   if (head.ends_with(";base64")) {
-    Bytes bytes = base64Decoded(data);
+    NewBytes bytes = base64Decoded(data);
     if (bytes == nullptr) why = "is a data URI whose base64 is damaged";
     return bytes;
   }
   const std::string decoded = percentDecoded(data);
-  return std::make_shared<const std::vector<uint8_t>>(decoded.begin(), decoded.end());
+  return std::make_shared<std::vector<uint8_t>>(decoded.begin(), decoded.end());
 }
 
 bool hasScheme(std::string_view uri) {
@@ -130,7 +130,7 @@ bool isWithin(const fs::path& folder, const fs::path& path) {
 
 }  // namespace
 
-Bytes readUri(const GltfDocument& document, const std::string& uri, std::string& why) {
+NewBytes readUri(const GltfDocument& document, const std::string& uri, std::string& why) {
   if (uri.starts_with("data:")) return dataUri(uri, why);
   if (hasScheme(uri)) {
     why = "is an address outside of the file's folder, and nothing is fetched from elsewhere";
@@ -157,7 +157,7 @@ Bytes readUri(const GltfDocument& document, const std::string& uri, std::string&
       return nullptr;
     }
     const FileStamp stamp = stampOf(target);
-    if (Bytes bytes = readWholeFile(target, why)) {
+    if (NewBytes bytes = readWholeFile(target, why)) {
       document.files->push_back(stamp);
       return bytes;
     }
@@ -165,40 +165,6 @@ Bytes readUri(const GltfDocument& document, const std::string& uri, std::string&
   }
   why = first;
   return nullptr;
-}
-
-void readBuffers(GltfDocument& document) {
-  const Json& buffers = listOf(document, "buffers");
-  for (size_t i = 0; i < buffers.size(); ++i) {
-    const At at{"buffers", i};
-    const size_t length = sizeMember(document, buffers[i], "byteLength", at).value_or(0);
-    const Json* uri = member(buffers[i], "uri");
-    Bytes bytes;
-    if (uri == nullptr) {
-      // Only the first buffer may be the binary chunk. EXT_meshopt_compression has buffers without
-      // any bytes, for loaders that know it.
-      if (i == 0) bytes = document.binaryChunk;
-      if (bytes == nullptr) {
-        document.fail(at, "has neither a uri nor the binary chunk of a .glb", kExportAgain);
-      }
-    } else {
-      std::string why;
-      const std::string text = textMember(document, buffers[i], "uri", at);
-      bytes = readUri(document, text, why);
-      if (bytes == nullptr) {
-        document.fail(at, "names \"" + printable(text) + "\", which " + why,
-                      "put the file beside the scene, or export the scene as one .glb");
-      }
-      document.bytesRead += bytes->size();
-    }
-    if (bytes->size() < length) {
-      document.fail(at,
-                    "has " + std::to_string(bytes->size()) + " bytes where " +
-                        std::to_string(length) + " are stated",
-                    "copy or export it again");
-    }
-    document.buffers.push_back(std::move(bytes));
-  }
 }
 
 }  // namespace lamplighter
