@@ -12,20 +12,67 @@ namespace lamplighter {
 
 namespace {
 
-// Extensions without which a file cannot be shown rightly, but that this loader knows.
-constexpr std::array<std::string_view, 8> kKnown = {
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-    "KHR_texture_transform", "KHR_materials_transmission",
-    "KHR_mesh_quantization", "KHR_node_visibility",
-    "EXT_lights_area",       "KHR_materials_ior"};
+// What is read. EXT_lights_area and the image formats of textures are read as far as docs/gltf.md
+// says.
+constexpr auto kSupported = std::to_array<std::string_view>({
+    "EXT_lights_area",
+    "EXT_texture_webp",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_transmission",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+});
 
-// Extensions that change the look of a surface or hold notes: the scene is sound without them.
-bool isOptionalInEffect(std::string_view name) {
-  return name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") ||
-         name.starts_with("EXT_texture_") || name.starts_with("MSFT_texture_") ||
-         name.starts_with("KHR_xmp") || name.starts_with("EXT_lights_") ||
-         name == "KHR_animation_pointer" || name == "KHR_node_hoverability" ||
-         name == "KHR_node_selectability";
+// What changes the look of a surface, adds light or holds notes: the geometry is whole without it.
+constexpr auto kWithoutEffect = std::to_array<std::string_view>({
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
+    "EXT_texture_avif",
+    "KHR_animation_pointer",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_subsurface",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_texture_basisu",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MSFT_texture_dds",
+});
+
+// Some exporters write these for every material, mostly with the default values.
+bool isMostlyDefault(std::string_view name) {
+  return name == "KHR_materials_ior" || name == "KHR_materials_specular";
+}
+
+template <typename List>
+bool holds(const List& list, std::string_view name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+// extensionsUsed or extensionsRequired.
+std::vector<std::string> extensionNames(const GltfDocument& document, const char* key) {
+  std::vector<std::string> names;
+  for (const Json& entry : listOf(document, key)) {
+    if (!entry.is_string()) {
+      document.fail("\"" + std::string(key) + "\" holds no names", kExportAgain);
+    }
+    names.push_back(entry.get<std::string>());
+  }
+  return names;
 }
 
 std::string remedyFor(std::string_view name) {
@@ -51,23 +98,24 @@ void checkVersionAndExtensions(GltfDocument& document) {
                       "\", not 2.0",
                   "export it as glTF 2.0");
   }
-  for (const Json& name : listOf(document, "extensionsUsed")) {
-    if (!name.is_string()) document.fail("\"extensionsUsed\" holds no names", kExportAgain);
-  }
-  const Json* required = member(document.json, "extensionsRequired");
-  if (required == nullptr) return;
-  if (!required->is_array()) document.fail("\"extensionsRequired\" is no array", kExportAgain);
-  for (const Json& entry : *required) {
-    if (!entry.is_string()) document.fail("\"extensionsRequired\" holds no names", kExportAgain);
-    const std::string name = entry.get<std::string>();
-    if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
-    if (!isOptionalInEffect(name)) {
+  const std::vector<std::string> required = extensionNames(document, "extensionsRequired");
+  for (const std::string& name : required) {
+    if (holds(kSupported, name)) continue;
+    if (!holds(kWithoutEffect, name)) {
       document.fail("needs the extension " + printable(name) + ", which is not supported",
                     remedyFor(name));
     }
-    document.warn("needs the extension " + printable(name) +
-                  ", which is not supported; shown without it");
+    document.warn("needs the extension " + name + ", which is not supported; shown without it");
   }
+  std::string without;
+  for (const std::string& name : extensionNames(document, "extensionsUsed")) {
+    if (!name.starts_with("KHR_materials_") || !holds(kWithoutEffect, name) ||
+        isMostlyDefault(name) || holds(required, name)) {
+      continue;
+    }
+    without += (without.empty() ? "" : ", ") + name;
+  }
+  if (!without.empty()) document.warn("is shown without " + without + ": not supported");
 }
 
 namespace {

@@ -331,8 +331,65 @@ TEST_F(BrokenScene, OddValuesLoadOrAreRefused) {
   EXPECT_GT(refused, trials / 4);
 }
 
+// --- extensions ---
+
+class Extensions : public BrokenScene {
+ protected:
+  std::string refusalOf(const char* list, const Json& names) {
+    json_["extensionsUsed"] = names;
+    json_[list] = names;
+    return refusal(write(), &warnings_);
+  }
+  std::vector<std::string> warnings_;
+};
+
+TEST_F(Extensions, UnknownOnesThatAreRequiredAreRefusedByName) {
+  for (const char* name :
+       {"VENDOR_unknown", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+        "EXT_mesh_gpu_instancing", "KHR_materials_unheard_of", "EXT_texture_unheard_of"}) {
+    const std::string message = refusalOf("extensionsRequired", Json::array({name}));
+    EXPECT_THAT(message, HasSubstr(std::string("needs the extension ") + name)) << name;
+    expectOneLine(message, folder_.path() / "scene.glb");
+  }
+}
+
+TEST_F(Extensions, KnownOnesOfMaterialsThatAreRequiredAreNamedInAWarning) {
+  for (const char* name :
+       {"KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_dispersion",
+        "KHR_materials_diffuse_transmission", "KHR_materials_ior", "KHR_materials_iridescence",
+        "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen", "KHR_materials_specular",
+        "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume",
+        "KHR_texture_basisu"}) {
+    ASSERT_EQ(refusalOf("extensionsRequired", Json::array({name})), "");
+    ASSERT_THAT(warnings_,
+                testing::ElementsAre(HasSubstr(std::string("needs the extension ") + name)));
+    expectOneLine(warnings_.front(), folder_.path() / "scene.glb");
+  }
+}
+
+TEST_F(Extensions, ThoseOfMaterialsThatAreOnlyUsedAreNamedInOneWarning) {
+  const Json names = {"KHR_materials_sheen", "KHR_materials_ior", "VENDOR_unknown",
+                      "KHR_materials_unlit"};
+  ASSERT_EQ(refusalOf("extensionsUsed", names), "");
+  EXPECT_THAT(warnings_, testing::ElementsAre(HasSubstr(
+                             "is shown without KHR_materials_sheen, KHR_materials_unlit: ")));
+}
+
+TEST_F(Extensions, SupportedOnesAreNotMentioned) {
+  const Json names = {"KHR_lights_punctual",
+                      "KHR_materials_emissive_strength",
+                      "KHR_materials_transmission",
+                      "KHR_mesh_quantization",
+                      "KHR_node_visibility",
+                      "KHR_texture_transform",
+                      "EXT_lights_area",
+                      "EXT_texture_webp"};
+  ASSERT_EQ(refusalOf("extensionsRequired", names), "");
+  EXPECT_THAT(warnings_, testing::IsEmpty());
+}
+
 // What is not understood comes back as it was, wherever it stands.
-TEST_F(BrokenScene, UnknownExtensionsAndExtrasSurviveARoundTrip) {
+TEST_F(Extensions, SurviveARoundTrip) {
   const Json odd = {{"b", {1, 2.5, -0.0}}, {"a", {{"x", "\u00e9"}}}};
   const auto lists = {"nodes",    "meshes",   "materials", "accessors", "bufferViews",
                       "textures", "samplers", "cameras",   "scenes"};
