@@ -31,142 +31,112 @@ constexpr Member required(Member member) {
 constexpr Member index(std::string_view path, const char* list) {
   return {path, Type::index, list};
 }
+constexpr Member count(std::string_view path) { return {path, Type::count}; }
+constexpr Member number(std::string_view path) { return {path, Type::number}; }
+constexpr Member flag(std::string_view path) { return {path, Type::flag}; }
+constexpr Member text(std::string_view path) { return {path, Type::text}; }
 constexpr Member numbers(std::string_view path, size_t length) {
   return {path, Type::numbers, nullptr, length};
 }
 
-constexpr Member kRoot[] = {{"scene", Type::count}};
-constexpr Member kBuffers[] = {required({"byteLength", Type::count}), {"uri", Type::text}};
-constexpr Member kViews[] = {required(index("buffer", "buffers")),
-                             required({"byteLength", Type::count}),
-                             {"byteOffset", Type::count},
-                             {"byteStride", Type::count}};
-constexpr Member kAccessors[] = {required({"componentType", Type::count}),
-                                 required({"count", Type::count}),
-                                 required({"type", Type::text}),
-                                 {"byteOffset", Type::count},
-                                 {"normalized", Type::flag},
+constexpr Member kBuffers[] = {required(count("byteLength")), text("uri")};
+constexpr Member kViews[] = {required(index("buffer", "buffers")), required(count("byteLength")),
+                             count("byteOffset"), count("byteStride")};
+constexpr Member kAccessors[] = {required(count("componentType")),
+                                 required(count("count")),
+                                 required(text("type")),
+                                 count("byteOffset"),
+                                 flag("normalized"),
                                  index("bufferView", "bufferViews")};
 // Of sparse.indices and sparse.values.
-constexpr Member kSparse[] = {
-    required({"sparse.count", Type::count}),
-    required({"sparse.indices.componentType", Type::count}),
-    required(index("sparse.indices.bufferView", "bufferViews")),
-    {"sparse.indices.byteOffset", Type::count},
-    required(index("sparse.values.bufferView", "bufferViews")),
-    {"sparse.values.byteOffset", Type::count},
-};
-constexpr Member kImages[] = {index("bufferView", "bufferViews"), {"uri", Type::text}};
-constexpr Member kSamplers[] = {
-    {"wrapS", Type::count}, {"wrapT", Type::count}, {"magFilter", Type::count}};
-constexpr Member kTextures[] = {
-    {"name", Type::text},
-    index("sampler", "samplers"),
-    index("source", "images"),
-    index("extensions.EXT_texture_webp.source", "images"),
-    index("extensions.KHR_texture_basisu.source", "images"),
-    index("extensions.EXT_texture_avif.source", "images"),
-    index("extensions.MSFT_texture_dds.source", "images"),
-};
-constexpr Member kTextureInfo[] = {
-    index("index", "textures"),
-    {"texCoord", Type::count},
-    {"scale", Type::number},
-    numbers("extensions.KHR_texture_transform.offset", 2),
-    numbers("extensions.KHR_texture_transform.scale", 2),
-    {"extensions.KHR_texture_transform.rotation", Type::number},
-    {"extensions.KHR_texture_transform.texCoord", Type::count},
-};
+constexpr Member kSparse[] = {required(count("sparse.count")),
+                              required(count("sparse.indices.componentType")),
+                              required(index("sparse.indices.bufferView", "bufferViews")),
+                              count("sparse.indices.byteOffset"),
+                              required(index("sparse.values.bufferView", "bufferViews")),
+                              count("sparse.values.byteOffset")};
+constexpr Member kImages[] = {index("bufferView", "bufferViews"), text("uri")};
+constexpr Member kSamplers[] = {count("wrapS"), count("wrapT"), count("magFilter")};
+constexpr Member kTextures[] = {text("name"),
+                                index("sampler", "samplers"),
+                                index("source", "images"),
+                                index("extensions.EXT_texture_webp.source", "images"),
+                                index("extensions.KHR_texture_basisu.source", "images"),
+                                index("extensions.EXT_texture_avif.source", "images"),
+                                index("extensions.MSFT_texture_dds.source", "images")};
+constexpr Member kTextureInfo[] = {index("index", "textures"),
+                                   count("texCoord"),
+                                   number("scale"),
+                                   numbers("extensions.KHR_texture_transform.offset", 2),
+                                   numbers("extensions.KHR_texture_transform.scale", 2),
+                                   number("extensions.KHR_texture_transform.rotation"),
+                                   count("extensions.KHR_texture_transform.texCoord")};
 constexpr Member kMaterials[] = {
-    {"name", Type::text},
+    text("name"),
     numbers("pbrMetallicRoughness.baseColorFactor", 4),
-    {"pbrMetallicRoughness.metallicFactor", Type::number},
-    {"pbrMetallicRoughness.roughnessFactor", Type::number},
+    number("pbrMetallicRoughness.metallicFactor"),
+    number("pbrMetallicRoughness.roughnessFactor"),
     {"pbrMetallicRoughness.baseColorTexture", Type::textureInfo},
     {"pbrMetallicRoughness.metallicRoughnessTexture", Type::textureInfo},
     {"normalTexture", Type::textureInfo},
     {"emissiveTexture", Type::textureInfo},
     numbers("emissiveFactor", 3),
-    {"extensions.KHR_materials_emissive_strength.emissiveStrength", Type::number},
-    {"extensions.KHR_materials_transmission.transmissionFactor", Type::number},
-    {"alphaMode", Type::text},
-    {"alphaCutoff", Type::number},
-    {"doubleSided", Type::flag},
-};
-constexpr Member kMeshes[] = {
-    {"name", Type::text},
-    {"weights", Type::array},
-    index("primitives[].attributes{}", "accessors"),
-    index("primitives[].targets[]{}", "accessors"),
-    index("primitives[].indices", "accessors"),
-    index("primitives[].material", "materials"),
-    {"primitives[].mode", Type::count},
-};
-constexpr Member kCameras[] = {
-    {"name", Type::text},
-    {"perspective.yfov", Type::number},
-    {"perspective.aspectRatio", Type::number},
-    {"perspective.znear", Type::number},
-    {"perspective.zfar", Type::number},
-};
-constexpr Member kSkins[] = {
-    index("joints[]", "nodes"),
-    index("skeleton", "nodes"),
-    index("inverseBindMatrices", "accessors"),
-};
+    number("extensions.KHR_materials_emissive_strength.emissiveStrength"),
+    number("extensions.KHR_materials_transmission.transmissionFactor"),
+    text("alphaMode"),
+    number("alphaCutoff"),
+    flag("doubleSided")};
+constexpr Member kMeshes[] = {text("name"),
+                              {"weights", Type::array},
+                              index("primitives[].attributes{}", "accessors"),
+                              index("primitives[].targets[]{}", "accessors"),
+                              index("primitives[].indices", "accessors"),
+                              index("primitives[].material", "materials"),
+                              count("primitives[].mode")};
+constexpr Member kCameras[] = {text("name"), number("perspective.yfov"),
+                               number("perspective.aspectRatio"), number("perspective.znear"),
+                               number("perspective.zfar")};
+constexpr Member kSkins[] = {index("joints[]", "nodes"), index("skeleton", "nodes"),
+                             index("inverseBindMatrices", "accessors")};
 constexpr Member kAnimations[] = {
-    index("samplers[].input", "accessors"),
-    index("samplers[].output", "accessors"),
-    {"channels[].sampler", Type::count},
-    index("channels[].target.node", "nodes"),
-};
-constexpr Member kNodes[] = {
-    {"name", Type::text},
-    index("mesh", "meshes"),
-    index("camera", "cameras"),
-    index("skin", "skins"),
-    index("children[]", "nodes"),
-    numbers("matrix", 16),
-    numbers("translation", 3),
-    numbers("rotation", 4),
-    numbers("scale", 3),
-    index("extensions.KHR_lights_punctual.light", kPunctualLights),
-    index("extensions.EXT_lights_area.light", kAreaLights),
-    {"extensions.KHR_node_visibility.visible", Type::flag},
-    {"extras.lamplighter.areaLight.shape", Type::text},
-    numbers("extras.lamplighter.areaLight.radiance", 3),
-    {"extras.lamplighter.areaLight.diameter", Type::number},
-    {"extras.lamplighter.areaLight.length", Type::number},
-    {"extras.lamplighter.light.on", Type::flag},
-    {"extras.lamplighter.light.solo", Type::flag},
-    {"extras.lamplighter.light.group", Type::text},
-    {"extras.lamplighter.light.leaves_out[]", Type::index, "nodes"},
-    {"extras.lamplighter.light.profile", Type::text},
-    {"extras.lamplighter.light.picture", Type::text},
-};
-constexpr Member kScenes[] = {
-    {"name", Type::text},
-    index("nodes[]", "nodes"),
-    {"extras.lamplighter.lights.sky.on", Type::flag},
-    {"extras.lamplighter.lights.sky.solo", Type::flag},
-    {"extras.lamplighter.lights.sky.group", Type::text},
-    {"extras.lamplighter.lights.sky.leaves_out[]", Type::index, "nodes"},
-    {"extras.lamplighter.lights.groups[].name", Type::text},
-    {"extras.lamplighter.lights.groups[].muted", Type::flag},
-    {"extras.lamplighter.lights.groups[].solo", Type::flag},
-};
+    index("samplers[].input", "accessors"), index("samplers[].output", "accessors"),
+    count("channels[].sampler"), index("channels[].target.node", "nodes")};
+constexpr Member kNodes[] = {text("name"),
+                             index("mesh", "meshes"),
+                             index("camera", "cameras"),
+                             index("skin", "skins"),
+                             index("children[]", "nodes"),
+                             numbers("matrix", 16),
+                             numbers("translation", 3),
+                             numbers("rotation", 4),
+                             numbers("scale", 3),
+                             index("extensions.KHR_lights_punctual.light", kPunctualLights),
+                             index("extensions.EXT_lights_area.light", kAreaLights),
+                             flag("extensions.KHR_node_visibility.visible"),
+                             text("extras.lamplighter.areaLight.shape"),
+                             numbers("extras.lamplighter.areaLight.radiance", 3),
+                             number("extras.lamplighter.areaLight.diameter"),
+                             number("extras.lamplighter.areaLight.length"),
+                             flag("extras.lamplighter.light.on"),
+                             flag("extras.lamplighter.light.solo"),
+                             text("extras.lamplighter.light.group"),
+                             index("extras.lamplighter.light.leaves_out[]", "nodes"),
+                             text("extras.lamplighter.light.profile"),
+                             text("extras.lamplighter.light.picture")};
+constexpr Member kScenes[] = {text("name"),
+                              index("nodes[]", "nodes"),
+                              flag("extras.lamplighter.lights.sky.on"),
+                              flag("extras.lamplighter.lights.sky.solo"),
+                              text("extras.lamplighter.lights.sky.group"),
+                              index("extras.lamplighter.lights.sky.leaves_out[]", "nodes"),
+                              text("extras.lamplighter.lights.groups[].name"),
+                              flag("extras.lamplighter.lights.groups[].muted"),
+                              flag("extras.lamplighter.lights.groups[].solo")};
 constexpr Member kPunctual[] = {
-    {"type", Type::text},
-    numbers("color", 3),
-    {"intensity", Type::number},
-    {"range", Type::number},
-    {"spot.innerConeAngle", Type::number},
-    {"spot.outerConeAngle", Type::number},
-};
-constexpr Member kArea[] = {
-    {"type", Type::text},   numbers("color", 3),           {"intensity", Type::number},
-    {"size", Type::number}, {"rect.aspect", Type::number},
-};
+    text("type"),    numbers("color", 3),           number("intensity"),
+    number("range"), number("spot.innerConeAngle"), number("spot.outerConeAngle")};
+constexpr Member kArea[] = {text("type"), numbers("color", 3), number("intensity"), number("size"),
+                            number("rect.aspect")};
 
 struct List {
   const char* name;
@@ -308,7 +278,7 @@ std::optional<size_t> sizeOf(const Json& value) {
 }
 
 void checkMembers(const GltfDocument& document) {
-  for (const Member& member : kRoot) EntryCheck(document, {"glTF", 0}).check(document.json, member);
+  EntryCheck(document, {"glTF", 0}).check(document.json, count("scene"));
   for (const List& list : kLists) {
     const Json& entries = listOf(document, list.name);
     for (size_t i = 0; i < entries.size(); ++i) {
