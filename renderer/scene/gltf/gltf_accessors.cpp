@@ -2,66 +2,41 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <type_traits>
+
+#include <tiny_gltf.h>
 
 namespace lamplighter {
 
-size_t componentSize(size_t componentType) {
-  switch (componentType) {
-    case 5120:
-    case 5121:
-      return 1;
-    case 5122:
-    case 5123:
-      return 2;
-    case 5125:
-    case 5126:
-      return 4;
-    default:
-      return 0;
-  }
-}
-
-ElementLayout elementLayout(const std::string& type, size_t componentType) {
-  const size_t size = componentSize(componentType);
-  if (size == 0) return {};
-  if (type == "SCALAR") return {1, size};
-  if (type == "VEC2") return {2, 2 * size};
-  if (type == "VEC3") return {3, 3 * size};
-  if (type == "VEC4") return {4, 4 * size};
-  // Columns of matrices are aligned to four bytes (glTF 2.0, 3.6.2.4).
-  const auto matrix = [&](size_t n) { return ElementLayout{n * n, n * ((n * size + 3) / 4 * 4)}; };
-  if (type == "MAT2") return matrix(2);
-  if (type == "MAT3") return matrix(3);
-  if (type == "MAT4") return matrix(4);
-  return {};
-}
-
-AccessorView accessorView(const GltfDocument& document, size_t accessor) {
-  const At at{"accessors", accessor};
-  const Json& json = listOf(document, "accessors")[accessor];
-  AccessorView view;
-  const size_t type = *sizeMember(document, json, "componentType", at);
-  view.count = *sizeMember(document, json, "count", at);
-  view.component = static_cast<ComponentType>(type);
-  view.layout = elementLayout(textMember(document, json, "type", at), type);
-  view.normalized = boolMember(document, json, "normalized", false, at);
-  view.stride = view.layout.bytes;
-  if (const auto index = sizeMember(document, json, "bufferView", at)) {
-    const Json& bufferView = listOf(document, "bufferViews")[*index];
-    const At viewAt{"bufferViews", *index};
-    const size_t buffer = *sizeMember(document, bufferView, "buffer", viewAt);
-    view.data = document.buffers[buffer]->data() +
-                sizeMember(document, bufferView, "byteOffset", viewAt).value_or(0) +
-                sizeMember(document, json, "byteOffset", at).value_or(0);
-    view.stride = sizeMember(document, bufferView, "byteStride", viewAt).value_or(view.stride);
-  }
-  return view;
-}
-
 namespace {
 
-// Converts a component to float.
+// `type` as tinygltf has it.
+ElementLayout layoutOf(int type, int componentType) {
+  const auto components = static_cast<size_t>(tinygltf::GetNumComponentsInType(uint32_t(type)));
+  const auto size = static_cast<size_t>(tinygltf::GetComponentSizeInBytes(uint32_t(componentType)));
+  const bool isMatrix =
+      type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3 || type == TINYGLTF_TYPE_MAT4;
+  if (!isMatrix) return {components, components * size};
+  // Columns of matrices begin at multiples of four bytes (glTF 2.0, 3.6.2.4).
+  const size_t columns = static_cast<size_t>(type) - 32;
+  return {components, columns * ((columns * size + 3) / 4 * 4)};
+}
+
+// Elements as they lie in a buffer, checked by checkStructure() to be there.
+struct View {
+  const uint8_t* data = nullptr;  // null: zeros
+  size_t stride = 0;
+};
+
+View viewOf(const GltfDocument& document, int bufferView, size_t offset, size_t elementBytes) {
+  if (bufferView < 0) return {};
+  const tinygltf::BufferView& view = document.model->bufferViews[static_cast<size_t>(bufferView)];
+  return {document.buffers[static_cast<size_t>(view.buffer)]->data() + view.byteOffset + offset,
+          view.byteStride == 0 ? elementBytes : view.byteStride};
+}
+
+// What a component is as a float.
 template <typename T>
 float toFloat(T value, bool normalized) {
   if constexpr (std::is_same_v<T, float>) {
@@ -73,115 +48,133 @@ float toFloat(T value, bool normalized) {
   }
 }
 
+// The first `n` components of `count` elements to `out`, where they are `components` apart.
 template <typename T>
-void convert(const AccessorView& view, size_t components, const uint8_t* data, size_t stride,
-             size_t count, float* out) {
-  const size_t n = std::min(components, view.layout.components);
+void convert(const View& view, size_t n, size_t count, bool normalized, size_t components,
+             float* out) {
+  const size_t bytes = n * sizeof(float);
+  if (std::is_same_v<T, float> && n == components && view.stride == bytes) {
+    std::memcpy(out, view.data, count * bytes);
+    return;
+  }
   for (size_t i = 0; i < count; ++i) {
     for (size_t c = 0; c < n; ++c) {
       T value;
-      std::memcpy(&value, data + i * stride + c * sizeof(T), sizeof(T));
-      out[i * components + c] = toFloat(value, view.normalized);
+      std::memcpy(&value, view.data + i * view.stride + c * sizeof(T), sizeof(T));
+      out[i * components + c] = toFloat(value, normalized);
     }
   }
 }
 
-void convertAny(const AccessorView& view, size_t components, const uint8_t* data, size_t stride,
-                size_t count, float* out) {
-  switch (view.component) {
-    case ComponentType::int8:
-      return convert<int8_t>(view, components, data, stride, count, out);
-    case ComponentType::uint8:
-      return convert<uint8_t>(view, components, data, stride, count, out);
-    case ComponentType::int16:
-      return convert<int16_t>(view, components, data, stride, count, out);
-    case ComponentType::uint16:
-      return convert<uint16_t>(view, components, data, stride, count, out);
-    case ComponentType::uint32:
-      return convert<uint32_t>(view, components, data, stride, count, out);
-    case ComponentType::float32:
-      return convert<float>(view, components, data, stride, count, out);
-  }
-}
-
-std::vector<uint32_t> unsignedIntegers(const uint8_t* data, ComponentType type, size_t stride,
-                                       size_t count) {
-  std::vector<uint32_t> out(count);
-  for (size_t i = 0; i < count; ++i) {
-    const uint8_t* p = data + i * stride;
-    switch (type) {
-      case ComponentType::uint8:
-        out[i] = *p;
-        break;
-      case ComponentType::uint16: {
-        uint16_t value;
-        std::memcpy(&value, p, sizeof value);
-        out[i] = value;
-        break;
-      }
-      default:
-        std::memcpy(&out[i], p, sizeof out[i]);
-    }
-  }
-  return out;
-}
-
-// Replaces the elements that accessor.sparse lists. replace(element, source, first replacement).
-template <typename Replace>
-void forEachSparse(const GltfDocument& document, size_t accessor, const AccessorView& view,
-                   Replace replace) {
-  const Json* sparse = member(listOf(document, "accessors")[accessor], "sparse");
-  if (sparse == nullptr) return;
-  const At at{"accessors", accessor};
-  const auto source = [&](const Json& part) {
-    const size_t index = *sizeMember(document, part, "bufferView", at);
-    const Json& bufferView = listOf(document, "bufferViews")[index];
-    const size_t buffer = *sizeMember(document, bufferView, "buffer", at);
-    return document.buffers[buffer]->data() +
-           sizeMember(document, bufferView, "byteOffset", at).value_or(0) +
-           sizeMember(document, part, "byteOffset", at).value_or(0);
+void convertAny(const tinygltf::Accessor& accessor, const View& view, size_t n, size_t count,
+                size_t components, float* out) {
+  const auto as = [&]<typename T>(T) {
+    convert<T>(view, n, count, accessor.normalized, components, out);
   };
-  const size_t count = *sizeMember(document, *sparse, "count", at);
-  const Json& indices = *member(*sparse, "indices");
-  const size_t type = *sizeMember(document, indices, "componentType", at);
-  const std::vector<uint32_t> elements = unsignedIntegers(
-      source(indices), static_cast<ComponentType>(type), componentSize(type), count);
-  const uint8_t* values = source(*member(*sparse, "values"));
-  for (size_t i = 0; i < count; ++i) {
-    if (elements[i] >= view.count) {
-      document.fail(at,
-                    "replaces element " + std::to_string(elements[i]) + " of " +
-                        std::to_string(view.count) + " by its sparse data",
+  switch (accessor.componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return as(int8_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return as(uint8_t{});
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return as(int16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return as(uint16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return as(uint32_t{});
+    default:
+      return as(float{});
+  }
+}
+
+std::vector<uint32_t> unsignedIntegers(const View& view, int componentType, size_t count) {
+  std::vector<uint32_t> out(count);
+  const auto as = [&]<typename T>(T value) {
+    for (size_t i = 0; i < count; ++i) {
+      std::memcpy(&value, view.data + i * view.stride, sizeof value);
+      out[i] = value;
+    }
+    return std::move(out);
+  };
+  switch (componentType) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return as(uint8_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return as(uint16_t{});
+    default:
+      return as(uint32_t{});
+  }
+}
+
+// Replaces the elements that accessor.sparse lists. replace(element, view of its replacement).
+template <typename Replace>
+void forEachSparse(const GltfDocument& document, size_t index, Replace replace) {
+  const tinygltf::Accessor& accessor = document.model->accessors[index];
+  if (!accessor.sparse.isSparse) return;
+  // Sparse data is packed, whatever its view says.
+  const auto packed = [&](const auto& part, int type, int componentType) {
+    const size_t bytes = layoutOf(type, componentType).bytes;
+    View view = viewOf(document, part.bufferView, static_cast<size_t>(part.byteOffset), bytes);
+    view.stride = bytes;
+    return view;
+  };
+  const auto& sparse = accessor.sparse;
+  const auto count = static_cast<size_t>(sparse.count);
+  const std::vector<uint32_t> elements =
+      unsignedIntegers(packed(sparse.indices, TINYGLTF_TYPE_SCALAR, sparse.indices.componentType),
+                       sparse.indices.componentType, count);
+  View value = packed(sparse.values, accessor.type, accessor.componentType);
+  for (const uint32_t element : elements) {
+    if (element >= accessor.count) {
+      document.fail({"accessors", index},
+                    "replaces element " + std::to_string(element) + " of " +
+                        std::to_string(accessor.count) + " by its sparse data",
                     kExportAgain);
     }
-    replace(elements[i], values + i * view.layout.bytes);
+    replace(element, value);
+    value.data += value.stride;
   }
 }
 
+// Components that the accessor lacks are 0, 4th ones 1.
 template <typename Vec>
-std::vector<Vec> readVectors(const GltfDocument& document, size_t accessor) {
+std::vector<Vec> readVectors(const GltfDocument& document, size_t index) {
   constexpr size_t kComponents = static_cast<size_t>(Vec::length());
-  const std::vector<float> floats = readFloats(document, accessor, kComponents);
-  std::vector<Vec> out(floats.size() / kComponents);
-  if (!out.empty()) std::memcpy(&out[0][0], floats.data(), floats.size() * sizeof(float));
+  const tinygltf::Accessor& accessor = document.model->accessors[index];
+  const ElementLayout layout = layoutOf(accessor.type, accessor.componentType);
+  const size_t n = std::min(kComponents, layout.components);
+  Vec lacking(0.0f);
+  if (kComponents == 4) lacking[kComponents - 1] = 1.0f;
+  std::vector<Vec> out(accessor.count, n < kComponents ? lacking : Vec(0.0f));
+  if (out.empty()) return out;
+  const View view = viewOf(document, accessor.bufferView, accessor.byteOffset, layout.bytes);
+  if (view.data != nullptr) {
+    convertAny(accessor, view, n, accessor.count, kComponents, &out[0][0]);
+  }
+  forEachSparse(document, index, [&](size_t element, const View& value) {
+    convertAny(accessor, value, n, 1, kComponents, &out[element][0]);
+  });
   return out;
 }
 
 }  // namespace
 
-std::vector<float> readFloats(const GltfDocument& document, size_t accessor, size_t components) {
-  const AccessorView view = accessorView(document, accessor);
-  std::vector<float> out(view.count * components, 0.0f);
-  if (components == 4 && view.layout.components < 4) {
-    for (size_t i = 3; i < out.size(); i += 4) out[i] = 1.0f;
-  }
-  if (view.data != nullptr) {
-    convertAny(view, components, view.data, view.stride, view.count, out.data());
-  }
-  forEachSparse(document, accessor, view, [&](size_t element, const uint8_t* value) {
-    convertAny(view, components, value, view.layout.bytes, 1, &out[element * components]);
-  });
-  return out;
+ElementLayout elementLayout(std::string_view type, size_t componentType) {
+  constexpr std::pair<std::string_view, int> kTypes[] = {
+      {"SCALAR", TINYGLTF_TYPE_SCALAR}, {"VEC2", TINYGLTF_TYPE_VEC2}, {"VEC3", TINYGLTF_TYPE_VEC3},
+      {"VEC4", TINYGLTF_TYPE_VEC4},     {"MAT2", TINYGLTF_TYPE_MAT2}, {"MAT3", TINYGLTF_TYPE_MAT3},
+      {"MAT4", TINYGLTF_TYPE_MAT4}};
+  // tinygltf also knows a signed 32-bit integer, which glTF has not.
+  if (componentType < TINYGLTF_COMPONENT_TYPE_BYTE ||
+      componentType > TINYGLTF_COMPONENT_TYPE_FLOAT || componentType == TINYGLTF_COMPONENT_TYPE_INT)
+    return {};
+  for (const auto& [name, number] : kTypes)
+    if (name == type) return layoutOf(number, static_cast<int>(componentType));
+  return {};
+}
+
+size_t elementCount(const GltfDocument& document, size_t accessor) {
+  return document.model->accessors[accessor].count;
 }
 
 std::vector<vec2> readVec2(const GltfDocument& document, size_t accessor) {
@@ -194,14 +187,14 @@ std::vector<vec4> readVec4(const GltfDocument& document, size_t accessor) {
   return readVectors<vec4>(document, accessor);
 }
 
-std::vector<uint32_t> readIndices(const GltfDocument& document, size_t accessor) {
-  const AccessorView view = accessorView(document, accessor);
-  std::vector<uint32_t> out(view.count, 0);
-  if (view.data != nullptr) {
-    out = unsignedIntegers(view.data, view.component, view.stride, view.count);
-  }
-  forEachSparse(document, accessor, view, [&](size_t element, const uint8_t* value) {
-    out[element] = unsignedIntegers(value, view.component, view.layout.bytes, 1)[0];
+std::vector<uint32_t> readIndices(const GltfDocument& document, size_t index) {
+  const tinygltf::Accessor& accessor = document.model->accessors[index];
+  const int type = accessor.componentType;
+  const size_t bytes = layoutOf(accessor.type, type).bytes;
+  std::vector<uint32_t> out = unsignedIntegers(
+      viewOf(document, accessor.bufferView, accessor.byteOffset, bytes), type, accessor.count);
+  forEachSparse(document, index, [&](size_t element, const View& value) {
+    out[element] = unsignedIntegers(value, type, 1)[0];
   });
   return out;
 }

@@ -1,9 +1,8 @@
 #include "renderer/scene/gltf/gltf_document.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
+#include <span>
 
 #include "renderer/base/error.h"
 #include "renderer/base/json_text.h"
@@ -36,12 +35,21 @@ bool GltfDocument::usesExtension(const char* name) const {
 
 const Json& listOf(const GltfDocument& document, const char* name) {
   static const Json kEmpty = Json::array();
-  const Json* list = member(document.json, name);
+  const std::string_view path(name);
+  const size_t dot = path.find('.');  // EXTENSION.list
+  const Json* owner = &document.json;
+  if (dot != path.npos) owner = extensionOf(*owner, std::string(path.substr(0, dot)).c_str());
+  const Json* list = owner == nullptr ? nullptr : member(*owner, name + (dot + 1));
   if (list == nullptr) return kEmpty;
   if (!list->is_array()) {
     document.fail(std::string("\"") + name + "\" is no array", kExportAgain);
   }
   return *list;
+}
+
+const Json* shownScene(const GltfDocument& document) {
+  const Json& scenes = listOf(document, "scenes");
+  return scenes.empty() ? nullptr : &scenes[sizeIn(document.json, "scene")];
 }
 
 const Json* member(const Json& object, const char* key) {
@@ -69,91 +77,28 @@ bool isMarked(const Json& object, const char* key) {
 
 namespace {
 
-[[noreturn]] void wrongType(const GltfDocument& document, const At& at, const char* key,
-                            const char* expected, const Json& value) {
-  document.fail(at,
-                std::string("has \"") + key +
-                    "\": " + printable(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
-                    ", which is no " + expected,
-                kExportAgain);
-}
-
-bool isFinite(const Json& value) {
-  return value.is_number() &&
-         std::abs(value.get<double>()) <= static_cast<double>(std::numeric_limits<float>::max());
+template <typename T>
+T valueIn(const Json& object, const char* key, T otherwise) {
+  const Json* value = member(object, key);
+  return value == nullptr ? otherwise : value->get<T>();
 }
 
 }  // namespace
 
-std::optional<size_t> sizeMember(const GltfDocument& document, const Json& object, const char* key,
-                                 At at) {
-  const Json* value = member(object, key);
-  if (value == nullptr) return std::nullopt;
-  if (value->is_number_unsigned()) return value->get<size_t>();
-  // Some exporters write 3.0 instead of 3.
-  if (value->is_number_float()) {
-    const double d = value->get<double>();
-    if (d >= 0.0 && d < 9007199254740992.0 && d == std::floor(d)) return static_cast<size_t>(d);
-  }
-  wrongType(document, at, key, "count or index", *value);
+double numberIn(const Json& object, const char* key, double otherwise) {
+  return valueIn(object, key, otherwise);
 }
-
-std::optional<size_t> indexMember(const GltfDocument& document, const Json& object, const char* key,
-                                  At at, size_t count) {
-  const auto index = sizeMember(document, object, key, at);
-  if (index && *index >= count) {
-    document.fail(at,
-                  std::string("has \"") + key + "\": " + std::to_string(*index) +
-                      ", but there are " + std::to_string(count),
-                  kExportAgain);
-  }
-  return index;
+bool flagIn(const Json& object, const char* key, bool otherwise) {
+  return valueIn(object, key, otherwise);
 }
-
-double numberMember(const GltfDocument& document, const Json& object, const char* key,
-                    double otherwise, At at) {
-  const Json* value = member(object, key);
-  if (value == nullptr) return otherwise;
-  if (!isFinite(*value)) wrongType(document, at, key, "finite number", *value);
-  return value->get<double>();
+std::string textIn(const Json& object, const char* key) {
+  return valueIn(object, key, std::string());
 }
-
-bool boolMember(const GltfDocument& document, const Json& object, const char* key, bool otherwise,
-                At at) {
-  const Json* value = member(object, key);
-  if (value == nullptr) return otherwise;
-  if (!value->is_boolean()) wrongType(document, at, key, "true or false", *value);
-  return value->get<bool>();
+size_t sizeIn(const Json& object, const char* key, size_t otherwise) {
+  return valueIn(object, key, otherwise);
 }
-
-std::string textMember(const GltfDocument& document, const Json& object, const char* key, At at) {
-  const Json* value = member(object, key);
-  if (value == nullptr) return {};
-  if (!value->is_string()) wrongType(document, at, key, "text", *value);
-  return value->get<std::string>();
-}
-
-const Json* arrayMember(const GltfDocument& document, const Json& object, const char* key, At at) {
-  const Json* value = member(object, key);
-  if (value != nullptr && !value->is_array()) wrongType(document, at, key, "array", *value);
-  return value;
-}
-
-std::vector<double> numbersMember(const GltfDocument& document, const Json& object, const char* key,
-                                  size_t count, At at) {
-  const Json* value = arrayMember(document, object, key, at);
-  if (value == nullptr) return {};
-  if (value->size() != count ||
-      !std::all_of(value->begin(), value->end(), [](const Json& v) { return isFinite(v); })) {
-    wrongType(document, at, key, (std::to_string(count) + " finite numbers").c_str(), *value);
-  }
-  return value->get<std::vector<double>>();
-}
-
-vec3 vec3Member(const GltfDocument& document, const Json& object, const char* key,
-                const vec3& otherwise, At at) {
-  const std::vector<double> v = numbersMember(document, object, key, 3, at);
-  return v.empty() ? otherwise : vec3(v[0], v[1], v[2]);
+std::vector<double> numbersIn(const Json& object, const char* key) {
+  return valueIn(object, key, std::vector<double>());
 }
 
 namespace {
@@ -166,7 +111,13 @@ uint32_t littleEndian32(const uint8_t* p) {
   return p[0] | uint32_t{p[1]} << 8 | uint32_t{p[2]} << 16 | uint32_t{p[3]} << 24;
 }
 
-std::string_view jsonOfGlb(GltfDocument& document, const std::vector<uint8_t>& bytes) {
+// Where the chunks of a .glb are in it.
+struct Glb {
+  std::string_view json;
+  std::optional<std::span<const uint8_t>> binary;
+};
+
+Glb chunksOf(const GltfDocument& document, const std::vector<uint8_t>& bytes) {
   const char* remedy = "copy or export it again";
   if (bytes.size() < 12) document.fail("is cut off within the header", remedy);
   if (const uint32_t version = littleEndian32(&bytes[4]); version != 2) {
@@ -179,7 +130,7 @@ std::string_view jsonOfGlb(GltfDocument& document, const std::vector<uint8_t>& b
                       std::to_string(stated),
                   remedy);
   }
-  std::string_view text;
+  Glb glb;
   size_t at = 12;
   for (size_t chunk = 0; at < bytes.size(); ++chunk) {
     if (bytes.size() - at < 8) document.fail("is cut off within the head of a chunk", remedy);
@@ -188,16 +139,12 @@ std::string_view jsonOfGlb(GltfDocument& document, const std::vector<uint8_t>& b
     at += 8;
     if (length > bytes.size() - at) document.fail("has a chunk that ends past the file", remedy);
     if (chunk == 0 && type != kJsonChunk) document.fail("does not begin with its JSON", remedy);
-    if (chunk == 0) text = {reinterpret_cast<const char*>(&bytes[at]), length};
-    if (chunk == 1 && type == kBinChunk) {
-      document.binaryChunk = std::make_shared<const std::vector<uint8_t>>(
-          bytes.begin() + static_cast<std::ptrdiff_t>(at),
-          bytes.begin() + static_cast<std::ptrdiff_t>(at + length));
-    }
-    // Chunks are padded to four bytes; missing padding of the last one is accepted.
+    if (chunk == 0) glb.json = {reinterpret_cast<const char*>(&bytes[at]), length};
+    if (chunk == 1 && type == kBinChunk) glb.binary = std::span(bytes).subspan(at, length);
+    // Chunks are padded to four bytes; a last one that is not is harmless.
     at = std::min(bytes.size(), at + (length + 3) / 4 * 4);
   }
-  return text;
+  return glb;
 }
 
 }  // namespace
@@ -207,14 +154,16 @@ GltfDocument readGltfJson(const std::filesystem::path& path) {
   document.path = path;
   std::string why;
   document.files->push_back(stampOf(path));
-  const Bytes bytes = readWholeFile(path, why);
+  const NewBytes bytes = readWholeFile(path, why);
   if (bytes == nullptr) document.fail(why, "name a .gltf or .glb file that can be read");
   if (bytes->empty()) document.fail("is empty", "copy or export it again");
   document.bytesRead = bytes->size();
 
   std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  Glb glb;
   if (bytes->size() >= 4 && littleEndian32(bytes->data()) == kGlbMagic) {
-    text = jsonOfGlb(document, *bytes);
+    glb = chunksOf(document, *bytes);
+    text = glb.json;
   } else {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark
     const size_t first = text.find_first_not_of(" \t\r\n");
@@ -240,6 +189,13 @@ GltfDocument readGltfJson(const std::filesystem::path& path) {
                   "copy or export it again");
   }
   if (!document.json.is_object()) document.fail("has JSON that is no object", kExportAgain);
+  if (glb.binary) {
+    // In place: a copy would be as long as the file.
+    const auto begin = bytes->begin() + (glb.binary->data() - bytes->data());
+    bytes->erase(begin + static_cast<std::ptrdiff_t>(glb.binary->size()), bytes->end());
+    bytes->erase(bytes->begin(), begin);
+    document.binaryChunk = bytes;
+  }
   return document;
 }
 

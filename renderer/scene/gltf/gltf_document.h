@@ -1,11 +1,13 @@
-// A glTF file as read: its JSON, its bytes and warnings about it. Only the gltf_*.cpp files include
-// this; other code uses gltf_io.h.
+// A glTF file as read: its JSON, what tinygltf decoded of it, its bytes and what is said about it.
+// Shared by the gltf_*.cpp files only; other code sees gltf_io.h.
 //
-// The JSON is parsed here and not by tinygltf, for two reasons. tinygltf 2.7 accepts cycles,
-// indices out of range and counts of four billion, so the JSON must be checked anyway. And saving
-// patches the JSON that was read, so that unknown data stays unchanged.
+// The JSON is parsed and checked here (checkStructure), because tinygltf 2.7 accepts cycles,
+// indices out of range and counts of four billion; what is checked is decoded by tinygltf
+// (decodeModel). Extensions and extras are read from the JSON, and saving patches it, so that what
+// is not understood stays as it was.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -20,12 +23,40 @@
 #include "renderer/base/math.h"
 #include "renderer/scene/gltf/scene_files.h"
 
+namespace tinygltf {
+class Model;
+}
+
 namespace lamplighter {
 
-using Json = nlohmann::ordered_json;  // keeps the order of members when written
+// The loader places nothing farther than this from the origin [m].
+inline constexpr double kFarthestPlace = 1e9;
+
+// nlohmann::ordered_map copies its values when it grows, which is half the time of parsing a large
+// file; this one moves them.
+template <class Key, class T, class Less = std::less<Key>,
+          class Allocator = std::allocator<std::pair<const Key, T>>>
+struct OrderedMap : nlohmann::ordered_map<Key, T, Less, Allocator> {
+  using Base = nlohmann::ordered_map<Key, T, Less, Allocator>;
+  using Base::Base;
+  template <class K>
+  T& operator[](K&& key) {
+    if (this->size() == this->capacity()) {
+      OrderedMap larger;
+      larger.reserve(std::max<size_t>(4, 2 * this->size()));
+      for (auto& [name, value] : *this) larger.emplace_back(name, std::move(value));
+      this->swap(larger);
+    }
+    return Base::operator[](std::forward<K>(key));
+  }
+};
+
+// Keeps the order of the members when it is written again.
+using Json = nlohmann::basic_json<OrderedMap>;
+using NewBytes = std::shared_ptr<std::vector<uint8_t>>;
 using Bytes = std::shared_ptr<const std::vector<uint8_t>>;
 
-// A location in the file, for messages: "accessors[3]".
+// Where in the file something is: "accessors[3]".
 struct At {
   const char* list;
   size_t index;
@@ -35,11 +66,14 @@ struct At {
 struct GltfDocument {
   std::filesystem::path path;
   Json json;
-  Bytes binaryChunk;              // of a .glb; otherwise null
-  std::vector<Bytes> buffers;     // one per entry of json["buffers"], at least byteLength long
-  std::vector<Bytes> imageFiles;  // encoded bytes of images in files of their own; otherwise null
-  size_t bytesRead = 0;           // size of the file and its buffers
-  // Every file that was read, with its stamp just before reading.
+  // Without buffers, images, skins, animations, extensions (but lights) and extras. Null until
+  // decodeModel(), and for a scene that was not loaded.
+  std::shared_ptr<const tinygltf::Model> model;
+  NewBytes binaryChunk;           // of a .glb, else null; moves to buffers
+  std::vector<Bytes> buffers;     // one for each of json["buffers"], of byteLength (at least 1)
+  std::vector<Bytes> imageFiles;  // encoded bytes of images with a file of their own, else null
+  size_t bytesRead = 0;           // of the file and its buffers
+  // Every file that was read, as it was just before.
   std::shared_ptr<std::vector<FileStamp>> files = std::make_shared<std::vector<FileStamp>>();
   std::vector<std::string> warnings;
 
@@ -51,71 +85,74 @@ struct GltfDocument {
   bool usesExtension(const char* name) const;
 };
 
-// Largest distance of any geometry from the origin [m].
-inline constexpr double kFarthestPlace = 1e9;
-
-// Remedy in messages about files that violate the glTF specification.
+// What to do about a file that breaks the rules of glTF.
 inline constexpr const char* kExportAgain =
     "export it again, or mend it (a glTF validator says more)";
 
-// Removes control characters and shortens long text, for use in a one-line message.
+// Control characters out, long texts cut: for use in a message of one line.
 std::string printable(std::string_view text);
 
-// A top-level array, or an empty one. checkStructure() verifies that its entries are objects.
-const Json& listOf(const GltfDocument& document, const char* name);
+// The lights of extensions as top-level lists.
+inline constexpr const char* kPunctualLights = "KHR_lights_punctual.lights";
+inline constexpr const char* kAreaLights = "EXT_lights_area.lights";
 
-// A member of an object; null if missing (or if `object` is not an object).
+// A top-level array; an empty one where the file has none. checkStructure() sees to it that its
+// entries are objects.
+const Json& listOf(const GltfDocument& document, const char* name);
+// The default scene, or null where the file has none.
+const Json* shownScene(const GltfDocument& document);
+
+// A member of an object, or null where there is none (or `object` is no object).
 const Json* member(const Json& object, const char* key);
 // object.extensions.NAME, or null.
 const Json* extensionOf(const Json& object, const char* name);
 
-// The member of "extras" that contains this program's own data ("notes").
+// The member of "extras" that holds what this program notes in a file.
 inline constexpr const char* kExtrasName = "lamplighter";
-// Marks the meshes that show sphere lights in other programs, see gltf_sphere_meshes.cpp.
+// Marks what shows sphere lights to other programs, see gltf_sphere_meshes.cpp.
 inline constexpr const char* kSphereMark = "sphereLight";
-// Note on a node: how its mesh is lit, "simple" or "complex" (MeshKind).
+// A note on a node: how its mesh is lit, "simple" or "complex" (MeshKind).
 inline constexpr const char* kMeshKindNote = "mesh";
 inline constexpr const char* kLockedNote = "locked";
-// Note on a scene: its sky.
+// A note on a scene: what is around it.
 inline constexpr const char* kSkyNote = "sky";
 // object.extras.lamplighter.KEY, or null.
 const Json* noteOf(const Json& object, const char* key);
-// Whether noteOf() is `true`.
+// Whether that is true.
 bool isMarked(const Json& object, const char* key);
 
-// Typed members. They throw InputError if the member exists with another type or is not finite.
-std::optional<size_t> sizeMember(const GltfDocument&, const Json& object, const char* key, At at);
-// The same, and the value must be less than `count`.
-std::optional<size_t> indexMember(const GltfDocument&, const Json& object, const char* key, At at,
-                                  size_t count);
-double numberMember(const GltfDocument&, const Json& object, const char* key, double otherwise,
-                    At at);
-bool boolMember(const GltfDocument&, const Json& object, const char* key, bool otherwise, At at);
-std::string textMember(const GltfDocument&, const Json& object, const char* key, At at);
-// `count` finite numbers in the range of float; empty if there is no such member.
-std::vector<double> numbersMember(const GltfDocument&, const Json& object, const char* key,
-                                  size_t count, At at);
-vec3 vec3Member(const GltfDocument&, const Json& object, const char* key, const vec3& otherwise,
-                At at);
-const Json* arrayMember(const GltfDocument&, const Json& object, const char* key, At at);
+// Members of extensions and notes, once checkMembers() has seen to their types.
+double numberIn(const Json& object, const char* key, double otherwise);
+bool flagIn(const Json& object, const char* key, bool otherwise);
+std::string textIn(const Json& object, const char* key);
+size_t sizeIn(const Json& object, const char* key, size_t otherwise = 0);
+// Empty where there is no such member.
+std::vector<double> numbersIn(const Json& object, const char* key);
 
-// gltf_document.cpp: reads the file and parses the JSON, but reads no buffers or images.
+// gltf_document.cpp: reads the file and parses the JSON; buffers and images are not read yet.
 GltfDocument readGltfJson(const std::filesystem::path& path);
 
-// gltf_uri.cpp: the bytes of a URI, which is a data URI or a file in the folder of the document. On
-// failure returns null and sets `why`.
-Bytes readUri(const GltfDocument& document, const std::string& uri, std::string& why);
-// Decodes %20 etc.; invalid escapes stay unchanged.
+// gltf_uri.cpp: the bytes behind a URI: data, or a file in the folder of the document. Null and
+// `why` set when there are none to be had.
+NewBytes readUri(const GltfDocument& document, const std::string& uri, std::string& why);
+// %20 and the like; what is no escape stays as it is.
 std::string percentDecoded(std::string_view text);
-// Reads a whole regular file. On failure returns null and sets `why`.
-Bytes readWholeFile(const std::filesystem::path& path, std::string& why);
-// gltf_uri.cpp: fills GltfDocument::buffers. Requires checkStructure().
-void readBuffers(GltfDocument& document);
+// Reads a whole regular file. Null and `why` set when it cannot be read.
+NewBytes readWholeFile(const std::filesystem::path& path, std::string& why);
+
+// gltf_members.cpp: throws InputError where a member that is read is of another type than it must
+// be, not finite or an index out of range.
+void checkMembers(const GltfDocument& document);
+// A count or index, or nothing where the value is none.
+std::optional<size_t> sizeOf(const Json& value);
 
 // gltf_validate.cpp. Both throw InputError.
 void checkVersionAndExtensions(GltfDocument& document);
-// Checks that every index is in range, every accessor within its view, every view within its
-// buffer, and that the nodes are a forest.
+// Members as checkMembers() says, every accessor in its view and every view in its buffer, nodes a
+// forest.
 void checkStructure(const GltfDocument& document);
+
+// gltf_decode.cpp: fills GltfDocument::model and buffers. Call it after checkStructure().
+void decodeModel(GltfDocument& document);
 
 }  // namespace lamplighter

@@ -1,12 +1,14 @@
-// Lights in glTF: KHR_lights_punctual; EXT_lights_area (draft, KhronosGroup/glTF pull request
-// 2525): a rectangle or disk that emits towards −Z, size = height or diameter, rect.aspect = width
-// / height, intensity in nits; and this program's own note for a sphere or tube, on a node whose
-// mesh shows the light in other programs. One nit is read as one unit of radiance, and one candela
-// as one unit of radiant intensity.
+// KHR_lights_punctual; EXT_lights_area (draft, KhronosGroup/glTF pull request 2525): a rectangle
+// or disk that emits towards −Z, size its height or diameter, rect.aspect width over height,
+// intensity in nits; and this program's own note of a sphere or tube, on a node whose mesh shows
+// it to others. A nit is taken as one unit of radiance, as a candela is as one of radiant
+// intensity.
 #include "renderer/scene/gltf/gltf_lights.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include <tiny_gltf.h>
 
 #include "renderer/scene/gltf/gltf_content.h"
 
@@ -14,37 +16,14 @@ namespace lamplighter {
 
 namespace {
 
-const Json* lightsOf(const GltfDocument& document, const char* extension) {
-  const Json* root = extensionOf(document.json, extension);
-  const Json* lights = root == nullptr ? nullptr : member(*root, "lights");
-  return lights != nullptr && lights->is_array() ? lights : nullptr;
-}
-
-// The light to which the node refers, or null. `index` receives its index in the list.
-const Json* lightOf(const GltfDocument& document, size_t node, const char* extension,
-                    size_t& index) {
-  const Json* reference = extensionOf(listOf(document, "nodes")[node], extension);
-  if (reference == nullptr) return nullptr;
-  const Json* lights = lightsOf(document, extension);
-  const auto light = indexMember(document, *reference, "light", {"nodes", node},
-                                 lights == nullptr ? 0 : lights->size());
-  if (!light) return nullptr;
-  index = *light;
-  if (!(*lights)[index].is_object()) {
-    document.fail({"nodes", node},
-                  std::string("refers to a light of ") + extension + " that is none", kExportAgain);
-  }
-  return &(*lights)[index];
-}
-
-// color × intensity, in double, so that a saved light is read back bit-equal.
-vec3 colored(const GltfDocument& document, const Json& light, double defaultIntensity, At at) {
-  std::vector<double> color = numbersMember(document, light, "color", 3, at);
-  if (color.empty()) color = {1.0, 1.0, 1.0};
-  const double intensity = numberMember(document, light, "intensity", defaultIntensity, at);
+// color × intensity, in double so that a saved light comes back with the same bits. No color is
+// white.
+vec3 colored(const GltfDocument& document, const std::vector<double>& color, double intensity,
+             At at) {
   vec3 out;
   for (int c = 0; c < 3; ++c) {
-    const double value = std::max(color[static_cast<size_t>(c)] * intensity, 0.0);
+    const double share = color.empty() ? 1.0 : color[static_cast<size_t>(c)];
+    const double value = std::max(share * intensity, 0.0);
     if (value > 1e30) document.fail(at, "is brighter than a float can hold", kExportAgain);
     out[c] = static_cast<float>(value);
   }
@@ -54,13 +33,15 @@ vec3 colored(const GltfDocument& document, const Json& light, double defaultInte
 std::optional<AreaLight> readNoted(const GltfDocument& document, const Json& node, At at) {
   const Json* light = noteOf(node, "areaLight");
   if (light == nullptr) return std::nullopt;
-  const std::string shape = textMember(document, *light, "shape", at);
+  const std::string shape = textIn(*light, "shape");
   if (shape != "sphere" && shape != "tube") return std::nullopt;
   AreaLight area;
   area.shape = shape == "tube" ? AreaShape::tube : AreaShape::sphere;
-  area.radiance = glm::clamp(vec3Member(document, *light, "radiance", vec3(1.0f), at), 0.0f, 1e30f);
-  const double diameter = numberMember(document, *light, "diameter", 1.0, at);
-  const double length = shape == "tube" ? numberMember(document, *light, "length", 1.0, at) : 1.0;
+  const std::vector<double> radiance = numbersIn(*light, "radiance");
+  if (!radiance.empty()) area.radiance = vec3(radiance[0], radiance[1], radiance[2]);
+  area.radiance = glm::clamp(area.radiance, 0.0f, 1e30f);
+  const double diameter = numberIn(*light, "diameter", 1.0);
+  const double length = shape == "tube" ? numberIn(*light, "length", 1.0) : 1.0;
   if (!(diameter > 0.0 && diameter < 1e9 && length > 0.0 && length < 1e9)) {
     document.fail(at, "has a " + shape + " light of no sound size", kExportAgain);
   }
@@ -72,33 +53,30 @@ std::optional<AreaLight> readNoted(const GltfDocument& document, const Json& nod
 }  // namespace
 
 std::optional<PunctualLight> readPunctual(const GltfDocument& document, size_t node) {
-  At at{"KHR_lights_punctual.lights", 0};
-  const Json* json = lightOf(document, node, "KHR_lights_punctual", at.index);
-  if (json == nullptr) return std::nullopt;
+  const Json* reference = extensionOf(listOf(document, "nodes")[node], "KHR_lights_punctual");
+  if (reference == nullptr || !reference->contains("light")) return std::nullopt;
+  const At at{kPunctualLights, sizeIn(*reference, "light")};
+  const tinygltf::Light& source = document.model->lights[at.index];
   PunctualLight light;
-  const std::string type = textMember(document, *json, "type", at);
-  if (type == "point") {
+  if (source.type == "point") {
     light.kind = PunctualKind::point;
-  } else if (type == "spot") {
+  } else if (source.type == "spot") {
     light.kind = PunctualKind::spot;
-  } else if (type == "directional") {
+  } else if (source.type == "directional") {
     light.kind = PunctualKind::directional;
   } else {
     return std::nullopt;
   }
-  light.intensity = colored(document, *json, 1.0, at);
-  light.range = static_cast<float>(std::max(numberMember(document, *json, "range", 0.0, at), 0.0));
-  if (const Json* spot = member(*json, "spot")) {
-    constexpr double kWidest = 1.57079632679;
-    const double outer = numberMember(document, *spot, "outerConeAngle", 0.78539816339, at);
-    const double inner = numberMember(document, *spot, "innerConeAngle", 0.0, at);
-    if (!(outer > 0.0) || outer > kWidest + 1e-4 || inner < 0.0 || inner > outer) {
-      document.fail(at, "has a cone that is none: 0 <= inner <= outer <= pi/2 is asked for",
-                    kExportAgain);
-    }
-    light.outerCone = static_cast<float>(outer);
-    light.innerCone = static_cast<float>(inner);
+  light.intensity = colored(document, source.color, source.intensity, at);
+  light.range = static_cast<float>(std::max(source.range, 0.0));
+  constexpr double kWidest = 1.57079632679;
+  const double outer = source.spot.outerConeAngle, inner = source.spot.innerConeAngle;
+  if (!(outer > 0.0) || outer > kWidest + 1e-4 || inner < 0.0 || inner > outer) {
+    document.fail(at, "has a cone that is none: 0 <= inner <= outer <= pi/2 is asked for",
+                  kExportAgain);
   }
+  light.outerCone = static_cast<float>(outer);
+  light.innerCone = static_cast<float>(inner);
   return light;
 }
 
@@ -107,20 +85,22 @@ std::optional<AreaLight> readArea(const GltfDocument& document, size_t node,
   const Json& json = listOf(document, "nodes")[node];
   if (auto noted = readNoted(document, json, {"nodes", node})) return noted;
 
-  At at{"EXT_lights_area.lights", 0};
-  const Json* light = lightOf(document, node, "EXT_lights_area", at.index);
-  if (light == nullptr) return std::nullopt;
-  std::string type = textMember(document, *light, "type", at);
+  const Json* reference = extensionOf(json, "EXT_lights_area");
+  if (reference == nullptr || !reference->contains("light")) return std::nullopt;
+  const At at{kAreaLights, sizeIn(*reference, "light")};
+  const Json& light = listOf(document, kAreaLights)[at.index];
+  std::string type = textIn(light, "type");
   if (type.empty()) type = "rect";
   if (type != "rect" && type != "disk") return std::nullopt;
 
   AreaLight area;
   area.shape = type == "rect" ? AreaShape::rectangle : AreaShape::disk;
-  area.radiance = colored(document, *light, 1000.0, at);
-  const double size = numberMember(document, *light, "size", 1.0, at);
+  area.radiance =
+      colored(document, numbersIn(light, "color"), numberIn(light, "intensity", 1000.0), at);
+  const double size = numberIn(light, "size", 1.0);
   double aspect = 1.0;
-  if (const Json* rect = member(*light, "rect"); rect != nullptr && type == "rect") {
-    aspect = numberMember(document, *rect, "aspect", 1.0, at);
+  if (const Json* rect = member(light, "rect"); rect != nullptr && type == "rect") {
+    aspect = numberIn(*rect, "aspect", 1.0);
   }
   if (!(size > 0.0 && size < 1e9 && aspect > 0.0 && aspect < 1e9 && size * aspect < 1e9)) {
     document.fail(at, "has a size or aspect that is none", kExportAgain);
@@ -135,7 +115,7 @@ AxisRatios areaScale(const vec3& worldScale) {
   const double largest = std::max({worldScale.x, worldScale.y, worldScale.z});
   const auto ratio = [&](double s) {
     const double r = s > 1e-6 * largest ? largest / s : 1.0;
-    return std::abs(r - 1.0) < 1e-5 ? 1.0 : r;  // a deviation due to rotation is not a scale
+    return std::abs(r - 1.0) < 1e-5 ? 1.0 : r;  // what rotating leaves is no scale
   };
   return {ratio(worldScale.x), ratio(worldScale.y)};
 }
@@ -146,18 +126,17 @@ vec3 axisLengths(const mat4& m) {
 
 void warnOfUnknownLights(GltfDocument& document) {
   struct Kind {
-    const char* extension;
+    const char* list;
     std::vector<std::string> types;
   };
-  for (const Kind& kind : {Kind{"KHR_lights_punctual", {"point", "spot", "directional"}},
-                           Kind{"EXT_lights_area", {"rect", "disk", ""}}}) {
-    const Json* lights = lightsOf(document, kind.extension);
-    if (lights == nullptr) continue;
-    for (size_t i = 0; i < lights->size(); ++i) {
-      const std::string type = textMember(document, (*lights)[i], "type", {kind.extension, i});
+  for (const Kind& kind : {Kind{kPunctualLights, {"point", "spot", "directional"}},
+                           Kind{kAreaLights, {"rect", "disk", ""}}}) {
+    const Json& lights = listOf(document, kind.list);
+    for (size_t i = 0; i < lights.size(); ++i) {
+      const std::string type = textIn(lights[i], "type");
       if (std::find(kind.types.begin(), kind.types.end(), type) == kind.types.end()) {
-        document.warn(std::string(kind.extension) + ".lights[" + std::to_string(i) +
-                      "] is of the unknown type \"" + printable(type) + "\"; shown without it");
+        document.warn(At{kind.list, i}.text() + " is of the unknown type \"" + printable(type) +
+                      "\"; shown without it");
       }
     }
   }

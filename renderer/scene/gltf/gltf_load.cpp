@@ -39,8 +39,8 @@ LoadedScene loadScene(const std::filesystem::path& path, const LoadProgress& pro
   GltfDocument& document = source->document;
   checkVersionAndExtensions(document);
   checkStructure(document);
-  readBuffers(document);
   stripSphereMeshes(document);
+  decodeModel(document);
 
   LoadedScene loaded;
   Scene& scene = loaded.scene;

@@ -1,88 +1,80 @@
 #include <algorithm>
 
+#include <tiny_gltf.h>
+
 #include "renderer/scene/gltf/gltf_content.h"
 
 namespace lamplighter {
 
 namespace {
 
-TextureRef readTextureRef(const GltfDocument& document, const Json& owner, const char* key, At at) {
+// `json`: the same texture in the file, for its extensions; may be null.
+template <typename TextureInfo>
+TextureRef readTextureRef(const TextureInfo& info, const Json* json) {
   TextureRef ref;
-  const Json* json = member(owner, key);
-  if (json == nullptr) return ref;
-  const auto index = indexMember(document, *json, "index", at, listOf(document, "textures").size());
-  if (!index) return ref;
-  ref.texture = static_cast<int>(*index);
-  size_t set = sizeMember(document, *json, "texCoord", at).value_or(0);
+  ref.texture = info.index;
+  ref.texCoord = std::clamp(info.texCoord, 0, 1);
+  if (info.index < 0 || json == nullptr) return ref;
   if (const Json* transform = extensionOf(*json, "KHR_texture_transform")) {
-    const std::vector<double> offset = numbersMember(document, *transform, "offset", 2, at);
-    const std::vector<double> scale = numbersMember(document, *transform, "scale", 2, at);
+    const std::vector<double> offset = numbersIn(*transform, "offset"),
+                              scale = numbersIn(*transform, "scale");
     if (!offset.empty()) ref.offset = vec2(offset[0], offset[1]);
     if (!scale.empty()) ref.scale = vec2(scale[0], scale[1]);
-    ref.rotation = static_cast<float>(numberMember(document, *transform, "rotation", 0.0, at));
-    set = sizeMember(document, *transform, "texCoord", at).value_or(set);
+    ref.rotation = static_cast<float>(numberIn(*transform, "rotation", 0.0));
+    if (const Json* set = member(*transform, "texCoord")) {
+      ref.texCoord = static_cast<int>(std::min<size_t>(set->get<size_t>(), 1));
+    }
   }
-  ref.texCoord = static_cast<int>(std::min<size_t>(set, 1));
   return ref;
 }
 
-float unitMember(const GltfDocument& document, const Json& object, const char* key,
-                 double otherwise, At at) {
-  return static_cast<float>(
-      std::clamp(numberMember(document, object, key, otherwise, at), 0.0, 1.0));
-}
+float unit(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
 
 }  // namespace
 
 Material readMaterial(const GltfDocument& document, size_t index) {
-  const At at{"materials", index};
+  const tinygltf::Material& source = document.model->materials[index];
   const Json& json = listOf(document, "materials")[index];
   Material m;
-  m.name = textMember(document, json, "name", at);
+  m.name = source.name;
 
-  if (const Json* pbr = member(json, "pbrMetallicRoughness")) {
-    const std::vector<double> color = numbersMember(document, *pbr, "baseColorFactor", 4, at);
-    // An albedo above 1 would reflect more light than it receives.
-    if (!color.empty()) {
-      m.baseColor = glm::clamp(vec4(color[0], color[1], color[2], color[3]), 0.0f, 1.0f);
+  const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
+  const std::vector<double>& color = pbr.baseColorFactor;
+  // Above one a surface would give back more light than it gets.
+  m.baseColor = glm::clamp(vec4(color[0], color[1], color[2], color[3]), 0.0f, 1.0f);
+  m.metallic = unit(pbr.metallicFactor);
+  m.roughness = unit(pbr.roughnessFactor);
+  const Json* pbrJson = member(json, "pbrMetallicRoughness");
+  const auto pbrMember = [&](const char* key) { return pbrJson ? member(*pbrJson, key) : nullptr; };
+  m.baseColorTexture = readTextureRef(pbr.baseColorTexture, pbrMember("baseColorTexture"));
+  m.metallicRoughnessTexture =
+      readTextureRef(pbr.metallicRoughnessTexture, pbrMember("metallicRoughnessTexture"));
+  m.normalTexture = readTextureRef(source.normalTexture, member(json, "normalTexture"));
+  m.normalScale = static_cast<float>(source.normalTexture.scale);
+  m.emissiveTexture = readTextureRef(source.emissiveTexture, member(json, "emissiveTexture"));
+  const Json* extension = extensionOf(json, "KHR_materials_emissive_strength");
+  const double strength = extension ? numberIn(*extension, "emissiveStrength", 1.0) : 1.0;
+  // The product in double, so that what is saved as factor and strength comes back as it was.
+  for (int c = 0; c < 3; ++c) {
+    const double value = std::max(source.emissiveFactor[static_cast<size_t>(c)] * strength, 0.0);
+    if (value > 1e30) {
+      document.fail({"materials", index}, "emits more than a float can hold", kExportAgain);
     }
-    m.baseColorTexture = readTextureRef(document, *pbr, "baseColorTexture", at);
-    m.metallic = unitMember(document, *pbr, "metallicFactor", 1.0, at);
-    m.roughness = unitMember(document, *pbr, "roughnessFactor", 1.0, at);
-    m.metallicRoughnessTexture = readTextureRef(document, *pbr, "metallicRoughnessTexture", at);
-  }
-  if (const Json* normal = member(json, "normalTexture")) {
-    m.normalTexture = readTextureRef(document, json, "normalTexture", at);
-    m.normalScale = static_cast<float>(numberMember(document, *normal, "scale", 1.0, at));
-  }
-  m.emissiveTexture = readTextureRef(document, json, "emissiveTexture", at);
-  const std::vector<double> emissive = numbersMember(document, json, "emissiveFactor", 3, at);
-  if (!emissive.empty()) {
-    double strength = 1.0;
-    if (const Json* extension = extensionOf(json, "KHR_materials_emissive_strength")) {
-      strength = numberMember(document, *extension, "emissiveStrength", 1.0, at);
-    }
-    // The product in double, so that a saved factor and strength are read back bit-equal.
-    for (int c = 0; c < 3; ++c) {
-      const double value = std::max(emissive[static_cast<size_t>(c)] * strength, 0.0);
-      if (value > 1e30) document.fail(at, "emits more than a float can hold", kExportAgain);
-      m.emissive[c] = static_cast<float>(value);
-    }
+    m.emissive[c] = static_cast<float>(value);
   }
   if (const Json* transmission = extensionOf(json, "KHR_materials_transmission")) {
-    m.transmission = unitMember(document, *transmission, "transmissionFactor", 0.0, at);
+    m.transmission = unit(numberIn(*transmission, "transmissionFactor", 0.0));
   }
-  const std::string mode = textMember(document, json, "alphaMode", at);
-  if (mode == "MASK") m.alphaMode = AlphaMode::mask;
-  if (mode == "BLEND") m.alphaMode = AlphaMode::blend;
-  m.alphaCutoff = static_cast<float>(numberMember(document, json, "alphaCutoff", 0.5, at));
-  m.doubleSided = boolMember(document, json, "doubleSided", false, at);
+  if (source.alphaMode == "MASK") m.alphaMode = AlphaMode::mask;
+  if (source.alphaMode == "BLEND") m.alphaMode = AlphaMode::blend;
+  m.alphaCutoff = static_cast<float>(source.alphaCutoff);
+  m.doubleSided = source.doubleSided;
   return m;
 }
 
 std::vector<Material> readMaterials(GltfDocument& document) {
   std::vector<Material> materials;
-  const size_t count = listOf(document, "materials").size();
+  const size_t count = document.model->materials.size();
   for (size_t i = 0; i < count; ++i) materials.push_back(readMaterial(document, i));
   return materials;
 }

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tiny_gltf.h>
+
 #include "renderer/scene/flat_normals.h"
 #include "renderer/scene/gltf/gltf_accessors.h"
 #include "renderer/scene/gltf/gltf_content.h"
@@ -10,7 +12,8 @@ namespace lamplighter {
 
 namespace {
 
-// Numbers of skipped and repaired items, for warnings.
+// Beyond this a float has no millimetre left, and squared distances begin to overflow further on.
+
 struct Counts {
   size_t notTriangles = 0;   // primitives of points and lines
   size_t mendedNormals = 0;  // vertices
@@ -22,14 +25,15 @@ bool isFinite(const vec2& v) { return std::isfinite(v.x) && std::isfinite(v.y); 
 bool isFinite(const vec3& v) { return isFinite(vec2(v)) && std::isfinite(v.z); }
 bool isFinite(const vec4& v) { return isFinite(vec3(v)) && std::isfinite(v.w); }
 
-// Converts strips and fans to triangle lists (glTF 2.0, 3.7.2.1).
-std::vector<uint32_t> asTriangles(const std::vector<uint32_t>& in, size_t mode) {
-  if (mode == 4) return {in.begin(), in.end() - static_cast<std::ptrdiff_t>(in.size() % 3)};
+// Triangle lists from strips and fans (glTF 2.0, 3.7.2.1).
+std::vector<uint32_t> asTriangles(const std::vector<uint32_t>& in, int mode) {
+  if (mode == TINYGLTF_MODE_TRIANGLES)
+    return {in.begin(), in.end() - static_cast<std::ptrdiff_t>(in.size() % 3)};
   std::vector<uint32_t> out;
   if (in.size() < 3) return out;
   out.reserve(3 * (in.size() - 2));
   for (size_t i = 0; i + 2 < in.size(); ++i) {
-    if (mode == 5) {
+    if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
       const size_t odd = i % 2;
       out.insert(out.end(), {in[i], in[i + 1 + odd], in[i + 2 - odd]});
     } else {
@@ -47,21 +51,21 @@ void mendUvs(std::vector<vec2>& uvs, Counts& counts) {
   }
 }
 
-// Normalises the normals and marks those that cannot be normalised.
+// Unit normals; those that are none are marked.
 std::vector<bool> checkNormals(std::vector<vec3>& normals) {
   std::vector<bool> missing(normals.size(), false);
   for (size_t i = 0; i < normals.size(); ++i) {
     const float square = glm::dot(normals[i], normals[i]);
     if (!(square > 1e-12f) || !std::isfinite(square)) {
       missing[i] = true;
-    } else if (std::abs(square - 1.0f) > 1e-5f) {  // unit normals stay unchanged
+    } else if (std::abs(square - 1.0f) > 1e-5f) {  // not those that are unit: they stay as they are
       normals[i] /= std::sqrt(square);
     }
   }
   return missing;
 }
 
-// Tangents are used for all vertices or for none: a normal map needs a tangent frame everywhere.
+// Tangents are used as a whole or not at all: a normal map needs a frame everywhere.
 void checkTangents(std::vector<vec4>& tangents) {
   for (vec4& t : tangents) {
     const float square = glm::dot(vec3(t), vec3(t));
@@ -76,22 +80,17 @@ void checkTangents(std::vector<vec4>& tangents) {
 
 class MeshReader {
  public:
-  explicit MeshReader(GltfDocument& document)
-      : doc_(document), accessors_(listOf(document, "accessors")) {}
+  explicit MeshReader(GltfDocument& document) : doc_(document) {}
 
-  std::shared_ptr<const Mesh> read(const Json& json, At at) {
+  std::shared_ptr<const Mesh> read(const tinygltf::Mesh& source, At at) {
     auto mesh = std::make_shared<Mesh>();
-    mesh->name = textMember(doc_, json, "name", at);
-    if (const Json* primitives = arrayMember(doc_, json, "primitives", at)) {
-      for (const Json& primitive : *primitives) {
-        if (auto read = readPrimitive(primitive, at)) mesh->primitives.push_back(std::move(*read));
-      }
+    mesh->name = source.name;
+    for (const tinygltf::Primitive& primitive : source.primitives) {
+      if (auto read = readPrimitive(primitive, at)) mesh->primitives.push_back(std::move(*read));
     }
-    if (const Json* weights = arrayMember(doc_, json, "weights", at)) {
-      if (std::any_of(weights->begin(), weights->end(),
-                      [](const Json& w) { return w.is_number() && w.get<double>() != 0.0; })) {
-        ++counts_.deformed;
-      }
+    if (std::any_of(source.weights.begin(), source.weights.end(),
+                    [](double w) { return w != 0.0; })) {
+      ++counts_.deformed;
     }
     return mesh;
   }
@@ -107,49 +106,40 @@ class MeshReader {
   }
 
  private:
-  std::optional<Primitive> readPrimitive(const Json& json, At at) {
-    const size_t mode = sizeMember(doc_, json, "mode", at).value_or(4);
-    const Json& attributes = *member(json, "attributes");
-    if (mode < 4) {
+  std::optional<Primitive> readPrimitive(const tinygltf::Primitive& source, At at) {
+    if (source.mode < TINYGLTF_MODE_TRIANGLES) {
       ++counts_.notTriangles;
       return std::nullopt;
     }
-    const auto position = sizeMember(doc_, attributes, "POSITION", at);
-    if (!position) return std::nullopt;  // allowed, but there is nothing to show
-    refuseCompressed(json, at, *position);
+    const auto attribute = [&](const char* name, auto decode) {
+      const auto it = source.attributes.find(name);
+      return it == source.attributes.end() ? decltype(decode(doc_, size_t{}))()
+                                           : decode(doc_, spend(it->second));
+    };
+    if (!source.attributes.contains("POSITION")) return std::nullopt;  // allowed; nothing to show
 
     Primitive p;
-    p.positions = readVec3(doc_, spend(*position));
+    p.positions = attribute("POSITION", readVec3);
     for (const vec3& v : p.positions) {
       if (!isFinite(v) ||
           std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > kFarthestPlace) {
         doc_.fail(at, "has a vertex at no finite place, or farther than 1e9 m", kExportAgain);
       }
     }
-    p.indices = asTriangles(indices(json, at, p.positions.size()), mode);
-    if (const auto i = sizeMember(doc_, attributes, "NORMAL", at)) {
-      p.normals = readVec3(doc_, spend(*i));
-    }
-    if (const auto i = sizeMember(doc_, attributes, "TANGENT", at)) {
-      p.tangents = readVec4(doc_, spend(*i));
-    }
-    if (const auto i = sizeMember(doc_, attributes, "TEXCOORD_0", at)) {
-      p.uv0 = readVec2(doc_, spend(*i));
-    }
-    if (const auto i = sizeMember(doc_, attributes, "TEXCOORD_1", at)) {
-      p.uv1 = readVec2(doc_, spend(*i));
-    }
-    if (const auto i = sizeMember(doc_, attributes, "COLOR_0", at)) {
-      p.colors = readVec4(doc_, spend(*i));
-    }
-    if (const auto i = sizeMember(doc_, json, "material", at)) p.material = static_cast<int>(*i);
+    p.indices = asTriangles(indices(source.indices, at, p.positions.size()), source.mode);
+    p.normals = attribute("NORMAL", readVec3);
+    p.tangents = attribute("TANGENT", readVec4);
+    p.uv0 = attribute("TEXCOORD_0", readVec2);
+    p.uv1 = attribute("TEXCOORD_1", readVec2);
+    p.colors = attribute("COLOR_0", readVec4);
+    p.material = source.material;
 
     dropUnusedVertices(p);
     keep(p);
     mendUvs(p.uv0, counts_);
     mendUvs(p.uv1, counts_);
     for (vec4& c : p.colors) c = isFinite(c) ? glm::max(c, vec4(0.0f)) : vec4(1.0f);
-    // Tangents without normals must be ignored (glTF 2.0, 3.7.2.1).
+    // Tangents without normals are to be ignored (glTF 2.0, 3.7.2.1).
     if (p.normals.empty()) p.tangents.clear();
     checkTangents(p.tangents);
     std::vector<bool> missing =
@@ -160,9 +150,9 @@ class MeshReader {
     return p;
   }
 
-  std::vector<uint32_t> indices(const Json& json, At at, size_t vertices) {
-    if (const auto accessor = sizeMember(doc_, json, "indices", at)) {
-      std::vector<uint32_t> out = readIndices(doc_, spend(*accessor));
+  std::vector<uint32_t> indices(int accessor, At at, size_t vertices) {
+    if (accessor >= 0) {
+      std::vector<uint32_t> out = readIndices(doc_, spend(accessor));
       for (const uint32_t i : out) {
         if (i >= vertices) {
           doc_.fail(at,
@@ -178,19 +168,11 @@ class MeshReader {
     return out;
   }
 
-  // A primitive may have only Draco data even if the file does not require the extension.
-  void refuseCompressed(const Json& json, At at, size_t position) {
-    if (extensionOf(json, "KHR_draco_mesh_compression") != nullptr &&
-        member(accessors_[position], "bufferView") == nullptr) {
-      doc_.fail(at, "is compressed by KHR_draco_mesh_compression, which is not supported",
-                "export it without compression");
-    }
-  }
-
-  // A small file can refer to the same large accessor many times. The decoded data, and even more
-  // the data that is kept, must be in proportion to the bytes read.
-  size_t spend(size_t accessor) {
-    decoded_ += accessorView(doc_, accessor).count * sizeof(vec4);
+  // A small file can name the same large accessor again and again: what is decoded, and more so
+  // what is kept of it, has to be in proportion to what was read.
+  size_t spend(int index) {
+    const auto accessor = static_cast<size_t>(index);
+    decoded_ += elementCount(doc_, accessor) * sizeof(vec4);
     constexpr size_t kAlwaysGood = size_t{4} << 30, kProportion = 256;
     if (decoded_ > kAlwaysGood + kProportion * doc_.bytesRead) refuseAmount();
     return accessor;
@@ -205,7 +187,6 @@ class MeshReader {
   }
 
   GltfDocument& doc_;
-  const Json& accessors_;
   Counts counts_;
   size_t decoded_ = 0, kept_ = 0;  // bytes
 };
@@ -213,7 +194,7 @@ class MeshReader {
 }  // namespace
 
 std::vector<std::shared_ptr<const Mesh>> readMeshes(GltfDocument& document) {
-  const Json& list = listOf(document, "meshes");
+  const std::vector<tinygltf::Mesh>& list = document.model->meshes;
   MeshReader reader(document);
   std::vector<std::shared_ptr<const Mesh>> meshes;
   meshes.reserve(list.size());

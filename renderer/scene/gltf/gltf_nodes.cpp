@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tiny_gltf.h>
+
 #include "renderer/scene/gltf/gltf_content.h"
 #include "renderer/scene/gltf/gltf_lights.h"
 
@@ -11,40 +13,41 @@ namespace {
 bool isReasonable(const mat4& m) {
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) {
-      if (!(std::abs(m[c][r]) <= 1e9f)) return false;  // also for NaN
+      if (!(std::abs(m[c][r]) <= 1e9f)) return false;  // also when it is NaN
     }
   }
   return true;
 }
 
-// Never empty, because lists show it. Does not depend on the node's index, which may change when
-// saving.
-std::string nodeName(const GltfDocument& document, const Json& json, At at) {
-  std::string name = textMember(document, json, "name", at);
-  if (!name.empty()) return name;
-  if (const auto mesh = sizeMember(document, json, "mesh", at)) {
-    name = textMember(document, listOf(document, "meshes")[*mesh], "name", {"meshes", *mesh});
+// Never empty: a list of nodes shows it. The same whatever the node's index is, which saving may
+// change.
+std::string nodeName(const tinygltf::Model& model, const tinygltf::Node& node) {
+  if (!node.name.empty()) return node.name;
+  if (node.mesh >= 0) {
+    const std::string& name = model.meshes[static_cast<size_t>(node.mesh)].name;
     return name.empty() ? "mesh" : name;
   }
-  return member(json, "camera") != nullptr ? "camera" : "node";
+  return node.camera >= 0 ? "camera" : "node";
+}
+
+vec3 vec3Or(const std::vector<double>& v, const vec3& otherwise) {
+  return v.empty() ? otherwise : vec3(v[0], v[1], v[2]);
 }
 
 }  // namespace
 
 Camera readCamera(const GltfDocument& document, size_t index) {
-  const At at{"cameras", index};
-  const Json& json = listOf(document, "cameras")[index];
+  const tinygltf::Camera& source = document.model->cameras[index];
+  const tinygltf::PerspectiveCamera& lens = source.perspective;
   Camera camera;
-  camera.name = textMember(document, json, "name", at);
-  if (const Json* lens = member(json, "perspective")) {
-    camera.yfov = static_cast<float>(numberMember(document, *lens, "yfov", camera.yfov, at));
-    camera.aspect = static_cast<float>(numberMember(document, *lens, "aspectRatio", 0.0, at));
-    camera.znear = static_cast<float>(numberMember(document, *lens, "znear", camera.znear, at));
-    camera.zfar = static_cast<float>(numberMember(document, *lens, "zfar", 0.0, at));
-    if (!(camera.yfov > 0.0f && camera.yfov < kPi) || camera.aspect < 0.0f ||
-        !(camera.znear > 0.0f) || camera.zfar < 0.0f) {
-      document.fail(at, "has a lens that is none", kExportAgain);
-    }
+  camera.name = source.name;
+  camera.yfov = static_cast<float>(lens.yfov);
+  camera.aspect = static_cast<float>(lens.aspectRatio);
+  camera.znear = static_cast<float>(lens.znear);
+  camera.zfar = static_cast<float>(lens.zfar);
+  if (!(camera.yfov > 0.0f && camera.yfov < kPi) || camera.aspect < 0.0f ||
+      !(camera.znear > 0.0f) || camera.zfar < 0.0f) {
+    document.fail({"cameras", index}, "has a lens that is none", kExportAgain);
   }
   return camera;
 }
@@ -64,22 +67,21 @@ std::vector<Camera> readCameras(GltfDocument& document) {
 
 Transform readTransform(const GltfDocument& document, size_t node) {
   const At at{"nodes", node};
-  const Json& json = listOf(document, "nodes")[node];
-  const std::vector<double> matrix = numbersMember(document, json, "matrix", 16, at);
+  const tinygltf::Node& source = document.model->nodes[node];
   Transform t;
-  if (!matrix.empty()) {
+  if (!source.matrix.empty()) {
     mat4 m;
     for (int i = 0; i < 16; ++i)
-      m[i / 4][i % 4] = static_cast<float>(matrix[static_cast<size_t>(i)]);
+      m[i / 4][i % 4] = static_cast<float>(source.matrix[static_cast<size_t>(i)]);
     if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f) {
       document.fail(at, "has a matrix whose last row is not 0 0 0 1", kExportAgain);
     }
     if (!isReasonable(m)) document.fail(at, "has a matrix beyond 1e9", kExportAgain);
     return decompose(m);
   }
-  t.translation = vec3Member(document, json, "translation", t.translation, at);
-  t.scale = vec3Member(document, json, "scale", t.scale, at);
-  const std::vector<double> r = numbersMember(document, json, "rotation", 4, at);
+  t.translation = vec3Or(source.translation, t.translation);
+  t.scale = vec3Or(source.scale, t.scale);
+  const std::vector<double>& r = source.rotation;
   if (!r.empty()) {
     const quat q(static_cast<float>(r[3]), static_cast<float>(r[0]), static_cast<float>(r[1]),
                  static_cast<float>(r[2]));
@@ -87,24 +89,21 @@ Transform readTransform(const GltfDocument& document, size_t node) {
     if (!(square > 1e-12f) || !std::isfinite(square)) {
       document.fail(at, "has a rotation that is none", kExportAgain);
     }
-    // Quaternions that are unit except for rounding stay unchanged, so that saving writes the same
-    // values.
+    // Those that are unit but for rounding stay as they are, so that saving gives them back.
     t.rotation = std::abs(square - 1.0f) > 1e-5f ? glm::normalize(q) : q;
   }
   return t;
 }
 
 Node readNode(const GltfDocument& document, size_t node) {
-  const At at{"nodes", node};
+  const tinygltf::Node& source = document.model->nodes[node];
   const Json& json = listOf(document, "nodes")[node];
   Node n;
   n.sourceNode = static_cast<int>(node);
-  n.name = nodeName(document, json, at);
+  n.name = nodeName(*document.model, source);
   n.local = readTransform(document, node);
-  if (const auto mesh = sizeMember(document, json, "mesh", at)) n.mesh = static_cast<int>(*mesh);
-  if (const auto camera = sizeMember(document, json, "camera", at)) {
-    n.camera = static_cast<int>(*camera);
-  }
+  n.mesh = source.mesh;
+  n.camera = source.camera;
   n.punctual = readPunctual(document, node);
   if (const Json* kind = noteOf(json, kMeshKindNote)) {
     if (*kind == "simple") n.meshKind = MeshKind::simple;
@@ -112,42 +111,35 @@ Node readNode(const GltfDocument& document, size_t node) {
   }
   if (const Json* locked = noteOf(json, kLockedNote)) n.locked = *locked == true;
   if (const Json* visibility = extensionOf(json, "KHR_node_visibility")) {
-    n.visible = boolMember(document, *visibility, "visible", true, at);
+    n.visible = flagIn(*visibility, "visible", true);
   }
   return n;
 }
 
 std::string sceneName(const GltfDocument& document) {
-  const Json& scenes = listOf(document, "scenes");
-  if (scenes.empty()) return {};
-  const At at{"scenes", sizeMember(document, document.json, "scene", {"scenes", 0}).value_or(0)};
-  return textMember(document, scenes[at.index], "name", at);
+  const Json* scene = shownScene(document);
+  return scene == nullptr ? std::string() : textIn(*scene, "name");
 }
 
 std::vector<Node> readNodes(GltfDocument& document) {
-  const Json& list = listOf(document, "nodes");
-  std::vector<size_t> roots;
-  const Json& scenes = listOf(document, "scenes");
-  if (!scenes.empty()) {
-    const Json& scene =
-        scenes[sizeMember(document, document.json, "scene", {"scenes", 0}).value_or(0)];
-    if (const Json* nodes = member(scene, "nodes")) roots = nodes->get<std::vector<size_t>>();
+  const tinygltf::Model& model = *document.model;
+  const std::vector<tinygltf::Node>& list = model.nodes;
+  std::vector<int> roots;
+  if (!model.scenes.empty()) {
+    roots = model.scenes[static_cast<size_t>(model.defaultScene)].nodes;
   } else {
     std::vector<bool> isChild(list.size(), false);
-    for (const Json& node : list) {
-      if (const Json* children = member(node, "children")) {
-        for (const Json& child : *children) isChild[child.get<size_t>()] = true;
-      }
+    for (const tinygltf::Node& node : list) {
+      for (const int child : node.children) isChild[static_cast<size_t>(child)] = true;
     }
     for (size_t i = 0; i < list.size(); ++i) {
-      if (!isChild[i]) roots.push_back(i);
+      if (!isChild[i]) roots.push_back(static_cast<int>(i));
     }
     document.warn(list.empty() ? "holds no scene and no nodes; shown empty"
                                : "holds no scene; all of its nodes are shown");
   }
 
-  // Depth-first traversal with an explicit stack: some levels have chains of a hundred thousand
-  // nodes.
+  // Depth first, a stack of its own: levels of a hundred thousand nodes one below the other exist.
   struct Open {
     size_t node;
     NodeId parent;
@@ -155,7 +147,7 @@ std::vector<Node> readNodes(GltfDocument& document) {
   };
   std::vector<Open> open;
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) {
-    open.push_back({*root, kNoNode, mat4(1.0f)});
+    open.push_back({static_cast<size_t>(*root), kNoNode, mat4(1.0f)});
   }
   std::vector<Node> nodes;
   nodes.reserve(list.size());
@@ -171,10 +163,9 @@ std::vector<Node> readNodes(GltfDocument& document) {
     node.id = static_cast<NodeId>(nodes.size() + 1);
     node.parent = next.parent;
     node.area = readArea(document, next.node, axisLengths(world));
-    if (const Json* children = member(list[next.node], "children")) {
-      for (auto child = children->rbegin(); child != children->rend(); ++child) {
-        open.push_back({child->get<size_t>(), node.id, world});
-      }
+    const std::vector<int>& children = list[next.node].children;
+    for (auto child = children.rbegin(); child != children.rend(); ++child) {
+      open.push_back({static_cast<size_t>(*child), node.id, world});
     }
     nodes.push_back(std::move(node));
   }

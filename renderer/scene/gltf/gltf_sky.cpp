@@ -69,15 +69,14 @@ Sky skyOf(const GltfDocument& document, const Json& note) {
 }  // namespace
 
 std::optional<Sky> readSky(GltfDocument& document) {
-  const Json& scenes = listOf(document, "scenes");
-  if (scenes.empty()) return std::nullopt;
-  const At at{"scenes", sizeMember(document, document.json, "scene", {"scenes", 0}).value_or(0)};
-  const Json* note = noteOf(scenes[at.index], kSkyNote);
+  const Json* scene = shownScene(document);
+  const Json* note = scene == nullptr ? nullptr : noteOf(*scene, kSkyNote);
   if (note == nullptr) return std::nullopt;
   try {
     return skyOf(document, *note);
   } catch (const Malformed& e) {
-    document.warn("the sky of " + at.text() + " " + e.why + "; it is left out");
+    document.warn("the sky of " + At{"scenes", sizeIn(document.json, "scene")}.text() + " " +
+                  e.why + "; it is left out");
     return std::nullopt;
   }
 }

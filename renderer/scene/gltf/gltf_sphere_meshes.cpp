@@ -1,7 +1,7 @@
-// EXT_lights_area has no sphere or tube lights. They are saved as a node with extras that describe
-// the light and an emissive mesh, so that other programs show it; here the mesh is removed again.
-// The data of these meshes is marked by extras.lamplighter.sphereLight, and saveGltf() puts it last
-// in every list, so that no other index changes.
+// A sphere or tube light has no place in EXT_lights_area. It is saved as a node with extras that
+// say what it is and an emissive mesh, so that other programs show it; here the mesh is taken out
+// again. What belongs to these meshes is marked by extras.lamplighter.sphereLight, and saveGltf()
+// puts it last in every list, so that nothing else changes its index.
 #include "renderer/scene/gltf/gltf_content.h"
 #include "renderer/scene/gltf/gltf_lights.h"
 
@@ -9,8 +9,8 @@ namespace lamplighter {
 
 namespace {
 
-// Removes the marked entries at the end of a list. A marked entry that another program moved before
-// its own entries stays, as an unused mesh.
+// Drops the marked entries at the end of a list. An entry that
+// another program moved to before others of its own stays: it is an unused mesh then.
 void dropMarked(Json& root, const char* list) {
   if (!root.contains(list)) return;
   Json& entries = root[list];
@@ -20,19 +20,15 @@ void dropMarked(Json& root, const char* list) {
   if (entries.empty()) root.erase(list);  // glTF has no empty lists
 }
 
-// Shortens a buffer, or removes it if it is empty and the last one.
-void dropBytes(GltfDocument& document, size_t buffer, size_t begin) {
-  Json& root = document.json;
+// Shortens a buffer, or takes it away when nothing is left and it is the last.
+void dropBytes(Json& root, size_t buffer, size_t begin) {
   if (begin == SIZE_MAX) return;
-  Json& json = root["buffers"][buffer];
-  if (begin == 0) {
-    if (buffer + 1 == root["buffers"].size()) {
-      root["buffers"].erase(buffer);
-      document.buffers.pop_back();
-      if (root["buffers"].empty()) root.erase("buffers");
-    }
-  } else {
-    json["byteLength"] = begin;
+  Json& buffers = root["buffers"];
+  if (begin > 0) {
+    buffers[buffer]["byteLength"] = begin;
+  } else if (buffer + 1 == buffers.size()) {
+    buffers.erase(buffer);
+    if (buffers.empty()) root.erase("buffers");
   }
 }
 
@@ -53,7 +49,7 @@ void stripSphereMeshes(GltfDocument& document) {
   }
   if (!hasSphere) return;
 
-  // Another program may have used the mesh for its own nodes; then everything stays.
+  // Another program may have given the mesh to nodes of its own; then all stays.
   const Json& meshes = listOf(document, "meshes");
   for (const Json& node : listOf(document, "nodes")) {
     const Json* mesh = member(node, "mesh");
@@ -66,17 +62,16 @@ void stripSphereMeshes(GltfDocument& document) {
     checkStructure(document);
     return;
   }
-  // The buffer views of sphere meshes are the last ones of the last buffer, so their bytes are
-  // removed, too.
+  // The views of sphere meshes are the last of the last buffer: their bytes go as well.
   const Json& views = listOf(document, "bufferViews");
   size_t begin = SIZE_MAX, buffer = 0;
   for (size_t i = views.size(); i > 0 && isMarked(views[i - 1], kSphereMark); --i) {
     buffer = views[i - 1]["buffer"].get<size_t>();
-    begin = sizeMember(document, views[i - 1], "byteOffset", {"bufferViews", i - 1}).value_or(0);
+    begin = sizeIn(views[i - 1], "byteOffset");
   }
   dropMarked(root, "bufferViews");
-  dropBytes(document, buffer, begin);
-  // Marks may be wrong, so the result must be checked.
+  dropBytes(root, buffer, begin);
+  // Marks can be on anything; what is left has to be whole.
   checkStructure(document);
 }
 

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tiny_gltf.h>
 
 #include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
@@ -29,24 +30,20 @@ namespace {
 struct Encoded {
   Bytes owner;  // keeps `bytes` alive
   std::span<const uint8_t> bytes;
-  std::string why;  // reason if there are no bytes
+  std::string why;  // why there are none
 };
 
 // The encoded bytes of an image, from its own file or from a buffer view.
 Encoded encodedImage(const GltfDocument& document, size_t index) {
-  const At at{"images", index};
   const Json& json = listOf(document, "images")[index];
   Encoded out;
-  if (const auto view = sizeMember(document, json, "bufferView", at)) {
-    const Json& bufferView = listOf(document, "bufferViews")[*view];
-    const At viewAt{"bufferViews", *view};
-    out.owner = document.buffers[*sizeMember(document, bufferView, "buffer", viewAt)];
-    out.bytes = std::span(*out.owner)
-                    .subspan(sizeMember(document, bufferView, "byteOffset", viewAt).value_or(0),
-                             *sizeMember(document, bufferView, "byteLength", viewAt));
+  if (member(json, "bufferView") != nullptr) {
+    const tinygltf::BufferView& view = document.model->bufferViews[sizeIn(json, "bufferView")];
+    out.owner = document.buffers[static_cast<size_t>(view.buffer)];
+    out.bytes = std::span(*out.owner).subspan(view.byteOffset, view.byteLength);
     return out;
   }
-  const std::string uri = textMember(document, json, "uri", at);
+  const std::string uri = textIn(json, "uri");
   std::string why;
   out.owner = readUri(document, uri, why);
   if (out.owner == nullptr) {
@@ -57,24 +54,32 @@ Encoded encodedImage(const GltfDocument& document, size_t index) {
   return out;
 }
 
-// The image of a texture: the core image, which every loader can read, is preferred to those of
-// extensions.
-std::optional<size_t> sourceOf(const GltfDocument& document, const Json& texture, At at) {
-  if (const auto source = sizeMember(document, texture, "source", at)) return source;
-  for (const char* name :
-       {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
-    if (const Json* extension = extensionOf(texture, name)) {
-      if (const auto source = sizeMember(document, *extension, "source", at)) return source;
-    }
+constexpr const char* kSources[] = {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif",
+                                    "MSFT_texture_dds"};
+
+// The images that extensions name.
+std::vector<size_t> extensionSources(const Json& texture) {
+  std::vector<size_t> out;
+  for (const char* name : kSources) {
+    const Json* extension = extensionOf(texture, name);
+    if (extension != nullptr && extension->contains("source"))
+      out.push_back(sizeIn(*extension, "source"));
   }
-  return std::nullopt;
+  return out;
 }
 
-Wrap wrapMode(const GltfDocument& document, const Json& sampler, const char* key, At at) {
-  switch (sizeMember(document, sampler, key, at).value_or(10497)) {
-    case 33071:
+// The image of a texture: the core one, which every loader can read, before those of extensions.
+std::optional<size_t> sourceOf(const tinygltf::Texture& texture, const Json& json) {
+  if (texture.source >= 0) return static_cast<size_t>(texture.source);
+  const std::vector<size_t> others = extensionSources(json);
+  return others.empty() ? std::nullopt : std::optional(others.front());
+}
+
+Wrap wrapMode(int mode) {
+  switch (mode) {
+    case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
       return Wrap::clamp;
-    case 33648:
+    case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
       return Wrap::mirror;
     default:
       return Wrap::repeat;
@@ -92,17 +97,12 @@ std::set<size_t> texturesInUse(const std::vector<Material>& materials) {
   return used;
 }
 
-// Unused images that are alternatives to a used one; they need not be readable.
+// Images that no texture shows, but that are alternatives to one that does, need not be readable.
 std::set<size_t> alternatives(const GltfDocument& document) {
   std::set<size_t> out;
   for (const Json& texture : listOf(document, "textures")) {
     if (member(texture, "source") == nullptr) continue;
-    for (const char* name :
-         {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
-      const Json* extension = extensionOf(texture, name);
-      const Json* source = extension == nullptr ? nullptr : member(*extension, "source");
-      if (source != nullptr) out.insert(source->get<size_t>());
-    }
+    for (const size_t source : extensionSources(texture)) out.insert(source);
   }
   return out;
 }
@@ -113,29 +113,27 @@ std::vector<Texture> readTextures(GltfDocument& document, const std::vector<Mate
                                   const LoadProgress& progress) {
   const Json& images = listOf(document, "images");
   const Json& list = listOf(document, "textures");
-  const Json& samplers = listOf(document, "samplers");
+  const tinygltf::Model& model = *document.model;
 
   std::vector<Texture> textures(list.size());
   std::vector<std::optional<size_t>> source(list.size());
   std::vector<bool> needed(images.size(), false);
   const std::set<size_t> used = texturesInUse(materials);
   for (size_t i = 0; i < list.size(); ++i) {
-    const At at{"textures", i};
-    textures[i].name = textMember(document, list[i], "name", at);
-    source[i] = sourceOf(document, list[i], at);
+    const tinygltf::Texture& texture = model.textures[i];
+    textures[i].name = texture.name;
+    source[i] = sourceOf(texture, list[i]);
     if (source[i] && used.contains(i)) needed[*source[i]] = true;
-    if (const auto index = sizeMember(document, list[i], "sampler", at)) {
-      const At samplerAt{"samplers", *index};
-      textures[i].wrapS = wrapMode(document, samplers[*index], "wrapS", samplerAt);
-      textures[i].wrapT = wrapMode(document, samplers[*index], "wrapT", samplerAt);
-      constexpr size_t kNearest = 9728;
-      textures[i].nearest =
-          sizeMember(document, samplers[*index], "magFilter", samplerAt) == kNearest;
+    if (texture.sampler >= 0) {
+      const tinygltf::Sampler& sampler = model.samplers[static_cast<size_t>(texture.sampler)];
+      textures[i].wrapS = wrapMode(sampler.wrapS);
+      textures[i].wrapT = wrapMode(sampler.wrapT);
+      textures[i].nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
     }
   }
 
-  // Files are read one after the other, including unused ones, because saving to another folder
-  // copies them. Then one batch at a time is decoded, with as many images as there are cores.
+  // Files are read one after the other, also those that are not shown: saving to another folder
+  // takes them along. Then a batch at a time is decoded, as many as there are cores.
   std::vector<Encoded> encoded;
   document.imageFiles.resize(images.size());
   for (size_t i = 0; i < images.size(); ++i) {
@@ -162,7 +160,7 @@ std::vector<Texture> readTextures(GltfDocument& document, const std::vector<Mate
     });
   }
 
-  // For unused images only the header is checked.
+  // Of images that nothing shows only the head is looked at.
   const std::set<size_t> unneeded = alternatives(document);
   for (size_t i = 0; i < images.size(); ++i) {
     if (!needed[i] && encoded[i].why.empty() && !unneeded.contains(i)) {

@@ -1,5 +1,5 @@
-// Resolves URIs in a glTF file: data URIs, or files in the folder of the document. Nothing else is
-// read: no other folder, no network.
+// What URIs in a glTF file stand for: data in the URI itself, or files in the document's folder.
+// Nothing else is read: no other folder, no network.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -11,14 +11,14 @@ namespace lamplighter {
 
 namespace fs = std::filesystem;
 
-Bytes readWholeFile(const fs::path& path, std::string& why) {
+NewBytes readWholeFile(const fs::path& path, std::string& why) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) {
     why = "is not there";
     return nullptr;
   }
-  // Reading devices and pipes might never end.
+  // Devices and pipes could be read for ever.
   if (error || status.type() != fs::file_type::regular) {
     why = status.type() == fs::file_type::directory ? "is a folder" : "is no regular file";
     return nullptr;
@@ -66,7 +66,7 @@ std::string percentDecoded(std::string_view text) {
 
 namespace {
 
-Bytes base64Decoded(std::string_view text) {
+NewBytes base64Decoded(std::string_view text) {
   static const std::array<int8_t, 256> kValue = [] {
     std::array<int8_t, 256> value;
     value.fill(-1);
@@ -96,7 +96,7 @@ Bytes base64Decoded(std::string_view text) {
   return bytes;
 }
 
-Bytes dataUri(std::string_view uri, std::string& why) {
+NewBytes dataUri(std::string_view uri, std::string& why) {
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos) {
     why = "is a data URI without data";
@@ -104,17 +104,17 @@ Bytes dataUri(std::string_view uri, std::string& why) {
   }
   const std::string_view head = uri.substr(0, comma), data = uri.substr(comma + 1);
   if (head.ends_with(";base64")) {
-    Bytes bytes = base64Decoded(data);
+    NewBytes bytes = base64Decoded(data);
     if (bytes == nullptr) why = "is a data URI whose base64 is damaged";
     return bytes;
   }
   const std::string decoded = percentDecoded(data);
-  return std::make_shared<const std::vector<uint8_t>>(decoded.begin(), decoded.end());
+  return std::make_shared<std::vector<uint8_t>>(decoded.begin(), decoded.end());
 }
 
 bool hasScheme(std::string_view uri) {
   const size_t colon = uri.find(':');
-  // A single letter would be a drive, which is refused as well.
+  // One letter would be a drive, which is refused as well.
   return colon != std::string_view::npos && colon > 0 &&
          std::isalpha(static_cast<unsigned char>(uri[0])) != 0 &&
          std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon), [](char c) {
@@ -130,7 +130,7 @@ bool isWithin(const fs::path& folder, const fs::path& path) {
 
 }  // namespace
 
-Bytes readUri(const GltfDocument& document, const std::string& uri, std::string& why) {
+NewBytes readUri(const GltfDocument& document, const std::string& uri, std::string& why) {
   if (uri.starts_with("data:")) return dataUri(uri, why);
   if (hasScheme(uri)) {
     why = "is an address outside of the file's folder, and nothing is fetched from elsewhere";
@@ -142,7 +142,7 @@ Bytes readUri(const GltfDocument& document, const std::string& uri, std::string&
   }
   const fs::path folder = document.path.has_parent_path() ? document.path.parent_path() : ".";
   std::string first;
-  // Some exporters do not escape names that contain %.
+  // Names with a bare % are not escaped by every exporter.
   for (const std::string& name : {percentDecoded(uri), uri}) {
     if (name.find('\0') != std::string::npos) {
       why = "is no file name";
@@ -157,7 +157,7 @@ Bytes readUri(const GltfDocument& document, const std::string& uri, std::string&
       return nullptr;
     }
     const FileStamp stamp = stampOf(target);
-    if (Bytes bytes = readWholeFile(target, why)) {
+    if (NewBytes bytes = readWholeFile(target, why)) {
       document.files->push_back(stamp);
       return bytes;
     }
@@ -165,40 +165,6 @@ Bytes readUri(const GltfDocument& document, const std::string& uri, std::string&
   }
   why = first;
   return nullptr;
-}
-
-void readBuffers(GltfDocument& document) {
-  const Json& buffers = listOf(document, "buffers");
-  for (size_t i = 0; i < buffers.size(); ++i) {
-    const At at{"buffers", i};
-    const size_t length = sizeMember(document, buffers[i], "byteLength", at).value_or(0);
-    const Json* uri = member(buffers[i], "uri");
-    Bytes bytes;
-    if (uri == nullptr) {
-      // Only the first buffer may be the binary chunk. EXT_meshopt_compression allows buffers
-      // without bytes for loaders that support it.
-      if (i == 0) bytes = document.binaryChunk;
-      if (bytes == nullptr) {
-        document.fail(at, "has neither a uri nor the binary chunk of a .glb", kExportAgain);
-      }
-    } else {
-      std::string why;
-      const std::string text = textMember(document, buffers[i], "uri", at);
-      bytes = readUri(document, text, why);
-      if (bytes == nullptr) {
-        document.fail(at, "names \"" + printable(text) + "\", which " + why,
-                      "put the file beside the scene, or export the scene as one .glb");
-      }
-      document.bytesRead += bytes->size();
-    }
-    if (bytes->size() < length) {
-      document.fail(at,
-                    "has " + std::to_string(bytes->size()) + " bytes where " +
-                        std::to_string(length) + " are stated",
-                    "copy or export it again");
-    }
-    document.buffers.push_back(std::move(bytes));
-  }
 }
 
 }  // namespace lamplighter

@@ -1,6 +1,7 @@
-// Validates the structure of a file before any data is read, so that readers need no checks.
+// Everything that would let a reader go astray, checked before anything is read.
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <set>
 #include <string_view>
 
@@ -11,21 +12,67 @@ namespace lamplighter {
 
 namespace {
 
-// Supported extensions without which a file is not displayed correctly.
-constexpr std::array<std::string_view, 8> kKnown = {
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength",
-    "KHR_texture_transform", "KHR_materials_transmission",
-    "KHR_mesh_quantization", "KHR_node_visibility",
-    "EXT_lights_area",       "KHR_materials_ior"};
+// What is read. EXT_lights_area and the image formats of textures are read as far as docs/gltf.md
+// says.
+constexpr auto kSupported = std::to_array<std::string_view>({
+    "EXT_lights_area",
+    "EXT_texture_webp",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_transmission",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform",
+});
 
-// Extensions that change the appearance of a surface or contain notes: the scene is valid without
-// them.
-bool isOptionalInEffect(std::string_view name) {
-  return name.starts_with("KHR_materials_") || name.starts_with("KHR_texture_") ||
-         name.starts_with("EXT_texture_") || name.starts_with("MSFT_texture_") ||
-         name.starts_with("KHR_xmp") || name.starts_with("EXT_lights_") ||
-         name == "KHR_animation_pointer" || name == "KHR_node_hoverability" ||
-         name == "KHR_node_selectability";
+// What changes the look of a surface, adds light or holds notes: the geometry is whole without it.
+constexpr auto kWithoutEffect = std::to_array<std::string_view>({
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
+    "EXT_texture_avif",
+    "KHR_animation_pointer",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_subsurface",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_materials_volume_scatter",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_texture_basisu",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MSFT_texture_dds",
+});
+
+// Some exporters write these for every material, mostly with the default values.
+bool isMostlyDefault(std::string_view name) {
+  return name == "KHR_materials_ior" || name == "KHR_materials_specular";
+}
+
+template <typename List>
+bool holds(const List& list, std::string_view name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+// extensionsUsed or extensionsRequired.
+std::vector<std::string> extensionNames(const GltfDocument& document, const char* key) {
+  std::vector<std::string> names;
+  for (const Json& entry : listOf(document, key)) {
+    if (!entry.is_string()) {
+      document.fail("\"" + std::string(key) + "\" holds no names", kExportAgain);
+    }
+    names.push_back(entry.get<std::string>());
+  }
+  return names;
 }
 
 std::string remedyFor(std::string_view name) {
@@ -51,23 +98,32 @@ void checkVersionAndExtensions(GltfDocument& document) {
                       "\", not 2.0",
                   "export it as glTF 2.0");
   }
-  const Json* required = member(document.json, "extensionsRequired");
-  if (required == nullptr) return;
-  if (!required->is_array()) document.fail("\"extensionsRequired\" is no array", kExportAgain);
-  for (const Json& entry : *required) {
-    if (!entry.is_string()) document.fail("\"extensionsRequired\" holds no names", kExportAgain);
-    const std::string name = entry.get<std::string>();
-    if (std::find(kKnown.begin(), kKnown.end(), name) != kKnown.end()) continue;
-    if (!isOptionalInEffect(name)) {
+  const std::vector<std::string> required = extensionNames(document, "extensionsRequired");
+  for (const std::string& name : required) {
+    if (holds(kSupported, name)) continue;
+    if (!holds(kWithoutEffect, name)) {
       document.fail("needs the extension " + printable(name) + ", which is not supported",
                     remedyFor(name));
     }
-    document.warn("needs the extension " + printable(name) +
-                  ", which is not supported; shown without it");
+    document.warn("needs the extension " + name + ", which is not supported; shown without it");
   }
+  std::string without;
+  for (const std::string& name : extensionNames(document, "extensionsUsed")) {
+    if (!name.starts_with("KHR_materials_") || !holds(kWithoutEffect, name) ||
+        isMostlyDefault(name) || holds(required, name)) {
+      continue;
+    }
+    without += (without.empty() ? "" : ", ") + name;
+  }
+  if (!without.empty()) document.warn("is shown without " + without + ": not supported");
 }
 
 namespace {
+
+std::vector<size_t> indicesIn(const Json& object, const char* key) {
+  const Json* list = member(object, key);
+  return list == nullptr ? std::vector<size_t>() : list->get<std::vector<size_t>>();
+}
 
 class StructureCheck {
  public:
@@ -77,20 +133,13 @@ class StructureCheck {
         views_(listOf(doc_, "bufferViews")),
         accessors_(listOf(doc_, "accessors")),
         meshes_(listOf(doc_, "meshes")),
-        materials_(listOf(doc_, "materials")),
-        textures_(listOf(doc_, "textures")),
-        images_(listOf(doc_, "images")),
-        samplers_(listOf(doc_, "samplers")),
-        cameras_(listOf(doc_, "cameras")),
-        skins_(listOf(doc_, "skins")),
         nodes_(listOf(doc_, "nodes")),
-        scenes_(listOf(doc_, "scenes")),
-        animations_(listOf(doc_, "animations")) {}
+        scenes_(listOf(doc_, "scenes")) {}
 
   void run() {
-    for (const char* name :
-         {"buffers", "bufferViews", "accessors", "meshes", "materials", "textures", "images",
-          "samplers", "cameras", "skins", "nodes", "scenes", "animations"}) {
+    for (const char* name : {"buffers", "bufferViews", "accessors", "meshes", "materials",
+                             "textures", "images", "samplers", "cameras", "skins", "nodes",
+                             "scenes", "animations", kPunctualLights, kAreaLights}) {
       const Json& list = listOf(doc_, name);
       if (!std::all_of(list.begin(), list.end(), [](const Json& e) { return e.is_object(); })) {
         doc_.fail(std::string("\"") + name + "\" is no array of objects", kExportAgain);
@@ -98,89 +147,53 @@ class StructureCheck {
       for (size_t i = 0; i < list.size(); ++i) objectMember(list[i], "extensions", {name, i});
     }
     objectMember(doc_.json, "extensions", {"glTF", 0});
-    if (const Json* used = arrayMember(doc_, doc_.json, "extensionsUsed", {"glTF", 0})) {
-      if (!std::all_of(used->begin(), used->end(), [](const Json& e) { return e.is_string(); })) {
-        doc_.fail("\"extensionsUsed\" holds no names", kExportAgain);
-      }
-    }
-    for (size_t i = 0; i < buffers_.size(); ++i) need(buffers_[i], "byteLength", {"buffers", i});
+    checkMembers(doc_);
     for (size_t i = 0; i < views_.size(); ++i) view(i);
     for (size_t i = 0; i < accessors_.size(); ++i) accessor(i);
-    for (size_t i = 0; i < images_.size(); ++i) {
-      indexMember(doc_, images_[i], "bufferView", {"images", i}, views_.size());
-    }
-    for (size_t i = 0; i < textures_.size(); ++i) texture(i);
     for (size_t i = 0; i < meshes_.size(); ++i) mesh(i);
-    for (size_t i = 0; i < skins_.size(); ++i) skin(i);
-    for (size_t i = 0; i < animations_.size(); ++i) animation(i);
+    animations();
     nodes();
     scenes();
   }
 
  private:
-  size_t need(const Json& object, const char* key, At at) {
-    const auto value = sizeMember(doc_, object, key, at);
-    if (!value) doc_.fail(at, std::string("has no \"") + key + "\"", kExportAgain);
-    return *value;
-  }
   void objectMember(const Json& object, const char* key, At at) {
     const Json* value = member(object, key);
     if (value != nullptr && !value->is_object()) {
       doc_.fail(at, std::string("has \"") + key + "\" that are no object", kExportAgain);
     }
   }
-  size_t needIndex(const Json& object, const char* key, At at, size_t count) {
-    need(object, key, at);
-    return *indexMember(doc_, object, key, at, count);
-  }
-  // Reads an array of indices, all less than `count`.
-  std::vector<size_t> indices(const Json& object, const char* key, At at, size_t count) {
-    std::vector<size_t> out;
-    const Json* array = arrayMember(doc_, object, key, at);
-    if (array == nullptr) return out;
-    for (const Json& entry : *array) {
-      if (!entry.is_number_unsigned() || entry.get<size_t>() >= count) {
-        doc_.fail(at,
-                  std::string("has ") + printable(entry.dump()) + " among its \"" + key +
-                      "\", but there are " + std::to_string(count),
-                  kExportAgain);
-      }
-      out.push_back(entry.get<size_t>());
-    }
-    return out;
-  }
 
   void view(size_t i) {
     const At at{"bufferViews", i};
-    const size_t buffer = needIndex(views_[i], "buffer", at, buffers_.size());
-    const size_t length = need(views_[i], "byteLength", at);
-    const size_t offset = sizeMember(doc_, views_[i], "byteOffset", at).value_or(0);
-    const size_t whole = need(buffers_[buffer], "byteLength", {"buffers", buffer});
+    const size_t buffer = sizeIn(views_[i], "buffer"), length = sizeIn(views_[i], "byteLength"),
+                 offset = sizeIn(views_[i], "byteOffset"),
+                 whole = sizeIn(buffers_[buffer], "byteLength");
     if (offset > whole || length > whole - offset) {
       doc_.fail(at,
                 "ends past the " + std::to_string(whole) + " bytes of buffers[" +
                     std::to_string(buffer) + "]",
                 kExportAgain);
     }
-    const auto stride = sizeMember(doc_, views_[i], "byteStride", at);
-    if (stride && (*stride < 4 || *stride > 252)) {
-      doc_.fail(at, "has the byteStride " + std::to_string(*stride) + ", not 4 to 252",
-                kExportAgain);
+    const size_t stride = sizeIn(views_[i], "byteStride", 4);
+    if (stride < 4 || stride > 252 || stride % 4 != 0) {
+      doc_.fail(
+          at,
+          "has the byteStride " + std::to_string(stride) + ", not a multiple of 4 from 4 to 252",
+          kExportAgain);
     }
   }
 
-  // Checks that `count` elements of `size` bytes with a stride fit into the view of `object`, from
-  // its byteOffset on.
+  // `count` elements of `size` bytes, `stride` apart, from `object`'s byteOffset on in its view.
   void inView(const Json& object, At at, size_t count, size_t size, bool strided) {
-    const size_t index = needIndex(object, "bufferView", at, views_.size());
-    const size_t offset = sizeMember(doc_, object, "byteOffset", at).value_or(0);
-    const size_t length = need(views_[index], "byteLength", {"bufferViews", index});
-    const auto stated = sizeMember(doc_, views_[index], "byteStride", {"bufferViews", index});
-    const size_t stride = strided && stated ? *stated : size;
+    const size_t index = sizeIn(object, "bufferView");
+    const size_t offset = sizeIn(object, "byteOffset");
+    const size_t length = sizeIn(views_[index], "byteLength");
+    const size_t stride = strided ? sizeIn(views_[index], "byteStride", size) : size;
     if (stride < size) {
       doc_.fail(at, "has elements that overlap: byteStride is less than their size", kExportAgain);
     }
-    // Avoids overflow: (count − 1) · stride + size ≤ length − offset.
+    // Without overflow: (count − 1) · stride + size ≤ length − offset.
     if (count > 0 && (offset > length || length - offset < size ||
                       (length - offset - size) / stride < count - 1)) {
       doc_.fail(at,
@@ -193,9 +206,9 @@ class StructureCheck {
   void accessor(size_t i) {
     const At at{"accessors", i};
     const Json& json = accessors_[i];
-    const size_t type = need(json, "componentType", at);
-    const size_t count = need(json, "count", at);
-    const ElementLayout layout = elementLayout(textMember(doc_, json, "type", at), type);
+    const size_t count = sizeIn(json, "count");
+    const ElementLayout layout =
+        elementLayout(json["type"].get_ref<const std::string&>(), sizeIn(json, "componentType"));
     if (layout.components == 0) {
       doc_.fail(at, "has an unknown type or componentType", kExportAgain);
     }
@@ -207,36 +220,28 @@ class StructureCheck {
     }
     const Json* sparse = member(json, "sparse");
     if (sparse == nullptr) return;
-    const size_t replaced = need(*sparse, "count", at);
-    const Json *where = member(*sparse, "indices"), *values = member(*sparse, "values");
-    if (where == nullptr || values == nullptr || replaced > count) {
-      doc_.fail(at, "has sparse data without indices or values, or with too many", kExportAgain);
-    }
-    const size_t indexType = need(*where, "componentType", at);
-    if (indexType != 5121 && indexType != 5123 && indexType != 5125) {
+    const Json &where = (*sparse)["indices"], &values = (*sparse)["values"];
+    const size_t replaced = sizeIn(*sparse, "count");
+    if (replaced > count) doc_.fail(at, "has more sparse data than elements", kExportAgain);
+    const size_t indexType = sizeIn(where, "componentType");
+    if (!isUnsigned(indexType)) {
       doc_.fail(at, "has sparse indices that are no unsigned integers", kExportAgain);
     }
-    inView(*where, at, replaced, componentSize(indexType), false);
-    inView(*values, at, replaced, layout.bytes, false);
+    // tinygltf holds these in an int.
+    if (std::max({replaced, sizeIn(where, "byteOffset"), sizeIn(values, "byteOffset")}) > INT_MAX) {
+      doc_.fail(at, "has sparse data beyond 2 GiB", kExportAgain);
+    }
+    inView(where, at, replaced, elementLayout("SCALAR", indexType).bytes, false);
+    inView(values, at, replaced, layout.bytes, false);
   }
 
-  void texture(size_t i) {
-    const At at{"textures", i};
-    indexMember(doc_, textures_[i], "sampler", at, samplers_.size());
-    indexMember(doc_, textures_[i], "source", at, images_.size());
-    for (const char* name :
-         {"EXT_texture_webp", "KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
-      if (const Json* extension = extensionOf(textures_[i], name)) {
-        indexMember(doc_, *extension, "source", at, images_.size());
-      }
-    }
+  static bool isUnsigned(size_t componentType) {
+    return componentType == 5121 || componentType == 5123 || componentType == 5125;
   }
 
   size_t attributes(const Json& object, At at, std::optional<size_t> count) {
-    if (!object.is_object()) doc_.fail(at, "has attributes that are no object", kExportAgain);
     for (const auto& [name, value] : object.items()) {
-      const size_t index = *indexMember(doc_, object, name.c_str(), at, accessors_.size());
-      const size_t n = need(accessors_[index], "count", {"accessors", index});
+      const size_t n = sizeIn(accessors_[value.get<size_t>()], "count");
       if (count && n != *count) {
         doc_.fail(at,
                   "has " + std::to_string(n) + " of attribute " + printable(name) + " but " +
@@ -250,52 +255,54 @@ class StructureCheck {
 
   void mesh(size_t i) {
     const At at{"meshes", i};
-    const Json* primitives = arrayMember(doc_, meshes_[i], "primitives", at);
+    const Json* primitives = member(meshes_[i], "primitives");
     if (primitives == nullptr) return;
     for (const Json& primitive : *primitives) {
       const Json* attribs = member(primitive, "attributes");
       if (attribs == nullptr) doc_.fail(at, "has a primitive without attributes", kExportAgain);
+      // Draco data may be there although the file does not require it, with nothing to fall back
+      // to.
+      if (const Json* position = member(*attribs, "POSITION");
+          position != nullptr && extensionOf(primitive, "KHR_draco_mesh_compression") != nullptr &&
+          member(accessors_[position->get<size_t>()], "bufferView") == nullptr) {
+        doc_.fail(at, "is compressed by KHR_draco_mesh_compression, which is not supported",
+                  "export it without compression");
+      }
       const size_t count = attributes(*attribs, at, std::nullopt);
-      if (const Json* targets = arrayMember(doc_, primitive, "targets", at)) {
+      if (const Json* targets = member(primitive, "targets")) {
         for (const Json& target : *targets) attributes(target, at, count);
       }
-      if (const auto index = indexMember(doc_, primitive, "indices", at, accessors_.size())) {
-        const Json& json = accessors_[*index];
-        const size_t type = need(json, "componentType", {"accessors", *index});
-        if ((type != 5121 && type != 5123 && type != 5125) || *member(json, "type") != "SCALAR") {
-          doc_.fail({"accessors", *index}, "holds indices that are no unsigned integers",
-                    kExportAgain);
-        }
-      }
-      indexMember(doc_, primitive, "material", at, materials_.size());
-      if (sizeMember(doc_, primitive, "mode", at).value_or(4) > 6) {
+      if (member(primitive, "indices") != nullptr) indices(sizeIn(primitive, "indices"));
+      if (sizeIn(primitive, "mode") > 6) {
         doc_.fail(at, "has a primitive of an unknown mode", kExportAgain);
       }
     }
   }
 
-  void skin(size_t i) {
-    const At at{"skins", i};
-    indices(skins_[i], "joints", at, nodes_.size());
-    indexMember(doc_, skins_[i], "skeleton", at, nodes_.size());
-    indexMember(doc_, skins_[i], "inverseBindMatrices", at, accessors_.size());
+  void indices(size_t accessor) {
+    const Json& json = accessors_[accessor];
+    if (!isUnsigned(sizeIn(json, "componentType")) || json["type"] != "SCALAR") {
+      doc_.fail({"accessors", accessor}, "holds indices that are no unsigned integers",
+                kExportAgain);
+    }
+    if (member(json, "bufferView") == nullptr) {
+      doc_.fail({"accessors", accessor}, "holds indices without a bufferView", kExportAgain);
+    }
   }
 
-  void animation(size_t i) {
-    const At at{"animations", i};
-    const Json* samplers = arrayMember(doc_, animations_[i], "samplers", at);
-    if (samplers != nullptr) {
-      for (const Json& sampler : *samplers) {
-        indexMember(doc_, sampler, "input", at, accessors_.size());
-        indexMember(doc_, sampler, "output", at, accessors_.size());
-      }
-    }
-    const Json* channels = arrayMember(doc_, animations_[i], "channels", at);
-    if (channels == nullptr) return;
-    for (const Json& channel : *channels) {
-      indexMember(doc_, channel, "sampler", at, samplers == nullptr ? 0 : samplers->size());
-      if (const Json* target = member(channel, "target")) {
-        indexMember(doc_, *target, "node", at, nodes_.size());
+  void animations() {
+    const Json& list = listOf(doc_, "animations");
+    for (size_t i = 0; i < list.size(); ++i) {
+      const Json *samplers = member(list[i], "samplers"), *channels = member(list[i], "channels");
+      if (channels == nullptr) continue;
+      const size_t count = samplers == nullptr ? 0 : samplers->size();
+      for (const Json& channel : *channels) {
+        if (const size_t sampler = sizeIn(channel, "sampler"); sampler >= count) {
+          doc_.fail({"animations", i},
+                    "has a channel of samplers[" + std::to_string(sampler) + "], but there are " +
+                        std::to_string(count),
+                    kExportAgain);
+        }
       }
     }
   }
@@ -306,10 +313,7 @@ class StructureCheck {
     std::vector<std::vector<size_t>> children(nodes_.size());
     for (size_t i = 0; i < nodes_.size(); ++i) {
       const At at{"nodes", i};
-      indexMember(doc_, nodes_[i], "mesh", at, meshes_.size());
-      indexMember(doc_, nodes_[i], "camera", at, cameras_.size());
-      indexMember(doc_, nodes_[i], "skin", at, skins_.size());
-      children[i] = indices(nodes_[i], "children", at, nodes_.size());
+      children[i] = indicesIn(nodes_[i], "children");
       for (const size_t child : children[i]) {
         if (child == i) doc_.fail(at, "is its own child", kExportAgain);
         if (parent[child] != kNoParent) {
@@ -321,7 +325,7 @@ class StructureCheck {
         parent[child] = i;
       }
     }
-    // Each node has at most one parent, so nodes that no root reaches are in a cycle or below one.
+    // With one parent each, what no root leads to is in a cycle or below one.
     std::vector<bool> reached(nodes_.size(), false);
     std::vector<size_t> open;
     for (size_t i = 0; i < nodes_.size(); ++i) {
@@ -344,10 +348,17 @@ class StructureCheck {
   }
 
   void scenes() {
+    // A scene index without any scenes is taken care of by the loader.
+    const size_t shown = sizeIn(doc_.json, "scene");
+    if (!scenes_.empty() && shown >= scenes_.size()) {
+      doc_.fail("names the scene " + std::to_string(shown) + ", but there are " +
+                    std::to_string(scenes_.size()),
+                kExportAgain);
+    }
     for (size_t i = 0; i < scenes_.size(); ++i) {
       const At at{"scenes", i};
       std::set<size_t> seen;
-      for (const size_t root : indices(scenes_[i], "nodes", at, nodes_.size())) {
+      for (const size_t root : indicesIn(scenes_[i], "nodes")) {
         if (isChild_[root] || !seen.insert(root).second) {
           doc_.fail(at,
                     "lists nodes[" + std::to_string(root) +
@@ -356,20 +367,10 @@ class StructureCheck {
         }
       }
     }
-    // The loader handles a scene index without any scenes.
-    if (!scenes_.empty()) {
-      const auto scene = sizeMember(doc_, doc_.json, "scene", {"scenes", 0});
-      if (scene && *scene >= scenes_.size()) {
-        doc_.fail("names the scene " + std::to_string(*scene) + ", but there are " +
-                      std::to_string(scenes_.size()),
-                  kExportAgain);
-      }
-    }
   }
 
   const GltfDocument& doc_;
-  const Json &buffers_, &views_, &accessors_, &meshes_, &materials_, &textures_, &images_,
-      &samplers_, &cameras_, &skins_, &nodes_, &scenes_, &animations_;
+  const Json &buffers_, &views_, &accessors_, &meshes_, &nodes_, &scenes_;
   std::vector<bool> isChild_;
 };
 

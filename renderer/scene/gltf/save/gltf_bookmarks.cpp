@@ -43,10 +43,8 @@ std::optional<CameraBookmark> bookmarkOf(const Json& note) {
 
 std::vector<CameraBookmark> readBookmarks(GltfDocument& document) {
   std::vector<CameraBookmark> out;
-  const Json& scenes = listOf(document, "scenes");
-  if (scenes.empty()) return out;
-  const size_t shown = sizeMember(document, document.json, "scene", {"scenes", 0}).value_or(0);
-  const Json* note = noteOf(scenes[shown], kNote);
+  const Json* scene = shownScene(document);
+  const Json* note = scene == nullptr ? nullptr : noteOf(*scene, kNote);
   if (note == nullptr) return out;
   bool isSound = note->is_array() && note->size() <= kCameraBookmarks;
   for (size_t i = 0; isSound && i < note->size(); ++i) {

@@ -1,6 +1,6 @@
-// Notes for light properties that glTF does not have: extras.lamplighter.light of a node (on, solo,
-// group, light linking, and the file of its profile or picture) and extras.lamplighter.lights of
-// the scene (groups, state of the sky).
+// What glTF has no place for about lights: extras.lamplighter.light of a node (on, solo, group,
+// what it leaves out, and the file of its profile or picture) and extras.lamplighter.lights of the
+// scene (groups, the sky's state).
 #include <algorithm>
 #include <map>
 
@@ -21,7 +21,7 @@ constexpr const char* kPicture = "picture";
 constexpr const char* kLeavesOut = "leaves_out";  // indices of nodes
 constexpr size_t kMostGroups = 10'000;
 
-// By node of the file: its NodeId, or none if it is not shown.
+// The node of each node of the file, or none where it is not shown.
 using NodeOfJson = std::vector<NodeId>;
 
 NodeOfJson nodesOfJson(const GltfDocument& document, const std::vector<Node>& nodes) {
@@ -30,29 +30,18 @@ NodeOfJson nodesOfJson(const GltfDocument& document, const std::vector<Node>& no
   return ids;
 }
 
-std::vector<NodeId> readLeftOut(const GltfDocument& document, const Json& note, At at,
-                                const NodeOfJson& ids) {
-  std::vector<NodeId> out;
-  const Json* list = member(note, kLeavesOut);
-  if (list == nullptr) return out;
-  const auto isIndex = [&](const Json& i) {
-    return i.is_number_unsigned() && i.get<size_t>() < ids.size();
-  };
-  if (!list->is_array() || !std::all_of(list->begin(), list->end(), isIndex))
-    document.fail(at, "has a light that leaves out what is no node", kExportAgain);
-  for (const Json& i : *list)
-    if (const NodeId id = ids[i.get<size_t>()]; id != kNoNode) out.push_back(id);
+LightState readState(const Json& note, const NodeOfJson& ids) {
+  LightState state;
+  if (const Json* list = member(note, kLeavesOut)) {
+    for (const Json& i : *list)
+      if (const NodeId id = ids[i.get<size_t>()]; id != kNoNode) state.leftOut.push_back(id);
+  }
+  std::vector<NodeId>& out = state.leftOut;
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
-LightState readState(const GltfDocument& document, const Json& note, At at, const NodeOfJson& ids) {
-  LightState state;
-  state.leftOut = readLeftOut(document, note, at, ids);
-  state.on = boolMember(document, note, "on", true, at);
-  state.solo = boolMember(document, note, "solo", false, at);
-  state.group = textMember(document, note, "group", at);
+  state.on = flagIn(note, "on", true);
+  state.solo = flagIn(note, "solo", false);
+  state.group = textIn(note, "group");
   return state;
 }
 
@@ -67,13 +56,7 @@ Json stateJson(const LightState& state, const JsonOfNode& jsonNodes) {
   return json;
 }
 
-const Json* shownScene(const GltfDocument& document) {
-  const Json& scenes = listOf(document, "scenes");
-  if (scenes.empty()) return nullptr;
-  return &scenes[sizeMember(document, document.json, "scene", {"scenes", 0}).value_or(0)];
-}
-
-// A profile that is not available is skipped with a warning; the light then has no profile.
+// One that cannot be had is left out with a warning: the light is a plain one then.
 std::shared_ptr<const IesProfile> readProfile(GltfDocument& document, const std::string& uri) {
   std::string why;
   const Bytes bytes = readUri(document, uri, why);
@@ -100,7 +83,7 @@ std::shared_ptr<const LightPicture> readPicture(GltfDocument& document, const st
   return picture;
 }
 
-// Whether the files to which the scene refers are unchanged; `same` compares two existing ones.
+// Whether files that the scene now names are as they were; `same` compares two that are there.
 template <typename T>
 bool isSameFile(const std::shared_ptr<const T>& now, const std::shared_ptr<const T>& was) {
   return now == was || (now && was && *now == *was);
@@ -125,14 +108,14 @@ void readLightNotes(GltfDocument& document, std::vector<Node>& nodes) {
     const auto index = static_cast<size_t>(node.sourceNode);
     const Json* note = noteOf(listOf(document, "nodes")[index], kNodeNote);
     if (note == nullptr || !note->is_object()) continue;
-    node.light = readState(document, *note, {"nodes", index}, ids);
-    const std::string picture = textMember(document, *note, kPicture, {"nodes", index});
+    node.light = readState(*note, ids);
+    const std::string picture = textIn(*note, kPicture);
     if (!picture.empty() && node.area) {
       const auto [it, isNew] = pictures.try_emplace(picture);
       if (isNew) it->second = readPicture(document, picture);
       node.area->picture = it->second;
     }
-    const std::string uri = textMember(document, *note, kProfile, {"nodes", index});
+    const std::string uri = textIn(*note, kProfile);
     if (uri.empty() || !node.punctual || node.punctual->kind == PunctualKind::directional) continue;
     const auto [it, isNew] = profiles.try_emplace(uri);
     if (isNew) it->second = readProfile(document, uri);
@@ -144,16 +127,14 @@ void readSceneLightNotes(GltfDocument& document, Scene& scene) {
   const Json* shown = shownScene(document);
   const Json* note = shown == nullptr ? nullptr : noteOf(*shown, kSceneNote);
   if (note == nullptr) return;
-  const At at{"scenes", 0};
   if (const Json* sky = member(*note, "sky"))
-    scene.skyLight = readState(document, *sky, at, nodesOfJson(document, scene.nodes));
+    scene.skyLight = readState(*sky, nodesOfJson(document, scene.nodes));
   const Json* groups = member(*note, "groups");
-  if (groups == nullptr || !groups->is_array()) return;
+  if (groups == nullptr) return;
   for (size_t i = 0; i < std::min(groups->size(), kMostGroups); ++i) {
     const Json& json = (*groups)[i];
-    LightGroup group{textMember(document, json, "name", at),
-                     boolMember(document, json, "muted", false, at),
-                     boolMember(document, json, "solo", false, at)};
+    LightGroup group{textIn(json, "name"), flagIn(json, "muted", false),
+                     flagIn(json, "solo", false)};
     if (!group.name.empty() && findLightGroup(scene, group.name) == nullptr)
       scene.lightGroups.push_back(std::move(group));
   }
@@ -167,7 +148,7 @@ void saveLightNotes(GltfOutput& out, Json& json, const Node& now, const Node& wa
   const auto picture = pictureOf(now);
   const bool stays = isSameFile(profile, before) && isSameFile(picture, pictureOf(was)) &&
                      ((!profile && !picture) || out.isSameFolder());
-  // With light linking the note is always written, because nodes may have new indices.
+  // Nodes may be numbered otherwise.
   if (now.light == was.light && stays && now.light.leftOut.empty()) return;
   Json note = stateJson(now.light, jsonNodes);
   if (profile) {

@@ -163,10 +163,11 @@ std::vector<GltfOutput::File> GltfOutput::finish() {
     Json entry = {{"byteLength", buffer_.size()}};
     if (keepsBuffers_ && bufferIndex_ < source.document.buffers.size()) {
       json["buffers"][bufferIndex_]["byteLength"] = buffer_.size();
-      if (*source.document.buffers[bufferIndex_] != buffer_) {
-        const std::string name = json["buffers"][bufferIndex_]["uri"].get<std::string>();
-        files.push_back({path.parent_path() / percentDecoded(name), buffer_});
-      }
+      const std::string uri = json["buffers"][bufferIndex_]["uri"].get<std::string>();
+      const fs::path file = path.parent_path() / percentDecoded(uri);
+      std::string why;
+      const Bytes onDisk = readWholeFile(file, why);
+      if (onDisk == nullptr || *onDisk != buffer_) files.push_back({file, buffer_});
     } else {
       if (!isBinary) {
         const fs::path name = freeBufferName();

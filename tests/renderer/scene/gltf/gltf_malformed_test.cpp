@@ -160,6 +160,7 @@ TEST_F(BrokenScene, NamesWhatIsWrong) {
       {"/bufferViews/3/byteOffset", 18446744073709551615u, "bufferViews[3]"},
       {"/bufferViews/0/byteStride", 0, "bufferViews[0]"},
       {"/bufferViews/0/byteStride", 8, "accessors[0]"},
+      {"/bufferViews/0/byteStride", 14, "multiple of 4"},
       {"/buffers/0/byteLength", 4294967296u, "buffers[0]"},
       {"/buffers/0/uri", "data:application/octet-stream;base64,@@@@", "buffers[0]"},
       {"/accessors/0/count", 4000000000u, "accessors[0]"},
@@ -172,6 +173,17 @@ TEST_F(BrokenScene, NamesWhatIsWrong) {
       {"/accessors/3",
        {{"componentType", 5125}, {"type", "SCALAR"}, {"count", 4000000000u}},
        "accessors[3]"},
+      {"/accessors/3",
+       {{"componentType", 5123}, {"type", "SCALAR"}, {"count", 6}},
+       "indices without a bufferView"},
+      {"/materials/0/name", 7, "materials[0] has \"name\": 7, which is no text"},
+      {"/materials/0/normalTexture", {{"index", 0}, {"scale", "x"}}, "\"scale\""},
+      {"/materials/0/doubleSided", 1, "true or false"},
+      {"/meshes/0/primitives", {{"attributes", 0}}, "meshes[0]"},
+      {"/meshes/0/primitives/0/attributes", Json::array({0}), "which is no object"},
+      {"/nodes/0/extras/lamplighter/light", {{"leaves_out", {99}}}, "leaves_out"},
+      {"/extensions/KHR_lights_punctual/lights/0", 3, "KHR_lights_punctual.lights"},
+      {"/extensions/KHR_lights_punctual/lights/0/color", {1, 2}, "KHR_lights_punctual.lights[0]"},
       {"/skins/0/joints", {44}, "skins[0]"},
       {"/animations/0/channels/0/target/node", 44, "animations[0]"},
       {"/animations/0/channels/0/sampler", 4, "animations[0]"},
@@ -184,6 +196,21 @@ TEST_F(BrokenScene, NamesWhatIsWrong) {
     EXPECT_THAT(message, HasSubstr(broken.says));
     if (!message.empty()) expectOneLine(message, folder_.path() / "scene.glb");
   }
+}
+
+// Some exporters write them with a point.
+TEST_F(BrokenScene, CountsMayBeWrittenAsFloats) {
+  const Scene before = loadGltf(write()).scene;
+  for (Json& node : json_["nodes"]) {
+    if (node.contains("mesh")) node["mesh"] = node["mesh"].get<double>();
+  }
+  for (Json& accessor : json_["accessors"]) {
+    for (const char* key : {"bufferView", "count", "componentType"}) {
+      if (accessor.contains(key)) accessor[key] = accessor[key].get<double>();
+    }
+  }
+  ASSERT_THAT(json_.dump(), HasSubstr("\"count\":4.0"));
+  EXPECT_EQ(test::difference(before, loadGltf(write()).scene), "");
 }
 
 TEST_F(BrokenScene, VerticesAtNoPlaceAreRefused) {
@@ -302,6 +329,83 @@ TEST_F(BrokenScene, OddValuesLoadOrAreRefused) {
   }
   EXPECT_GT(trials, 500);
   EXPECT_GT(refused, trials / 4);
+}
+
+// --- extensions ---
+
+class Extensions : public BrokenScene {
+ protected:
+  std::string refusalOf(const char* list, const Json& names) {
+    json_["extensionsUsed"] = names;
+    json_[list] = names;
+    return refusal(write(), &warnings_);
+  }
+  std::vector<std::string> warnings_;
+};
+
+TEST_F(Extensions, UnknownOnesThatAreRequiredAreRefusedByName) {
+  for (const char* name :
+       {"VENDOR_unknown", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+        "EXT_mesh_gpu_instancing", "KHR_materials_unheard_of", "EXT_texture_unheard_of"}) {
+    const std::string message = refusalOf("extensionsRequired", Json::array({name}));
+    EXPECT_THAT(message, HasSubstr(std::string("needs the extension ") + name)) << name;
+    expectOneLine(message, folder_.path() / "scene.glb");
+  }
+}
+
+TEST_F(Extensions, KnownOnesOfMaterialsThatAreRequiredAreNamedInAWarning) {
+  for (const char* name :
+       {"KHR_materials_anisotropy", "KHR_materials_clearcoat", "KHR_materials_dispersion",
+        "KHR_materials_diffuse_transmission", "KHR_materials_ior", "KHR_materials_iridescence",
+        "KHR_materials_pbrSpecularGlossiness", "KHR_materials_sheen", "KHR_materials_specular",
+        "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume",
+        "KHR_texture_basisu"}) {
+    ASSERT_EQ(refusalOf("extensionsRequired", Json::array({name})), "");
+    ASSERT_THAT(warnings_,
+                testing::ElementsAre(HasSubstr(std::string("needs the extension ") + name)));
+    expectOneLine(warnings_.front(), folder_.path() / "scene.glb");
+  }
+}
+
+TEST_F(Extensions, ThoseOfMaterialsThatAreOnlyUsedAreNamedInOneWarning) {
+  const Json names = {"KHR_materials_sheen", "KHR_materials_ior", "VENDOR_unknown",
+                      "KHR_materials_unlit"};
+  ASSERT_EQ(refusalOf("extensionsUsed", names), "");
+  EXPECT_THAT(warnings_, testing::ElementsAre(HasSubstr(
+                             "is shown without KHR_materials_sheen, KHR_materials_unlit: ")));
+}
+
+TEST_F(Extensions, SupportedOnesAreNotMentioned) {
+  const Json names = {"KHR_lights_punctual",
+                      "KHR_materials_emissive_strength",
+                      "KHR_materials_transmission",
+                      "KHR_mesh_quantization",
+                      "KHR_node_visibility",
+                      "KHR_texture_transform",
+                      "EXT_lights_area",
+                      "EXT_texture_webp"};
+  ASSERT_EQ(refusalOf("extensionsRequired", names), "");
+  EXPECT_THAT(warnings_, testing::IsEmpty());
+}
+
+// What is not understood comes back as it was, wherever it stands.
+TEST_F(Extensions, SurviveARoundTrip) {
+  const Json odd = {{"b", {1, 2.5, -0.0}}, {"a", {{"x", "\u00e9"}}}};
+  const auto lists = {"nodes",    "meshes",   "materials", "accessors", "bufferViews",
+                      "textures", "samplers", "cameras",   "scenes"};
+  for (const char* list : lists) {
+    json_[list][0]["extensions"]["VENDOR_odd"] = odd;
+    json_[list][0]["extras"]["odd"] = odd;
+  }
+  Scene scene = loadGltf(write()).scene;
+  scene.nodes[0].local.translation.x += 1.0f;
+  saveGltf(scene, folder_.path() / "saved.gltf");
+  std::ifstream file(folder_.path() / "saved.gltf");
+  const Json saved = Json::parse(file);
+  for (const char* list : lists) {
+    EXPECT_EQ(saved[list][0]["extensions"]["VENDOR_odd"].dump(), odd.dump()) << list;
+    EXPECT_EQ(saved[list][0]["extras"]["odd"].dump(), odd.dump()) << list;
+  }
 }
 
 TEST(BrokenJson, DeepNestingIsRefused) {
