@@ -15,7 +15,7 @@ class GlossySurface {
 
   // f for light from the unit direction w [1/sr]; 0 below the surface.
   vec3 brdf(const vec3& w) const;
-  // sample(): a direction from the lobe or the cosine, as `choice` decides. density(): its
+  // sample(): a direction from the lobe or the cosine, as `choice` decides. pdf(): its
   // probability density per solid angle; 0 below the surface, where a lobe sample may point.
   vec3 sample(float choice, vec2 u) const;
   float pdf(const vec3& w) const;
