@@ -159,8 +159,8 @@ void LowResolution::takeSamples(const GBuffer& g) {
         samples_.px[to] = g.px[from];
         samples_.py[to] = g.py[from];
         samples_.pz[to] = g.pz[from];
-        // On one flat triangle everything except the position is equal. Read it near the pixel read
-        // last, because the pixels of samples are far apart in memory.
+        // On one flat triangle everything except the position is equal. Read it from the tile's
+        // first pixel, which is probably cached: the pixels of samples are far apart in memory.
         const size_t tileOf = from / kTilePixels;
         const size_t like = g.onlyTriangle[tileOf] == GBuffer::kMany ? from : tileOf * kTilePixels;
         samples_.sx[to] = g.sx[like];
