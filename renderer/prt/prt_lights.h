@@ -98,11 +98,14 @@ class PrtLights {
   uint64_t raysPerLight() const;
 
  private:
-  // Sums of one light point: all r, then g, then b of the light that object parts reflect; then the
-  // same for the other direct light, which is not reflected, minus the part that pixels sum.
+  // Sums of one light point. First r, g, b of the light that object parts reflect; it uses the
+  // whole transfer. Then r, g, b of a correction that uses only the direct transfer: plus light
+  // that is not reflected, minus light whose direct part pixels sum.
   static constexpr size_t kSums = size_t{3} * kShCoefficients;
   // How an object takes the light in a slot. `own`: not at all, and its pixels do not sum it
-  // either; `near`: not by transfer, because the light is too near.
+  // either. `near`: not by transfer, because the light is too near. `left`: not by transfer,
+  // because of its error. `straight`: only direct light; `reflected`: only interreflection; `all`:
+  // both.
   enum class Take : uint8_t { own, near, left, straight, reflected, all };
   static bool mayTake(Take take) { return take >= Take::left; }
   static bool hasStraight(Take take) { return take == Take::straight || take == Take::all; }

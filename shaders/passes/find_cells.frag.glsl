@@ -9,11 +9,11 @@
 
 layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGNormals) uniform sampler2D uNormals;
-layout(binding = kPlaces) uniform usampler2D uPlaces;  // of the samples
+layout(binding = kPlaces) uniform usampler2D uPlaces;        // of the samples
 layout(binding = kContrasts) uniform usampler2D uContrasts;  // output of find_contrasts.frag.glsl
 layout(std430, binding = kHardPlaceBuffer) readonly buffer HardPlaces { uint hardPlaces[]; };
 layout(location = 0) uniform int uBlock;
-layout(location = 1) uniform int uHasHard;  // 0: no place has hard shadows
+layout(location = 1) uniform int uHasHard;   // 0: no place has hard shadows
 layout(location = 2) uniform int uHasLinks;  // 0: no light has light linking
 
 layout(location = 0) out uint outIsSmooth;

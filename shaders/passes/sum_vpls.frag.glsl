@@ -29,7 +29,7 @@ layout(binding = kPlaces) uniform usampler2D uPlaces;
 layout(std430, binding = kListRangeBuffer) readonly buffer Ranges { uvec2 ranges[]; };
 layout(std430, binding = kListBuffer) readonly buffer Entries { uint entries[]; };
 layout(location = 3) uniform int uFirstRange;  // of these VPLs
-layout(location = 4) uniform int uFirstVpl;  // index in uVpls of entry value 0
+layout(location = 4) uniform int uFirstVpl;    // index in uVpls of entry value 0
 #ifdef MERGED
 // 0: entries uFirst to uEnd of those without a map look-up; else those of merged pass uPass − 1.
 layout(location = 5) uniform int uPass;
