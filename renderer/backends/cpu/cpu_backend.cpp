@@ -23,14 +23,14 @@ struct Picture {
   cpu::GBuffer gbuffer;
   View view;  // of the G-buffer
   vec2 jitter{0.0f};
-  cpu::IrradianceAccumulator
-      sums;       // at its pixels; with blocks, at those of cells that are not interpolated
+  // At the pixels of `gbuffer`; with blocks, only in cells that are not interpolated.
+  cpu::IrradianceAccumulator sums;
   int block = 1;  // pixels per block of the last sum
   cpu::LowResolution low;
-  cpu::IrradianceAccumulator
-      sampleSums;  // at the samples of `low`; in haste but for those between coarse ones
-  cpu::LowResolution lowSamples;          // in haste: of the samples of `low`
-  cpu::IrradianceAccumulator coarseSums;  // at its own; never kept
+  // At the samples of `low`; in quick pictures, without the samples interpolated by `lowSamples`.
+  cpu::IrradianceAccumulator sampleSums;
+  cpu::LowResolution lowSamples;          // quick pictures: samples of the samples of `low`
+  cpu::IrradianceAccumulator coarseSums;  // at the samples of `lowSamples`; summed from scratch
   cpu::SpecularAccumulator speculars;
   vec3 eye{0.0f};
 
