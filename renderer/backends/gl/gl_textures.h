@@ -15,7 +15,7 @@ class TextureCache {
   // Returns the texture, uploaded on first use; one mipmap level, filter and wrap mode as given.
   // `srgb`: decode on sampling. Throws InputError if it is too large for the device.
   GLuint get(const lamplighter::Texture& texture, bool srgb);
-  // Starts a round of get() calls. Textures that the round before did not request are deleted.
+  // endUse() deletes the textures that no get() since beginUse() returned.
   void beginUse();
   void endUse();
 

@@ -1,4 +1,4 @@
-// The uniform block, or buffer texture, that holds the VPLs of a pass for the shaders.
+// The buffer with the VPLs of a pass, bound as a uniform block and as a buffer texture.
 #pragma once
 
 #include <span>
