@@ -1,4 +1,4 @@
-// Pictures that nobody holds any more are written again: fresh memory is slow.
+// Reuses pictures that nobody holds any more, because fresh memory is slow.
 #pragma once
 
 #include <memory>
@@ -16,7 +16,7 @@ class ImagePool {
     const Image& pixels() override { return image; }
     Image image;
   };
-  // Of that size, with whatever it held.
+  // A picture of that size with undefined content.
   std::shared_ptr<Pooled> take(int width, int height);
 
  private:

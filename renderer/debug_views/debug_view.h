@@ -1,5 +1,5 @@
-// What the viewport can show besides the lit picture, declared once: menu, keys, actions and the
-// command line follow from this table.
+// The pictures that the viewport can show besides the lit one. Menu, keys, actions and the command
+// line are generated from this table.
 #pragma once
 
 #include <span>
@@ -34,29 +34,29 @@ enum class DebugView {
 
 struct DebugViewInfo {
   DebugView view;
-  const char* name;   // as in --view, and after "view." as an action
-  const char* label;  // as in the menu
+  const char* name;   // for --view, and for actions after "view."
+  const char* label;  // in the menu
   const char* key;    // "" for none; rebindable
   const char* help;   // one sentence
 };
 
-// In the order they are shown.
+// In the order of the menu.
 std::span<const DebugViewInfo> debugViews();
 const DebugViewInfo& infoOf(DebugView view);
-// Throws InputError when there is none of that name.
+// Throws InputError if there is no view of that name.
 const DebugViewInfo& findDebugView(std::string_view name);
 
-// Whether the picture is radiance, to be exposed and tone-mapped; the others are colours of the
-// display as they are.
+// Whether the picture is radiance, which needs exposure and tone mapping; other pictures are
+// display colours.
 inline bool isRadiance(DebugView view) {
   return view == DebugView::lit || view == DebugView::lightOnly || view == DebugView::direct ||
          view == DebugView::indirect;
 }
 
-// Whether it shows what the engine keeps; the others show the level and its light.
+// Whether it shows internal data of the engine; other views show the level and its light.
 inline bool isOfEngine(DebugView view) { return view > DebugView::flat; }
 
-// Whether it is about a light sample, or the light that one is on.
+// Whether it shows the selected light sample, or the light to which that sample belongs.
 inline bool needsLightSample(DebugView view) {
   return view == DebugView::occlusion || view == DebugView::lightOcclusion ||
          view == DebugView::shadowMap;

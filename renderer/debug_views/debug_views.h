@@ -1,5 +1,5 @@
-// The views of patches and of light, each a function of the subject; view_picture.cpp has the
-// others. What they need must be there (problemOf).
+// The views of patches and of light; each is a function of the subject. The others are in
+// view_picture.cpp. The data that a view needs must exist (see problemOf).
 #pragma once
 
 #include "renderer/debug_views/view_picture.h"

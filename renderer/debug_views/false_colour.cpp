@@ -1,4 +1,4 @@
-// Illuminance and luminance as colours, on a logarithmic scale as eyes have it.
+// Illuminance and luminance as colours, on a logarithmic scale, like human vision.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,9 +12,9 @@ namespace colours = view_colours;
 
 namespace {
 
-constexpr float kDecades = 3.0f;  // of a range that nobody chose
+constexpr float kDecades = 3.0f;  // default range
 
-// The least of 1, 2, 5 times a power of ten that is not less.
+// The smallest of 1, 2, 5 times a power of ten that is not less than `value`.
 float niceAbove(float value) {
   const float power = std::pow(10.0f, std::floor(std::log10(value)));
   for (const float digit : {1.0f, 2.0f, 5.0f})
@@ -22,7 +22,8 @@ float niceAbove(float value) {
   return 10.0f * power;
 }
 
-// Up to what nearly all of the picture is below: a lamp in view leaves the rest its colours.
+// The upper end is above almost all pixels, so that a visible lamp does not compress the other
+// colours.
 std::pair<float, float> rangeOf(const FalseColour& asked, std::vector<float> values) {
   if (asked.high > asked.low && asked.low > 0.0f) return {asked.low, asked.high};
   std::erase_if(values, [](float v) { return !(v > 0.0f) || !std::isfinite(v); });
@@ -45,7 +46,7 @@ Legend legendOf(const FalseColour& what, float low, float high) {
   legend.title = what.isLux ? "Illuminance [lx]" : "Luminance [nt = cd/m\u00b2]";
   legend.ramp = colours::rampSteps();
   const float decades = std::log10(high / low);
-  // Whole steps of the ramp that tell numbers nicely: 4 of them, or one a decade where they fit.
+  // Number of ramp steps with round labels: 4, or one per decade if they fit.
   const int steps =
       decades > 0.99f && decades < 4.01f && std::abs(decades - std::round(decades)) < 0.01f
           ? static_cast<int>(std::lround(decades))
@@ -69,7 +70,7 @@ ViewPicture falseColour(const ViewSubject& in) {
   const Image& radiance = *in.radiance;
   const FalseColour& what = in.falseColour;
   const Painter p(in);
-  // E = π L of a white surface. What shines itself is left out: its light is not what falls on it.
+  // E = π L of a white surface. Emission is excluded, because it is not incident light.
   std::vector<float> values(p.pixels(), 0.0f);
   p.forEachPixel([&](int x, int y, size_t i) {
     const float l = luminance(radiance.at(x, y));
@@ -85,7 +86,7 @@ ViewPicture falseColour(const ViewSubject& in) {
       return s.surface.emission == vec3(0.0f) ? colourOf(values[i], low, high) : colours::kNoData;
     });
   } else {
-    out.image = Image8(in.view.width, in.view.height);  // the sky has luminance too
+    out.image = Image8(in.view.width, in.view.height);  // the sky also has luminance
     p.forEachPixel([&, low = low, high = high](int x, int y, size_t i) {
       const vec3 c = colourOf(values[i], low, high);
       for (int k = 0; k < 3; ++k)

@@ -1,4 +1,4 @@
-// What the backend keeps of a frame: shadow maps, and where light was interpolated.
+// Frame data of the backend: shadow maps, and where light was interpolated.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,8 +13,8 @@ namespace colours = view_colours;
 
 namespace {
 
-// From the light to what a texel holds [m]; of parallel light from the near end of its box. 0: it
-// holds nothing.
+// Distance from the light to the content of a texel [m]; for directional light, from the near end
+// of its box. 0: empty.
 float distanceIn(const shared::Vpl& vpl, float stored, const vec2& centre) {
   if (stored <= 0.0f) return 0.0f;
   if (vpl.position.w == shared::kVplDirectional) return (1.0f - stored) * 2.0f * vpl.normal.w;
@@ -23,7 +23,7 @@ float distanceIn(const shared::Vpl& vpl, float stored, const vec2& centre) {
 
 }  // namespace
 
-// The map as it lies in memory, as large as fits into the middle of the view.
+// The map as stored, as large as fits, in the middle of the view.
 ViewPicture shadowMap(const ViewSubject& in) {
   const std::vector<float>& map = in.shadowMap;
   const auto resolution = static_cast<int>(std::lround(std::sqrt(static_cast<double>(map.size()))));

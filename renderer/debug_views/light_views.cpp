@@ -1,4 +1,4 @@
-// What is known of the light itself: light maps, and how old the light is.
+// Views of the light itself: light maps, and the age of the light.
 #include <cmath>
 
 #include "renderer/debug_views/debug_views.h"
@@ -13,14 +13,13 @@ namespace colours = view_colours;
 
 namespace {
 
-// How much of a pixel's colour is a line of the grid through the texels; fades where they are too
-// small to be told apart.
+// The share of a texel grid line in a pixel's colour; it fades where texels are too small to see.
 float gridLine(const vec2& at, const vec2& texelsAPixel) {
   float line = 0.0f;
   for (int axis = 0; axis < 2; ++axis) {
     const float distance = std::abs(at[axis] - std::round(at[axis]));
     const float width = texelsAPixel[axis];
-    const float fade = std::clamp(0.5f - 2.0f * width, 0.0f, 0.4f) / 0.4f;  // gone below 4 pixels
+    const float fade = std::clamp(0.5f - 2.0f * width, 0.0f, 0.4f) / 0.4f;  // 0 below 4 pixels
     line = std::max(line, fade * std::clamp(1.0f - distance / std::max(width, 1e-6f), 0.0f, 1.0f));
   }
   return line;
@@ -46,7 +45,7 @@ ViewPicture lightMaps(const ViewSubject& in) {
     const vec2 texels(static_cast<float>(tile->columns - 1), static_cast<float>(tile->rows - 1));
     const vec2 perMetre = texels / (patch.max - patch.min);
     const vec2 at = (chart.project(s.surface.position) - patch.min) * perMetre;
-    // Seen at a grazing angle a pixel covers more texels.
+    // At a grazing angle a pixel covers more texels.
     const float covered = s.footprint / std::max(s.facing, 0.05f);
     const float line = gridLine(at, 0.75f * covered * perMetre);
     const vec3 lineColour = luminance(colour) > 0.35f ? vec3(0.0f) : vec3(1.0f);
@@ -59,16 +58,16 @@ ViewPicture lightMaps(const ViewSubject& in) {
 
 namespace {
 
-// Age of the light at a place [frames]: the mean over all lights that reach it, each by what it
-// gives without shadow. The oldest alone would say little: some faint bounce that waits reaches
-// everything.
+// Age of the light at a point [frames]: the mean over all lights that reach it, weighted by their
+// unshadowed irradiance. The maximum would be less useful: some faint pending indirect light
+// reaches everything.
 class LightAge {
  public:
   LightAge(const Painter& painter, const Inspection& inspection)
       : painter_(painter), in_(inspection) {}
 
   float at(const Seen& s, size_t pixel) const {
-    // As light sums do by default: a bounce in the corner is not all the light there.
+    // The default of the light sums, so that one near indirect VPL does not dominate.
     constexpr float kClampDistance = 0.5f;  // [m]
     float all = 0.0f, aged = 0.0f;
     for (const InspectedLight& light : in_.lights) {
@@ -89,8 +88,8 @@ class LightAge {
   const Inspection& in_;
 };
 
-// By pixel. Each is a sum over all lights, so it is made for one pixel in 4×4 and taken by those
-// around it that show the same surface.
+// By pixel. Each value is a sum over all lights, so it is computed for one pixel in 4×4 and reused
+// by its neighbours on the same surface.
 std::vector<float> lightAges(const Painter& p, const ViewSubject& in) {
   std::vector<float> ages(p.pixels(), 0.0f);
   const auto& lights = in.inspection.lights;
@@ -129,7 +128,7 @@ ViewPicture mapAge(const ViewSubject& in) {
   const std::vector<float> ages = lightAges(p, in);
   const int most = colours::niceMaximum(
       p.largest([&](size_t i) { return static_cast<int>(std::ceil(ages[i])); }));
-  // The ramp's blue would be taken for the calm colour.
+  // Skips the ramp's blue, which resembles the colour of settled light.
   constexpr float kFirst = 0.35f;
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {

@@ -1,4 +1,4 @@
-// One ray a pixel and what it meets: what all views are painted with.
+// Traces one ray per pixel; all views are painted from its hits.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 
 namespace lamplighter {
 
-// What a pixel's ray meets. The normals are on the side that is seen.
+// The hit of a pixel's ray. The normals are on the visible side.
 struct Seen {
   const Hit* hit = nullptr;
   Surface surface;
   vec3 normal{0.0f}, geometricNormal{0.0f};
   bool front = true;
-  float facing = 1.0f;  // cosine between the shading normal and the way to the eye
-  float footprint = 0;  // of the pixel, across the ray [m]
+  float facing = 1.0f;  // cosine between the shading normal and the direction to the eye
+  float footprint = 0;  // size of the pixel at the hit, perpendicular to the ray [m]
 };
 
 class Painter {
@@ -58,7 +58,7 @@ class Painter {
     });
   }
 
-  // The display colour of each pixel that meets something.
+  // Sets the display colour of each pixel that hits something.
   template <typename Colour>
   Image8 paint(const Colour& colour) const {
     Image8 image(in_.view.width, in_.view.height);
@@ -83,14 +83,15 @@ class Painter {
   }
   int leaf(size_t i) const { return leaves_[i]; }
   const PatchLookup& lookup() const { return *lookup_; }
-  // Whether the patch of the pixel ends at it: that to its right or below is another.
+  // Whether the pixel is at the border of its patch: the pixel to its right or below has another
+  // patch.
   bool isBorder(size_t i) const {
     const auto width = static_cast<size_t>(in_.view.width);
     return ((i + 1) % width != 0 && !samePatch(i, i + 1)) ||
            (i + width < hits_.size() && !samePatch(i, i + width));
   }
 
-  // The largest value over all pixels that meet something.
+  // The largest value over all pixels that hit something.
   template <typename Value>
   int largest(const Value& value) const {
     std::vector<int> ofRow(static_cast<size_t>(in_.view.height), 0);
@@ -142,11 +143,11 @@ class Painter {
   std::vector<int> leaves_;
 };
 
-// A little of a lamp at the camera, so that shapes are told apart; hues stay those of the legend.
+// Slight shading by a light at the camera, to show shapes; hues stay those of the legend.
 inline vec3 shaded(const vec3& colour, const Seen& s) { return colour * (0.6f + 0.4f * s.facing); }
 
-// Darker along the patch's border, as far as the patch is large enough in the picture for that: a
-// level seen from afar would be nothing but borders.
+// Darkens the colour along patch borders. The effect fades where patches are small in the picture;
+// otherwise a level seen from far away would show only borders.
 inline vec3 outlined(const Painter& p, const ViewSubject& in, const Seen& s, size_t i,
                      const vec3& colour) {
   if (!p.isBorder(i)) return colour;

@@ -1,5 +1,5 @@
-// What is kept of lights for each patch, counted: those that reach it, those that it waits for, and
-// how much of one light reaches it.
+// Views of light counts per patch: the lights that reach it, those that are pending, and how much
+// of one light reaches it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace colours = view_colours;
 
 namespace {
 
-// A number for each pixel's patch, found once for those in a row that show the same one.
+// A value for each pixel's patch; computed once for consecutive pixels with the same patch.
 std::vector<int> ofPatches(const Painter& p,
                            const std::function<int(uint32_t object, int leaf)>& count) {
   std::vector<int> counts(p.pixels(), 0);
@@ -31,12 +31,12 @@ std::vector<int> ofPatches(const Painter& p,
   return counts;
 }
 
-// From `zero`, where there is one, over the ramp's colours to the largest.
+// Colours from `zero` (if given) over the ramp up to the largest count.
 ViewPicture paintCounts(const Painter& p, const ViewSubject& in, const std::vector<int>& counts,
                         size_t of, const char* title, const char* noneLabel) {
   const int most = std::min(colours::niceMaximum(p.largest([&](size_t i) { return counts[i]; })),
                             std::max(static_cast<int>(of), 1));
-  constexpr float kFirst = 0.35f;  // the ramp's blue would be taken for none
+  constexpr float kFirst = 0.35f;  // skips the ramp's blue, which resembles the colour for zero
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {
     const float t = static_cast<float>(counts[i]) / static_cast<float>(most);
@@ -78,7 +78,7 @@ ViewPicture pendingPatches(const ViewSubject& in) {
     if (light.isStale) waiting.push_back(&light);
   Painter p(in);
   p.findPatches(visibility);
-  // What is not shown yet may reach all.
+  // A light that is not shown yet may reach everything.
   const std::vector<int> counts = ofPatches(p, [&](uint32_t object, int leaf) {
     return static_cast<int>(
         std::count_if(waiting.begin(), waiting.end(), [&](const InspectedLight* light) {
@@ -97,7 +97,7 @@ ViewPicture lightOcclusion(const ViewSubject& in) {
       samples.push_back(&light);
   Painter p(in);
   p.findPatches(visibility);
-  // Those that face the pixel, and twice as many as are not hidden: half for "something".
+  // Samples that face the pixel, and twice the visible ones among them: `partial` counts half.
   const auto shareAt = [&](const Seen& s, int leaf) {
     int facing = 0, open = 0;
     for (const InspectedLight* light : samples) {
@@ -115,8 +115,8 @@ ViewPicture lightOcclusion(const ViewSubject& in) {
     return share < 0.5f ? glm::mix(colours::kFull, colours::kPartial, 2.0f * share)
                         : glm::mix(colours::kPartial, colours::kNone, 2.0f * share - 1.0f);
   };
-  // Which samples face a patch changes little along it where it is flat: a sum over all of them for
-  // every pixel would be slow.
+  // The set of samples that face a flat patch changes slowly along it, and a sum over all of them
+  // per pixel would be slow.
   constexpr int kRun = 4;
   std::vector<float> shares(p.pixels(), 0.0f);
   p.forEachPixel([&](int x, int, size_t i) {
@@ -144,7 +144,7 @@ ViewPicture lightMapDensity(const ViewSubject& in) {
   const VisibilityDatabase& visibility = *in.inspection.visibility;
   Painter p(in);
   p.findPatches(visibility);
-  // Along the side where texels are farther apart, in tenths of a millimetre.
+  // The larger of the two texel spacings, in tenths of a millimetre.
   const std::vector<int> apart = ofPatches(p, [&](uint32_t object, int leaf) {
     const LightMapTile* tile = maps.tile(object, leaf);
     if (tile == nullptr) return 0;

@@ -12,7 +12,7 @@ PatchLookup::PatchLookup(const VisibilityDatabase& visibility)
     std::vector<Place>& places = objects_[i];
     places.resize(p.patches.size());
     for (const int root : p.roots) places[static_cast<size_t>(root)] = {root, 0};
-    // Children stand after their parents.
+    // Children come after their parents.
     for (size_t parent = 0; parent < places.size(); ++parent) {
       const int first = p.patches[parent].firstChild;
       if (first == kNone) continue;

@@ -1,4 +1,4 @@
-// Which patch a point lies in, as far as the visibility database divides them.
+// Finds the leaf patch of a point in the visibility database.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,11 @@ class PatchLookup {
   int leafAt(uint32_t object, uint32_t triangle, const vec3& position) const {
     return visibility_.patches(object).leafAt(triangle, position);
   }
-  // The patch above the leaf that is looked at as one; all leaves under it have the same lights.
+  // The highest patch above the leaf whose leaves all have the same lights.
   int wholeOf(uint32_t object, int leaf) const {
     return objects_[object][static_cast<size_t>(leaf)].whole;
   }
-  // How often its root was halved to get it.
+  // The depth of the leaf in its tree.
   int levelOf(uint32_t object, int leaf) const {
     return objects_[object][static_cast<size_t>(leaf)].level;
   }

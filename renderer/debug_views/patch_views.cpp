@@ -1,4 +1,4 @@
-// What is kept for each patch: the patches themselves, and the states of lights on them.
+// Views of patch data: the patches themselves, and the visibility of lights on them.
 #include <array>
 #include <cmath>
 

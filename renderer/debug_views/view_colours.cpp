@@ -24,7 +24,7 @@ std::vector<vec3> rampSteps(float from) {
 }
 
 vec3 ofPatch(uint32_t object, int patch) {
-  // Steps of the golden ratio spread hues evenly however many there are.
+  // Steps of the golden ratio distribute hues evenly for any number of them.
   const double turn = 0.6180339887 * patch + 0.2360679775 * object;
   const auto hue = static_cast<float>(6.0 * (turn - std::floor(turn)));
   const float saturation = 0.26f + 0.10f * static_cast<float>(patch % 3);

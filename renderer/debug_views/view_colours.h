@@ -1,4 +1,4 @@
-// Colours of views, of the display (sRGB-encoded), in [0, 1].
+// Display colours (sRGB-encoded) of the debug views, in [0, 1].
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 namespace lamplighter::view_colours {
 
 inline constexpr vec3 kBackground{0.11f, 0.115f, 0.125f};  // nothing is hit
-inline constexpr vec3 kNoData{0.30f, 0.31f, 0.33f};        // surfaces that the view says nothing of
-inline constexpr vec3 kAway{0.19f, 0.20f, 0.22f};          // backs
+inline constexpr vec3 kNoData{0.30f, 0.31f, 0.33f};  // surfaces for which the view has no data
+inline constexpr vec3 kAway{0.19f, 0.20f, 0.22f};    // back faces
 inline constexpr vec3 kNone{0.36f, 0.72f, 0.40f};
 inline constexpr vec3 kPartial{0.95f, 0.78f, 0.26f};
 inline constexpr vec3 kFull{0.80f, 0.27f, 0.24f};
@@ -18,13 +18,13 @@ inline constexpr vec3 kSettled{0.25f, 0.33f, 0.40f};
 
 // From dark blue through green and yellow to red; t in [0, 1].
 vec3 ramp(float t);
-// The part of it from `from` to 1, as a legend shows it.
+// The part of the ramp from `from` to 1, for a legend.
 std::vector<vec3> rampSteps(float from = 0.0f);
 
-// A colour for each patch, such that those with neighbouring numbers differ.
+// A colour for each patch; patches with neighbouring indices get different colours.
 vec3 ofPatch(uint32_t object, int patch);
 
-// The least of 1, 2, 5, 10, 20, 50, … that is not less; at least 1.
+// The smallest of 1, 2, 5, 10, 20, 50, … that is not less than `value`; at least 1.
 int niceMaximum(int value);
 
 }  // namespace lamplighter::view_colours

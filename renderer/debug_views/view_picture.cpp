@@ -37,7 +37,7 @@ NodeId nodeOfSample(const Inspection& inspection, int chosenLight) {
 
 namespace {
 
-// Of what the frame did besides.
+// Checks the data that the frame provides in addition to the inspection.
 std::string problemOf(DebugView view, const ViewSubject& in) {
   if (view == DebugView::shadowMap && in.shadowMap.empty())
     return "the chosen light sample has no shadow map just now: none is looked up in this view";

@@ -1,5 +1,5 @@
-// Pictures of what the engine keeps, made of rays on the processor: the same whatever backend
-// lights the level, and with the same bits at any number of threads.
+// Pictures of internal data of the engine, made with rays on the CPU. They do not depend on the
+// backend, and have the same bits at any number of threads.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace lamplighter {
 
-// What the colours of a picture mean. Colours are the display's.
+// The meaning of a picture's colours. All are display colours.
 struct Legend {
   struct Swatch {
     vec3 colour{0.0f};
@@ -24,58 +24,60 @@ struct Legend {
   };
   std::string title;
   std::vector<Swatch> swatches;
-  std::vector<vec3> ramp;  // evenly from `low` to `high`; empty: none
+  std::vector<vec3> ramp;  // evenly spaced from `low` to `high`; empty: no ramp
   std::string low, high;
-  // Besides or instead of these: what stands at places of the ramp, from 0 to 1.
+  // Labels at positions of the ramp, from 0 to 1, in addition to `low` and `high` or instead of
+  // them.
   std::vector<std::pair<float, std::string>> ticks;
 
   bool empty() const { return swatches.empty() && ramp.empty(); }
 };
 
 struct ViewPicture {
-  Image8 image;  // to be shown as it is
+  Image8 image;  // display colours
   Legend legend;
-  std::string problem;  // why it cannot be made and `image` is the flat view instead; "": it can
+  // why the view cannot be made, so that `image` is the flat view instead; "": no problem
+  std::string problem;
 };
 
-// What false colour shows: illuminance of the surfaces, or luminance of the picture.
+// What the false colour view shows: illuminance of surfaces or luminance of the picture.
 struct FalseColour {
   bool isLux = true;
-  // Logarithmic from `low` to `high`; both 0: what suits the picture.
+  // Logarithmic from `low` to `high`; both 0: a range that suits the picture.
   float low = 0.0f, high = 0.0f;
   bool operator==(const FalseColour&) const = default;
 };
 
-// What views are made from. All must be of one frame.
+// The input of views. All members must belong to one frame.
 struct ViewSubject {
   const RenderScene& scene;
   const RayCaster& rays;
   const View& view;
   const Inspection& inspection;
   int chosenLight = 0;                         // index into inspection.lights
-  float exposureEv = 0.0f;                     // at which light maps are shown
-  ToneMapper toneMapper = ToneMapper::filmic;  // likewise
-  NodeId chosenNode = kNoNode;                 // the light that lightOcclusion is about
+  float exposureEv = 0.0f;                     // exposure of light maps
+  ToneMapper toneMapper = ToneMapper::filmic;  // of light maps
+  NodeId chosenNode = kNoNode;                 // the light of the lightOcclusion view
   FalseColour falseColour;
-  // For falseColour: the radiance of the picture; in lux as if what is seen were white
+  // For falseColour: the radiance of the picture; for illuminance, with all visible surfaces white
   // (FrameInputs::lightOnly).
   const Image* radiance = nullptr;
   std::vector<float> shadowMap;       // of the chosen light sample (Backend::readShadowMap)
   std::vector<uint8_t> interpolated;  // Backend::readInterpolated
 };
 
-// Why a view cannot be made of this; "": it can.
+// Why a view cannot be made from this; "": it can.
 std::string problemOf(DebugView view, const Inspection& inspection);
 
-// The node of the chosen light sample, kNoNode where there is none: light of the sky.
+// The node of the chosen light sample; kNoNode if it has none (light of the sky).
 NodeId nodeOfSample(const Inspection& inspection, int chosenLight);
 
-// Reads what the view shows of the backend and of the frame's picture, and of no more than it
-// shows. `radiance` must outlive the subject's use.
+// Reads from the backend, and from the picture of the frame, only the data that the view needs.
+// `radiance` must outlive the use of the subject.
 void takeFromBackend(DebugView view, Backend& backend, RadianceImage& radiance,
                      ViewSubject& subject);
 
-// Any view that is no radiance (isRadiance). Rays go through the middles of the pixels.
+// Draws any view that is not radiance (isRadiance). Rays go through the middles of the pixels.
 ViewPicture drawView(DebugView view, const ViewSubject& subject);
 
 }  // namespace lamplighter

@@ -24,20 +24,20 @@ void FrameRenderer::update(const Scene& scene, const SceneChanges& changes) {
 }
 
 GiOutput FrameRenderer::render(const Request& request) {
-  // 1. The scene in world space, from what changed, and rays that see it.
+  // 1. Update the scene in world space and its rays from the changes.
   update(request.scene, request.changes);
 
-  // 2. The backend sees it.
+  // 2. Update the backend.
   const RenderSceneChanges changes = std::exchange(pending_, {});
   const bool isOtherScene = std::exchange(hasOtherScene_, false);
   if (!changes.none()) backend_->setScene(scene_, changes, *rays_);
 
-  // 3. The method, a new one when another is asked for.
+  // 3. Run the method; create it if another one is requested.
   if (!method_ || methodName_ != request.method) {
     method_ = findMethod(request.method).make();
     methodName_ = request.method;
   } else if (isOtherScene) {
-    method_->reset();  // another scene: nothing of the last one may show in it
+    method_->reset();  // another scene: nothing of the previous one may remain
   }
   return method_->render({scene_, changes, *rays_, request.view, *backend_, request.settings,
                           frame_++, stopwatch_, request.lightOnly, request.inBackground,

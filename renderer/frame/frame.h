@@ -1,4 +1,4 @@
-// A whole frame, from the scene to the picture.
+// Renders a whole frame, from the scene to the picture.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace lamplighter {
 
-// Everything kept from one frame to the next for one scene on one backend.
+// All state that is kept between frames, for one scene on one backend.
 class FrameRenderer {
  public:
   explicit FrameRenderer(std::unique_ptr<Backend> backend, Stopwatch stopwatch = {});
@@ -17,31 +17,32 @@ class FrameRenderer {
 
   struct Request {
     const Scene& scene;
-    const SceneChanges& changes;  // since the last request; all() the first time
+    const SceneChanges& changes;  // since the last request; all() in the first one
     const View& view;
     const std::string& method;
     const Settings& settings;
-    bool lightOnly = false;     // what is seen is shown as if it were white
-    bool inBackground = false;  // FrameInputs
-    // Light samples by which a settled picture may be refined in this frame; 0: it stays as it is.
+    bool lightOnly = false;     // visible surfaces are shown white
+    bool inBackground = false;  // as in FrameInputs
+    // The number of light samples by which this frame may refine a settled picture; 0: no
+    // refinement.
     int refineUpdates = 0;
     LightPart part = LightPart::all;
   };
-  // One frame. Throws InputError for an unknown method.
+  // Renders one frame. Throws InputError for an unknown method.
   GiOutput render(const Request& request);
 
-  // Brings scene() and rays() up to date without a picture; the next render() goes on from there,
-  // with what changed after this.
+  // Updates scene() and rays() without a picture. The next render() continues from there, with the
+  // changes that follow.
   void update(const Scene& scene, const SceneChanges& changes);
 
-  // What the method keeps, for views of it; good until the next call of the others.
+  // Internal data of the method, for debug views. Valid until the next call of another function.
   Inspection inspect() const { return method_ ? method_->inspect() : Inspection(); }
 
-  // Where what takes seconds to prepare is kept from run to run; made when needed. Empty, as at
-  // first: nowhere.
+  // The folder where slow precomputations are kept between runs; created when needed. Empty (the
+  // default): not kept.
   void setCacheFolder(std::filesystem::path folder) { cacheFolder_ = std::move(folder); }
 
-  // Forgets what the method keeps: the next picture is made from nothing.
+  // Discards what the method keeps: the next picture is computed from scratch.
   void restart();
 
   Backend& backend() { return *backend_; }
@@ -53,8 +54,8 @@ class FrameRenderer {
   Stopwatch stopwatch_;
   RenderScene scene_;
   std::unique_ptr<RayCaster> rays_;
-  RenderSceneChanges pending_;  // that the backend and the method have not seen yet
-  bool hasOtherScene_ = false;  // another scene altogether, likewise
+  RenderSceneChanges pending_;  // changes that the backend and the method have not received yet
+  bool hasOtherScene_ = false;  // likewise: the scene was replaced
   std::string methodName_;
   std::unique_ptr<GiMethod> method_;
   uint32_t frame_ = 0;

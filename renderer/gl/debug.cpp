@@ -6,7 +6,8 @@ namespace lamplighter::gl {
 
 DebugLog::DebugLog() {
   glEnable(GL_DEBUG_OUTPUT);
-  // The callback runs inside the call that it is about: no locks, and a debugger shows who called.
+  // The callback runs inside the call that causes the message: no locks are needed, and a debugger
+  // shows the caller.
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   glDebugMessageCallback(onMessage, this);
@@ -24,7 +25,7 @@ void DebugLog::onMessage(GLenum, GLenum type, GLuint id, GLenum severity, GLsize
     return;
   }
   const std::string message = length < 0 ? std::string(text) : std::string(text, length);
-  // The object belongs to whoever listens; GL hands the pointer through as const.
+  // The listener owns the object; OpenGL passes the pointer as const.
   auto* log = const_cast<DebugLog*>(static_cast<const DebugLog*>(user));
   log->errors_.push_back(message);
 #ifdef LAMPLIGHTER_DEBUG

@@ -1,4 +1,4 @@
-// What the driver says through KHR_debug (core since OpenGL 4.3).
+// Driver messages from KHR_debug (core since OpenGL 4.3).
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace lamplighter::gl {
 
-// Listens to the current context for as long as it lives; that context must be current when it is
-// destroyed too. Errors are kept and, in debug builds, logged. Needs a debug context to hear all.
+// Receives the messages of the current context during its lifetime. The context must also be
+// current when this is destroyed. Errors are kept and, in debug builds, logged. Only a debug
+// context reports everything.
 class DebugLog {
  public:
   DebugLog();
@@ -17,7 +18,7 @@ class DebugLog {
   DebugLog(const DebugLog&) = delete;
   DebugLog& operator=(const DebugLog&) = delete;
 
-  // Errors and whatever is of high severity, in the order they came.
+  // Errors and all messages of high severity, in order of arrival.
   const std::vector<std::string>& errors() const { return errors_; }
   void clear() { errors_.clear(); }
 

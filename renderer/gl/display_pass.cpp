@@ -37,7 +37,7 @@ void DisplayPass::draw(GLuint radianceTexture, float exposureEv, ToneMapper mapp
 }
 
 GLuint DisplayPass::upload(const std::shared_ptr<RadianceImage>& image) {
-  // Kept by its owner and not by its address, which the next picture may get.
+  // Compares owners, not addresses: a later picture may have the same address.
   if (uploadedFrom_ != image) {
     glTextureSubImage2D(uploaded_.name(), 0, 0, 0, width_, height_, GL_RGB, GL_FLOAT,
                         image->pixels().pixels.data());
@@ -50,7 +50,7 @@ void DisplayPass::resize(int width, int height) {
   width_ = width;
   height_ = height;
   target_ = makeTexture2D(GL_RGBA8, width, height, GL_LINEAR);
-  // Three floats a texel as they lie in main memory: nothing to convert.
+  // Three floats per texel as in main memory, so no conversion.
   uploaded_ = makeTexture2D(GL_RGB32F, width, height);
   uploadedFrom_.reset();
   glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, target_.name(), 0);

@@ -1,4 +1,4 @@
-// From a frame's radiance to the texture that the viewport shows.
+// Converts the radiance of a frame to the texture that the viewport shows.
 #pragma once
 
 #include <filesystem>
@@ -14,17 +14,18 @@ class DisplayPass {
  public:
   explicit DisplayPass(const std::filesystem::path& shaders = defaultShaderFolder());
 
-  // Tone-maps the picture with exposure in EV and returns a texture of its size (RGBA8,
-  // sRGB-encoded, opaque; row 0 is the top), which stays this pass's own and is drawn over by the
-  // next call. A picture in main memory is uploaded first, unless it is the one of the last call.
+  // Tone-maps the picture with exposure in EV. Returns a texture of the same size (RGBA8,
+  // sRGB-encoded, opaque; row 0 is the top). The texture belongs to this pass, and the next call
+  // overwrites it. A picture in main memory is uploaded first, unless it is the picture of the last
+  // call.
   GLuint render(const std::shared_ptr<RadianceImage>& image, float exposureEv,
                 ToneMapper mapper = ToneMapper::filmic);
 
-  // The same into a framebuffer of the picture's size.
+  // The same, into a framebuffer of the picture's size.
   void draw(GLuint radianceTexture, float exposureEv, ToneMapper mapper, GLuint framebuffer,
             int width, int height);
 
-  // Compiles the shaders anew; throws ShaderError and keeps the old ones when they are broken.
+  // Compiles the shaders again. If they have errors it throws ShaderError and keeps the old ones.
   void reload(const std::filesystem::path& shaders);
 
  private:
@@ -35,7 +36,7 @@ class DisplayPass {
   VertexArray vertexArray_;
   Framebuffer framebuffer_;
   Texture target_;
-  Texture uploaded_;  // a host picture's
+  Texture uploaded_;  // copy of a picture in main memory
   std::shared_ptr<RadianceImage> uploadedFrom_;
   int width_ = 0, height_ = 0;
 };

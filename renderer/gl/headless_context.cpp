@@ -23,7 +23,7 @@ bool has(const char* extensions, std::string_view name) {
   return false;
 }
 
-// In the order they are tried: GPUs by name, what Mesa's surfaceless platform chooses, the rest
+// In the order of trial: GPUs by name, the choice of Mesa's surfaceless platform, the rest
 // (software devices).
 std::vector<EGLDisplay> candidates() {
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
@@ -51,7 +51,7 @@ std::vector<EGLDisplay> candidates() {
   return first;
 }
 
-// EGL_NO_CONTEXT when this display has none of the kind.
+// EGL_NO_CONTEXT if this display has no such context.
 EGLContext makeContext(EGLDisplay display, bool debug) {
   if (eglInitialize(display, nullptr, nullptr) != EGL_TRUE) return EGL_NO_CONTEXT;
   const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
@@ -104,14 +104,14 @@ HeadlessContext::HeadlessContext(bool debug) {
 
 HeadlessContext::~HeadlessContext() {
   if (debugLog_ != nullptr) {
-    makeCurrent();  // it stops listening
+    makeCurrent();  // so that debugLog_ can stop listening
     debugLog_.reset();
   }
   if (eglGetCurrentContext() == context_) {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
   eglDestroyContext(display_, context_);
-  // No eglTerminate: a display is one object for the whole process, and others may be using it.
+  // No eglTerminate: the display is shared by the whole process, and others may use it.
 }
 
 void HeadlessContext::makeCurrent() {

@@ -15,10 +15,11 @@ inline constexpr bool kDebugContextByDefault = true;
 inline constexpr bool kDebugContextByDefault = false;
 #endif
 
-// Prefers a GPU to a software driver. Current on the thread that made it, until it is destroyed.
+// Prefers a GPU to a software driver. The context is current on the thread that made it until it is
+// destroyed.
 class HeadlessContext {
  public:
-  // Throws InputError, with what to install, when there is no such context to be had.
+  // Throws InputError, which names the packages to install, if no such context is available.
   explicit HeadlessContext(bool debug = kDebugContextByDefault);
   ~HeadlessContext();
   HeadlessContext(const HeadlessContext&) = delete;

@@ -1,5 +1,5 @@
-// OpenGL objects that delete themselves. Move-only; made with direct state access. The context that
-// made one must be current when it is destroyed.
+// RAII wrappers of OpenGL objects. Move-only; created with direct state access. The context that
+// created an object must be current when it is destroyed.
 #pragma once
 
 #include <utility>
@@ -8,11 +8,11 @@
 
 namespace lamplighter::gl {
 
-// Kind::create() makes a name, Kind::destroy() gives it back.
+// Kind::create() makes an object name, Kind::destroy() deletes it.
 template <typename Kind>
 class Object {
  public:
-  Object() = default;  // holds none
+  Object() = default;  // holds no object
   template <typename... Arguments>
   requires(sizeof...(Arguments) > 0 || !Kind::kNeedsArguments) static Object
       make(Arguments... arguments) {
@@ -95,7 +95,7 @@ using VertexArray = Object<VertexArrayKind>;
 using Shader = Object<ShaderKind>;
 using ProgramObject = Object<ProgramKind>;
 
-// A texture of one level without mipmaps, read by texelFetch or with linear filtering.
+// A texture with one mipmap level, for texelFetch or linear filtering.
 Texture makeTexture2D(GLenum internalFormat, int width, int height, GLenum filter = GL_NEAREST);
 
 }  // namespace lamplighter::gl

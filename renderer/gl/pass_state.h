@@ -1,5 +1,5 @@
-// The pipeline state of one pass, set on entry and put back to OpenGL's defaults on exit, so that
-// passes (and the user interface, which draws in the same context) do not depend on each other.
+// The pipeline state of one pass: set by the constructor, and reset to OpenGL's defaults by the
+// destructor, so that passes (and the user interface in the same context) do not affect each other.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -14,12 +14,12 @@ class PassState {
   PassState(const PassState&) = delete;
   PassState& operator=(const PassState&) = delete;
 
-  void reversedDepth();  // depth test and write, the greater one stays
-  // Front faces are clockwise in the pictures' pixels, since row 0 is the top there.
+  void reversedDepth();  // depth test and write; the greater depth wins
+  // Front faces are clockwise in the picture, because row 0 is the top.
   void cullBackFaces(bool on);
-  void additive();  // colour is added to what is there
+  void additive();  // additive blending of colour
   void clipDistances(int count);
-  // The stencil buffer's bits: set to 1 by what is drawn, or asked and left as they are.
+  // Stencil bit: mark() sets it to 1 where something is drawn; the others only test it.
   void mark();
   void onlyWhere(bool marked);
 
@@ -27,8 +27,8 @@ class PassState {
   int clipDistances_ = 0;
 };
 
-// Draws shaders/common/full_screen.vert.glsl; some vertex array must be bound, an empty one will
-// do.
+// Draws shaders/common/full_screen.vert.glsl. OpenGL requires a bound vertex array; an empty one is
+// sufficient.
 void drawFullScreen(GLuint emptyVertexArray);
 
 }  // namespace lamplighter::gl

@@ -1,4 +1,4 @@
-// A linked program from shader files.
+// A linked program made from shader files.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ class Program {
   explicit operator bool() const { return static_cast<bool>(object_); }
   void use() const { glUseProgram(name()); }
 
-  // Uniforms by their layout(location = …).
+  // Sets a uniform by its layout(location = …).
   void set(GLint location, int v) const { glProgramUniform1i(name(), location, v); }
   void set(GLint location, float v) const { glProgramUniform1f(name(), location, v); }
   void set(GLint location, const vec2& v) const { glProgramUniform2fv(name(), location, 1, &v.x); }

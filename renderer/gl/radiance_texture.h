@@ -1,4 +1,4 @@
-// A frame's picture that lies in a texture.
+// A frame's picture that is stored in a texture.
 #pragma once
 
 #include <memory>
@@ -8,8 +8,8 @@
 
 namespace lamplighter::gl {
 
-// RGBA32F, row 0 of the texture is the top of the picture. The context must be current when
-// pixels() is first called and when the last owner lets go.
+// RGBA32F; row 0 of the texture is the top of the picture. The context must be current at the first
+// call of pixels() and when the last owner releases it.
 class RadianceTexture final : public RadianceImage {
  public:
   RadianceTexture(int width, int height)
@@ -19,7 +19,7 @@ class RadianceTexture final : public RadianceImage {
   const Image& pixels() override;
 
   GLuint texture() const { return texture_.name(); }
-  void forgetPixels() { pixels_ = Image(); }  // the texture was drawn anew
+  void forgetPixels() { pixels_ = Image(); }  // call after drawing to the texture again
 
  private:
   Texture texture_;
@@ -27,14 +27,14 @@ class RadianceTexture final : public RadianceImage {
   Image pixels_;
 };
 
-// Colour of a texture of any float format, read back; row 0 stays row 0.
+// Reads back the colour of a texture of any float format; row 0 stays row 0.
 Image readBack(GLuint texture, int width, int height);
 
 }  // namespace lamplighter::gl
 
 namespace lamplighter {
 
-// The texture that holds the picture, or 0 when it lies in main memory.
+// The texture that holds the picture; 0 if it is in main memory.
 uint32_t textureOf(const RadianceImage& image);
 
 }  // namespace lamplighter

@@ -12,43 +12,44 @@ namespace {
 
 using namespace texels;
 
-// What several lights together may give to be summed in 32 bits [W/m²]: 2³⁰ units, of 2³¹.
+// Upper bound of the irradiance of several lights that are summed in 32 bits [W/m²]: 2³⁰ units, of
+// 2³¹.
 constexpr float kMostInInts = 16.0f;
 constexpr auto kUnitsPerIrradiance = static_cast<float>(1.0 / kIrradianceUnit);
 
-// Where eight texels are, as TexelPlaces.
+// The positions of eight texels, as in TexelPlaces.
 struct Packet {
   Floats u, w;
 };
 
-// Lights that shine from points by the cosine, which nearly all do, over the plane of a tile: in
-// coordinates of that, most of what they give a texel is the same for all. Structure of arrays.
+// Cosine-weighted point-like lights (almost all lights are of this kind) over the plane of a tile.
+// In the coordinates of the plane, most terms are equal for all texels. Structure of arrays.
 class PlaneLights {
  public:
   PlaneLights(std::span<const TexelLight* const> lights, const TexelPlaces& places,
               float clampDistance);
 
-  // To several packets at once, which share what is read of a light.
+  // Adds to several packets at once, which share the loads of a light.
   template <size_t kPackets>
   void add(const Packet* at, PacketSums* sums) const;
 
  private:
-  // Lights that are summed one after the other.
+  // Lights that are summed one after another.
   struct Run {
-    size_t first, last;  // in order_
+    size_t first, last;  // indices into order_
   };
   enum Value : size_t {
-    kU,  // of its foot on the plane [m]
+    kU,  // of its projection onto the plane [m]
     kW,
     kHeight2,  // its height over the plane, squared [m²]
-    // How high texels are over the light's own plane, by how far they are from its foot.
+    // Height of a texel over the light's own plane, from its distance to the projection.
     kAxisU,
     kAxisW,
     kAxisHeight,
-    kRed,  // intensity times its height over the plane, in units where it is faint
+    kRed,  // intensity times its height over the plane; for faint lights in units
     kGreen,
     kBlue,
-    kMost,  // no less than it can give a texel [W/m²]
+    kMost,  // upper bound of its irradiance at a texel [W/m²]
     kValues
   };
 
@@ -57,9 +58,9 @@ class PlaneLights {
   HWY_INLINE Floats weigh(const float* light, const Packet& at) const;
 
   float clamp2_;
-  std::vector<float> values_;    // eight lights one after the other, of these value after value
-  std::vector<uint32_t> order_;  // where the first value of a light is
-  // Faint ones, in runs of which none gives too much for 32 bits; and all others.
+  std::vector<float> values_;    // eight lights side by side, one value after another
+  std::vector<uint32_t> order_;  // index of the first value of each light
+  // Faint lights, in runs whose sum fits 32 bits; then all other lights.
   std::vector<Run> faint_;
   Run bright_;
 };
@@ -115,15 +116,15 @@ void PlaneLights::setEight(std::span<const TexelLight* const> lights, size_t fir
   const Floats besideU = beside(u, places.min.x, places.max.x),
                besideW = beside(w, places.min.y, places.max.y);
   const Floats nearest2 = hn::MulAdd(besideU, besideU, hn::MulAdd(besideW, besideW, height2));
-  // A thousandth for rounding, twice.
+  // 0.1% tolerance for rounding, on both bounds.
   const Floats least = hn::Max(hn::Mul(nearest2, wide(0.999f)), wide(clamp2_));
   store(kMost, hn::IfThenElseZero(isAbove, hn::Div(hn::Mul(brightest, wide(1.001f)), least)));
 }
 
-// What gives nothing is left out.
+// Lights without contribution are skipped.
 void PlaneLights::divide(size_t count) {
   order_.resize(count);
-  size_t faint = 0, bright = count;  // from either end
+  size_t faint = 0, bright = count;  // from both ends
   float sum = 0.0f;
   for (size_t i = 0; i < count; ++i) {
     const size_t light = i / kLanes * kLanes * kValues + i % kLanes;
@@ -146,7 +147,7 @@ void PlaneLights::divide(size_t count) {
   bright_ = {bright, count};
 }
 
-// The irradiance of a light, with its values from here on [m⁻³ × its intensity times its height].
+// The irradiance of a light whose values begin here [m⁻³ × its intensity times its height].
 HWY_INLINE Floats PlaneLights::weigh(const float* light, const Packet& at) const {
   const auto value = [&](Value v) { return wide(light[v * kLanes]); };
   const Floats du = hn::Sub(at.u, value(kU)), dw = hn::Sub(at.w, value(kW));
@@ -190,11 +191,11 @@ void PlaneLights::add(const Packet* at, PacketSums* sums) const {
   }
 }
 
-// Any other light's irradiance [m⁻² × its intensity; parallel: 1].
+// The irradiance of any other light [m⁻² × its intensity; directional: 1].
 Floats weigh(const TexelLight& light, const TexelPlaces& places, const Packet& at) {
   const Floats zero = hn::Zero(kTag);
   const vec3 v = places.origin - light.position;
-  // Along an axis, from the light.
+  // Distance from the light along an axis.
   const auto along = [&](const vec3& axis) {
     return hn::MulAdd(
         at.u, wide(glm::dot(axis, places.tangent)),
@@ -237,7 +238,7 @@ void accumulate(std::span<const TexelLight* const> lights, const TexelPlaces& pl
   for (const TexelLight* light : lights)
     (light->kind == shared::kVplCosine ? cosine : others).push_back(light);
   const PlaneLights over(cosine, places, clampDistance);
-  // All lights one after the other, so that the sums stay in registers.
+  // Processes all lights in one loop, so that the sums stay in registers.
   const auto addTo = [&]<size_t kPackets>(size_t first) {
     const auto all = [&](auto&& f) {
       return [&]<size_t... p>(std::index_sequence<p...>) {

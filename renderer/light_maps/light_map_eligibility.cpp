@@ -11,9 +11,10 @@ namespace {
 
 using Floats = Floats8;
 
-// Between texels n texels from a light, interpolation is wrong by up to 1/n².
+// At a distance of n texels from a light, interpolation has an error of up to 1/n².
 constexpr float kNearTexels = 10.0f;
-// A patch that begins so many texels behind a light, at a wall that meets its own, is before it.
+// A patch that extends at most this number of texels behind a light (at a wall that meets the
+// light's wall) counts as in front of it.
 constexpr float kBehindTexels = 0.05f;
 constexpr float kMostBrightness = 2048.0f;  // W/m²: 65536 such lights still fit the sums
 
@@ -22,10 +23,10 @@ bool isSpot(const shared::Vpl& vpl) {
 }
 
 using Vector3 =
-    SimdVec3<Floats>;  // summed in glm's order, so that all is as isLightMapEligible() finds it
+    SimdVec3<Floats>;  // summed in glm's order, so that all results equal isLightMapEligible()
 
-// Whether the light's plane crosses the patch: there is none of its light behind it, and before it
-// it grows from nothing, which texels on both sides would round off.
+// Whether the light's plane crosses the patch. Behind the plane there is no light, and in front of
+// it the light grows from zero; interpolation between texels on both sides would blur this.
 bool isCrossed(const shared::Vpl& vpl, const TilePlace& tile) {
   const vec3 position(vpl.position), normal(vpl.normal);
   float least = std::numeric_limits<float>::infinity(), most = -least;

@@ -1,4 +1,4 @@
-// Which lights a light map's tile can hold.
+// Which lights the tile of a light map can hold.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace lamplighter {
 
-// Where a tile's patch is.
+// The position of a tile's patch.
 struct TilePlace {
   const Chart& chart;
   const Patch& patch;
-  float spacing;  // of its texels [m]
+  float spacing;  // between texels [m]
   vec3 corners[4];
 
   TilePlace(const Chart& c, const Patch& p, float texelSpacing)
@@ -25,27 +25,27 @@ struct TilePlace {
         corners{c.at(p.min), c.at({p.max.x, p.min.y}), c.at(p.max), c.at({p.min.x, p.max.y})} {}
 };
 
-// Whether a light is smooth enough over the patch to be interpolated, and not too bright to be
-// summed.
+// Whether the irradiance of a light varies slowly enough over the patch to be interpolated, and is
+// not too large for the fixed-point sums.
 bool isLightMapEligible(const shared::Vpl& vpl, const TilePlace& tile, float clampDistance);
 
-// The same for many lights and tile after tile, eight lights at a time.
+// The same for many lights, one tile after another, eight lights at a time.
 class EligibleLights {
  public:
-  // slots: of the lights to be asked for.
+  // slots: the lights to test.
   EligibleLights(std::span<const shared::Vpl> bySlot, std::span<const uint32_t> slots,
                  float clampDistance);
-  // Sets their bits, 64 slots a word, and leaves all others.
+  // Sets the bits of these lights in `bits` (64 slots per word); other bits keep their values.
   void find(const TilePlace& tile, std::span<uint64_t> bits) const;
 
  private:
   std::span<const shared::Vpl> bySlot_;
   float clampDistance_;
-  std::vector<uint32_t> others_;  // slots of parallel light and of spots
-  // Lights that shine from a point, in whole vectors, and their slots.
+  std::vector<uint32_t> others_;  // slots of directional lights and of spot lights
+  // Point-like lights, padded to whole vectors, and their slots.
   std::vector<uint32_t> slots_;
   std::vector<float> px_, py_, pz_, nx_, ny_, nz_;
-  std::vector<float> brightest_, least_;  // least: what a squared distance is raised to
+  std::vector<float> brightest_, least_;  // least: the lower bound of a squared distance
 };
 
 }  // namespace lamplighter

@@ -22,21 +22,21 @@ namespace {
 
 constexpr int kMostTexels = TexelGrid::kMostAlong;
 constexpr float kFlat = 0.9999f;  // cos 0.8°
-// How much larger texels become, again and again, until there is room for all.
+// Factor by which the texel spacing grows, repeatedly, until all maps fit.
 constexpr float kTexelGrowth = 1.41421356f;
-// What is held: of each texel, and of each tile for 64 slots.
+// Memory: per texel, and per tile for 64 slots.
 constexpr uint64_t kTexelBytes = sizeof(vec4) + 3 * sizeof(double);
 constexpr uint64_t kWordBytes = 2 * sizeof(uint64_t);
 
 size_t wordsOf(size_t slots) { return (slots + 63) / 64; }
 
-// All that a contribution depends on.
+// Compares everything that affects a contribution.
 bool sameContribution(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
          vec3(a.intensity) == vec3(b.intensity);
 }
 
-// Its surface shades as its plane does: neither smooth normals nor a normal texture, nor bumps.
+// Whether the chart is shaded flat: no smooth normals, normal texture or bumps.
 bool isShadedFlat(const RenderScene& s, const Chart& chart) {
   if (chart.isRough) return false;
   const RenderObject& o = s.objects[chart.object];
@@ -55,7 +55,7 @@ size_t paddedCount(const LightMapTile& tile) {
   return TexelGrid::paddedCount(tile.columns, tile.rows);
 }
 
-// Of the 64 slots from 64·w on, those of which nothing arrives, a bit each.
+// Of the 64 slots from 64·w on: one bit for each slot whose light does not reach the patch.
 uint64_t fullOnes(std::span<const uint8_t> states, size_t w) {
   uint64_t bits = 0;
   for (size_t i = 64 * w; i < std::min(64 * w + 64, states.size()); ++i)
@@ -97,8 +97,7 @@ LightMaps::Size LightMaps::sizeOf(const ObjectPatches& patches, const std::vecto
   return out;
 }
 
-// The same for all that there is: of what was there before it depends on no more than how many
-// slots there are.
+// The spacing for the whole scene. It depends on the number of slots only, not on earlier maps.
 float LightMaps::fittingTexel(const VisibilityDatabase& visibility, size_t words) const {
   const auto fits = [&](const Size& size) {
     return size.texels <= options_.mostTexels &&
@@ -134,7 +133,7 @@ void LightMaps::makeTiles(Object& object, const ObjectPatches& patches) const {
       texels += static_cast<uint32_t>(TexelGrid::paddedCount(columns, rows));
     });
   }
-  // Others in their places: those that were larger would keep their memory.
+  // New vectors: resizing larger ones would keep their memory.
   object.sums = std::vector<double>(size_t{3} * texels, 0.0);
   object.irradiance = std::vector<vec4>(texels, vec4(0.0f));
   object.held = std::vector<uint64_t>(object.tiles.size() * words_, 0);
@@ -160,7 +159,7 @@ void LightMaps::resize(size_t slots) {
 void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visibility,
                        std::span<const shared::Vpl> given, const Options& options, const View* view,
                        bool mayBeFiner) {
-  // Slots that are no longer given are empty.
+  // Slots beyond the given ones are empty.
   std::vector<shared::Vpl> bySlot(given.begin(), given.end());
   bySlot.resize(std::max(bySlot.size(), lights_.size()));
   if (!(options == options_)) objects_.clear();
@@ -202,7 +201,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   std::vector<uint32_t> changedObjects = fresh;
 
   lights_.resize(bySlot.size());
-  // Slots whose lights are others, and those with lights.
+  // Slots whose lights changed, and slots with lights.
   std::vector<uint64_t> isNew(words_, 0), isThere(words_, 0);
   std::vector<uint32_t> newLights;
   for (size_t i = 0; i < bySlot.size(); ++i) {
@@ -250,7 +249,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     const ObjectPatches& patches = visibility.patches(job.object);
     const Patch& patch = patches.patches[static_cast<size_t>(tile.patch)];
     const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
-    const auto states = visibility.row(job.object, tile.patch);  // of those given
+    const auto states = visibility.row(job.object, tile.patch);  // of the given lights
     const TilePlace place(chart, patch, spacingOf(tile, patch));
     const size_t count = paddedCount(tile);
     double* sums = &o.sums[size_t{3} * tile.first];
@@ -268,7 +267,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
       uint64_t& refused = o.refused[job.tile * words_ + w];
       refused &= ~isNew[w];
       const uint64_t isFull = fullOnes(states, w);
-      // What is the same and is held is as mappable as it was; what was refused is not.
+      // A light that did not change and is held remains eligible; a refused one remains refused.
       uint64_t asked = isNew[w] | (held & isFull) | (isThere[w] & ~(held | isFull | refused));
       for (; asked != 0; asked &= asked - 1) {
         const uint64_t bit = asked & -asked;
@@ -313,7 +312,7 @@ uint64_t LightMaps::bytes() const {
   return n;
 }
 
-// FNV-1a over the words.
+// FNV-1a over 64-bit words.
 uint64_t LightMaps::hash() const {
   uint64_t hash = 14695981039346656037u;
   for (const Object& o : objects_) {

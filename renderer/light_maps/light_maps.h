@@ -1,14 +1,14 @@
-// Light maps (paper 1, 4.3.2 and 4.5.2): for each patch the irradiance of all lights that reach
-// some of it, without their shadows, on a grid. Pixels take the shadows away again
-// (patch_lights.h).
+// Light maps (paper 1, 4.3.2 and 4.5.2): for each patch, a grid with the unshadowed irradiance of
+// all lights that reach at least a part of it. Pixels subtract the shadows (patch_lights.h).
 //
-// A tile is the grid of one leaf patch. It begins and ends at the patch's corners, so bilinear
-// filtering never leaves it: no gutter is needed, nothing bleeds, and neighbours that hold the same
-// lights agree along their border. Texels past the surface's edge are light on its plane.
+// A tile is the grid of one leaf patch. Its outer texels lie on the border of the patch, so
+// bilinear filtering never leaves it: no gutter is needed, nothing bleeds, and neighbours that hold
+// the same lights agree along their common border. Texels outside the surface hold the light on its
+// plane.
 //
 // The sums are fixed-point numbers: each contribution is rounded to a multiple of 2⁻²⁶ W/m² and
-// added as a double, which is exact up to 2²⁷ W/m². Adding a light and taking it away restores the
-// very same bits in any order.
+// added as a double, which is exact up to 2²⁷ W/m². Adding a light and subtracting it again
+// restores the same bits, in any order.
 #pragma once
 
 #include <cstdint>
@@ -22,57 +22,59 @@
 namespace lamplighter {
 
 struct LightMapTile {
-  int patch = kNone;          // the leaf, of the object's patches
-  uint32_t first = 0;         // its first texel in the object's arrays; row after row
-  int columns = 0, rows = 0;  // along the chart's tangent and bitangent, 2 at least
+  int patch = kNone;          // the leaf; index into the patches of the object
+  uint32_t first = 0;         // index of its first texel in the arrays of the object; row by row
+  int columns = 0, rows = 0;  // along tangent and bitangent of the chart; at least 2
 };
 
 class LightMaps {
  public:
   struct Options {
-    float texel = 0.1f;          // spacing of texels, where a patch needs no more than 33 [m]
+    // spacing of texels [m]; larger where a patch would need more than 33 per side
+    float texel = 0.1f;
     float clampDistance = 0.0f;  // of ShadingParams [m]
-    // Where they would hold more, texels are larger everywhere; where even two a side of each patch
-    // are too many there are no maps.
+    // If the maps would need more memory, the spacing grows everywhere. If even 2×2 texels per
+    // patch need too much, there are no light maps.
     uint64_t mostBytes = UINT64_MAX;
-    uint64_t mostTexels = UINT64_MAX;  // likewise: that the backend takes
+    uint64_t mostTexels = UINT64_MAX;  // likewise: the limit of the backend
     bool operator==(const Options&) const = default;
   };
 
-  // Takes in what changed; once after each setScene() of the database. `bySlot`: the lights as the
-  // database has them, with their intensities. Afterwards the maps are those that would be made
-  // from nothing; with a view, those of tiles whose fronts that may show. Others are not brought up
-  // to date until it may, and until then not to be read. Texels become larger at once where memory
-  // asks for it, but smaller only where they may: all maps are made anew for that.
+  // Applies the changes; call once after each setScene() of the database. `bySlot`: the lights as
+  // the database has them, with their intensities. Afterwards the maps have the bits of maps
+  // computed from scratch. With a view, this holds only for tiles whose front the view may show;
+  // other tiles are updated when a view may show them and must not be read before. The spacing
+  // grows immediately when memory requires it, but shrinks only when the caller allows it, because
+  // that recomputes all maps.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
               std::span<const shared::Vpl> bySlot, const Options& options,
               const View* view = nullptr, bool mayBeFiner = true);
 
-  // A leaf's tile; null where pixels have to sum all lights themselves: its chart is not shaded
-  // flat, or it is in no chart.
+  // The tile of a leaf. Null if pixels must sum all lights themselves: the leaf is in no chart, or
+  // its chart is not flat-shaded.
   const LightMapTile* tile(uint32_t object, int leaf) const {
     const int index = objects_[object].tileOfPatch[static_cast<size_t>(leaf)];
     return index == kNone ? nullptr : &objects_[object].tiles[static_cast<size_t>(index)];
   }
-  // Whether the leaf's tile holds the light in each slot. Only for leaves with a tile.
+  // Tells whether the tile of a leaf holds the light in a slot. Only for leaves that have a tile.
   class Held {
    public:
     explicit Held(const uint64_t* words) : words_(words) {}
     bool operator[](size_t slot) const { return (words_[slot / 64] >> slot % 64 & 1) != 0; }
 
    private:
-    const uint64_t* words_;  // a bit a slot
+    const uint64_t* words_;  // one bit per slot
   };
   Held held(uint32_t object, int leaf) const {
     const size_t index =
         static_cast<size_t>(objects_[object].tileOfPatch[static_cast<size_t>(leaf)]);
     return Held(objects_[object].held.data() + index * words_);
   }
-  // A leaf's tile, to be read at many points; until the maps or patches change.
+  // Reads the tile of a leaf at many points. Valid until the maps or the patches change.
   class Sampler {
    public:
     Sampler(const LightMaps& maps, const ObjectPatches& patches, uint32_t object, int leaf);
-    // E on the front of its plane at the point nearest to `position` [W/m²].
+    // E on the front of the tile's plane, at the point nearest to `position` [W/m²].
     vec3 irradiance(const vec3& position) const {
       const vec2 p = chart_.project(position);
       const vec2 at = glm::clamp((p - min_) / size_, 0.0f, 1.0f) * last_;
@@ -85,15 +87,15 @@ class LightMaps {
       return vec3(glm::mix(top, bottom, w.y));
     }
 
-    // The same of eight points, by coordinate; e: rgb. What is not a point of the tile's chart may
-    // be among them.
+    // The same for eight points; arguments by coordinate, e: by channel. Points outside the tile's
+    // chart are allowed.
     static constexpr size_t kPoints = 8;
     void irradiance(const float* x, const float* y, const float* z,
                     std::span<vec4, kPoints> e) const;
 
    private:
     const Chart& chart_;
-    vec2 min_, size_, last_;  // of the patch; the last column and row
+    vec2 min_, size_, last_;  // of the patch; last_: the last column and row
     ptrdiff_t columns_;
     const vec4* texels_;
   };
@@ -101,15 +103,15 @@ class LightMaps {
                   const vec3& position) const {
     return Sampler(*this, patches, object, leaf).irradiance(position);
   }
-  // An object's texels; rgb: E [W/m²].
+  // The texels of an object; rgb is E [W/m²].
   std::span<const vec4> texels(uint32_t object) const { return objects_[object].irradiance; }
   const Revision& revision(uint32_t object) const { return objects_[object].revision; }
 
   size_t objects() const { return objects_.size(); }
   size_t texels() const;
-  float texel() const { return texel_; }  // spacing as memory allows [m]; 0: there are no maps
+  float texel() const { return texel_; }  // spacing that memory allows [m]; 0: no light maps
   bool couldBeFiner() const { return texel_ != fitting_; }
-  uint64_t texelsWritten() const { return written_; }  // texels × lights, since they were made
+  uint64_t texelsWritten() const { return written_; }  // texels × lights since construction
   uint64_t bytes() const;
   uint64_t hash() const;  // of all sums
 
@@ -119,18 +121,19 @@ class LightMaps {
   };
   struct Object {
     std::vector<bool> isFlat;      // by chart: whether it has light maps
-    Size wanted;                   // with texels as they are asked for
+    Size wanted;                   // at the requested texel spacing
     std::vector<int> tileOfPatch;  // kNone: no tile
     std::vector<LightMapTile> tiles;
-    std::vector<double> sums;      // three a texel: all r of a tile, then g, then b
-    std::vector<vec4> irradiance;  // the same, as it is read
-    // Tiles × words_, a bit a slot: lights in the sums, and those that are known not to be smooth
-    // enough for them.
+    std::vector<double> sums;      // three per texel: all r of a tile, then all g, then all b
+    std::vector<vec4> irradiance;  // the same values as floats, for reading
+    // Tiles × words_, one bit per slot: lights that are in the sums, and lights that are known to
+    // vary too fast for them.
     std::vector<uint64_t> held, refused;
-    std::vector<uint8_t> isLeftOut;  // by tile: it was not seen when something changed
-    Revision revision;               // of tiles and texels
+    // by tile: it was not visible when something changed, so it is out of date
+    std::vector<uint8_t> isLeftOut;
+    Revision revision;  // of tiles and texels
   };
-  // With texels of some spacing, tile by tile: patch, columns, rows.
+  // Calls f(patch, columns, rows) for each tile at a given texel spacing.
   template <typename F>
   static void forEachTile(const ObjectPatches& patches, const std::vector<bool>& isFlat,
                           float texel, F take);
@@ -141,9 +144,10 @@ class LightMaps {
 
   std::vector<Object> objects_;
   std::vector<shared::Vpl> lights_;  // by slot, as they were added
-  size_t words_ = 0;                 // of a tile's bits
+  size_t words_ = 0;                 // per tile, for its bits
   Options options_;
-  float texel_ = 0.0f, fitting_ = 0.0f;  // as they are, and as memory allows with so many words
+  // the present spacing, and the one that memory allows with fittingWords_
+  float texel_ = 0.0f, fitting_ = 0.0f;
   size_t fittingWords_ = 0;
   uint64_t written_ = 0;
 };

@@ -12,24 +12,27 @@
 namespace lamplighter {
 namespace {
 
-// Slots are added in such steps, since a sum is made anew when their number changes.
+// Slots are added in steps of this size, because a change of their number needs a new sum.
 constexpr size_t kStep = 64;
 
-// Groups are the VPLs in a cell of a grid, of so many grids, the coarsest of cells so large [m].
+// Groups are the VPLs in a cell of a grid. Number of grids, and the cell size of the coarsest one
+// [m].
 constexpr int kGrids = 7;
 constexpr float kCoarsest = 2.0f;
-// A patch is far from a group that is within this share of its distance about its place. The error
-// of the VPLs' distances is of second order, for that place is in their middle.
+// A patch is far from a group if the group's radius is at most this share of its distance. The
+// error of the distances of the VPLs is then of second order, because the proxy is near their
+// centre.
 constexpr float kFar = 0.3f;
-// The same for lobes, times their width: what a group is seen under is less than half of a lobe.
+// The same for lobes, relative to their width: the group covers less than half of a lobe.
 constexpr float kFarForLobes = 0.5f;
-// VPLs of a group look the same way, but for this cosine.
+// Smallest cosine between the normals of the VPLs of a group.
 constexpr float kSameWay = 0.95f;
-// Of the median of all lights' brightness: what is brighter counts as so bright.
+// The brightness of a light is clamped to this multiple of the median brightness.
 constexpr float kMostOfMedian = 4.0f;
 
-// How unlike two lights are as casters of shadows: the square of their distance and, as far as they
-// look elsewhere, of what a metre away is [m²]. Lights of different kinds have nothing in common.
+// Dissimilarity of two lights as shadow casters: the squared distance between them, plus, if their
+// directions differ, between points one metre away along these directions [m²]. Lights of different
+// kinds never match.
 float unlikeness(const shared::Vpl& a, const shared::Vpl& b) {
   if (a.position.w != b.position.w) return std::numeric_limits<float>::max();
   const vec3 way = vec3(a.position) - vec3(b.position);
@@ -37,7 +40,7 @@ float unlikeness(const shared::Vpl& a, const shared::Vpl& b) {
   return glm::dot(way, way) + turned * turned;
 }
 
-// The cell of grid `grid`, 0 the coarsest; parts of a key that differ in no bit below 2^62.
+// Key of the cell in grid `grid` (0 is the coarsest). Its bit fields are disjoint and below bit 62.
 uint64_t cellOf(const shared::Vpl& v, int grid) {
   const float size = std::ldexp(kCoarsest, -grid);
   const auto along = [&](float x) {
@@ -48,12 +51,12 @@ uint64_t cellOf(const shared::Vpl& v, int grid) {
          along(v.position.z);
 }
 
-// Over the surface that a light is on, so that it does not hide others from it [m].
+// A point slightly above the light's surface, so that the surface does not hide others from it [m].
 vec3 over(const shared::Vpl& v) { return vec3(v.position) + 0.01f * vec3(v.normal); }
 
-// Of all lights together; parallel light is measured otherwise. A few that are far brighter than
-// most, such as what the sun makes of the ground outside, count as if they were not: they are no
-// reason to take the others less seriously where these do not reach.
+// The total light without directional light. A few lights that are far brighter than most, for
+// example on sunlit ground outside, count less, because they are no reason to neglect the others
+// where they do not reach.
 float allLight(std::span<const shared::Vpl> lights) {
   std::vector<float> each;
   for (const shared::Vpl& v : lights)
@@ -75,7 +78,7 @@ bool sameBits(std::span<const shared::Vpl> a, std::span<const shared::Vpl> b) {
 
 }  // namespace
 
-// Gives out the numbers of stand-ins.
+// Assigns the numbers of the proxies.
 struct LightProxies::Numbers {
   std::map<uint64_t, int> before, now;
   std::vector<bool> isTaken;
@@ -84,7 +87,7 @@ struct LightProxies::Numbers {
   explicit Numbers(std::map<uint64_t, int> last) : before(std::move(last)) {
     int most = 0;
     for (const auto& [key, number] : before) most = std::max(most, number + 1);
-    // Now and then they are given out anew, so that few do not have large ones.
+    // Renumbers occasionally, so that a few proxies do not keep large numbers.
     if (static_cast<size_t>(most) > 4 * before.size() + kStep) before.clear();
     isTaken.assign(static_cast<size_t>(most), false);
     for (const auto& [key, number] : before) isTaken[static_cast<size_t>(number)] = true;
@@ -169,10 +172,10 @@ void LightProxies::addSingleProxies(Numbers& numbers) {
   }
 }
 
-// In cells of finer and finer grids, what is not too bright for one shadow.
+// Groups by cells of finer and finer grids; a group must not be too bright for one shadow.
 void LightProxies::addGroupProxies(Numbers& numbers, const Groups& groups) {
   const float most = groups.share * allLight(shown_);
-  std::vector<const shared::Vpl*> lights;  // those that may be in groups
+  std::vector<const shared::Vpl*> lights;  // candidates for groups
   for (const shared::Vpl& v : shown_) {
     if (v.position.w == shared::kVplDirectional || 2.0f * brightness(v) > most) continue;
     if (hasMap_[static_cast<size_t>(v.intensity.w)] != 0) lights.push_back(&v);
@@ -235,7 +238,7 @@ void LightProxies::apply(const vec3& centre, float radius, const Lobes* lobes,
   for (const Group& group : groups_) {
     const int* members = &members_[group.first];
     const ShadowMode use = bySlot[static_cast<size_t>(members[0])];
-    // Of irradiance what has no shadow is in light maps.
+    // Unshadowed irradiance is in the light maps.
     if (lobes == nullptr ? !readsShadowMap(use) : use == ShadowMode::skip) continue;
     if (group.radius > far * (glm::distance(group.place, centre) - radius)) continue;
     if (!std::all_of(members + 1, members + group.count,

@@ -1,13 +1,14 @@
-// Lights that stand for others where these would have to look up shadow maps:
-// - for a VPL that has no map, because memory is short or its turn has not come, one as bright at
-//   the place of the nearest that has;
-// - for a group of VPLs near each other, one as bright as all of them at the place of one of them
-//   (Walter et al., Lightcuts, 2005), for patches that are far from the group and on which all its
-//   VPLs would look their maps up; and for lobes that are wide beside it, with maps or without. It
-//   stands for the area of all of them, which blurs what a lobe shows of it.
+// Light proxies: lights that replace others where these would need shadow map look-ups.
+// - A VPL without a map (memory is short, or its turn has not come) is replaced by a light of the
+//   same brightness at the position of the nearest VPL with a map.
+// - A group of VPLs close to each other is replaced by a light of their total brightness at the
+//   position of one of them (Walter et al., Lightcuts, 2005). This applies to patches far from the
+//   group that would need the maps of all its VPLs, and to glossy lobes that are wide compared with
+//   the group, with or without maps. The proxy represents the area of all VPLs of the group, which
+//   blurs its reflection.
 //
-// A stand-in is a light as any other for the backends: it has a slot, behind those of the VPLs, and
-// looks up the map of the VPL at whose place it is.
+// For the backends a proxy is a normal light: it has a slot, after those of the VPLs, and uses the
+// map of the VPL at whose position it is.
 #pragma once
 
 #include <functional>
@@ -23,28 +24,28 @@ namespace lamplighter {
 
 class LightProxies {
  public:
-  // What a group may be.
+  // Limits for groups.
   struct Groups {
-    float share = 0.0f;  // of all light but parallel light, what one has at most; 0: there is none
-    // Whether one place sees another: what is on two sides of a wall is no group. Null: they all
-    // do.
+    // largest share of the total light, directional light excluded, in one group; 0: no groups
+    float share = 0.0f;
+    // Whether two points see each other: VPLs on two sides of a wall form no group. Null: all do.
     std::function<bool(const vec3&, const vec3&)> sees;
-    bool sceneChanged = false;  // places may see others than in the last call
+    bool sceneChanged = false;  // the visibility between points may differ from the last call
   };
-  // Of glossy pixels of a patch.
+  // The lobes of the glossy pixels of a patch.
   struct Lobes {
-    float alpha = 0.0f;  // the square of the roughness, at least
+    float alpha = 0.0f;  // lower bound of the squared roughness
   };
-  // `shown`: the VPLs, with their slots in intensity.w; by slot whether it has a map, and whether
-  // the view wants it to have one.
+  // `shown`: the VPLs, with their slots in intensity.w. hasMap, isWanted: by slot, whether it has a
+  // map and whether the view needs one.
   void update(std::span<const shared::Vpl> shown, size_t slots, const std::vector<uint8_t>& hasMap,
               const std::vector<uint8_t>& isWanted, const Groups& groups);
 
-  size_t slots() const { return slots_ + room_; }  // of VPLs and stand-ins
-  // In an order that follows from what is shown.
+  size_t slots() const { return slots_ + room_; }  // of VPLs and proxies
+  // The order depends only on what is shown.
   const std::vector<shared::Vpl>& lights() const { return lights_; }
   size_t groups() const { return groups_.size(); }
-  // Whose map the light in a slot looks up, its own or another's.
+  // The slot whose map is used for the light in `slot`: itself or another.
   int mapSlot(int slot) const {
     const auto s = static_cast<size_t>(slot);
     return s < slots_ ? slot : mapSlots_[s - slots_];
@@ -54,8 +55,8 @@ class LightProxies {
     return s >= slots_ && isGroup_[s - slots_] != 0;
   }
 
-  // Makes of how the pixels of a patch would use each VPL, if all had maps, how they use VPLs and
-  // stand-ins. `lobes`: null: for irradiance; else for these.
+  // Converts shadow modes: from those that the pixels of a patch would use if all VPLs had maps to
+  // those for VPLs and proxies. `lobes`: null for irradiance; otherwise for these glossy lobes.
   void apply(const vec3& centre, float radius, const Lobes* lobes,
              std::span<ShadowMode> bySlot) const;
 
@@ -63,7 +64,7 @@ class LightProxies {
   struct Group {
     int slot = 0;
     vec3 place{0.0f};
-    float radius = 0.0f;  // all of its VPLs are within it of the place [m]
+    float radius = 0.0f;  // all its VPLs are within this distance of its position [m]
     size_t first = 0, count = 0;
   };
   struct Numbers;
@@ -77,13 +78,14 @@ class LightProxies {
   float groupShare_ = 0.0f;
   size_t slots_ = 0, room_ = 0;
   std::vector<shared::Vpl> lights_;
-  // By stand-in's slot behind the VPLs'.
+  // Index: the proxy's slot minus the number of VPL slots.
   std::vector<int> mapSlots_;
   std::vector<uint8_t> isGroup_;
-  std::vector<int> proxy_;            // by slot of a VPL without a map
-  std::vector<Group> groups_;         // large ones first
-  std::vector<int> members_;          // slots
-  std::map<uint64_t, int> numberOf_;  // of what there was last: it keeps its slot while it is there
+  std::vector<int> proxy_;     // by slot of a VPL without a map
+  std::vector<Group> groups_;  // large ones first
+  std::vector<int> members_;   // slots
+  // proxies of the last update; each keeps its slot while it exists
+  std::map<uint64_t, int> numberOf_;
 };
 
 }  // namespace lamplighter

@@ -7,7 +7,7 @@
 namespace lamplighter {
 namespace {
 
-// A set of lights as bits, so that pairs are scored quickly.
+// A set of lights as bits, for fast scoring of pairs.
 class LightBits {
  public:
   LightBits(std::span<const uint32_t> lights, size_t words) : words_(words, 0) {
@@ -46,7 +46,7 @@ class LightBits {
 struct Element {
   std::vector<uint32_t> objects;
   LightBits lights;
-  int count;  // of lights; 0: it is gone
+  int count;  // number of lights; 0: the element was removed
 };
 
 int passesFor(int lights, int lightsPerPass) {
@@ -76,7 +76,8 @@ MergedPasses mergePasses(std::span<const PassElement> elements, int lightsPerPas
     all.push_back({e.objects, {e.lights, words}, static_cast<int>(e.lights.size())});
     before += passesOf(e, lightsPerPass);
   }
-  // The best partner of each among those after it; found anew only where one of the two changed.
+  // For each element the best partner among the later ones; searched again only when one of the two
+  // changed.
   struct Best {
     int saving = 0;
     size_t partner = 0;

@@ -22,7 +22,7 @@ void PatchLights::proxy(uint32_t object, int leaf, const LightProxies::Lobes* lo
   lightProxies_->apply(patch.centre, patch.radius, lobes, bySlot);
 }
 
-// As if all had their maps.
+// The modes if all lights had maps.
 void PatchLights::shadowModesOfAll(uint32_t object, int leaf, bool mapped,
                                    std::span<ShadowMode> bySlot) const {
   static_assert(static_cast<int>(Occlusion::none) == 0 &&
@@ -36,7 +36,7 @@ void PatchLights::shadowModesOfAll(uint32_t object, int leaf, bool mapped,
     for (size_t i = 0; i < bySlot.size(); ++i) bySlot[i] = kUses[0][states[i]];
     return;
   }
-  if (hasTransfer(object, leaf)) {  // with shadows, so that none are to be taken away
+  if (hasTransfer(object, leaf)) {  // transfer includes shadows, so none are subtracted
     const auto held = prt_->held(object);
     for (size_t i = 0; i < bySlot.size(); ++i)
       bySlot[i] = held[i] != 0 ? ShadowMode::skip : kUses[0][states[i]];

@@ -1,6 +1,6 @@
-// How the pixels of each patch come by each light: what a backend is told to sum where (paper 1,
-// 4.3.4, "shadow subtraction"). Made of the visibility database and, if there are any, light maps
-// and light by precomputed transfer (4.4).
+// The shadow mode of each light on each patch. It tells the backend what to sum where (paper 1,
+// 4.3.4, "shadow subtraction"). It is derived from the visibility database and, if present, from
+// light maps and precomputed radiance transfer (4.4).
 #pragma once
 
 #include <span>
@@ -13,14 +13,13 @@
 
 namespace lamplighter {
 
-// Views into these, which must outlive it and stay as they are.
+// Holds references to these objects; they must outlive it and must not change meanwhile.
 class PatchLights {
  public:
-  // maps: null when there are none; those that have no room are none. mergesPasses: lights that
-  // need their shadow maps are to be summed by merged passes (pass_merging.h), where the backend
-  // sums by passes at all. prt: null where there is none, and for backends that do not take it
-  // (BackendInfo::takesTransfer). lightProxies: which VPLs have maps, and what stands for those
-  // that have none; null: all have.
+  // maps: null if there are none; maps without memory count as none. mergesPasses: sum the lights
+  // that need shadow maps in merged passes (pass_merging.h), if the backend sums in passes. prt:
+  // null if there is none, and for backends that do not support it (BackendInfo::takesTransfer).
+  // lightProxies: which VPLs have maps, and the proxies of the others; null: all have maps.
   PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps,
               bool mergesPasses = false, const PrtLights* prt = nullptr,
               const LightProxies* lightProxies = nullptr)
@@ -34,27 +33,27 @@ class PatchLights {
   const LightMaps* maps() const { return maps_; }
   const PrtLights* prt() const { return prt_; }
   bool mergesPasses() const { return mergesPasses_; }
-  // Of the database's lights and of what stands for some of them.
+  // Slots of the lights of the database and of the proxies.
   size_t slots() const { return lightProxies_ ? lightProxies_->slots() : visibility_.slots(); }
-  // Whose shadow map the light in a slot looks up.
+  // The slot whose shadow map is used for the light in `slot`.
   int mapSlot(int slot) const { return lightProxies_ ? lightProxies_->mapSlot(slot) : slot; }
-  // Whether it stands for several.
+  // Whether the light represents a group of VPLs.
   bool isGroup(int slot) const { return lightProxies_ && lightProxies_->isGroup(slot); }
   const ObjectPatches& patches(uint32_t object) const { return visibility_.patches(object); }
 
-  // Whether pixels on the front of this leaf begin with what the light map says. Its back, and what
-  // has no tile, sums all lights itself.
+  // Whether pixels on the front of this leaf start from the light map. Pixels on its back, and on
+  // leaves without a tile, sum all lights.
   bool isMapped(uint32_t object, int leaf) const {
     return maps_ != nullptr && maps_->tile(object, leaf) != nullptr;
   }
-  // Whether pixels on the front of their triangle begin with light by precomputed transfer here.
+  // Whether pixels on the front of their triangle start from precomputed radiance transfer here.
   bool hasTransfer(uint32_t object, int leaf) const {
     return prt_ != nullptr && prt_->covers(patches(object), object, leaf);
   }
-  // By slot, slots() of them. `mapped`: for pixels that begin with the light map, or with light by
-  // transfer.
+  // Writes slots() shadow modes by slot. `mapped`: for pixels that start from the light map or from
+  // radiance transfer.
   void uses(uint32_t object, int leaf, bool mapped, std::span<ShadowMode> bySlot) const;
-  // The same for lobes of glossy pixels.
+  // The same for the lobes of glossy pixels.
   void uses(uint32_t object, int leaf, const LightProxies::Lobes& lobes,
             std::span<ShadowMode> bySlot) const;
 

@@ -8,16 +8,16 @@ static_assert(LightMaps::Sampler::kPoints == hn::MaxLanes(kTag));
 constexpr hn::FixedTag<float, 4> kTexelTag;
 using Floats = Floats8;
 
-// glm::mix().
+// Like glm::mix().
 template <typename V>
 HWY_INLINE V mix(V a, V b, V share) {
   const auto one = hn::Set(hn::DFromV<V>(), 1.0f);
   return hn::Add(hn::Mul(a, hn::Sub(one, share)), hn::Mul(b, share));
 }
 
-// On one axis of a tile: columns, or rows.
+// Interpolation along one axis of a tile.
 struct Along {
-  Floats low, share;  // the texel before the point, and how far it is to the next
+  Floats low, share;  // the texel before the point, and the fraction towards the next
   Along(Floats p, float min, float size, float last) {
     const Floats part = hn::Div(hn::Sub(p, wide(min)), wide(size));
     const Floats at = hn::Mul(hn::Min(hn::Max(part, hn::Zero(kTag)), wide(1.0f)), wide(last));

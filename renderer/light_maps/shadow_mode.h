@@ -1,4 +1,4 @@
-// How the pixels of a patch come by a light.
+// What the pixels of a patch do with a light.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +6,10 @@
 namespace lamplighter {
 
 enum class ShadowMode : uint8_t {
-  skip,           // nothing to sum: it is hidden, or the light map has all of it
-  add,            // nothing stands between
-  addShadowed,    // with a look-up in its shadow map
-  subtractShadow  // the light map has it without shadow: what its shadow map hides is taken away
+  skip,           // nothing to sum: the light is hidden, or the light map holds all of it
+  add,            // no occluder can be between
+  addShadowed,    // with a shadow map look-up
+  subtractShadow  // the light map holds it unshadowed: subtract what the shadow map says is hidden
 };
 
 constexpr bool readsShadowMap(ShadowMode use) {

@@ -5,7 +5,7 @@
 namespace lamplighter {
 namespace {
 
-// Evenly from one to the other, with both.
+// Evenly spaced values including both ends.
 void spread(float from, float to, int count, float* out) {
   for (int i = 0; i < count; ++i)
     out[i] = glm::mix(from, to, static_cast<float>(i) / static_cast<float>(count - 1));
@@ -23,7 +23,7 @@ TexelGrid::TexelGrid(const Chart& chart, const Patch& patch, int columns, int ro
     if (row > 0) std::copy_n(u_.data(), columns, u);
     std::fill_n(w, columns, heights[static_cast<size_t>(row)]);
   }
-  // Those behind the last are like it, so that all lie in the patch.
+  // The padding repeats the last texel, so that all lie in the patch.
   std::fill(u, u_.data() + count_, u[-1]);
   std::fill(w, w_.data() + count_, w[-1]);
 }

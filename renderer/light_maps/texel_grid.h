@@ -1,4 +1,4 @@
-// Where the texels of a light map's tile are: on a grid from corner to corner of its patch.
+// Positions of the texels of a light map tile: a grid from corner to corner of its patch.
 #pragma once
 
 #include <array>
@@ -11,18 +11,18 @@ namespace lamplighter {
 
 class TexelGrid {
  public:
-  static constexpr int kMostAlong = 33;  // texels of a side
-  // Texels of a tile, with those behind the last that fill up its last whole vector.
+  static constexpr int kMostAlong = 33;  // most texels along a side
+  // Number of texels of a tile, rounded up to whole vectors.
   static constexpr size_t paddedCount(int columns, int rows) {
     return (static_cast<size_t>(columns) * static_cast<size_t>(rows) + kLanes - 1) / kLanes *
            kLanes;
   }
 
-  // columns, rows: 2 at least, kMostAlong at most.
+  // columns, rows: from 2 to kMostAlong.
   TexelGrid(const Chart& chart, const Patch& patch, int columns, int rows);
 
   size_t count() const { return count_; }
-  TexelPlaces places() const;  // in here
+  TexelPlaces places() const;  // refers to this object
 
  private:
   static constexpr size_t kLanes = 8;  // of accumulate()

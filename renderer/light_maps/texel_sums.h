@@ -15,7 +15,7 @@ using Floats = Floats8;
 using Ints = hn::Vec<IntTag>;
 using Doubles = hn::Vec<DoubleTag>;
 
-// Of one channel.
+// The sums of one channel.
 class Sums {
  public:
   HWY_INLINE explicit Sums(const double* from)
@@ -37,8 +37,8 @@ class Sums {
   }
 
  private:
-  // A double beside this one is a multiple of kIrradianceUnit, so the sum with it is rounded to
-  // one, ties to even, and the difference is exact.
+  // Rounds to a multiple of kIrradianceUnit, ties to even: doubles of the size of `large` are such
+  // multiples, so the sum is rounded to one, and the difference is exact.
   static HWY_INLINE Doubles rounded(Doubles values) {
     const Doubles large = hn::Set(kDoubleTag, 0x1.8p52 * kIrradianceUnit);
     return hn::Sub(hn::Add(values, large), large);
@@ -47,7 +47,7 @@ class Sums {
   Doubles low_, high_;
 };
 
-// Of three channels.
+// The sums of three channels.
 struct PacketSums {
   Sums r, g, b;
   HWY_INLINE void addRounded(Floats weight, float red, float green, float blue) {

@@ -5,11 +5,11 @@
 namespace lamplighter {
 namespace {
 
-constexpr double kWeight = 0.5;  // of the last frame against those before
+constexpr double kWeight = 0.5;  // of the last frame in the running mean
 constexpr double kMostGrowth = 2.0, kLeastGrowth = 0.5;
 
-// A slow picture that never becomes right is worse than one that is slower still: so many VPLs are
-// refreshed whatever they cost.
+// At least this number of VPLs is refreshed at any cost: a slow picture that converges is better
+// than one that never does.
 constexpr int kLeastVpls = 16;
 
 void average(double& mean, double value) {
@@ -21,15 +21,15 @@ void average(double& mean, double value) {
 void FrameTimeControl::measured(const GiStats& stats) {
   double seconds = 0.0;
   for (const auto& [stage, time] : stats.stageSeconds) seconds += time;
-  // A frame in which nothing changed says nothing of one in which something does, and one with
-  // less to do than it might have done does not say how much more would have been too much.
+  // Ignores frames that say nothing about the limit: without refreshed VPLs, or with fewer than
+  // allowed in less time than wanted.
   if (stats.vplsRefreshed == 0 || (stats.vplsRefreshed < allowed_ && seconds < wanted_)) return;
   average(vpls_, stats.vplsRefreshed);
   average(seconds_, seconds);
 }
 
-// Some of a frame's time does not depend on how many there are, so that this comes nearer to the
-// right number step by step, and never past it.
+// A part of the frame time is independent of the number of VPLs, so this approaches the right
+// number in steps and never exceeds it.
 int FrameTimeControl::vplsWithin(double seconds) {
   wanted_ = seconds;
   allowed_ = kLeastVpls;

@@ -1,5 +1,5 @@
-// Turns the time that a frame may take into a number of VPLs to refresh, by how long frames took
-// that refreshed so many. It is given measured times and reads no clock; replays do without it.
+// Converts a frame time limit to a number of VPLs to refresh, from the measured times of earlier
+// frames. It receives times and reads no clock. Replays do not use it.
 #pragma once
 
 #include "renderer/methods/gi_method.h"
@@ -8,17 +8,17 @@ namespace lamplighter {
 
 class FrameTimeControl {
  public:
-  // A frame was rendered and its stages were timed.
+  // Call after a frame was rendered with measured stages.
   void measured(const GiStats& stats);
 
-  // How many VPLs may be refreshed in the next frame, which is to take so long; a few in any case.
-  // All other work is theirs, so that this sets every budget.
+  // How many VPLs the next frame may refresh to take at most `seconds`; at least a few. All other
+  // work is proportional to the VPLs, so this number sets every budget.
   int vplsWithin(double seconds);
 
  private:
-  double vpls_ = 0.0, seconds_ = 0.0;  // of a frame, means of the last ones; 0: not known
+  double vpls_ = 0.0, seconds_ = 0.0;  // of a frame, running means; 0: unknown
   int allowed_ = 0;                    // in the frame that is measured next
-  double wanted_ = 0.0;                // seconds that it is to take
+  double wanted_ = 0.0;                // time limit of that frame [s]
 };
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// The interface behind which every global-illumination method stands, the path tracer too.
+// The interface of all global illumination methods, including the path tracer.
 #pragma once
 
 #include <filesystem>
@@ -18,74 +18,77 @@
 
 namespace lamplighter {
 
-// A stage's time is measured by a stopwatch that the caller supplies (null: not measured), so that
-// nothing in here reads a clock; it never decides anything.
+// The caller supplies the stopwatch that measures the stages (null: not measured), so that no
+// method reads a clock. Measured times never influence the result.
 using Stopwatch = std::function<double()>;  // seconds since some fixed moment
 
-// What a method is given for one frame. The scene and rays are up to date when render() is called.
+// The input of a method for one frame. The scene and the rays are up to date when render() is
+// called.
 struct FrameInputs {
   const RenderScene& scene;
-  const RenderSceneChanges& changes;  // since the frame before
+  const RenderSceneChanges& changes;  // since the previous frame
   const RayCaster& rays;
   const View& view;
-  Backend& backend;  // its scene is up to date too
+  Backend& backend;  // its scene is also up to date
   const Settings& settings;
   uint32_t frame = 0;  // counts from 0
   Stopwatch stopwatch;
-  bool lightOnly = false;  // what is seen is shown as if it were white; bounces are as ever
-  // What takes seconds to prepare may be ready some frames later; else it is waited for, so that
-  // every frame is the same each time.
+  bool lightOnly = false;  // visible surfaces are shown white; bounces use the real albedo
+  // If true, slow precomputations may finish some frames later. If false, the frame waits for them,
+  // so that every run gives the same frames.
   bool inBackground = false;
-  std::filesystem::path cacheFolder;  // for what is prepared; empty: it is not kept
-  // Light samples by which a settled picture may be refined in this frame; 0: it stays as it is.
+  std::filesystem::path cacheFolder;  // for precomputed data; empty: not kept
+  // The number of light samples by which this frame may refine a settled picture; 0: no refinement.
   int refineUpdates = 0;
-  LightPart part = LightPart::all;  // that the picture shows; parts are not refined
+  LightPart part = LightPart::all;  // the light in the picture; a picture of a part is not refined
 };
 
 struct GiStats {
-  int vpls = 0;                  // shown
-  int vplsPending = 0;           // not yet what the scene asks for
-  int mapsPending = 0;           // of them, those whose map must be rendered
-  int mapsToSharpen = 0;         // once nothing is pending: maps that are to become fine ones
-  int oldestFrames = 0;          // frames the oldest pending one has waited
-  int framesUntilSettled = 0;    // at this frame's pace, if nothing else changes
-  int vplsRefreshed = 0;         // this frame
-  int mapsRendered = 0;          // this frame, but for fine ones
-  int mapsSharpened = 0;         // this frame: fine ones rendered
-  int mapsHeld = 0;              // of VPLs that are shown
-  int mapsWithoutRoom = 0;       // that are looked up and do not fit: others stand in
-  uint64_t visibilityNeeds = 0;  // bytes, where it has no room and is left out; else 0
-  int mapsSpared = 0;            // this frame: what moved is hidden from their lights
-  // Paths of bounced light, this frame: looked at anew by rays, of these such as meet something
-  // else now, as they were; and those that wait to be.
+  int vpls = 0;                // shown
+  int vplsPending = 0;         // not yet as the scene requires
+  int mapsPending = 0;         // of these, VPLs whose map must be rendered
+  int mapsToSharpen = 0;       // coarse maps that become fine when nothing is pending
+  int oldestFrames = 0;        // frames that the oldest pending VPL has waited
+  int framesUntilSettled = 0;  // estimate at this frame's rate, without further changes
+  int vplsRefreshed = 0;       // this frame
+  int mapsRendered = 0;        // in this frame, except fine maps
+  int mapsSharpened = 0;       // in this frame: fine maps rendered
+  int mapsHeld = 0;            // of shown VPLs
+  int mapsWithoutRoom = 0;     // needed maps that do not fit; their VPLs use proxies
+  // bytes, if the visibility database does not fit and is not used; else 0
+  uint64_t visibilityNeeds = 0;
+  int mapsSpared = 0;  // in this frame: a mover was hidden from the light, so its map stays valid
+  // Paths of indirect light in this frame: traced again; of these, the ones that hit something else
+  // now; the ones that were kept. And paths that wait.
   int pathsWalked = 0, pathsReplaced = 0, pathsKept = 0, pathsPending = 0;
-  uint64_t raysTraced = 0;       // this frame, by the method itself
-  uint64_t visibilityTests = 0;  // this frame: occlusion pyramids against the scene
-  uint64_t lightMapTexels = 0;   // this frame: texels × lights added or taken away
-  float lightMapTexel = 0.0f;    // spacing, as memory allows [m]; 0: there are no light maps
-  // Of the last sum, where passes are merged: drawn, and fewer than object by object.
+  uint64_t raysTraced = 0;       // in this frame, by the method
+  uint64_t visibilityTests = 0;  // in this frame: occlusion pyramids against the scene
+  uint64_t lightMapTexels = 0;   // in this frame: texels × lights added or subtracted
+  float lightMapTexel = 0.0f;    // texel spacing that memory allows [m]; 0: no light maps
+  // Of the last sum, with merged passes: the number drawn, and the number saved.
   int mergedPasses = 0, passesSaved = 0;
-  float interpolatedShare = 0.0f;  // of the last sum's pixels: by the low-resolution pass
-  int transfersPending = 0;        // objects' transfers that are being prepared
-  float transferShare = 1.0f;      // that is done of the first of them
-  // Objects with transfer; those of them whose direct light is all summed at pixels, since transfer
-  // would get too much of it wrong; and lights that are, counted once for each of the others. And
-  // objects without transfer for want of memory.
+  // share of pixels that the low-resolution pass interpolated in the last sum
+  float interpolatedShare = 0.0f;
+  int transfersPending = 0;    // transfers of objects that are being computed
+  float transferShare = 1.0f;  // progress of the first of them
+  // Objects with transfer; of these, objects whose pixels sum all direct light, because the error
+  // of transfer would be too large; lights that pixels sum for this reason, counted once per other
+  // object. Then: objects without transfer because memory is short.
   int transferObjects = 0, transferObjectsLeft = 0, transferLightsLeft = 0;
   int transferObjectsWithoutRoom = 0;
   int samplesPerPixel = 0;
-  // A settled picture that is refined: VPLs it is the mean of, those it is to be, and how many came
-  // nearer this frame.
+  // Refinement of a settled picture: the number of VPLs in the mean, the target number, and the
+  // VPLs added in this frame.
   int vplsRefined = 0, vplsToRefine = 0, mapsRefined = 0;
   std::map<std::string, double> stageSeconds;   // by stage name
-  std::map<std::string, uint64_t> memoryBytes;  // of what the method keeps, by what it is
+  std::map<std::string, uint64_t> memoryBytes;  // memory of the method, by purpose
 };
 
 struct GiOutput {
   std::shared_ptr<RadianceImage> radiance;
   bool includesDirect = true;
-  bool settled = false;  // rendering the same inputs again changes nothing but to refine it
-  bool refined = true;   // nor that: it is refined as far as was asked for, or not at all
+  bool settled = false;  // rendering the same input again would at most refine the picture
+  bool refined = true;   // the picture is refined as far as requested, or refinement is off
   GiStats stats;
 };
 
@@ -93,16 +96,16 @@ class GiMethod {
  public:
   virtual ~GiMethod() = default;
   virtual GiOutput render(const FrameInputs& in) = 0;
-  // Forgets everything kept between frames.
+  // Discards everything that is kept between frames.
   virtual void reset() = 0;
-  // For views of what it keeps; good until the next call of the others.
+  // Internal data for debug views. Valid until the next call of another function.
   virtual Inspection inspect() const { return {}; }
 };
 
 struct MethodInfo {
-  std::string name;      // as in --method
-  std::string label;     // as in the panel
-  std::string citation;  // the paper
+  std::string name;      // for --method
+  std::string label;     // in the panel
+  std::string citation;  // of the paper
   std::vector<ParameterSpec> parameters;
   std::function<std::unique_ptr<GiMethod>()> make;
 };

@@ -1,4 +1,4 @@
-// What a method lets views of its insides see: pointers into what it keeps between frames.
+// Internal data of a method for debug views: pointers to what it keeps between frames.
 #pragma once
 
 #include <vector>
@@ -11,22 +11,23 @@ class LightMaps;
 class PrtLights;
 class VisibilityDatabase;
 
-// A light sample as it is shown, or waits to be.
+// A light sample that is shown, or that waits to be shown.
 struct InspectedLight {
   shared::Vpl vpl{};
   VplId id;
-  int slot = -1;          // of its shadow map, and its column in the database
-  bool isLive = false;    // it is shown; else `vpl` is what it will be
-  bool isStale = false;   // it waits to be brought up to date
-  int framesWaiting = 0;  // for so long
+  int slot = -1;          // of its shadow map; also its column in the database
+  bool isLive = false;    // shown; otherwise `vpl` is its future state
+  bool isStale = false;   // it waits for an update
+  int framesWaiting = 0;  // since it waits
   bool isSample = true;   // SceneVpl::isSample
 };
 
-// Good until the method's next render() or reset(). What a method does not have is null or empty.
+// Valid until the method's next render() or reset(). Data that a method does not have are null or
+// empty.
 struct Inspection {
   const VisibilityDatabase* visibility = nullptr;
   const LightMaps* lightMaps = nullptr;
-  std::vector<InspectedLight> lights;  // in an order that edits leave alone
+  std::vector<InspectedLight> lights;  // in an order that does not change with edits
   const PrtLights* prt = nullptr;
 };
 

@@ -1,12 +1,12 @@
-// Which part of the light a picture shows, for views that take it apart.
+// The part of the light in a picture, for views that show parts separately.
 #pragma once
 
 namespace lamplighter {
 
 enum class LightPart {
   all,
-  direct,   // straight from lights, and what shines itself, and the sky
-  indirect  // what bounced on its way
+  direct,   // directly from lights, emissive surfaces and the sky
+  indirect  // after at least one bounce
 };
 
 }  // namespace lamplighter

@@ -7,7 +7,7 @@ namespace lamplighter {
 namespace {
 
 constexpr float kMostIrradiance = 65536.0f;  // [W/m²]
-// Walls of one object that a ray goes through, at most: an end for it, far past any real object.
+// Limit of a ray's hits on one object: guarantees termination, far above any real object.
 constexpr int kMostWalls = 256;
 
 }  // namespace
@@ -60,7 +60,7 @@ bool isHiddenByOthers(const RayCaster& rays, uint32_t object, const vec3& point,
 bool liesOn(const RayCaster& rays, uint32_t object, const shared::Vpl& vpl) {
   if (vpl.position.w != shared::kVplCosine) return false;
   const vec3 position(vpl.position), normal(vpl.normal);
-  // It is lifted from its surface by rayEpsilon().
+  // The VPL is offset from its surface by rayEpsilon().
   const float step = rayEpsilon(position);
   const Hit hit = rays.intersect({position + step * normal, 0.0f, -normal, 4.0f * step});
   return hit && hit.object == object;

@@ -11,8 +11,8 @@ constexpr float kPointsPerSquareMetre = 64.0f;
 constexpr float kTowardsMiddle = 0.1f;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Weights (1 − d/R)², R the distance of the nearest point that is not blended: a point comes in and
-// goes with weight 0, so that light is continuous over the surface.
+// Weights (1 − d/R)², where R is the distance of the nearest point that is not blended. So a point
+// enters and leaves the blend with weight 0, and the light is continuous over the surface.
 IncidentLightPoints::Blend blendAt(const vec3& position, const std::vector<vec3>& points) {
   constexpr size_t kNearest = IncidentLightPoints::kBlended + 1;
   std::array<float, kNearest> distance;
@@ -29,7 +29,7 @@ IncidentLightPoints::Blend blendAt(const vec3& position, const std::vector<vec3>
   }
   IncidentLightPoints::Blend out;
   const size_t count = std::min(points.size(), IncidentLightPoints::kBlended);
-  // Where all are blended none ever goes.
+  // If all points are blended, none ever leaves.
   const float reach = points.size() > count ? distance[count] : 2.0f * distance[count - 1];
   float sum = 0.0f;
   for (size_t k = 0; k < count; ++k) {
@@ -58,7 +58,8 @@ IncidentLightPoints placeIncidentLightPoints(const RenderScene& own, int count) 
   const vec3 middle = own.bounds.centre();
   const size_t vertices = own.positions.size();
   IncidentLightPoints out;
-  // Of each vertex, from the points so far; at first from the middle, so that the first is outside.
+  // For each vertex the distance to the nearest chosen point; initially to the centre, so that the
+  // first point is an outer one.
   std::vector<float> distance(vertices);
   for (size_t v = 0; v < vertices; ++v) distance[v] = glm::distance(own.positions[v], middle);
   if (count <= 1 || vertices == 0) {
@@ -66,7 +67,7 @@ IncidentLightPoints placeIncidentLightPoints(const RenderScene& own, int count) 
   } else {
     for (int i = 0; i < count; ++i) {
       const auto farthest = std::max_element(distance.begin(), distance.end());
-      if (i > 0 && !(*farthest > 0.0f)) break;  // fewer places than points
+      if (i > 0 && !(*farthest > 0.0f)) break;  // fewer distinct positions than points
       const vec3 at = own.positions[static_cast<size_t>(farthest - distance.begin())];
       out.places.push_back(glm::mix(at, middle, kTowardsMiddle));
       for (size_t v = 0; v < vertices; ++v) {

@@ -1,7 +1,7 @@
-// Where on a complex object the light about it is sampled. The paper samples at one point, and its
-// figure 4-14 shows what that costs: a shadow's boundary never falls across the object. It names a
-// grid as the way out (4.4.2). Here the points are spread over the surface, where the light
-// is wanted, and vertices blend those nearest to them.
+// The points near a complex object where incident light is sampled. The paper samples at one point,
+// and its figure 4-14 shows the error: a shadow boundary never falls across the object. It suggests
+// a grid (4.4.2). Here the points are spread over the surface, where the light is needed, and each
+// vertex blends the nearest ones.
 #pragma once
 
 #include <array>
@@ -18,20 +18,21 @@ struct IncidentLightPoints {
   static constexpr size_t kBlended = 4;
   struct Blend {
     std::array<uint8_t, kBlended> point{};
-    std::array<float, kBlended> weight{};  // sum 1; 0 where there are fewer
+    std::array<float, kBlended> weight{};  // the sum is 1; unused entries are 0
   };
   std::vector<vec3> places;  // in the object's own space
   std::vector<Blend> ofVertex;
-  float spacing = 0.0f;  // no vertex is farther from its nearest point, in units of that space
+  // largest distance of a vertex from its nearest point, in units of that space
+  float spacing = 0.0f;
 };
 
-// How many points an object of this size (the longest side of its box [m]) gets: in
-// proportion to its surface, 64 for a metre, from 1 to `most`.
+// The number of points for an object whose bounding box has this longest side [m]: proportional to
+// its surface, 64 at 1 m, in [1, `most`].
 int lightPointsFor(float size, int most);
 
-// One point is the middle of the bounds, as in the paper. More are vertices, each the one that is
-// farthest from those before (Gonzalez 1985), pulled a tenth inwards, so that they are not in what
-// the object stands on: rays pass through the object itself. Deterministic.
+// A single point is the centre of the bounds, as in the paper. Several points are vertices, each
+// the farthest one from those before it (Gonzalez 1985), moved inwards by a tenth, so that they are
+// not inside what the object stands on. (Rays ignore the object itself.) Deterministic.
 IncidentLightPoints placeIncidentLightPoints(const RenderScene& own, int count);
 
 }  // namespace lamplighter

@@ -17,17 +17,17 @@ namespace lamplighter {
 namespace {
 
 constexpr double kUnit = 1.0 / 16777216.0;  // 2⁻²⁴ W/m²
-// Lights nearer to an object's box than this share of the spacing of its light points are left to
-// its pixels.
+// Pixels sum the lights that are nearer to an object's bounding box than this multiple of the
+// spacing of its light points.
 constexpr float kNear = 1.0f;
 
-// But for the slot of its map.
+// Compares all but the slot of the map.
 bool isSame(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
          vec3(a.intensity) == vec3(b.intensity) && a.footprint.y == b.footprint.y;
 }
 
-// By slot, whether its light is one of few that make hard shadows.
+// By slot: the light is one of the few that make hard shadows.
 std::vector<bool> findHard(std::span<const shared::Vpl> bySlot) {
   std::vector<LightStrength> strengths;
   for (size_t slot = 0; slot < bySlot.size(); ++slot) {
@@ -51,8 +51,8 @@ struct PrtLights::Frame {
   const std::vector<shared::Vpl>& bySlot;
 };
 
-// Which objects want transfer, after some became others: numbered anew, of other materials, or of
-// another shape.
+// Finds the objects that need transfer, after some objects were renumbered or changed material or
+// shape.
 void PrtLights::findObjects(const Frame& frame, std::span<const uint32_t> others) {
   for (const uint32_t i : others) objects_[i].dropTransfer();
   const std::vector<uint32_t> come = findRoom(frame);
@@ -70,8 +70,8 @@ void PrtLights::findObjects(const Frame& frame, std::span<const uint32_t> others
   coverage_.advance();
 }
 
-// By what objects would hold at most, so that it does not depend on what was there before. Those
-// that lack it lose what they have. Returns those for which there is room, and was not.
+// Uses the upper bounds of memory, so that the result does not depend on history. Objects that do
+// not fit lose their data. Returns the objects that fit now but did not before.
 std::vector<uint32_t> PrtLights::findRoom(const Frame& frame) {
   std::vector<uint32_t> candidates, come;
   std::vector<size_t> bytes;
@@ -95,7 +95,7 @@ std::vector<uint32_t> PrtLights::findRoom(const Frame& frame) {
   return come;
 }
 
-// Of some objects those that have another shape than they had.
+// Returns those of the given objects whose shape changed.
 std::vector<uint32_t> PrtLights::reshape(const Frame& frame, std::span<const uint32_t> some) {
   std::vector<uint8_t> isOther(some.size(), 0);
   tbb::parallel_for(size_t{0}, some.size(), [&](size_t k) {
@@ -111,7 +111,7 @@ std::vector<uint32_t> PrtLights::reshape(const Frame& frame, std::span<const uin
   return others;
 }
 
-// Where the object is now; it holds no light there yet.
+// Updates the object's position and discards its light.
 void PrtLights::placeObject(const Frame& frame, uint32_t object) {
   Object& o = objects_[object];
   const auto space = ownSpaceOf(frame.scene.objects[object]);
@@ -159,12 +159,12 @@ void PrtLights::addLight(Object& o, const shared::Vpl& vpl, Take take, size_t po
   }
 }
 
-// Whether parts of objects reflect it onto each other.
+// Whether object parts reflect this light onto each other.
 bool PrtLights::isReflected(size_t slot) const {
   return options_.transfer.bounces > 0 && !areLast_[slot];
 }
 
-// What others hide of the lights in some slots, and what transfer gets wrong of them.
+// For some slots: which light points other objects hide from the light, and the error of transfer.
 PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
                                   std::span<const uint32_t> slots) {
   Object& o = objects_[object];
@@ -176,7 +176,7 @@ PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
     const size_t slot = slots[i];
     const shared::Vpl& vpl = frame.bySlot[slot];
     const Take take = out.takes[i] = takeOf(frame, object, slot);
-    // The light of a hidden object is known without rays.
+    // If the database says that the object is hidden, no rays are needed.
     bool isFull = true;
     for (const int root : o.shape.looseRoots)
       if (frame.visibility.state(object, root, static_cast<int>(slot)) != Occlusion::full)
@@ -193,7 +193,7 @@ PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
         if (light) ++rays;
       }
     }
-    // What is too near says little of the light elsewhere.
+    // A light that is too near says little about the light elsewhere.
     o.checked[slot] = isChecked && mayTake(take) && !isFull
                           ? checkLight(o.checks, o.space, frame.rays, vpl, o.places, hidden,
                                        options_.clampDistance, rays)
@@ -205,13 +205,13 @@ PrtLights::Looked PrtLights::look(const Frame& frame, uint32_t object,
   return out;
 }
 
-// Whether anything changed.
+// Returns whether anything changed.
 bool PrtLights::sumLights(const Frame& frame, uint32_t object, std::span<const uint32_t> slots) {
   Object& o = objects_[object];
   const size_t points = o.places.size();
   const Looked looked = look(frame, object, slots);
 
-  // All lights as they are to be taken; those that were looked at may be hidden otherwise.
+  // The target state of all lights; the visibility of the examined slots may have changed.
   constexpr size_t kKept = static_cast<size_t>(-1);
   std::vector<Take> takes = o.takes;
   std::vector<size_t> lookedAt(takes.size(), kKept);
@@ -289,7 +289,7 @@ void PrtLights::lightVertices(Object& o) {
       e.g += t.g[i] * here[kShCoefficients + i] + t.direct[i] * straight[kShCoefficients];
       e.b += t.b[i] * here[2 * kShCoefficients + i] + t.direct[i] * straight[2 * kShCoefficients];
     }
-    o.irradiance[v] = glm::max(e, 0.0f);  // what is cut off rings below zero
+    o.irradiance[v] = glm::max(e, 0.0f);  // the truncated series can be negative
   });
   o.revision.advance();
 }
@@ -411,7 +411,7 @@ vec3 PrtLights::irradiance(uint32_t object, uint32_t triangle, const vec3& posit
   const vec3& a = scene_->positions[corner[0]];
   const vec3 u = scene_->positions[corner[1]] - a, v = scene_->positions[corner[2]] - a,
              p = position - a;
-  // Weights of the second and third corner by least squares.
+  // Barycentric weights of the second and third corner by least squares.
   const float uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
   const float pu = glm::dot(p, u), pv = glm::dot(p, v), area2 = uu * vv - uv * uv;
   float second = 0.0f, third = 0.0f;

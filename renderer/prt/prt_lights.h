@@ -1,10 +1,11 @@
-// Irradiance at the vertices of complex objects by precomputed radiance transfer (paper 1, 4.4.1):
-// light about each of an object's light points from the VPLs that see it, as spherical harmonics in
-// the object's own space, blended and multiplied at each vertex with its transfer.
+// Irradiance at the vertices of complex objects by precomputed radiance transfer (paper 1, 4.4.1).
+// At each light point of an object, the light of the VPLs that see it is stored as spherical
+// harmonics in the object's own space. Each vertex blends these and multiplies them with its
+// transfer.
 //
-// Kept from frame to frame as light maps are. Sums are fixed-point numbers: each coefficient of a
-// VPL is rounded to a multiple of 2⁻²⁴ W/m² and added as a double, which is exact up to 2²⁹ W/m².
-// Adding a VPL and taking it away restores the very same bits in any order.
+// The sums are kept from frame to frame, as in light maps. They are fixed-point numbers: each
+// coefficient of a VPL is rounded to a multiple of 2⁻²⁴ W/m² and added as a double, which is exact
+// up to 2²⁹ W/m². Adding a VPL and subtracting it again restores the same bits, in any order.
 #pragma once
 
 #include <cstdint>
@@ -26,10 +27,11 @@ class PrtLights {
  public:
   struct Options {
     TransferOptions transfer;
-    int mostPoints = 128;         // light points an object, kMostLightPoints at most
-    float clampDistance = 0.0f;   // of ShadingParams [m]
-    float mostError = 1.0f;       // of lightsToLeave(); from 1 on no light is left for its error
-    size_t mostBytes = SIZE_MAX;  // held in all; objects that do not fit have no transfer
+    int mostPoints = 128;        // light points per object, at most kMostLightPoints
+    float clampDistance = 0.0f;  // of ShadingParams [m]
+    // limit for lightsToLeave(); from 1 on, no light is excluded because of its error
+    float mostError = 1.0f;
+    size_t mostBytes = SIZE_MAX;  // for all objects; objects that do not fit have no transfer
     bool operator==(const Options&) const = default;
   };
 
@@ -38,68 +40,72 @@ class PrtLights {
   // By slot.
   struct Lights {
     std::span<const shared::Vpl> vpls;  // as the database has them, with their intensities
-    std::vector<bool> areUpToDate;      // shown with all that moved: others keep their shadows
-    std::vector<bool> areLast;  // of the last bounce, which nothing reflects; empty: none of them
+    // false: the shadows of this light do not yet show all movements
+    std::vector<bool> areUpToDate;
+    std::vector<bool> areLast;  // of the last bounce, so not reflected again; empty: none is
   };
-  // Takes in what changed; after the database did, before its clearChanged(). Afterwards, when all
-  // lights are up to date, irradiance is what would be made from nothing. `waits`: for transfer
-  // that is not ready; else its objects are not lit by it until it is. Returns whether what shows
-  // changed.
+  // Applies the changes. Call after the database is updated and before its clearChanged(). When all
+  // lights are up to date, the irradiance afterwards equals the one computed from scratch. `waits`:
+  // wait for transfer that is not ready; otherwise its objects are not lit by it until it is ready.
+  // Returns whether the visible result changed.
   bool update(const RenderScene& scene, const RenderSceneChanges& changes, const RayCaster& rays,
               const VisibilityDatabase& visibility, const Lights& lights, const Options& options,
               bool waits);
 
-  // Whether pixels of an object's leaf patch begin with what is here: those on the front of its
-  // triangles that are in no chart.
+  // Whether pixels of a leaf patch start from this irradiance: pixels on the front of triangles
+  // that are in no chart.
   bool covers(const ObjectPatches& patches, uint32_t object, int leaf) const {
     return objects_[object].transfer != nullptr &&
            patches.patches[static_cast<size_t>(leaf)].chart == kNone;
   }
   bool hasTransfer(uint32_t object) const { return objects_[object].transfer != nullptr; }
-  // By object, whether its transfer has what its parts reflect onto each other.
+  // By object, whether its transfer includes the interreflection between its parts.
   std::vector<uint8_t> reflecting() const;
-  // Whether it is to have one, ready or not.
+  // Whether the object is to have transfer, ready or not.
   bool wantsTransfer(uint32_t object) const { return objects_[object].isWanted; }
-  // Whether the normal is on the front of the object's triangle.
+  // Whether the normal points to the front side of the triangle.
   bool isFront(uint32_t object, uint32_t triangle, const vec3& normal) const;
-  // Whether irradiance here holds the light in each slot; pixels sum the others: those that are too
-  // near to be blended between light points, those that make hard shadows, and those of which
-  // transfer would get too much wrong. Only for objects with transfer.
+  // By slot, whether this irradiance includes the light. Pixels sum the other lights: those too
+  // near to be blended between light points, those that make hard shadows, and those for which the
+  // error of transfer would be too large. Only for objects with transfer.
   std::span<const uint8_t> held(uint32_t object) const { return objects_[object].held; }
-  // E at a point of a triangle of the object [W/m²].
+  // E at a point on a triangle of the object [W/m²].
   vec3 irradiance(uint32_t object, uint32_t triangle, const vec3& position) const;
-  // At each vertex of the object; empty: it has no transfer (yet).
+  // E at each vertex of the object; empty: it has no transfer (yet).
   std::span<const vec3> irradiance(uint32_t object) const { return objects_[object].irradiance; }
 
-  // Objects with transfer and such as lack it, and what the former leave to pixels for its error:
-  // all light, or some of it.
+  // Counts of objects with and without transfer, and of lights that pixels sum because of the error
+  // of transfer.
   struct Left {
     int objects = 0, wholly = 0;
-    int lights = 0;       // over all objects but those
-    int withoutRoom = 0;  // objects that have no transfer for want of memory
+    int lights = 0;       // over all other objects
+    int withoutRoom = 0;  // objects without transfer because memory is short
   };
   Left left() const;
 
-  // What is held by all objects, transfer and light.
+  // Memory of all objects, transfer and light.
   size_t bytes() const;
 
   size_t objects() const { return objects_.size(); }
   const Revision& revision(uint32_t object) const { return objects_[object].revision; }
-  const Revision& coverage() const { return coverage_; }  // of what covers() says
+  const Revision& coverage() const { return coverage_; }  // of the result of covers()
 
   Transfers::Progress progress() const { return transfers_.progress(); }
-  // Since they were made: rays to VPLs, and those that the database spared.
+  // Rays to VPLs since construction (rays that the database made unnecessary are not counted).
   uint64_t rays() const { return raysTraced_; }
   uint64_t raysSpared() const { return raysSpared_; }
-  // That a light which changes takes at most: one to each light point.
+  // Upper bound per changed light: one ray to each light point.
   uint64_t raysPerLight() const;
 
  private:
-  // A light point: all r, then g, then b of the light that parts reflect; then the same of what
-  // else comes straight: light that is not reflected, less such as is left to pixels.
+  // Sums of one light point. First r, g, b of the light that object parts reflect; it uses the
+  // whole transfer. Then r, g, b of a correction that uses only the direct transfer: plus light
+  // that is not reflected, minus light whose direct part pixels sum.
   static constexpr size_t kSums = size_t{3} * kShCoefficients;
-  // What an object has by transfer of the light in a slot. `own`: nothing, and pixels have nothing
-  // of it either; `near`: nothing, for it is too near.
+  // How an object takes the light in a slot. `own`: not at all, and its pixels do not sum it
+  // either. `near`: not by transfer, because the light is too near. `left`: not by transfer,
+  // because of its error. `straight`: only direct light; `reflected`: only interreflection; `all`:
+  // both.
   enum class Take : uint8_t { own, near, left, straight, reflected, all };
   static bool mayTake(Take take) { return take >= Take::left; }
   static bool hasStraight(Take take) { return take == Take::straight || take == Take::all; }
@@ -109,22 +115,22 @@ class PrtLights {
     bool isWanted = false;  // it may have transfer, and has room
     bool lacksRoom = false;
     TransferKey key{};
-    std::shared_ptr<const RenderScene> own;  // until its transfer is there
+    std::shared_ptr<const RenderScene> own;  // until the transfer is ready
     std::shared_ptr<const Transfer> transfer;
     OwnSpace space;
     IncidentLightPoints points;
-    std::vector<vec3> places;  // of the points, in the world
+    std::vector<vec3> places;  // of the points, world space
     std::vector<ValidationPoint> checks;
     std::vector<double> sums;          // points × 2 · kSums
-    std::vector<Take> takes;           // by slot, as summed
+    std::vector<Take> takes;           // by slot, as used in the sums
     std::vector<LightErrors> checked;  // by slot
-    std::vector<uint8_t> hidden;       // slots × points, as summed
+    std::vector<uint8_t> hidden;       // slots × points, as used in the sums
     std::vector<uint8_t> held;         // by slot
     std::vector<vec3> irradiance;      // by vertex
     Revision revision;
-    int lightsLeft = 0;   // to pixels for their error
-    bool isLeft = false;  // so that transfer has none
-    size_t bytes = 0;     // of all that
+    int lightsLeft = 0;   // lights that pixels sum because of their error
+    bool isLeft = false;  // pixels sum all direct light
+    size_t bytes = 0;     // of all the above
     void countBytes();
     void dropTransfer() { *this = Object{.shape = std::move(shape)}; }
   };
@@ -134,7 +140,8 @@ class PrtLights {
   void findObjects(const Frame& frame, std::span<const uint32_t> others);
   std::vector<uint32_t> findRoom(const Frame& frame);
   void placeObject(const Frame& frame, uint32_t object);
-  // At some slots: how each is taken but for hardness and error, and slots × points whether hidden.
+  // For some slots: how each light is taken, apart from hardness and error; and slots × points,
+  // whether hidden.
   struct Looked {
     std::vector<Take> takes;
     std::vector<uint8_t> hidden;
@@ -151,10 +158,10 @@ class PrtLights {
   Options options_;
   bool isKnown_ = false;
   std::vector<Object> objects_;
-  std::vector<shared::Vpl> lights_;  // by slot, as summed
+  std::vector<shared::Vpl> lights_;  // by slot, as used in the sums
   std::vector<bool> isHard_;         // by slot: its shadows are too hard for transfer
   std::vector<bool> areLast_;        // by slot
-  std::vector<bool> isStale_;        // by slot: something moved since its shadows were found
+  std::vector<bool> isStale_;        // by slot: something moved since its shadows were computed
   Revision coverage_;
   uint64_t raysTraced_ = 0, raysSpared_ = 0;
 };

@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// Of a check point: three vertices that blend as many light points each.
+// Per check point: three vertices, each of which blends kBlended light points.
 constexpr size_t kMostTerms = 3 * IncidentLightPoints::kBlended;
 
 }  // namespace
@@ -16,7 +16,7 @@ constexpr size_t kMostTerms = 3 * IncidentLightPoints::kBlended;
 size_t mostBytesOf(const PrtNeeds& needs) {
   const size_t perVertex =
       sizeof(Transfer::Vertex) + sizeof(IncidentLightPoints::Blend) + sizeof(vec3);
-  // Three channels of coefficients, of all light and of what comes straight; a byte a light.
+  // Three channels of coefficients, for all light and for direct light; one byte per light.
   const size_t perPoint = size_t{2} * 3 * kShCoefficients * sizeof(double) + needs.slots;
   const size_t checks = validationPointsFor(needs.points);
   const size_t perCheck = sizeof(ValidationPoint) + kMostTerms * sizeof(ValidationPoint::Term) +

@@ -1,4 +1,4 @@
-// How much memory light by transfer takes, and which objects get it where not all fit.
+// Memory needed by precomputed radiance transfer, and which objects get it if not all fit.
 #pragma once
 
 #include <cstddef>
@@ -7,19 +7,19 @@
 
 namespace lamplighter {
 
-// An object that is to have transfer.
+// An object for which transfer is requested.
 struct PrtNeeds {
   size_t vertices = 0;
   size_t points = 0;       // light points
-  size_t slots = 0;        // of lights
-  bool isChecked = false;  // light by light, against rays
+  size_t slots = 0;        // number of light slots
+  bool isChecked = false;  // each light is checked against rays
 };
 
-// What it holds at most: its transfer, and its light as sums and at vertices [bytes].
+// Upper bound [bytes]: transfer, light sums and irradiance at vertices.
 size_t mostBytesOf(const PrtNeeds& needs);
 
-// Which of them fit into so much memory together: the smallest first, so that they are many, and of
-// the same size in their order.
+// Which objects fit into `room` bytes together. The smallest go first, to fit as many as possible;
+// objects of equal size keep their order.
 std::vector<bool> fitting(std::span<const size_t> bytes, size_t room);
 
 }  // namespace lamplighter

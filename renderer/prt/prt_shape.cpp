@@ -8,14 +8,14 @@
 namespace lamplighter {
 namespace {
 
-// By area: what is beside the charts of a simple object is slivers, which have too few vertices to
-// show any light.
+// By area: what a simple object has besides charts are slivers with too few vertices to represent
+// light.
 bool isMostlyComplex(const RenderScene& scene, const RenderObject& o,
                      const ObjectPatches& patches) {
   double loose = 0.0, all = 0.0;
   for (uint32_t t = 0; t < o.triangleCount(); ++t) {
     const uint32_t* corner = &scene.indices[o.firstIndex + 3 * static_cast<size_t>(t)];
-    // In the node's space, so that turning it decides nothing.
+    // In node space, so that rotation does not change the result.
     const vec3& a = scene.localPositions[corner[0]];
     const double area = glm::length(
         glm::cross(scene.localPositions[corner[1]] - a, scene.localPositions[corner[2]] - a));
@@ -26,8 +26,8 @@ bool isMostlyComplex(const RenderScene& scene, const RenderObject& o,
   return loose > 0.5 * all;
 }
 
-// Light on a vertex would be wrong where a pixel's normal is from a texture, and what glows lights
-// itself by VPLs that its transfer knows nothing of.
+// Light at vertices would be wrong if pixel normals come from a texture. An emissive object lights
+// itself by VPLs that its transfer does not include.
 bool mayHaveTransfer(const RenderScene& scene, const RenderObject& o) {
   const Material& m = scene.materials[static_cast<size_t>(o.material)];
   return !o.isAreaLight && !m.emits() && !m.isClear() && m.normalTexture.texture == kNone;

@@ -1,4 +1,4 @@
-// What an object's transfer follows from, wherever it stands and however it is turned.
+// The properties of an object that determine its transfer, independent of position and rotation.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,16 @@
 namespace lamplighter {
 
 struct PrtShape {
-  bool mayHaveTransfer = false;  // else the rest says nothing
-  mat3 stretch{1.0f};            // of OwnSpace
-  int points = 0;                // light points
-  std::vector<int> looseRoots;   // patches in no chart
-  std::vector<bool> isLoose;     // by triangle: it lies in one of these
+  bool mayHaveTransfer = false;  // if false, the other members are meaningless
+  mat3 stretch{1.0f};            // as in OwnSpace
+  int points = 0;                // number of light points
+  std::vector<int> looseRoots;   // root patches that are in no chart
+  std::vector<bool> isLoose;     // by triangle: it is in one of these patches
   bool operator==(const PrtShape&) const = default;
 };
 
-// `mostPoints`: of light points. Meshes may have transfer that are complex for the most part, shade
-// by the normals of their vertices, and neither glow nor are clear.
+// `mostPoints`: upper bound of the number of light points. A mesh may have transfer if it is mostly
+// complex, is shaded with vertex normals, and is neither emissive nor clear.
 PrtShape prtShapeOf(const RenderScene& scene, uint32_t object, const ObjectPatches& patches,
                     int mostPoints);
 

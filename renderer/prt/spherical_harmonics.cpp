@@ -2,7 +2,7 @@
 
 namespace lamplighter {
 
-// The polynomials in Cartesian form, their constants to more digits than a float holds.
+// The polynomials in Cartesian form; the constants have more digits than a float.
 ShVector shBasis(const vec3& d) {
   const float x = d.x, y = d.y, z = d.z;
   const float x2 = x * x, y2 = y * y, z2 = z * z;

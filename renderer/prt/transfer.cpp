@@ -13,18 +13,18 @@
 namespace lamplighter {
 namespace {
 
-// Of the object's radius: how far above the surface rays start.
+// Distance of the ray origins above the surface, as a share of the object's radius.
 constexpr float kLift = 1e-4f;
-// Towards the middle of a triangle: how far from the vertex they start, so that at an edge in a
-// concave corner they do not start within the other wall.
+// Offset of the ray origins from the vertex towards the centre of the triangle, so that at an edge
+// in a concave corner they are not inside the other wall.
 constexpr float kInset = 0.02f;
 constexpr uint32_t kScramble = 0x5eed0001u;
 
-// Multiples of 2⁻¹²; no negative zero.
+// Rounds to a multiple of 2⁻¹²; no negative zero.
 float rounded(float v) { return std::round(v * 4096.0f) / 4096.0f + 0.0f; }
 
-// Directions about +z in proportion to their cosine. The same for all vertices: their error is
-// smooth over the surface then, not noise.
+// Cosine-distributed directions about +z. They are the same for all vertices, so that the error is
+// smooth over the surface and not noise.
 std::vector<vec3> cosineDirections(int count) {
   std::vector<vec3> out;
   for (int i = 0; i < count; ++i) {
@@ -35,7 +35,7 @@ std::vector<vec3> cosineDirections(int count) {
   return out;
 }
 
-// By vertex the largest of its triangles, the first of those; 0xffffffff: it has none.
+// For each vertex its largest triangle, the first of equals; 0xffffffff: none.
 std::vector<uint32_t> largestTriangles(const RenderScene& own) {
   std::vector<uint32_t> largest(own.positions.size(), 0xffffffffu);
   std::vector<float> areas(own.positions.size(), 0.0f);
@@ -53,7 +53,7 @@ std::vector<uint32_t> largestTriangles(const RenderScene& own) {
   return largest;
 }
 
-// Where the rays of one vertex start, and about what.
+// The rays of one vertex: their origins and directions.
 class VertexRays {
  public:
   VertexRays(const RenderScene& own, uint32_t vertex, uint32_t triangle, float lift)
@@ -69,8 +69,9 @@ class VertexRays {
     corner_ = p + lift * frame_.normal;
   }
   const vec3& normal() const { return frame_.normal; }
-  // Above the triangle's plane from within it; what is below, but above the shading normal's
-  // horizon, from the vertex, where a smooth convex surface is not in its own way.
+  // Directions above the triangle's plane start inside the triangle. Directions below the plane but
+  // above the shading horizon start at the vertex, where a smooth convex surface does not block
+  // itself.
   Ray along(const vec3& direction) const {
     Ray ray;
     ray.direction = frame_.toWorld(direction);
@@ -97,9 +98,9 @@ class Computation {
         lift_(kLift * own.bounds.radius()),
         progress_(progress) {}
 
-  // What comes straight from outside: π/N Σ V Y over directions in proportion to the cosine. Of the
-  // same sum without shadows it is known by how much it is off; the lit share of that is put right,
-  // so that what nothing shadows is exact, and so is what is wholly shut in.
+  // Direct light from outside: π/N Σ V Y over cosine-distributed directions. For the same sum
+  // without shadows the exact value is known, and so is its error. The lit share of this error is
+  // subtracted. So a vertex without occlusion is exact, and so is one that is completely enclosed.
   bool direct(std::vector<ShVector>& out) const {
     return forEachVertex([&](uint32_t v, const VertexRays* rays) {
       if (rays == nullptr) {
@@ -123,7 +124,7 @@ class Computation {
     });
   }
 
-  // One reflection more: 1/N Σ ρ T of what each direction hits.
+  // One more reflection: 1/N Σ ρ T over what each direction hits.
   bool reflected(const std::vector<Transfer::Vertex>& last,
                  std::vector<Transfer::Vertex>& out) const {
     return forEachVertex([&](uint32_t v, const VertexRays* rays) {
@@ -133,7 +134,7 @@ class Computation {
         forEachRay(*rays, [&](const Ray& ray, const Hit& hit) {
           if (!hit) return;
           const Surface surface = surfaceAt(own_, 0, hit.triangle, hit.u, hit.v);
-          if (glm::dot(surface.geometricNormal, ray.direction) >= 0.0f) return;  // its back
+          if (glm::dot(surface.geometricNormal, ray.direction) >= 0.0f) return;  // back face
           const vec3 albedo = weight * surface.albedo;
           const float weights[3] = {1.0f - hit.u - hit.v, hit.u, hit.v};
           for (size_t k = 0; k < 3; ++k) {
@@ -150,7 +151,7 @@ class Computation {
   }
 
  private:
-  // f(vertex, its rays or null where it is in no triangle). False: cancelled.
+  // Calls f(vertex, its rays, or null if it is in no triangle). Returns false if cancelled.
   template <typename F>
   bool forEachVertex(F&& f) const {
     tbb::parallel_for(tbb::blocked_range<uint32_t>(0, static_cast<uint32_t>(triangles_.size()), 16),
@@ -168,7 +169,7 @@ class Computation {
                       });
     return !isCancelled();
   }
-  // In the order of the directions.
+  // Calls it in the order of the directions.
   template <typename F>
   void forEachRay(const VertexRays& from, F&& f) const {
     std::array<Ray, 8> rays;
@@ -198,7 +199,7 @@ std::optional<OwnSpace> ownSpaceOf(const RenderObject& object) {
   OwnSpace out;
   out.translation = vec3(object.world[3]);
   out.scale = std::cbrt(volume);
-  // Gram-Schmidt. The last axis is the cross product, so that mirroring stays in the stretch.
+  // Gram-Schmidt. The last axis is a cross product, so a reflection stays in the stretch.
   const vec3 x = glm::normalize(m[0]);
   const vec3 y = glm::normalize(m[1] - x * glm::dot(x, m[1]));
   out.rotation = mat3(x, y, glm::cross(x, y));

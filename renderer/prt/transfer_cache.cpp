@@ -19,29 +19,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Another number whenever the computation or the file's form changes.
+// Increase this when the computation or the file format changes.
 constexpr uint32_t kVersion = 2;
 
-// As it lies in the file: little-endian, as all machines are that this runs on (x86-64).
+// File layout: little-endian, like all supported machines (x86-64).
 struct Header {
   char magic[8] = {'L', 'L', 'P', 'R', 'T', '\r', '\n', '\x1a'};
   uint32_t version = kVersion;
   uint32_t coefficients = kShCoefficients;
   uint64_t key[2] = {};
   uint64_t vertices = 0;
-  uint64_t checksum = 0;  // of what follows
+  uint64_t checksum = 0;  // of the data that follow
 };
 static_assert(sizeof(Header) == 48 && std::is_trivially_copyable_v<Header>);
 static_assert(sizeof(Transfer::Vertex) == 4 * kShCoefficients * sizeof(float));
 static_assert(std::endian::native == std::endian::little);
 
-// FNV-1a over 64-bit words, with a last mix; two of them from two starts are a key.
+// FNV-1a over 64-bit words with a final mix; two hashes with different starts form a key.
 class Hasher {
  public:
   explicit Hasher(uint64_t start = 14695981039346656037u) : hash_(start) {}
   void add(uint64_t word) {
     hash_ = (hash_ ^ word) * 1099511628211u;
-    hash_ ^= hash_ >> 32;  // so that high bits come down to the low ones
+    hash_ ^= hash_ >> 32;  // moves high bits to the low half
   }
   void add(float v) { add(uint64_t{std::bit_cast<uint32_t>(v)}); }
   void add(const vec2& v) { add(v.x), add(v.y); }
@@ -141,7 +141,7 @@ std::optional<Transfer> TransferCache::load(const TransferKey& key, size_t verti
   if (folder_.empty() || vertices > 0xffffffffu) return std::nullopt;
   const fs::path file = fileOf(key);
   std::error_code error;
-  // Its size by what is wanted, not by what it says of itself.
+  // The expected size comes from the request, not from the file.
   if (!fs::is_regular_file(file, error) ||
       fs::file_size(file, error) != sizeof(Header) + vertices * sizeof(Transfer::Vertex) || error)
     return std::nullopt;

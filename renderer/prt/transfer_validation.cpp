@@ -13,11 +13,11 @@ namespace {
 constexpr uint32_t kCheckScramble = 0x5eed0002u;
 constexpr size_t kFewest = 32;
 constexpr double kDark = 0.25;  // of the object's mean
-// Of the lights that it says anything of, or should, one in so many may be left: more, and it is
-// not worth its while.
+// At most one in this number of the lights with an error may be excluded; if more are, transfer is
+// not worth its cost.
 constexpr size_t kMostLeft = 6;
 
-// The transfer of a vertex, by the light points that it blends.
+// Adds the transfer of a vertex to the terms of the light points that it blends.
 void addVertex(const Transfer::Vertex& vertex, const IncidentLightPoints::Blend& blend,
                float weight, std::vector<ValidationPoint::Term>& terms) {
   for (size_t k = 0; k < IncidentLightPoints::kBlended; ++k) {
@@ -39,7 +39,7 @@ std::vector<ValidationPoint> placeValidationPoints(const RenderScene& own, const
                                                    const IncidentLightPoints& points,
                                                    const std::vector<bool>& isLit) {
   const size_t triangles = own.triangleCount();
-  std::vector<double> areas(triangles);  // up to and with each
+  std::vector<double> areas(triangles);  // cumulative
   double area = 0.0;
   for (size_t t = 0; t < triangles; ++t) {
     const uint32_t* corner = &own.indices[3 * t];
@@ -84,7 +84,7 @@ LightErrors checkLight(const std::vector<ValidationPoint>& checks, const OwnSpac
                        std::span<const uint8_t> hidden, float clampDistance, uint64_t& traced) {
   LightErrors out(checks.size());
   bool isAny = false;
-  // What arrives at the light points.
+  // The light that arrives at the light points.
   std::vector<ShVector> light(places.size(), ShVector{});
   for (size_t p = 0; p < places.size(); ++p) {
     if (hidden[p] != 0) continue;
@@ -132,7 +132,7 @@ std::vector<bool> lightsToLeave(std::span<const LightErrors> lights,
       if (isHeld[slot]) error[c] += double{lights[slot][c].error};
     }
   }
-  if (!(sum > 0.0)) {  // all that transfer says is wrong
+  if (!(sum > 0.0)) {  // all light from transfer is an error
     for (size_t slot = 0; slot < slots; ++slot)
       leaves[slot] = isHeld[slot] && !lights[slot].empty();
     return leaves;

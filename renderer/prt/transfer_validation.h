@@ -1,5 +1,6 @@
-// Places on a complex object at which light by transfer is compared with light by rays, light by
-// light: what transfer gets wrong there decides which lights are left to the object's pixels.
+// Check points on a complex object where the light by transfer is compared with the light by rays,
+// for each light. The error of transfer there decides which lights the pixels of the object sum
+// instead.
 #pragma once
 
 #include <span>
@@ -12,45 +13,46 @@ namespace lamplighter {
 
 // In the object's own space.
 struct ValidationPoint {
-  // Light by transfer is, straight from a light, Σ direct · (what arrives at the light point).
+  // The direct light by transfer is Σ direct · (light that arrives at the light point).
   struct Term {
     uint8_t point;
     ShVector direct;
   };
-  vec3 place, normal, plane;  // the normals: for shading, and of the triangle
+  vec3 place, normal, plane;  // normal: for shading; plane: normal of the triangle
   std::vector<Term> terms;
 };
 
-// On an object with so many light points: twice as many, 32 at least.
+// For an object with this number of light points: twice as many, at least 32.
 size_t validationPointsFor(size_t lightPoints);
 
-// By area, as a pixel there comes by its light: the transfer of its triangle's vertices, each
-// with the light points that it blends. `own`: as the transfer was computed of; `isLit`: by
-// triangle, whether transfer lights it. Deterministic; none where the object has no such surface.
+// Distributed by area. A point takes its light as a pixel there does: from the transfer of the
+// vertices of its triangle, each with the light points that it blends. `own`: the scene that the
+// transfer was computed from; `isLit`: by triangle, whether it is lit by transfer. Deterministic;
+// none if no triangle is.
 std::vector<ValidationPoint> placeValidationPoints(const RenderScene& own, const Transfer& transfer,
                                                    const IncidentLightPoints& points,
                                                    const std::vector<bool>& isLit);
 
-// Of one light, in luminance of irradiance [W/m²].
+// For one light, in luminance of irradiance [W/m²].
 struct LightError {
   float exact = 0.0f;  // by a ray
-  float error = 0.0f;  // of what transfer says, from that
+  float error = 0.0f;  // of transfer, relative to `exact` (difference)
 };
 
-// By check point; none where nothing arrives at any, and nothing is wrong.
+// By check point; empty if no light arrives at any point and there is no error.
 using LightErrors = std::vector<LightError>;
 
-// Straight from a light. `places`: of the light points, in the world; `hidden`: of those, whether
-// others hide the light. Adds to `traced` how many rays it took.
+// For the direct light of one light. `places`: the light points, world space; `hidden`: by light
+// point, whether other objects block the light. Adds the number of rays to `traced`.
 LightErrors checkLight(const std::vector<ValidationPoint>& checks, const OwnSpace& space,
                        const RayCaster& rays, const shared::Vpl& vpl, std::span<const vec3> places,
                        std::span<const uint8_t> hidden, float clampDistance, uint64_t& traced);
 
-// Which lights to leave to pixels, so that what transfer gets wrong of the others stays, as the
-// root of the mean square over the check points, below a share `mostError` of the light there: at
-// most of the object's mean, where it is dark of a quarter of that. One by one, that of the largest
-// error first; if these were more than one in six of those that matter, all. By slot; `isHeld`:
-// whether transfer has it otherwise.
+// Chooses by slot the lights that pixels sum instead of transfer, so that the remaining root mean
+// square error over the check points is below the share `mostError` of the light there. The light
+// at a point counts at most as the object's mean, and at least as a quarter of it. Lights are
+// chosen one by one, the largest error first; if they are more than one sixth of the relevant
+// lights, all are chosen. `isHeld`: whether transfer would otherwise hold the light in a slot.
 std::vector<bool> lightsToLeave(std::span<const LightErrors> lights,
                                 const std::vector<bool>& isHeld, float mostError);
 

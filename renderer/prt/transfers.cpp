@@ -38,7 +38,7 @@ void Transfers::want(std::vector<Wanted> wanted, const TransferOptions& options)
   isRunning_ = true;
   std::thread last = std::move(thread_);
   lock.unlock();
-  if (last.joinable()) last.join();  // it has nothing left to do
+  if (last.joinable()) last.join();  // it has finished its work
   thread_ = std::thread([this] { work(); });
 }
 
@@ -82,7 +82,7 @@ void Transfers::work() {
         transfer = computeTransfer(*job.own, options, progress.get());
         if (transfer) cache_.save(job.key, *transfer);
       }
-    } catch (...) {  // Embree out of memory: the frame that waits for it or looks next reports it
+    } catch (...) {  // Embree is out of memory: the next frame that waits or looks reports it
       error = std::current_exception();
     }
     lock.lock();

@@ -1,4 +1,4 @@
-// Transfer of the objects of a scene, computed on a thread of its own while frames go on.
+// The transfer of the objects of a scene, computed on a separate thread while frames continue.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +17,7 @@ class Transfers {
  public:
   struct Wanted {
     TransferKey key;
-    std::shared_ptr<const RenderScene> own;  // of ownSceneOf()
+    std::shared_ptr<const RenderScene> own;  // from ownSceneOf()
   };
 
   explicit Transfers(TransferCache cache = TransferCache()) : cache_(std::move(cache)) {}
@@ -25,18 +25,18 @@ class Transfers {
   Transfers(const Transfers&) = delete;
   Transfers& operator=(const Transfers&) = delete;
 
-  // All that is wanted from now on, in the order in which it is looked up or computed. What is no
+  // Sets everything that is wanted from now on, in the order of loading or computing. What is no
   // longer wanted is dropped, and cancelled if it is being computed.
   void want(std::vector<Wanted> wanted, const TransferOptions& options);
 
-  // Null: not ready.
+  // Null if it is not ready.
   std::shared_ptr<const Transfer> find(const TransferKey& key) const;
-  // Until all are ready. Throws what computing threw.
+  // Waits until all are ready. Throws the exception of the computation.
   void wait();
 
   struct Progress {
-    size_t pending = 0;  // transfers
-    float share = 1.0f;  // of the vertices of the one that is being computed
+    size_t pending = 0;  // number of transfers
+    float share = 1.0f;  // of the vertices of the transfer that is being computed
   };
   Progress progress() const;
 
@@ -46,11 +46,11 @@ class Transfers {
   const TransferCache cache_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  // Under the mutex:
+  // Protected by the mutex:
   std::map<TransferKey, std::shared_ptr<const Transfer>> ready_;
-  std::vector<Wanted> queue_;  // the last is next
+  std::vector<Wanted> queue_;  // the next one is the last element
   TransferOptions options_;
-  std::shared_ptr<TransferProgress> current_;  // null: none is being computed
+  std::shared_ptr<TransferProgress> current_;  // null: none is running
   TransferKey currentKey_{};
   std::exception_ptr error_;
 

@@ -1,4 +1,4 @@
-// Every method by name.
+// All methods by name.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace lamplighter {
 
-// In the order they are shown.
+// In the order of the user interface.
 const std::vector<MethodInfo>& methods();
-// Throws InputError when there is none of that name.
+// Throws InputError if there is no method of that name.
 const MethodInfo& findMethod(const std::string& name);
 
 }  // namespace lamplighter

@@ -7,7 +7,7 @@
 namespace lamplighter {
 namespace {
 
-// The box reaches above the plane through p with unit normal n.
+// Whether the box extends above the plane through p with unit normal n.
 bool reachesAbove(const Bounds& box, const vec3& p, const vec3& n) {
   if (box.empty()) return false;
   const vec3 top(n.x > 0.0f ? box.max.x : box.min.x, n.y > 0.0f ? box.max.y : box.min.y,
@@ -94,8 +94,8 @@ std::vector<MoverFinder::Mover> MoverFinder::update(const RenderScene& scene,
   std::vector<Caster> now;
   now.reserve(scene.objects.size());
   for (const RenderObject& o : scene.objects) now.push_back(casterOf(scene, o));
-  // Both lists stand in the order of the nodes, so what stayed is found in one walk: skip what came
-  // and what went.
+  // Both lists have the order of the nodes, so one pass finds the common objects and skips removed
+  // and new ones.
   size_t old = 0;
   std::vector<bool> moved(now.size(), false);
   for (const uint32_t object : changes.movedObjects) moved[object] = true;
@@ -108,7 +108,7 @@ std::vector<MoverFinder::Mover> MoverFinder::update(const RenderScene& scene,
     }
     const size_t at = static_cast<size_t>(same - objects_.begin());
     for (; old < at; ++old) movers.push_back({objects_[old].bounds, Bounds(), objects_[old].node});
-    // Turning a symmetric box leaves its bounds, so what was moved counts whatever they say.
+    // A rotation of a symmetric box keeps its bounds, so a moved object always counts.
     if (moved[i] || !(now[i] == objects_[at]))
       movers.push_back({objects_[at].bounds, now[i].bounds, now[i].node});
     old = at + 1;

@@ -1,5 +1,5 @@
-// Which shadow maps a change touches, and which of those waiting are rendered this frame (paper 1,
-// 4.5.3).
+// Finds the shadow maps that a change affects, and chooses which of the waiting ones are rendered
+// in this frame (paper 1, 4.5.3).
 #pragma once
 
 #include <cstdint>
@@ -13,23 +13,24 @@
 
 namespace lamplighter {
 
-// True when something that was within `before` and is within `after` may show in the VPL's map: it
-// is not wholly behind the VPL. A directional VPL sees everything.
+// Whether an object that moved from `before` to `after` may be visible in the VPL's map: it is not
+// completely behind the VPL. A directional VPL sees everything.
 bool seesMover(const shared::Vpl& vpl, const Bounds& before, const Bounds& after);
 
-// How much of what the VPL lights something within the box may hide, as the share of its hemisphere
-// (directional: of its square), in [0, 1]: how wrong a map is that does not show it.
+// How much of the light of a VPL something inside the box may block: a share of the VPL's
+// hemisphere (directional: of its square), in [0, 1]. It estimates the error of a map that does not
+// show this object.
 float hiddenShare(const shared::Vpl& vpl, const Bounds& box);
 
-// Work that refreshing VPLs takes, or may take in one frame.
+// Work of refreshing VPLs, or its limit per frame.
 struct RefreshWork {
   uint64_t shadowMaps = 0;
-  uint64_t visibilityTests = 0;  // occlusion pyramids against the scene
-  uint64_t lightMapTexels = 0;   // times lights added or taken away
-  uint64_t rays = 0;             // for shadow maps that are traced, and to light points
+  uint64_t visibilityTests = 0;  // occlusion pyramids tested against the scene
+  uint64_t lightMapTexels = 0;   // texels × lights that are added or subtracted
+  uint64_t rays = 0;             // for traced shadow maps, and to light points
 
   RefreshWork& operator+=(const RefreshWork& o);
-  // No kind of work is more than what this allows of it.
+  // Whether `work` is within this limit, for each kind of work.
   bool allows(const RefreshWork& work) const;
 };
 inline constexpr uint64_t kNoLimit = std::numeric_limits<uint64_t>::max();
@@ -39,28 +40,29 @@ struct RefreshBudget {
   RefreshWork work{kNoLimit, kNoLimit, kNoLimit, kNoLimit};
 };
 
-// One VPL that waits for its turn, or those of one path.
+// One waiting VPL, or the waiting VPLs of one path.
 struct RefreshCandidate {
   float brightness = 0.0f;  // intensity of its brightest channel
-  int framesWaiting = 1;    // 1 in the frame that made it stale
-  RefreshWork work{};       // that its refresh is thought to take
-  int vpls = 1;             // that must be refreshed together
+  int framesWaiting = 1;    // 1 in the frame in which it became stale
+  RefreshWork work{};       // estimated work of its refresh
+  int vpls = 1;             // number of VPLs that must be refreshed together
 };
 
-// The indices of the candidates that the budget is enough for, highest priority = brightness ×
-// frames waiting first, ties by index. Waiting raises the priority without bound, so none starves;
-// the first of them always has its turn, however little is allowed (unless no VPL is).
+// The indices of the candidates for which the budget is sufficient. Highest priority = brightness ×
+// frames waiting first, ties by index. Priority grows while a candidate waits, so none starves. The
+// first one is always chosen, even if it exceeds the budget (unless the budget allows no VPL).
 std::vector<size_t> chooseRefreshes(std::span<const RefreshCandidate> candidates,
                                     const RefreshBudget& budget);
 
-// Tells which objects changed place or shape between two frames, across a rebuild too.
+// Finds the objects that changed position or shape between two frames, even if the scene was
+// rebuilt.
 class MoverFinder {
  public:
   struct Mover {
-    Bounds before, after;   // empty where it was or is not
-    NodeId node = kNoNode;  // whose it is
+    Bounds before, after;   // empty where the object did not exist
+    NodeId node = kNoNode;  // of the object
   };
-  // Movers since the last call; the first call gives every object.
+  // The movers since the last call; the first call returns every object.
   std::vector<Mover> update(const RenderScene& scene, const RenderSceneChanges& changes);
   void reset() { objects_.clear(); }
 
@@ -68,7 +70,7 @@ class MoverFinder {
   struct Caster {
     NodeId node;
     uint32_t triangles;
-    // What of its material decides which rays pass.
+    // The material properties that decide which rays pass.
     bool isClear;
     AlphaMode alphaMode;
     float alphaCutoff, alpha;

@@ -18,7 +18,7 @@ struct GlossyPoint {
   float metallic, roughness;
 };
 
-// Discards pixels that are not.
+// Discards pixels that are not glossy.
 GlossyPoint glossyPoint(ivec2 pixel) {
   vec2 gloss = texelFetch(uGloss, pixel, 0).xy;
   vec4 position = texelFetch(uPosition, pixel, 0);

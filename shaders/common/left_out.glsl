@@ -1,11 +1,11 @@
-// Which lights leave a pixel out (renderer/scene/light_linking.h).
+// Light linking: which lights do not light a pixel (renderer/scene/light_linking.h).
 #ifndef LAMPLIGHTER_LEFT_OUT_GLSL
 #define LAMPLIGHTER_LEFT_OUT_GLSL
 #include "shared/bindings.h"
 
 layout(std430, binding = kLeftOutBuffer) readonly buffer LeftOut { uint leftOut[]; };
 
-// The links that give the triangle no light; w: of kGPosition, where something was hit.
+// The link bits of the lights that do not light the triangle; w: of kGPosition, at a hit.
 uint leftOutAt(float w) {
   return leftOut[floatBitsToUint(w) - uint(kTriangleBits)];
 }

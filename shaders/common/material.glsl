@@ -1,4 +1,4 @@
-// The material of the object that is drawn, and its textures.
+// The material of the drawn object and its textures.
 #ifndef LAMPLIGHTER_MATERIAL_GLSL
 #define LAMPLIGHTER_MATERIAL_GLSL
 #include "shared/bindings.h"
@@ -15,7 +15,8 @@ vec2 lookupUv(TextureLookup lookup, vec2 uv0, vec2 uv1) {
   return vec2(dot(lookup.u.xyz, uv), dot(lookup.v.xyz, uv));
 }
 
-// All textures have one level, so that both backends filter alike; textureLod says so.
+// All textures have one mipmap level, so both backends filter equally; textureLod makes this
+// explicit.
 vec4 lookUp(sampler2D image, TextureLookup lookup, vec2 uv0, vec2 uv1) {
   return textureLod(image, lookupUv(lookup, uv0, uv1), 0.0);
 }

@@ -5,7 +5,7 @@
 
 layout(binding = kSamples) uniform sampler2D uSamples;
 
-// Light maps are interpolated and the shadows taken away from them are not: no less than no light.
+// Clamped at 0: light maps are interpolated, but the shadows subtracted from them are not.
 vec3 sampleAt(ivec2 at) {
   return max(texelFetch(uSamples, at, 0).rgb, vec3(0.0));
 }

@@ -1,5 +1,5 @@
-// The look-up in a VPL's shadow map (shared/vpl_shading.h), for one kind of VPL: with DIRECTIONAL, or
-// without.
+// The shadow map look-up (shared/vpl_shading.h) for one kind of VPL: with DIRECTIONAL, or without
+// it.
 #ifndef LAMPLIGHTER_SHADOW_LOOK_UP_GLSL
 #define LAMPLIGHTER_SHADOW_LOOK_UP_GLSL
 #include "shared/bindings.h"
@@ -8,7 +8,7 @@
 
 layout(binding = kShadowMaps) uniform sampler2DArray uMaps;
 
-// normal: geometric; clampAndBias: of ShadingParams.
+// normal: the geometric normal; clampAndBias: as in ShadingParams.
 bool occluded(Vpl vpl, vec3 x, vec3 normal, vec4 clampAndBias) {
   float bias = clampAndBias.y, resolution = clampAndBias.z;
   vec3 q = vplToLight(vpl, x - vpl.position.xyz);

@@ -1,19 +1,19 @@
-// The VPLs of one pass. VPLS_A_PASS is as many as a uniform block of this device holds: a loop over
-// a uniform block is nearly twice as fast as over a storage buffer on Mesa's llvmpipe.
+// The VPLs of one pass. VPLS_A_PASS is the capacity of a uniform block on this device: on Mesa's
+// llvmpipe a loop over a uniform block is nearly twice as fast as one over a storage buffer.
 #ifndef LAMPLIGHTER_VPLS_GLSL
 #define LAMPLIGHTER_VPLS_GLSL
 #include "shared/bindings.h"
 #include "shared/vpl.h"
 
 layout(std140, binding = kVplBlock) uniform Vpls { Vpl uVpls[VPLS_A_PASS]; };
-// The same, for numbers that differ from pixel to pixel: llvmpipe gathers each float of a uniform
-// block by itself, and four at a time of a texture. It takes a quarter off a sum by lists.
+// The same for indices that differ between pixels: llvmpipe gathers each float of a uniform block
+// separately, but four floats of a texture at once. This makes a sum by lists 25% faster.
 layout(binding = kVplTexels) uniform samplerBuffer uVplTexels;
 
 Vpl gatheredVpl(int i) {
   return Vpl(texelFetch(uVplTexels, 5 * i), texelFetch(uVplTexels, 5 * i + 1),
              texelFetch(uVplTexels, 5 * i + 2), texelFetch(uVplTexels, 5 * i + 3),
-             vec4(0.0));  // the footprint, which irradiance does not depend on
+             vec4(0.0));  // the footprint, which does not affect irradiance
 }
 
 #endif

@@ -1,5 +1,5 @@
-// Makes of a picture of Lambert's surfaces, Le + ρ/π · E, one with speculars: adds what the lobes give
-// and takes what the diffuse part lacks for it.
+// Converts a Lambertian picture, Le + ρ/π · E, to one with speculars: adds the light of the lobes
+// and subtracts what the diffuse part loses.
 #include "common/gloss.glsl"
 
 layout(binding = kIrradiance) uniform sampler2D uIrradiance;

@@ -1,5 +1,5 @@
 // Outgoing radiance: Le + ρ/π · E, and the sky where nothing was hit.
-// SKY_KIND is known to the compiler: llvmpipe takes all ways of all branches.
+// SKY_KIND is a compile-time constant because llvmpipe executes all branches.
 #include "shared/bindings.h"
 #include "shared/sky.h"
 
@@ -8,19 +8,19 @@ layout(binding = kGEmission) uniform sampler2D uEmission;
 layout(binding = kIrradiance) uniform sampler2D uIrradiance;
 layout(binding = kSkyPicture) uniform sampler2D uSkyPicture;
 layout(location = 0) uniform vec3 uSky;   // constant, or the gradient's horizon
-layout(location = 1) uniform int uWhite;  // 1: as if every surface were white
+layout(location = 1) uniform int uWhite;  // 1: all surfaces white
 layout(location = 2) uniform vec3 uZenith;
 layout(location = 3) uniform vec3 uGround;
 layout(location = 5) uniform vec2 uSkyPictureUse;  // rotation [rad], scale
-// The view ray of the picture's top left corner, not of unit length, and how it grows by a pixel.
+// The view ray of the picture's top left corner (not normalised), and its change per pixel.
 layout(location = 6) uniform vec3 uCorner;
 layout(location = 7) uniform vec3 uRight;
 layout(location = 8) uniform vec3 uDown;
-layout(location = 9) uniform vec2 uJitter;  // from the pixels' middles
+layout(location = 9) uniform vec2 uJitter;  // from the middle of a pixel
 
 layout(location = 0) out vec4 outRadiance;
 
-// Sky::radianceFrom(): interpolated in full precision, which a sampler's eight bits are not.
+// Sky::radianceFrom(): interpolated in full precision; a sampler interpolates with only 8 bits.
 vec3 skyPicture(vec3 towards) {
   ivec2 size = textureSize(uSkyPicture, 0);
   vec2 at = skyCoordinates(towards, uSkyPictureUse.x) * vec2(size) - 0.5;
@@ -52,8 +52,7 @@ void main() {
   }
   const float kInversePi = 0.318309886;
   vec3 albedo = uWhite != 0 ? vec3(1.0) : surface.rgb;
-  // Light maps are interpolated and the shadows taken away from them are not: no light may be left
-  // less than none.
+  // Clamped at 0: light maps are interpolated, but the shadows subtracted from them are not.
   vec3 irradiance = texelFetch(uIrradiance, pixel, 0).rgb;
   irradiance = mix(irradiance, vec3(0.0), lessThan(irradiance, vec3(0.0)));
   vec3 radiance = texelFetch(uEmission, pixel, 0).rgb + albedo * kInversePi * irradiance;

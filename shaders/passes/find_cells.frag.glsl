@@ -1,4 +1,4 @@
-// Which cells of the low-resolution pass take their light from their corners
+// Finds the cells of the low-resolution pass that are interpolated from their corners
 // (shared/low_resolution.h): 1, else 0.
 #include "common/cells.glsl"
 #include "common/left_out.glsl"
@@ -9,16 +9,16 @@
 
 layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGNormals) uniform sampler2D uNormals;
-layout(binding = kPlaces) uniform usampler2D uPlaces;        // of samples
-layout(binding = kContrasts) uniform usampler2D uContrasts;  // of find_contrasts.frag.glsl
+layout(binding = kPlaces) uniform usampler2D uPlaces;        // of the samples
+layout(binding = kContrasts) uniform usampler2D uContrasts;  // output of find_contrasts.frag.glsl
 layout(std430, binding = kHardPlaceBuffer) readonly buffer HardPlaces { uint hardPlaces[]; };
 layout(location = 0) uniform int uBlock;
-layout(location = 1) uniform int uHasHard;   // 0: no place is
-layout(location = 2) uniform int uHasLinks;  // 0: no light leaves anything out
+layout(location = 1) uniform int uHasHard;   // 0: no place has hard shadows
+layout(location = 2) uniform int uHasLinks;  // 0: no light has light linking
 
 layout(location = 0) out uint outIsSmooth;
 
-// Whether the irradiance differs little enough at the corners of the cell and of those about it.
+// Whether the irradiance is similar at the corners of the cell and of its eight neighbours.
 bool isSmoothAbout(ivec2 cell) {
   if (!isSmooth(sampleAt(cell), sampleAt(cell + ivec2(1, 0)), sampleAt(cell + ivec2(0, 1)),
                 sampleAt(cell + 1), kMostContrast))

@@ -1,5 +1,6 @@
-// In which cells of the low-resolution pass the irradiance differs much between two corners
-// (shared/low_resolution.h): 1, else 0. A pass of its own, for each cell asks all those about it.
+// Finds the cells of the low-resolution pass where the irradiance of two corners differs much
+// (shared/low_resolution.h): 1, else 0. A separate pass, because each cell later reads all its
+// neighbours.
 #include "common/cells.glsl"
 #include "common/normal_packing.glsl"
 #include "common/samples.glsl"
@@ -15,7 +16,7 @@ layout(location = 0) out uint outDiffers;
 
 struct Corner {
   vec3 irradiance;
-  vec4 position, normals;  // of the G-buffer
+  vec4 position, normals;  // as in the G-buffer
 };
 
 Corner cornerAt(ivec2 at) {
@@ -29,7 +30,8 @@ bool areOnOneSurface(Corner a, Corner b) {
                      b.position.xyz, unpackNormal(b.normals.xy));
 }
 
-// Whether they are of one surface, where no light makes hard shadows, and differ.
+// Whether the irradiance differs. Without hard-shadow lights only corners on one surface are
+// compared.
 bool differ(Corner a, Corner b) {
   return !isSmooth(a.irradiance, b.irradiance, a.irradiance, b.irradiance, kMostContrastAbout) &&
          (uHasHard != 0 || areOnOneSurface(a, b));

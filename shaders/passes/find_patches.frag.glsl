@@ -1,6 +1,6 @@
-// The place of each pixel (shared/patches.h), and what its light map or the light by transfer at
-// the triangle's corners says: ObjectPatches::leafAt(), LightMaps::irradiance() and
-// PrtLights::irradiance() on the GPU.
+// Finds the place of each pixel (shared/patches.h) and reads its light map, or the light by
+// radiance transfer at the corners of the triangle: ObjectPatches::leafAt(),
+// LightMaps::irradiance() and PrtLights::irradiance() on the GPU.
 #include "common/normal_packing.glsl"
 #include "shared/bindings.h"
 #include "shared/patches.h"
@@ -41,8 +41,8 @@ vec3 lightAt(uint vertex) {
   return vec3(light[3u * vertex], light[3u * vertex + 1u], light[3u * vertex + 2u]);
 }
 
-// Light by transfer at a point of a triangle, if the normal is on its front. first: what to add to
-// the numbers of vertices.
+// Adds the light by radiance transfer at a point of a triangle, if the normal is on its front.
+// first: offset to add to vertex indices.
 bool addTransfer(uint triangle, uint first, vec3 position, vec3 normal, inout vec3 sum) {
   uvec3 corner =
       uvec3(corners[3u * triangle], corners[3u * triangle + 1u], corners[3u * triangle + 2u]);

@@ -1,6 +1,6 @@
-// What is at a point of a triangle: renderer/scene/surface.cpp on the GPU. The triangle's corners
-// are fetched, so that the geometric normal and the plane are exact and not differences between
-// pixels; the shadow look-up compares in that plane.
+// The surface at a point of a triangle: renderer/scene/surface.cpp on the GPU. It fetches the
+// corners of the triangle, so that the geometric normal and the plane are exact and not computed
+// from pixel differences; the shadow test compares in that plane.
 #include "common/material.glsl"
 #include "common/normal_packing.glsl"
 
@@ -32,8 +32,8 @@ vec3 positionOf(uint i) {
 }
 
 #ifdef TEXTURED
-// Tangents where the file has none: along growing u in the plane of the triangle, orthogonal to n.
-// w: handedness, 0 when there is no such direction.
+// The tangent if the file has none: the direction of growing u in the plane of the triangle,
+// orthogonal to n. w: handedness; 0 if there is no such direction.
 vec4 tangentOf(uvec3 corner, vec3 e1, vec3 e2, vec3 n) {
   float given = length(vTangent.xyz);
   if (given > 1e-6) return vec4(vTangent.xyz / given, vTangent.w < 0.0 ? -1.0 : 1.0);
@@ -46,7 +46,7 @@ vec4 tangentOf(uvec3 corner, vec3 e1, vec3 e2, vec3 n) {
   vec3 t = (e1 * d2.y - e2 * d1.y) * (det < 0.0 ? -1.0 : 1.0);
   t -= n * dot(n, t);
   float l = length(t);
-  return l > 0.0 ? vec4(t / l, det < 0.0 ? 1.0 : -1.0) : vec4(0.0);  // v of glTF points down
+  return l > 0.0 ? vec4(t / l, det < 0.0 ? 1.0 : -1.0) : vec4(0.0);  // v points down in glTF
 }
 
 vec3 mappedNormal(uvec3 corner, vec3 e1, vec3 e2, vec3 n) {
@@ -86,7 +86,7 @@ void main() {
   vec3 geometric = doubleArea > 0.0 ? area / doubleArea : vec3(0.0, 0.0, 1.0);
   float normalLength = length(vNormal);
   vec3 n = normalLength > 0.0 ? vNormal / normalLength : geometric;
-  if (dot(n, geometric) < 0.0) n = -n;  // the front is where the winding says
+  if (dot(n, geometric) < 0.0) n = -n;  // the winding decides which side is the front
 #ifdef TEXTURED
   n = mappedNormal(corner, e1, e2, n);
 #endif

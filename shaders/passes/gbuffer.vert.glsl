@@ -1,4 +1,4 @@
-// World-space triangles into the view.
+// Transforms world-space triangles into the view.
 #include "shared/bindings.h"
 
 layout(location = kPositionAttribute) in vec3 inPosition;

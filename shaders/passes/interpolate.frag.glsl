@@ -1,4 +1,4 @@
-// The light of pixels in cells that take it from their corners (shared/low_resolution.h).
+// Interpolates the light of pixels in cells from the cell corners (shared/low_resolution.h).
 #include "common/cells.glsl"
 #include "common/samples.glsl"
 #include "shared/bindings.h"

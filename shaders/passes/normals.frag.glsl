@@ -1,4 +1,5 @@
-// The G-buffer's shading normals as vectors, zero where nothing was hit: for read-backs and views.
+// The G-buffer's shading normals as vectors, zero where nothing was hit: for read-back and debug
+// views.
 #include "common/normal_packing.glsl"
 #include "shared/bindings.h"
 

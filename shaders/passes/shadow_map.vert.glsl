@@ -1,6 +1,7 @@
-// Occluders into the map of one VPL; see shaders/shared/octahedral.h for the projection. A face of
-// the octahedron at a time: there |x| and |y| are uFace.x·x and uFace.y·y, so that everything is
-// linear and rasterises exactly. All faces share one viewport; clip planes keep them apart.
+// Draws occluders into the map of one VPL; shaders/shared/octahedral.h explains the projection. One
+// face of the octahedron is drawn at a time: on it |x| and |y| equal uFace.x·x and uFace.y·y, so
+// everything is linear and rasterises exactly. All faces share one viewport; clip planes separate
+// them.
 #include "common/vpls.glsl"
 #include "shared/shadow_depth.h"
 #include "shared/vpl_shading.h"
@@ -17,10 +18,10 @@ layout(location = 2) out float vAlpha;
 
 layout(location = 0) uniform int uVpl;
 layout(location = 1) uniform vec2 uFace;  // signs of x and y
-// How far a face reaches over its creases, as a share of w: a hundredth of a texel, since rounding
-// must not let a texel centre on the crease fall between two faces.
+// How far a face extends past its creases, as a share of w: a hundredth of a texel. Without it,
+// rounding could leave a texel centre on the crease between two faces.
 layout(location = 2) uniform float uCrease;
-layout(location = 3) uniform float uNear;  // least w [m]: past the surface that the VPL lies on
+layout(location = 3) uniform float uNear;  // smallest w [m]: skips the surface that the VPL lies on
 
 out float gl_ClipDistance[4];
 

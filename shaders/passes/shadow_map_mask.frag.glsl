@@ -1,4 +1,4 @@
-// Holes of alpha-masked occluders.
+// Discards the holes of alpha-masked occluders.
 #include "common/material.glsl"
 
 layout(location = 0) in vec2 vUv0;

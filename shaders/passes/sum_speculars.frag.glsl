@@ -1,5 +1,5 @@
-// What some VPLs of one kind, whose maps lie in one array, give the eye by the lobes of glossy pixels.
-// Drawn additively, one draw after the other.
+// Sums the specular light of glossy pixels from some VPLs of one kind whose maps lie in one array.
+// Draws are blended additively.
 #include "common/gloss.glsl"
 #include "common/shadow_look_up.glsl"
 #include "common/vpls.glsl"
@@ -8,7 +8,7 @@
 #include "common/left_out.glsl"
 #endif
 
-layout(location = 2) uniform int uFirst;  // in uVpls
+layout(location = 2) uniform int uFirst;  // index into uVpls
 layout(location = 3) uniform int uEnd;
 layout(location = 4) uniform vec4 uClampAndBias;  // ShadingParams
 
@@ -23,7 +23,8 @@ void main() {
 #endif
   for (int i = uFirst; i < uEnd; ++i) {
     Vpl vpl = uVpls[i];
-    vpl.position.w = VPL_KIND;  // known to the compiler, which drops the other kinds
+    // a compile-time constant, so that the compiler removes the other kinds
+    vpl.position.w = VPL_KIND;
     float g = vplGeometry(vpl, p.position, p.shading, p.geometric, uClampAndBias.x);
     if (g <= 0.0) continue;
 #ifdef LINKS

@@ -1,10 +1,10 @@
 // Adds the light of some VPLs of one kind, whose maps lie in one array, to the irradiance of each
-// pixel of the G-buffer. It is read and written instead of blended, so that the order of additions,
-// and with it each bit, does not depend on how many VPLs one draw takes.
+// G-buffer pixel. It reads and writes the sum instead of blending, so that the order of additions,
+// and so each bit, does not depend on the number of VPLs per draw.
 //   without PATCHES: the same VPLs at every pixel, with their maps;
-//   with LINKS besides: but those that leave it out;
-//   with PATCHES: those that its place's list names, as it says (paper 1, 4.3.4);
-//   with MERGED besides: of these, the part that uPass says (paper 1, 4.3.5).
+//   with LINKS in addition: except those that light linking excludes;
+//   with PATCHES: the VPLs in the list of the pixel's place (paper 1, 4.3.4);
+//   with MERGED in addition: of these, the part that uPass selects (paper 1, 4.3.5).
 #include "common/normal_packing.glsl"
 #include "common/shadow_look_up.glsl"
 #include "common/vpls.glsl"
@@ -18,20 +18,20 @@ layout(binding = kGPosition) uniform sampler2D uPosition;
 layout(binding = kGNormals) uniform sampler2D uNormals;
 layout(binding = kIrradiance) uniform sampler2D uIrradiance;
 
-layout(location = 0) uniform int uFirst;  // in uVpls, or in each list
+layout(location = 0) uniform int uFirst;  // index into uVpls, or into each list
 layout(location = 1) uniform int uEnd;
 layout(location = 2) uniform vec4 uClampAndBias;  // ShadingParams
 
 #ifdef PATCHES
 layout(binding = kPlaces) uniform usampler2D uPlaces;
-// By place: x: where the list begins, y: how many of it need no map, and above bit 16 those that
-// come after and do.
+// By place. x: index of the first entry; y: the number of entries without a map look-up, and from
+// bit 16 on the number of those with one, which follow.
 layout(std430, binding = kListRangeBuffer) readonly buffer Ranges { uvec2 ranges[]; };
 layout(std430, binding = kListBuffer) readonly buffer Entries { uint entries[]; };
 layout(location = 3) uniform int uFirstRange;  // of these VPLs
-layout(location = 4) uniform int uFirstVpl;    // in uVpls, that the lists call 0
+layout(location = 4) uniform int uFirstVpl;    // index in uVpls of entry value 0
 #ifdef MERGED
-// 0: from uFirst to uEnd of those that need no map; else those of merged pass uPass − 1.
+// 0: entries uFirst to uEnd of those without a map look-up; else those of merged pass uPass − 1.
 layout(location = 5) uniform int uPass;
 #endif
 #endif
@@ -51,7 +51,8 @@ Vpl vplAt(int i) {
 #else
   Vpl vpl = uVpls[i];
 #endif
-  vpl.position.w = VPL_KIND;  // known to the compiler, which drops the other kinds
+  // a compile-time constant, so that the compiler removes the other kinds
+  vpl.position.w = VPL_KIND;
   return vpl;
 }
 
@@ -60,14 +61,15 @@ float geometryOf(Vpl vpl, Point x) {
 }
 
 #ifdef PATCHES
-// What of a list is summed now: [plain.x, plain.y) needs no map, [shadowed.x, shadowed.y) does.
+// The part of a list to sum: [plain.x, plain.y) without a map look-up, [shadowed.x, shadowed.y)
+// with one.
 struct Part {
   uint list;
   ivec2 plain, shadowed;
 };
 
 #ifdef MERGED
-// The first of [low, high) whose pass is not before this one.
+// The first index in [low, high) whose pass is not less than `pass`.
 int firstOfPass(uint list, int low, int high, uint pass) {
   while (low < high) {
     int middle = (low + high) / 2;
@@ -133,7 +135,7 @@ vec3 withAll(Point x, vec3 sum) {
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
 #ifdef PATCHES
-  // What is not in a pass costs no more than to find that out. Place 0 has an empty list.
+  // A pixel without entries in this pass only pays for finding this out. Place 0 has an empty list.
   Part part = partOf(texelFetch(uPlaces, at, 0).r);
   if (part.plain.x >= part.plain.y && part.shadowed.x >= part.shadowed.y) discard;
 #endif

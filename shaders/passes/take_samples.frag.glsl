@@ -1,4 +1,4 @@
-// The points of samples of the low-resolution pass (shared/low_resolution.h).
+// Copies the shading points of the samples of the low-resolution pass (shared/low_resolution.h).
 #include "common/cells.glsl"
 #include "shared/bindings.h"
 

@@ -1,5 +1,5 @@
-// From scene-referred radiance to a picture on a display: what renderer/image/tone_map.cpp does, so
-// that the window and a written PNG look the same. That file says whose curves they are.
+// Converts scene-referred radiance to display colours, like renderer/image/tone_map.cpp, so that
+// the window and a written PNG look equal. That file cites the sources of the curves.
 #ifndef LAMPLIGHTER_TONE_MAP_GLSL
 #define LAMPLIGHTER_TONE_MAP_GLSL
 
@@ -41,8 +41,8 @@ vec3 encodeSrgb(vec3 v) {
   return mix(1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, 12.92 * v, lessThanEqual(v, vec3(0.0031308)));
 }
 
-// scale: 2^exposure. Infinite radiance is white; what is no number is black, so that it stands out
-// in a lit picture.
+// scale: 2^exposure. Infinite radiance becomes white; NaN becomes black, so that it is visible in a
+// lit picture.
 vec3 toneMap(vec3 radiance, float scale, int mapper) {
   vec3 x = radiance * scale;
   vec3 bounded = mix(clamp(x, 0.0, 1e4), vec3(0.0), isnan(x));

@@ -1,16 +1,15 @@
-// What the eye sees of a material: the metallic-roughness BRDF of glTF 2.0, appendix B (GGX,
-// height- correlated Smith masking, Schlick's Fresnel), for light of one direction. Light that
-// bounces on is reflected as Lambert's, with the base colour; only the last surface before the eye
-// has this.
+// The BRDF of surfaces seen by the eye: metallic-roughness of glTF 2.0, appendix B (GGX,
+// height-correlated Smith masking, Schlick's Fresnel), for light from one direction. Only the last
+// surface before the eye uses it; bounced light uses a Lambertian BRDF with the base colour.
 //   f = ρ/π · diffuseShare + D·V·F
-// Two things differ from appendix B:
-//   - The diffuse part is held back by what the lobe reflects of the eye's direction as a whole
-//     (diffuseShare) instead of by the Fresnel term of each light's direction: irradiance can then
-//     be summed as ever, without knowing where it comes from, and a white surface seen at a grazing
-//     angle does not give back more than it gets, which it does by appendix B (1.4 times as much at
-//     roughness 0.3). The price: it is not reciprocal; the lobe is.
-//   - A dielectric's lobe fades out between the roughness kDull and 1. What is quite rough and no
-//     metal is Lambert's, to the bit: it would be by about two hundredths of the light otherwise.
+// Two differences from appendix B:
+//   - The diffuse part is reduced by the directional albedo of the lobe for the eye's direction
+//     (diffuseShare), not by the Fresnel term of each light's direction. So irradiance can be
+//     summed without knowing its directions, and a white surface at a grazing angle does not
+//     reflect more than it receives (with appendix B: 1.4 times as much at roughness 0.3). The
+//     disadvantage: the diffuse part is not reciprocal; the lobe is.
+//   - The lobe of a dielectric fades out between the roughness kDull and 1. A very rough non-metal
+//     is exactly Lambertian; this changes it by about two hundredths of the light.
 #ifndef LAMPLIGHTER_SHARED_BRDF_H
 #define LAMPLIGHTER_SHARED_BRDF_H
 #include "interop.h"
@@ -18,13 +17,13 @@
 SHARED_BEGIN
 
 SHARED_CONST float kDull = 0.9f;
-// Of a dielectric of refractive index 1.5, seen straight on.
+// F0 of a dielectric with refractive index 1.5.
 SHARED_CONST float kDielectric = 0.04f;
-// No cosine at the eye is less, so that normal maps and smoothed normals that look away from it do
-// not divide by nothing.
+// Lower bound of the cosine at the eye. It avoids division by zero where normal maps or smoothed
+// normals face away from the eye.
 SHARED_CONST float kLeastCosine = 0.01f;
 
-// The lobe at a point, ready for many lights.
+// The lobe at a point, prepared for many lights.
 struct Lobe {
   vec4 straight;  // rgb: F0; w: F at 90°
   vec4 shape;     // x: α² (α = roughness²); y: n·v ≥ kLeastCosine; zw: 0
@@ -34,12 +33,12 @@ SHARED_FUNCTION float dielectricShare(float roughness) {
   return clamp((1.0f - roughness) * (1.0f / (1.0f - kDull)), 0.0f, 1.0f);
 }
 
-// Whether a material has a lobe at all.
+// Whether a material has a lobe.
 SHARED_FUNCTION bool isGlossy(float metallic, float roughness) {
   return metallic > 0.0f || roughness < 1.0f;
 }
 
-// nv: n·v of the direction towards the eye; least: roughness below which none goes.
+// nv: n·v for the direction v towards the eye; least: lower bound of the roughness.
 SHARED_FUNCTION Lobe makeLobe(vec3 baseColor, float metallic, float roughness, float least,
                               float nv) {
   float share = dielectricShare(roughness) * (1.0f - metallic);
@@ -50,8 +49,8 @@ SHARED_FUNCTION Lobe makeLobe(vec3 baseColor, float metallic, float roughness, f
   return lobe;
 }
 
-// What a dielectric's lobe reflects of light from one direction, over all directions: a fit to the
-// integral, at most 0.03 off, for roughness from 0.1.
+// The directional albedo of a dielectric's lobe: a fit to the integral with an error of at most
+// 0.03, for roughness from 0.1.
 SHARED_FUNCTION float dielectricAlbedo(float roughness, float least, float nv) {
   float r = max(roughness, least), r2 = r * r;
   float away = 1.0f - max(nv, kLeastCosine);
@@ -59,33 +58,33 @@ SHARED_FUNCTION float dielectricAlbedo(float roughness, float least, float nv) {
          0.96f / (1.0f + 14.9f * r2 + 1.2f * r2 * r2) * pow(away, 5.0f - 9.42f * r + 7.85f * r2);
 }
 
-// By which the albedo is multiplied for what is diffuse.
+// The factor of the albedo for the diffuse part.
 SHARED_FUNCTION float diffuseShare(float metallic, float roughness, float least, float nv) {
   if (!isGlossy(metallic, roughness)) return 1.0f;
   return (1.0f - metallic) *
          (1.0f - dielectricShare(roughness) * dielectricAlbedo(roughness, least, nv));
 }
 
-// How much wider a lobe is taken for a light sample that stands for a solid angle Ω of light, so
-// that it does not show as a spot. Seen in the lobe, half vectors within Ω / (4 v·h) reflect it
-// (Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, equation 14).
-// The lobe, which is about the area π α² of half vectors, grows by kSpread times that:
+// Widens the lobe for a light sample that represents a solid angle Ω of light, so that the sample
+// does not appear as a bright spot. In the lobe, half vectors within Ω / (4 v·h) reflect it (Walter
+// et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, equation 14). The lobe
+// covers an area of about π α² of half vectors; it grows by kSpread times that solid angle:
 //   α'² = α² + kSpread · Ω / (4π v·h)
-// as Karis ("Real Shading in Unreal Engine 4", 2013) widens it by the angle of an area light, and
-// in place of gathering over a sphere around the sample (Hašan et al., "Virtual Spherical Lights
-// for Many-Light Rendering of Glossy Scenes", 2009). D is at most 1/(π α'²), so that where the half
-// vector is about the normal one sample's highlight is at most 1/kSpread of F times the light it
-// stands for, which is a mirror's picture of it: several make up what is seen. With kSpread 1 they
-// stand out of their sum, in the test by 60%. Highlights are softer by what the samples span, and
-// darker where that is much: at roughness 0.25 by 1% of 0.03 sr, 4% of 0.08 sr, 17% of 0.3 sr. Both
-// go to nothing as samples become many.
+// Karis ("Real Shading in Unreal Engine 4", 2013) widens it in the same way by the angle of an area
+// light; an alternative is gathering over a sphere around the sample (Hašan et al., "Virtual
+// Spherical Lights for Many-Light Rendering of Glossy Scenes", 2009). D is at most 1/(π α'²), so
+// where the half vector is near the normal, the highlight of one sample is at most 1/kSpread of its
+// mirror image, F times its light: the visible highlight comes from several samples. With kSpread
+// 1, single samples exceed their sum by 60% in the test. The price: highlights are softer by the
+// angle between samples, and darker where it is large; at roughness 0.25 by 1% at 0.03 sr, 4% at
+// 0.08 sr, 17% at 0.3 sr. Both effects vanish as the number of samples grows.
 SHARED_CONST float kSpread = 4.0f;
 SHARED_FUNCTION float widened(float alpha2, float solidAngle, float vh) {
   return min(alpha2 + kSpread * 0.0795774715f * solidAngle / vh, 1.0f);
 }
 
-// D·V·F at the normal n for light from l, seen from v (all unit); solidAngle: what the light stands
-// for [sr], 0 for a point. Not multiplied by n·l. 0 where n·l ≤ 0.
+// D·V·F at the normal n for light from l, seen from v (all unit vectors), not multiplied by n·l.
+// solidAngle: represented by the light [sr]; 0 for a point. 0 where n·l ≤ 0.
 SHARED_FUNCTION vec3 lobeTowards(Lobe lobe, float nl, float lv, float solidAngle) {
   if (nl <= 0.0f) return vec3(0.0f);
   float nv = lobe.shape.y;

@@ -1,6 +1,6 @@
-// Lets GLSL and C++ include the files of this folder alike. C++ sees them inside namespace
-// lamplighter::shared with GLM's types, which have std430's layout as long as structs hold vec4
-// and mat4 only.
+// Lets GLSL and C++ include the files of this folder. In C++ they are inside namespace
+// lamplighter::shared with GLM's types, which have the std430 layout as long as structs contain
+// only vec4 and mat4.
 #ifndef LAMPLIGHTER_SHARED_INTEROP_H
 #define LAMPLIGHTER_SHARED_INTEROP_H
 

@@ -1,41 +1,45 @@
-// The low-resolution pass (paper 1, 4.3.3): light is summed at one pixel of each block and
-// interpolated between, but where the picture has an edge. The definition that both backends follow.
+// The low-resolution pass (paper 1, 4.3.3): light is summed at one pixel per block and interpolated
+// between these samples, except at edges of the picture. Both backends follow this definition.
 //
-// Samples are the pixels (min(B·i, width − 1), min(B·j, height − 1)). Four neighbouring ones are the
-// corners of a cell, which takes its pixels' irradiance from theirs, bilinearly, when
-//   - all pixels from corner to corner, the far rows among them, hit a surface, and lie in the plane
-//     of the first corner with about its shading normal. The whole cell is asked, so that no light
-//     leaks past what is thinner than a block;
-//   - the same lights leave out what all of these pixels show (renderer/scene/light_linking.h);
-//   - the irradiance at its corners differs little: the borders of shadows stay where they are;
-//   - it does not differ much in any of the eight cells about it: the border of a shadow may come
-//     into this cell without reaching a corner. Where no light makes hard shadows, only corners of
-//     one surface are compared, as each surface has its own light;
-//   - none of the few lights that make hard shadows is partly hidden from the patch of a corner
-//     (renderer/backends/cpu/irradiance/irradiance_accumulator.h): what they light may be narrower than a block.
+// Samples are the pixels (min(B·i, width − 1), min(B·j, height − 1)). Four neighbouring samples are
+// the corners of a cell. The irradiance of the cell's pixels is interpolated bilinearly from its
+// corners if
+//   - all pixels between the corners, including the far row and column, hit a surface and lie in
+//     the plane of the first corner with nearly its shading normal (the whole cell is tested, so
+//     that no light leaks past objects thinner than a block);
+//   - light linking excludes the same lights for all these pixels (renderer/scene/light_linking.h);
+//   - the irradiance at its corners is similar, so that shadow borders stay in place;
+//   - it is also similar in the eight neighbouring cells, because a shadow border may enter this
+//     cell without reaching a corner. Without hard-shadow lights, only corners on one surface are
+//     compared, because each surface has its own light;
+//   - no hard-shadow light is partly hidden from the patch of a corner
+//     (renderer/backends/cpu/irradiance/irradiance_accumulator.h), because what it lights may be
+//     narrower than a block.
 // The pixels of all other cells are summed one by one.
 //
-// In haste (ShadingParams::block.y), while the camera moves, samples are pixels of a smaller picture
-// that is made likewise, with blocks of kSampleBlock.
+// For quick pictures while the camera moves (ShadingParams::block.y), samples are pixels of a
+// smaller picture, which is itself interpolated in the same way with blocks of kSampleBlock.
 #ifndef LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
 #define LAMPLIGHTER_SHARED_LOW_RESOLUTION_H
 #include "interop.h"
 
 SHARED_BEGIN
 
-// Share of the distance between two points by which one may be off the other's plane.
+// Largest distance of a point from the other's plane, as a share of the distance between the
+// points.
 SHARED_CONST float kMostOffPlane = 0.01f;
-// Cosine of the angle between the shading normals of two points of a cell.
+// Smallest cosine of the angle between the shading normals of two points of a cell.
 SHARED_CONST float kLeastNormalCosine = 0.999f;
-// Share of the brightest corner by which the irradiance of a cell's corners may differ.
+// Largest difference of irradiance between the corners of a cell, as a share of the brightest
+// corner.
 SHARED_CONST float kMostContrast = 0.2f;
-// The same in the cells about it.
+// The same for the neighbouring cells.
 SHARED_CONST float kMostContrastAbout = 0.25f;
 
-// Samples a side of the blocks of samples, in haste.
+// Samples per side of the blocks of samples, in quick pictures.
 SHARED_CONST int kSampleBlock = 2;
 
-// Samples along a side of `size` pixels.
+// Number of samples along a side of `size` pixels.
 SHARED_FUNCTION int lowResolutionSamples(int size, int block) {
   return (size - 1 + block - 1) / block + 1;
 }
@@ -48,7 +52,7 @@ SHARED_FUNCTION bool isOnSurface(vec3 x0, vec3 n0, vec3 s0, vec3 x, vec3 s) {
   return off * off <= kMostOffPlane * kMostOffPlane * dot(d, d) && dot(s0, s) >= kLeastNormalCosine;
 }
 
-// Whether the irradiance at four corners differs by no more than that share.
+// Whether the irradiance at four corners differs by at most this share of the brightest.
 SHARED_FUNCTION bool isSmooth(vec3 a, vec3 b, vec3 c, vec3 d, float mostContrast) {
   vec3 most = max(max(a, b), max(c, d));
   vec3 spread = most - min(min(a, b), min(c, d));
@@ -56,7 +60,7 @@ SHARED_FUNCTION bool isSmooth(vec3 a, vec3 b, vec3 c, vec3 d, float mostContrast
   return spread.x <= allowed.x && spread.y <= allowed.y && spread.z <= allowed.z;
 }
 
-// Share of all light of its sort that a light has that makes hard shadows.
+// A hard-shadow light has more than this share of the light of its kind.
 SHARED_CONST float kHardShare = 0.05f;
 
 SHARED_END

@@ -1,6 +1,6 @@
-// How the gl backend keeps a hemisphere map's 1/w in a depth buffer: as depth = kShadowDepthUnit /
-// w, which is in [0, 1] for every w that a map can hold (occluders nearer than the unit are the
-// surface that the VPL lies on). A power of two, so that scaling loses no bit.
+// How the gl backend stores 1/w of a hemisphere map in a depth buffer: depth = kShadowDepthUnit /
+// w, which is in [0, 1] for every w that a map can hold (nearer occluders are the surface that the
+// VPL lies on). The unit is a power of two, so that scaling is exact.
 #ifndef LAMPLIGHTER_SHARED_SHADOW_DEPTH_H
 #define LAMPLIGHTER_SHARED_SHADOW_DEPTH_H
 #include "interop.h"

@@ -1,5 +1,5 @@
-// What the lobe of a surface reflects of one VPL towards the eye: the definition that both backends
-// follow, as vpl_shading.h is for irradiance.
+// The reflection of one VPL by a surface's lobe towards the eye. Both backends follow this
+// definition, like vpl_shading.h for irradiance.
 #ifndef LAMPLIGHTER_SHARED_VPL_SPECULARS_H
 #define LAMPLIGHTER_SHARED_VPL_SPECULARS_H
 #include "brdf.h"
@@ -7,9 +7,10 @@
 
 SHARED_BEGIN
 
-SHARED_CONST float kMostSolidAngle = 6.28318531f;  // no surface is seen under more
+// a hemisphere, the largest solid angle of a surface
+SHARED_CONST float kMostSolidAngle = 6.28318531f;
 
-// Of the light that the VPL stands for, seen from where v = point − VPL leads [sr].
+// The solid angle [sr] that the VPL represents, seen from the point VPL + v.
 SHARED_FUNCTION float vplSolidAngle(Vpl vpl, vec3 v, float clampDistance) {
   if (vpl.position.w == kVplDirectional) return vpl.footprint.x;
   if (vpl.position.w != kVplCosine) return 0.0f;
@@ -18,8 +19,8 @@ SHARED_FUNCTION float vplSolidAngle(Vpl vpl, vec3 v, float clampDistance) {
   return vpl.footprint.x * z / (sqrt(d2) * max(d2, clampDistance * clampDistance));
 }
 
-// Radiance towards the eye for intensity 1, without shadow. geometry: of vplGeometry; ns: the
-// shading normal; toEye: unit. A VPL that would stand for more than a hemisphere counts for one.
+// Radiance towards the eye for intensity 1, without shadow. geometry: from vplGeometry; ns: the
+// shading normal; toEye: unit vector. The solid angle of a VPL is at most a hemisphere.
 SHARED_FUNCTION vec3 vplSpecular(Vpl vpl, Lobe lobe, vec3 x, vec3 ns, vec3 toEye, float geometry,
                                  float clampDistance) {
   if (geometry <= 0.0f) return vec3(0.0f);

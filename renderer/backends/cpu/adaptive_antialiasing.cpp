@@ -13,16 +13,16 @@ namespace {
 
 using Floats = Floats8;
 
-// Share of the brighter of two neighbouring pixels by which they may differ: more is the border of
-// a shadow.
+// Largest difference between neighbouring pixels, as a share of the brighter one; a larger one is a
+// shadow border.
 constexpr float kMostStep = 0.1f;
 
 Floats dotOf(const Floats (&a)[3], const Floats (&b)[3]) {
   return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
 }
 
-// Whether all pixels of the packet that begins there show the same surface in both pictures, or
-// nothing (shared::isOnSurface).
+// Whether all pixels of the packet at `first` show the same surface in both pictures, or nothing
+// (shared::isOnSurface).
 bool isSameSurface(const GBuffer& a, const GBuffer& b, size_t first) {
   const auto load = [&](const std::vector<float>& v) { return hn::LoadU(kTag, &v[first]); };
   const Floats way[3] = {hn::Sub(load(b.px), load(a.px)), hn::Sub(load(b.py), load(a.py)),
@@ -40,7 +40,7 @@ bool isSameSurface(const GBuffer& a, const GBuffer& b, size_t first) {
   const auto isOneObject =
       hn::Eq(hn::LoadU(ids, &a.object[first]), hn::LoadU(ids, &b.object[first]));
   const auto isHit = hn::And(hn::And(isInPlane, isAlike), hn::RebindMask(kTag, isOneObject));
-  // Normals of misses are zero.
+  // Misses have zero normals.
   const auto isMiss = hn::Eq(hn::Add(dotOf(ga, ga), dotOf(gb, gb)), hn::Zero(kTag));
   return hn::AllTrue(kTag, hn::Or(isHit, isMiss));
 }
@@ -49,7 +49,7 @@ bool isSameSurface(const GBuffer& a, const GBuffer& b, size_t first) {
 
 void AdaptiveAntialiasing::take(const GBuffer& g, const PictureLight& light) {
   isTaken_ = true;
-  // Of pixels in rows; past the edges as in the last ones.
+  // Pixels in rows; indices outside are clamped to the last row and column.
   const auto width = static_cast<size_t>(g.width), height = static_cast<size_t>(g.height);
   std::vector<float> brightness(width * height);
   tbb::parallel_for(0, g.tiles(), [&](int tile) {

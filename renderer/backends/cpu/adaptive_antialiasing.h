@@ -1,6 +1,6 @@
-// Samples of a pixel beside its middle are there to smooth edges: where the picture goes on evenly
-// over one surface, all take the light of the middle. They lie about it, so that what that is off
-// by cancels in their mean.
+// The jittered pictures smooth edges. Where the light varies evenly over one surface, a jittered
+// pixel takes the light of the middle picture instead of its own. The jitters are symmetric about
+// the pixel's middle, so this error cancels in the mean.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,19 @@ namespace lamplighter::cpu {
 
 class AdaptiveAntialiasing {
  public:
-  // The picture of pixels' middles, and its light.
+  // Stores the picture with unjittered pixels and its light.
   void take(const GBuffer& middle, const PictureLight& light);
   void forget() { isTaken_ = false; }
   bool isTaken() const { return isTaken_; }
 
-  // Of a picture with pixels moved by less than one: by tile, packets that show another surface
-  // than in the middle, or where light there was uneven.
+  // For a picture jittered by less than one pixel: by tile, the packets that need their own light,
+  // because they show another surface than the middle picture or because the light there was
+  // uneven.
   std::span<const uint32_t> findOwn(const GBuffer& middle, const GBuffer& moved);
 
  private:
   bool isTaken_ = false;
-  std::vector<uint32_t> even_, own_;  // by tile, a bit a packet
+  std::vector<uint32_t> even_, own_;  // by tile, one bit per packet
 };
 
 }  // namespace lamplighter::cpu

@@ -48,7 +48,7 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
       };
       for (int row = 0; row < rows; ++row) {
         if (columns == kPacketWidth) {
-          copy(row, kPacketWidth * sizeof(vec3));  // a constant, so that nothing is called
+          copy(row, kPacketWidth * sizeof(vec3));  // constant size, so that it is inlined
         } else {
           copy(row, static_cast<size_t>(columns) * sizeof(vec3));
         }

@@ -1,4 +1,4 @@
-// The cpu backend's pictures: light on surfaces.
+// Composes the picture of the cpu backend from light and surfaces.
 #pragma once
 
 #include "renderer/backends/cpu/gbuffer/gbuffer.h"
@@ -6,7 +6,7 @@
 
 namespace lamplighter::cpu {
 
-// The sky where a view's pixels, shifted by `jitter` from their middles, meet nothing.
+// The sky, for pixels that hit nothing; `jitter` is the offset from the pixels' middles.
 struct Background {
   const Sky& sky;
   const View& view;
@@ -14,8 +14,8 @@ struct Background {
   vec3 at(int x, int y) const;
 };
 
-// Le + ρ/π · E of each pixel, the sky where nothing is hit. `white`: with ρ = 1. The image has the
-// G-buffer's size.
+// Le + ρ/π · E of each pixel; the sky where nothing is hit. `white`: with ρ = 1. The image has the
+// size of the G-buffer.
 void compose(const GBuffer& gbuffer, const PictureLight& light, const Background& background,
              bool white, Image& out);
 

@@ -18,19 +18,19 @@
 namespace lamplighter {
 namespace {
 
-// What a view shows, and the light there.
+// The G-buffer of a view and its light.
 struct Picture {
   cpu::GBuffer gbuffer;
   View view;  // of the G-buffer
   vec2 jitter{0.0f};
-  cpu::IrradianceAccumulator
-      sums;       // at its pixels; with blocks, at those of cells that are not interpolated
-  int block = 1;  // pixels, as summed
+  // At the pixels of `gbuffer`; with blocks, only in cells that are not interpolated.
+  cpu::IrradianceAccumulator sums;
+  int block = 1;  // pixels per block of the last sum
   cpu::LowResolution low;
-  cpu::IrradianceAccumulator
-      sampleSums;  // at the samples of `low`; in haste but for those between coarse ones
-  cpu::LowResolution lowSamples;          // in haste: of the samples of `low`
-  cpu::IrradianceAccumulator coarseSums;  // at its own; never kept
+  // At the samples of `low`; in quick pictures, without the samples interpolated by `lowSamples`.
+  cpu::IrradianceAccumulator sampleSums;
+  cpu::LowResolution lowSamples;          // quick pictures: samples of the samples of `low`
+  cpu::IrradianceAccumulator coarseSums;  // at the samples of `lowSamples`; summed from scratch
   cpu::SpecularAccumulator speculars;
   vec3 eye{0.0f};
 
@@ -127,7 +127,7 @@ class CpuBackend final : public Backend {
     }
   }
 
-  // The picture with pixels unshifted is kept, and traced again only where something moved.
+  // The picture without jitter is kept, and traced again only where something moved.
   void renderGBuffer(const View& view, vec2 jitter) override {
     const bool isStill = jitter == vec2(0.0f);
     shown_ = isStill ? &still_ : &shifted_;
@@ -251,7 +251,7 @@ class CpuBackend final : public Backend {
   void finish() override {}
 
  private:
-  // Whether a picture with pixels moved has the same light as that of their middles.
+  // Whether the light of the unjittered picture is valid for these arguments.
   bool isStillOf(std::span<const cpu::LightRecord> lights, const cpu::SumConstants& constants,
                  const PatchLights* patches) const {
     return shown_ == &shifted_ && stillIsKnown_ && moves_.empty() && stillView_ == shifted_.view &&
@@ -259,13 +259,13 @@ class CpuBackend final : public Backend {
            still_.sums.isOf(still_.gbuffer, lights, constants, patches);
   }
 
-  // Null: there is none.
+  // Null: the slot has no map.
   const float* mapOf(int slot) const {
     const std::span<const float> map = maps_.map(slot);
     return map.empty() ? nullptr : map.data();
   }
 
-  // Of f(index into the G-buffer) at each pixel.
+  // An image of f(index into the G-buffer) for each pixel.
   template <typename F>
   Image makeImage(F&& f) const {
     const cpu::GBuffer& g = shown_->gbuffer;
@@ -285,14 +285,14 @@ class CpuBackend final : public Backend {
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;
   cpu::MapStore maps_;
-  Picture still_, shifted_;            // pixels in their places, and moved for antialiasing
-  Picture* shown_ = &still_;           // the one that was rendered last
+  Picture still_, shifted_;            // without jitter; with jitter for antialiasing
+  Picture* shown_ = &still_;           // the picture rendered last
   cpu::AdaptiveAntialiasing sharing_;  // of still_
-  std::span<const uint32_t> shared_;   // packets of shown_ with light of their own; empty: all
-  bool stillIsKnown_ = false;          // still_ shows stillView_, but for what moved
+  std::span<const uint32_t> shared_;   // packets of shown_ that need their own light; empty: all
+  bool stillIsKnown_ = false;          // still_ shows stillView_, except for later moves
   View stillView_;
-  std::vector<uint32_t> leftOutBy_;  // by object, where the scene has any; else empty
-  std::vector<Bounds> moves_;        // where something was or is that moved since
+  std::vector<uint32_t> leftOutBy_;  // by object, with light linking; else empty
+  std::vector<Bounds> moves_;        // bounds before and after of objects that moved since
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ using Floats = Floats8;
 
 constexpr int kTilesPerTask = 16;
 
-// Packets of a tile that cover a cell of `block` pixels in column cx and row cy of cells.
+// The packets of a tile that cover a cell of `block` pixels in column cx and row cy of cells.
 uint32_t packetsOfCell(int block, int cx, int cy) {
   const int x0 = cx * block / kPacketWidth, x1 = (cx * block + block - 1) / kPacketWidth;
   const int y0 = cy * block / kPacketHeight, y1 = (cy * block + block - 1) / kPacketHeight;
@@ -27,7 +27,7 @@ uint32_t packetsOfCell(int block, int cx, int cy) {
   return packets;
 }
 
-// The first corner of a cell in every lane: isOnSurface for eight points at a time.
+// The first corner of a cell broadcast to all lanes: isOnSurface for eight points at a time.
 class SurfaceTest {
  public:
   SurfaceTest(const GBuffer& g, size_t corner)
@@ -42,8 +42,8 @@ class SurfaceTest {
         sy_(hn::Set(kTag, g.sy[corner])),
         sz_(hn::Set(kTag, g.sz[corner])) {}
 
-  // Whether those lanes of the packet that begins there lie on its surface. Where nothing is hit
-  // the normals are zero, and the test fails.
+  // Whether these lanes of the packet at `first` lie on its surface. Misses have zero normals, so
+  // the test fails for them.
   bool holds(size_t first, uint8_t lanes) const {
     const GBuffer& g = gbuffer_;
     const auto at = [&](const std::vector<float>& v) { return hn::LoadU(kTag, &v[first]); };
@@ -69,8 +69,7 @@ class SurfaceTest {
   Floats x_, y_, z_, nx_, ny_, nz_, sx_, sy_, sz_;
 };
 
-// Whether the packets with the pixels from (x0, y0) to (x1, y1), both among them, show one flat
-// triangle.
+// Whether the packets with the pixels from (x0, y0) to (x1, y1), inclusive, show one flat triangle.
 bool isOneTriangle(const GBuffer& g, int x0, int y0, int x1, int y1) {
   const auto at = [&](int x, int y) { return g.packetTriangle[g.index(x, y) / kLanes]; };
   const uint64_t first = at(x0, y0);
@@ -81,7 +80,7 @@ bool isOneTriangle(const GBuffer& g, int x0, int y0, int x1, int y1) {
   return true;
 }
 
-// Whether all pixels from (x0, y0) to (x1, y1), both among them, lie on the surface at the first.
+// Whether all pixels from (x0, y0) to (x1, y1), inclusive, lie on the surface of the first one.
 bool isOnOneSurface(const GBuffer& g, int x0, int y0, int x1, int y1) {
   const SurfaceTest surface(g, g.index(x0, y0));
   for (int y = y0; y <= y1; y = y / kPacketHeight * kPacketHeight + kPacketHeight) {
@@ -100,14 +99,14 @@ bool isOnOneSurface(const GBuffer& g, int x0, int y0, int x1, int y1) {
   return true;
 }
 
-// Pairs of a cell's corners, which are numbered along its rows.
+// A pair of corners of a cell; corners are numbered row by row.
 struct Pair {
   int a, b;
 };
 constexpr Pair kPairs[] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 constexpr uint8_t kAllPairs = (1u << std::size(kPairs)) - 1;
 
-// Which pairs of these points lie on one surface, a bit each.
+// Which pairs of these points lie on one surface, one bit each.
 uint8_t pairsOnOneSurface(const GBuffer& g, const size_t (&corners)[4]) {
   const auto position = [&](size_t i) { return vec3(g.px[i], g.py[i], g.pz[i]); };
   const auto shading = [&](size_t i) { return vec3(g.sx[i], g.sy[i], g.sz[i]); };
@@ -121,7 +120,7 @@ uint8_t pairsOnOneSurface(const GBuffer& g, const size_t (&corners)[4]) {
   return pairs;
 }
 
-// Whether the same lights leave out all that these pixels show.
+// Whether light linking excludes the same lights for all these pixels.
 bool isLitAlike(const GBuffer& g, std::span<const uint32_t> leftOutBy, int x0, int y0, int x1,
                 int y1) {
   const uint32_t first = leftOutBy[g.object[g.index(x0, y0)]];
@@ -141,8 +140,8 @@ void LowResolution::takeSamples(const GBuffer& g) {
     const auto pixelOf = [&](int i, int j) {
       return g.index(std::min(block_ * i, width_ - 1), std::min(block_ * j, height_ - 1));
     };
-    // Revisions only grow, so that their sum tells whether one of them did.
-    // The last sample of a row or column may be in a tile of its own, past the picture's last.
+    // Revisions only grow, so their sum tells whether one of them changed. The last sample of a row
+    // or column may lie in an extra tile, outside the picture's tiles.
     const auto firstTile = [&](int sample, int tiles) {
       return std::min(sample * block_ / kTileSize, tiles - 1);
     };
@@ -160,8 +159,8 @@ void LowResolution::takeSamples(const GBuffer& g) {
         samples_.px[to] = g.px[from];
         samples_.py[to] = g.py[from];
         samples_.pz[to] = g.pz[from];
-        // All else is alike on one flat triangle: read where its tile was read before, as the
-        // pixels of samples are far apart in memory.
+        // On one flat triangle everything except the position is equal. Read it from the tile's
+        // first pixel, which is probably cached: the pixels of samples are far apart in memory.
         const size_t tileOf = from / kTilePixels;
         const size_t like = g.onlyTriangle[tileOf] == GBuffer::kMany ? from : tileOf * kTilePixels;
         samples_.sx[to] = g.sx[like];
@@ -181,7 +180,7 @@ void LowResolution::takeSamples(const GBuffer& g) {
 
 void LowResolution::findPlanes(const GBuffer& g, int tile, std::span<const uint32_t> leftOutBy) {
   const int x0 = tile % tilesX_ * kTileSize, y0 = tile / tilesX_ * kTileSize;
-  // Mostly all is one triangle.
+  // Usually all is one triangle.
   uint64_t only = g.onlyTriangle[static_cast<size_t>(tile)];
   for (int y = tile / tilesX_; y < std::min(tile / tilesX_ + 2, tilesY_); ++y)
     for (int x = tile % tilesX_; x < std::min(tile % tilesX_ + 2, tilesX_); ++x)
@@ -229,7 +228,7 @@ void LowResolution::update(const GBuffer& g, int block, std::span<const uint32_t
   tbb::parallel_for(0, (g.tiles() + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {
     for (int tile = task * kTilesPerTask; tile < std::min((task + 1) * kTilesPerTask, g.tiles());
          ++tile) {
-      // Cells reach over to the first pixels of the next tiles.
+      // Cells extend to the first pixels of the next tiles.
       const int x = tile % tilesX_, y = tile / tilesX_;
       uint64_t revision = 0;
       for (int ny = y; ny < std::min(y + 2, tilesY_); ++ny)
@@ -263,8 +262,8 @@ void LowResolution::takeLight(const PictureLight& light, std::span<const uint8_t
   }
 }
 
-// Whether the light of two corners of one surface differs much, in the cell whose first sample is
-// there.
+// Whether the light of two corners on one surface differs much, in the cell whose first sample is
+// at `at`.
 bool LowResolution::isCutByShadow(uint8_t pairs, size_t at) const {
   const size_t corners[] = {at, at + 1, at + rowLength(), at + rowLength() + 1};
   const auto light = [&](size_t i) { return vec3(red_[i], green_[i], blue_[i]); };
@@ -284,7 +283,7 @@ void LowResolution::findContrast(int row, bool hasHardLights) {
     const size_t at = static_cast<size_t>(row) * rowLength() + static_cast<size_t>(i);
     hn::Mask<Tag> differs = hn::MaskFromVec(hn::Zero(kTag)), differsMuch = differs;
     for (const auto* v : {&red_, &green_, &blue_}) {
-      // Past the row's end they are read and not used.
+      // Lanes past the end of the row are read but not used.
       const float* above = v->data() + at;
       const float* below = above + rowLength();
       const Floats a = hn::LoadU(kTag, above), b = hn::LoadU(kTag, above + 1);
@@ -353,7 +352,7 @@ void LowResolution::interpolate(int tile, int packet, Irradiance& out) const {
   const int y0 = tile / tilesX_ * kTileSize + packet / kPacketsPerRow * kPacketHeight;
   HWY_ALIGN static constexpr float kLaneX[kLanes] = {0, 1, 2, 3, 0, 1, 2, 3};
   HWY_ALIGN static constexpr float kLaneY[kLanes] = {0, 0, 0, 0, 1, 1, 1, 1};
-  // 1 / the distance of a cell's samples; the last of a row or column may be narrower.
+  // 1 / the distance between a cell's samples; the last cell of a row or column may be narrower.
   const auto inverse = [&](int cell, int size) {
     const int width = std::min((cell + 1) * block_, size - 1) - cell * block_;
     if (width == block_) return perBlock_;
@@ -367,7 +366,7 @@ void LowResolution::interpolate(int tile, int packet, Irradiance& out) const {
   };
   const auto mix = [](Floats a, Floats b, Floats t) { return hn::MulAdd(t, hn::Sub(b, a), a); };
   const Floats ty = along(kLaneY, y0 - j * block_, inverse(j, height_));
-  if (block_ >= kPacketWidth) {  // the packet is in one cell
+  if (block_ >= kPacketWidth) {  // the packet lies in one cell
     const Floats tx = along(kLaneX, x0 - i * block_, inverse(i, width_));
     const auto between = [&](const std::vector<float>& v, float* to) {
       const float* above = v.data() + at;
@@ -391,7 +390,7 @@ void LowResolution::interpolate(int tile, int packet, Irradiance& out) const {
     const float* above = v.data() + at;
     HWY_ALIGN float corners[4][kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
-      // Past the last cell of a row there is none; those lanes are not shown.
+      // Past the last cell of a row, lanes are not shown; the index is clamped.
       const int cell = std::min(lane % kPacketWidth / block_, samples_.width - 1 - i);
       for (int corner = 0; corner < 4; ++corner)
         corners[corner][lane] = above[static_cast<size_t>(corner / 2) * rowLength() +

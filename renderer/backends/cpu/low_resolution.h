@@ -1,11 +1,11 @@
-// The low-resolution pass (paper 1, 4.3.3) of the cpu backend: which pixels are samples, which
-// cells between them are interpolated, and what is interpolated there.
-// shaders/shared/low_resolution.h is the definition.
+// The low-resolution pass (paper 1, 4.3.3) of the cpu backend: chooses the sample pixels and the
+// cells between them that are interpolated, and interpolates. shaders/shared/low_resolution.h is
+// the definition.
 //
-// The samples are a G-buffer of their own, as if of a smaller picture, so that eight of them are
+// The samples have their own G-buffer, like that of a smaller picture, so that eight of them are
 // summed at once. A cell that is not interpolated is summed in whole packets of the picture's
-// G-buffer: with blocks of 4 or more a cell is some packets; with blocks of 2 a packet is two
-// cells.
+// G-buffer: with blocks of 4 or more a cell consists of packets; with blocks of 2 a packet holds
+// two cells.
 #pragma once
 
 #include <cstdint>
@@ -21,18 +21,18 @@ struct PictureLight;
 
 class LowResolution {
  public:
-  // Takes the samples and looks where cells lie on one surface, in tiles that were traced since the
-  // last call. block: 2, 4 or 8 pixels. leftOutBy: of IrradianceAccumulator::update().
+  // Takes the samples and tests which cells lie on one surface, in tiles that were traced since the
+  // last call. block: 2, 4 or 8 pixels. leftOutBy: as for IrradianceAccumulator::update().
   void update(const GBuffer& picture, int block, std::span<const uint32_t> leftOutBy);
   const GBuffer& samples() const { return samples_; }
 
-  // Says which packets are to be summed pixel by pixel, given the light at the samples.
+  // Finds the packets that must be summed per pixel, from the light at the samples.
   void findEdges(const GBuffer& picture, const PictureLight& light);
-  // Of each tile of the picture, a bit a packet.
+  // By tile of the picture, one bit per packet.
   std::span<const uint32_t> edges() const { return edges_; }
   uint64_t pixelsInterpolated() const { return interpolated_; }
 
-  // E [W/m²] of the eight pixels of a packet that is no edge.
+  // E [W/m²] of the eight pixels of an interpolated packet.
   struct Irradiance {
     float r[kLanes], g[kLanes], b[kLanes];
   };
@@ -41,7 +41,7 @@ class LowResolution {
   size_t bytes() const { return samples_.bytes(); }
 
  private:
-  // What a cell is; sums of these.
+  // Bits that describe a cell.
   static constexpr uint8_t kNoPlane = 1, kContrast = 2, kMuchContrast = 4;
 
   void takeSamples(const GBuffer& picture);
@@ -50,7 +50,7 @@ class LowResolution {
   void findContrast(int row, bool hasHardLights);
   bool isCutByShadow(uint8_t pairs, size_t at) const;
   uint32_t edgesOf(int tile) const;
-  // Cells are in rows with one more all about them, samples in rows with a copy of the last ones.
+  // Cells have a border of one on all sides; the last row and column of samples are duplicated.
   size_t cellAt(int i, int j) const {
     return static_cast<size_t>(j + 1) * static_cast<size_t>(cellsX_ + 2) +
            static_cast<size_t>(i + 1);
@@ -62,13 +62,15 @@ class LowResolution {
   float perBlock_ = 0.0f;
   int cellsX_ = 0, cellsY_ = 0;
   GBuffer samples_;
-  std::vector<uint64_t> sampleRevisions_;  // of the picture's tiles, as sampled, by samples' tile
-  std::vector<uint64_t> planeRevisions_;   // likewise, as looked at, by the picture's tile
+  // by sample tile: revision of the picture's tile when it was sampled
+  std::vector<uint64_t> sampleRevisions_;
+  // by tile of the picture: its revision when its planes were tested
+  std::vector<uint64_t> planeRevisions_;
   std::vector<uint8_t> planes_;            // by cell: kNoPlane or 0
-  std::vector<uint8_t> pairs_;             // likewise: which kPairs are of one surface, a bit each
-  std::vector<uint8_t> cells_;             // by cell, all of it
-  std::vector<float> red_, green_, blue_;  // E at samples, row after row
-  std::vector<uint8_t> isHard_;            // likewise: there may be hard shadows
+  std::vector<uint8_t> pairs_;             // by cell: bits of the kPairs that lie on one surface
+  std::vector<uint8_t> cells_;             // by cell: all bits
+  std::vector<float> red_, green_, blue_;  // E at the samples, row by row
+  std::vector<uint8_t> isHard_;            // by sample: there may be hard shadows
   std::vector<uint32_t> edges_;
   uint64_t interpolated_ = 0;
 };

@@ -1,4 +1,4 @@
-// How the packets of a picture come by their light.
+// Where the packets of a picture take their light from.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,19 @@ namespace lamplighter::cpu {
 struct PictureLight {
   using Irradiance = LowResolution::Irradiance;
   const IrradianceAccumulator& sums;
-  const LowResolution* low = nullptr;  // what is between the samples; null: all are summed
-  // Another picture of the view, of which all but `own` packets take theirs (by tile, a bit each);
-  // null: there is none.
+  const LowResolution* low = nullptr;  // interpolates between samples; null: all pixels are summed
+  // Another picture of the same view: all packets except `own` (by tile, one bit each) take its
+  // light. Null: none.
   const PictureLight* other = nullptr;
   std::span<const uint32_t> own;
 
-  // E [W/m²] at the eight pixels of a packet: where it is kept, or what `room` was filled with.
+  // E [W/m²] at the eight pixels of a packet: points to kept sums, or to `room` after it was
+  // filled.
   struct Packet {
     const float *r, *g, *b;
   };
   Packet at(int tile, int packet, Irradiance& room) const;
-  // Whether it is interpolated.
+  // Whether the packet is interpolated.
   bool isBetween(int tile, int packet) const {
     return low != nullptr && (low->edges()[static_cast<size_t>(tile)] >> packet & 1) == 0;
   }

@@ -8,13 +8,13 @@
 namespace lamplighter {
 namespace {
 
-// About what an editor's frame asks for, at a fraction of its pixels and lights: the ratio of maps
-// to sums is that of 300 lights with 100 refreshed a frame.
+// Similar to a frame of the editor with a fraction of its pixels and lights: the ratio of maps to
+// sums is that of 300 lights with 100 refreshed per frame.
 constexpr int kVpls = 48, kMapsAFrame = 16, kMapResolution = 64;
 constexpr int kWidth = 320, kHeight = 180;
 constexpr int kSpheres = 24, kSphereRings = 12;
 
-// A sphere as rings of squares; winding outwards.
+// A sphere of rings of quads; the winding is outwards.
 std::shared_ptr<const Mesh> sphere(float radius) {
   Primitive p;
   constexpr int kColumns = 2 * kSphereRings;
@@ -133,7 +133,7 @@ std::unique_ptr<Backend> chooseBackend(const Stopwatch& stopwatch, BackendTrial*
   auto gl = makeGlBackend();
   const BackendTrial result = tryBackends(*cpu, *gl, stopwatch);
   if (trial != nullptr) *trial = result;
-  // Anew, so that what is returned holds nothing of the trial and counts none of its work.
+  // A new backend, without data and counters of the trial.
   if (result.glSeconds < result.cpuSeconds) return makeGlBackend();
   return makeCpuBackend();
 }

@@ -1,4 +1,4 @@
-// Which backend is the faster on this machine, by trying.
+// Finds the faster backend on this machine by a trial.
 #pragma once
 
 #include <memory>
@@ -9,14 +9,14 @@
 namespace lamplighter {
 
 struct BackendTrial {
-  double cpuSeconds = 0.0, glSeconds = 0.0;  // a frame of the trial scene each
+  double cpuSeconds = 0.0, glSeconds = 0.0;  // one frame of the trial scene
 };
 
-// Renders a small scene, made here, with both backends (a tenth of a second on two cores) and
-// returns how long each took. Each is warmed up first, so that shader builds do not count.
+// Renders a small built-in scene with both backends (a tenth of a second on two cores) and returns
+// the time of each. Each is warmed up first, so that the times do not include shader compilation.
 BackendTrial tryBackends(Backend& cpu, Backend& gl, const Stopwatch& stopwatch);
 
-// The faster backend. An OpenGL context must be current; where there is none use makeCpuBackend().
+// The faster backend. Needs a current OpenGL context; without one use makeCpuBackend().
 std::unique_ptr<Backend> chooseBackend(const Stopwatch& stopwatch, BackendTrial* trial = nullptr);
 
 }  // namespace lamplighter

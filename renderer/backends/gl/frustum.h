@@ -1,4 +1,4 @@
-// What a view can see, as the backend names it.
+// The view frustum under the name that the gl backend uses.
 #pragma once
 
 #include "renderer/scene/frustum.h"

@@ -85,7 +85,8 @@ class GlBackend final : public Backend {
   }
 
  private:
-  std::unique_ptr<gl::HeadlessContext> context_;  // first: everything else needs it to the end
+  // first member, because all others need it until they are destroyed
+  std::unique_ptr<gl::HeadlessContext> context_;
   BackendInfo info_;
   KernelCounts counts_;
   gl::VplBuffer vpls_;

@@ -1,5 +1,5 @@
 // The gl backend: rasterised G-buffer and shadow maps, light sums in fragment shaders. OpenGL 4.5
-// core, nothing of any vendor's.
+// core without vendor extensions.
 #pragma once
 
 #include <filesystem>
@@ -11,18 +11,18 @@
 
 namespace lamplighter {
 
-// A context must be current, then and at each later call (pictures that it hands out included, down
-// to their end). Throws gl::ShaderError.
+// Needs a current context, now and at each later call, including the destruction of the pictures
+// that it returned. Throws gl::ShaderError.
 std::unique_ptr<Backend> makeGlBackend(
     const std::filesystem::path& shaders = gl::defaultShaderFolder());
 
-// The same with a context of its own, which stays current on this thread.
+// The same with its own context, which stays current on this thread.
 std::unique_ptr<Backend> makeGlBackend(
     std::unique_ptr<gl::HeadlessContext> context,
     const std::filesystem::path& shaders = gl::defaultShaderFolder());
 
-// Compiles the shaders anew; throws gl::ShaderError when they are broken (what was good stays in
-// use). Does nothing to other backends.
+// Compiles the shaders again. Throws gl::ShaderError if they have errors; then the previous ones
+// stay in use. Does nothing to other backends.
 void reloadShaders(Backend& backend, const std::filesystem::path& shaders);
 
 }  // namespace lamplighter

@@ -10,12 +10,13 @@
 namespace lamplighter::gl {
 namespace {
 
-// World to clip space with row 0 of the texture at the top of the picture, and the sample of pixel
-// (x, y) at (x, y) + 0.5 + jitter.
+// World to clip space. Row 0 of the texture is the top of the picture, and the sample of pixel (x,
+// y) is at (x, y) + 0.5 + jitter.
 mat4 rasterMatrix(const View& view, vec2 jitter) {
   mat4 adjust(1.0f);
   adjust[1][1] = -1.0f;
-  mat4 shift(1.0f);  // of x and y by w times these, after the flip: y down, as jitter's
+  // Shifts x and y by w times these values, after the flip, so y points down as in the jitter.
+  mat4 shift(1.0f);
   shift[3][0] = -2.0f * jitter.x / static_cast<float>(view.width);
   shift[3][1] = -2.0f * jitter.y / static_cast<float>(view.height);
   return shift * adjust * view.worldToClip();
@@ -35,7 +36,7 @@ void GlGBuffer::reload(const std::filesystem::path& shaders) {
   std::map<std::pair<bool, bool>, Program> programs;
   Program normals(shaders, {"common/full_screen.vert.glsl", "passes/normals.frag.glsl"});
   shaders_ = shaders;
-  // One now, so that a broken file shows at once.
+  // Compiles one now, so that an error in the file is reported immediately.
   programs_.swap(programs);
   try {
     programFor({});

@@ -1,4 +1,4 @@
-// Primary visibility: what each pixel sees, by rasterisation.
+// Primary visibility by rasterisation: what each pixel sees.
 #pragma once
 
 #include <filesystem>
@@ -18,13 +18,13 @@ class GlGBuffer {
   void reload(const std::filesystem::path& shaders);
 
   void render(const GlScene& scene, const View& view, vec2 jitter);
-  // To the units of shaders/shared/bindings.h.
+  // Binds the textures to the units of shaders/shared/bindings.h.
   void bind() const;
   const ShadingPoints& points() const { return points_; }
   Image readNormals() const;
   Image readAlbedo() const;
 
-  // Of the view that it holds.
+  // Of the view in the G-buffer.
   const Frustum& frustum() const { return frustum_; }
   const View& view() const { return view_; }
   vec2 jitter() const { return jitter_; }
@@ -38,8 +38,8 @@ class GlGBuffer {
   const Program& programFor(const GlScene::Drawn& drawn);
 
   std::filesystem::path shaders_;
-  // Compiled when first wanted: each costs tens of milliseconds on a software driver.
-  std::map<std::pair<bool, bool>, Program> programs_;  // by textured, masked
+  // Compiled on first use: each takes tens of milliseconds on a software driver.
+  std::map<std::pair<bool, bool>, Program> programs_;  // by (textured, masked)
   Program normals_;
   VertexArray emptyVertexArray_;
   Framebuffer framebuffer_;

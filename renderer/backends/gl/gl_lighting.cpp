@@ -11,7 +11,7 @@
 namespace lamplighter::gl {
 namespace {
 
-// Where the map is that a VPL looks up.
+// The location of the map that a VPL uses.
 GlShadowMaps::Place placeOf(const shared::Vpl& vpl, const GlShadowMaps& maps,
                             const PatchLights* patches) {
   const int slot = static_cast<int>(vpl.intensity.w);
@@ -20,7 +20,7 @@ GlShadowMaps::Place placeOf(const shared::Vpl& vpl, const GlShadowMaps& maps,
 
 int mostLights(const vec4& clampAndBias) { return std::max(static_cast<int>(clampAndBias.w), 1); }
 
-// A storage buffer with these values.
+// Creates a storage buffer with these values.
 template <typename T>
 void fill(Buffer& buffer, std::span<const T> values) {
   GLint64 limit = 0;
@@ -93,8 +93,8 @@ void GlLighting::zero() {
   isEmpty_ = false;
 }
 
-// In their order within each kind and array: the same bits whenever the same VPLs come in the same
-// order.
+// Keeps the order of the VPLs within each kind and array, so that the same order of VPLs gives the
+// same bits.
 GlLighting::Sum GlLighting::makeSum(const GlShadowMaps& maps, const VplBuffer& buffer,
                                     std::span<const shared::Vpl> vpls,
                                     const shared::ShadingParams& params,
@@ -135,7 +135,7 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
     takePatches(scene, gbuffer, sum, *patches);
     pixels_.addPlaces();
   }
-  // Places within their arrays.
+  // Slots become layers of their arrays.
   for (const Batch& batch : sum.batches) {
     for (shared::Vpl& vpl : std::span(sum.vpls).subspan(batch.first, batch.count)) {
       vpl.intensity.w = static_cast<float>(placeOf(vpl, maps, patches).layer);
@@ -167,7 +167,7 @@ void GlLighting::sumListed(const GlScene& scene, const Sum& sum, const ShadingPo
   SampleGrid& grid = grids[0];
   low_.take(points, grid);
   sumListed(scene, sum, grid.points, grid.sums, level + 1, {blocks.y, 1});
-  // Cells ask the places of all samples where shadows may be hard.
+  // The test of a cell needs, for the places of all samples, whether shadows may be hard.
   const bool hasHard = !patches_->lists.hardPlaces().empty();
   const bool wantsPlaces = level > 0 && hasHard;
   points.bind();
@@ -227,7 +227,7 @@ void GlLighting::add(const GlScene& scene, const Sum& sum, const SumTarget& targ
   if (hasLinks) scene.bindLeftOut();
   const int most = mostLights(sum.clampAndBias);
   const auto draw = [&] {
-    glTextureBarrier();  // the irradiance is read where it is written
+    glTextureBarrier();  // the pass reads and writes the same irradiance texture
     drawFullScreen(emptyVertexArray_.name());
   };
   const auto blockSize = static_cast<size_t>(sum.buffer.capacity());
@@ -282,7 +282,7 @@ std::shared_ptr<RadianceTexture> GlLighting::freePicture(int width, int height) 
   return pictures_.emplace_back(std::make_shared<RadianceTexture>(width, height));
 }
 
-// The uniforms of compose.frag.glsl that say what is seen where nothing is hit.
+// Sets the uniforms of compose.frag.glsl that describe the sky.
 const Program& GlLighting::setSky(const GlGBuffer& gbuffer, const Sky& sky) {
   if (skyImage_ != sky.image) {
     skyImage_ = sky.image;
@@ -304,7 +304,8 @@ const Program& GlLighting::setSky(const GlGBuffer& gbuffer, const Sky& sky) {
   compose.set(2, sky.zenith);
   compose.set(3, sky.ground);
   compose.set(5, vec2(sky.rotation, sky.scale));
-  // View::rayDirection() of a pixel: forward + right · x + up · y, in pixels from the top left.
+  // View::rayDirection() of a pixel: forward + right · x + up · y, in pixels from the top left
+  // corner.
   const View& view = gbuffer.view();
   const vec3 corner = view.rayPlane(0.0f, 0.0f);
   compose.set(6, corner);

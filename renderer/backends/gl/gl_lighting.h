@@ -1,4 +1,4 @@
-// The sum of many lights over the G-buffer, and the picture made of it.
+// Sums many lights over the G-buffer and composes the picture.
 #pragma once
 
 #include <filesystem>
@@ -20,16 +20,16 @@ class GlLighting {
   GlLighting(const std::filesystem::path& shaders, const VplBuffer& vpls);
   void reload(const std::filesystem::path& shaders, const VplBuffer& vpls);
 
-  // Irradiance of the G-buffer's pixels, starting from zero, or from the light maps.
+  // Computes the irradiance of the G-buffer's pixels, starting from zero or from the light maps.
   void sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
            const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
            const shared::ShadingParams& params, const PatchLights* patches);
-  // Of the last sum, where passes were merged.
+  // Of the last sum, if passes were merged.
   int mergedPasses() const { return mergedPasses_; }
   int passesSaved() const { return passesSaved_; }
-  // No light at all, for a G-buffer that nothing was summed over yet.
+  // Sets the irradiance to zero, for a G-buffer without a sum.
   void clear(int width, int height);
-  // Of the last sum (Backend::readInterpolated()).
+  // For the last sum (Backend::readInterpolated()).
   std::vector<uint8_t> readInterpolated() const {
     return grids_[0].read(pixels_.width, pixels_.height);
   }
@@ -40,26 +40,27 @@ class GlLighting {
   uint64_t bytes() const;
 
  private:
-  // VPLs that one draw can sum: of one kind, with their maps in one array, in one block of VPLs.
+  // VPLs that one draw can sum: of one kind, with their maps in one array and their data in one VPL
+  // block.
   struct Batch {
     int kind = 0;
     int array = 0;
     size_t block = 0;
     size_t first = 0, count = 0;  // in the order of the sum
   };
-  // What is known by patch: all but the VPLs themselves.
+  // All data by patch, without the VPLs.
   struct Patches {
     GlPatches trees;
     LightLists lists;
     Buffer ranges, entries, hardPlaces;
   };
-  // A sum, with the VPLs in its order and slots within their arrays.
+  // One sum: the VPLs in its order, and their slots in the map arrays.
   struct Sum {
     const GlShadowMaps& maps;
     const VplBuffer& buffer;
     std::vector<shared::Vpl> vpls;
     std::vector<Batch> batches;
-    vec4 clampAndBias;  // of ShadingParams
+    vec4 clampAndBias;  // as in ShadingParams
     bool merges = false;
   };
 
@@ -69,23 +70,23 @@ class GlLighting {
   void takePatches(const GlScene& scene, const GlGBuffer& gbuffer, const Sum& sum,
                    const PatchLights& lights);
   void zero();
-  // By lists of patches: with blocks.x, samples first and only then what lies between them and
-  // cannot be interpolated; with blocks.y, the samples likewise.
+  // Sums by lists per patch. With blocks.x, sums the samples first, and then the pixels between
+  // them that cannot be interpolated; with blocks.y, the samples are treated in the same way.
   void sumListed(const GlScene& scene, const Sum& sum, const ShadingPoints& points,
                  SumTarget& target, size_t level, glm::ivec2 blocks);
-  // What the light maps and light by transfer say at the points that are bound; `unmarked`: only
-  // where the stencil buffer has no mark.
+  // Writes the light of light maps and of radiance transfer at the bound points; `unmarked`: only
+  // where the stencil buffer is not marked.
   void begin(const GlScene& scene, const SumTarget& target, bool unmarked);
-  // Adds all VPLs there.
+  // Adds all VPLs at the same points.
   void add(const GlScene& scene, const Sum& sum, const SumTarget& target, bool unmarked);
-  // Of the program that composes with that kind, which it returns.
+  // Sets the sky of the compose program for its kind of sky, and returns that program.
   const Program& setSky(const GlGBuffer& gbuffer, const Sky& sky);
   std::shared_ptr<RadianceTexture> freePicture(int width, int height);
 
   const Program& naive(int kind, bool hasLinks);
 
   Program naive_[3], listed_[3], merged_[3];  // by Vpl.position.w
-  // The same where lights leave something out; compiled when it is first so.
+  // The same with light linking; compiled on first use.
   Program linked_[3];
   ProgramFiles linkedFiles_[3];
   std::filesystem::path shaders_;
@@ -94,14 +95,14 @@ class GlLighting {
   VertexArray emptyVertexArray_;
   Framebuffer pictureFramebuffer_;
   SumTarget pixels_;
-  bool isEmpty_ = true;  // pixels_ hold nothing yet: there is no light
+  bool isEmpty_ = true;  // pixels_ was never summed: its light is zero
   GlLowResolution low_;
-  SampleGrid grids_[2];  // samples of pixels_, and, in haste, samples of these
+  SampleGrid grids_[2];  // samples of pixels_ and, for quick pictures, samples of these samples
   int mergedPasses_ = 0, passesSaved_ = 0;
-  std::shared_ptr<const SkyImage> skyImage_;  // whose pixels skyTexture_ has
+  std::shared_ptr<const SkyImage> skyImage_;  // the image that skyTexture_ holds
   Texture skyTexture_;
-  std::unique_ptr<Patches> patches_;  // while the sums ask for them
-  // Those that nobody else holds are drawn over.
+  std::unique_ptr<Patches> patches_;  // while sums need them
+  // Pictures that nobody else holds are reused.
   std::vector<std::shared_ptr<RadianceTexture>> pictures_;
 };
 

@@ -1,4 +1,4 @@
-// The passes of the low-resolution pass (shaders/shared/low_resolution.h) about its sums.
+// The shader passes of the low-resolution pass (shaders/shared/low_resolution.h) except its sums.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@ namespace lamplighter::gl {
 class GlLowResolution {
  public:
   GlLowResolution() : emptyVertexArray_(VertexArray::make()) {}
-  // Before anything is drawn.
+  // Call before drawing.
   void reload(const std::filesystem::path& shaders);
 
-  // The grid's points, from those of the picture that it is of.
+  // Copies the grid's points from the points of its picture.
   void take(const ShadingPoints& points, const SampleGrid& grid) const;
 
-  // Once the samples are summed: cells that may be, marked in the stencil buffer of `pixels`, whose
-  // points these are. The others are left as they are. hardPlaces: a buffer with
-  // LightLists::hardPlaces(), hasHard: whether it has any.
+  // Call after the samples are summed. Interpolates the cells where this is possible and marks them
+  // in the stencil buffer of `pixels`; `points` are its points. Other cells keep their values.
+  // hardPlaces: a buffer with LightLists::hardPlaces(); hasHard: whether it contains any.
   void interpolate(const ShadingPoints& points, SumTarget& pixels, const SampleGrid& grid,
                    const GlScene& scene, const Buffer& hardPlaces, bool hasHard) const;
 

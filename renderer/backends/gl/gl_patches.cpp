@@ -24,7 +24,7 @@ void write(const Buffer& buffer, uint32_t first, std::span<const T> values) {
                        static_cast<GLsizeiptr>(values.size_bytes()), values.data());
 }
 
-// That shaders may see of a buffer.
+// Largest part of a buffer that shaders can access.
 uint64_t mostBytes() {
   GLint64 limit = 0;
   glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);

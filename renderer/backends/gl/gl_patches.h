@@ -1,4 +1,4 @@
-// The scene's patch trees, light maps and light by precomputed transfer in OpenGL's memory.
+// The scene's patch trees, light maps and precomputed radiance transfer in OpenGL buffers.
 #pragma once
 
 #include <span>
@@ -12,23 +12,24 @@ namespace lamplighter::gl {
 
 class GlPatches {
  public:
-  // Takes in what is new since the last call. Throws InputError when the device can't hold it.
+  // Uploads what changed since the last call. Throws InputError if the device has too little
+  // memory.
   void update(const RenderScene& scene, const PatchLights& lights);
-  // For shaders/passes/find_patches.frag.glsl, but for the scene's corners.
+  // For shaders/passes/find_patches.frag.glsl, except the triangle corners (GlScene).
   void bind() const;
 
-  // Where an object's patches begin among those of the scene, and how many they all are.
+  // The index of an object's first patch among the patches of the scene; and their total number.
   uint32_t firstNode(uint32_t object) const { return objects_[object].first.nodes; }
   size_t nodes() const { return total_.nodes; }
   uint64_t bytes() const { return bytes_; }
 
-  // Of light maps; more must not be asked for.
+  // Upper bound of light map texels on this device.
   static uint64_t mostTexels();
 
  private:
   struct Sizes {
     uint32_t triangles = 0, nodes = 0, charts = 0, tiles = 0, texels = 0;
-    uint32_t vertices = 0;  // lit by transfer
+    uint32_t vertices = 0;  // lit by radiance transfer
     bool operator==(const Sizes&) const = default;
   };
   struct Object {

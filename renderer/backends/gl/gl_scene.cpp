@@ -10,7 +10,8 @@
 namespace lamplighter::gl {
 namespace {
 
-// Storage of the vector's size, never empty (a buffer without storage can't be bound).
+// Allocates a buffer of the vector's size; never empty, because a buffer without storage cannot be
+// bound.
 template <typename T>
 Buffer upload(const std::vector<T>& values, uint64_t& bytes) {
   static const T kNothing[1]{};
@@ -71,7 +72,7 @@ GlScene::GlScene() : vertexArray_(VertexArray::make()) {
   attribute(shared::kUv0Attribute, 2);
   attribute(shared::kUv1Attribute, 2);
   attribute(shared::kColorAttribute, 4);
-  // A number for the whole draw: the base instance selects it.
+  // One value per draw; the base instance selects it.
   constexpr GLuint kFirstIndex = shared::kFirstIndexAttribute;
   glEnableVertexArrayAttrib(array, kFirstIndex);
   glVertexArrayAttribIFormat(array, kFirstIndex, 1, GL_UNSIGNED_INT, 0);
@@ -134,7 +135,8 @@ void GlScene::uploadObject(const RenderObject& o) {
   uploadRange(positions_, scene_->positions, o.firstVertex, o.vertexCount);
   uploadRange(normals_, scene_->normals, o.firstVertex, o.vertexCount);
   uploadRange(tangents_, scene_->tangents, o.firstVertex, o.vertexCount);
-  uploadRange(indices_, scene_->indices, o.firstIndex, o.indexCount);  // a mirror turns them
+  // a mirroring transform reverses the winding
+  uploadRange(indices_, scene_->indices, o.firstIndex, o.indexCount);
 }
 
 void GlScene::uploadMaterials() {

@@ -1,4 +1,4 @@
-// The scene's triangles, materials and textures in OpenGL's memory.
+// The scene's triangles, materials and textures in OpenGL buffers.
 #pragma once
 
 #include <vector>
@@ -14,30 +14,30 @@ class GlScene {
  public:
   GlScene();
 
-  // Throws InputError when the device can't hold it.
+  // Throws InputError if the device has too little memory.
   void update(const RenderScene& scene, const RenderSceneChanges& changes);
 
-  // An object that is drawn (clear ones are not).
+  // An object to draw (clear ones are not drawn).
   struct Drawn {
     uint32_t object = 0;  // index into RenderScene::objects
     int material = 0;
     bool textured = false;
     bool masked = false;
-    bool culled = false;  // its back faces, for the camera
+    bool culled = false;  // its back faces are culled for the camera
   };
-  // Opaque untextured ones first, then by material, so that what changes between draws is little.
+  // Opaque untextured objects first, then by material, so that few state changes are needed.
   const std::vector<Drawn>& drawn() const { return drawn_; }
   const RenderScene& scene() const { return *scene_; }
 
   // All vertex attributes and the index buffer.
   GLuint vertexArray() const { return vertexArray_.name(); }
-  // Vertices as storage buffers, for the corners of a triangle.
+  // Binds the vertices as storage buffers, to read the corners of a triangle.
   void bindStorage() const;
   // The same for shaders/passes/find_patches.frag.glsl.
   void bindCorners() const;
-  // For shaders/common/left_out.glsl.
+  // For light linking in shaders/common/left_out.glsl.
   void bindLeftOut() const;
-  // The material's block and textures.
+  // Binds the material's uniform block and textures.
   void bindMaterial(int material) const;
 
   uint64_t bytes() const { return bytes_ + textures_.bytes(); }
@@ -50,8 +50,8 @@ class GlScene {
   const RenderScene* scene_ = nullptr;
   VertexArray vertexArray_;
   Buffer positions_, normals_, tangents_, uv0_, uv1_, colors_, indices_, firstIndices_;
-  Buffer leftOut_;    // by triangle, where any light leaves something out
-  Buffer materials_;  // one SurfaceMaterial every materialStride_ bytes
+  Buffer leftOut_;    // by triangle, if any light has light linking
+  Buffer materials_;  // one SurfaceMaterial per materialStride_ bytes
   GLintptr materialStride_ = 0;
   struct MaterialTextures {
     GLuint baseColor = 0, normal = 0, emissive = 0, gloss = 0;
@@ -62,7 +62,7 @@ class GlScene {
   uint64_t bytes_ = 0;
 };
 
-// The material as the shaders take it.
+// The material in the layout of the shaders.
 shared::SurfaceMaterial surfaceMaterial(const Material& material);
 
 }  // namespace lamplighter::gl

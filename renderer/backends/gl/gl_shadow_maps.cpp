@@ -11,16 +11,16 @@
 namespace lamplighter::gl {
 namespace {
 
-// Of one array: drivers refuse or swap what is larger, and Mesa's llvmpipe ends at a gigabyte.
+// Limit per array: drivers refuse or swap larger ones, and Mesa's llvmpipe supports at most 1 GiB.
 constexpr uint64_t kMaxArrayBytes = uint64_t{512} << 20;
 
-// When the arrays are full they get at least this part more, so that growing is rare.
+// Full arrays grow by at least a fourth, so that growth is rare.
 constexpr int kGrowth = 4;
 
-// Share of a texel by which the faces of the octahedron reach over its creases.
+// How far the faces of the octahedron extend past its creases, in texels.
 constexpr float kCreaseTexels = 0.01f;
 
-// Which part of the light's hemisphere an axis-aligned box may be in.
+// Which parts of the light's hemisphere an axis-aligned box may reach.
 class BoxInLight {
  public:
   BoxInLight(const Bounds& box, const shared::Vpl& vpl) {
@@ -32,7 +32,7 @@ class BoxInLight {
       centre_[i] = glm::dot(c, axes[i]);
       reach_[i] = glm::dot(half, glm::abs(axes[i]));
     }
-    // Rounding, and the little by which faces overlap.
+    // Tolerance for rounding, and for the overlap of faces.
     slack_ = 1e-3f * (std::abs(centre_.x) + std::abs(centre_.y) + std::abs(centre_.z) + reach_.x +
                       reach_.y + reach_.z);
   }
@@ -40,7 +40,7 @@ class BoxInLight {
     return face.x * centre_.x + reach_.x >= -slack_ && face.y * centre_.y + reach_.y >= -slack_ &&
            centre_.z + reach_.z >= -slack_;
   }
-  // The square [-side, side]² about the light, all along its axis.
+  // The square [-side, side]² around the light, infinitely long along its axis.
   bool touchesSquare(float side) const {
     return std::abs(centre_.x) - reach_.x <= side + slack_ &&
            std::abs(centre_.y) - reach_.y <= side + slack_;
@@ -111,7 +111,7 @@ Texture GlShadowMaps::makeArray(const Pool& pool, int layers) {
   return array;
 }
 
-// The last array is made larger, with what it holds, and then others are added.
+// Enlarges the last array, keeping its content, then adds arrays.
 void GlShadowMaps::grow(Pool& pool, int places) {
   const int resolution = pool.room.resolution;
   while (pool.space < places) {
@@ -209,7 +209,7 @@ void GlShadowMaps::renderMap(const GlScene& scene, const shared::Vpl& vpl, int i
   }
 }
 
-// face: null for a directional map, which has but one.
+// face: null for a directional map, which has only one face.
 void GlShadowMaps::drawFace(const GlScene& scene, const shared::Vpl& vpl, const Programs& programs,
                             int indexInBuffer, const vec2* face, int resolution) {
   const auto prepare = [&](const Program& program) {
@@ -223,7 +223,7 @@ void GlShadowMaps::drawFace(const GlScene& scene, const shared::Vpl& vpl, const 
   const RenderScene& s = scene.scene();
   counts_.clear();
   offsets_.clear();
-  uint32_t end = 0;  // of the last range; neighbours make one
+  uint32_t end = 0;  // end of the last range; adjacent ranges are merged
   bool preparedMasked = false;
   for (const GlScene::Drawn& d : scene.drawn()) {
     const RenderObject& o = s.objects[d.object];

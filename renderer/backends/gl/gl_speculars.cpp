@@ -63,8 +63,8 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
   state.additive();
   gbuffer.bind();
 
-  // In their order within each kind and array, as many at a time as a block and a draw take.
-  // Those that should have a map and have none are left out: others stand for them.
+  // Keeps the order within each kind and array; each draw takes as many as a block holds. VPLs that
+  // need a map but have none are skipped: their proxies replace them.
   struct Placed {
     shared::Vpl vpl;  // with the layer of its map
     int array = 0;

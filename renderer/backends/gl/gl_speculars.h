@@ -1,6 +1,5 @@
-// What the lobes of glossy pixels give the eye (shaders/shared/vpl_speculars.h), in a pass of its
-// own: every VPL with its shadow map at every glossy pixel. Costs nothing where none is in the
-// scene.
+// The specular light of glossy pixels (shaders/shared/vpl_speculars.h), in a separate pass: every
+// VPL with its shadow map at every glossy pixel. Costs nothing if the scene has no glossy surface.
 #pragma once
 
 #include <filesystem>
@@ -21,20 +20,20 @@ class GlSpeculars {
   GlSpeculars(const std::filesystem::path& shaders, const VplBuffer& vpls);
   void reload(const std::filesystem::path& shaders, const VplBuffer& vpls);
 
-  // Of the G-buffer's glossy pixels, if `params` ask for it.
+  // Sums over the G-buffer's glossy pixels, if `params` asks for speculars.
   void sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlShadowMaps& maps,
            const VplBuffer& buffer, std::span<const shared::Vpl> vpls,
            const shared::ShadingParams& params, const PatchLights* patches);
-  // Makes the picture of surfaces that are all Lambert's, with this irradiance, one with speculars.
+  // Replaces Lambertian shading, which used this irradiance, by shading with specular light.
   void addTo(const RadianceTexture& picture, const GlGBuffer& gbuffer, GLuint irradiance);
-  // There are none until the next sum.
+  // No speculars until the next sum.
   void clear() { isOn_ = false; }
 
   uint64_t bytes() const { return uint64_t{16} * static_cast<uint64_t>(width_) * height_; }
 
  private:
   Program sums_[3];  // by Vpl.position.w
-  // The same where lights leave something out; compiled when it is first so.
+  // The same with light linking; compiled on first use.
   Program linked_[3];
   ProgramFiles linkedFiles_[3];
   std::filesystem::path shaders_;

@@ -1,4 +1,4 @@
-// A scene's images as OpenGL textures, kept as long as some material of the scene uses them.
+// The images of a scene as OpenGL textures, kept while a material of the scene uses them.
 #pragma once
 
 #include <map>
@@ -12,10 +12,10 @@ namespace lamplighter::gl {
 
 class TextureCache {
  public:
-  // The texture, uploaded the first time; one level, filtered and wrapped as it says. `srgb`:
-  // decoded when it is sampled. Throws InputError when it is too large for the device.
+  // Returns the texture, uploaded on first use; one mipmap level, filter and wrap mode as given.
+  // `srgb`: decode on sampling. Throws InputError if it is too large for the device.
   GLuint get(const lamplighter::Texture& texture, bool srgb);
-  // Between them, textures that no get() asked for are given up.
+  // endUse() deletes the textures that no get() since beginUse() returned.
   void beginUse();
   void endUse();
 
@@ -23,7 +23,7 @@ class TextureCache {
 
  private:
   struct Entry {
-    std::shared_ptr<const Image8> image;  // keeps its address from being another image's
+    std::shared_ptr<const Image8> image;  // held so that no other image gets its address
     Texture texture;
     bool used = false;
   };

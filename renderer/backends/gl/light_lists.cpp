@@ -10,17 +10,17 @@
 namespace lamplighter::gl {
 namespace {
 
-// Patches that are looked at in one go, and the lists of their leaves.
+// Patches that one task processes, and the lists of their leaves.
 struct Block {
   SeenObject object;
   size_t first, last;  // of the object's patches
   std::vector<size_t> places;
   std::vector<uint32_t> entries;
   std::vector<int> longest, longestPlain;
-  size_t start = 0;  // of its entries among all
+  size_t start = 0;  // index of its first entry among all
 };
 
-// Around a patch, with room for rounding.
+// The bounds of a patch, enlarged for rounding.
 Bounds boxOf(const Patch& patch) {
   const vec3 half(1.01f * patch.radius + 0.001f);
   return {patch.centre - half, patch.centre + half};

@@ -1,4 +1,4 @@
-// Which VPLs the pixels of each patch sum, as the sum's shader takes them: lists in one buffer.
+// Lists of the VPLs that the pixels of each patch sum, in the layout of the shader: one buffer.
 #pragma once
 
 #include <span>
@@ -10,49 +10,49 @@
 
 namespace lamplighter::gl {
 
-// VPLs that one draw can sum, one after the other in the order of the sum.
+// VPLs that one draw can sum; consecutive in the order of the sum.
 struct LightGroup {
   size_t first = 0, count = 0;
 };
 
-// An object whose patches may be seen.
+// An object whose patches may be visible.
 struct SeenObject {
   uint32_t object = 0;     // index into RenderScene::objects
-  uint32_t firstNode = 0;  // of its patches among those of the scene
+  uint32_t firstNode = 0;  // index of its first patch among the patches of the scene
   bool backIsCulled = false;
 };
 
 class LightLists {
  public:
-  // For leaves in the frustum; all others get empty lists. nodes: patches of the scene. At most
-  // 65,535 VPLs a group. No passes.
+  // Makes lists for the leaves in the frustum; all others get empty lists. nodes: number of patches
+  // in the scene. At most 65,535 VPLs per group. Resets the passes.
   void make(const PatchLights& patches, std::span<const SeenObject> objects, size_t nodes,
             const Frustum& frustum, std::span<const shared::Vpl> vpls,
             std::span<const LightGroup> groups);
-  // Puts the entries that need their maps into passes of at most `lightsPerPass` lights, merged
-  // over the objects (pass_merging.h), and in their order. Once after make(). Throws InputError
-  // when they are more than entries can name.
+  // Distributes the entries that need shadow maps to passes of at most `lightsPerPass` lights,
+  // merged over the objects (pass_merging.h), and sorts the entries by pass. Call once after
+  // make(). Throws InputError if there are more passes than an entry can store.
   void mergePasses(int lightsPerPass);
 
-  // Places (shaders/shared/patches.h), with that of nothing.
+  // Number of places (shaders/shared/patches.h), including the empty place.
   static size_t places(size_t nodes) { return 1 + 2 * nodes; }
-  // By group, then place: x: first of `entries`, y: how many need no map, and above bit 16 those
-  // that come after and do.
+  // By group, then place. x: index of the first entry. y: the number of entries without a map
+  // look-up, and from bit 16 on the number of those with one, which follow.
   std::span<const glm::uvec2> ranges() const { return ranges_; }
-  // Numbers within the group, with kTakeShadow and, once merged, times of kPassUnit.
+  // Index in the group, with kTakeShadow and, after merging, the pass times kPassUnit.
   std::span<const uint32_t> entries() const { return entries_; }
-  // The longest list of each group, and the longest of what of it needs no map.
+  // By group: the length of the longest list, and of the longest part without map look-ups.
   std::span<const int> longest() const { return longest_; }
   std::span<const int> longestPlain() const { return longestPlain_; }
-  // By place, 1: one of the lights that make hard shadows is partly hidden from it
-  // (hard_shadow_lights.h). Empty: no place is.
+  // By place, 1 if a light that makes hard shadows is partly hidden from it (hard_shadow_lights.h).
+  // Empty: no place is.
   std::span<const uint32_t> hardPlaces() const { return hardPlaces_; }
-  // By group, and what merging spared of all.
+  // By group: the number of passes; and the number of passes that merging saved in total.
   std::span<const int> passes() const { return passes_; }
   int passesSaved() const { return passesSaved_; }
 
  private:
-  // Those of an object that have lists.
+  // The places of an object that have lists.
   struct ObjectPlaces {
     uint32_t object = 0;
     std::vector<size_t> places;
@@ -65,7 +65,7 @@ class LightLists {
   std::vector<int> longest_, longestPlain_;
   std::vector<LightGroup> groups_;
   std::vector<ObjectPlaces> objects_;
-  size_t stride_ = 0;  // places of a group
+  size_t stride_ = 0;  // number of places per group
   std::vector<int> passes_;
   int passesSaved_ = 0;
 };

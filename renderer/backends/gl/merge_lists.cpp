@@ -24,7 +24,7 @@ void LightLists::mergeGroup(size_t group, int lightsPerPass) {
     return entry % static_cast<uint32_t>(shared::kTakeShadow);
   };
   const size_t lights = groups_[group].count;
-  // Elements call objects by their places in objects_.
+  // Elements refer to objects by their indices in objects_.
   std::vector<PassElement> elements(objects_.size());
   tbb::parallel_for(size_t{0}, objects_.size(), [&](size_t o) {
     std::vector<bool> needed(lights, false);

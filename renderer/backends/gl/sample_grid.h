@@ -1,5 +1,6 @@
-// Samples of a picture, one at each corner of its blocks, and which of the cells between them take
-// their light from them (shaders/shared/low_resolution.h). Samples of samples are one, too.
+// Samples of a picture, one at each corner of its blocks, and the cells between them that are
+// interpolated (shaders/shared/low_resolution.h). The samples can themselves be sampled by another
+// grid.
 #pragma once
 
 #include <vector>
@@ -10,18 +11,18 @@
 namespace lamplighter::gl {
 
 struct SampleGrid {
-  int block = 1;  // pixels a side, or samples
+  int block = 1;  // pixels, or samples, per side
   ShadingPoints points;
   SumTarget sums;
   Texture contrasts, cells;  // R8UI, by cell: shaders/shared/bindings.h
   Framebuffer pointsFramebuffer, contrastsFramebuffer, cellsFramebuffer;
 
-  // Makes room for the samples of a picture. Returns whether it has any cells: else all of its
-  // pixels are to be summed, and nothing is held.
+  // Allocates the samples of a picture. Returns whether it has any cells. If not, all its pixels
+  // must be summed, and nothing is allocated.
   bool resize(int width, int height, int newBlock);
-  int columns() const { return sums.width - 1; }  // of cells
+  int columns() const { return sums.width - 1; }  // number of cells per row
   int rows() const { return sums.height - 1; }
-  // By pixel of a picture of that size whether it is interpolated (1); empty: there are no cells.
+  // By pixel of a picture of that size, 1 if it is interpolated; empty: there are no cells.
   std::vector<uint8_t> read(int width, int height) const;
   uint64_t bytes() const;
 };

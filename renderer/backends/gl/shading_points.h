@@ -1,4 +1,4 @@
-// The points that light is summed at: of all pixels of a G-buffer, or of samples of it.
+// The points where light is summed: all pixels of a G-buffer, or samples of them.
 #pragma once
 
 #include "renderer/gl/objects.h"
@@ -6,7 +6,7 @@
 namespace lamplighter::gl {
 
 struct ShadingPoints {
-  // RGBA32F, as shaders/shared/bindings.h says of kGPosition and kGNormals.
+  // RGBA32F; layout as for kGPosition and kGNormals in shaders/shared/bindings.h.
   Texture position, normals;
 
   void resize(int width, int height);

@@ -8,15 +8,15 @@ namespace lamplighter::gl {
 
 struct SumTarget {
   int width = 0, height = 0;
-  Texture irradiance;  // RGBA32F: hundreds of additions must not lose the small ones
+  Texture irradiance;  // RGBA32F, so that hundreds of additions do not lose small values
   Texture places;      // R32UI: shaders/shared/patches.h
-  Texture stencil;     // 1: a pixel that is interpolated
-  Framebuffer sums;    // irradiance
-  Framebuffer begin;   // irradiance and places
+  Texture stencil;     // 1: an interpolated pixel
+  Framebuffer sums;    // writes irradiance
+  Framebuffer begin;   // writes irradiance and places
 
-  // Of the size, with irradiance alone; nothing where it has it.
+  // Allocates the irradiance texture of this size; does nothing if it has this size.
   void resize(int newWidth, int newHeight);
-  // What else it is to have.
+  // Allocate the optional textures.
   void addPlaces();
   void addStencil();
   void dropPlaces() { places = {}, begin = {}, dropStencil(); }

@@ -7,7 +7,7 @@
 namespace lamplighter::gl {
 
 VplBuffer::VplBuffer() : buffer_(Buffer::make()), texels_(Texture::make(GL_TEXTURE_BUFFER)) {
-  // 16 KB at least by the standard; more than 64 KB is of no use, since passes should stay short.
+  // The standard guarantees 16 KB; more than 64 KB does not help, because passes should stay short.
   GLint limit = 0;
   glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &limit);
   capacity_ = static_cast<int>(static_cast<size_t>(std::min(limit, 65536)) / sizeof(shared::Vpl));

@@ -1,4 +1,4 @@
-// The uniform block, and buffer texture, that takes a pass's VPLs to the shaders.
+// The buffer with the VPLs of a pass, bound as a uniform block and as a buffer texture.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ class VplBuffer {
   int capacity() const { return capacity_; }
   // "VPLS_A_PASS n", for shaders/common/vpls.glsl.
   std::string define() const;
-  // At most capacity() of them, and bound.
+  // Uploads at most capacity() VPLs and binds the buffer.
   void upload(std::span<const shared::Vpl> vpls) const;
 
  private:

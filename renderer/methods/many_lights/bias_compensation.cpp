@@ -15,12 +15,12 @@
 namespace lamplighter {
 namespace {
 
-// VPLs that are tried for a point where such a ray arrives, and rays to the best of them: what is
-// too few here shows as noise along edges.
+// Candidate VPLs for the hit point of a short ray, and shadow rays to the best of them. Too few
+// cause noise along edges.
 constexpr int kVplsTried = 32, kRaysAPoint = 2;
 constexpr uint32_t kNoObject = 0xffffffffu;
-// Share of the choice that does not look at how bright they are: a sun's irradiance and a lamp's
-// intensity cannot be compared.
+// Share of the selection probability that ignores brightness: the irradiance of a sun and the
+// intensity of a lamp are not comparable.
 constexpr float kEvenChoices = 0.5f;
 
 constexpr int kRaysAtOnce = 8;
@@ -73,7 +73,7 @@ void BiasCompensation::Choice::makeGuide() {
 size_t BiasCompensation::Choice::find(float below) const {
   const float part = below / upTo.back() * static_cast<float>(guide.size());
   size_t i = guide[std::min(static_cast<size_t>(part), guide.size() - 1)];
-  // Rounding may have taken the next part.
+  // Rounding may have selected a later part.
   while (i > 0 && upTo[i - 1] > below) --i;
   while (i + 1 < upTo.size() && upTo[i] <= below) ++i;
   return i;
@@ -125,9 +125,10 @@ BiasCompensation::Pixel BiasCompensation::pixel(const vec3& direction, const Hit
   return {sum / static_cast<float>(options_.paths), albedo, s.position, normal};
 }
 
-// By directions in proportion to the cosine, the true light less the clamped is
-//   mean of L(y) (1 − d²/d0²) over those whose surface y is nearer than d0, times π,
-// and L(y) is what y emits, and reflects of the VPLs' clamped light and, walking on, of the rest.
+// With cosine-distributed directions, the true light minus the clamped light is
+//   mean of L(y) (1 − d²/d0²) over directions whose surface y is nearer than d0, times π,
+// where L(y) is the emission of y, plus its reflection of the VPLs' clamped light and, after
+// further bounces, of the compensation there.
 vec3 BiasCompensation::gather(Place from, uint32_t whole, const vec3& shadingNormal,
                               PathSampler& sampler) const {
   const float reach = options_.clampDistance;
@@ -147,7 +148,7 @@ vec3 BiasCompensation::gather(Place from, uint32_t whole, const vec3& shadingNor
     if (bounces == 0) break;
     throughput *= s.albedo;
     if (throughput == vec3(0.0f)) break;
-    // The geometric normal, as VPLs have it: they are what must be made whole.
+    // The geometric normal, as for VPLs, because this compensates their light.
     about = front ? s.geometricNormal : -s.geometricNormal;
     from = {s.position + rayEpsilon(s.position) * about, about, there.leftOutBy};
     const Choice& choice = choices_[static_cast<size_t>(bounces - 1)];
@@ -167,16 +168,16 @@ vec3 BiasCompensation::irradianceOfSuns(const Place& at) const {
   return sum;
 }
 
-// An estimate of the other VPLs' clamped irradiance: of those tried, rays go to some in proportion
-// to what they would give if nothing stood between (Talbot et al., "Importance Resampling for
-// Global Illumination", 2005).
+// An estimate of the clamped irradiance of the other VPLs. Of the candidates, some get shadow rays,
+// with a probability proportional to their unshadowed irradiance (Talbot et al., "Importance
+// Resampling for Global Illumination", 2005).
 vec3 BiasCompensation::irradiance(const Place& at, const Choice& choice, vec2 u) const {
   vec3 sum(0.0f);
   if (choice.entries.empty()) return sum;
   struct Candidate {
     const Choice::Entry* entry;
-    float geometry;  // irradiance over intensity [1/m²]
-    float upTo;      // sum of brightness, this one's included
+    float geometry;  // irradiance / intensity [1/m²]
+    float upTo;      // cumulative brightness, including this VPL
   };
   std::array<Candidate, kVplsTried> tried;
   float total = 0.0f;

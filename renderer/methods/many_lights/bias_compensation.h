@@ -1,5 +1,5 @@
-// The light that the clamp of 1/d² takes away, found by rays: what is missing comes from surfaces
-// nearer than the clamp distance (Kollig and Keller, "Illumination in the Presence of Weak
+// Computes with rays the light that the clamp of 1/d² removes: the missing light comes from
+// surfaces nearer than the clamp distance (Kollig and Keller, "Illumination in the Presence of Weak
 // Singularities", 2004).
 #pragma once
 
@@ -15,64 +15,66 @@
 
 namespace lamplighter {
 
-// Under one set of VPLs, of which each pixel takes other ones: an estimate whose mean over many
-// sets is exact.
+// For one set of VPLs, of which each pixel uses other ones. The result is an unbiased estimate: its
+// mean over many sets is exact.
 class BiasCompensation {
  public:
   struct Options {
     int bounces = 0;
-    bool emission = true;  // the VPLs stand for lights themselves too
+    bool emission = true;  // the VPLs include direct ones on light sources
     float clampDistance = 0.0f;
-    uint32_t paths = 2;             // directions in which a pixel looks for a surface nearby
-    uint32_t seed = 0, sample = 0;  // which random numbers
-    bool white = false;             // what is seen is shown as if it were white
-    // What is seen has speculars: the diffuse part of it gets this light, the lobe does without.
+    uint32_t paths = 2;             // per pixel: rays that look for a near surface
+    uint32_t seed = 0, sample = 0;  // select the random numbers
+    bool white = false;             // visible surfaces are shown white
+    // Visible surfaces have speculars: this light is added to their diffuse part only.
     bool speculars = false;
     float leastRoughness = 0.1f;
-    // By object, whether what its parts give to each other is known otherwise: no pixel on it lacks
-    // that. Empty: of none. Must outlive this.
+    // By object: the light between its parts is known from transfer, so that its pixels do not lack
+    // it. Empty: for no object. Must outlive this object.
     std::span<const uint8_t> reflectsWithin = {};
   };
   BiasCompensation(const RenderScene& scene, const RayCaster& rays, std::span<const SceneVpl> vpls,
                    const Options& options);
 
-  // What is found for one pixel, and where.
+  // The result for one pixel and its surface point.
   struct Pixel {
-    vec3 light{0.0f};   // what it lacks of radiance, were it white
-    vec3 albedo{0.0f};  // 0 where nothing is seen
+    vec3 light{0.0f};   // missing radiance for a white surface
+    vec3 albedo{0.0f};  // 0 if the pixel hits nothing
     vec3 position{0.0f}, normal{0.0f};
   };
-  // These rows of the view's picture, pixels moved by `jitter`, into their places in `pixels`.
+  // Computes these rows of the view's picture, with pixels shifted by `jitter`, and writes them at
+  // their indices of `pixels`.
   void findRows(const View& view, vec2 jitter, int first, int last, std::span<Pixel> pixels) const;
 
  private:
-  // A ray goes to each sun: its squares would be tried in vain where one of many covers a place.
+  // A sun is sampled with one ray. Its sun shadow tiles are not chosen as VPLs: of many tiles only
+  // one covers a place.
   struct Sun {
     VplId set;
     vec3 towards{0.0f}, irradiance{0.0f};
     uint32_t link = 0;
   };
-  // Other VPLs that may still light a surface from which light bounces a given number of times on.
+  // The VPLs that may light a surface after which the light bounces a given number of times.
   struct Choice {
-    // All that is asked of one that is tried, side by side.
+    // All data needed to try a VPL, in one place.
     struct Entry {
       shared::Vpl vpl;
-      float brightness;  // of its brightest channel, over the probability of trying it
-      float weight;      // 1 over that
+      float brightness;  // of its brightest channel, divided by the selection probability
+      float weight;      // 1 / selection probability
     };
     std::vector<Entry> entries;
-    std::vector<float> upTo;  // sum of probabilities, this one's included
-    // For that many equal parts of the sum: the first that reaches into it.
+    std::vector<float> upTo;  // cumulative probability, including this VPL
+    // Speeds up find(): for each of as many equal parts of the cumulative sum, the first VPL in it.
     std::vector<uint32_t> guide;
     void makeGuide();
-    size_t find(float below) const;  // the first with upTo > below, or the last
+    size_t find(float below) const;  // the first VPL with upTo > below, or the last one
   };
   struct Place {
-    vec3 position, normal;  // off its surface, on the lit side
+    vec3 position, normal;  // offset from the surface, on the lit side
     uint32_t leftOutBy;     // light_linking.h
   };
   Pixel pixel(const vec3& direction, const Hit& hit, uint32_t index) const;
-  // `whole`: the object whose light upon itself is known; none: 0xffffffff.
+  // `whole`: the object whose light on itself is already known; none: 0xffffffff.
   vec3 gather(Place from, uint32_t whole, const vec3& shadingNormal, PathSampler& sampler) const;
   vec3 irradianceOfSuns(const Place& at) const;
   vec3 irradiance(const Place& at, const Choice& choice, vec2 u) const;
@@ -82,7 +84,7 @@ class BiasCompensation {
   const RayCaster& rays_;
   Options options_;
   std::vector<Sun> suns_;
-  std::vector<Choice> choices_;  // by the number of bounces that a VPL may have behind it
+  std::vector<Choice> choices_;  // by the largest number of bounces that a VPL may have
 };
 
 }  // namespace lamplighter

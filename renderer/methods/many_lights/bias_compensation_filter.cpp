@@ -9,11 +9,11 @@
 namespace lamplighter {
 namespace {
 
-// Of the first batch [pixels], and at most this share of the picture's rows: what is few pixels
-// wide must not be blurred.
+// Radius for the first batch [pixels], and its limit as a share of the picture's rows, so that
+// details a few pixels wide are not blurred.
 constexpr float kFirstRadius = 6.0f, kMostOfRows = 1.0f / 60.0f;
-// The same surface: normals within 25°, and no further off the plane than a fifth of the way along
-// it, so that round things share too.
+// The same surface: normals within 25°, and a distance from the plane of at most a fifth of the
+// distance along it, so that curved surfaces share too.
 constexpr float kLeastCosine = 0.9f, kMostSlope = 0.2f;
 
 bool isSameSurface(const BiasCompensation::Pixel& own, const BiasCompensation::Pixel& other) {
@@ -30,8 +30,8 @@ int filterRadius(uint32_t batch, int height) {
   return static_cast<int>(first / std::sqrt(static_cast<float>(std::max(batch, 1u))));
 }
 
-// Along a row and then along columns of what came: where both ways run over one surface that is
-// the mean over the whole square, at a sixth of the look-ups.
+// First along rows, then along columns of the result. Where both lie on one surface this equals the
+// mean over the whole square, with a sixth of the reads.
 void addSmoothed(std::span<const BiasCompensation::Pixel> pixels, int radius, Image& image) {
   const int width = image.width, height = image.height;
   const auto index = [&](int x, int y) {

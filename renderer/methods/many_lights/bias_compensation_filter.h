@@ -1,7 +1,6 @@
-// Early batches of a refinement have few rays a pixel for the light that the clamp takes away, and
-// show it as speckles, in the colour of what reflects it twice. It varies little along a surface,
-// so that pixels share what they find, over fewer and fewer pixels the more batches there are: what
-// that blurs vanishes in the mean.
+// The first batches of a refinement have few rays per pixel for the light that the clamp removes,
+// which causes coloured speckles. This light varies slowly along a surface, so pixels share their
+// results. The filter radius shrinks with each batch, so the blur disappears from the mean.
 #pragma once
 
 #include <span>
@@ -11,12 +10,12 @@
 
 namespace lamplighter {
 
-// Pixels to each side that the batch (from 1) shares with in a picture of so many rows; 0 from the
-// 37th on, and in the smallest pictures.
+// Filter radius in pixels for a batch (from 1) of a picture with `height` rows; 0 from batch 37 on,
+// and in very small pictures.
 int filterRadius(uint32_t batch, int height);
 
-// Adds to the picture the mean of what pixels within `radius` to each side have found that show the
-// same surface (nearly in its plane, nearly the same normal), times each pixel's own albedo.
+// Adds to each pixel of the picture: the mean of the results of pixels within `radius` to each side
+// that show the same surface (almost the same plane and normal), times the pixel's own albedo.
 void addSmoothed(std::span<const BiasCompensation::Pixel> pixels, int radius, Image& image);
 
 }  // namespace lamplighter

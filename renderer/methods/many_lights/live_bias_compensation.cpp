@@ -10,7 +10,7 @@ namespace lamplighter {
 namespace {
 
 constexpr int kPixelsAFrame = 1 << 15;
-// Of shares that are kept: where there was next to no light the share says nothing.
+// Limit of the gain: where there was almost no light the ratio has no meaning.
 constexpr float kMostGain = 2.0f;
 
 }  // namespace

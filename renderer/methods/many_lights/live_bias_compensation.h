@@ -1,7 +1,7 @@
-// What the clamp near VPLs takes away from the live picture, given back once it is settled: the
-// refinement's rays to near surfaces, once, from the live VPLs, with what pixels of one surface
-// find shared among them (bias_compensation.h). While an edit is on its way the corners of a camera
-// at rest keep the share of light that they gained, so that they do not darken and brighten again.
+// Adds the light that the clamp near VPLs removes to the live picture, once it is settled. It
+// traces the refinement's rays to near surfaces once, with the live VPLs, and pixels of one surface
+// share their results (bias_compensation.h). During an edit, with the camera at rest, pixels keep
+// the relative gain of the settled picture, so that corners do not become dark and bright again.
 #pragma once
 
 #include <memory>
@@ -15,26 +15,26 @@ namespace lamplighter {
 
 class LiveBiasCompensation {
  public:
-  // The camera moved, or what is shown is another thing: nothing is kept.
+  // The camera moved, or something else is shown: discards everything.
   void forget() { *this = LiveBiasCompensation(); }
-  // The picture changed: it is to be found anew.
+  // The picture changed: the light must be computed again.
   void outdate() { rows_ = 0; }
 
   bool isWhole(const View& view) const { return rows_ == view.height; }
-  // Goes on by some rows of pixels, as many as a frame has time for.
+  // Processes the next rows of pixels, as many as fit into a frame.
   void goOn(const FrameInputs& in, const std::vector<InspectedLight>& lights,
             BiasCompensation::Options options);
 
-  // The settled picture with what it lacks; isWhole().
+  // The settled picture with the missing light. Requires isWhole().
   std::shared_ptr<RadianceImage> addTo(RadianceImage& settled);
-  // A picture on its way: each pixel brighter by the share that it had gained when it was settled.
-  // The picture itself where nothing is kept.
+  // An unsettled picture, each pixel scaled by its gain when it was settled. Returns the picture
+  // itself if no gains are kept.
   std::shared_ptr<RadianceImage> scale(const std::shared_ptr<RadianceImage>& picture);
 
  private:
-  int rows_ = 0;  // found so far
+  int rows_ = 0;  // rows computed so far
   std::vector<BiasCompensation::Pixel> pixels_;
-  Image gains_;  // with it over without it
+  Image gains_;  // ratio of the picture with this light to the one without it
   ImagePool scaled_;
 };
 

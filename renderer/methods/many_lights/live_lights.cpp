@@ -8,8 +8,8 @@
 namespace lamplighter {
 namespace {
 
-// Less than this share of a set's brightness may be missing, or of a VPL's be wrong, until its turn
-// comes: nobody sees it, and to put it right at once would touch all of them.
+// A set may lack less than this share of its brightness, and a VPL may be wrong by less than this
+// share, until its turn comes: it is invisible, and an immediate correction would affect all VPLs.
 constexpr float kSmallShare = 0.05f;
 
 bool isNearly(const vec4& a, const vec4& b) {
@@ -18,8 +18,8 @@ bool isNearly(const vec4& a, const vec4& b) {
   return glm::all(glm::lessThanEqual(difference, most));
 }
 
-// However little of a map is out of date, it waits no more than so much longer than one that all
-// is of.
+// Lower bound of the urgency of a partly stale map, relative to a completely stale one; it bounds
+// the waiting time.
 constexpr float kLeastUrgency = 0.1f;
 
 bool samePlace(const shared::Vpl& a, const shared::Vpl& b) {
@@ -36,9 +36,9 @@ bool LiveLights::Entry::moves() const {
   return !isWanted || !isLive || !samePlace(current, wanted.vpl);
 }
 
-// Slots are reserved with room to spare, so that a VPL more or less does not lose all maps, and
-// paths that are being replaced have room for what they were; when maps are lost, refresh() has the
-// same frame to make some anew and shown() keeps the brightness.
+// Reserves spare slots, so that one VPL more does not lose all maps, and paths that are being
+// replaced have room for their old VPLs. If maps are lost, refresh() renders some again in the same
+// frame, and shown() keeps the brightness.
 void LiveLights::fitSlots(size_t wanted) {
   constexpr size_t kStep = 32;
   const int fitting = static_cast<int>((wanted + wanted / 8 + kStep - 1) / kStep * kStep);
@@ -55,14 +55,14 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
   std::map<VplId, size_t> before;
   for (size_t i = 0; i < entries_.size(); ++i) before.emplace(entries_[i].wanted.id, i);
   std::map<VplId, float> brightnessOfSet;
-  // Paths that left nothing are shown as they are.
+  // Paths without VPLs count as shown.
   std::map<VplId, bool> pathIsShown;
   for (const VplId& path : paths) pathIsShown.emplace_hint(pathIsShown.end(), path, true);
   for (const SceneVpl& w : wanted) {
     brightnessOfSet[w.id.set()] += brightness(w.vpl);
     if (w.id.bounce > 0) pathIsShown[w.id.path()] = false;
   }
-  auto old = pathIsShown_.begin();  // both are in one order
+  auto old = pathIsShown_.begin();  // both maps have the same order
   for (auto& [path, isShown] : pathIsShown) {
     while (old != pathIsShown_.end() && old->first < path) ++old;
     isShown = isShown || (old != pathIsShown_.end() && old->first == path && old->second);
@@ -76,20 +76,20 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
     const auto it = before.find(w.id);
     if (it != before.end()) {
       e = entries_[it->second];
-      before.erase(it);  // an id is used once
+      before.erase(it);  // each id is used once
     }
     const float whole = brightnessOfSet[w.id.set()];
     e.share = whole > 0.0f ? brightness(w.vpl) / whole : 0.0f;
     e.wanted = std::move(w);
     e.isWanted = true;
-    e.lacksMap = false;  // until updateMaps() says so
+    e.lacksMap = false;  // until updateMaps() sets it
     const bool stays = !e.moves();
-    // The links of lights are numbered anew when one of them changes.
+    // Links of lights are renumbered when one of them changes.
     if (e.current.footprint.y != e.wanted.vpl.footprint.y) {
       e.current.footprint.y = e.wanted.vpl.footprint.y;
       changed_ = changed_ || e.isLive;
     }
-    // What it stands for hangs on its neighbours, and no map or kept sum hangs on that.
+    // The footprint depends on the neighbours, and no map or kept sum depends on it.
     if (stays && e.current.footprint != e.wanted.vpl.footprint) {
       e.current.footprint = e.wanted.vpl.footprint;
       changed_ = true;
@@ -106,7 +106,7 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
   giveSlots();
 }
 
-// Of VPLs that are wanted no more, those whose path is: they stay until its turn.
+// Keeps the unwanted VPLs of paths that are still wanted, until the turn of their path.
 void LiveLights::keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const {
   for (const auto& [id, index] : gone) {
     const Entry& e = entries_[index];
@@ -117,7 +117,7 @@ void LiveLights::keepReplaced(const std::map<VplId, size_t>& gone, std::vector<E
   }
 }
 
-// To those that are wanted first; what is not gives up its own where there are too few.
+// Assigns slots to wanted VPLs first; unwanted ones lose their slots if there are too few.
 void LiveLights::giveSlots() {
   std::vector<bool> isTaken(static_cast<size_t>(slots_), false);
   size_t without = 0;
@@ -153,7 +153,7 @@ int LiveLights::markStale(std::span<const MoverFinder::Mover> movers,
       e.staleShare += hiddenShare(e.current, m.before) + hiddenShare(e.current, m.after);
     }
     if (!sees || e.mapIsStale) continue;
-    // One that moves waits as it is; its column does too.
+    // A VPL that must move waits with its old map and its old database column.
     e.mapIsStale = e.moves() || !(spared && spared(e.current));
     count += !e.mapIsStale;
   }
@@ -189,7 +189,7 @@ void LiveLights::loseMaps() {
 std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& moved,
                                                          const RefreshWork& stale) {
   std::vector<Group> groups;
-  std::map<VplId, size_t> ofPath;  // that changes
+  std::map<VplId, size_t> ofPath;  // group of each changing path
   for (const Entry& e : entries_) {
     const VplId& id = e.wanted.id;
     if (id.bounce > 0 && e.moves() && ofPath.emplace(id.path(), groups.size()).second)
@@ -216,7 +216,8 @@ std::vector<LiveLights::Group> LiveLights::pendingGroups(const RefreshWork& move
   return groups;
 }
 
-// Paths that go wait for those of their light that come, so that it gets no darker in between.
+// Pairs paths that disappear with new paths of the same light, so that the light does not become
+// darker in between.
 void LiveLights::pairUp(std::vector<Group>& groups) const {
   struct Exchange {
     std::vector<Group*> going, coming;
@@ -286,9 +287,9 @@ int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
   return refreshed;
 }
 
-// Numbers by entry, such that the lowest of them are spread over all lights: those without maps are
-// to have neighbours that have. They follow from the lights alone, so that a camera that moves does
-// not exchange all maps.
+// A rank for each entry, such that the lowest ranks are spread over all lights: VPLs without maps
+// need neighbours that have one. The ranks depend only on the lights, so a moving camera does not
+// exchange all maps.
 std::vector<uint32_t> LiveLights::spreadTurns() const {
   std::vector<shared::Vpl> vpls;
   vpls.reserve(entries_.size());
@@ -306,7 +307,7 @@ std::vector<uint32_t> LiveLights::spreadTurns() const {
 int LiveLights::updateMaps(Backend& backend, const std::vector<uint8_t>& marked,
                            const MapLimits& limits) {
   ++calls_;
-  // What is stale waits for its refresh, but keeps the map that it has.
+  // A stale VPL waits for its refresh, but keeps its map.
   std::vector<Entry*> wants;
   for (Entry& e : entries_) {
     const bool isMarked = e.isLive && marked[static_cast<size_t>(e.slot)] != 0;
@@ -338,7 +339,8 @@ int LiveLights::updateMaps(Backend& backend, const std::vector<uint8_t>& marked,
       continue;
     keeps[static_cast<size_t>(e->slot)] = 1;
   }
-  // Maps of what is no more go, and then, where room is short, those marked least recently.
+  // First drops the maps of VPLs that no longer exist; then, if memory is short, those marked least
+  // recently.
   std::vector<int> dropped, spare;
   size_t held = static_cast<size_t>(std::count(keeps.begin(), keeps.end(), 1));
   for (size_t slot = 0; slot < holds_.size(); ++slot) {
@@ -412,14 +414,14 @@ int LiveLights::withoutMap() const {
 std::vector<shared::Vpl> LiveLights::shown() const {
   struct Set {
     float share = 0.0f;
-    float missing = 0.0f;  // of samples that are to come
-    bool lacks = false;    // some for good
+    float missing = 0.0f;  // brightness of samples that will still come
+    bool lacks = false;    // some have no room
   };
   std::map<VplId, Set> sets;
   for (const Entry& e : entries_) {
     const VplId& id = e.wanted.id;
     Set& set = sets[id.set()];
-    // A path that is shown as it was stands for what it will be.
+    // The old version of a path counts as its new version.
     if (isShown(e) || (!e.isLive && id.bounce > 0 && pathIsShown_.at(id.path()))) {
       set.share += e.share;
     } else if (e.wanted.isSample) {

@@ -15,8 +15,8 @@
 namespace lamplighter {
 namespace {
 
-// Where sample i of n lies in a pixel, from its middle: a Hammersley set, centred so that its mean
-// is the middle.
+// The offset of sample i of n from the middle of a pixel: a Hammersley set, centred so that its
+// mean is the middle.
 vec2 jitterOf(int i, int n) {
   float inverse = 0.0f, digit = 0.5f, size = 1.0f;
   for (int rest = i; rest > 0; rest /= 2, digit *= 0.5f) {
@@ -27,7 +27,7 @@ vec2 jitterOf(int i, int n) {
   return {along - 0.5f, inverse + 0.5f * size - 0.5f};
 }
 
-// Of ShadingParams.
+// As in ShadingParams.
 vec4 speculars(bool on, float leastRoughness) {
   return {on ? 1.0f : 0.0f, leastRoughness, 0.0f, 0.0f};
 }
@@ -37,7 +37,7 @@ bool hasGlossy(const RenderScene& scene) {
   });
 }
 
-// With fewer VPLs each counts, the faint ones too where nothing else lights.
+// With fewer VPLs each one matters, including faint ones where there is no other light.
 constexpr int kFewestForGroups = 800;
 
 LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
@@ -48,11 +48,11 @@ LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
           !in.changes.none()};
 }
 
-// Maps that a frame may render, so many times finer than coarse ones. Where texels are what takes
-// the time (cpu) fine ones take 12 to 14 times as long at a scale of six. With a third as many the
-// frame takes about twice as long as one of a drag, which does more besides; with fewer, what every
-// frame does would be most of the way to rest. Where all that they see is drawn, and each frame
-// sums all lights anew (gl), few frames are better still.
+// Maps per frame, for maps `scale` times finer than coarse ones. With traced maps (cpu), texels
+// dominate the time: fine maps take 12 to 14 times as long at a scale of six. A third as many maps
+// makes the frame about twice as long as a frame of a drag, which does other work too; with still
+// fewer, the fixed work of a frame would dominate. With rasterised maps (gl), each frame sums all
+// lights again, so fewer frames are better.
 int mapsAFrame(const FrameInputs& in, const ManyLightsOptions& options, int scale) {
   const RefreshWork& most = options.budget.work;
   uint64_t maps = std::min<uint64_t>(most.shadowMaps, static_cast<uint64_t>(options.budget.vpls));
@@ -64,12 +64,12 @@ int mapsAFrame(const FrameInputs& in, const ManyLightsOptions& options, int scal
   return static_cast<int>(std::max<uint64_t>(maps, 1));
 }
 
-// Rays a pixel for the light in corners, which pixels share.
+// Rays per pixel for bias compensation; pixels share them.
 constexpr uint32_t kCornerPaths = 1;
 
 }  // namespace
 
-// Measures each stage with the caller's clock, if there is one.
+// Measures each stage with the caller's stopwatch, if there is one.
 class ManyLights::Stages {
  public:
   Stages(const FrameInputs& in, GiStats& stats) : in_(in), stats_(stats) {
@@ -97,17 +97,17 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (in.changes.rebuilt || lights_.slots() != neededFor_) visibilityNeeds_ = 0;
   if (visibilityNeeds_ > options.visibilityBytes) options.forgoVisibility();
 
-  // 1. Which VPLs the scene asks for, and which of those shown are out of date.
+  // 1. Find which VPLs the scene requires, and which shown ones are out of date.
   takeScene(in, options);
   updateLights(in, options, out.stats);
   stages.end("light samples");
 
-  // 2. Some of them, each wholly: place, intensity, where its map must be looked up,
+  // 2. Refresh some of them completely: position, intensity, where their maps are needed,
   out.stats.vplsRefreshed = refreshLights(in, options);
   updateVisibility(in, options, out.stats);
   stages.end("visibility");
 
-  // 3. the map, if that is anywhere in view, and the light that it sheds without shadows.
+  // 3. their maps, if the view needs them, and their unshadowed light.
   updateMaps(in, options, out.stats);
   stages.end("shadow maps");
   sharpenMaps(in, options, out.stats);
@@ -118,7 +118,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (visibility_) visibility_->clearChanged();
   stages.end("transfer");
 
-  // 4. The picture, where anything in it changed.
+  // 4. Render the picture, if anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
   const bool shadingChanged =
       options.clampDistance != options_.clampDistance ||
@@ -153,7 +153,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   part_ = in.part;
   started_ = true;
 
-  // 5. Its edges made smooth when nothing else is to be done, one sample a frame.
+  // 5. If nothing else is pending, antialias: one sample per frame.
   const int pending = lights_.pending();
   const int samples = options.antialias > 1 ? options.antialias : 0;
   if (options.antialias != samplesWanted_) {
@@ -173,7 +173,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     out.settled = out.settled && corners_.isWhole(in.view);
   }
 
-  // 6. And then made better and better, until something changes.
+  // 6. Then refine, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
   const bool mayRefine = in.part == LightPart::all;
   if (out.settled && !shadedNow && mayRefine) refine(in, options, stages, out);
@@ -183,15 +183,15 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.vplsPending = pending;
   out.stats.mapsPending = pending;
   out.stats.oldestFrames = lights_.oldestFrames();
-  // Frames that refresh as many as this one did, then some for finer maps and one for each sample
-  // of the edges.
+  // An estimate: frames that refresh as many VPLs as this one, then frames for finer maps, and one
+  // per antialiasing sample.
   const int aFrame = std::max({1, out.stats.vplsRefreshed, out.stats.mapsRendered});
   const int exchange = paths_.isAtRest() ? 0 : LightPaths::kRestingFrames;
   const int sharper = mapsAFrame(in, options, mapRooms_.scale());
   out.stats.framesUntilSettled = std::max((pending + aFrame - 1) / aFrame, exchange) +
                                  (out.stats.mapsToSharpen + sharper - 1) / sharper + samples -
                                  samples_;
-  // And what cannot be counted yet, such as paths that are exchanged, takes a frame at least.
+  // Work that cannot be estimated, such as replaced paths, takes at least one frame.
   if (!out.settled) out.stats.framesUntilSettled = std::max(out.stats.framesUntilSettled, 1);
   out.stats.mergedPasses = mergedPasses_;
   out.stats.passesSaved = passesSaved_;
@@ -217,8 +217,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
     movers = movers_.update(in.scene, in.changes);
     pointVisibility_.outdate(in.changes, movers);
   }
-  // While the camera moves samples stay as they are; where it rests they are chosen for what it
-  // sees.
+  // While the camera moves the samples are kept; when it rests they are chosen for its view.
   View chosenFor = steadyView(in.view, in.rays);
   choiceIsCurrent_ = !started_ || in.view == view_ || chosenFor == chosenFor_;
   if (!choiceIsCurrent_) chosenFor = *chosenFor_;
@@ -245,7 +244,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
       isSpared = [&](const shared::Vpl& vpl) { return visibility_->moversAreHidden(vpl); };
     stats.mapsSpared = lights_.markStale(movers, isSpared);
   }
-  // The backend forgets all maps when their number changes.
+  // The backend loses all maps when their number changes.
   const int slots = lights_.slots() + Refinement::slots(options.refinement);
   const Options::MapRooms rooms = options.mapRooms(slots);
   if (slots != mapSlots_ || rooms != mapRooms_) lights_.loseMaps();
@@ -267,11 +266,11 @@ int ManyLights::refreshLights(const FrameInputs& in, const Options& options) {
     stale.rays += prt_->raysPerLight();
   }
   if (visibility_) moved.visibilityTests = visibility_->testsPerColumn();
-  if (lightMaps_) moved.lightMapTexels = 2 * lightMaps_->texels();  // out and in again
+  if (lightMaps_) moved.lightMapTexels = 2 * lightMaps_->texels();  // subtracted and added again
   return lights_.refresh(options.budget, moved, stale);
 }
 
-// Which maps the view looks up is found anew when anything changed that they follow from.
+// Finds again which maps the view needs, if anything changed that affects this.
 void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
   const auto slots = static_cast<size_t>(lights_.slots());
   if (!visibility_) {
@@ -284,7 +283,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
   if (visibility_ && options.speculars && in.backend.info().specularsTakeAllMaps &&
       hasGlossy(in.scene))
     std::fill(wanted_.begin(), wanted_.end(), uint8_t{1});
-  // A path is refreshed whole, however many VPLs it has.
+  // A path is refreshed as a whole, even if it has more VPLs than the budget.
   const int maps = std::max(mapsAFrame(in, options, 1), stats.vplsRefreshed);
   const int refining = Refinement::slots(options.refinement);
   stats.mapsRendered =
@@ -294,7 +293,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
                          groupsOf(in, options.groupShare, lights_.slots()));
 }
 
-// Once all else is done: the frame that follows an edit has enough to do.
+// Only when all other work is done: the frame after an edit is busy enough.
 void ManyLights::sharpenMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
   const int scale = mapRooms_.scale();
   if (scale == 1) return;
@@ -331,7 +330,7 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiSta
   }
   const uint64_t before = visibility_->tests();
   visibility_->setLights(in.scene, shown);
-  // Those whose maps still show what moved where it was wait with them.
+  // Lights whose maps still show a mover at its old position wait.
   const std::vector<bool> upToDate = lights_.upToDate();
   std::vector<int> slots;
   for (size_t slot = 0; slot < upToDate.size(); ++slot)
@@ -359,13 +358,13 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
   }
 }
 
-// Whether it changes the picture.
+// Returns whether the picture changes.
 bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStats& stats) {
   if (!options.usePrt || !in.backend.info().takesTransfer) {
     prt_.reset();
     return false;
   }
-  // What was computed before it was asked for counts as new.
+  // The first call after enabling treats everything as changed.
   RenderSceneChanges changes = in.changes;
   if (!prt_) {
     prt_ = std::make_unique<PrtLights>(TransferCache(in.cacheFolder));
@@ -437,8 +436,7 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   return image;
 }
 
-// Of the VPLs those of the part that is shown; `isNew`: they may differ from those of the last
-// call.
+// Selects the VPLs of the shown part; `isNew`: they may differ from those of the last call.
 void ManyLights::takePart(const FrameInputs& in, const Options& options,
                           std::vector<shared::Vpl>& vpls, bool isNew) {
   vpls = PartLights::lightsOf(in.part, vpls, lights_.inspect());

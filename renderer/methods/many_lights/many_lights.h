@@ -1,5 +1,5 @@
-// The main engine (paper 1, chapter 4): every VPL with its shadow map at every pixel, or only where
-// the visibility database cannot tell.
+// The main method (paper 1, chapter 4): every VPL with its shadow map at every pixel, or look-ups
+// only where the visibility database cannot decide.
 #pragma once
 
 #include <memory>
@@ -54,37 +54,37 @@ class ManyLights final : public GiMethod {
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
   bool started_ = false, lightOnly_ = false;
-  float lightMapTexel_ = 0.0f;  // in the picture [m]
+  float lightMapTexel_ = 0.0f;  // spacing in the picture [m]
   LightPart part_ = LightPart::all;
-  PartLights partLights_;  // while a part alone is shown
-  Options options_;        // of the frame before
+  PartLights partLights_;  // if only a part is shown
+  Options options_;        // of the previous frame
   View view_;
-  std::optional<View> chosenFor_;  // the view that VPLs were chosen for, if for any
-  bool choiceIsCurrent_ = true;    // it is the present one, not one that the camera came from
+  std::optional<View> chosenFor_;  // the view for which VPLs were chosen by importance, if any
+  bool choiceIsCurrent_ = true;    // chosenFor_ is the present view, not an earlier one
   MoverFinder movers_;
   LightPaths paths_;
-  PointVisibility pointVisibility_;  // of what VPLs are chosen for
+  PointVisibility pointVisibility_;  // from the view for which VPLs are chosen
   LiveLights lights_;
-  int mapSlots_ = 0;  // that the backend has, and room for their maps
+  int mapSlots_ = 0;  // slots in the backend, with their maps
   Options::MapRooms mapRooms_;
-  std::unique_ptr<VisibilityDatabase> visibility_;  // while it is asked for
-  size_t visibilityNeeds_ = 0;                      // bytes at least, as found last
-  int neededFor_ = 0;                               // so many slots
-  std::vector<uint8_t> wanted_;                     // by slot: its map is looked up
-  LightProxies lightProxies_;                       // for those that have none
-  std::unique_ptr<LightMaps> lightMaps_;            // likewise
-  std::unique_ptr<PrtLights> prt_;                  // likewise
+  std::unique_ptr<VisibilityDatabase> visibility_;  // if enabled
+  size_t visibilityNeeds_ = 0;                      // bytes, lower bound of the last attempt
+  int neededFor_ = 0;                               // number of slots of that attempt
+  std::vector<uint8_t> wanted_;                     // by slot: its map is read
+  LightProxies lightProxies_;                       // for VPLs without a map
+  std::unique_ptr<LightMaps> lightMaps_;            // if enabled
+  std::unique_ptr<PrtLights> prt_;                  // if enabled
   bool gbufferIsCurrent_ = false;
-  bool isHasty_ = false;  // the picture is of a camera that moved: fewer samples, more between them
-  std::shared_ptr<RadianceImage> image_;    // of the pixels' middles
+  bool isHasty_ = false;                    // the camera moves: fewer samples, more interpolation
+  std::shared_ptr<RadianceImage> image_;    // picture with unjittered pixels
   int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum
-  float interpolatedShare_ = 0.0f;          // likewise
+  float interpolatedShare_ = 0.0f;          // of the last sum
   // Antialiasing: the sum of the samples so far; their mean when they are complete.
   Image sum_;
   int samples_ = 0, samplesWanted_ = 1;
   std::shared_ptr<RadianceImage> mean_;
   LiveBiasCompensation corners_;
-  std::shared_ptr<RadianceImage> whole_;  // the settled picture with it
+  std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;
 };
 

@@ -8,10 +8,10 @@
 namespace lamplighter {
 namespace {
 
-// Of all shadow maps, what refinement may have.
+// Refinement gets this fraction (1/4) of the memory of shadow maps.
 constexpr int kRefinementShare = 4;
 
-// The cpu backend's look-ups number texels by floats.
+// The cpu backend stores texel indices as floats.
 constexpr int kLargestMap = 1024;
 
 size_t bytesOfMap(int resolution) {
@@ -58,7 +58,7 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines) {
   leastRoughness = settings.real(parameters::leastRoughness());
   usePrt = useVisibility && settings.boolean(parameters::prt());
   fillsCorners = settings.boolean(parameters::cornerLight()) && clampDistance > 0.0f;
-  // Light between parts of an object is one bounce more each time, as VPLs of later bounces are.
+  // Each interreflection within an object counts as a bounce, like a bounce of a VPL.
   prt.transfer.bounces = std::min(counts.bounces, settings.integer(parameters::prtBounces()));
   prt.mostPoints = settings.integer(parameters::prtPoints());
   prt.mostError = settings.real(parameters::prtError());

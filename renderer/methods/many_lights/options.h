@@ -1,4 +1,4 @@
-// What the method's settings say, as its stages take it.
+// The settings of the method, in the form that its stages use.
 #pragma once
 
 #include "renderer/base/parameters.h"
@@ -8,46 +8,46 @@
 
 namespace lamplighter {
 
-// Read once a frame. `refines`: the caller has time for it.
+// Read once per frame. `refines`: the caller has time for refinement.
 struct ManyLightsOptions {
   ManyLightsOptions(const Settings& settings, bool refines);
   ManyLightsOptions() = default;
 
-  // Room for the maps of so many slots: fine ones as fine as memory allows if each slot had one,
-  // beside its coarse one.
+  // The maps for a number of slots. Fine maps have the largest resolution for which each slot could
+  // have one in memory, beside its coarse map.
   struct MapRooms {
     MapRoom coarse, fine;
     int scale() const { return fine.maps == 0 ? 1 : fine.resolution / coarse.resolution; }
     bool operator==(const MapRooms&) const = default;
   };
   MapRooms mapRooms(int slots) const;
-  int mostMaps() const;  // coarse ones, held at a time, those of refinement included
+  int mostMaps() const;  // coarse maps in memory, including those of refinement
 
-  // All that is made of visibility is left out, as in naive.
+  // Disables everything that needs the visibility database, as in naive.
   void forgoVisibility();
 
   VplCounts counts;
   int mapResolution = 0;
-  int mapScale = 1;     // of fine maps, as wanted
-  size_t mapBytes = 0;  // of all maps at most, those of refinement included
+  int mapScale = 1;     // wanted resolution of fine maps, relative to coarse ones
+  size_t mapBytes = 0;  // limit of all maps, including those of refinement
   float groupShare = 0.0f;
-  RefreshBudget budget;  // a frame
-  int mostPaths = 0;     // likewise; 0: no limit
+  RefreshBudget budget;  // per frame
+  int mostPaths = 0;     // per frame; 0: no limit
   float clampDistance = 0.0f;
   float shadowBias = 0.0f;
   int antialias = 1;
-  bool fillsCorners = false;  // with what the clamp takes away
+  bool fillsCorners = false;  // adds the light that the clamp removes
   bool useVisibility = false;
-  size_t visibilityBytes = 0;  // at most
-  bool useLightMaps = false;   // besides
+  size_t visibilityBytes = 0;  // limit
+  bool useLightMaps = false;   // in addition to useVisibility
   float lightMapTexel = 0.1f;
-  size_t lightMapBytes = 0;  // at most
-  int lightsPerPass = 0;     // changes no picture
+  size_t lightMapBytes = 0;  // limit
+  int lightsPerPass = 0;     // does not change a picture
   bool mergePasses = false;
   int block = 1;  // pixels
   bool speculars = false;
   float leastRoughness = 0.1f;
-  bool usePrt = false;  // besides
+  bool usePrt = false;  // in addition to useVisibility
   PrtLights::Options prt;
   Refinement::Options refinement;
 };

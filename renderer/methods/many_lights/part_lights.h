@@ -1,5 +1,5 @@
-// The lights of a picture that shows direct or bounced light alone, with light maps and stand-ins
-// of their own: since the sums of light maps are exact, both parts add up to the whole.
+// The lights of a picture that shows only direct or only indirect light, with their own light maps
+// and light proxies. The sums of light maps are exact, so both parts add up to the whole.
 #pragma once
 
 #include <memory>
@@ -16,16 +16,16 @@ namespace lamplighter {
 
 class PartLights {
  public:
-  // Of the lights that are shown those of the part. `all` says which slot is which light's.
+  // Of the shown lights, those of the part. `all` gives the light of each slot.
   static std::vector<shared::Vpl> lightsOf(LightPart part, std::span<const shared::Vpl> shown,
                                            std::span<const InspectedLight> all);
 
   struct Maps {
-    bool used = false;  // else all light is summed pixel by pixel
+    bool used = false;  // otherwise all light is summed per pixel
     LightMaps::Options options;
   };
-  // Made anew: views are looked at while little changes. By slot `hasMap` and `isWanted` as
-  // LightProxies takes them.
+  // Recomputes everything: these views are used while little changes. By slot: `hasMap` and
+  // `isWanted` as for LightProxies.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
               std::span<const shared::Vpl> lights, size_t slots, const Maps& maps,
               const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
@@ -40,7 +40,7 @@ class PartLights {
   LightProxies lightProxies_;
 };
 
-// The picture without what `unlit` has: what shines itself, and the sky.
+// The picture minus `unlit`: without emissive surfaces and the sky.
 std::shared_ptr<RadianceImage> without(RadianceImage& unlit, RadianceImage& picture);
 
 }  // namespace lamplighter

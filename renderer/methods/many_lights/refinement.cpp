@@ -14,27 +14,27 @@
 namespace lamplighter {
 namespace {
 
-// VPLs of a batch, nearly: enough that each light gets its share, few enough that pixels are
-// shifted a hundred times on the way to 65536.
+// Approximate number of VPLs per batch: enough that each light gets its share, and few enough that
+// there are a hundred pixel jitters until 65536 VPLs.
 constexpr int kBatchVpls = 512;
 
-// Each, a quarter of its VPLs, has its pixels shifted otherwise: else the first batches would undo
-// what `antialias` did for edges.
+// Each batch has four jitters, each with a quarter of its VPLs. Otherwise the first batches would
+// undo the antialiasing.
 constexpr int kShifts = 4;
 
-// Squares of a sun (sun_shadow_tiles.h): fewer than live, for each batch has them turned otherwise;
-// but what leaks along an edge leaks in each of them.
+// Sun shadow tiles per sun (sun_shadow_tiles.h): fewer than for live lights, because each batch
+// rotates them; but light leaks along edges occur in each of them.
 constexpr int kSunMaps = 64;
 
-// Maps that are kept at a time: as many as fill a draw of the gl backend well, in so many bytes.
+// Maps in memory: enough to fill a draw of the gl backend well, within this number of bytes.
 constexpr int kMostSlots = 64;
 constexpr size_t kMostMapBytes = size_t{64} << 20;
 
-// Direct light needs fewer VPLs than bounced light, whose VPLs lie next to what they light. The
-// live picture, where a light is being moved, may want it otherwise.
+// Direct light needs fewer VPLs than indirect light, whose VPLs lie close to what they light. The
+// live picture can need another share, when a light is moved.
 constexpr float kDirectShare = 0.125f;
 
-// Rays a pixel and batch for what the clamp takes away.
+// Rays per pixel and batch for bias compensation.
 constexpr uint32_t kNearPaths = 2;
 constexpr uint32_t kJitterSet = 0x3d, kNearSet = 0x4d;
 
@@ -44,8 +44,7 @@ void addScaled(Image& sum, const Image& image, float scale) {
   });
 }
 
-// Where in its pixels a part of a batch looks. Never in their middle: that is the live picture's
-// place.
+// The pixel jitter of a part of a batch. Never zero: that is the sample of the live picture.
 vec2 jitterOf(uint32_t shift, uint32_t seed) {
   const vec2 jitter = sobol2(shift, hash4(seed, 0, 0, kJitterSet)) - 0.5f;
   return jitter == vec2(0.0f) ? vec2(0.25f) : jitter;
@@ -75,7 +74,7 @@ int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImag
     if (counts_.directShare < 1.0f)
       counts_.directShare = std::min(counts_.directShare, kDirectShare);
     counts_.sunMaps = std::min(counts_.sunMaps, kSunMaps);
-    // How many paths leave about as many VPLs.
+    // Finds the number of paths that gives about the wanted number of VPLs.
     lights_ = LightSet(in.scene);
     const VplSet set = generateVpls(in.scene, in.rays, lights_, counts_);
     counts_.paths = set.paths;
@@ -88,7 +87,7 @@ int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImag
   if (!batch_) begin(in, options);
   Batch& batch = *batch_;
   if (batch.shift < 0 || batch.summed >= endOfShift(batch.shift)) {
-    // A share of a batch of few VPLs may be empty.
+    // In a small batch, a share may be empty.
     do {
       ++batch.shift;
     } while (batch.shift + 1 < kShifts && batch.summed >= endOfShift(batch.shift));
@@ -108,13 +107,13 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   ++counts_.batch;
   batch_ = std::make_unique<Batch>();
   Batch& batch = *batch_;
-  // Those of each light and bounce are dealt out evenly among the shifts.
+  // Distributes the VPLs of each light and bounce evenly over the jitters.
   VplSet set = generateVpls(in.scene, in.rays, lights_, counts_, &in.view);
   findFootprints(lights_, set.vpls);
   batch.samples = sampleCount(set.vpls);
-  // Highlights grow sharper from batch to batch, so that their mean converges to the true ones: by
-  // the radii of Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011,
-  // with α = 2/3, area ∝ batch^(α−1).
+  // The lobes become sharper with each batch, so that the mean converges to the exact highlights.
+  // The radii follow Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach",
+  // 2011, with α = 2/3, area ∝ batch^(α−1).
   const float sharper = std::pow(static_cast<float>(counts_.batch), -1.0f / 3.0f);
   for (SceneVpl& v : set.vpls) v.vpl.footprint.x *= sharper;
   batch.vpls.reserve(set.vpls.size());
@@ -133,13 +132,13 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   }
 }
 
-// How many of the batch's VPLs are summed when this shift has had its share.
+// The number of VPLs of the batch that are summed when this jitter is complete.
 size_t Refinement::endOfShift(int shift) const {
   return batch_->vpls.size() * static_cast<size_t>(shift + 1) / kShifts;
 }
 
-// Some of the batch's VPLs, as bright as all: what they show counts by their
-// share. So every picture is whole, with what emits and the sky in it.
+// Sums a part of the batch's VPLs, scaled to the brightness of all; the picture is weighted by
+// their share. So every picture is complete, with emission and sky.
 void Refinement::addPart(const FrameInputs& in, const Options& options, int firstSlot, MapSize size,
                          size_t count) {
   Batch& batch = *batch_;
@@ -175,7 +174,7 @@ void Refinement::finishBatch(int target) {
   if (batch_->biasCompensation)
     addSmoothed(batch_->nearPixels, filterRadius(counts_.batch, batch_->image.height),
                 batch_->image);
-  // All batches count the same, however many VPLs their paths left.
+  // All batches have equal weight, whatever the number of VPLs of their paths.
   addScaled(sum_, batch_->image, static_cast<float>(kBatchVpls));
   weight_ += kBatchVpls;
   vpls_ += std::max(batch_->samples, 1);

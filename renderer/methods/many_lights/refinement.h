@@ -1,7 +1,6 @@
-// What a picture at rest becomes: the mean of batches of VPLs of their own, each with its maps
-// turned otherwise, its pixels shifted otherwise, and what the clamp took away given back. It
-// converges to the light itself, and what is kept for the next edit (live VPLs, their maps, light
-// maps, sums) is left alone.
+// Refines a settled picture: the mean of batches of VPLs. Each batch has its own shadow map
+// orientation and pixel jitter, and its bias is compensated. It converges to the exact solution.
+// The data for the next edit (live VPLs, their maps, light maps, sums) are not touched.
 #pragma once
 
 #include <memory>
@@ -17,40 +16,41 @@ namespace lamplighter {
 class Refinement {
  public:
   struct Options {
-    int vpls = 0;  // in all, the live ones included, to which the picture is refined; 0: not at all
-    VplCounts counts;  // of the live ones
+    int vpls = 0;      // target number of VPLs, including the live ones; 0: no refinement
+    VplCounts counts;  // of the live VPLs
     int mapResolution = 0;
     float clampDistance = 0.0f, shadowBias = 0.0f;
-    int lightsPerPass = 1;  // changes no picture
+    int lightsPerPass = 1;  // does not change a picture
     bool speculars = false;
     float leastRoughness = 0.1f;
-    int mostMaps = 1 << 16;  // at a time
+    int mostMaps = 1 << 16;  // in memory
 
     bool operator==(const Options&) const = default;
   };
 
-  // Shadow maps that it needs, behind those of the live VPLs.
+  // The number of shadow map slots that it needs, after those of the live VPLs.
   static int slots(const Options& options);
 
-  // What it was to be the mean of is shown no more.
+  // Discards the mean, because the settled picture changed.
   void restart();
 
-  // Goes on by at most `most` VPLs with maps of this size in the slots from firstSlot on. `live`,
-  // the settled picture, counts for as many VPLs as it has. Returns how many VPLs it went on by.
+  // Adds at most `most` VPLs, with maps of this size in the slots from firstSlot on. `live`, the
+  // settled picture, has the weight of its VPLs. Returns the number of VPLs added.
   int goOn(const FrameInputs& in, const Options& options, RadianceImage& live, int liveVpls,
            int firstSlot, MapSize size, int most);
 
   bool done() const { return done_; }
-  int vpls() const { return vpls_; }  // in the mean, the live ones included
-  // The mean; null while no batch is complete.
+  int vpls() const { return vpls_; }  // in the mean, including the live ones
+  // The mean; null until the first batch is complete.
   const std::shared_ptr<RadianceImage>& image() const { return mean_; }
 
  private:
-  // One on its way: parts of it are summed, each as if it were all.
+  // A batch in progress. Its parts are summed one by one, each scaled as if it were the whole
+  // batch.
   struct Batch {
     std::vector<SceneVpl> vpls;
-    int samples = 0;  // that they are
-    int shift = -1;   // of the pixels, the one that the G-buffer has
+    int samples = 0;  // samples of the VPLs
+    int shift = -1;   // index of the jitter in the G-buffer
     vec2 jitter{0.0f};
     std::optional<BiasCompensation> biasCompensation;
     std::vector<BiasCompensation::Pixel> nearPixels;

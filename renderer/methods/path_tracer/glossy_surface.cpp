@@ -8,9 +8,9 @@
 namespace lamplighter {
 namespace {
 
-// Half vectors that the eye sees (E. Heitz, "Sampling the GGX Distribution of Visible Normals",
-// JCGT 7(4), 2018): stretched so that the lobe is a hemisphere, of which the disc that the eye sees
-// is sampled.
+// Samples the half vectors visible from the eye (E. Heitz, "Sampling the GGX Distribution of
+// Visible Normals", JCGT 7(4), 2018): stretches the lobe to a hemisphere and samples its projected
+// disc.
 vec3 sampleVisibleNormal(const vec3& eye, float alpha, vec2 u) {
   const vec3 v = glm::normalize(vec3(alpha * eye.x, alpha * eye.y, eye.z));
   const float across = v.x * v.x + v.y * v.y;
@@ -24,7 +24,7 @@ vec3 sampleVisibleNormal(const vec3& eye, float alpha, vec2 u) {
   return glm::normalize(vec3(alpha * n.x, alpha * n.y, std::max(1e-6f, n.z)));
 }
 
-// The density by solid angle of light directions that the above leads to: D·G1 / (4 n·v).
+// The resulting density per solid angle of light directions: D·G1 / (4 n·v).
 float visibleNormalPdf(float nv, float nh2, float alpha) {
   const float a2 = alpha * alpha, d = nh2 * (a2 - 1.0f) + 1.0f;
   const float distribution = a2 / (kPi * d * d);
@@ -45,7 +45,7 @@ GlossySurface::GlossySurface(const vec3& baseColor, const Gloss& gloss, float le
   const float straight = luminance(vec3(lobe_.straight));
   const float lobe = straight + (lobe_.straight.w - straight) * grazing;
   const float diffuse = share * luminance(baseColor);
-  // Neither is left out but where there is none: both are everywhere in the hemisphere.
+  // Both probabilities are positive, because both lobes cover the whole hemisphere.
   lobeProbability_ = diffuse > 0.0f ? std::clamp(lobe / (lobe + diffuse), 0.1f, 0.9f) : 1.0f;
 }
 

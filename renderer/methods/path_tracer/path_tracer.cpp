@@ -15,14 +15,14 @@ namespace lamplighter {
 
 namespace {
 
-// Russian roulette begins after this many bounces; before, every path goes on.
+// Russian roulette starts after this number of bounces; before it, no path is terminated.
 constexpr int kSureBounces = 8;
 
 // The balance heuristic (Veach and Guibas 1995) for two strategies of one sample each.
 float misWeight(float pdf, float other) { return pdf / (pdf + other); }
 
-// A surface as seen from one side: both normals turned to the viewer. A mapped normal that looks
-// away from the viewer is bent back to the geometric one. Lambert's, where it has no gloss.
+// A surface seen from one side: both normals are turned to the viewer. A mapped normal that faces
+// away from the viewer is bent to the geometric one. Lambertian if it has no gloss.
 struct LocalSurface {
   Surface s;
   vec3 ng, ns;
@@ -36,16 +36,17 @@ struct LocalSurface {
     ns = side * s.normal;
     if (glm::dot(ns, toViewer) <= 0.0f) ns = ng;
   }
-  // cos at the shading normal; none for directions below the real surface, where light would leak.
+  // Cosine with the shading normal; 0 for directions below the real surface, where light would
+  // leak.
   float cosine(const vec3& w) const {
     return glm::dot(ng, w) > 0.0f ? std::max(0.0f, glm::dot(ns, w)) : 0.0f;
   }
-  // f · cos, for light from w.
+  // f · cos for light from w.
   vec3 reflected(const vec3& w) const {
     const vec3 f = gloss ? gloss->brdf(w) : s.albedo / kPi;
     return f * cosine(w);
   }
-  // The density by solid angle with which a path goes on towards w.
+  // The probability density per solid angle with which a path continues towards w.
   float pdf(const vec3& w) const {
     return gloss ? gloss->pdf(w) : std::max(0.0f, glm::dot(ns, w)) / kPi;
   }
@@ -56,24 +57,24 @@ class Tracer {
   Tracer(const RenderScene& scene, const RayCaster& rays, const LightSet& lights)
       : scene_(scene), rays_(rays), lights_(lights) {}
 
-  // Where a ray begins: at the camera, or at a surface.
+  // The origin of a ray: the camera or a surface.
   struct Start {
     int depth = 0;
-    float pdf = 0.0f;  // with which the surface chose the direction, by solid angle
+    float pdf = 0.0f;  // density per solid angle with which the surface chose the direction
     vec3 place{0.0f};
     uint32_t leftOutBy = 0;
   };
   vec3 trace(Ray ray, PathSampler& sampler, const PathTracerOptions& options, const Start& start) {
     vec3 radiance(0.0f), throughput(1.0f);
-    // The density by solid angle with which the last surface chose this direction; 0: the camera's,
-    // which no light sampling competes with.
+    // Density per solid angle with which the last surface chose this direction; 0 for camera rays,
+    // which do not compete with light sampling.
     float pdfDirection = start.pdf;
     vec3 from = start.place;
-    uint32_t leftOutBy = start.leftOutBy;  // of where the ray begins; the eye sees all
+    uint32_t leftOutBy = start.leftOutBy;  // of the ray's origin; nothing is excluded for the eye
 
     const int bounces = options.part == LightPart::direct ? 0 : options.bounces;
     for (int depth = start.depth;; ++depth) {
-      // What shines into the camera, and what does on what it sees, is direct.
+      // Light that emitters send to the camera, or to the first visible surface, is direct.
       const bool takesSeen = options.part != LightPart::indirect || depth > 1;
       ++raysTraced_;
       const Hit hit = rays_.intersect(ray, depth == 0 ? Surfaces::seen : Surfaces::all);
@@ -92,14 +93,15 @@ class Tracer {
       }
       if (takesSeen && !isLeftOut(leftOutBy, object.link))
         radiance += throughput * emissionSeen(hit, surface, ray.direction, from, pdfDirection);
-      // Direct light is reflected once on its way to the camera (depth 0), each bounce adds one.
+      // Direct light is reflected once on its way to the camera (depth 0); each bounce adds one
+      // reflection.
       if (depth > bounces) return radiance;
 
       const vec3 direct = directLight(at, sampler);
       if (options.part != LightPart::indirect || depth > 0) radiance += throughput * direct;
 
-      // On to the next surface, by cosine about the shading normal: f · cos / pdf = ρ; or where the
-      // surface has a lobe, by either.
+      // Next direction: cosine about the shading normal, with f · cos / pdf = ρ; or, if the surface
+      // has a lobe, a mixture of cosine and lobe.
       const vec2 u = sampler.next2();
       const vec3 direction = at.gloss ? at.gloss->sample(sampler.next1(), u)
                                       : Frame(at.ns).toWorld(sampleCosineHemisphere(u));
@@ -119,7 +121,7 @@ class Tracer {
     }
   }
 
-  // What a white Lambertian surface there would reflect, times π.
+  // The reflected radiance of a white Lambertian surface there, times π.
   vec3 irradiance(const ReceivingPlace& place, PathSampler& sampler,
                   const PathTracerOptions& options) {
     Surface surface;
@@ -139,7 +141,7 @@ class Tracer {
   uint64_t raysTraced() const { return raysTraced_; }
 
  private:
-  // Emission of a surface that a ray has hit, weighted against having sampled it as a light.
+  // Emission of a surface that a ray hit, with the MIS weight against light sampling.
   vec3 emissionSeen(const Hit& hit, const Surface& surface, const vec3& direction, const vec3& from,
                     float pdfDirection) const {
     const float cosine = -glm::dot(surface.geometricNormal, direction);
@@ -155,7 +157,7 @@ class Tracer {
     return surface.emission * misWeight(pdfDirection, pdfLight);
   }
 
-  // The sky's radiance where a ray meets nothing, weighted against having sampled it as a light.
+  // The sky's radiance for a ray that hits nothing, with the MIS weight against light sampling.
   vec3 skySeen(const vec3& direction, float pdfDirection) const {
     const vec3 radiance = scene_.sky.radianceFrom(direction);
     if (pdfDirection == 0.0f || lights_.sky().isConstant() || radiance == vec3(0.0f))
@@ -163,9 +165,9 @@ class Tracer {
     return radiance * misWeight(pdfDirection, lights_.sky().density(direction));
   }
 
-  // The light that arrives straight from emitters, times f · cos: one sample of all surfaces that
-  // emit, one of all punctual lights, one of the sky. A constant sky is left to the directions that
-  // bounces take, by cosine: no sampling of it could do better.
+  // Direct light from emitters, times f · cos: one sample of all emissive surfaces, one of all
+  // punctual lights, one of the sky. A constant sky is not sampled here, because the
+  // cosine-distributed bounce directions already sample it optimally.
   vec3 directLight(const LocalSurface& at, PathSampler& sampler) {
     const float choice = sampler.next1();
     const vec2 u = sampler.next2();
@@ -189,8 +191,8 @@ class Tracer {
     return !rays_.occluded({off(at), 0.0f, direction, distance});
   }
 
-  // Both ends stand off their surfaces. Only stopping short of the light would not do: a ray that
-  // starts off its surface meets a light seen at a grazing angle well before its end.
+  // Both ends are offset from their surfaces. Stopping before the light would not be sufficient: a
+  // ray that starts off its surface meets a light at a grazing angle well before its end.
   bool visible(const LocalSurface& at, const EmitterPoint& p, const vec3& toLight) {
     const float side = glm::dot(p.normal, toLight) > 0.0f ? -1.0f : 1.0f;
     const vec3 way = p.position + side * rayEpsilon(p.position) * p.normal - off(at);
@@ -213,7 +215,7 @@ class Tracer {
     const float cosThere = p.bothSides ? std::abs(glm::dot(p.normal, w)) : -glm::dot(p.normal, w);
     if (reflected == vec3(0.0f) || cosThere <= 0.0f) return vec3(0.0f);
     if (!visible(at, p, w)) return vec3(0.0f);
-    const float pdfAngle = p.pdfArea * d2 / cosThere;  // density by solid angle
+    const float pdfAngle = p.pdfArea * d2 / cosThere;  // density per solid angle
     const float pdfLight = pdfAngle * lights_.surfaceProbability(emitter);
     return p.radiance * reflected * (misWeight(pdfLight, at.pdf(w)) / pdfAngle);
   }
@@ -227,8 +229,8 @@ class Tracer {
            (misWeight(sky.pdf, at.pdf(sky.towards)) / sky.pdf);
   }
 
-  // One of them, in proportion to what it would give here if nothing stood between: then whether it
-  // is seen is all the noise there is.
+  // Chooses one, with a probability proportional to its unshadowed contribution here; then only
+  // visibility causes noise.
   vec3 fromPunctuals(const LocalSurface& at, float u) {
     float total = 0.0f;
     for (const RenderPunctual& light : scene_.punctuals) total += luminance(given(at, light));
@@ -257,12 +259,12 @@ class Tracer {
     return d / std::max(distance, 1e-20f);
   }
 
-  // unshadowed(), but of what is left out.
+  // unshadowed(), but 0 for lights that light linking excludes.
   static vec3 given(const LocalSurface& at, const RenderPunctual& light) {
     return isLeftOut(at.leftOutBy, light.link) ? vec3(0.0f) : unshadowed(at, light);
   }
 
-  // Radiance that is reflected [W/(m² sr)] where nothing stands between.
+  // Reflected radiance [W/(m² sr)] without occlusion.
   static vec3 unshadowed(const LocalSurface& at, const RenderPunctual& light) {
     float distance = 0.0f;
     const vec3 w = towards(at, light, distance);
@@ -273,7 +275,7 @@ class Tracer {
     if (light.light.profile)
       return radiance * light.light.profile->at(glm::transpose(light.axes) * -w);
     if (light.light.kind == PunctualKind::spot) {
-      // KHR_lights_punctual: linear in the cosine between the cones, squared.
+      // KHR_lights_punctual: linear in the cosine between the two cones, then squared.
       const float co = std::cos(light.light.outerCone), ci = std::cos(light.light.innerCone);
       const float t =
           std::clamp((-glm::dot(w, light.direction) - co) / std::max(1e-3f, ci - co), 0.0f, 1.0f);

@@ -13,7 +13,7 @@ namespace lamplighter {
 
 namespace {
 
-// Adds some paths a pixel each frame until there are enough; begins again when anything changes.
+// Adds some paths per pixel each frame until there are enough; restarts when anything changes.
 class ReferenceMethod final : public GiMethod {
  public:
   GiOutput render(const FrameInputs& in) override {
@@ -29,7 +29,7 @@ class ReferenceMethod final : public GiMethod {
                                     in.part};
     const int wanted = s.integer(parameters::samplesPerPixel());
     const bool samePaths = options == options_;
-    // Fewer paths than there are already: begin again too, so that the picture is that of the
+    // If fewer paths are wanted than there are, it also restarts, so that the picture has the exact
     // count.
     if (!sameScene || !(in.view == view_) || !samePaths || wanted < samples_) {
       view_ = in.view;
@@ -57,8 +57,8 @@ class ReferenceMethod final : public GiMethod {
   void reset() override { sum_ = Image(); }
 
  private:
-  // Tiles are fixed and a pixel's samples are added in their order, so that neither the number of
-  // threads nor the split of samples over frames changes a bit. Returns the count of rays.
+  // Tiles are fixed, and the samples of a pixel are added in order, so neither the number of
+  // threads nor the distribution over frames changes a bit. Returns the number of rays.
   uint64_t addSamples(const FrameInputs& in, int until) {
     const tbb::blocked_range2d<int> pixels(0, view_.height, 16, 0, view_.width, 16);
     std::atomic<uint64_t> rays = 0;

@@ -1,4 +1,4 @@
-// The path tracer as a method like the others, so that comparing with it needs no special case.
+// The path tracer as a method, so that comparisons need no special case.
 #pragma once
 
 #include "renderer/methods/gi_method.h"

@@ -109,7 +109,7 @@ void trace(const RenderScene& scene, const RayCaster& rays, const View& view, ve
       r.origin = view.eye;
       r.direction = view.rayDirection(static_cast<float>(x) + 0.5f + jitter.x,
                                       static_cast<float>(y) + 0.5f + jitter.y);
-      r.tNear = view.znear / glm::dot(r.direction, forward);  // the near plane, as a rasteriser's
+      r.tNear = view.znear / glm::dot(r.direction, forward);  // the near plane, as for a rasteriser
       if (x >= view.width || y >= view.height) r.tFar = -1.0f;
     }
     rays.intersect8(ray, hit, Surfaces::seen);
@@ -120,7 +120,7 @@ void trace(const RenderScene& scene, const RayCaster& rays, const View& view, ve
   }
 }
 
-// Tiles, from the first to before the last in both directions, whose pixels may see the box.
+// The tiles whose pixels may see the box; the end is exclusive in both directions.
 struct TileRange {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
@@ -132,11 +132,12 @@ TileRange tilesThatMaySee(const View& view, const GBuffer& g, const Bounds& box)
     const vec3 p(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
                  corner & 4 ? box.max.z : box.min.z);
     const vec3 at = view.project(p);
-    if (at.z <= view.znear) return {0, 0, g.tilesX, g.tilesY};  // partly beside the eye
+    // the box extends behind the near plane
+    if (at.z <= view.znear) return {0, 0, g.tilesX, g.tilesY};
     low = glm::min(low, vec2(at));
     high = glm::max(high, vec2(at));
   }
-  // Two pixels more, for rounding.
+  // Two extra pixels for rounding.
   const auto tileOf = [](float pixel, int tiles) {
     return std::clamp(static_cast<int>(std::floor(std::clamp(pixel, -1e6f, 1e6f) / kTileSize)), 0,
                       tiles);
@@ -149,7 +150,7 @@ TileRange tilesThatMaySee(const View& view, const GBuffer& g, const Bounds& box)
 
 namespace {
 
-// Traces tiles, those of `wanted` (by tile) or all.
+// Traces the tiles of `wanted` (by tile), or all tiles.
 void traceTiles(const RenderScene& scene, const RayCaster& rays, const View& view, vec2 jitter,
                 std::span<const uint8_t> wanted, GBuffer& out) {
   const auto forEachTile = [&](auto&& f) {

@@ -12,8 +12,8 @@ namespace {
 
 using glm::dvec3;
 
-// Bins of 4×4 tiles, in which triangles are gathered. What is in so many of them is made ready
-// once for all their tiles.
+// Triangles are collected in bins of 4×4 tiles. A triangle that lies in this number of bins is
+// prepared only once for all its tiles.
 constexpr int kBinSize = 4 * kTileSize;
 constexpr int kManyBins = 4;
 constexpr size_t kTrianglesPerTask = 4096;
@@ -45,7 +45,7 @@ Raster::Raster(const RenderScene& scene, const View& view, vec2 jitter, const GB
           1;
   }
 
-  // Entries by task, then in the order of triangles by bin.
+  // Collects entries per task, then sorts them into bins in the order of triangles.
   const size_t triangles = scene.triangleCount();
   std::vector<std::vector<Entry>> found((triangles + kTrianglesPerTask - 1) / kTrianglesPerTask);
   tbb::parallel_for(size_t{0}, found.size(), [&](size_t task) {
@@ -87,7 +87,7 @@ Raster::Raster(const RenderScene& scene, const View& view, vec2 jitter, const GB
     for (const Entry& e : some) forEachBin(e, [&](size_t bin) { entries_[next[bin]++] = e; });
 }
 
-// x and y: of the image point's distance from the middle × z [pixels], y down; z: distance.
+// x and y: distance of the image point from the image centre × z [pixels], y down; z: depth.
 dvec3 Raster::toCamera(uint32_t vertex) const {
   const dvec3 p = dvec3(scene_.positions[vertex]) - eye_;
   return {glm::dot(p, right_), glm::dot(p, down_), glm::dot(p, forward_)};
@@ -104,8 +104,8 @@ bool Raster::makeEntry(uint32_t object, uint32_t triangle, Entry& out) const {
   out = {
       object, triangle, 0, 0, static_cast<uint16_t>(width_ - 1), static_cast<uint16_t>(height_ - 1),
       kNone};
-  if (nearest <= 0.5 * znear_) return true;  // reaches behind the eye
-  // A pixel more each way, for rounding and jitter.
+  if (nearest <= 0.5 * znear_) return true;  // reaches behind the near plane
+  // One extra pixel on each side, for rounding and jitter.
   const double ax = a.x / a.z, bx = b.x / b.z, cx = c.x / c.z;
   const double ay = a.y / a.z, by = b.y / b.z, cy = c.y / c.z;
   const double x0 = middleX_ + std::min({ax, bx, cx}) - 2.0,
@@ -131,13 +131,13 @@ Raster::Edges Raster::edgesOf(const Entry& e) const {
   return edges;
 }
 
-// Whether the triangle may meet a ray of the tile.
+// Returns whether the triangle may meet a ray of the tile.
 bool Raster::makeCandidate(const Entry& e, int tile, Candidate& out) const {
   const int tx = tile % tilesX_ * kTileSize, ty = tile / tilesX_ * kTileSize;
   constexpr int kLast = kTileSize - 1;
   if (e.x1 < tx || e.y1 < ty || e.x0 > tx + kLast || e.y0 > ty + kLast) return false;
   const Edges edges = e.large == kNone ? edgesOf(e) : large_[static_cast<size_t>(e.large)].edges;
-  // The pixel's ray in these coordinates is (x − middleX, y − middleY, 1).
+  // In these coordinates the ray of pixel (x, y) is (x − middleX, y − middleY, 1).
   const double x = tx + 0.5 + static_cast<double>(jitter_.x) - middleX_;
   const double y = ty + 0.5 + static_cast<double>(jitter_.y) - middleY_;
   out.coversAll = true;
@@ -180,7 +180,7 @@ void Raster::trace(int tile, GBuffer& out) const {
     intersect(candidate, static_cast<int>(candidates.size()), hits);
     candidates.push_back(candidate);
   }
-  // What is past the image's edge is a miss.
+  // Pixels outside the image are misses.
   if (tx + kTileSize > width_ || ty + kTileSize > height_) {
     for (int i = 0; i < kTilePixels; ++i) {
       const int packet = i / kLanes, lane = i % kLanes;

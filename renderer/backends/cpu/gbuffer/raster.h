@@ -1,11 +1,11 @@
-// What a camera sees, tile by tile: the triangles that may meet a tile's rays are found first, and
-// all rays of the tile are intersected with each of them, eight at a time.
+// Rasterises what a camera sees. For each tile it finds the triangles that may meet the tile's
+// rays, and then intersects all rays of the tile with each of them, eight at a time.
 //
-// A ray through the eye meets a triangle a, b, c (relative to the eye) where d·(b×c), d·(c×a) and
-// d·(a×b) have one sign. Over the image these are linear, and are the triangle's barycentric
-// weights but for their sum; nothing needs to be clipped (Olano and Greer, Triangle Scan Conversion
-// using 2D Homogeneous Coordinates, 1997). Neighbours compute the same number, but for its sign,
-// for the edge that they share, so that no ray passes between them.
+// A ray d from the eye meets a triangle a, b, c (relative to the eye) where d·(b×c), d·(c×a) and
+// d·(a×b) have one sign. Over the image these functions are linear. Divided by their sum they are
+// the barycentric weights of the triangle. Nothing needs clipping (Olano and Greer, Triangle Scan
+// Conversion using 2D Homogeneous Coordinates, 1997). Two triangles compute the same number, apart
+// from the sign, for a shared edge, so no ray passes between them.
 #pragma once
 
 #include <span>
@@ -19,29 +19,30 @@ class Raster {
   using dvec3 = glm::dvec3;
 
  public:
-  // More triangles than so are better left to a tree.
+  // Above this number of triangles a ray tracing tree is faster.
   static constexpr size_t kMostTriangles = size_t{1} << 18;
 
-  // Finds what may be seen in tiles that are wanted (by tile; empty: in all).
+  // Finds the triangles that may be visible in the wanted tiles (by tile; empty: all tiles).
   Raster(const RenderScene& scene, const View& view, vec2 jitter, const GBuffer& size,
          std::span<const uint8_t> wanted);
 
-  // Writes all pixels of a tile but for its revision.
+  // Writes all pixels of a tile; does not change its revision.
   void trace(int tile, GBuffer& out) const;
 
  private:
-  // A triangle that may be seen within these pixels, its edges included.
+  // A triangle that may be visible inside these pixels, bounds included.
   struct Entry {
     uint32_t object, triangle;
     uint16_t x0, y0, x1, y1;
-    int large = kNone;  // in large_
+    int large = kNone;  // index into large_
   };
-  // d·normals[i] ≥ 0 for a ray that meets it. det: of its corners, less than 0 from its front.
+  // d·normals[i] ≥ 0 for a ray d that meets it. det: determinant of its corners, negative seen from
+  // its front.
   struct Edges {
     dvec3 normals[3];
     double det;
   };
-  // What is the same all over a triangle, if it is.
+  // Values that are constant over a triangle.
   struct Plain {
     bool isKnown = false, isPlain = false;
     Surface surface;
@@ -70,12 +71,13 @@ class Raster {
   int binsX_;
   vec2 jitter_;
   dvec3 eye_;
-  dvec3 right_, down_, forward_;  // of the camera; right and down as long as a pixel at distance 1
-  double middleX_, middleY_;      // of the image [pixels]
+  // of the camera; right_ and down_ have the size of a pixel at distance 1
+  dvec3 right_, down_, forward_;
+  double middleX_, middleY_;  // of the image [pixels]
   double znear_;
-  std::vector<Entry> entries_;        // bin after bin
-  std::vector<uint32_t> firstOfBin_;  // and one past the last
-  std::vector<Large> large_;          // what is in many bins
+  std::vector<Entry> entries_;        // bin by bin
+  std::vector<uint32_t> firstOfBin_;  // and the end of the last bin
+  std::vector<Large> large_;          // triangles that lie in many bins
 };
 
 }  // namespace lamplighter::cpu

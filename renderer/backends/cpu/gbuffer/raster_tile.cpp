@@ -13,7 +13,7 @@ using raster::Pixels;
 using Mask = hn::Mask<FloatTag>;
 using IntTag = hn::RebindToSigned<FloatTag>;
 
-// The corners of a triangle, each coordinate in every lane.
+// The corners of a triangle, each coordinate broadcast to all lanes.
 class Corners {
  public:
   Corners(const RenderScene& scene, uint32_t object, uint32_t triangle) {
@@ -22,7 +22,7 @@ class Corners {
       for (int axis = 0; axis < 3; ++axis)
         of_[axis][corner] = wide(scene.positions[index[corner]][axis]);
   }
-  // A coordinate of the points with these weights.
+  // One coordinate of the points with these barycentric weights.
   Floats at(int axis, const Floats (&w)[3]) const {
     const Floats(&c)[3] = of_[axis];
     return hn::MulAdd(w[2], c[2], hn::MulAdd(w[1], c[1], hn::Mul(w[0], c[0])));
@@ -118,7 +118,7 @@ void Raster::write(std::span<const Candidate> candidates, const TileHits& hits, 
     if (!same.isKnown) same = plainOf(c.object, c.triangle);
     return same;
   };
-  // If one flat triangle is all that is seen in packets, what they are of.
+  // The triangle of these pixels if they all show one flat triangle.
   const auto onlyOne = [&](const int32_t* first, size_t pixels) -> const Candidate* {
     const int index = *first;
     const bool isOne = index >= 0 &&
@@ -192,7 +192,7 @@ void Raster::write(std::span<const Candidate> candidates, const TileHits& hits, 
   }
 }
 
-// Mostly packets show what they showed last, from another place.
+// Usually a packet shows the same surface as before, at another position.
 void Raster::writeFlat(const Candidate& c, const Surface& surface, int tile, int packet, int count,
                        GBuffer& out) const {
   const size_t begin = static_cast<size_t>(tile) * kPacketsPerTile + static_cast<size_t>(packet);

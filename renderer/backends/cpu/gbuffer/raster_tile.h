@@ -1,4 +1,4 @@
-// What the rasteriser knows of a tile while it is traced: for raster.cpp and raster_tile.cpp alone.
+// The rasteriser's data of one tile, for raster.cpp and raster_tile.cpp only.
 #pragma once
 
 #include "renderer/backends/cpu/gbuffer/raster.h"
@@ -10,11 +10,11 @@ namespace raster {
 using Floats = Floats8;
 static_assert(hn::MaxLanes(kTag) == kLanes);
 
-// Where the lanes of a packet lie within it.
+// The position of each lane inside a packet.
 HWY_ALIGN inline constexpr float kLaneX[kLanes] = {0, 1, 2, 3, 0, 1, 2, 3};
 HWY_ALIGN inline constexpr float kLaneY[kLanes] = {0, 0, 0, 0, 1, 1, 1, 1};
 
-// Where the pixels of a packet are in their tile.
+// The positions of the pixels of a packet in their tile.
 struct Pixels {
   Floats x, y;
   explicit Pixels(int packet) {
@@ -26,20 +26,20 @@ struct Pixels {
 
 }  // namespace raster
 
-// A triangle within a tile. Its edge functions at the pixel (x, y) of the tile are
-// atFirst + x·alongX + y·alongY, ≥ 0 within; their sum × inverseDet is 1/distance along the view.
+// A triangle in a tile. Its edge functions at pixel (x, y) of the tile are atFirst + x·alongX +
+// y·alongY, ≥ 0 inside; their sum × inverseDet is 1/depth along the view direction.
 struct Raster::Candidate {
   uint32_t object, triangle;
-  int large;  // of Entry
+  int large;  // as in Entry
   bool isFront, isMasked, coversAll;
-  int x0, y0, x1, y1;  // pixels of the tile within which it may be
+  int x0, y0, x1, y1;  // the pixels of the tile that it can cover
   float atFirst[3], alongX[3], alongY[3];
   float inverseDet;
 
   raster::Floats edge(int i, raster::Floats x, raster::Floats y) const {
     return hn::MulAdd(wide(alongY[i]), y, hn::MulAdd(wide(alongX[i]), x, wide(atFirst[i])));
   }
-  // Of the corners, where rays meet it.
+  // Weights of the corners at the points where the rays meet it.
   void weights(const raster::Pixels& at, raster::Floats (&w)[3]) const {
     for (int i = 0; i < 3; ++i) w[i] = edge(i, at.x, at.y);
     const raster::Floats scale = hn::Div(wide(1.0f), hn::Add(hn::Add(w[0], w[1]), w[2]));
@@ -51,7 +51,7 @@ struct Raster::Candidate {
 struct Raster::TileHits {
   HWY_ALIGN float inverseDistance[kTilePixels];
   HWY_ALIGN int32_t candidate[kTilePixels];  // −1: none
-  float mostInverse;                         // of the near plane
+  float mostInverse;                         // 1/distance of the near plane
 };
 
 }  // namespace lamplighter::cpu

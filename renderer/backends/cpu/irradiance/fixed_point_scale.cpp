@@ -13,15 +13,15 @@ namespace {
 
 constexpr float kMostSum = 0x1p30f;  // units
 
-// Below this clamp [m] what a light could give a point that touches it is so much more than what
-// it gives any other that a unit for the sum of all of that would round all light off.
+// With a clamp below this distance [m], a light can give a point next to it far more than any other
+// point. A unit for the sum of such maxima would be too coarse.
 constexpr float kFineClamp = 0.25f;
 
 float brightestOf(const LightRecord& light) {
   return std::max({light.intensity.r, light.intensity.g, light.intensity.b});
 }
 
-// Lights that shine from points, in whole vectors.
+// Point-like lights, padded to whole vectors.
 struct PointLights {
   std::vector<float> x, y, z, brightest, mostWeight;
 
@@ -38,15 +38,15 @@ struct PointLights {
     for (auto* v : {&x, &y, &z, &brightest, &mostWeight}) v->resize(whole, 0.0f);
   }
 
-  // Of all, wherever they are taken [W/m²].
+  // Upper bound of the sum of all lights at any point [W/m²].
   float mostAnywhere() const {
     float most = 0.0f;
     for (size_t i = 0; i < x.size(); ++i) most += brightest[i] * mostWeight[i];
     return most;
   }
 
-  // Of all, at points to which light i is the nearest: no other one is nearer to them than half of
-  // its distance from that, so that it gives at most four times what it gives there.
+  // Upper bound at points whose nearest light is i. Any other light is at least half of its
+  // distance from light i away, so it gives at most four times its irradiance at light i.
   float mostNear(size_t i) const {
     Floats sum = hn::Zero(kTag);
     for (size_t j = 0; j < x.size(); j += kLanes) {
@@ -71,7 +71,7 @@ float mostOfPoints(std::span<const LightRecord> lights, float clampDistance2) {
 
 }  // namespace
 
-// A parallel light's squares lie side by side, so that one of each direction counts.
+// The squares of a directional light do not overlap, so only one square per direction counts.
 float unitsPerIrradiance(std::span<const LightRecord> lights, float clampDistance2) {
   float most = mostOfPoints(lights, clampDistance2);
   std::map<std::array<float, 3>, float> parallel;

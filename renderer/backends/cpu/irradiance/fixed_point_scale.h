@@ -1,4 +1,4 @@
-// The unit that sums of lights are whole numbers of (light_kernel.h).
+// The scale of the fixed-point irradiance sums (light_kernel.h).
 #pragma once
 
 #include <span>
@@ -7,8 +7,7 @@
 
 namespace lamplighter::cpu {
 
-// The finest with which no sum of these lights can overflow, wherever it is taken: a power of two
-// [m²/W].
+// The largest power of two [m²/W] for which no sum of these lights can overflow at any point.
 float unitsPerIrradiance(std::span<const LightRecord> lights, float clampDistance2);
 
 }  // namespace lamplighter::cpu

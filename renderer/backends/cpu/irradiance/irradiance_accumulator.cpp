@@ -15,19 +15,19 @@
 namespace lamplighter::cpu {
 namespace {
 
-// Of shadow maps, in the second-level cache beside the tiles.
+// Shadow maps that are processed together: they fit into the L2 cache beside the tiles.
 constexpr size_t kMapBytesAtOnce = size_t{512} << 10;
-// Of maps as they were, which are kept from their change to the next sum.
+// Limit for old shadow maps, which are kept from their change to the next sum.
 constexpr size_t kMostOldBytes = size_t{16} << 20;
-// Of notes of what is lit; of more none are kept. Slots are added in such steps.
+// Limit for shadow masks; with more, none are kept. Slots are added in steps.
 constexpr size_t kMostLitBytes = size_t{32} << 20;
 constexpr size_t kLitStep = 64;
 constexpr ShadowMapDiff kNoChange{ShadowMapDiff::Extent::nothing};
-// Tiles that are summed together, so that each shadow map is fetched from memory once for all.
+// Tiles per task, so that each shadow map is loaded from memory once for all of them.
 constexpr int kDenseTilesPerTask = 16;
-// The same where few of their packets are wanted.
+// The same if few of their packets are wanted.
 constexpr int kSparseTilesPerTask = 32;
-// Of small pictures, so that no core waits long for the last one.
+// At least this number of tasks, so that in small pictures no core waits long for the last one.
 constexpr int kFewestTasks = 48;
 
 std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
@@ -40,7 +40,7 @@ std::vector<const LightRecord*> bySlot(std::span<const LightRecord> lights) {
   return slots;
 }
 
-// Eight sums in units to irradiance.
+// Converts eight sums from units to irradiance.
 void scalePacket(const int32_t* units, float unit, float* to) {
   const hn::FixedTag<float, kLanes> tag;
   const hn::FixedTag<int32_t, kLanes> intTag;
@@ -56,7 +56,7 @@ std::vector<Revision> revisionsOf(const Source* source) {
   return revisions;
 }
 
-// Whether any object's part of the source, if there is one, is another than last time.
+// Whether the revision of any object in the source (if any) differs from the last update.
 template <typename Source>
 bool revised(std::vector<Revision>& last, const Source* source) {
   std::vector<Revision> now = revisionsOf(source);
@@ -73,10 +73,11 @@ struct IrradianceAccumulator::Frame {
   const PatchLights* patches;
   std::span<const uint32_t> wanted;  // by tile; empty: all
   std::span<const uint32_t> leftOutBy;
-  std::vector<const LightRecord*> all;           // the lights
-  std::vector<const LightRecord*> taken, added;  // of these and their maps, as they were and are
-  std::vector<bool> isChanged;                   // by slot
-  std::vector<PlaceTable::Staying> staying;      // of these
+  std::vector<const LightRecord*> all;  // the lights
+  // lights and maps that are subtracted as they were, and added as they are
+  std::vector<const LightRecord*> taken, added;
+  std::vector<bool> isChanged;               // by slot
+  std::vector<PlaceTable::Staying> staying;  // lights that did not move
 };
 
 void IrradianceAccumulator::mapChanges(int slot, std::span<const float> map) {
@@ -102,7 +103,7 @@ void IrradianceAccumulator::mapChanged(int slot, const ShadowMapDiff& change) {
   if (old != oldMaps_.end() && old->second.isChangedOnce) old->second.change = change;
 }
 
-// Whether to take away so many lights and add them anew is more work than to begin with all.
+// Whether subtracting and adding so many lights costs more than summing all lights.
 bool IrradianceAccumulator::isMost(size_t changed, size_t all) const {
   return masksAreCached_ ? 4 * changed > 3 * all : 2 * changed > all;
 }
@@ -112,7 +113,7 @@ void IrradianceAccumulator::forgetMaps() {
   oldMaps_.clear();
 }
 
-// What of the sums and places holds for this frame.
+// Finds which of the kept sums and places are valid for this frame.
 void IrradianceAccumulator::compareWithLast(const Frame& frame) {
   const GBuffer& g = frame.gbuffer;
   const bool hasPatches = frame.patches != nullptr;
@@ -139,11 +140,11 @@ void IrradianceAccumulator::compareWithLast(const Frame& frame) {
   }
 }
 
-// Decides whether to note what is lit: while the view stays and as far as it fits. Returns whether
-// that is as it was.
+// Decides whether shadow masks are kept: while the view does not change, and if they fit. Returns
+// whether the decision is the same as before.
 bool IrradianceAccumulator::fitMasks(const Frame& frame) {
   const GBuffer& g = frame.gbuffer;
-  size_t same = 0;  // tiles
+  size_t same = 0;  // number of tiles
   for (size_t i = 0; i < std::min(tiles_.size(), g.revision.size()); ++i)
     same += tiles_[i].revision == g.revision[i] ? 1 : 0;
   const bool isStill = sums_.r.size() == g.px.size() && 2 * same > g.revision.size();
@@ -176,7 +177,7 @@ void IrradianceAccumulator::findChanges(Frame& frame) {
   for (size_t slot = 0; slot < frame.isChanged.size(); ++slot) {
     const LightRecord* was = slot < before.size() ? before[slot] : nullptr;
     const LightRecord* is = slot < now.size() ? now[slot] : nullptr;
-    if (was == is) continue;  // there is none
+    if (was == is) continue;  // the slot is empty
     if (was != nullptr && is != nullptr && was->isInPlaceOf(*is)) {
       const auto old = oldMaps_.find(is->mapSlot);
       const PlaceTable::Staying light{was, is,
@@ -225,14 +226,14 @@ SumCounts IrradianceAccumulator::update(const GBuffer& gbuffer, std::span<const 
   Frame frame{gbuffer, bySlot(lights), patches, wanted, leftOutBy, {}, {}, {}, {}, {}};
   for (const LightRecord& light : lights) frame.all.push_back(&light);
   const auto hasSlot = [](const LightRecord& light) { return light.slot >= 0; };
-  // Lights that cast no shadow have no slot to tell them by.
+  // Without a shadow map a light has no slot to identify it.
   if (constants != constants_ || !std::all_of(lights.begin(), lights.end(), hasSlot) ||
       !std::all_of(lights_.begin(), lights_.end(), hasSlot))
     knowsSums_ = false;
   if (!fitMasks(frame)) knowsSums_ = false;
   if (knowsSums_) {
     findChanges(frame);
-    // What stays is mostly left or replaced.
+    // Lights that did not move are mostly unchanged or only change brightness.
     const size_t changed = std::max(frame.taken.size(), frame.added.size());
     if (isMost(changed - frame.staying.size() / 2, lights.size())) knowsSums_ = false;
   }
@@ -243,7 +244,7 @@ SumCounts IrradianceAccumulator::update(const GBuffer& gbuffer, std::span<const 
   if (patches != nullptr && knowsSums_) table_.findTouched(frame.staying);
   frame.isChanged.resize(std::max(frame.isChanged.size(), table_.slots()), false);
 
-  knowsSums_ = false;  // until all is done
+  knowsSums_ = false;  // until the update is complete
   std::atomic<uint64_t> lightPixels = 0, lookUps = 0;
   const bool newMaps = revised(mapRevisions_, patches ? patches->maps() : nullptr);
   const bool newTransfer = revised(transferRevisions_, patches ? patches->prt() : nullptr);
@@ -310,7 +311,7 @@ SumCounts IrradianceAccumulator::sumTiles(const Frame& frame, int first, int las
     clearPackets(i, tile.begun());
     addPackets(begun, i, tile.begun());
     if (!addPackets(kept, i, tile.kept()) || !hasPatches_) continue;
-    // Lights that are the same but are used in another way here.
+    // Lights that did not change but have another shadow mode here.
     std::vector<int> slots;
     for (const uint32_t row : tile.places.rows())
       for (const int slot : table_.changed(row))
@@ -329,8 +330,8 @@ SumCounts IrradianceAccumulator::sumTiles(const Frame& frame, int first, int las
     }
     here.finish(sums_);
   }
-  // The maps of some lights fit the second-level cache, those of all do not: each is fetched for
-  // all of the tiles at once.
+  // The maps of some lights fit into the L2 cache, but not those of all lights. So each map is
+  // loaded once for all tiles of the task.
   const auto bytesOf = [](const LightRecord& light) {
     return sizeof(float) * static_cast<size_t>(light.resolution) * light.resolution;
   };
@@ -354,7 +355,7 @@ SumCounts IrradianceAccumulator::sumTiles(const Frame& frame, int first, int las
   return counts;
 }
 
-// The light map or light by transfer, if any, and what its pixels sum themselves.
+// Adds the light map or the radiance transfer, if any, to the light that the pixels sum themselves.
 void IrradianceAccumulator::finishTile(const Frame& frame, int tile) {
   const GBuffer& g = frame.gbuffer;
   const size_t first = static_cast<size_t>(tile) * kTilePixels;
@@ -385,7 +386,7 @@ void IrradianceAccumulator::finishTile(const Frame& frame, int tile) {
     for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
       const auto lane = static_cast<size_t>(std::countr_zero(rest));
       const size_t i = packet + lane;
-      // The map is interpolated and what is taken away is not: no less than no light is left.
+      // The map is interpolated but the subtracted shadows are not: clamped at 0.
       red_[i] = std::max(red_[i] + e[lane].r, 0.0f);
       green_[i] = std::max(green_[i] + e[lane].g, 0.0f);
       blue_[i] = std::max(blue_[i] + e[lane].b, 0.0f);

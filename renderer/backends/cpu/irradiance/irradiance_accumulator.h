@@ -1,6 +1,6 @@
-// The sum of all lights over a G-buffer, kept from frame to frame: a light that changed is taken
-// away as it was and added as it is, and only tiles that show something else are summed anew. Sums
-// are whole numbers (light_kernel.h), so nothing of what was can be told from the result.
+// The irradiance of all lights over a G-buffer, kept from frame to frame. A changed light is
+// subtracted as it was and added as it is; only tiles that show something else are summed from
+// scratch. Sums are integers (light_kernel.h), so the result does not depend on the history.
 #pragma once
 
 #include <map>
@@ -14,43 +14,46 @@ namespace lamplighter::cpu {
 
 class IrradianceAccumulator {
  public:
-  // Brings E up to date. `patches`: how each patch comes by each light; null: with a look-up, or
-  // without where the light has no map. `wanted`: by tile, the packets where E is wanted, a bit
-  // each; empty: at all pixels. The unit in `constants` is chosen here. `leftOutBy`: by object, the
-  // links of lights that do not light it; empty: none does. Where they change, forgetPlaces().
+  // Updates E. `patches`: the shadow mode of each light on each patch; null: a shadow map look-up,
+  // or none if the light has no map. `wanted`: by tile, the packets where E is wanted, one bit
+  // each; empty: all pixels. Chooses the unit in `constants`. `leftOutBy`: by object, the link bits
+  // of the lights that do not light it (light linking); empty: all lights light all objects. Call
+  // forgetPlaces() when the links change.
   SumCounts update(const GBuffer& gbuffer, std::span<const LightRecord> lights,
                    SumConstants constants, const PatchLights* patches,
                    std::span<const uint32_t> wanted = {}, std::span<const uint32_t> leftOutBy = {});
 
-  // Whether it is of these, as they are now.
+  // Whether E is up to date for these arguments.
   bool isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights, SumConstants constants,
             const PatchLights* patches) const;
 
-  // For sums that change from frame to frame: memory to take lights away quickly (ShadowMaskCache).
+  // For sums that change from frame to frame: uses memory to subtract lights quickly
+  // (ShadowMaskCache).
   void cacheShadowMasks() { cachesMasks_ = true; }
 
-  // To be called before a shadow map changes, with what it holds: its light may have to be taken
-  // away with it.
+  // Call before a shadow map changes, with its present content: it may be needed to subtract the
+  // light.
   void mapChanges(int slot, std::span<const float> map);
-  // After that, where it is rendered anew: what changed. Else all of it did.
+  // Call afterwards if the map was rendered again, with the difference. Without it the whole map
+  // counts as changed.
   void mapChanged(int slot, const ShadowMapDiff& change);
   // All maps are lost.
   void forgetMaps();
-  // Objects are numbered anew, or have other patches though they stayed where they were.
+  // Call when objects are renumbered, or get other patches without moving.
   void forgetPlaces() { knowsPlaces_ = false; }
 
-  // Where one of few lights is partly hidden from a pixel's patch, so that there may be hard
-  // shadows of any shape: a parallel or punctual one with more than kHardShare (low_resolution.h)
-  // of the light of all parallel or all other lights.
+  // Pixels that may have hard shadows of any shape: a strong light is partly hidden from the
+  // pixel's patch. A strong light is a directional or punctual one with more than kHardShare
+  // (low_resolution.h) of the light of all directional lights, or of all others.
   struct HardShadows {
-    bool hasLights = true;    // there are such lights, or it is not known
-    std::vector<uint8_t> at;  // by pixel of the G-buffer, 1 or 0
+    bool hasLights = true;    // there are strong lights, or this is not known
+    std::vector<uint8_t> at;  // by G-buffer pixel, 1 or 0
   };
   HardShadows findHardShadows() const;
 
-  // E at a pixel of the G-buffer, where it was wanted [W/m²].
+  // E at a G-buffer pixel where it was wanted [W/m²].
   vec3 irradiance(size_t i) const { return {red_[i], green_[i], blue_[i]}; }
-  // A channel of it there and at the pixels that follow in the G-buffer.
+  // One channel of E, at this pixel and the following ones.
   const float* red(size_t i) const { return &red_[i]; }
   const float* green(size_t i) const { return &green_[i]; }
   const float* blue(size_t i) const { return &blue_[i]; }
@@ -58,11 +61,11 @@ class IrradianceAccumulator {
 
  private:
   struct Tile {
-    uint64_t revision = 0;  // of the G-buffer's tile, as summed; 0: never
-    uint32_t summed = 0;    // packets, of the lights as they were
-    uint32_t wanted = 0;    // packets; those that are summed go on from there, others begin anew
+    uint64_t revision = 0;  // of the G-buffer tile when it was summed; 0: never
+    uint32_t summed = 0;    // packets with valid sums of the previous lights
+    uint32_t wanted = 0;  // packets; those in `summed` are updated, others are summed from scratch
     TilePlaces places;
-    ShadowMaskCache lit;  // of what is summed
+    ShadowMaskCache lit;  // for the packets that are summed
     uint32_t kept() const { return wanted & summed; }
     uint32_t begun() const { return wanted & ~summed; }
   };
@@ -78,25 +81,25 @@ class IrradianceAccumulator {
   void clearPackets(int tile, uint32_t packets);
   void finishTile(const Frame& frame, int tile);
 
-  bool knowsSums_ = false;    // those that are summed are of lights_ with constants_
-  bool knowsPlaces_ = false;  // of tiles that show the same
+  bool knowsSums_ = false;    // the sums of summed packets belong to lights_ and constants_
+  bool knowsPlaces_ = false;  // of tiles whose content did not change
   bool hasPatches_ = false, hasMaps_ = false, hasTransfer_ = false;
   SumConstants constants_;
-  std::vector<LightRecord> lights_;  // as summed
+  std::vector<LightRecord> lights_;  // as used in the sums
   struct OldMap {
-    std::vector<float> texels;  // as summed; none where notes of what is lit are kept
+    std::vector<float> texels;  // as used in the sums; empty if the shadow mask cache is used
     ShadowMapDiff change;
     bool isChangedOnce = true;
   };
-  std::map<int, OldMap> oldMaps_;  // by slot, of those that changed since
+  std::map<int, OldMap> oldMaps_;  // by slot: maps that changed since the last update
   bool cachesMasks_ = false;
   bool masksAreCached_ = false;
   size_t maskSlots_ = 0;
   PlaceTable table_;
   std::vector<Tile> tiles_;
   std::vector<Revision> mapRevisions_;       // of light maps, by object
-  std::vector<Revision> transferRevisions_;  // of light by transfer, likewise
-  Revision coverage_;                        // of which objects have it
+  std::vector<Revision> transferRevisions_;  // of radiance transfer, by object
+  Revision coverage_;                        // of the set of objects with radiance transfer
   FixedSums sums_;
   std::vector<float> red_, green_, blue_;
 };

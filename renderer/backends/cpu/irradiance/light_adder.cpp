@@ -8,7 +8,8 @@
 namespace lamplighter::cpu {
 namespace {
 
-// Whose uses fit a number, in two bits each; and what stands for those of more.
+// Up to this number of rows the modes fit into one number, two bits each; beyond it, this value is
+// used.
 constexpr size_t kMostRows = 31;
 constexpr uint64_t kManyRows = 0;
 
@@ -59,7 +60,7 @@ void LightAdder::addAll(std::span<const LightRecord* const> lights, Sign sign,
   for (const auto& [uses, light] : order_) addAs(uses, *light, sign, when);
 }
 
-// uses: findUses(), of a light in the table.
+// uses: from findUses(), for a light in the table.
 void LightAdder::addAs(uint64_t uses, const LightRecord& light, Sign sign, TilePlaces::When when) {
   counts_.lightPixels += pixels_;
   if (table_ != nullptr && light.slot >= 0) {
@@ -95,13 +96,13 @@ uint8_t& LightAdder::noteOf(size_t packet, int slot) const {
   return of.ofSlot0[static_cast<size_t>(slot) * of.stride];
 }
 
-// Where it was summed, of these lanes.
+// The lanes, of those in `packets`, where the light was added.
 void LightAdder::findLit(const PacketList& packets, int slot, ShadowMasks& lit) const {
   for (size_t k = 0; k < packets.count(); ++k)
     lit[k] = static_cast<uint8_t>(noteOf(packets.packet(k), slot) & *packets.lanes(k));
 }
 
-// Takes out what shows something that gets no light of the link.
+// Clears the lanes of objects that light linking excludes.
 void LightAdder::leaveOut(uint32_t link, PacketLanes& lanes) const {
   for (size_t k = 0; k < block_.count(); ++k) {
     const size_t first = block_.first(k);
@@ -111,8 +112,8 @@ void LightAdder::leaveOut(uint32_t link, PacketLanes& lanes) const {
   }
 }
 
-// How the light is used in each of the rows: into uses_, and in two bits for each, after one that
-// is always set.
+// Finds the shadow mode of the light in each row: writes it to uses_ and returns all as two bits
+// each, after a leading 1.
 uint64_t LightAdder::findUses(int slot, TilePlaces::When when) {
   using When = TilePlaces::When;
   const auto find = [&](auto&& isMeant) {
@@ -130,8 +131,8 @@ uint64_t LightAdder::findUses(int slot, TilePlaces::When when) {
   return find([&](uint32_t row) { return (touched[row] != 0) != (when == When::untouched); });
 }
 
-// Lights that are used alike have the same lists. Of kManyRows, those of uses_. Returns whether
-// there is anything in them.
+// Fills lists_ for these modes. Lights with equal modes share lists. For kManyRows it uses uses_.
+// Returns whether any list has entries.
 bool LightAdder::listAs(uint64_t uses) {
   static_assert(static_cast<int>(ShadowMode::skip) == 0);
   if (uses != kManyRows && std::has_single_bit(uses)) return false;

@@ -1,5 +1,5 @@
-// Adds lights to some tiles' packets, or takes them away: which of the packets use a light in which
-// way, and what of it is noted for when it is taken away again.
+// Adds lights to the packets of some tiles, or subtracts them. It finds the shadow mode of each
+// light in each packet, and records in the shadow mask cache where the light was added.
 #pragma once
 
 #include <span>
@@ -13,13 +13,13 @@
 namespace lamplighter::cpu {
 
 struct SumCounts {
-  uint64_t lightPixels = 0;  // lights × pixels, added or taken away
-  uint64_t lookUps = 0;      // of those, with one in a shadow map; in whole packets
+  uint64_t lightPixels = 0;  // lights × pixels, added or subtracted
+  uint64_t lookUps = 0;      // of these, with a shadow map look-up; counted in whole packets
 };
 
 class LightAdder {
  public:
-  // table: how each patch comes by each light; null: with a look-up, or without where the light has
+  // table: the shadow mode of each light on each patch; null: a look-up, or none if the light has
   // no map. leftOutBy: as for IrradianceAccumulator::update().
   LightAdder(const GBuffer& gbuffer, const PlaceTable* table, std::span<const uint32_t> leftOutBy,
              const SumConstants& constants, SumCounts& counts)
@@ -30,18 +30,19 @@ class LightAdder {
         counts_(counts) {}
 
   bool hasRoomFor(uint32_t packets) const;
-  // lit: where what is lit is noted; null: it is not.
+  // lit: the cache that records where lights are added; null: not recorded.
   void addPackets(int tile, uint32_t packets, const TilePlaces& places, ShadowMaskCache* lit);
 
   void add(const LightRecord& light, Sign sign, TilePlaces::When when);
-  // All of these, those that are used alike one after the other.
+  // Adds or subtracts all these lights. Lights with the same shadow modes are processed one after
+  // another.
   void addAll(std::span<const LightRecord* const> lights, Sign sign, TilePlaces::When when);
 
-  // Where it is not touched by what changed of its map. One that is as bright as before need not
-  // be.
+  // Updates the brightness of a light where the change of its map has no effect. Not needed if the
+  // brightness is the same.
   void replace(const PlaceTable::Staying& light);
 
-  // Once all is added and taken away.
+  // Call once after everything is added and subtracted.
   void finish(FixedSums& sums) const { block_.addTo(sums); }
 
  private:
@@ -64,12 +65,12 @@ class LightAdder {
   const SumConstants& constants_;
   SumCounts& counts_;
   PacketBlock block_;
-  std::vector<Lit> lit_;  // by packet of the block; or none, where it is not noted
+  std::vector<Lit> lit_;  // by packet of the block; empty if nothing is recorded
   uint64_t pixels_ = 0;
-  std::vector<uint32_t> rows_;       // of the table, in these tiles
-  std::vector<PacketLanes> inRows_;  // what lies in each of them
-  std::vector<ShadowMode> uses_;     // by rows_, of the light that was asked for last
-  uint64_t listedUses_ = 0;          // that lists_ are for; 0: none
+  std::vector<uint32_t> rows_;       // rows of the table in these tiles
+  std::vector<PacketLanes> inRows_;  // the lanes that lie in each of them
+  std::vector<ShadowMode> uses_;     // by rows_, for the light of the last request
+  uint64_t listedUses_ = 0;          // the shadow modes that lists_ belong to; 0: none
   PacketList lists_[4];              // by ShadowMode
   std::vector<std::pair<uint64_t, const LightRecord*>> order_;
 };

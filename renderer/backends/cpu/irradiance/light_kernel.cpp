@@ -16,7 +16,7 @@ HWY_INLINE Vector3 load(const float (&from)[3][kLanes]) {
   return {hn::Load(kTag, from[0]), hn::Load(kTag, from[1]), hn::Load(kTag, from[2])};
 }
 
-// Rounding to nearest is the same on both sides of zero, so that taking away undoes adding.
+// Rounding to nearest is symmetric about zero, so subtracting exactly reverses adding.
 HWY_INLINE void addTo(int32_t (&sum)[3][kLanes], Floats weight, const Vector3& units) {
   const auto add = [&](int32_t* to, Floats share) {
     hn::Store(hn::Add(hn::Load(IntTag(), to), roundToInts(share)), IntTag(), to);
@@ -26,7 +26,7 @@ HWY_INLINE void addTo(int32_t (&sum)[3][kLanes], Floats weight, const Vector3& u
   add(sum[2], hn::Mul(weight, units.z));
 }
 
-// What it is instead of what it was.
+// Replaces the old contribution by the new one.
 HWY_INLINE void replaceIn(int32_t (&sum)[3][kLanes], Floats weight, const Vector3& now,
                           const Vector3& before) {
   const auto replace = [&](int32_t* to, Floats is, Floats was) {
@@ -38,8 +38,8 @@ HWY_INLINE void replaceIn(int32_t (&sum)[3][kLanes], Floats weight, const Vector
   replace(sum[2], now.z, before.z);
 }
 
-// What it gives where it arrives [1/m² of its intensity]. v: from the light to the point; z: its
-// height over the light's plane; s: −n·v, or n·(the light's direction) of a parallel one.
+// The unshadowed irradiance [1/m² of its intensity]. v: from the light to the point; z: its height
+// over the light's plane; s: −n·v, or n·(direction of the light) for a directional one.
 template <LightRecord::Kind kKind>
 HWY_INLINE Floats weightOf(const SimdLight& light, const SimdConstants& c, const Vector3& v,
                            Floats z, Floats s) {
@@ -66,9 +66,9 @@ HWY_INLINE Vector3 fromLight(const Vector3& p, const SimdLight& light) {
           hn::Sub(p.z, light.position.z)};
 }
 
-// kUse: add, addShadowed or subtractShadow. Of the last it only finds where, without branches: half
-// of all packets of a partly hidden patch are somewhere, so that they would be foretold wrongly.
-// addMasked() sums it then.
+// kUse: add, addShadowed or subtractShadow. For subtractShadow it only finds the lanes, without
+// branches: half of the packets of a partly hidden patch have some, so a branch would often be
+// mispredicted. addMasked() then sums them.
 template <LightRecord::Kind kKind, ShadowMode kUse>
 void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
               const LightRecord& record, const SumConstants& constants, ShadowMasks& lit) {
@@ -76,7 +76,8 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
   const SimdLight light(record, isNegative, constants);
   const SimdConstants c(constants, record.resolution);
   const Floats zero = hn::Zero(kTag);
-  // Of the packets' plane, in the light's frame; most have that of the packet before them.
+  // Normal of the packet's plane in the light's frame; most packets have the plane of the previous
+  // one.
   Vector3 normal{zero, zero, zero};
   size_t plane = PacketBlock::kMost;
   for (size_t k = 0; k < packets.count(); ++k) {
@@ -108,7 +109,7 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
       reached =
           hn::And(hn::And(meant, hn::Gt(z, zero)), hn::And(hn::Gt(s, zero), hn::Gt(facing, zero)));
       if (kSums && hn::AllFalse(kTag, reached)) continue;
-      // A height above zero keeps 1/w finite in the lanes that the light does not reach.
+      // A positive height keeps 1/w finite in lanes that the light does not reach.
       if constexpr (kLooksUp)
         occluded = hemisphereOccluded<!kSums>(
             light, c, v, hn::IfThenElse(reached, z, wide(1.0f)),
@@ -129,12 +130,12 @@ void addLight(PacketBlock& block, const PacketList& packets, bool isNegative,
   }
 }
 
-// Calls add(sum, weight) in those lanes.
+// Calls add(sum, weight) for the lanes.
 template <LightRecord::Kind kKind, typename F>
 void forEachLit(PacketBlock& block, const PacketList& packets, const SimdLight& light,
                 const SumConstants& constants, const ShadowMasks& lit, F&& add) {
-  const SimdConstants c(constants, 1);  // no map is looked up
-  // Which packets there are is found first, without a branch that nobody can foretell.
+  const SimdConstants c(constants, 1);  // no map is read
+  // First finds the packets with lanes, because a branch per packet would be unpredictable.
   std::array<uint8_t, PacketBlock::kMost> some;
   size_t count = 0;
   for (size_t k = 0; k < packets.count(); ++k) {

@@ -1,9 +1,9 @@
-// What one light gives the pixels of a tile, with or without a look-up in its shadow map: the inner
-// loop of everything, eight pixels at a time.
+// The irradiance of one light at the pixels of a tile, with or without a shadow map look-up. This
+// is the innermost loop of the renderer; it processes eight pixels at a time.
 //
-// Irradiance is summed in whole numbers: each contribution is rounded to a multiple of a unit and
-// added as an integer. So lights may come and go in any order, and what is left has the very bits
-// of a sum made from nothing (irradiance_accumulator.h).
+// Irradiance is summed in integers: each contribution is rounded to a multiple of a unit. So lights
+// can be added and subtracted in any order, and the sum has the same bits as one computed from
+// scratch (irradiance_accumulator.h).
 #pragma once
 
 #include <array>
@@ -17,27 +17,27 @@
 
 namespace lamplighter::cpu {
 
-// A VPL made ready for the inner loop.
+// A VPL prepared for the innermost loop.
 struct LightRecord {
   enum class Kind : uint8_t { cosine, uniform, directional };
   Kind kind = Kind::cosine;
   const float* map = nullptr;  // null: casts no shadow
   int slot = -1;
-  int mapSlot = -1;    // whose map it is
-  int resolution = 1;  // of it, texels a side
+  int mapSlot = -1;    // slot of the light whose map is used
+  int resolution = 1;  // of the map, texels per side
   vec3 position, normal, tangent, bitangent, intensity;
   float coneScale = 0.0f, coneOffset = 1.0f;
   float radius = 0.0f, side = 1.0f;  // directional: R and S
   uint32_t link = 0;                 // renderer/scene/light_linking.h
   bool operator==(const LightRecord&) const = default;
-  // But for its intensity.
+  // Whether they differ only in intensity.
   bool isInPlaceOf(LightRecord other) const {
     other.intensity = intensity;
     return *this == other;
   }
 };
 
-// With a map of resolution², or null.
+// `map` has resolution² texels, or is null.
 LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map, int resolution);
 
 struct SumConstants {
@@ -47,13 +47,13 @@ struct SumConstants {
   bool operator==(const SumConstants&) const = default;
 };
 
-// Which lanes of the packets of a block are meant, a byte each.
+// The selected lanes of the packets of a block, one byte per packet.
 struct alignas(32) PacketLanes {
   std::array<uint8_t, PacketBlock::kMost> of{};
   void add(const PacketLanes& more);
 };
 
-// Those of these packets of which any lane is meant, in order.
+// The packets that have at least one selected lane, in order.
 class PacketList {
  public:
   void take(const PacketLanes& lanes);
@@ -70,20 +70,20 @@ class PacketList {
 
 enum class Sign : uint8_t { add, takeAway };
 
-// Of each packet of a list, the lanes in which a light gives or takes something.
+// By packet of a list: the lanes where a light contributes.
 using ShadowMasks = std::array<uint8_t, PacketBlock::kMost>;
 
-// Adds what the light gives these pixels by `use` (not skip) to the block's sums, or takes it away
-// again. Where it looks its shadow map up, `lit` tells afterwards what addMasked() takes.
+// Adds the contribution of the light at these pixels, in shadow mode `use` (not skip), to the sums
+// of the block, or subtracts it. If it reads the shadow map, `lit` receives the lanes that
+// addMasked() needs.
 void addLight(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
               const LightRecord& light, const SumConstants& constants, ShadowMasks& lit);
 
-// The same, for a light that adds or takes its shadow in those lanes, without a look-up.
+// The same without a look-up: the light, or its shadow, contributes in the given lanes.
 void addMasked(PacketBlock& block, const PacketList& packets, ShadowMode use, Sign sign,
                const LightRecord& light, const SumConstants& constants, const ShadowMasks& lit);
 
-// Takes it away in those lanes as it was before, and adds it as it is now: it differs in nothing
-// but its intensity.
+// Subtracts the old light and adds the new one in these lanes. They differ only in intensity.
 void replaceMasked(PacketBlock& block, const PacketList& packets, ShadowMode use,
                    const LightRecord& before, const LightRecord& now, const SumConstants& constants,
                    const ShadowMasks& lit);

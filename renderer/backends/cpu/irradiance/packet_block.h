@@ -1,7 +1,6 @@
-// Packets of a G-buffer that are summed together, and their sums meanwhile, side by side in memory.
-// In the G-buffer what belongs to a packet lies in nine arrays, whose beginnings fall into the same
-// sets of the first-level cache: packets here and there would drive each other out of it for each
-// light anew.
+// Packets of a G-buffer that are summed together, copied with their sums into contiguous memory. In
+// the G-buffer the data of a packet lie in nine arrays whose starts map to the same sets of the L1
+// cache, so scattered packets would evict each other for every light.
 #pragma once
 
 #include <cstdint>
@@ -11,39 +10,39 @@
 
 namespace lamplighter::cpu {
 
-// E of each pixel in units, structure of arrays over the whole G-buffer.
+// E of each pixel in fixed-point units; structure of arrays over the whole G-buffer.
 struct FixedSums {
   std::vector<int32_t> r, g, b;
 };
 
 class PacketBlock {
  public:
-  // Few enough that they fit the first-level cache beside a shadow map; and several tiles', so that
-  // making a light ready is worth it where few of a tile are meant.
+  // Small enough to fit into the L1 cache beside a shadow map. Large enough for packets of several
+  // tiles, so that preparing a light pays off even if few packets of a tile are selected.
   static constexpr size_t kMost = 96;
-  static_assert(kMost <= 256);  // numbers of packets and planes are bytes
+  static_assert(kMost <= 256);  // indices of packets and planes are bytes
 
-  // By coordinate or channel and lane.
+  // By coordinate or channel, then lane.
   struct alignas(32) Packet {
     float position[3][kLanes];  // [m]
-    float shading[3][kLanes];   // normals
-    int32_t sum[3][kLanes];     // what was added here
+    float shading[3][kLanes];   // shading normals
+    int32_t sum[3][kLanes];     // added since the packet joined the block
   };
 
   PacketBlock() { packets_.reserve(kMost); }
   size_t count() const { return packets_.size(); }
-  // The packet of the G-buffer whose first pixel this is.
+  // Adds the packet of the G-buffer whose first pixel is `first`.
   void add(const GBuffer& gbuffer, size_t first);
   size_t first(size_t k) const { return first_[k]; }
   const Packet& at(size_t k) const { return packets_[k]; }
   Packet& at(size_t k) { return packets_[k]; }
-  // Geometric normals of a packet that is not flat, by coordinate and lane; else null.
+  // Geometric normals by coordinate and lane, if the packet is not flat; otherwise null.
   const float* geometric(size_t k) const {
     return geometric_[k] == kFlat ? nullptr : &normals_[geometric_[k]];
   }
-  // The same of packets one after another whose normals are the same and that are flat.
+  // Equal for consecutive flat packets with the same normals.
   uint8_t plane(size_t k) const { return plane_[k]; }
-  // Adds what was summed to the sums of the G-buffer. Once.
+  // Adds the sums of the block to the sums of the G-buffer. Call once.
   void addTo(FixedSums& sums) const;
 
  private:
@@ -51,7 +50,7 @@ class PacketBlock {
 
   std::vector<Packet> packets_;
   std::vector<size_t> first_;
-  std::vector<uint32_t> geometric_;  // where in normals_
+  std::vector<uint32_t> geometric_;  // index into normals_
   std::vector<uint8_t> plane_;
   std::vector<float> normals_;
 };

@@ -13,15 +13,15 @@ namespace {
 
 constexpr size_t kWide = 8;
 
-// From a texel's centre to its corners, times the resolution. On the octahedron a corner is up to
-// √2/resolution away, where |x| + |y| + z = 1, and no point of that is nearer to the light than
-// 1/√3: at most √6/resolution as an angle. The rest is for rounding.
+// Distance from a texel's centre to its corners, times the resolution. On the octahedron a corner
+// is up to √2/resolution away, where |x| + |y| + z = 1, and no point of it is nearer to the light
+// than 1/√3: as an angle at most √6/resolution. The rest is for rounding.
 constexpr float kTexelAngle = 2.5f, kTexelWay = 1.5f, kMapRounding = 1e-3f;
-// Of more than this share of its texels all of a map may as well have changed, and of more than
-// this angle [rad] too: what follows wants it to be less than a right one.
+// If more than this share of the texels changed, or the angle [rad] is larger, the whole map counts
+// as changed. The following tests need an angle below 90°.
 constexpr float kMostOfMap = 0.5f, kMostAngle = 1.4f;
 
-// Indices of texels that differ.
+// Indices of the texels that differ.
 std::vector<uint32_t> changedTexels(std::span<const float> before, std::span<const float> now) {
   std::vector<uint32_t> changed;
   const size_t whole = now.size() / kWide * kWide;
@@ -58,7 +58,7 @@ ShadowMapDiff diffShadowMaps(std::span<const float> before, std::span<const floa
     change.reach = most + kTexelWay / size + kMapRounding;
     return change;
   }
-  // All lie in a half space, so that their mean is not zero but where they are all round it.
+  // All lie in one half space, so their mean is zero only if they lie all around its border.
   change.axis = glm::normalize(change.axis);
   float least = 1.0f;
   for (const uint32_t texel : changed) least = std::min(least, glm::dot(way(texel), change.axis));
@@ -100,15 +100,15 @@ void PlaceSpheres::findReached(const LightRecord& light, const ShadowMapDiff& ch
       const Floats8 most = hn::MulAdd(radius, perSide, wide(change.reach));
       meets = hn::Le(hn::MulAdd(dx, dx, hn::Mul(dy, dy)), hn::Mul(most, most));
     } else {
-      // The sphere is seen within an angle b of its middle; a, the change's reach, and b are less
-      // than right angles, so that cos(a + b) falls as they grow.
+      // From the light, the sphere has the angular radius b. a, the angle of the change, and b are
+      // below 90°, so cos(a + b) decreases as they grow.
       const Floats8 distance2 = dotFused(way, way);
       const Floats8 sineB2 = hn::Div(hn::Mul(radius, radius), distance2);
       const Floats8 cosineB = hn::Sqrt(hn::Max(hn::Sub(one, sineB2), hn::Zero(kTag)));
       const Floats8 least =
           hn::Sub(hn::Mul(wide(cosine), cosineB), hn::Mul(wide(sine), hn::Sqrt(sineB2)));
       const auto isSeen = hn::Ge(dotFused(way, axis), hn::Mul(least, hn::Sqrt(distance2)));
-      // Around the light itself, or where numbers fail, it may be anywhere.
+      // If the light is inside the sphere, or for NaN, the sphere may be anywhere.
       meets = hn::Or(isSeen, hn::Not(hn::Lt(sineB2, one)));
     }
     const uint32_t bits = bitsOf(meets);

@@ -7,7 +7,7 @@
 namespace lamplighter::cpu {
 namespace {
 
-// The place of a packet among these.
+// The index of a packet among these packets.
 size_t rankOf(uint32_t packets, int packet) {
   return static_cast<size_t>(std::popcount(packets & ((uint32_t{1} << packet) - 1)));
 }

@@ -1,5 +1,5 @@
-// Which pixels each light was summed at after a look-up in its shadow map: with that it is taken
-// away again without another, and without its map as it was.
+// Records the pixels where each light was added after a shadow map look-up. With this mask the
+// light can be subtracted without a second look-up and without its old map.
 #pragma once
 
 #include <cstddef>
@@ -8,24 +8,25 @@
 
 namespace lamplighter::cpu {
 
-// Of one tile: a byte for each light and packet, a bit for each lane. What belongs to a light lies
-// side by side, and only packets that are summed have any, so that what tiles that are summed
-// together have of some lights stays in the caches.
+// For one tile: one byte per light and packet, one bit per lane. The bytes of one light are
+// contiguous, and only packets that are summed have bytes, so that the data of a few lights over
+// several tiles stay in the CPU caches.
 class ShadowMaskCache {
  public:
-  // Makes room for these packets (a bit each) and this many slots at least. What is noted of
-  // packets that had room before stays.
+  // Makes room for these packets (one bit each) and for at least this number of slots. Masks of
+  // packets that had room before are kept.
   void keep(uint32_t packets, size_t slots);
   void forget() { *this = ShadowMaskCache(); }
 
-  // The byte of a packet that there is room for and of slot 0; of each next slot: stride() on.
+  // The byte of slot 0 of a packet that has room; the bytes of the next slots follow at steps of
+  // stride().
   uint8_t* of(int packet);
   size_t stride() const;
   size_t bytes() const { return lanes_.size(); }
 
  private:
   uint32_t packets_ = 0;
-  std::vector<uint8_t> lanes_;  // by slot and packet
+  std::vector<uint8_t> lanes_;  // by slot, then packet
 };
 
 }  // namespace lamplighter::cpu

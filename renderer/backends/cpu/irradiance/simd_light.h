@@ -1,6 +1,6 @@
-// Lights and points eight at a time, for the kernels (light_kernel.cpp, specular_kernel.cpp) alone.
-// shaders/shared/vpl_shading.h is the definition, with the reasons; this is the same with
-// multiply-adds fused where written so.
+// SIMD versions of lights and points, eight lanes, for light_kernel.cpp and specular_kernel.cpp
+// only. shaders/shared/vpl_shading.h is the definition and explains it. The formulas here are the
+// same, with fused multiply-adds where written.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ using Floats = Floats8;
 using Mask = hn::Mask<Tag>;
 static_assert(hn::MaxLanes(kTag) == kLanes);
 
-// A light's weight [1/m²] is bounded, so that sums can be: of a punctual light at 6 cm, where it
-// has no surface to be so near to; of one that stands for a surface it is the clamp that counts.
+// The upper bound of a light's weight [1/m²], which bounds the sums. It is reached by a punctual
+// light at 6 cm. For a VPL on a surface the clamp is the tighter bound.
 inline constexpr float kMostUniformWeight = 256.0f;
 inline constexpr float kMostCosineWeight = 4096.0f;
 
@@ -39,7 +39,7 @@ using Vector3 = SimdVec3<Floats>;
 using Ints = hn::Vec<IntTag>;
 
 HWY_INLINE Floats dot(const Vector3& a, const Vector3& b) { return dotFused(a, b); }
-// Three arrays; as pointers of its own, which stores elsewhere don't change.
+// Three arrays, as local pointers, so that the compiler knows that other stores do not change them.
 struct Vectors {
   Vectors(const std::vector<float>& vx, const std::vector<float>& vy, const std::vector<float>& vz)
       : x(vx.data()), y(vy.data()), z(vz.data()) {}
@@ -51,7 +51,7 @@ struct Vectors {
   const float* HWY_RESTRICT z;
 };
 
-// The light in every lane, so that the loop over pixels takes it as vector operands from the stack.
+// The light broadcast to all lanes, so that the pixel loop reads vector operands from the stack.
 struct SimdLight {
   SimdLight(const LightRecord& light, bool isNegative, const SumConstants& c)
       : map(light.map),
@@ -70,15 +70,15 @@ struct SimdLight {
 
   const float* map;
   Vector3 position, normal, tangent, bitangent;
-  Vector3 units;  // intensity, in units of the sums
+  Vector3 units;  // intensity in units of the sums
   Floats mostWeight;
   Floats coneScale, coneOffset;
-  Floats side, inverseSide, depth, deepest;  // directional
+  Floats side, inverseSide, depth, deepest;  // directional lights
 };
 
-// Numbers of the map's grid and of the test in every lane.
+// Constants of the map's grid and of the shadow test, broadcast to all lanes.
 struct SimdConstants {
-  // side: of the light's map [texels].
+  // side: texels per side of the light's map.
   SimdConstants(const SumConstants& c, int side)
       : resolution(wide(static_cast<float>(side))),
         middle(wide(0.5f * static_cast<float>(side))),
@@ -99,8 +99,8 @@ struct SimdConstants {
   Floats clampDistance2, perClampDistance2;
 };
 
-// The texel's column or row of a square coordinate in [-1, 1]; `half` is a little less than it is,
-// so that no rounding leads out of the map.
+// The texel column or row of a coordinate in [-1, 1]. `half` is slightly smaller than the exact
+// value, so that rounding never leads outside the map.
 HWY_INLINE Floats texelOf(Floats s, const SimdConstants& c) {
   return hn::Floor(hn::MulAdd(s, c.half, c.middle));
 }
@@ -108,8 +108,8 @@ HWY_INLINE Floats centreOf(Floats texel, const SimdConstants& c) {
   return hn::MulAdd(texel, c.step, c.first);
 }
 
-// The index of a texel is a whole number that a float holds: maps have at most 1024² texels. The
-// bound is for coordinates that are no numbers.
+// A texel index is an integer that a float represents exactly: maps have at most 1024² texels. The
+// bound is for NaN coordinates.
 HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const SimdConstants& c) {
   const Ints texel = truncateToInts(hn::MulAdd(t, c.resolution, s));
   const hn::RebindToUnsigned<Tag> unsignedTag;
@@ -117,14 +117,14 @@ HWY_INLINE Floats fetch(const float* map, Floats s, Floats t, const SimdConstant
   return hn::GatherIndex(kTag, map, hn::BitCast(IntTag(), bounded));
 }
 
-// A normal in the light's frame: along tangent, bitangent, and its own normal.
+// Transforms a normal to the light's frame: tangent, bitangent, normal.
 HWY_INLINE Vector3 inFrameOf(const SimdLight& light, const Vector3& n) {
   return {dot(n, light.tangent), dot(n, light.bitangent), dot(n, light.normal)};
 }
 
-// v: from the light to the point; z: its height over the light's plane, > 0; geometric(): the
-// normal of the point's plane in the light's frame, asked for when needed. kIsMostly: something is
-// mostly occluded, so that to leave out what is asked of those that are costs more than it spares.
+// v: from the light to the point; z: its height over the light's plane, > 0. geometric(): returns
+// the normal of the point's plane in the light's frame, called only when needed. kIsMostly: most
+// points are occluded, so an early exit would cost more than it saves.
 template <bool kIsMostly = false, typename F>
 HWY_INLINE Mask hemisphereOccluded(const SimdLight& light, const SimdConstants& c, const Vector3& v,
                                    Floats z, F&& geometric, Floats facing) {
@@ -135,7 +135,7 @@ HWY_INLINE Mask hemisphereOccluded(const SimdLight& light, const SimdConstants& 
   const Floats t = texelOf(hn::Mul(hn::Sub(x, y), inverse), c);
   const Floats stored = fetch(light.map, s, t, c);
   const Mask beforePoint = hn::Gt(hn::Mul(stored, w), c.beforePoint);
-  // Mostly nothing is; then the plane need not be asked.
+  // Usually nothing is occluded; then the plane is not needed.
   if (!kIsMostly && hn::AllFalse(kTag, beforePoint)) return beforePoint;
   const Floats cs = centreOf(s, c), ct = centreOf(t, c);
   const Floats ex = hn::Mul(hn::Add(cs, ct), wide(0.5f));
@@ -152,7 +152,7 @@ HWY_INLINE Mask hemisphereOccluded(const SimdLight& light, const SimdConstants& 
 // q: the point in the light's frame.
 HWY_INLINE Mask directionalOccluded(const SimdLight& light, const SimdConstants& c,
                                     const Vector3& q, const Vector3& geometric, Floats facing) {
-  // Within the square in the lanes that count.
+  // Clamps to the square; only needed in lanes that count.
   const auto inSquare = [](Floats v) { return hn::Max(hn::Min(v, wide(1.0f)), wide(-1.0f)); };
   const Floats s = texelOf(inSquare(hn::Mul(q.x, light.inverseSide)), c);
   const Floats t = texelOf(inSquare(hn::Mul(q.y, light.inverseSide)), c);

@@ -12,10 +12,10 @@ namespace lamplighter::cpu {
 
 namespace {
 
-// Whose shadow maps' texels are read together.
+// Tiles per task; they read the texels of a shadow map together.
 constexpr size_t kTilesATask = 8;
 
-// The texture is looked up where the pixel's point lies in its triangle.
+// Reads the texture at the pixel's position in its triangle.
 Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
   const RenderObject& object = scene.objects[g.object[i]];
   const Material& m = scene.materials[static_cast<size_t>(object.material)];
@@ -30,7 +30,7 @@ Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
   return glossAt(scene, g.object[i], g.triangle[i], u, v);
 }
 
-// All that a texture may say is taken for possible.
+// Assumes that a texture can have any value.
 LightProxies::Lobes lobesOf(const RenderScene& scene, uint32_t object, float leastRoughness) {
   const Material& m = scene.materials[static_cast<size_t>(scene.objects[object].material)];
   const bool isKnown = m.metallicRoughnessTexture.texture == kNone;
@@ -38,7 +38,7 @@ LightProxies::Lobes lobesOf(const RenderScene& scene, uint32_t object, float lea
   return {roughness * roughness};
 }
 
-// By object, whether any of it may be.
+// By object: whether any part of it is glossy.
 std::vector<uint8_t> findGlossy(const RenderScene& scene) {
   std::vector<uint8_t> mayBe;
   for (const RenderObject& object : scene.objects)
@@ -86,7 +86,7 @@ void SpecularAccumulator::findParts(const RenderScene& scene, const GBuffer& g, 
   tile.radiance.shrink_to_fit();
 }
 
-// By row, whether it says something else than before.
+// By row: whether its shadow modes changed.
 std::vector<bool> SpecularAccumulator::findUses(const RenderScene& scene, float leastRoughness,
                                                 const PatchLights& patches) {
   rows_.clear();
@@ -138,11 +138,11 @@ uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g,
     if (!tile.parts.empty() && (all || usesChanged || tile.revision != g.revision[i]))
       stale.push_back(i);
   }
-  isKnown_ = false;  // until all is done
+  isKnown_ = false;  // until the update is complete
   std::atomic<uint64_t> pixels = 0;
   const size_t tasks = (stale.size() + kTilesATask - 1) / kTilesATask;
   tbb::parallel_for(size_t{0}, tasks, [&](size_t task) {
-    std::vector<std::pair<size_t, const Part*>> parts;  // and their tiles
+    std::vector<std::pair<size_t, const Part*>> parts;  // with their tiles
     for (size_t k = task * kTilesATask; k < std::min((task + 1) * kTilesATask, stale.size()); ++k)
       for (const Part& part : tiles_[stale[k]].parts) parts.emplace_back(stale[k], &part);
     uint64_t here = 0;

@@ -1,7 +1,7 @@
-// What the lobes of glossy surfaces give the eye, over a G-buffer. Kept while nothing that they
-// show changed; summed anew, pixel by pixel over all lights, in tiles where something did: a light
-// that moves is in every lobe that it reaches, and what is not summed anew would be half of it at
-// best.
+// The reflection of all lights by glossy surfaces towards the eye, over a G-buffer. It is kept
+// while nothing visible in it changes. Tiles with a change are summed from scratch over all lights:
+// a light that moves affects every lobe that it reaches, so an incremental update would save at
+// most half.
 #pragma once
 
 #include <map>
@@ -16,39 +16,39 @@ namespace lamplighter::cpu {
 
 class SpecularAccumulator {
  public:
-  // Brings all glossy pixels up to date, as seen from `eye`. `patches`: null: look-ups everywhere.
-  // Returns lights × pixels that were summed.
+  // Updates all glossy pixels as seen from `eye`. `patches` null: shadow map look-ups everywhere.
+  // Returns the number of lights × pixels that were summed.
   uint64_t update(const RenderScene& scene, const GBuffer& gbuffer, const vec3& eye,
                   std::vector<SpecularLight> lights, const SumConstants& constants,
                   float leastRoughness, const PatchLights* patches);
 
-  // Some shadow map is to change, or all are lost.
+  // Call when a shadow map is about to change, or when all maps are lost.
   void mapsChange() { isKnown_ = false; }
-  // Objects are numbered anew, or have other patches though they stayed where they were.
+  // Call when objects are renumbered, or get other patches without moving.
   void forgetPlaces() {
     knowsPlaces_ = false;
     isKnown_ = false;
   }
-  // Nothing has speculars.
+  // Removes all specular light.
   void clear();
 
-  // Makes the picture of surfaces that are all Lambert's one with speculars. Does nothing where
-  // there are none.
+  // Replaces Lambertian shading by shading with specular light in the picture. Does nothing if
+  // there are no glossy pixels.
   void addTo(const GBuffer& gbuffer, Image& picture) const;
   size_t bytes() const;
 
  private:
   using Patch = std::pair<uint32_t, int>;  // object, leaf
-  // Glossy lanes of one packet that lie in one patch.
+  // The glossy lanes of one packet that lie in one patch.
   struct Part {
     uint8_t packet, lanes;
     uint32_t row;
     Patch patch;
   };
   struct Tile {
-    uint64_t revision = 0;  // of the G-buffer's tile, as summed; 0: never
+    uint64_t revision = 0;  // of the G-buffer tile when it was summed; 0: never
     std::vector<Part> parts;
-    // By pixel; empty where nothing is glossy.
+    // By pixel; empty if the tile has no glossy pixel.
     std::vector<Gloss> gloss;
     std::vector<vec3> radiance;  // [W/(m² sr)]
   };

@@ -6,7 +6,7 @@
 
 namespace lamplighter::cpu {
 
-// The points of a packet with their lobes.
+// The points of a packet and their lobes.
 struct GlossyPoints {
   Vector3 position, shading, geometric, toEye;
   bool isFlat;
@@ -82,7 +82,7 @@ HWY_INLINE void addLobe(const GlossyPoints& p, const Vector3& colour, Floats wei
   add(p.straight.z, colour.z, sum.z);
 }
 
-// Adds what the light gives the eye.
+// Adds the light that is reflected towards the eye.
 template <LightRecord::Kind kKind>
 HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float footprint,
                             bool readsShadowMap, const SimdConstants& c, Vector3& sum) {
@@ -120,7 +120,7 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
     const Floats inverse = hn::Div(wide(1.0f), hn::Sqrt(d2));
     nl = hn::Mul(s, inverse);
     lv = hn::Neg(hn::Mul(dot(v, p.toEye), inverse));
-    // Cosine at the light. Behind it, in lanes that it does not reach, no lobe must be without end.
+    // Cosine at the light. Clamped in lanes behind the light, so that no lobe becomes infinite.
     const Floats away = hn::Max(hn::Mul(z, inverse), zero);
     if constexpr (kKind == LightRecord::Kind::cosine) {
       const Floats perArea = hn::Mul(away, hn::Min(hn::Mul(inverse, inverse), c.perClampDistance2));
@@ -135,13 +135,13 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
   }
   lit = hn::AndNot(occluded, lit);
   if (hn::AllFalse(kTag, lit)) return;
-  // Hardly any.
+  // Few lanes.
   const Mask isLarge = hn::Gt(solidAngle, wide(shared::kMostSolidAngle));
   if (!hn::AllFalse(kTag, isLarge)) {
     const Floats share = hn::Div(wide(shared::kMostSolidAngle), solidAngle);
     weight = hn::IfThenElse(isLarge, hn::Mul(weight, share), weight);
   }
-  // In the other lanes a light from above the surface, of weight nothing: no division by nothing.
+  // Other lanes use a light above the surface with weight 0, to avoid a division by zero.
   addLobe(p, light.units, hn::IfThenElseZero(lit, weight), hn::IfThenElse(lit, nl, wide(1.0f)), lv,
           solidAngle, sum);
 }

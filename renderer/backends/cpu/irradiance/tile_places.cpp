@@ -10,7 +10,7 @@
 namespace lamplighter::cpu {
 namespace {
 
-// Whether a point of a triangle of which another point lies in the leaf surely does too.
+// Whether a point certainly lies in the leaf, if another point of its triangle does.
 bool liesIn(const ObjectPatches& patches, int leaf, const vec3& position) {
   const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
   if (patch.chart == kNone) return true;
@@ -18,7 +18,7 @@ bool liesIn(const ObjectPatches& patches, int leaf, const vec3& position) {
   return p.x >= patch.min.x && p.x < patch.max.x && p.y >= patch.min.y && p.y < patch.max.y;
 }
 
-// The same of all pixels of a packet.
+// The same for all pixels of a packet.
 bool lieIn(const ObjectPatches& patches, int leaf, const GBuffer& g, size_t first) {
   const Patch& patch = patches.patches[static_cast<size_t>(leaf)];
   if (patch.chart == kNone) return true;
@@ -35,7 +35,7 @@ bool lieIn(const ObjectPatches& patches, int leaf, const GBuffer& g, size_t firs
       tag, hn::And(within(x, patch.min.x, patch.max.x), within(y, patch.min.y, patch.max.y)));
 }
 
-// Whether all pixels of a packet show what this one does.
+// Whether all pixels of a packet show the same surface as this one.
 bool showSame(const GBuffer& g, size_t first, size_t pixel) {
   uint64_t hits = 0;
   static_assert(sizeof(hits) == kLanes);
@@ -131,7 +131,7 @@ uint16_t TilePlaces::placeOf(const GBuffer& g, const PatchLights& lights, size_t
           : lights.isMapped(object, leaf) &&
                 glm::dot(normal, patches.charts[static_cast<size_t>(chart)].normal) > 0.0f;
   const Place place{object, leaf, isMapped};
-  // Neighbours are mostly in the place found last.
+  // Neighbours usually lie in the place found last.
   for (size_t k = places_.size(); k-- > 0;)
     if (places_[k] == place) return static_cast<uint16_t>(k);
   places_.push_back(place);
@@ -149,7 +149,7 @@ void TilePlaces::clear() {
 void TilePlaces::find(const GBuffer& g, int tile, const PatchLights* patches, uint32_t packets) {
   first_ = static_cast<size_t>(tile) * kTilePixels;
   std::vector<Part> parts;
-  // The pixel before and its place: of the same triangle, it is mostly that one again.
+  // The previous pixel and its place: a pixel on the same triangle usually has the same place.
   size_t last = 0;
   int lastPlace = kNone;
   const auto isAsLast = [&](size_t i) {

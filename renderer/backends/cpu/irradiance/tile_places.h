@@ -1,5 +1,5 @@
-// Where the pixels of a tile lie: in which leaf patches, and what each of these makes of each
-// light. Found once for a tile and kept while it shows the same.
+// The leaf patches in which the pixels of a tile lie, and the shadow mode of each light there.
+// Found once per tile and kept while the tile shows the same.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@
 
 namespace lamplighter::cpu {
 
-// Pixels for which all lights are used alike.
+// Pixels for which every light has the same shadow mode.
 struct Place {
   uint32_t object = 0;
   int leaf = 0;
-  bool isMapped = false;  // they begin with the light map, or with light by transfer
+  bool isMapped = false;  // they start from the light map or from radiance transfer
   auto operator<=>(const Place&) const = default;
 };
 
-// How each light is used in each place that is seen, now and as it was summed last.
+// The shadow mode of each light in each visible place, now and as used in the sums.
 class PlaceTable {
  public:
   // Forgets all places.
@@ -30,31 +30,33 @@ class PlaceTable {
   size_t rows() const { return places_.size(); }
   size_t slots() const { return slots_; }
 
-  // Brings the rows in use up to date. The others are forgotten: their patches may be gone.
+  // Updates the rows in use. Other rows are forgotten: their patches may no longer exist.
   void update(const PatchLights& lights, const std::vector<bool>& inUse);
   const ShadowMode* now(uint32_t row) const { return now_.data() + row * slots_; }
   const ShadowMode* before(uint32_t row) const { return before_.data() + row * slots_; }
-  // Slots that are used in another way than before.
+  // Slots whose shadow mode changed.
   std::span<const int> changed(uint32_t row) const { return changed_[row]; }
 
-  // A light that is where it was when it was summed; how bright it is and a part of its map may
-  // have changed.
+  // A light that did not move since it was summed. Its brightness, and a part of its map, may have
+  // changed.
   struct Staying {
     const LightRecord *was, *is;
-    ShadowMapDiff change;  // nothing, or a part
+    ShadowMapDiff change;  // empty or partial
     bool isReplaced() const { return was->intensity != is->intensity; }
   };
-  // Finds the rows in which these are to be taken away and added again. In others they are the same
-  // or, where they are replaced, lit as they were. Until accept().
+  // Finds the rows in which these lights must be subtracted and added again. In other rows a light
+  // is unchanged, or only its brightness changed and its shadow mask is still valid. Valid until
+  // accept().
   void findTouched(std::span<const Staying> lights);
-  // By row, whether it is one of them, 1 or 0; null: the light is none of these, any row may be.
+  // By row, 1 or 0: whether it is such a row; null: the light is none of these, so any row may be
+  // affected.
   const uint8_t* touched(int slot) const {
     return static_cast<size_t>(slot) < touched_.size() &&
                    !touched_[static_cast<size_t>(slot)].empty()
                ? touched_[static_cast<size_t>(slot)].data()
                : nullptr;
   }
-  // What is now is what was summed.
+  // The present state is now the one used in the sums.
   void accept();
   size_t bytes() const { return now_.size() + before_.size(); }
 
@@ -63,31 +65,32 @@ class PlaceTable {
   std::map<Place, uint32_t> rowOf_;
   std::vector<Place> places_;
   std::vector<ShadowMode> now_, before_;       // rows × slots
-  std::vector<std::vector<int>> changed_;      // by row
-  std::vector<uint8_t> isKnown_;               // by row: before_ is what was summed
+  std::vector<std::vector<int>> changed_;      // slots, by row
+  std::vector<uint8_t> isKnown_;               // by row: before_ holds what was summed
   PlaceSpheres spheres_;                       // of rows in use
-  std::vector<std::vector<uint8_t>> touched_;  // by slot; empty: none is known
+  std::vector<std::vector<uint8_t>> touched_;  // by slot; empty: unknown
 };
 
-// The places of one tile. Packets whose lanes lie in the same ones are of one kind, and few kinds
-// are in a tile.
+// The places of one tile. Packets whose lanes lie in the same places are of one kind; a tile has
+// few kinds.
 class TilePlaces {
  public:
-  // Forgets what it knows, when the tile shows something else.
+  // Call when the tile shows something else.
   void clear();
-  // Finds those of these packets (a bit each), unless they are known.
-  // patches: null where all lights are looked up everywhere.
+  // Finds the places of these packets (one bit each), unless they are known. patches: null if all
+  // lights need a look-up everywhere.
   void find(const GBuffer& gbuffer, int tile, const PatchLights* patches, uint32_t packets);
   bool knows(uint32_t packets) const { return (packets & ~known_) == 0; }
-  // Their rows in the table, once found. Not while other tiles do.
+  // Gets their rows in the table. Call after find(), not concurrently with other tiles.
   void takeRows(PlaceTable& table);
 
-  // Known packets in which anything is.
+  // Known packets that hit something.
   uint32_t hit() const { return hit_; }
   std::span<const uint32_t> rows() const { return rows_; }
-  // How a light is used: as it was or is where it is touched, where it is not, or anywhere.
+  // Which shadow mode: the old or new one where the row is touched, the one where it is untouched,
+  // or the new one everywhere.
   enum class When : uint8_t { before, after, untouched, now };
-  // Calls f(packet, lanes, row in the table, 0 where there is none) for all places of these.
+  // Calls f(packet, lanes, row in the table, 0 if none) for all places of these packets.
   template <typename F>
   void forEachPart(uint32_t which, F&& f) const {
     for (const Kind& kind : kinds_)
@@ -97,7 +100,7 @@ class TilePlaces {
             rows_.empty() ? 0 : rows_[parts_[part].place]);
   }
 
-  // Calls f(first pixel of the packet, lanes, row in the table) for all that is known.
+  // Calls f(first pixel of the packet, lanes, row in the table) for all known packets.
   template <typename F>
   void forEachRow(F&& f) const {
     for (const Kind& kind : kinds_)
@@ -107,8 +110,8 @@ class TilePlaces {
             rows_[parts_[part].place]);
   }
 
-  // Calls f(first pixel of the packet, lanes, place) for all lanes of these packets on a light map
-  // or with transfer.
+  // Calls f(first pixel of the packet, lanes, place) for all lanes of these packets that start from
+  // a light map or from transfer.
   template <typename F>
   void forEachMapped(uint32_t which, F&& f) const {
     for (const Kind& kind : kinds_) {
@@ -130,7 +133,7 @@ class TilePlaces {
   };
   struct Kind {
     uint32_t first, count;  // parts
-    uint32_t packets;       // a bit each
+    uint32_t packets;       // one bit each
   };
   static_assert(kPacketsPerTile <= 32);
 

@@ -1,4 +1,5 @@
-// The space of a light with a shadow map: its plane is x and y, z the side that it lights.
+// The space of a light with a shadow map: x and y span its plane, z points to the side that it
+// lights.
 #pragma once
 
 #include "renderer/base/math.h"
@@ -10,8 +11,8 @@ struct LightSpace {
   bool isParallel;
   vec3 origin;
   mat3 axes;         // columns: those of light space
-  float across, up;  // what it is scaled by; 1 but for parallel lights
-  float most;        // of what a map stores: at the nearest that a ray meets
+  float across, up;  // scale factors; 1 except for directional lights
+  float most;        // largest value of a map, at the nearest distance that a ray can hit
 
   explicit LightSpace(const shared::Vpl& vpl);
 };

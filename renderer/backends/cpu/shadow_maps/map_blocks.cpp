@@ -8,7 +8,7 @@
 namespace lamplighter::cpu {
 namespace {
 
-// More than numbers are rounded.
+// Larger than the rounding errors.
 constexpr float kSlack = 1e-4f, kShareOfSlack = 1.001f;
 
 }  // namespace
@@ -30,7 +30,7 @@ SphereInMap::SphereInMap(const LightSpace& light, const TexelDirections& directi
   }
   const float distance = glm::length(c);
   reach_ = sphere.radius / distance * kShareOfSlack + kSlack;
-  if (!(reach_ < 1.0f)) {  // around the light, or where numbers fail
+  if (!(reach_ < 1.0f)) {  // the light is inside the sphere, or NaN
     where_ = Where::anywhere;
     return;
   }
@@ -49,7 +49,7 @@ uint32_t SphereInMap::blocks(size_t first) const {
   const Floats8 cosines =
       hn::MulAdd(x, wide(axis_.x),
                  hn::MulAdd(y, wide(axis_.y), hn::Mul(wideAt(d.midZ, first), wide(axis_.z))));
-  // Both angles, the sphere's and a block's, are less than a right one: cos(a + b) falls from 1 to
+  // Both angles (of the sphere and of the block) are below 90°, so cos(a + b) decreases from 1 to
   // −1.
   const Floats8 least = hn::Sub(hn::Mul(wideAt(d.cosine, first), wide(cosine_)),
                                 hn::Mul(wideAt(d.sine, first), wide(reach_)));

@@ -1,4 +1,4 @@
-// Which blocks of a shadow map's texels may see a sphere, eight at a time.
+// Which blocks of shadow map texels may see a sphere, eight at a time.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,19 @@ class SphereInMap {
   enum class Where : uint8_t { nowhere, somewhere, anywhere };
   static constexpr size_t kBlocks = 8;
 
-  // directions: of the light's kind of map, which must outlive it.
+  // directions: for the kind of the light's map; must outlive this object.
   SphereInMap(const LightSpace& light, const TexelDirections& directions, const Sphere& sphere);
   Where where() const { return where_; }
-  // Of kBlocks blocks from this one on, those that may see it, if that is somewhere: a bit each.
+  // Tests kBlocks blocks from `first` on: one bit for each block that may see the sphere.
   uint32_t blocks(size_t first) const;
 
  private:
   const TexelDirections& directions_;
   bool isParallel_;
   Where where_ = Where::somewhere;
-  vec3 axis_{0.0f};                     // unit; of parallel light a place in the map's square
-  float cosine_ = 1.0f, reach_ = 0.0f;  // of the angle that it is seen within; its sine, or a
-                                        // distance in the square
+  vec3 axis_{0.0f};  // unit; for directional light a position in the map's square
+  // cosine and sine of the angular radius; directional light: reach_ is a distance in the square
+  float cosine_ = 1.0f, reach_ = 0.0f;
 };
 
 }  // namespace lamplighter::cpu

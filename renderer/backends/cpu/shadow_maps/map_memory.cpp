@@ -10,7 +10,7 @@ namespace lamplighter::cpu {
 namespace {
 
 constexpr size_t kHugePage = size_t{2} << 20;
-// Memory that is asked for at once, about.
+// Approximate size of one allocation.
 constexpr size_t kPieceBytes = 8 * kHugePage;
 
 }  // namespace
@@ -21,7 +21,7 @@ void MapMemory::grow() {
   void* p = nullptr;
   if (posix_memalign(&p, kHugePage, maps * bytes) != 0) throw std::bad_alloc();
   pieces_.emplace_back(static_cast<float*>(p));
-  // Where the system knows no huge pages the maps are as good without.
+  // Only an optimisation: an error (no huge pages) is ignored.
   madvise(p, maps * bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
   for (size_t i = maps; i > 0; --i) free_.push_back(pieces_.back().get() + (i - 1) * texels_);
   made_ += maps;

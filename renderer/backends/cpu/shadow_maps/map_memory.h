@@ -1,5 +1,5 @@
-// Memory for shadow maps of one resolution. Look-ups go all over hundreds of megabytes: with pages
-// of 4 KiB the processor finds the pages for longer than the texels.
+// Memory for shadow maps of one resolution. Look-ups are spread over hundreds of megabytes; with
+// pages of 4 KiB, page table walks would take longer than reading texels.
 #pragma once
 
 #include <cstddef>
@@ -12,11 +12,11 @@ namespace lamplighter::cpu {
 class MapMemory {
  public:
   MapMemory() = default;
-  // For at most so many maps.
+  // For at most `most` maps.
   MapMemory(size_t texelsOfMap, size_t most) : texels_(texelsOfMap), most_(most) {}
 
-  // A map's texels, of whatever values. Throws std::bad_alloc, or std::length_error where there are
-  // as many as there may be.
+  // Returns the texels of a map, uninitialised. Throws std::bad_alloc, or std::length_error if
+  // `most` maps are in use.
   float* take();
   void giveBack(float* map) { free_.push_back(map); }
   size_t taken() const { return made_ - free_.size(); }
@@ -29,9 +29,9 @@ class MapMemory {
   void grow();
 
   size_t texels_ = 0, most_ = 0;
-  size_t made_ = 0;  // maps that there is memory for
+  size_t made_ = 0;  // number of maps with allocated memory
   std::vector<std::unique_ptr<float, Free>> pieces_;
-  std::vector<float*> free_;  // maps, the next last
+  std::vector<float*> free_;  // free maps; the last one is the next to use
 };
 
 }  // namespace lamplighter::cpu

@@ -13,10 +13,10 @@
 namespace lamplighter::cpu {
 namespace {
 
-// Rows of a map that are one task: what is found once for a map is found for each of them.
+// Rows per task. Per-map preparation is repeated for each task.
 constexpr int kRowsPerTask = 2 * ShadowRaster::kBand;
-// Moves that are remembered, at least, and objects that may have moved where only a part of a map
-// is rendered.
+// The smallest number of moves that are remembered, and the largest number of moved objects for
+// which only a part of a map is rendered.
 constexpr ptrdiff_t kMostMoves = 1024;
 constexpr size_t kMostMoved = 16;
 
@@ -74,14 +74,14 @@ void MapStore::castersMove(const RenderScene& scene, const RenderSceneChanges& c
   if (moves_.size() > 2 * kMostMoves) moves_.erase(moves_.begin(), moves_.end() - kMostMoves);
 }
 
-// Blocks that may show something else now, where that is less than all; else empty.
+// The blocks whose content may have changed; empty if all may have.
 std::vector<uint8_t> MapStore::outdated(const Map& map) const {
   if (!map.moves || moveCount_ - *map.moves > moves_.size()) return {};
   struct ObjectMotion {
     uint32_t object;
     const Bounds *from, *to;
   };
-  std::vector<ObjectMotion> ways;  // from where it shows them
+  std::vector<ObjectMotion> ways;  // since the map was rendered
   for (size_t i = moves_.size() - (moveCount_ - *map.moves); i < moves_.size(); ++i) {
     const Move& move = moves_[i];
     const auto way = std::ranges::find(ways, move.object, &ObjectMotion::object);

@@ -16,46 +16,46 @@ namespace lamplighter::cpu {
 
 class MapStore {
  public:
-  // As Backend::reserveShadowMaps(). Whether all maps were lost.
+  // Like Backend::reserveShadowMaps(). Returns whether all maps were lost.
   bool reserve(int slots, const MapRoom& coarse, const MapRoom& fine);
-  // What casts shadows may be anything else, or some of it moved; to be told before render().
+  // Call before render() when shadow casters changed or moved.
   void castersChange();
   void castersMove(const RenderScene& scene, const RenderSceneChanges& changes);
 
-  // Renders the maps of these lights, each for the slot in its intensity.w. `changes`, one for
-  // each: what of its map changed; everything, where it had none of this size or was elsewhere.
-  // Throws InputError where there is no memory. The number of rays that were cast.
+  // Renders the map of each light for the slot in its intensity.w. `changes`, one per light,
+  // receives the part of the map that changed; all of it, if the slot had no map of this size or
+  // the light moved. Throws InputError if memory is short. Returns the number of rays.
   uint64_t render(const RenderScene& scene, const RayCaster& rays,
                   std::span<const shared::Vpl> lights, MapSize size,
                   std::span<ShadowMapDiff> changes);
   void drop(int slot);
 
-  // Row after row; empty: there is none.
+  // Row by row; empty: the slot has no map.
   std::span<const float> map(int slot) const {
     return slot < 0 ? std::span<const float>() : texelsOf(maps_[static_cast<size_t>(slot)]);
   }
-  // Of the map that a slot has, texels a side.
+  // Of the slot's map, texels per side.
   int resolution(int slot) const {
     return slot < 0 ? 0 : of(maps_[static_cast<size_t>(slot)].size).resolution();
   }
   size_t held() const { return sizes_[0].memory.taken() + sizes_[1].memory.taken(); }
-  // Of those. What those that were dropped had is kept for others.
+  // Memory of the maps, including the memory of dropped maps, which is reused.
   size_t bytes() const { return sizes_[0].bytes() + sizes_[1].bytes(); }
 
  private:
   struct Map {
     float* texels = nullptr;  // null: there is no map
     MapSize size = MapSize::coarse;
-    shared::Vpl light;  // whose it is
+    shared::Vpl light;  // the light that the map belongs to
     std::vector<uint8_t> isTraced;
-    // Those of all moves that it shows; none: it shows what was before castersChange().
+    // The number of moves that the map shows; none: it is older than castersChange().
     std::optional<uint64_t> moves;
   };
   struct Move {
     uint32_t object;
     Bounds before, after;
   };
-  // Maps of one size.
+  // The maps of one size.
   struct Size {
     MapRoom room;
     MapMemory memory;
@@ -78,10 +78,10 @@ class MapStore {
   std::array<Size, 2> sizes_;
   std::vector<Map> maps_;
   ShadowRaster raster_;
-  bool castersChanged_ = true;  // since raster_ knows of them
+  bool castersChanged_ = true;  // since raster_ was updated
   std::vector<uint32_t> movedSince_;
-  std::vector<Move> moves_;  // the last of all
-  uint64_t moveCount_ = 0;   // of all
+  std::vector<Move> moves_;  // the most recent ones
+  uint64_t moveCount_ = 0;   // total number of moves
 };
 
 }  // namespace lamplighter::cpu

@@ -9,12 +9,12 @@
 namespace lamplighter::cpu {
 namespace {
 
-// The ray of a hemisphere map's texel. Its direction has w = 1, so that t is w where it hits.
+// The ray of a hemisphere map's texel. Its direction has w = 1, so t equals w at the hit.
 Ray hemisphereRay(const shared::Vpl& vpl, const mat3& frame, float tNear, vec2 centre) {
   return {vec3(vpl.position), tNear, frame * shared::octahedralDecode(centre)};
 }
 
-// The ray of an orthographic map's texel, from outside the scene against the light.
+// The ray of an orthographic map's texel; it starts on the light's side outside the scene.
 Ray directionalRay(const shared::Vpl& vpl, const mat3& frame, vec2 centre) {
   const float radius = vpl.normal.w, side = vpl.tangent.w;
   return {vec3(vpl.position) + frame * vec3(side * centre, radius), 0.0f, -frame[2], 2.0f * radius};
@@ -47,7 +47,7 @@ uint64_t traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resol
       for (int lane = 0; lane < kLanes; ++lane) {
         const int x = x0 + lane % kBlockWidth, y = y0 + lane / kBlockWidth;
         if (x >= resolution || y >= lastRow) continue;
-        // Nothing hit: 0.
+        // No hit: 0.
         const float t = distance[lane];
         map[static_cast<size_t>(y) * resolution + x] =
             directional ? std::max(0.0f, 1.0f - t / (2.0f * vpl.normal.w)) : 1.0f / t;

@@ -1,5 +1,5 @@
-// Shadow maps by ray casting: each texel holds what its centre's ray meets, so alpha masks are
-// right and no triangle is too small.
+// Shadow maps by ray casting: each texel stores what the ray through its centre hits, so alpha
+// masks are correct and no triangle is too small.
 #pragma once
 
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace lamplighter::cpu {
 
-// Rays are cast in blocks of texels: coherent within the packet.
+// Rays are cast in blocks of texels: a packet of rays is coherent.
 inline constexpr int kBlockWidth = 4, kBlockHeight = 2;
 
-// Renders rows [firstRow, lastRow) of the map of `vpl` into `map` (resolution², see
-// shaders/shared/vpl_shading.h for what is stored). Of blocks, row after row of those rows, only
-// those that are `wanted`; empty: all. The number of rays that were cast.
+// Renders rows [firstRow, lastRow) of the map of `vpl` into `map` (resolution² texels;
+// shaders/shared/vpl_shading.h defines their values). `wanted`: by block of these rows, row by row,
+// whether to render it; empty: all. Returns the number of rays.
 uint64_t traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resolution, int firstRow,
                         int lastRow, std::span<float> map, std::span<const uint8_t> wanted = {});
 

@@ -18,18 +18,20 @@ using HalfTag = hn::FixedTag<float, kTriangles / 2>;
 using Floats = Floats8;
 constexpr HalfTag kHalfTag;
 
-// Above these rays are faster: triangles of an object, of all, and objects that are left to rays.
+// Above these limits rays are faster: triangles per object, triangles in total, and the number of
+// traced objects.
 constexpr uint32_t kMostOfObject = 64;
 constexpr size_t kMostTriangles = 1024, kMostComplex = 64;
-// As are they where this share of blocks is left to them.
+// Rays are also faster if at least this share of the blocks needs them.
 constexpr float kMostOfBlocks = 0.75f;
 
 constexpr int kLeastTile = 2 * kBlockWidth;
-constexpr int kMostTiles = 16;  // on a side
+constexpr int kMostTiles = 16;  // per side
 constexpr size_t kRow = TexelDirections::kCornersARow;
 static_assert(kRow >= kMostTiles + kTriangles);
 
-// An object's triangles in runs, as their indices follow each other: they mostly lie side by side.
+// An object's triangles are split into runs of consecutive indices, which are usually close
+// together.
 constexpr uint32_t kMostParts = 32, kLeastOfPart = 16;
 
 std::vector<Sphere> partsOfMesh(const RenderScene& scene, const RenderObject& o) {
@@ -45,7 +47,7 @@ std::vector<Sphere> partsOfMesh(const RenderScene& scene, const RenderObject& o)
   return spheres;
 }
 
-// A map's rows are four texels of a block's upper row, and of its lower one.
+// A vector holds four texels of a block's upper row, then four of its lower row.
 Floats loadBlock(const float* map, size_t resolution) {
   return hn::Combine(kTag, hn::LoadU(kHalfTag, map + resolution), hn::LoadU(kHalfTag, map));
 }
@@ -54,7 +56,7 @@ void storeBlock(Floats v, float* map, size_t resolution) {
   hn::StoreU(hn::UpperHalf(kHalfTag, v), kHalfTag, map + resolution);
 }
 
-// What is linear in a ray's direction.
+// A linear function of the ray direction.
 struct Function {
   Floats x, y, z;
   Function(const float (&f)[4][kTriangles], size_t lane)
@@ -64,7 +66,7 @@ struct Function {
   }
 };
 
-// Within it a, b and c are no less than 0.
+// Inside the triangle a, b and c are ≥ 0.
 struct Triangle {
   Function a, b, c, stored;
   Triangle(const ShadowTriangles::Batch& batch, size_t lane)
@@ -81,7 +83,7 @@ Ends both(const Ends& a, const Ends& b) {
   return {hn::Min(a.least, b.least), hn::Max(a.most, b.most)};
 }
 
-// Of the functions at the corners of eight tiles in a row, on one side of them.
+// Values of the functions at the corners of eight adjacent tiles, on one side of the tiles.
 struct AtCorners {
   Ends a, b, c, stored;
   AtCorners(const Triangle& t, const TexelDirections& d, int row, int first) {
@@ -100,7 +102,8 @@ struct AtCorners {
   }
 };
 
-// Draws into columns [x, x + width) of rows [y, end). The least that is stored there then.
+// Draws into columns [x, x + width) of rows [y, end). Returns the smallest value stored there
+// afterwards.
 template <bool isWhole>
 float drawTile(const Triangle& t, const TexelDirections& d, Floats most, int x, int width, int y,
                int end, int resolution, float* map) {
@@ -129,13 +132,13 @@ float drawTile(const Triangle& t, const TexelDirections& d, Floats most, int x, 
 
 }  // namespace
 
-// Rows that are rendered at once, while what they read and write fits the first-level cache.
+// Rows that are rendered together; what they read and write fits into the L1 cache.
 struct ShadowRaster::Band {
   const ShadowMapGrid& grid;
   int firstRow, lastRow;
-  int firstTile, lastTile;     // rows of tiles that they reach into
-  std::vector<uint8_t> marks;  // by block: it is left to rays
-  // By tile: no less is stored in any of its texels in these rows.
+  int firstTile, lastTile;     // rows of tiles that the band overlaps
+  std::vector<uint8_t> marks;  // by block: it is traced by rays
+  // By tile: a lower bound of the values stored in its texels in these rows.
   alignas(32) float least[kBand / kLeastTile][kRow] = {};
 
   Band(const ShadowMapGrid& g, int first, int last)
@@ -144,7 +147,7 @@ struct ShadowRaster::Band {
         lastRow(last),
         firstTile(first / g.tile),
         lastTile((last + g.tile - 1) / g.tile) {}
-  // Of a row of tiles, as far as it is in here.
+  // The part of a row of tiles inside the band.
   int top(int row) const { return std::max(firstRow, row * grid.tile); }
   int bottom(int row) const { return std::min(lastRow, (row + 1) * grid.tile); }
 };
@@ -190,8 +193,8 @@ void ShadowRaster::setScene(const RenderScene& scene, const std::vector<uint32_t
 
 ShadowMapGrid::ShadowMapGrid(int texels) : resolution(texels), tile(kLeastTile) {
   while (resolution > tile * kMostTiles) tile *= 2;
-  // Tiles' corners lie on the creases of the octahedron, so that directions are linear on either
-  // side of a tile's diagonal.
+  // Tile corners lie on the creases of the octahedron, so directions are linear on each side of a
+  // tile's diagonal.
   if (resolution % tile != 0) tile = 0;
   if (tile == 0) return;
   tiles = resolution / tile;
@@ -199,7 +202,7 @@ ShadowMapGrid::ShadowMapGrid(int texels) : resolution(texels), tile(kLeastTile) 
   parallel = texelDirections(resolution, tile, true);
 }
 
-// Marks blocks that may see what is left to rays. Whether rasterising the others is worth it.
+// Marks the blocks that may see traced objects. Returns whether rasterising the others pays off.
 bool ShadowRaster::markForRays(const LightSpace& light, Band& band) const {
   using Where = SphereInMap::Where;
   const TexelDirections& d = band.grid.directions(light.isParallel);
@@ -210,7 +213,7 @@ bool ShadowRaster::markForRays(const LightSpace& light, Band& band) const {
   marks.assign(count, 0);
   struct Blocks {
     size_t first;
-    uint32_t see;  // a bit for each
+    uint32_t see;  // one bit for each
   };
   std::vector<Blocks> near;
   for (const Complex& object : complex_) {
@@ -252,7 +255,7 @@ std::vector<uint8_t> ShadowRaster::blocksThatSee(const ShadowMapGrid& grid, cons
   return see;
 }
 
-// Calls f(index among the band's marks) for the blocks of a tile, as far as they are in the band.
+// Calls f(index into the band's marks) for the blocks of a tile inside the band.
 template <typename F>
 void ShadowRaster::forEachBlock(const Band& band, int ty, int tx, F&& f) {
   const int across = band.grid.resolution / kBlockWidth, tile = band.grid.tile;
@@ -261,8 +264,8 @@ void ShadowRaster::forEachBlock(const Band& band, int ty, int tx, F&& f) {
       f(static_cast<size_t>((y - band.firstRow) / kBlockHeight * across + x / kBlockWidth));
 }
 
-// Makes tiles ready to be drawn into where any block is wanted (empty: all are). Where all are left
-// to rays nothing is nearer than what is there, and where none is wanted nothing is to be done.
+// Clears the tiles that have a wanted block (`wanted` empty: all tiles). In tiles where all blocks
+// are traced, or none is wanted, nothing is drawn.
 void ShadowRaster::prepareTiles(Band& band, std::span<const uint8_t> wanted, std::span<float> map) {
   const auto [resolution, tile] = std::pair(band.grid.resolution, band.grid.tile);
   for (int ty = band.firstTile; ty < band.lastTile; ++ty) {
@@ -291,8 +294,8 @@ void ShadowRaster::draw(const ShadowTriangles::Batch& batch, size_t lane, const 
   const Triangle t(batch, lane);
   const auto slack = [&](size_t function) { return wide(batch.functions[function][3][lane]); };
   const Floats slackA = slack(0), slackB = slack(1), slackC = slack(2);
-  // The tile in the middle of an odd number of them has the tip of the octahedron between its
-  // corners: what is stored there may be more than at these.
+  // With an odd number of tiles, the middle tile contains the tip of the octahedron: values inside
+  // it can exceed those at its corners.
   const Floats slackStored = tiles % 2 == 0 ? slack(ShadowTriangles::Batch::kPlane)
                                             : wide(std::numeric_limits<float>::infinity());
   const Floats zero = hn::Zero(kTag), most = wide(light.most);
@@ -335,12 +338,13 @@ uint64_t ShadowRaster::render(const RayCaster& rays, const ShadowMapGrid& grid,
   uint64_t cast = 0;
   for (int row = firstRow; row < lastRow; row += kBand) {
     Band band(grid, row, std::min(row + kBand, lastRow));
-    std::span<const uint8_t> part;  // of the blocks in here; empty: all of them
+    std::span<const uint8_t> part;  // the blocks of this band; empty: all
     if (!wanted.empty()) {
       const int rows = band.lastRow - row;
       part = wanted.subspan(static_cast<size_t>(row / kBlockHeight) * across,
                             static_cast<size_t>(rows / kBlockHeight) * across);
-      // Nothing that moved is seen in here: whether rows are drawn is as it was, too.
+      // No mover is visible in this band, so the choice between drawing and tracing is also
+      // unchanged.
       if (std::ranges::count(part, 0) == std::ssize(part)) continue;
     }
     const bool isDrawn = isUseful_ && markForRays(light, band);

@@ -1,13 +1,13 @@
-// Shadow maps of simple objects by rasterisation, of what is left by rays (paper 1, 4.2.1: few
-// large polygons hide most, and are nothing to draw).
+// Shadow maps: simple objects are rasterised, others are traced by rays (paper 1, 4.2.1: a few
+// large polygons cause most shadows and are cheap to draw).
 //
-// A map's texels are rays from one point, or parallel ones; shadow_triangles.h says how triangles
-// are found on them. Objects of many triangles, and with alpha masks, are left to rays: of texels
-// that may see one of them all that is met is found by its ray, so that both ways give the same map
-// but for rounding at edges.
+// The texels of a map are rays from one point, or parallel rays; shadow_triangles.h tells how
+// triangles are intersected with them. Objects with many triangles or alpha masks are traced: a
+// texel that may see such an object is traced against the whole scene. Both ways give the same map,
+// apart from rounding at edges.
 //
-// Where something moved only a part of a map need be rendered anew: its bits are those of a whole
-// one.
+// When something moved, only a part of a map needs rendering. Its bits are those of a map rendered
+// completely.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@
 
 namespace lamplighter::cpu {
 
-// Maps of one resolution: their tiles, and the directions of their texels.
+// The grid of maps of one resolution: tiles and texel directions.
 struct ShadowMapGrid {
   ShadowMapGrid() = default;
   explicit ShadowMapGrid(int resolution);
@@ -30,27 +30,27 @@ struct ShadowMapGrid {
     return isParallel ? parallel : hemisphere;
   }
 
-  int resolution = 0, tile = 0, tiles = 0;  // texels a side, texels of a tile's, tiles [0: rays
-                                            // alone]
+  // texels per side; texels per side of a tile; tiles per side (0: rays only)
+  int resolution = 0, tile = 0, tiles = 0;
   TexelDirections hemisphere, parallel;
 };
 
 class ShadowRaster {
  public:
-  // What casts shadows, as it is now. `moved`: of its objects, those that did since the last call;
-  // null: anything may be another.
+  // Sets the shadow casters. `moved`: the objects that moved since the last call; null: anything
+  // may have changed.
   void setScene(const RenderScene& scene, const std::vector<uint32_t>* moved = nullptr);
 
-  // Blocks of the light's map that may see one of these, row after row, 1 or 0 each; empty: any
-  // may.
+  // By block of the light's map, row by row: 1 if it may see one of the spheres, otherwise 0.
+  // Empty: all blocks may.
   static std::vector<uint8_t> blocksThatSee(const ShadowMapGrid& grid, const shared::Vpl& vpl,
                                             std::span<const Sphere> spheres);
 
-  // Renders rows [firstRow, lastRow) of the map of `vpl` into `map` (the grid's resolution², see
-  // shaders/shared/vpl_shading.h for what is stored). Whether rows are worth rasterising is decided
-  // by kBand of them: firstRow is a multiple of it. `wanted`: blocks of all the map that are out of
-  // date; empty: all are. `isTraced`: by kBand of all rows, whether they were traced, and then
-  // whether they are. The number of rays that were cast.
+  // Renders rows [firstRow, lastRow) of the map of `vpl` into `map` (resolution² texels of the
+  // grid; shaders/shared/vpl_shading.h defines their values). Bands of kBand rows are either
+  // rasterised or traced, so firstRow is a multiple of kBand. `wanted`: blocks of the whole map
+  // that are out of date; empty: all. `isTraced`: by band of the whole map, whether it was traced
+  // before; receives whether it is now. Returns the number of rays.
   uint64_t render(const RayCaster& rays, const ShadowMapGrid& grid, const shared::Vpl& vpl,
                   int firstRow, int lastRow, std::span<float> map, std::span<const uint8_t> wanted,
                   std::span<uint8_t> isTraced) const;
@@ -58,11 +58,11 @@ class ShadowRaster {
 
  private:
   struct Band;
-  // An object that is left to rays.
+  // An object that is traced.
   struct Complex {
     uint32_t object;
     Sphere whole;
-    std::vector<Sphere> parts;  // around all of it
+    std::vector<Sphere> parts;  // bounding spheres of its parts
   };
   bool markForRays(const LightSpace& light, Band& band) const;
   template <typename F>
@@ -73,7 +73,7 @@ class ShadowRaster {
 
   bool isUseful_ = false;
   ShadowTriangles triangles_;     // of simple objects
-  std::vector<Complex> complex_;  // the other objects
+  std::vector<Complex> complex_;  // all other objects
 };
 
 }  // namespace lamplighter::cpu

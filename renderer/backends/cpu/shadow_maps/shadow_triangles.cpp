@@ -12,10 +12,10 @@ namespace {
 using Floats = Floats8;
 using Vector3 = SimdVec3<Floats>;
 
-// Of a function: what it may be wrong by, so that neighbours do not both leave a tile out.
+// Error bound of a function, so that two neighbouring triangles do not both skip a tile.
 constexpr float kEdgeRounding = 1e-6f;
 
-// Exactly that of (b, a) but for the sign: neighbours agree on the edge that they share.
+// Exactly −cross(b, a): neighbours agree on their shared edge.
 Vector3 cross(const Vector3& a, const Vector3& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
           hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
@@ -25,7 +25,7 @@ Vector3 operator*(const Vector3& a, Floats s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
 
-// Of parallel light z is what is stored: 1 a radius over the origin, 0 under it.
+// For directional light z is the stored value: 1 one radius above the origin, 0 one radius below.
 Vector3 toLight(const LightSpace& light, const Vector3& p) {
   const Vector3 way = p - Vector3{wide(light.origin.x), wide(light.origin.y), wide(light.origin.z)};
   const auto along = [&](int axis, float scale) {
@@ -45,12 +45,12 @@ void store(const Vector3& f, float (&out)[4][ShadowTriangles::kLanes]) {
   hn::Store(hn::Mul(size, wide(kEdgeRounding)), kTag, out[3]);
 }
 
-// Corners as seen from the light, and their triangles.
+// Prepares triangles from their corners in light space.
 void see(const LightSpace& light, const std::array<Vector3, 3>& corner,
          ShadowTriangles::Batch& out) {
   const auto& [a, b, c] = corner;
   const Vector3 normal = cross(b - a, c - a);
-  std::array<Vector3, 3> flat = corner;  // as the rays see them: of parallel ones z is 1
+  std::array<Vector3, 3> flat = corner;  // in the space of the rays; z is 1 for directional light
   if (light.isParallel)
     for (Vector3& p : flat) p.z = wide(1.0f);
   const Floats det = light.isParallel ? normal.z : dotFused(a, normal);
@@ -61,7 +61,7 @@ void see(const LightSpace& light, const std::array<Vector3, 3>& corner,
     isSeen = hn::And(isSeen, hn::Gt(hn::Max(a.z, hn::Max(b.z, c.z)), hn::Zero(kTag)));
   out.lanes = bitsOf(isSeen);
   if (out.lanes == 0) return;
-  // Of parallel light: a.z − ((u − a.x) n.x + (v − a.y) n.y) / n.z.
+  // Directional light: a.z − ((u − a.x) n.x + (v − a.y) n.y) / n.z.
   const Vector3 slope = normal * inverse;
   store(light.isParallel ? Vector3{hn::Neg(slope.x), hn::Neg(slope.y),
                                    hn::MulAdd(slope.x, a.x, hn::MulAdd(slope.y, a.y, a.z))}
@@ -85,7 +85,7 @@ LightSpace::LightSpace(const shared::Vpl& vpl)
 void ShadowTriangles::set(std::vector<Corners> triangles) {
   const auto size = [](const Corners& t) {
     const float area = glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
-    return area > 0.0f ? area : 0.0f;  // NaN
+    return area > 0.0f ? area : 0.0f;  // NaN counts as 0
   };
   std::stable_sort(triangles.begin(), triangles.end(),
                    [&](const Corners& a, const Corners& b) { return size(a) > size(b); });

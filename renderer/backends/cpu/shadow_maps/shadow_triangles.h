@@ -1,7 +1,7 @@
-// Triangles as lights see them, eight at a time. As for the camera (raster.h), a ray d meets a
-// triangle a, b, c where d·(b×c), d·(c×a) and d·(a×b) have one sign, in light space; no matter how
-// the map folds the directions, nothing is clipped. What is stored, 1/w or a height, is linear in d
-// over a plane too.
+// Triangles as seen by lights, eight at a time. As for the camera (raster.h), a ray d in light
+// space meets a triangle a, b, c where d·(b×c), d·(c×a) and d·(a×b) have one sign. This holds for
+// any mapping of directions to texels, and nothing is clipped. The stored value, 1/w or a height,
+// is also linear in d over a plane.
 #pragma once
 
 #include <array>
@@ -19,24 +19,24 @@ class ShadowTriangles {
   using Corners = std::array<vec3, 3>;
   static constexpr size_t kLanes = 8;
 
-  // Eight triangles that a light sees.
+  // Eight triangles in the space of a light.
   struct Batch {
-    // Functions of a ray d, f·d: three that are no less than 0 within the triangle, and what is
-    // stored.
+    // Functions f·d of a ray d: three edge functions, ≥ 0 inside the triangle, and the stored
+    // value.
     static constexpr size_t kPlane = 3, kFunctions = 4;
-    // By function: x, y, z, and what f·d may be wrong by.
+    // By function: x, y, z, and the largest error of f·d.
     alignas(32) float functions[kFunctions][4][kLanes];
-    uint32_t lanes = 0;  // a bit for each that may be seen
+    uint32_t lanes = 0;  // one bit for each triangle that may be visible
   };
 
-  // Large ones come first, so that they hide what comes later; a map does not depend on the order.
+  // Sorts large triangles first, because they hide later ones. The order does not change a map.
   void set(std::vector<Corners> triangles);
   size_t batches() const { return count_ / kLanes; }
-  // `out`: one for each of batches().
+  // `out`: one entry for each of batches().
   void see(const LightSpace& light, std::span<Batch> out) const;
 
  private:
-  size_t count_ = 0;  // in whole batches: the last are points, which are never seen
+  size_t count_ = 0;  // padded to whole batches with degenerate triangles, which are never seen
   std::array<std::array<std::vector<float>, 3>, 3> corners_;  // all x, all y, all z
 };
 

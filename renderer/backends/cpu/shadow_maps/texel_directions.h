@@ -1,4 +1,4 @@
-// The directions of a shadow map's texels in light space, the same for all lights.
+// The directions of shadow map texels in light space, equal for all lights of one kind.
 #pragma once
 
 #include <cstddef>
@@ -7,18 +7,18 @@
 namespace lamplighter::cpu {
 
 struct TexelDirections {
-  // By block of texels (shadow_maps.h), row after row: those of its eight texels, ...
+  // By block of texels (shadow_maps.h), row by row: the directions of its eight texels, ...
   std::vector<float> x, y, z;
-  // ... its middle (unit, but for parallel lights), and how far the texels are from that: an
-  // angle's cosine and sine; of parallel lights a distance in `cosine`.
+  // ... its middle direction (unit, except for directional lights), and the largest angle between
+  // it and a texel as cosine and sine; for directional lights `cosine` is a distance.
   std::vector<float> midX, midY, midZ, cosine, sine;
-  // At the corners of tiles, row after row; past the last of a row as there.
+  // At the corners of tiles, row by row; entries after the last of a row repeat it.
   static constexpr size_t kCornersARow = 24;
   std::vector<float> cornerX, cornerY, cornerZ;
 };
 
-// Of a map of so many texels a side, cut into tiles of `tile` texels a side, which divides it; of
-// parallel lights' maps (u, v, 1) in the map's square [-1, 1]².
+// For a map with `resolution` texels per side and tiles of `tile` texels per side, which must
+// divide it. For directional lights: (u, v, 1) in the map's square [-1, 1]².
 TexelDirections texelDirections(int resolution, int tile, bool isParallel);
 
 }  // namespace lamplighter::cpu
