@@ -38,7 +38,7 @@ class SplitView {
   void setShown(Shown shown) { shown_ = shown; }
   void turnOn(SplitSide first, SplitSide second);
   void turnOff();
-  // Shows the first side over the whole view; the next call shows the second side.
+  // Shows the second side over the whole view or, if it is shown already, the first side.
   void toggleWhole();
   // Handles a drag of the divider. Returns true if it used the input. `width`: of the view.
   bool drag(const ViewportInput& input, int width);
