@@ -38,9 +38,9 @@ struct InspectorState {
   quat rotation{1, 0, 0, 0};
   int slot = 0;                 // index into the mesh's material slots
   bool focusName = false;       // the name field takes the keyboard focus
-  bool choosesSky = false;      // request a file dialog for the light's profile
-  bool choosesProfile = false;  // request a file dialog for the light's picture
-  bool choosesPicture = false;  // ... for the light's picture
+  bool choosesSky = false;      // request a file dialog for the sky's picture
+  bool choosesProfile = false;  // request a file dialog for the light's profile
+  bool choosesPicture = false;  // request a file dialog for the light's picture
   std::string linkSearch;       // filters the objects of light linking
 };
 void inspector(PanelContext ui, InspectorState& state);
