@@ -15,8 +15,9 @@ struct BudgetCost {
   std::string buys;      // the benefit, as one sentence
 };
 
-// The mean cost over the recorded frames that used the budget. `now` has the statistics of the last
-// frame. Returns nothing if the parameter is not a budget.
+// The cost of a budget. Time is the mean over the recorded frames that used the budget. Memory
+// comes from `now`, the statistics of the last frame. Returns nothing if the parameter is not a
+// budget.
 std::optional<BudgetCost> costOf(const std::string& parameter, const Timeline& timeline,
                                  const GiStats& now, const Settings& settings);
 
