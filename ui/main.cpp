@@ -1,5 +1,5 @@
-// The lamplighter program: checks the machine and hands the command line what needs a window or
-// OpenGL.
+// The lamplighter program: checks the processor, and passes to the command line everything that
+// needs a window or OpenGL.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -12,8 +12,8 @@
 
 namespace {
 
-// All code is built for x86-64-v3, so that pictures are the same everywhere. An older processor
-// would stop with an illegal instruction; it should say why.
+// All code is built for x86-64-v3, so that pictures are the same everywhere. On an older processor
+// it would stop with an illegal instruction. This check reports the reason instead.
 bool processorSuffices() {
   __builtin_cpu_init();
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
@@ -24,7 +24,7 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Only ever set; a handler may do little more.
+// A signal handler may do little more than set a flag.
 volatile std::sig_atomic_t interrupted = 0;
 
 std::function<bool()> catchInterrupts() {

@@ -1,4 +1,4 @@
-// Reading the arguments of actions, and what many of them ask of the session.
+// Helpers that read the arguments of actions and ask about the session.
 #pragma once
 
 #include <string>
@@ -16,16 +16,16 @@ using Arguments = std::vector<std::string>;
 // Throws InputError unless there are `least` to `most` arguments.
 void requireArguments(const Arguments& arguments, size_t least, size_t most,
                       const std::string& usage);
-// A text as one argument, whatever is in it.
+// Quotes a text so that the parser reads it as one argument.
 std::string quoted(const std::string& text);
 float numberOf(const std::string& text);
-// Three numbers from `from` on.
+// Reads three numbers, starting at argument `from`.
 vec3 vectorOf(const Arguments& arguments, size_t from);
-// The node of that name; throws InputError when there is none.
+// The node with that name. Throws InputError if the document has none.
 const Node& nodeNamed(const Document& document, const std::string& name);
-// The active node; throws InputError when nothing is selected.
+// The active node. Throws InputError if nothing is selected.
 const Node& activeNode(const Document& document);
-// Whether anything is selected: what actions on the selection need to be enabled.
+// Whether anything is selected. Use as Action::enabled.
 bool hasSelection(const Session& session);
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// Props from a folder of glTF files.
+// Actions for props from a folder of glTF files.
 #include <filesystem>
 
 #include "editor/actions/arguments.h"
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As it is named from the folder of assets, from the level's, or from where the program runs.
+// Searches relative to the asset folder, then to the level's folder, then to the working directory.
 fs::path foundAsset(const Session& s, const std::string& name) {
   std::error_code error;
   for (const fs::path& folder :

@@ -1,4 +1,4 @@
-// Where the level is looked at from: bookmarks, the level's own cameras, steps by keys.
+// Actions of the camera: bookmarks, cameras of the level, steps by keys.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace lamplighter {
 
 namespace {
 
-constexpr float kStepSeconds = 0.25f;  // of flight: how far a step goes
+constexpr float kStepSeconds = 0.25f;  // seconds of flight per step
 
 int slotOf(const std::string& text) {
   const float number = numberOf(text);
@@ -163,7 +163,7 @@ void addCameraActions(ActionRegistry& r) {
            requireArguments(a, 2, 2, "camera.turn LEFT UP");
            View view = s.view();
            const float pitch = std::asin(std::clamp(view.forward().y, -1.0f, 1.0f));
-           const float limit = glm::radians(89.0f);  // beyond it up would be down
+           const float limit = glm::radians(89.0f);  // beyond it the picture would be upside down
            const float up =
                std::clamp(pitch + glm::radians(std::fmod(numberOf(a[1]), 360.0f)), -limit, limit) -
                pitch;

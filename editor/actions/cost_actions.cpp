@@ -1,4 +1,4 @@
-// What the picture costs, and how far it is from the truth: the error meter, the timeline, presets.
+// Actions for the cost and the error of the picture: error meter, timeline, presets.
 #include <cmath>
 
 #include "editor/actions/arguments.h"

@@ -1,4 +1,4 @@
-// Files that come from outside: dropped on the window, or opened before.
+// Actions for external files: dropped on the window, or opened recently.
 #include <algorithm>
 #include <filesystem>
 
@@ -22,15 +22,15 @@ namespace fs = std::filesystem;
 
 std::string endingOf(const fs::path& path) { return lowerCase(path.extension().string()); }
 
-// As it is named from where the program runs, or else from the level's folder.
+// Searches relative to the working directory, then to the level's folder.
 fs::path foundBesideLevel(const Session& s, const std::string& name) {
   const fs::path beside = s.document().path.parent_path() / name;
   std::error_code error;
   return fs::exists(name, error) || !fs::exists(beside, error) ? fs::path(name) : beside;
 }
 
-// On the selected point and spot lights; where none are selected on a new light, on the surface
-// under the pointer. One step either way.
+// Sets the profile of the selected point and spot lights. If none is selected, adds a new light on
+// the surface under the pointer. One undo step in both cases.
 void dropProfile(Session& s, const fs::path& file) {
   const auto profile = readIes(foundBesideLevel(s, file.string()).string());
   const Scene& scene = s.document().scene;
@@ -57,7 +57,7 @@ void dropProfile(Session& s, const fs::path& file) {
   n.id = s.document().scene.nextId++;
   n.name = file.stem().string() + " " + std::to_string(n.id);
   n.punctual = withProfile(scene, n, profile);
-  // Its axis, along which downlights shine, is its −Z: away from the surface.
+  // The light's axis, along which downlights shine, is its −Z. It must point away from the surface.
   Scene with = scene;
   with.nodes.push_back(n);
   if (const auto local = placedOn(with, n.id, *place)) n.local = *local;
@@ -72,7 +72,7 @@ void drop(Session& s, const Arguments& files) {
     const std::string ending = endingOf(path);
     if (ending == ".gltf" || ending == ".glb") {
       s.requestOpen(path);
-      return;  // what else was dropped would go into the level that is left
+      return;  // the other files would be placed in the level that is being closed
     }
     if (ending == ".ies") {
       dropProfile(s, path);

@@ -13,13 +13,13 @@ namespace {
 
 void copy(Session& s) { s.setClipboard(clip(s.document().scene, s.document().selection)); }
 
-// The copied nodes again, with new ids, where they were, in this level or another.
+// Adds the copied nodes with new ids at their original positions, in the same or another level.
 void paste(Session& s) {
   PastedNodes pasting = pasteInto(s.document().scene, s.clipboard(), s.clipboardIsOfThisLevel());
   requireRoomFor(s.document().scene, pasting.nodes.size());
   const std::string label =
       pasting.nodes.size() == 1 ? "Paste " + pasting.nodes[0].name : "Paste objects";
-  // Placing it by a click has begun a step already.
+  // When the object is placed by a click, a transaction is already open.
   const bool isOwnStep = !s.history().inTransaction();
   if (isOwnStep) s.history().begin(label);
   if (!pasting.assets->changesNothing()) s.history().run(std::move(pasting.assets));

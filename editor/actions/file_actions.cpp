@@ -56,7 +56,7 @@ void addFileActions(ActionRegistry& r) {
          "",
          "Lists all actions by name, to be chosen and run.",
          "Ctrl+P",
-         [](Session&, const Arguments&) {},  // the window opens it
+         [](Session&, const Arguments&) {},  // the window opens the dialog
          {},
          true});
   r.add({"script.wait",

@@ -1,4 +1,4 @@
-// The steps that were made, and how many are kept.
+// Actions of the undo history and its length.
 #include <cmath>
 
 #include "editor/actions/arguments.h"

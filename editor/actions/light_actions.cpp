@@ -16,7 +16,7 @@ namespace lamplighter {
 
 namespace {
 
-// A new light hangs between the eye and what the eye looks at, and faces down.
+// Adds a light between the eye and the point that the eye looks at. It faces down.
 void addLight(Session& s, const std::string& kind) {
   const View& view = s.view();
   const float sceneRadius = std::max(s.renderer().scene().bounds.radius(), 0.1f);
@@ -39,7 +39,7 @@ const Node& activeAreaLight(const Session& s) {
   return n;
 }
 
-// As it is named from where the program runs, or else from the scene's folder.
+// Searches relative to the working directory, then to the scene's folder.
 std::string fileBeside(const Document& document, const std::string& name) {
   const std::filesystem::path beside = document.path.parent_path() / name;
   std::error_code error;

@@ -1,4 +1,4 @@
-// Which lights shine: on, solo, groups; the light table, and the work light.
+// Actions that switch lights: on, solo, groups; also the light table and the work light.
 #include "editor/actions/arguments.h"
 #include "editor/lights/light_edits.h"
 #include "editor/session/register_actions.h"
@@ -18,7 +18,7 @@ bool flagOf(const std::string& text) {
   throw InputError(text, "is neither true nor false", "give one of them");
 }
 
-// A switch of the selected lights or of the sky: with one argument, true or false.
+// A switch of the selected lights or of the sky. With one argument: true or false.
 void addSwitch(ActionRegistry& r, const std::string& name, const char* label, const char* help,
                std::function<void(Session&, bool)> run) {
   r.add({name,
@@ -48,7 +48,7 @@ void addGroupSwitch(ActionRegistry& r, const std::string& name, const char* labe
          {}});
 }
 
-// Bright enough for what is looked at now.
+// Chooses the intensity for the current view.
 void toggleWorkLight(Session& s) {
   if (s.lighting().workLight > 0.0f) {
     s.lighting().workLight = 0.0f;

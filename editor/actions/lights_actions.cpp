@@ -1,4 +1,4 @@
-// Edits of all selected lights at once.
+// Actions that edit all selected lights.
 #include "editor/actions/arguments.h"
 #include "editor/lights/light_edits.h"
 #include "editor/lights/light_table_edits.h"
@@ -29,7 +29,7 @@ LightUnit unitOf(const std::string& name) {
 void edit(Session& s, const Arguments& a, LightOperation operation, const std::string& usage) {
   requireArguments(a, 2, operation == LightOperation::multiply ? 2 : 3, usage);
   const LightProperty property = propertyNamed(a[0]);
-  // Without a unit as it is shown: a sun in lux.
+  // Without a unit the value is in the displayed unit; a sun uses lux.
   const LightUnit shown = s.lighting().unit;
   LightUnit unit =
       commonValue(s.document().scene, selectedLights(s.document()), property, shown).unitOr(shown);

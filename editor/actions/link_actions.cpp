@@ -1,4 +1,4 @@
-// Which objects lights leave out.
+// Actions of light linking.
 #include "editor/actions/arguments.h"
 #include "editor/lights/light_links.h"
 #include "editor/lights/light_list.h"
@@ -18,7 +18,7 @@ std::vector<NodeId> lightsOfSelection(const Session& s) {
   return ids;
 }
 
-// Those that are named, else those that are selected, else `otherwise`.
+// The named objects; without names the selected objects; without a selection `otherwise`.
 std::vector<NodeId> objectsOf(const Session& s, const Arguments& a,
                               const std::vector<NodeId>& otherwise) {
   std::vector<NodeId> ids;

@@ -12,8 +12,8 @@ namespace lamplighter {
 
 namespace {
 
-// Puts the active object on the surface under the pointer: objects stand on it, lights face away.
-// The rest of the selection goes along and keeps its places relative to it.
+// Moves the active object to the surface under the pointer: objects stand on it, lights face away
+// from it. The other selected objects keep their positions relative to it.
 void drop(Session& s) {
   const Scene& scene = s.document().scene;
   const Node& active = activeNode(s.document());
@@ -22,7 +22,7 @@ void drop(Session& s) {
   if (!place) place = s.surfaceAhead(s.document().selection);
   if (!place)
     throw InputError("object.drop", "there is no surface under the pointer", "point at one");
-  // A selected object above the active one in the tree takes it along.
+  // If an ancestor of the active object is selected, it moves instead.
   const std::vector<NodeId> roots = topmost(scene, s.document().selection);
   NodeId leader = active.id;
   for (const Node* n = &active; n != nullptr; n = scene.find(n->parent)) {

@@ -1,4 +1,4 @@
-// Putting things where they belong: by a click, in rows and grids, along surfaces.
+// Actions that place objects: by a click, in rows and grids, along surfaces.
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
@@ -24,8 +24,8 @@ int countOf(const std::string& text) {
   return static_cast<int>(value);
 }
 
-// Copies of the selection in the cells of a grid, whose first is the selection itself. `step`: from
-// cell to cell along the world's axes [m].
+// Copies the selection into the cells of a grid. The selection itself is the first cell. `steps`:
+// the offsets between cells along the world axes [m].
 void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
                      const std::string& label) {
   const double cells = static_cast<double>(count.x) * count.y * count.z;
@@ -61,8 +61,8 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
   s.select(std::move(roots));
 }
 
-// Turns the active object so that its up, or what a light shines away from, is the normal of the
-// surface under the pointer. Its place stays.
+// Rotates the active object so that its up axis, or the direction of a light, matches the normal of
+// the surface under the pointer. Its position does not change.
 void align(Session& s) {
   const Node& active = activeNode(s.document());
   if (isLocked(s.document().scene, active.id))

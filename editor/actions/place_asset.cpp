@@ -12,7 +12,7 @@ void placeAsset(Session& s, const std::filesystem::path& file) {
   PastedNodes pasting = pasteInto(scene, *fragment, false);
   NodeId root = pasting.roots.front();
   if (pasting.roots.size() > 1) {
-    // One object to move about, whatever it is made of.
+    // A group, so that the asset moves as one object even if it has several nodes.
     Node group;
     group.id = root = scene.nextId++;
     for (Node& n : pasting.nodes)
@@ -23,7 +23,7 @@ void placeAsset(Session& s, const std::filesystem::path& file) {
   for (Node& n : pasting.nodes)
     if (n.id == root) n.name = name;
 
-  // Placing it by a click has begun a step already.
+  // When the asset is placed by a click, a transaction is already open.
   const bool isOwnStep = !s.history().inTransaction();
   if (isOwnStep) s.history().begin("Place " + name);
   if (!pasting.assets->changesNothing()) s.history().run(std::move(pasting.assets));

@@ -1,4 +1,4 @@
-// Props of other files, put into the level.
+// Places props from other glTF files in the level.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,9 @@ namespace lamplighter {
 
 class Session;
 
-// As one step, or within the open one: on the surface in the middle of the view, selected. What the
-// level has of it already (meshes, materials, textures) is shared. Throws InputError.
+// Adds the asset on the surface at the centre of the view and selects it. This is one undo step, or
+// part of the open transaction. Meshes, materials and textures that the level already has are
+// shared. Throws InputError.
 void placeAsset(Session& session, const std::filesystem::path& file);
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// The user's settings, and the panels that belong to no level.
+// Actions of the user's settings and of panels that do not belong to a level.
 #include "editor/actions/arguments.h"
 #include "editor/session/apply.h"
 #include "editor/session/register_actions.h"
@@ -27,7 +27,8 @@ void addPanel(ActionRegistry& r, const char* name, const char* label, const char
          [panel](Session& s, const Arguments&) {
            BottomPanel& shown = s.home().bottom;
            shown = shown == panel ? BottomPanel::none : panel;
-           if (shown != BottomPanel::none) s.lighting().showsTable = false;  // one has room there
+           // there is room for only one of them
+           if (shown != BottomPanel::none) s.lighting().showsTable = false;
          },
          {},
          true,

@@ -1,4 +1,4 @@
-// What a process that was killed has left, and the journal of this one.
+// Actions for recovering the work of killed processes, and for the journal of this one.
 #include "editor/actions/arguments.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
@@ -8,7 +8,7 @@ namespace lamplighter {
 
 namespace {
 
-// From 0; the newest where none is given.
+// Starts at 0. Without an argument: the newest.
 size_t numberFrom(const Session& s, const Arguments& a, const std::string& usage) {
   requireArguments(a, 0, 1, usage);
   const size_t count = s.crashRecovery().found().size();

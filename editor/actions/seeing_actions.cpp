@@ -1,4 +1,4 @@
-// What tells of the picture: why a point is dark, how bright it is, how far it is from another.
+// Actions that inspect the picture: why a point is dark, its brightness, its distance from another.
 #include <cmath>
 
 #include "editor/actions/arguments.h"

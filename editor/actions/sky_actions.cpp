@@ -1,4 +1,4 @@
-// The sky: what kind it is, its picture, how that is turned and how bright it is.
+// Actions of the sky: its kind, its picture, and the picture's rotation and brightness.
 #include <cmath>
 
 #include "editor/actions/arguments.h"
@@ -13,7 +13,7 @@ namespace {
 
 std::filesystem::path folderOf(const Session& s) { return s.document().path.parent_path(); }
 
-// The sky, if it is a picture; throws InputError.
+// The sky if it is a picture. Otherwise throws InputError.
 Sky pictureOf(const Session& s, const char* action) {
   const Sky& sky = s.document().scene.sky;
   if (sky.kind != SkyKind::image)

@@ -1,4 +1,4 @@
-// Two pictures beside each other, and how far they are apart.
+// Actions of the split view: two pictures side by side, and their difference.
 #include <map>
 
 #include "editor/actions/arguments.h"
@@ -11,7 +11,7 @@ namespace {
 
 bool isOn(const Session& s) { return s.split().on(); }
 
-// On with the live picture and the reference, unless it is on already.
+// Switches the split view on with the live picture and the reference, unless it is on already.
 void makeSureOfSplit(Session& s) {
   const std::string& method = s.document().render.method;
   if (!s.split().on()) s.split().turnOn(readSide("live", method), readSide("reference", method));

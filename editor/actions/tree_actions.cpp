@@ -1,4 +1,4 @@
-// The tree of objects, and edits of many of them at once.
+// Actions of the object tree, and edits of several objects.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Folders of glTF files to place from.
+// Folders of glTF files that the user can place in a level.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,15 @@ namespace lamplighter {
 
 struct AssetFile {
   std::filesystem::path path;
-  std::string name;  // below the folder, without its ending: "props/barrel_large"
+  std::string name;  // path relative to the folder, without extension: "props/barrel_large"
 };
 
-// The .gltf and .glb files of a folder and of those in it, by name; hidden ones are left out, and
-// so is what lies deeper than four folders or comes after the first 5000 files. Throws InputError
-// where the folder cannot be read.
+// Lists the .gltf and .glb files of a folder and its subfolders, sorted by name. Leaves out hidden
+// files, files more than four folders deep, and everything after the first 5000 files. Throws
+// InputError if the folder cannot be read.
 std::vector<AssetFile> listAssets(const std::filesystem::path& folder);
 
-// Those whose names hold every word of the text, in any case.
+// The files whose names contain every word of the text, ignoring case.
 std::vector<AssetFile> matchingAssets(const std::vector<AssetFile>& files, const std::string& text);
 
 }  // namespace lamplighter

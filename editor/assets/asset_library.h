@@ -1,5 +1,5 @@
-// Props that were read, to be placed again without reading them: their meshes and pixels are shared
-// with the levels they were placed in.
+// A cache of the props that were read from files. A prop that is placed again is not read again.
+// Its meshes and pixels are shared with the levels that use it.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,19 @@ namespace lamplighter {
 
 class AssetLibrary {
  public:
-  // The whole of the file's scene. Read anew where it or a file that it names changed. Throws
-  // InputError.
+  // Returns the whole scene of the file. Reads the file again if it, or a file that it references,
+  // has changed. Throws InputError.
   std::shared_ptr<const ClipboardFragment> load(const std::filesystem::path& file);
 
  private:
-  static constexpr size_t kMost = 32;  // the last used
+  static constexpr size_t kMost = 32;  // number of most recently used assets to keep
   struct Entry {
     std::filesystem::path file;
-    std::filesystem::file_time_type time;  // of it and the files that it names: the newest
-    uintmax_t size = 0;                    // and all together
+    std::filesystem::file_time_type time;  // newest time of the file and the files it references
+    uintmax_t size = 0;                    // total size of these files
     std::shared_ptr<const ClipboardFragment> fragment;
   };
-  std::list<Entry> entries_;  // the last used first
+  std::list<Entry> entries_;  // most recently used first
 };
 
 }  // namespace lamplighter

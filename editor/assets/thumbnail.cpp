@@ -19,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSamples = 3;  // a pixel's side
-// Another number where thumbnails come out otherwise: what is in the cache is not found then.
+constexpr int kSamples = 3;  // per side of a pixel
+// Increase when thumbnails change, so that cached ones are no longer used.
 constexpr int kThumbnailVersion = 1;
 
-// From the front, a little from the right and from above, with all of `bounds` in it.
+// A view from the front, slightly from the right and from above, that shows all of `bounds`.
 View viewOf(const Bounds& bounds, int size) {
   View view;
   view.width = view.height = size;
@@ -36,8 +36,8 @@ View viewOf(const Bounds& bounds, int size) {
   return view;
 }
 
-// Of the file's bytes, and of when the files were changed that it names: its textures may be others
-// while it is the same.
+// Hash of the file's bytes and of the modification times of the files it references. Textures can
+// change while the file stays the same.
 uint64_t hashOfAsset(const fs::path& file) {
   uint64_t hash = fileHash(file);
   for (const FileStamp& stamp : referencedFiles(file)) {
@@ -89,7 +89,7 @@ Image8 cachedThumbnail(const fs::path& file, int size, const fs::path& cacheFold
     std::vector<uint8_t> bytes;
     std::ifstream in(cached, std::ios::binary);
     bytes.assign(std::istreambuf_iterator<char>(in), {});
-    // One that another program broke is made anew.
+    // Renders it again if another program damaged the file.
     if (auto image = decodeImage8(bytes, why); image && image->width == size) return *image;
   }
   Image8 image = renderThumbnail(file, size);
@@ -97,7 +97,7 @@ Image8 cachedThumbnail(const fs::path& file, int size, const fs::path& cacheFold
   try {
     writePng(image, cached);
   } catch (const InputError&) {
-    // Then it is rendered again the next time.
+    // The write failed; it is rendered again next time.
   }
   return image;
 }

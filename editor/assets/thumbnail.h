@@ -1,4 +1,4 @@
-// What a glTF file looks like, small.
+// Small preview pictures of glTF files.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,14 @@
 
 namespace lamplighter {
 
-// All of it from a little above, under a lamp at the camera, upon nothing. Made of rays on the
-// processor: needs no OpenGL, and may run on any thread. Throws InputError.
+// Renders the whole scene from slightly above, lit by a lamp at the camera, without a ground.
+// Traces rays on the CPU: it needs no OpenGL and may run on any thread. Throws InputError.
 Image8 renderThumbnail(const std::filesystem::path& file, int size);
 
-// From the cache folder (one PNG a file and size, by a hash of the file's bytes and the times of
-// those it names), or rendered and put there; a cache that cannot be written is no error. Empty
-// folder: no cache. Throws InputError.
+// Returns the thumbnail from the cache folder, or renders it and stores it there. The cache has one
+// PNG for each file and size, named by a hash of the file's bytes and the times of the files it
+// references. A failed write to the cache is not an error. An empty folder disables the cache.
+// Throws InputError.
 Image8 cachedThumbnail(const std::filesystem::path& file, int size,
                        const std::filesystem::path& cacheFolder);
 

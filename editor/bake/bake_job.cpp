@@ -19,10 +19,10 @@
 namespace lamplighter {
 namespace {
 
-// To be raised whenever tiles come out otherwise.
+// Increase whenever the content of tiles changes.
 constexpr uint64_t kBakeVersion = 1;
 
-// FNV-1a, by words.
+// FNV-1a over 64-bit words.
 class ContentHash {
  public:
   void add(uint64_t value) { hash_ = (hash_ ^ value) * 0x100000001b3ull; }
@@ -42,7 +42,7 @@ class ContentHash {
   uint64_t hash_ = 0xcbf29ce484222325ull;
 };
 
-// Of everything that the tiles depend on.
+// Hash of everything that the tiles depend on.
 uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobOptions& o) {
   ContentHash key;
   key.add(sceneHash(scene));
@@ -92,7 +92,7 @@ std::string pageName(const BakeJobOptions& o, int page) {
   return fmt::format("{}-light-{}.exr", o.name, page);
 }
 
-// Throws InputError where tiles are missing.
+// Throws InputError if tiles are missing.
 void writePages(const std::vector<BakeTile>& tiles, const BakeParts& parts, const BakeJobOptions& o,
                 BakeReport& report) {
   std::vector<Image> pages(static_cast<size_t>(report.pages),
@@ -125,7 +125,7 @@ void writeScene(const Scene& scene, const RenderScene& render, const LightMapAtl
   report.files.push_back(o.output / (o.name + ".gltf"));
   saveGltf(withLightMapUvs(scene, render, atlas), report.files.back());
 
-  // Which page is whose: core glTF has no place for it.
+  // Maps nodes to pages, because core glTF cannot store this.
   nlohmann::ordered_json j;
   j["scene"] = o.name + ".gltf";
   j["texCoord"] = 1;
@@ -157,7 +157,7 @@ BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress&
     report.warnings.push_back(
         fmt::format("\"{}\" has {:.3g} texels a metre: a page holds no more of it",
                     scene.find(c.node)->name, c.texelsPerMetre));
-  // Before the long work: what it would end with must be possible.
+  // Checks before the long computation that its last step will work.
   if (o.shard == 0) withLightMapUvs(scene, render, atlas);
 
   const std::vector<BakeTile> tiles = bakeTiles(render, atlas);

@@ -1,5 +1,5 @@
-// A bake from scene to files: light maps as EXR pages, and a copy of the scene that carries their
-// UVs.
+// Bakes a scene to files: light maps as EXR pages, and a copy of the scene with the UVs of the
+// light maps.
 #pragma once
 
 #include <filesystem>
@@ -15,26 +15,27 @@ namespace lamplighter {
 struct BakeJobOptions {
   AtlasOptions atlas;
   BakeLightOptions light;
-  std::filesystem::path output;  // a folder, made where it is not there
-  std::string name;              // that files begin with
-  // This part of the tiles alone is found, and pages are not put together: 1 … shards; 0: all.
+  std::filesystem::path output;  // folder; created if it does not exist
+  std::string name;              // prefix of the names of all files
+  // Bakes only this shard of the tiles (1 … shards) and does not assemble the pages. 0: bakes all
+  // tiles.
   int shard = 0, shards = 0;
-  bool mergeOnly = false;  // nothing is found; all tiles must be there
-  bool keepParts = false;  // tiles stay when the pages are there
+  bool mergeOnly = false;  // bakes nothing; all tiles must exist
+  bool keepParts = false;  // keeps the tiles after the pages are written
 };
 
 struct BakeReport {
-  int pages = 0, tiles = 0, found = 0, taken = 0;  // tiles: found now; there from before
+  int pages = 0, tiles = 0, found = 0, taken = 0;  // tiles: computed now (found), reused (taken)
   bool isCancelled = false, isWhole = false;       // whole: pages and scene are written
   std::vector<std::string> warnings;
   std::vector<std::filesystem::path> files;
 };
 
-// Told after each tile how many of those to be found are; false stops, with all found tiles kept.
+// Called after each tile with the number of finished tiles and the number of tiles to bake.
+// Returning false stops the bake; finished tiles are kept.
 using BakeProgress = std::function<bool(int done, int all)>;
 
-// Deterministic: the same pages at any number of threads, in whatever parts they are found. Throws
-// InputError.
+// Deterministic: the pages are the same for any number of threads and shards. Throws InputError.
 BakeReport bake(const Scene& scene, const BakeJobOptions& options, const BakeProgress& progress);
 
 }  // namespace lamplighter

@@ -12,10 +12,10 @@ namespace lamplighter {
 namespace {
 
 constexpr char kMagic[8] = {'L', 'A', 'M', 'P', 'B', 'K', '0', '1'};
-// As written: x, y and three floats, little-endian as all machines that this runs on.
+// File format: x, y and three floats, little-endian like all supported machines.
 constexpr size_t kTexelBytes = 2 * sizeof(uint16_t) + 3 * sizeof(float);
 
-// How many texels the tile's points are of.
+// The number of texels that contain the tile's points.
 size_t texelCount(const BakeTile& tile) {
   size_t count = 0;
   for (size_t i = 0; i < tile.points.size(); ++i)
@@ -87,7 +87,7 @@ std::optional<std::vector<BakedTexel>> BakeParts::read(const BakeTile& tile) con
 void BakeParts::remove() const {
   std::error_code ignored;
   std::filesystem::remove_all(folder_, ignored);
-  std::filesystem::remove(folder_.parent_path(), ignored);  // where no other bake has parts there
+  std::filesystem::remove(folder_.parent_path(), ignored);  // fails if another bake has tiles there
 }
 
 }  // namespace lamplighter

@@ -1,5 +1,5 @@
-// How the work of a bake is cut: tiles of pages, each a file of its own until the pages are put
-// together. So a bake that was cancelled goes on, and machines share one.
+// Divides a bake into tiles of pages. Each tile is a separate file until the pages are assembled. A
+// cancelled bake can therefore continue, and several machines can share one bake.
 #pragma once
 
 #include <cstdint>
@@ -16,33 +16,33 @@ namespace lamplighter {
 
 inline constexpr int kTileSide = 64;  // texels
 
-// What one tile has to find: points that stand together, those of one texel next to each other.
+// The points that one tile computes. They are close together; the points of one texel are adjacent.
 struct BakeTile {
-  int number = 0;  // among those of all pages that have points, in their order
+  int number = 0;  // index among the tiles of all pages that have points
   int page = 0;
   std::vector<BakePoint> points;
 };
 
 std::vector<BakeTile> bakeTiles(const RenderScene& scene, const LightMapAtlas& atlas);
 
-// One texel's light, as BakedLight finds it.
+// The light of one texel, as BakedLight computes it.
 struct BakedTexel {
   uint16_t x = 0, y = 0;
   vec3 irradiance{0.0f};
 };
 
-// The folder of finished tiles.
+// The folder that stores the finished tiles.
 class BakeParts {
  public:
-  // `key` tells bakes with another outcome apart: their tiles are not found.
+  // `key` identifies bakes that give the same result. Tiles of a bake with another key are ignored.
   BakeParts(const std::filesystem::path& output, uint64_t key);
 
   bool has(const BakeTile& tile) const;
-  // Whole or not at all. Throws InputError when it cannot be written.
+  // Atomic: writes the whole tile or nothing. Throws InputError if it cannot write.
   void write(const BakeTile& tile, std::span<const BakedTexel> texels) const;
-  // Nothing where it is not there, or not whole.
+  // Returns nothing if the tile does not exist or is incomplete.
   std::optional<std::vector<BakedTexel>> read(const BakeTile& tile) const;
-  // They are of no more use.
+  // Deletes the tiles when they are no longer needed.
   void remove() const;
 
  private:

@@ -11,7 +11,7 @@
 namespace lamplighter {
 namespace {
 
-// "12", "1.2k", "3.4M": a line has room for no more.
+// "12", "1.2k", "3.4M": short, so that the line fits the panel.
 std::string brief(double count) {
   if (count >= 1e6) return fmt::format("{:.3g}M", count / 1e6);
   if (count >= 1e4) return fmt::format("{:.3g}k", count / 1e3);
@@ -25,7 +25,7 @@ std::string briefTime(double seconds) {
   return fmt::format("{:.2g} ns", 1e9 * seconds);
 }
 
-// What is drawn from a budget: counted by `count` and taking the time of `stages`.
+// The use of a budget: `count` is the amount, and `stages` are the stages whose time it takes.
 struct Budget {
   const char* parameter;
   const char* unit;  // "maps"

@@ -1,4 +1,5 @@
-// What each budget cost in the last frames, and what it buys: for the panel, beside the slider.
+// The cost of each budget in the last frames, and its benefit. The panel shows both beside the
+// slider.
 #pragma once
 
 #include <optional>
@@ -10,12 +11,13 @@
 namespace lamplighter {
 
 struct BudgetCost {
-  std::string measured;  // "24 maps, 8.1 ms (340 µs each)"; "idle" where nothing was done
-  std::string buys;      // a sentence
+  std::string measured;  // "24 maps, 8.1 ms (340 µs each)"; "idle" if no work was done
+  std::string buys;      // the benefit, as one sentence
 };
 
-// Of the frames that are kept in which the budget was drawn upon; `now`: the last frame's. None for
-// a parameter that is no budget.
+// The cost of a budget. Time is the mean over the recorded frames that used the budget. Memory
+// comes from `now`, the statistics of the last frame. Returns nothing if the parameter is not a
+// budget.
 std::optional<BudgetCost> costOf(const std::string& parameter, const Timeline& timeline,
                                  const GiStats& now, const Settings& settings);
 

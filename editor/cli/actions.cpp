@@ -16,15 +16,15 @@ namespace {
 
 std::string groupOf(const std::string& name) { return name.substr(0, name.find('.')); }
 
-// A bar would end a cell of a table.
+// Escapes vertical bars, which would end a table cell.
 std::string cellOf(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
   return out;
 }
 
-// Of the action itself and with arguments: "Alt+Left, Alt+Right", or from the first to the last of
-// many.
+// Keys of the action without and with arguments: "Alt+Left, Alt+Right". A long list shows only the
+// first and the last key.
 std::string keysOf(const ActionRegistry& registry, const Action& action) {
   std::vector<std::string> keys;
   if (!action.shortcut.empty()) keys.push_back(action.shortcut);
@@ -45,7 +45,7 @@ void printJson(const ActionRegistry& registry) {
   std::cout << all.dump(2) << '\n';
 }
 
-// By key: letters and digits first, then what has a longer name; each with less held before more.
+// Sorts by key: letters and digits before keys with longer names, fewer modifiers before more.
 struct ByKey {
   static auto rank(const Chord& c) {
     const std::string key = keyName(c.key);
@@ -60,13 +60,13 @@ using ActionOfKey = std::map<Chord, std::string, ByKey>;
 
 ActionOfKey actionOfKey(const ActionRegistry& registry, const std::string& preset) {
   ActionOfKey out;
-  std::vector<std::string> problems;  // a preset has none
+  std::vector<std::string> problems;  // a preset has no problems
   for (const auto& [text, chords] : resolveKeys(registry, keysOfPreset(preset), {}, problems))
     for (const Chord& chord : chords) out[chord] = text;
   return out;
 }
 
-// What each key runs, and what it runs with the other presets where that is something else.
+// Prints the action of each key, and the action in the other presets if it differs.
 void printKeys(const ActionRegistry& registry) {
   const std::vector<std::string> presets = keyPresetNames();
   std::vector<ActionOfKey> columns;

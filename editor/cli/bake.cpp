@@ -1,4 +1,4 @@
-// Light maps from the command line, in one piece or on many machines.
+// Bakes light maps from the command line, on one machine or on several.
 #include <charconv>
 #include <iostream>
 
@@ -17,9 +17,9 @@
 namespace lamplighter::cli {
 namespace {
 
-constexpr int kCancelled = 130;  // as shells have it for Ctrl+C
+constexpr int kCancelled = 130;  // as shells report Ctrl+C
 constexpr int kMostShards = 100000;
-// Where nobody watches a line, one each time that so much more is done.
+// If standard error is not a terminal, prints a line after each tenth of the work.
 constexpr int kTenths = 10;
 
 // "2/8": the second of eight. Throws InputError.

@@ -21,7 +21,7 @@ int compare(const CompareOptions& options) {
   if (!options.heatmap.empty()) writePng(heatMap(a, b), options.heatmap);
 
   if (options.json) {
-    // JSON has no NaN: such a value is null.
+    // JSON has no NaN; NaN is written as null.
     const nlohmann::ordered_json j{
         {"a", options.a},       {"b", options.b},     {"width", a.width}, {"height", a.height},
         {"relRMSE", m.relRmse}, {"relMSE", m.relMse}, {"bias", m.bias},   {"max", m.max},

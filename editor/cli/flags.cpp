@@ -30,7 +30,8 @@ void addThreads(CLI::App& app, int& threads) {
       ->check(CLI::Range(0, 1024));
 }
 
-// What is listed from the code: as text, as JSON, or as a page of the documentation.
+// Output format of lists that are generated from the code: text, JSON, or a page of the
+// documentation.
 template <typename Options>
 void listFlags(CLI::App& sub, Run& run, const char* page, int (*print)(const Options&)) {
   auto o = std::make_shared<Options>();
@@ -40,7 +41,7 @@ void listFlags(CLI::App& sub, Run& run, const char* page, int (*print)(const Opt
   sub.callback([=, &run] { run = [=] { return print(*o); }; });
 }
 
-// Each declares the flags of its subcommand and says what to run when it was the one called.
+// Each function declares the flags of its subcommand and sets `run` if the subcommand is called.
 
 void infoFlags(CLI::App& sub, Run& run, const Frontend&) {
   auto o = std::make_shared<InfoOptions>();
@@ -60,7 +61,7 @@ void addMethodFlags(CLI::App& sub, MethodFlags& o, const char* samples) {
   sub.add_option("--spp", o.spp, samples)->type_name("N");
   sub.add_option("--set", o.assignments, "name=value of any parameter of the method; repeatable")
       ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);  // one value a flag: the next word may be the scene
+      ->allow_extra_args(false);  // one value per flag: the next word may be the scene
 }
 
 void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {

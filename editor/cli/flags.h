@@ -1,4 +1,4 @@
-// Every flag of the command line, declared for CLI11.
+// Declares every flag of the command line for CLI11.
 #pragma once
 
 #include <functional>
@@ -12,13 +12,13 @@ class App;
 
 namespace lamplighter::cli {
 
-// What was asked for; the exit code. Empty: the editor.
+// The requested command; returns the exit code. Empty: start the editor.
 using Run = std::function<int()>;
 
-// Declares the flags of the program and of those subcommands that are among `words`: no other can
-// be asked for, and to declare all takes longer than to run most of them. `manual` knows all.
-// `editor` and `run` are set when `app` parses; all of these live until then, `frontend` until
-// `run` was called.
+// Declares the flags of the program and of the subcommands that occur in `words`. Other subcommands
+// cannot be requested, and declaring all of them takes longer than most commands run. `manual` has
+// all of them. `app` sets `editor` and `run` when it parses, so both must live until then.
+// `frontend` must live until `run` was called.
 void declareFlags(CLI::App& app, std::span<const char* const> words, EditorOptions& editor,
                   Run& run, const Frontend& frontend);
 

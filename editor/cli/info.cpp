@@ -69,7 +69,7 @@ Json skyJson(const Scene& scene) {
   return j;
 }
 
-// Everything that `info` says, once, as JSON; the text form reads it.
+// The full output of `info` as JSON. The text form is generated from it.
 Json describe(const std::string& file, const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   RenderScene world;
@@ -169,7 +169,7 @@ int info(const InfoOptions& options) {
   for (const std::string& w : loaded.warnings) std::cerr << "warning: " << w << '\n';
   const Json j = describe(options.scene, loaded);
   if (options.json) {
-    // An empty scene's infinite bounds become null; names that are no UTF-8 do not stop it.
+    // Infinite bounds of an empty scene become null; names with invalid UTF-8 are not an error.
     std::cout << j.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   } else {
     printText(j);

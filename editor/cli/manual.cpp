@@ -6,7 +6,7 @@
 namespace lamplighter::cli {
 namespace {
 
-// Text for roff: a backslash or a leading dot would be a command, a bare hyphen another character.
+// Escapes text for roff: backslashes and leading dots would be commands, hyphens another character.
 std::string roff(const std::string& text) {
   std::string out;
   for (size_t i = 0; i < text.size(); ++i) {
@@ -23,7 +23,7 @@ std::string roff(const std::string& text) {
   return out;
 }
 
-// A bar would end a cell of a table.
+// Escapes vertical bars, which would end a table cell.
 std::string cell(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);

@@ -1,4 +1,4 @@
-// The command line described by itself: a man page, and a table of every flag.
+// Generates documentation of the command line: a man page, and a table of every flag.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ class App;
 
 namespace lamplighter::cli {
 
-// roff for man(1), by the conventions of man-pages(7).
+// roff text for man(1), following the conventions of man-pages(7).
 std::string manPage(const CLI::App& app);
 std::string flagTables(const CLI::App& app);  // Markdown
 

@@ -27,17 +27,17 @@ bool has(const MethodInfo& method, const std::string& name) {
 
 Settings settingsOf(const MethodFlags& o, const MethodInfo& method) {
   Settings settings;
-  // Nobody watches the frames in between: as much a frame as there is. The settled picture is the
+  // Nobody sees the frames in between, so each frame does all updates. The settled picture is the
   // same.
   if (has(method, "updates")) settings.set("updates", kAllAtOnce);
-  // What a settled picture is refined to must be asked for: it takes its time.
+  // Refinement of a settled picture takes time, so it is off unless it is requested.
   if (has(method, "refine")) settings.set("refine", 0);
   if (has(method, "samples_per_frame")) settings.set("samples_per_frame", 16);
 
   struct Shortcut {
     const char* flag;
     const std::string& value;
-    std::vector<std::string> names;  // the first of them that the method has
+    std::vector<std::string> names;  // the first of them that the method has is used
   };
   for (const Shortcut& s :
        {Shortcut{"--vpls", o.vpls, {"vpls"}},
@@ -137,7 +137,7 @@ void requireWritable(const std::filesystem::path& file, const std::vector<std::s
     throw InputError(file.string(), "its folder is not there",
                      "make the folder first or name another");
   }
-  // Only making a file tells for sure: rights, read-only file systems, names that are too long.
+  // Only creating a file tests everything: permissions, read-only file systems, too long names.
   const fs::path probe =
       folder / ("." + file.filename().string() + "." + std::to_string(::getpid()) + ".part");
   const bool made = !fs::is_directory(file, ignored) && std::ofstream(probe).is_open();

@@ -1,4 +1,4 @@
-// How a parameter's range is written.
+// Formats the range of a parameter as text.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a long command has done so far.
+// Shows the progress of a long command.
 #pragma once
 
 #include <iostream>
@@ -8,8 +8,8 @@
 
 namespace lamplighter::cli {
 
-// One line on a terminal that is written over again and again and gone in the end, whichever way
-// that comes, so that an error has its line to itself. Nothing where standard error is no terminal.
+// One line on a terminal that is overwritten with each update. The destructor erases it, so that an
+// error message starts on an empty line. Prints nothing if standard error is not a terminal.
 class ProgressLine {
  public:
   ~ProgressLine() {

@@ -77,8 +77,9 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   j["map_look_ups"] = counts.lookUps;
   j["visibility_tests"] = t.visibilityTests;
   j["rays"] = counts.rays + t.raysOfMethod;
-  j["memory_bytes"] = counts.memoryBytes;  // of the backend: maps, G-buffer, copies of the scene
-  // By what it is for. Shadow maps and all else of the backend are in memory_bytes already.
+  // of the backend: shadow maps, G-buffer, copies of the scene
+  j["memory_bytes"] = counts.memoryBytes;
+  // By purpose. memory_bytes already contains the shadow maps and all other memory of the backend.
   nlohmann::ordered_json& memory = j["memory"];
   memory["shadow maps"] = counts.mapBytes;
   memory["shadow maps held"] = counts.mapsHeld;
@@ -90,7 +91,7 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   return j.dump(2) + "\n";
 }
 
-// Throws InputError when what is shown cannot be in an EXR.
+// Throws InputError if an EXR cannot store the requested view.
 void requireRadiance(const RenderOptions& o, DebugView debugView) {
   const std::string what = !isRadiance(debugView) ? "view " + o.view + " is no"
                            : o.marks              ? "marks are no"
@@ -101,7 +102,7 @@ void requireRadiance(const RenderOptions& o, DebugView debugView) {
                      "name a file that ends in .png");
 }
 
-// Throws InputError when the method does not have what is shown, before the long work.
+// Throws InputError before the long computation if the method does not support the requested view.
 void requireView(const FrameRenderer& renderer, DebugView debugView, const RenderOptions& o) {
   const Inspection inspection = renderer.inspect();
   if (o.marks && inspection.lights.empty())
@@ -135,7 +136,7 @@ ViewSubject subjectOf(FrameRenderer& renderer, const View& view, const Inspectio
   return subject;
 }
 
-// Throws InputError when there is no picture to turn.
+// Throws InputError if the sky has no picture.
 void turnSky(Sky& sky, const RenderOptions& o) {
   if (!o.skyRotation && !o.skyScale) return;
   if (sky.kind != SkyKind::image) {
@@ -161,7 +162,7 @@ float exposureOf(const std::string& text, const Image& radiance) {
 }
 
 int render(const RenderOptions& o, const Frontend& frontend) {
-  // Everything that can be wrong with the call, before any work.
+  // Check the whole command line before any work.
   const MethodInfo& method = findMethod(o.method);
   const Settings settings = settingsOf(o, method);
   const auto [width, height] = parseSize(o.size);

@@ -1,4 +1,4 @@
-// A file of actions, one a line, run against a level without a window.
+// Runs a file of actions, one per line, on a level without a window.
 #include <fstream>
 #include <iostream>
 
@@ -20,7 +20,7 @@ struct Line {
   std::string text;
 };
 
-// Without empty lines and comments, which begin with # (within a line: after a space).
+// Skips empty lines and comments. A comment starts with #, within a line with a space before it.
 std::vector<Line> readScript(const std::string& path) {
   std::ifstream in(path);
   if (!in) throw InputError(path, "cannot be read", "name a text file of actions");
@@ -46,7 +46,7 @@ void open(Session& session, const std::string& path) {
   session.open(std::move(loaded.scene), path, loaded.warnings);
 }
 
-// What the window does for actions once their frame is there.
+// Answers the requests of actions, as the window does after their frame.
 void answer(Session& session) {
   if (const auto path = session.takeOpenRequest()) {
     open(session, path->string());

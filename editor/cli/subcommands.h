@@ -1,5 +1,5 @@
-// The subcommands, each a function of its parsed options. They throw InputError and return the exit
-// code; cli.cpp parses and reports.
+// The subcommands. Each is a function of its parsed options that returns the exit code and may
+// throw InputError. cli.cpp parses the flags and reports the errors.
 #pragma once
 
 #include <optional>
@@ -22,11 +22,11 @@ struct RenderOptions : MethodFlags {
   std::string scene, output;
   std::string method = "many_lights";
   std::string sky;                             // parseSky(); empty: the scene's own
-  std::optional<float> skyRotation, skyScale;  // degrees; of a picture
+  std::optional<float> skyRotation, skyScale;  // degrees; only for a sky picture
   std::string camera, size = "1280x720", backend = "auto", stats;
   std::string exposure = "0";  // EV or "auto"
   std::string view = "lit";
-  int viewVpl = 0;  // that the view is about
+  int viewVpl = 0;  // VPL that the debug view shows
   bool legend = false, marks = false;
   int threads = 0;
 };
@@ -60,7 +60,7 @@ struct TonemapOptions {
 int tonemap(const TonemapOptions& options);
 
 struct ScriptOptions {
-  std::string script, scene;  // scene "": the actions open one
+  std::string script, scene;  // scene "": an action opens a scene
   std::string size = "1280x720", backend = "auto";
   std::string journal;  // folder; "": none
   int threads = 0;

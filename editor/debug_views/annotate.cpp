@@ -11,8 +11,8 @@
 namespace lamplighter {
 namespace {
 
-// Blends the colour in wherever distance(pixel's middle), negative inside, says that a part of the
-// pixel is covered. `low` and `high`: all that it can cover.
+// Blends the colour into the partly or fully covered pixels. distance(pixel centre) is the signed
+// distance to the shape, negative inside. `low` and `high` bound the shape.
 template <typename Distance>
 void cover(Image8& image, const vec2& low, const vec2& high, const vec4& colour,
            const Distance& distance) {
@@ -44,7 +44,7 @@ Bounds boundsOf(std::span<const vec2> points) {
   return b;
 }
 
-// Corners of a convex polygon, either way round.
+// Corners of a convex polygon, clockwise or counter-clockwise.
 void fillConvex(Image8& image, std::span<const vec2> corners, const vec4& colour) {
   if (corners.size() < 3) return;
   float area = 0.0f;

@@ -1,4 +1,4 @@
-// Overlays and legends within a picture, where there is no viewport to draw them over it.
+// Draws overlays and legends into a picture when there is no viewport to draw them.
 #pragma once
 
 #include "editor/tools/overlay.h"
@@ -7,11 +7,11 @@
 
 namespace lamplighter {
 
-// font: where the overlay holds text.
+// `font` is needed only if the overlay contains text.
 void drawOverlay(Image8& image, const Overlay& overlay, const Font* font, vec2 origin = vec2(0.0f));
 
-// The picture of a view with its legend in a strip below, as wide as the picture; as it is where
-// the view has none.
+// The picture of a view with its legend in a strip below it, as wide as the picture. Without a
+// legend the picture is unchanged.
 Image8 withLegend(const ViewPicture& picture, const Font& font);
 
 }  // namespace lamplighter

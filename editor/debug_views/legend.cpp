@@ -16,7 +16,7 @@ class Layout {
   float textWidth(const std::string& text) const { return style_.textWidth(text); }
   float square() const { return style_.textHeight - px(2); }
 
-  // Room for the next item, in this row or a new one; its upper left corner.
+  // Reserves space for the next item, in this row or a new one. Returns its upper left corner.
   vec2 place(float width, float lines) {
     const bool fits = rowHeight_ > 0.0f && cursor_.x + width <= width_;
     if (!fits) {
@@ -53,7 +53,8 @@ void addRamp(Layout& layout, const Legend& legend) {
   const vec2 at = layout.place(width, 2.0f);
   const vec2 high = at + vec2(width, layout.square());
   const auto last = static_cast<float>(legend.ramp.size() - 1);
-  // Each band goes on to the end, under those that follow: no seams where smooth edges meet.
+  // Each band extends to the end, below the following bands. This avoids seams at antialiased
+  // edges.
   for (int i = 0; i < kBands; ++i) {
     const float t = static_cast<float>(i) / (kBands - 1) * last;
     const auto step = std::min(static_cast<size_t>(t), legend.ramp.size() - 2);
@@ -65,7 +66,7 @@ void addRamp(Layout& layout, const Legend& legend) {
   for (const auto& [t, label] : legend.ticks) {
     const float middle = at.x + t * width;
     const float half = 0.5f * layout.textWidth(label);
-    // The outer ones end with the ramp.
+    // The first and last labels stay within the ramp.
     const float left = std::clamp(middle - half, at.x, std::max(at.x, high.x - 2.0f * half));
     layout.text({left, below}, label, look::kTextDim);
     if (t > 0.0f && t < 1.0f)

@@ -1,4 +1,5 @@
-// What the colours of a view mean, as an overlay: the viewport draws it, and pictures hold it.
+// The legend of a view, which explains its colours, as an overlay. The viewport and saved pictures
+// use it.
 #pragma once
 
 #include <functional>
@@ -9,9 +10,9 @@
 
 namespace lamplighter {
 
-// How the one who draws it writes.
+// Text size and metrics of the caller that draws the legend.
 struct LegendStyle {
-  float scale = 1.0f;  // pixels a design pixel
+  float scale = 1.0f;  // pixels per design pixel
   float textHeight = 0.0f;
   std::function<float(const std::string&)> textWidth;
 };
@@ -21,8 +22,8 @@ struct LegendLayout {
   vec2 size{0.0f};  // 0: the view has no legend
 };
 
-// Title, ramp and swatches from left to right, in as many rows as `width` asks for; 0: one below
-// the other. Where the view could not be made it says why.
+// Title, ramp and swatches from left to right, in as many rows as `width` requires; 0: in one
+// column. If the view could not be computed, the legend says why.
 LegendLayout layOutLegend(const ViewPicture& picture, const LegendStyle& style, float width);
 
 }  // namespace lamplighter

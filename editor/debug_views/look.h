@@ -1,4 +1,4 @@
-// The editor's colours and font, for the window and for what is drawn into pictures.
+// Colours and font of the editor, for the window and for text drawn into pictures.
 #pragma once
 
 #include "renderer/base/math.h"
@@ -20,7 +20,7 @@ inline constexpr unsigned kWarning = 0xf0c05a;
 
 inline constexpr float kFontSize = 15.0f;  // design pixels
 
-// Where Debian's fonts-inter puts it.
+// The path of Debian's package fonts-inter.
 inline constexpr const char* kTextFont = "/usr/share/fonts/opentype/inter/Inter-Regular.otf";
 
 inline vec4 colour(unsigned rgb, float alpha = 1.0f) {

@@ -1,5 +1,5 @@
-// Which view of the level is shown, and which light sample it is about. Neither is part of the
-// work: no undo, nothing saved.
+// Which view of the level is shown, and the light sample that it shows. Neither is part of the
+// document: they have no undo and are not saved.
 #pragma once
 
 #include <memory>
@@ -17,44 +17,44 @@ class ViewDisplay {
  public:
   DebugView view() const { return view_; }
   void setView(DebugView view) { view_ = view; }
-  // What the frame must render for the view.
+  // Whether the frame must render irradiance only for this view.
   bool lightOnly() const;
   LightPart part() const;
   bool showsVpls() const { return showsVpls_; }
   void showVpls(bool on) { showsVpls_ = on; }
 
-  // How radiance is shown; a setting of the display, as the window is.
+  // The tone curve of the display. Like the window, it is a setting of the display.
   ToneMapper toneMapper() const { return toneMapper_; }
   void setToneMapper(ToneMapper mapper) { toneMapper_ = mapper; }
   bool showsHistogram() const { return showsHistogram_; }
   void showHistogram(bool on) { showsHistogram_ = on; }
   bool showsHistory() const { return showsHistory_; }
   void showHistory(bool on) { showsHistory_ = on; }
-  // Of the picture as it is exposed and mapped; counted once for each.
+  // Histogram of the picture after exposure and tone mapping. Computed once for each picture.
   const Histogram& histogram(const std::shared_ptr<RadianceImage>& radiance, float exposureEv);
 
   const FalseColour& falseColour() const { return falseColour_; }
   void setFalseColour(const FalseColour& f) { falseColour_ = f; }
-  // The light that the view of a light's occlusion is about: the last one that was selected or
-  // chosen, as long as it is there; else that of the chosen light sample. Its sky: kNoNode.
+  // The light that the light-occlusion view shows: the last light that was selected or chosen,
+  // while it exists; otherwise the light of the chosen light sample. The sky is kNoNode.
   void chooseLight(NodeId light) { light_ = light; }
   NodeId chosenLight(const Inspection& inspection) const;
 
-  // By its place among the light samples; throws InputError when there are not so many.
+  // Chooses a light sample by index. Throws InputError if the index is out of range.
   void choose(const Inspection& inspection, int index);
-  // The place of the chosen one: the first while none was chosen or when it is gone. kNone: there
-  // are no light samples.
+  // Index of the chosen light sample. It is the first sample if none was chosen or the chosen one
+  // is gone. kNone: there are no light samples.
   int chosen(const Inspection& inspection) const;
 
-  // Makes the picture of the view, if it is no radiance and anything changed since the last call.
-  // `changed`: something that the key below does not tell.
+  // Computes the picture of the view if the view is not radiance and something changed since the
+  // last call. `changed` reports changes that the key below does not contain.
   void update(FrameRenderer& renderer, RadianceImage& radiance, const View& camera,
               const RenderSettings& settings, bool changed);
-  // Null: the frame's radiance is what is shown.
+  // Null: the view shows the radiance of the frame.
   const std::shared_ptr<const ViewPicture>& picture() const { return picture_; }
 
-  // For the status line: what the view is and why it shows nothing; the chosen light sample, where
-  // one is looked at. "": nothing to say.
+  // Text for the status line: the view, the reason if it shows nothing, and the chosen light sample
+  // if the view shows one. "": no text.
   std::string viewText() const;
   std::string vplText(const Scene& scene, const Inspection& inspection) const;
 
@@ -78,7 +78,7 @@ class ViewDisplay {
   FalseColour falseColour_;
   Key key_;
   std::shared_ptr<const ViewPicture> picture_;
-  // What the histogram is of; held, so that no other picture can have its address.
+  // The picture of the histogram. Kept alive so that no other picture can get its address.
   std::shared_ptr<RadianceImage> countedFrom_;
   float countedEv_ = 0.0f;
   ToneMapper countedBy_ = ToneMapper::filmic;

@@ -10,13 +10,13 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kRadius = 4.0f;     // of a mark [px]
-constexpr float kPickReach = 8.0f;  // of the pointer [px]
+constexpr float kRadius = 4.0f;     // radius of a mark [px]
+constexpr float kPickReach = 8.0f;  // largest distance of the pointer from a mark [px]
 constexpr float kNormal = 16.0f;    // length of the line along the normal [px]
 constexpr vec3 kWaiting{1.0f, 0.45f, 0.25f};
 constexpr vec3 kChosen{1.0f, 1.0f, 1.0f};
 
-// Light samples lie on surfaces: what is nearer than that by more than a little hides them.
+// Light samples lie on surfaces, so a hit only slightly nearer does not hide them.
 bool isSeen(const View& view, const RayCaster& rays, const vec3& p) {
   const vec3 way = p - view.eye;
   constexpr float kNearlyThere = 0.998f;
@@ -25,8 +25,8 @@ bool isSeen(const View& view, const RayCaster& rays, const vec3& p) {
 
 float brightest(const vec3& c) { return std::max({c.r, c.g, c.b}); }
 
-// The light's own hue, as bright as it is against the brightest, `most`, down to a ten-thousandth:
-// the one sample of a narrow spot outshines each of a panel's hundred by that much.
+// The hue of the light with its brightness relative to `most`, the brightest, down to 1/10000. One
+// sample of a narrow spot can be brighter than each of a panel's hundred samples by that factor.
 vec3 colourOf(const vec3& intensity, float most) {
   constexpr float kDecades = 4.0f, kDarkest = 0.5f;
   const float own = std::max(brightest(intensity), 1e-20f);
@@ -37,16 +37,18 @@ vec3 colourOf(const vec3& intensity, float most) {
   return colour;
 }
 
-// Parallel light has no place: its mark lies where the middle of its square first meets the level.
+// Parallel light has no position. Its mark is the point where the centre line of its square first
+// hits the level.
 vec3 placeOf(const shared::Vpl& vpl, const RayCaster& rays) {
   const vec3 position(vpl.position), towards(vpl.normal);
   if (vpl.position.w != shared::kVplDirectional) return position;
-  const vec3 start = position + vpl.normal.w * towards;  // outside of the level
+  const vec3 start = position + vpl.normal.w * towards;  // outside the level
   const Hit hit = rays.intersect({start, 0.0f, -towards});
   return hit ? start - hit.t * towards : position;
 }
 
-// The first corner lies above the centre, turned by `turn` of the way to the next.
+// The first corner is above the centre, rotated by `turn`, a fraction of the angle between two
+// corners.
 OverlayShape polygon(const vec2& centre, float radius, int corners, const vec3& colour, float alpha,
                      float turn = 0.0f) {
   OverlayShape shape{{}, true, false, vec4(colour, alpha), 1.5f};
@@ -61,7 +63,7 @@ OverlayShape polygon(const vec2& centre, float radius, int corners, const vec3& 
 
 void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
               const RayCaster& rays, int chosen) {
-  // Direct and indirect ones each against their brightest, or the bounces would all be black.
+  // Direct and indirect samples are scaled separately; otherwise all bounces would be black.
   float most[2] = {0.0f, 0.0f};
   for (const InspectedLight& light : inspection.lights) {
     float& m = most[light.id.bounce == 0 ? 0 : 1];
@@ -77,7 +79,7 @@ void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
     const float alpha = isChosen || isSeen(view, rays, position) ? 1.0f : 0.22f;
     const vec3 colour = colourOf(vec3(light.vpl.intensity), most[isDirect ? 0 : 1]);
 
-    // Dark under bright, so that it shows on any picture.
+    // A dark line below the bright one makes it visible on any picture.
     const vec3 tip = position + kNormal * metresPerPixel(view, position) * normal;
     addLine(overlay, view, position, tip, vec4(vec3(0.0f), 0.6f * alpha), 4.0f);
     addLine(overlay, view, position, tip, vec4(colour, alpha), 2.0f);

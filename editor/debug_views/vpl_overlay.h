@@ -1,4 +1,5 @@
-// The light samples over the picture: where they are, where they shine, which of them wait.
+// Draws the light samples over the picture: their positions, their directions, and which of them
+// wait for an update.
 #pragma once
 
 #include "editor/tools/overlay.h"
@@ -8,13 +9,13 @@
 
 namespace lamplighter {
 
-// Discs on lights, diamonds for bounces, squares for parallel light where it lands, in the colour
-// of their light, each with its normal; a ring around those that wait, a larger one around the
-// chosen (kNone: none). What surfaces hide is faint.
+// Discs mark samples on lights, diamonds bounces, and squares the points that parallel light hits.
+// Each mark has the colour of its light and shows the normal. A ring marks the samples that wait
+// for an update, a larger ring the chosen one (kNone: none). Marks behind surfaces are faint.
 void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
               const RayCaster& rays, int chosen);
 
-// The one whose mark is under the pointer, those that are seen first; kNone where there is none.
+// Index of the sample whose mark is under the pointer, visible marks first. kNone if there is none.
 int pickVpl(const View& view, const Inspection& inspection, const RayCaster& rays,
             const vec2& pointer);
 

@@ -10,7 +10,7 @@
 namespace lamplighter {
 namespace {
 
-// With as many decimals as the uncertainty leaves a meaning to.
+// Shows as many decimals as the uncertainty justifies.
 std::string percent(double share, double uncertainty) {
   const int decimals = uncertainty < 0.00095 ? 2 : uncertainty < 0.095 ? 1 : 0;
   return fmt::format("{:.{}f}%", 100.0 * share, decimals);
@@ -24,26 +24,26 @@ std::string ErrorEstimate::text() const {
   return percent(error, uncertainty) + " \u00b1 " + percent(uncertainty, uncertainty);
 }
 
-// L is the picture, R the truth, A = R + a and B = R + b the reference's halves: a and b are
-// independent, have mean 0 and the same distribution. With M = (A + B)/2,
+// L is the picture, R the true value, A = R + a and B = R + b the halves of the reference. a and b
+// are independent, have mean 0 and the same distribution. With M = (A + B)/2,
 //
 //   E|L − M|² = (L − R)² + Var M   and   E[(A − B)²/4] = Var M,
 //
-// so that |L − M|² less (A − B)²/4 estimates (L − R)² without the reference's noise. It is the same
-// as the product of what is seen against each half,
+// |L − M|² minus (A − B)²/4 therefore estimates (L − R)² without the noise of the reference. It
+// equals the product of the differences from each half,
 //
-//   q = x y  with  x = L − A, y = L − B:   E q = (L − R)² − (L − R)(E a + E b) + E a E b = (L −
-//   R)².
+//   q = x y  with  x = L − A, y = L − B:
+//   E q = (L − R)² − (L − R)(E a + E b) + E a E b = (L − R)².
 //
-// How much q varies is told by how much the halves differ: with δ = L − R and s = Var a,
-// Var q = 2δ²s + s², and w = (x² − y²)/2 = (b − a)δ + (a² − b²)/2 has E w² = 2δ²s + s² for Gaussian
-// noise, and more for noise with heavy tails: w² errs on the safe side. Channels of a block share
-// their paths, so q and w are summed over them first; blocks share no random numbers, and what is
-// left is a sum of independent terms:
+// The difference of the halves gives the variance of q: with δ = L − R and s = Var a, Var q = 2δ²s
+// + s², and w = (x² − y²)/2 = (b − a)δ + (a² − b²)/2 has E w² = 2δ²s + s² for Gaussian noise, and
+// more for noise with heavy tails: w² is a conservative estimate. Channels of a block share their
+// paths, so q and w are first summed over them. Blocks share no random numbers, so the result is a
+// sum of independent terms:
 //
 //   MSE ≈ Σ q / n,   Var MSE ≈ Σ w² / n².
 //
-// The same goes for the mean of the reference, by which the error is divided.
+// The mean of the reference, which divides the error, is estimated in the same way.
 ErrorEstimate estimateError(const Image& picture, const ReferenceHalves& reference) {
   const Image &a = reference.first, &b = reference.second;
   if (picture.width != a.width || picture.height != a.height)
@@ -71,8 +71,8 @@ ErrorEstimate estimateError(const Image& picture, const ReferenceHalves& referen
   const double mse = sum / n, deviation = std::sqrt(sumVariance) / n;
   mean /= n;
   const double root = std::sqrt(std::max(mse, 0.0)) / mean;
-  // Where the error is small against its deviation the root is no straight line: half of what it
-  // spans over one deviation to either side.
+  // If the error is small compared to its deviation, the square root is not linear there. The
+  // uncertainty is half the interval of the root over one deviation to either side.
   const double high = std::sqrt(std::max(mse + deviation, 0.0)) / mean;
   const double low = std::sqrt(std::max(mse - deviation, 0.0)) / mean;
   const double ofMean = root * std::sqrt(meanVariance) / n / mean;

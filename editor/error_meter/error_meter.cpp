@@ -7,8 +7,8 @@
 namespace lamplighter {
 namespace {
 
-// While the picture changes from frame to frame it is compared every so many frames: a gl backend
-// has to read it back for that.
+// While the picture changes in every frame, it is compared only every few frames, because the gl
+// backend must read it back.
 constexpr int kFramesBetween = 6;
 
 PathTracerOptions pathsOf(const RenderSettings& render, bool lightOnly) {
@@ -46,7 +46,7 @@ void ErrorMeter::frame(const Document& document, const View& view, bool lightOnl
     isNews_ = true;
   }
   ++framesSince_;
-  // The first settled one is not kept waiting: what was before it may be far off.
+  // The first settled picture is compared at once: the picture before it may be very different.
   const bool hasWaited = framesSince_ >= kFramesBetween || (output.settled && !comparedSettled_);
   const bool isDue = isNews_ || (picture != compared_ && hasWaited);
   if (halves_ && isDue && picture->width() == view.width && picture->height() == view.height) {

@@ -1,6 +1,6 @@
-// The error of the live picture while it is edited: what the reference is to be of, what it gave,
-// and how far the picture is from it. Who traces the paths is not its business: a worker of the ui
-// beside the frames, or measure() at once.
+// Measures the error of the live picture during editing: it says which reference is needed, takes
+// the reference, and estimates the error of the picture. It does not trace paths itself: a worker
+// of the ui does that in parallel with the frames, or measure() does it at once.
 #pragma once
 
 #include <memory>
@@ -16,33 +16,35 @@ namespace lamplighter {
 
 class ErrorMeter {
  public:
-  // On: a worker is to trace the reference beside the frames.
+  // On: a worker traces the reference in parallel with the frames.
   bool on() const { return on_; }
   void setOn(bool on) { on_ = on; }
   int block() const { return block_; }
   void setBlock(int pixels) { block_ = pixels; }
 
-  // After each frame: its picture, and what the scene changed by since the last one. Whatever
-  // changes what the reference would show makes it begin again.
+  // Call after each frame with its picture and the scene's changes since the last frame. A change
+  // that would change the reference restarts it.
   void frame(const Document& document, const View& view, bool lightOnly,
              const SceneChanges& changes, const GiOutput& output);
 
-  // Instead of frame(): what is shown is nothing that the reference makes.
+  // Call instead of frame() when the picture is one that the path tracer cannot reproduce.
   void pause();
 
-  // What a worker should trace now; null: nothing.
+  // What a worker should trace now. Null: nothing.
   std::shared_ptr<const MeterSubject> wanted() const { return on_ ? subject_ : nullptr; }
-  // What a worker has traced. Of another subject: it comes too late and is dropped.
+  // Receives the result of a worker. A result for another subject is too late and is dropped.
   void take(std::shared_ptr<const ReferenceHalves> halves);
-  // Traces as many paths a block as that after the next frame and compares at once.
+  // After the next frame, traces this number of paths per block and compares at once.
   void measureAtOnce(int samples) { toMeasure_ = samples; }
-  bool measured() const { return measured_; }  // in the last frame, since it was asked for
+  // true if the last frame did the requested measurement
+  bool measured() const { return measured_; }
 
-  // Of the picture as it was a few frames ago at most; none while there is no reference for it.
+  // The error of the picture, at most a few frames old. None while there is no reference for the
+  // picture.
   const std::optional<ErrorEstimate>& estimate() const { return estimate_; }
-  // The reference so far; null: none. The subject's blocks.
+  // The reference so far, in blocks of the subject. Null: none.
   const std::shared_ptr<const ReferenceHalves>& reference() const { return halves_; }
-  // For the status line: "error 3.1% ± 0.4%"; "": off.
+  // Text for the status line: "error 3.1% ± 0.4%". "": the meter is off.
   std::string text() const;
 
  private:
@@ -53,9 +55,9 @@ class ErrorMeter {
   uint64_t numbers_ = 0, levels_ = 0;
   std::shared_ptr<const MeterSubject> subject_;
   std::shared_ptr<const ReferenceHalves> halves_;
-  std::shared_ptr<RadianceImage> compared_;  // the picture that the estimate is of
-  bool comparedSettled_ = false;             // and whether it was settled
-  int framesSince_ = 0;                      // it was compared
+  std::shared_ptr<RadianceImage> compared_;  // the picture of the estimate
+  bool comparedSettled_ = false;             // whether that picture was settled
+  int framesSince_ = 0;                      // frames since the last comparison
   bool isNews_ = false;                      // halves that were not compared yet
   std::optional<ErrorEstimate> estimate_;
 };

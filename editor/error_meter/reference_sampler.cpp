@@ -15,7 +15,7 @@ namespace {
 // Blocks along a side; at least one.
 int blocksOf(int pixels, int block) { return std::max(1, pixels / std::max(block, 1)); }
 
-// Seeds that neither half shares with the other, nor with a picture of method `reference`.
+// Seeds that differ between the halves and from pictures of the method `reference`.
 uint32_t seedOfHalf(uint32_t seed, uint32_t half) { return hash4(seed, half, 0x6d657465u, 1u); }
 
 }  // namespace
@@ -61,7 +61,8 @@ void ReferenceSampler::begin(const MeterSubject& subject) {
   leaveOutLamps();
 }
 
-// Four rays a block find them, and its neighbours are left out too: the outline may be there.
+// Finds the lamps with four rays per block. Also excludes the neighbours of their blocks, because
+// the outline may lie there.
 void ReferenceSampler::leaveOutLamps() {
   const int width = first_.width, height = first_.height;
   std::vector<uint8_t> seen(first_.pixels.size(), 0);
@@ -90,9 +91,9 @@ void ReferenceSampler::leaveOutLamps() {
             counts_[static_cast<size_t>(y * width + x)] = 0;
 }
 
-// Each step goes to one pixel of the block, to all of them in turn. Which one is first is drawn for
-// each block, so that after any number of steps each pixel of the block is as likely as the others
-// and the mean of the paths is that of the block.
+// Each step samples one pixel of the block and visits all pixels in turn. The first pixel is random
+// for each block. After any number of steps all pixels are therefore equally likely, and the mean
+// of the paths is the mean of the block.
 bool ReferenceSampler::step(const std::function<bool()>& stop) {
   const int pixels = block_ * block_;
   const View& view = subject_.view;

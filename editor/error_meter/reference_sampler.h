@@ -1,5 +1,6 @@
-// The path tracer beside the live picture: it adds paths step by step to two independent pictures
-// of the same subject, from which the live picture's error and the noise of both are told apart.
+// The path tracer that runs beside the live picture. Step by step it adds paths to two independent
+// pictures of the same subject. Their difference gives the noise, which is separated from the error
+// of the live picture.
 #pragma once
 
 #include <cstdint>
@@ -16,46 +17,47 @@
 
 namespace lamplighter {
 
-// What the reference is of. Another number is another subject, and the paths begin again.
+// What the reference shows. A new number means a new subject, and sampling restarts.
 struct MeterSubject {
   uint64_t number = 0;
-  uint64_t level = 0;  // another one: nothing of the scene before is in this one
+  uint64_t level = 0;  // a new number means that nothing of the previous scene remains
   std::shared_ptr<const Scene> scene;
-  View view;  // the live picture's
+  View view;  // the view of the live picture
   PathTracerOptions paths;
-  int block = 4;  // pixels a side of the blocks that are compared
+  int block = 4;  // side of the compared blocks [pixels]
 };
 
-// Two estimates of the same picture that share no random number, each the mean of `samples` paths
-// in every block of pixels.
+// Two estimates of the same picture that share no random numbers. Each is the mean of `samples`
+// paths in every block of pixels.
 struct ReferenceHalves {
-  uint64_t subject = 0;  // its number
+  uint64_t subject = 0;  // number of the subject
   int block = 1;
   int samples = 0;
-  Image first, second;  // radiance [W/(m² sr)], a pixel each block
-  // Whether a block counts: none does in which a lamp itself is seen. Lamps are as bright as they
-  // are in every method, but so much brighter than what they light that their outlines, of which
-  // the reference has no more than noise, would drown all else. Empty: all count.
+  Image first, second;  // radiance [W/(m² sr)], one pixel per block
+  // Whether a block is compared. Blocks that show a lamp directly are not. Every method shows lamps
+  // with the same brightness, but lamps are much brighter than the surfaces they light. The
+  // reference has only noisy values for their outlines, and this noise would hide all other errors.
+  // Empty: all blocks are compared.
   std::vector<uint8_t> counts;
 
   Image mean() const;
 };
 
-// The picture averaged over blocks of pixels; rows and columns that fill no block are left out. A
-// picture that is smaller than a block is one block.
+// The picture averaged over blocks of pixels. Incomplete blocks at the right and bottom are left
+// out. A picture smaller than a block becomes one block.
 Image averageBlocks(const Image& picture, int block);
 
 class ReferenceSampler {
  public:
   void begin(const MeterSubject& subject);
-  // One path more in each block of both halves. False: `stop` said so, and the paths of this step
-  // are lost; the next begin() is all that helps. The same bits at any number of threads.
+  // Adds one path to each block of both halves. Returns false if `stop` asked to stop; the paths of
+  // this step are then lost and only begin() can continue. Deterministic for any number of threads.
   bool step(const std::function<bool()>& stop = {});
   ReferenceHalves halves() const;
 
  private:
   MeterSubject subject_;
-  Scene scene_;  // that world_ shows
+  Scene scene_;  // the scene of world_
   RenderScene world_;
   std::unique_ptr<RayCaster> rays_;
   LightSet lights_;

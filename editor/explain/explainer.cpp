@@ -13,7 +13,7 @@ namespace {
 const vec4 kPoint{1.0f, 1.0f, 1.0f, 1.0f};
 const vec4 kSeen{0.55f, 0.9f, 0.55f, 0.8f};
 const vec4 kHidden{0.95f, 0.35f, 0.3f, 0.8f};
-constexpr size_t kMostLines = 64;  // more would be a smear
+constexpr size_t kMostLines = 64;  // more lines would be unreadable
 
 }  // namespace
 
@@ -21,7 +21,8 @@ void Explainer::ask(const Scene& scene, const RenderScene& world, const RayCaste
                     const PickedPoint& point, const LightSamples& samples) {
   anchor_.emplace(scene, point);
   answer_ = explain(scene, world, rays, point, samples);
-  // What matters most: who would give most and does not, else who gives most.
+  // First choice: the light that would contribute most but is blocked. Otherwise: the light that
+  // contributes most.
   const auto worst = std::max_element(
       answer_->lights.begin(), answer_->lights.end(),
       [](const LightShare& a, const LightShare& b) { return a.withheld < b.withheld; });
@@ -83,7 +84,7 @@ void Explainer::draw(Overlay& overlay, const View& view, const RenderScene& worl
     for (size_t i = 0; i < facing.size(); i += step) {
       const Ray ray = rayTo(p, facing[i]->vpl);
       const Hit hit = rays.intersect(ray);
-      // Parallel light comes from beyond the level.
+      // Parallel light comes from outside the level.
       const float end = std::isfinite(ray.tFar) ? ray.tFar : 2.0f * world.bounds.radius();
       const float t = hit ? hit.t : end;
       addLine(overlay, view, ray.origin, ray.origin + t * ray.direction, hit ? kHidden : kSeen,

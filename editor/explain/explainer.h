@@ -1,4 +1,4 @@
-// "Why is it dark here?": the point that was asked about, and the answer as of the present frame.
+// "Why is it dark here?": the selected point and the explanation for the current frame.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,24 @@ namespace lamplighter {
 
 class Explainer {
  public:
-  // The answer; null while nothing is asked.
+  // The explanation. Null while no point is selected.
   const Explanation* answer() const { return answer_ ? &*answer_ : nullptr; }
   void ask(const Scene& scene, const RenderScene& world, const RayCaster& rays,
            const PickedPoint& point, const LightSamples& samples);
-  // The same question of what is there now. It is taken back when the object is gone.
+  // Computes the explanation again for the current scene. Clears it if the object is gone.
   void askAgain(const Scene& scene, const RenderScene& world, const RayCaster& rays,
                 const LightSamples& samples);
   void close() { *this = Explainer(); }
 
-  // The light whose rays are drawn; null: none, or it is gone.
+  // The light whose rays are drawn. Null: none is chosen, or the light is gone.
   const LightShare* chosen() const;
-  // By its row; throws InputError when there are not so many.
+  // Chooses a light by its row. Throws InputError if the row is out of range.
   void choose(int row);
-  // What stands before a light; throws InputError when there is nothing of that number.
+  // An object that blocks the light of a row. Throws InputError if the index is out of range.
   NodeId blocker(int row, int index) const;
 
-  // A mark at the point, and lines to the samples of the chosen light: those that reach the point,
-  // and those that something keeps away, as far as that.
+  // Draws a mark at the point and lines to the samples of the chosen light. The line of a blocked
+  // sample ends at the occluder.
   void draw(Overlay& overlay, const View& view, const RenderScene& world, const RayCaster& rays,
             const LightSamples& samples) const;
 

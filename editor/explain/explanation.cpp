@@ -11,7 +11,7 @@
 namespace lamplighter {
 namespace {
 
-// E of one sample if nothing stood between [lx].
+// E of one sample without occluders [lx].
 float unshadowed(const PickedPoint& p, const LightSamples::Sample& s, float clampDistance) {
   if (isLeftOut(p.leftOutBy, static_cast<uint32_t>(s.vpl.footprint.y))) return 0.0f;
   return luminance(vec3(s.vpl.intensity)) *
@@ -41,7 +41,7 @@ LightArrival stateOf(const LightShare& l) {
   return l.seen == l.facing ? LightArrival::lit : LightArrival::partly;
 }
 
-// One for each light that emits, and for each that is meant to.
+// One entry for each light that emits or is intended to emit.
 std::map<NodeId, LightShare> allLights(const Scene& scene, const RenderScene& world) {
   std::map<NodeId, LightShare> shares;
   for (const Node& node : scene.nodes)
@@ -123,13 +123,13 @@ Explanation explain(const Scene& scene, const RenderScene& world, const RayCaste
                     const PickedPoint& point, const LightSamples& samples) {
   Explanation out;
   out.point = point;
-  for (const RenderObject& o : world.objects)  // what is left out may have changed since
+  for (const RenderObject& o : world.objects)  // light linking may have changed since
     if (o.node == point.node) out.point.leftOutBy = o.leftOutBy;
   out.object = nameIn(scene, point.node);
   std::map<NodeId, LightShare> shares = allLights(scene, world);
   for (const LightSamples::Sample& s : samples.samples) {
     const auto found = shares.find(s.id.light);
-    if (found == shares.end()) continue;  // of a light that has just gone
+    if (found == shares.end()) continue;  // its light was just deleted
     if (s.id.bounce == 0)
       found->second.leavesOut =
           isLeftOut(out.point.leftOutBy, static_cast<uint32_t>(s.vpl.footprint.y));

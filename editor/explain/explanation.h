@@ -1,5 +1,5 @@
-// Why a point is as bright or as dark as it is: what each light gives there, what it would give if
-// nothing stood between, and what does.
+// Explains the brightness of a point: what each light contributes, what it would contribute without
+// occluders, and which objects block it.
 #pragma once
 
 #include <string>
@@ -11,34 +11,34 @@
 namespace lamplighter {
 
 enum class LightArrival {
-  lit,        // by all of its samples that face the point
-  partly,     // by some of them
-  shadowed,   // by none: all are hidden
-  away,       // none faces the point: it is behind the light or outside its cone, or looks away
-  leftOut,    // the light leaves the object out (renderer/scene/light_linking.h)
-  unsampled,  // the method has no sample on it: brighter lights took them all
-  off         // hidden, or without strength
+  lit,        // all samples that face the point are visible
+  partly,     // some of them are visible
+  shadowed,   // all of them are hidden
+  away,       // no sample faces the point: it is behind the light, outside its cone, or faces away
+  leftOut,    // light linking excludes the object (renderer/scene/light_linking.h)
+  unsampled,  // the method has no sample on it: brighter lights got all of them
+  off         // hidden, or with zero strength
 };
 const char* nameOf(LightArrival state);  // "lit"
 
 struct BlockingObject {
   NodeId node = kNoNode;
   std::string name;
-  float withheld = 0.0f;  // irradiance that it keeps away [lx]
-  int samples = 0;        // of the light, before which it stands first
+  float withheld = 0.0f;  // irradiance that the object blocks [lx]
+  int samples = 0;        // samples of the light for which it is the first occluder
 };
 
-// A light of the scene; the sky with all of its suns is one.
+// The share of one light of the scene. The sky with all of its suns is one light.
 struct LightShare {
   NodeId light = kNoNode;  // the sky: kNoNode
   std::string name;
   LightArrival state = LightArrival::off;
-  bool leavesOut = false;                 // the object that the point is on
+  bool leavesOut = false;                 // light linking excludes the object of the point
   float direct = 0.0f, bounced = 0.0f;    // irradiance [lx]
-  float withheld = 0.0f;                  // direct irradiance that does not arrive [lx]
-  int samples = 0, facing = 0, seen = 0;  // on the light itself
+  float withheld = 0.0f;                  // blocked direct irradiance [lx]
+  int samples = 0, facing = 0, seen = 0;  // samples on the light itself
   int bouncedFacing = 0, bouncedSeen = 0;
-  std::vector<BlockingObject> blockers;  // of direct light, the one that withholds most first
+  std::vector<BlockingObject> blockers;  // of direct light, strongest blocker first
 
   float given() const { return direct + bounced; }
 };
@@ -47,21 +47,21 @@ struct Explanation {
   PickedPoint point;
   std::string object;              // its name
   float irradiance = 0.0f;         // [lx]
-  std::vector<LightShare> lights;  // those that give or could give most first
+  std::vector<LightShare> lights;  // lights that contribute or could contribute, strongest first
 
   float shareOf(const LightShare& light) const {
     return irradiance > 0.0f ? light.given() / irradiance : 0.0f;
   }
 };
 
-// From the point to a sample; both ends stand off their surfaces. Its direction is as long as the
-// way, unless the sample is parallel light.
+// The ray from the point to a sample. Both ends are offset from their surfaces. The length of the
+// direction is the distance, unless the sample is parallel light.
 Ray rayTo(const PickedPoint& point, const shared::Vpl& vpl);
 
-// E at the point [lx].
+// The irradiance E at the point [lx].
 float irradianceAt(const RayCaster& rays, const PickedPoint& point, const LightSamples& samples);
 
-// A ray to each sample. `scene` names the nodes.
+// Traces a ray to each sample. `scene` gives the names of the nodes.
 Explanation explain(const Scene& scene, const RenderScene& world, const RayCaster& rays,
                     const PickedPoint& point, const LightSamples& samples);
 

@@ -7,10 +7,10 @@
 namespace lamplighter {
 namespace {
 
-// Enough for a penumbra to be told to a percent and for lights that give little to have some.
+// Enough to measure a penumbra to one percent, and to give weak lights some samples.
 constexpr int kOwnSamples = 4096;
-// Bounces in a corner stand for all of their surroundings; the lights themselves are only a little
-// away from what they light most.
+// In a corner, a bounce sample represents all of its surroundings, so its value needs a bound. The
+// distance is small, because lights can be close to the surfaces that they light most.
 constexpr float kOwnClamp = 0.1f;  // [m]
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The light samples by which the light at a point is told apart.
+// The light samples that explain the light at a point.
 #pragma once
 
 #include <vector>
@@ -15,11 +15,11 @@ struct LightSamples {
     VplId id;
   };
   std::vector<Sample> samples;
-  float clampDistance = 0.0f;  // 1/d² of samples is bounded by that of this distance [m]
+  float clampDistance = 0.0f;  // upper bound of 1/d² of samples: its value at this distance [m]
 };
 
-// Those that the method shows, so that what is said is said of its picture. A method that has none,
-// as the reference, is told of by many samples made for this, with as many bounces as it has.
+// The samples of the method, so that the explanation fits its picture. For a method without
+// samples, such as the reference, it creates many samples with the method's number of bounces.
 LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene,
                           const RayCaster& rays, const Settings& settings);
 

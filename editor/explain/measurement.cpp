@@ -54,7 +54,7 @@ void Measurement::draw(Overlay& overlay, const View& view) const {
   const auto d = offset();
   if (!d) return;
   const vec3 end = *from_ + *d;
-  // The three ways along the axes, one after the other.
+  // The distances along the three axes, one after the other.
   vec3 corner = *from_;
   for (int axis = 0; axis < 3; ++axis) {
     vec3 next = corner;
@@ -65,8 +65,8 @@ void Measurement::draw(Overlay& overlay, const View& view) const {
   addLine(overlay, view, *from_, end, kUnder, 5.0f);
   addLine(overlay, view, *from_, end, kLine, 2.0f);
   drawEnd(overlay, view, end);
-  // Beside its end: the middle may be out of the picture. One text, so that its lines keep apart
-  // however large letters are.
+  // The text is at the end of the line, because the middle may be outside the picture. It is one
+  // text, so that its lines do not overlap at any font size.
   if (const auto at = projectPoint(view, end))
     overlay.texts.push_back({*at + vec2(18.0f, 10.0f),
                              metresText(glm::length(*d)) + "\n" + offsetText(*d), kLine, true});

@@ -1,4 +1,4 @@
-// The distance between two points of surfaces.
+// Measures the distance between two surface points.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,16 @@ namespace lamplighter {
 
 class Measurement {
  public:
-  // The first point, then the second; the next one begins anew.
+  // Sets the first point, then the second. A third call starts a new measurement.
   void add(const vec3& point);
-  // Where the pointer is on a surface, for a line that follows it; none: it is on nothing.
+  // The surface point under the pointer; a line follows it. None: the pointer is not on a surface.
   void hover(const std::optional<vec3>& point) { hovered_ = point; }
   void clear() { *this = Measurement(); }
 
   bool hasBegun() const { return from_.has_value(); }
   bool isComplete() const { return to_.has_value(); }
-  // From the first to the second point, or to that under the pointer [m]; none: there are not two.
+  // The vector from the first point to the second, or to the point under the pointer [m]. None:
+  // there are not two points.
   std::optional<vec3> offset() const;
   // "2.350 m  (dx +1.000  dy -0.500  dz +0.000 m)"; "" while there are not two points.
   std::string text() const;

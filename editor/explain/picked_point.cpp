@@ -7,7 +7,7 @@ namespace lamplighter {
 std::optional<PickedPoint> surfaceAt(const RenderScene& scene, const RayCaster& rays,
                                      const View& view, const vec2& pixel) {
   const vec3 direction = view.rayDirection(pixel.x, pixel.y);
-  // As the picture has it: what is nearer than the near plane is not seen.
+  // As in the picture, surfaces nearer than the near plane are invisible.
   const float tNear = view.znear / glm::dot(direction, view.forward());
   const Hit hit = rays.intersect({view.eye, tNear, direction}, Surfaces::seen);
   if (!hit) return std::nullopt;
@@ -19,7 +19,8 @@ std::optional<PickedPoint> surfaceAt(const RenderScene& scene, const RayCaster& 
 
 namespace {
 
-// Normals go with the inverse transpose, so that they stay normal under uneven scale.
+// Normals transform by the inverse transpose, so that they stay perpendicular under non-uniform
+// scale.
 vec3 turned(const mat3& byInverse, const vec3& normal) {
   return glm::normalize(glm::transpose(byInverse) * normal);
 }

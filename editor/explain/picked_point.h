@@ -1,4 +1,4 @@
-// A point of a surface that a person pointed at, and that goes where its object goes.
+// A surface point that the user picked. It moves with its object.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,26 @@
 
 namespace lamplighter {
 
-// World space; the unit normals are on the side that was looked at.
+// World space. The unit normals point to the side that the camera sees.
 struct PickedPoint {
   NodeId node = kNoNode;
   vec3 position{0.0f};
-  vec3 normal{0.0f, 1.0f, 0.0f};           // that light is reflected about
+  vec3 normal{0.0f, 1.0f, 0.0f};           // shading normal
   vec3 geometricNormal{0.0f, 1.0f, 0.0f};  // of the triangle
-  uint32_t leftOutBy = 0;                  // the object's, as of then (light_linking.h)
+  // light-linking mask of the object when the point was picked (light_linking.h)
+  uint32_t leftOutBy = 0;
 };
 
-// What the ray through an image point (pixels) meets; nothing where it leaves the level.
+// The first surface on the ray through an image point (pixels). Nothing if the ray leaves the
+// level.
 std::optional<PickedPoint> surfaceAt(const RenderScene& scene, const RayCaster& rays,
                                      const View& view, const vec2& pixel);
 
-// The point in the space of its node, so that it can be found again after the node has moved.
+// The point in the local space of its node, so that it moves with the node.
 class Anchor {
  public:
   Anchor(const Scene& scene, const PickedPoint& point);
-  // Nothing when the node is gone.
+  // Nothing if the node is gone.
   std::optional<PickedPoint> placedIn(const Scene& scene) const;
 
  private:

@@ -70,7 +70,7 @@ bool PointTools::pointer(const Subject& s, const ViewportInput& input) {
     measurement_.hover(under ? std::optional(under->position) : std::nullopt);
   if (!input.hovered || !input.pressed[0]) return true;
   if (!under) {
-    // Into the sky: nothing is asked any more.
+    // The click hit the sky: closes the explanation.
     if (tool_ == PointTool::explain) explainer_.close();
     return true;
   }
@@ -85,7 +85,7 @@ void PointTools::update(const Subject& s, bool pictureChanged, bool sceneChanged
     samples_.reset();
     return;
   }
-  // Samples of the tools' own follow the level alone, not how far the picture is.
+  // Samples created by the tools depend only on the level, not on the progress of the picture.
   const bool methodHasThem = !s.renderer.inspect().lights.empty();
   const bool outdated = methodHasThem ? pictureChanged || ownSamples_
                                       : sceneChanged || !ownSamples_ || !(settings_ == s.settings);
@@ -108,7 +108,7 @@ void PointTools::draw(Overlay& overlay, const Subject& s) const {
   if (explainer_.answer() != nullptr)
     explainer_.draw(overlay, s.view, s.renderer.scene(), *s.renderer.rays(), samples(s));
   measurement_.draw(overlay, s.view);
-  // The measured distance stands where the reading would; the status line has it nevertheless.
+  // The measured distance replaces the reading here; the status line still shows the reading.
   if (tool_ == PointTool::measure) return;
   if (probesPointer_ && reading_ && (reading_->lux || reading_->nits)) {
     const std::string lux = reading_->lux ? luxText(*reading_->lux) : "";

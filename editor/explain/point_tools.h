@@ -1,5 +1,5 @@
-// Tools that tell of the point that is clicked: why it is dark, how bright it is, how far it is
-// from another. None of them is part of the work: no undo, nothing saved.
+// Tools that inspect a clicked point: why it is dark, how bright it is, and its distance from
+// another point. They are not part of the document: they have no undo and are not saved.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 
 namespace lamplighter {
 
-// What a click into the picture asks, before it selects.
+// The tool that handles a click in the picture before the selection does.
 enum class PointTool { none, explain, measure };
 
 class PointTools {
  public:
-  // What they look at, all of one frame.
+  // The data that the tools inspect, all of the same frame.
   struct Subject {
     const Scene& scene;
     const FrameRenderer& renderer;
@@ -28,27 +28,27 @@ class PointTools {
 
   PointTool tool() const { return tool_; }
   void setTool(PointTool tool);
-  // Another level: nothing of the old one is told any more.
+  // Call when another level is opened: clears all results of the old one.
   void forget();
 
-  // Each in viewport pixels; throws InputError where there is no surface.
+  // Positions in viewport pixels. Both throw InputError if there is no surface.
   void explainAt(const Subject& subject, const vec2& pixel);
   void measureAt(const Subject& subject, const vec2& pixel);
   const Reading& probeAt(const Subject& subject, const vec2& pixel);
 
   bool probesPointer() const { return probesPointer_; }
   void probePointer(bool on);
-  // Of the pixel that was last asked for; none: nothing is.
+  // The reading of the last probed pixel. None: no pixel is probed.
   const std::optional<Reading>& reading() const { return reading_; }
   Explainer& explainer() { return explainer_; }
   const Explainer& explainer() const { return explainer_; }
   Measurement& measurement() { return measurement_; }
   const Measurement& measurement() const { return measurement_; }
 
-  // The pointer over the viewport. True when a click is theirs.
+  // Handles the pointer over the viewport. Returns true if the tools used the click.
   bool pointer(const Subject& subject, const ViewportInput& input);
-  // A frame was rendered. `pictureChanged`: it differs from the one before; `sceneChanged`: so does
-  // the level.
+  // Call after each rendered frame. `pictureChanged`: the picture differs from the last frame's;
+  // `sceneChanged`: the level does.
   void update(const Subject& subject, bool pictureChanged, bool sceneChanged);
   void draw(Overlay& overlay, const Subject& subject) const;
 
@@ -60,11 +60,11 @@ class PointTools {
   Explainer explainer_;
   Measurement measurement_;
   bool probesPointer_ = false;
-  std::optional<vec2> pointerAt_;  // while it is probed
+  std::optional<vec2> pointerAt_;  // while the pixel is probed
   std::optional<Reading> reading_;
-  mutable std::optional<LightSamples> samples_;  // of this frame, once they are asked for
-  bool ownSamples_ = false;                      // they are not the method's
-  Settings settings_;                            // that they were made with
+  mutable std::optional<LightSamples> samples_;  // samples of this frame, created on demand
+  bool ownSamples_ = false;                      // they are not the method's samples
+  Settings settings_;                            // settings that they were created with
 };
 
 }  // namespace lamplighter

@@ -1,5 +1,5 @@
-// How bright a place is: the light that falls on it, and the light that comes from it to the
-// camera.
+// Measures the brightness at a pixel: the light that the surface receives, and the light that it
+// sends to the camera.
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@ namespace lamplighter {
 
 struct Reading {
   vec2 pixel{0.0f};
-  std::string object;             // "sky" where nothing is hit
-  std::optional<float> lux;       // irradiance; none where nothing is hit
-  std::optional<float> nits;      // radiance towards the camera; none while the picture is another
+  std::string object;         // "sky" if the ray hits nothing
+  std::optional<float> lux;   // irradiance; none if the ray hits nothing
+  std::optional<float> nits;  // radiance towards the camera; none while another picture is shown
   std::optional<float> distance;  // from the camera [m]
 };
 
-// `picture`: the radiance of the lit picture, null while another is shown.
+// `picture`: the radiance of the lit picture; null while another picture is shown.
 Reading probe(const Scene& scene, const RenderScene& world, const RayCaster& rays, const View& view,
               const vec2& pixel, const LightSamples& samples, const Image* picture);
 

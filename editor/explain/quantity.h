@@ -1,4 +1,4 @@
-// Numbers with units, as they are read out.
+// Formats numbers with units as text.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace lamplighter {
 
-// Three digits are as much as an estimate by samples says: "0.0123", "12.3", "12300".
+// Three significant digits; estimates from samples are not more precise: "0.0123", "12.3", "12300".
 std::string threeDigits(float value);
 std::string luxText(float irradiance);       // "123 lx"
 std::string nitsText(float luminance);       // "45.6 nt"

@@ -1,5 +1,5 @@
-// Input as data. A hand (ui/platform) and a file (player.h) fill the same queue with these; nothing
-// above the queue can tell them apart.
+// Input events as data. The platform (ui/platform) and recordings (player.h) put them into the same
+// queue. Code behind the queue cannot tell them apart.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace lamplighter {
 
 enum class EventKind : uint8_t { pointer, button, wheel, key, text, action };
 
-// Names are what recordings hold: letters and digits as themselves, others as listed in event.cpp.
+// Recordings contain these names: letters and digits as themselves, others as listed in event.cpp.
 enum class Key : uint8_t {
   none,
   a,
@@ -96,8 +96,8 @@ struct Modifiers {
 
 struct InputEvent {
   EventKind kind = EventKind::pointer;
-  // pointer: the new place. `target` says of what: "" the window [px], "viewport" the 3D view [px],
-  // else a widget by its registered name, with x and y in [0, 1] across it.
+  // pointer: the new position. `target` gives its coordinate space: "" the window [px], "viewport"
+  // the 3D view [px], otherwise the registered name of a widget, with x and y in [0, 1] across it.
   std::string target;
   vec2 position{0.0f};
   int button = 0;     // 0 left, 1 right, 2 middle
@@ -109,6 +109,6 @@ struct InputEvent {
 };
 
 std::string keyName(Key key);
-Key keyOf(const std::string& name);  // Key::none when there is no such name
+Key keyOf(const std::string& name);  // Key::none if the name is unknown
 
 }  // namespace lamplighter

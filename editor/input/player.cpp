@@ -13,7 +13,7 @@ bool Player::isDue(size_t line) const {
 
 std::vector<InputEvent> Player::beginFrame() {
   std::vector<InputEvent> events;
-  // What stands behind a checkpoint of this frame comes after it.
+  // Events after a checkpoint in the same frame wait until it is reached.
   while (isDue(next_)) {
     const auto* event = std::get_if<InputEvent>(&recording_.lines[next_].what);
     if (event == nullptr) break;
@@ -31,7 +31,8 @@ std::vector<Checkpoint> Player::endFrame(bool settled) {
   std::vector<Checkpoint> reached;
   while (isDue(next_)) {
     const auto* checkpoint = std::get_if<Checkpoint>(&recording_.lines[next_].what);
-    if (checkpoint == nullptr) return reached;  // events of this frame are left: the clock stands
+    // events of this frame are left, so the clock does not advance
+    if (checkpoint == nullptr) return reached;
     if (!settled) {
       if (++waited_ > patience_) {
         throw InputError(recording_.path.string(),

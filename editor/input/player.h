@@ -1,4 +1,4 @@
-// Hands out a recording's events, frame by frame.
+// Returns the events of a recording, frame by frame.
 #pragma once
 
 #include "editor/input/recording.h"
@@ -7,19 +7,19 @@ namespace lamplighter {
 
 class Player {
  public:
-  // `patience`: frames that a checkpoint may wait for the picture to settle.
+  // `patience`: the maximum number of frames that a checkpoint waits until the picture is settled.
   explicit Player(Recording recording, int patience = 20000);
 
   const Recording& recording() const { return recording_; }
   uint32_t frame() const { return frame_; }
   bool finished() const { return next_ == recording_.lines.size(); }
 
-  // Before a frame: its events. None while a checkpoint waits.
+  // Call before a frame: returns its events. Returns none while a checkpoint waits.
   std::vector<InputEvent> beginFrame();
-  // Whether a checkpoint waits for this frame's picture.
+  // Whether a checkpoint waits for the picture of this frame.
   bool waits() const;
-  // After it: the checkpoints that are reached now, once each; the clock goes on when none waits.
-  // Throws InputError when one has waited too long.
+  // Call after the frame: returns each checkpoint once, when it is reached. The clock advances when
+  // no checkpoint waits. Throws InputError if one has waited too long.
   std::vector<Checkpoint> endFrame(bool settled);
 
  private:

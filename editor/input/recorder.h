@@ -1,5 +1,4 @@
-// Writes what a hand does, as it happens: each frame's lines are flushed, so that a crash loses
-// none.
+// Records the user's input. It flushes the lines of each frame, so that a crash loses nothing.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +11,11 @@ namespace lamplighter {
 
 class Recorder {
  public:
-  // Begins the file; throws InputError when it cannot be written.
+  // Creates the file. Throws InputError if it cannot be written.
   Recorder(std::filesystem::path path, const RecordingHeader& header);
 
-  // The events of one frame, with their targets named. Of pointer events in a row the last one
-  // counts. Throws InputError when they cannot be written.
+  // Writes the events of one frame, with named targets. Of consecutive pointer events it keeps only
+  // the last one. Throws InputError if it cannot write.
   void frame(const std::vector<InputEvent>& events);
   void checkpoint(const Checkpoint& checkpoint);
 

@@ -22,9 +22,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kRecordingFormat = 1;
-constexpr int64_t kMostFrames = 10'000'000;  // two days at 60 a second; more is a slip of the hand
+// two days at 60 frames per second; a higher number is an error
+constexpr int64_t kMostFrames = 10'000'000;
 
-// Floats as short as they read back.
+// Writes floats with the fewest digits that restore the same value.
 Json numbers(std::initializer_list<float> values) {
   Json j = Json::array();
   for (const float v : values) j.push_back(std::stod(fmt::format("{}", v)));
@@ -33,7 +34,8 @@ Json numbers(std::initializer_list<float> values) {
 
 std::string text(const Json& j) { return j.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-// Fields of a line, of the kind and range that they must have; `usual` where the line has none.
+// Reads fields of a line and checks their type and range. `usual` is the value if the field is
+// missing.
 const Json& fieldOf(const Json& j, const char* name) {
   const auto it = j.find(name);
   if (it == j.end()) throw std::invalid_argument(fmt::format("lacks \"{}\"", name));
@@ -59,7 +61,7 @@ bool boolOf(const Json& j, const char* name) {
 
 int64_t integerOf(const Json& j, const char* name, int64_t least, int64_t most) {
   const Json& field = fieldOf(j, name);
-  // Unsigned first: what is beyond int64 would wrap.
+  // Unsigned first, because values beyond int64 would wrap.
   const bool fits =
       field.is_number_integer() &&
       (!field.is_number_unsigned() || field.get<uint64_t>() <= static_cast<uint64_t>(most)) &&
@@ -89,8 +91,8 @@ vec2 pairOf(const Json& j, const char* name) {
   return {floatOf(field[0], name), floatOf(field[1], name)};
 }
 
-// Values keep their kind: a JSON number is int or float by the declaration. A parameter may be
-// another method's, set before this one was chosen.
+// Values keep their type: the declaration decides whether a JSON number is int or float. A
+// parameter may belong to another method, if it was set before this one was chosen.
 ParameterValue valueOf(const std::string& method, const std::string& name, const Json& j) {
   const std::string given = j.is_string() ? j.get<std::string>() : j.dump();
   const auto from = [&](const MethodInfo& info) -> std::optional<ParameterValue> {
@@ -202,7 +204,7 @@ Recording readRecording(const std::filesystem::path& path) {
   r.path = path;
   int number = 0;
   bool hasHeader = false;
-  std::set<std::string> checks;  // by name, which is that of the baseline
+  std::set<std::string> checks;  // their names are also the names of the baselines
   for (std::string line; std::getline(in, line);) {
     ++number;
     if (line.ends_with('\r')) line.pop_back();

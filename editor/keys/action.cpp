@@ -9,7 +9,7 @@ namespace lamplighter {
 
 namespace {
 
-// Words split at spaces; double quotes hold a word together, \" within them is a quote.
+// Splits words at spaces. Double quotes keep a word together; \" within them is a quote.
 std::vector<std::string> split(std::string_view text) {
   std::vector<std::string> words;
   bool inWord = false, inQuotes = false;

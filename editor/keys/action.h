@@ -1,4 +1,4 @@
-// Every action by name and as text. Menus, keys, recordings, scripts and tests all call these.
+// All actions, by name and as text. Menus, keys, recordings, scripts and tests call them.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace lamplighter {
 
 class Session;
 
-// An argument that fits now, and what menus call it.
+// An argument that is valid now, and its label in menus.
 struct ActionChoice {
   std::string argument, label;
 };
@@ -24,39 +24,41 @@ struct Action {
   std::string label;     // "Add area light"
   std::string usage;     // arguments: "rectangle|disk|sphere"
   std::string help;      // one sentence
-  std::string shortcut;  // "Ctrl+D", "" for none; what is bound now
+  std::string shortcut;  // current shortcut: "Ctrl+D"; "" for none
   std::function<void(Session&, const std::vector<std::string>& arguments)> run;
   std::function<bool(const Session&)> enabled;  // null: always
-  bool duringDrag = false;  // leaves a drag under way alone; others end it as a step of its own
-  std::function<bool(const Session&)> checked;                       // null: it switches nothing
-  std::function<std::vector<ActionChoice>(const Session&)> choices;  // null: as `usage` says
+  // does not end a drag in progress; other actions end it as its own undo step
+  bool duringDrag = false;
+  std::function<bool(const Session&)> checked;  // null: the action is not a toggle
+  std::function<std::vector<ActionChoice>(const Session&)> choices;  // null: see `usage`
 };
 
-// The keys of action texts: "tool.move", "bookmark.go 3".
+// Keys by action text: "tool.move", "bookmark.go 3".
 using KeyMap = std::map<std::string, std::vector<Chord>>;
 
 class ActionRegistry {
  public:
   void add(Action action);
-  // A key for an action with these arguments, besides the shortcut of the action itself.
+  // Binds a key to an action with these arguments, in addition to the shortcut of the action
+  // itself.
   void addKey(const std::string& text, const std::string& shortcut);
   const Action* find(const std::string& name) const;
   const std::map<std::string, Action>& all() const { return actions_; }
-  // What "name arg arg" asks for; arguments with spaces in double quotes. Throws InputError for a
-  // name that there is not, or arguments where it takes none.
+  // A parsed "name arg arg". Arguments with spaces are in double quotes. Throws InputError if the
+  // action does not exist, or for arguments if it takes none.
   struct Call {
     const Action& action;
     std::vector<std::string> arguments;
   };
   Call parse(std::string_view text) const;
 
-  // The keys that the actions come with, and those that are bound now; the shortcuts of actions are
-  // what is bound.
+  // The default keys, and the keys that are bound now. The shortcuts of the actions show the bound
+  // keys.
   const KeyMap& defaultKeys() const { return defaultKeys_; }
   void setKeys(KeyMap keys);
-  // As menus show them, "" for none.
+  // Text for menus; "" for none.
   std::string keysOf(const std::string& text) const;
-  // The text bound to a key, "" for none; and the action that it names, or null.
+  // The action text that is bound to a key, "" for none; and its action, or null.
   std::string textForKey(Key key, Modifiers modifiers) const;
   const Action* forKey(Key key, Modifiers modifiers) const;
 

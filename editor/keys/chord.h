@@ -1,4 +1,4 @@
-// A key with what is held with it, and its text: "Ctrl+Shift+Z".
+// A key with its modifiers, and its text form: "Ctrl+Shift+Z".
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@ struct Chord {
   bool operator==(const Chord&) const = default;
 };
 
-// None: it names no key, or holds what is no modifier.
+// None if the text has no key or an unknown modifier.
 std::optional<Chord> parseChord(const std::string& text);
 std::string chordText(const Chord& chord);
-// Several ways to press the same: "Ctrl+Y, Ctrl+Shift+Z". None where one of them is no chord.
+// Alternative chords: "Ctrl+Y, Ctrl+Shift+Z". None if one of them is not a chord.
 std::optional<std::vector<Chord>> parseChords(const std::string& text);
 std::string chordsText(const std::vector<Chord>& chords);
 

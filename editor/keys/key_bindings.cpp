@@ -20,7 +20,7 @@ std::string excerpt(const std::string& text) {
   return out.size() > 60 ? out.substr(0, 57) + "..." : out;
 }
 
-// Whose keys some of these are, other than `text`; "" where none are taken.
+// The action, other than `text`, that has one of these keys; "" if there is none.
 std::string ownerOf(const KeyMap& keys, const Chord& chord, const std::string& text) {
   for (const auto& [owner, chords] : keys) {
     if (owner != text && std::find(chords.begin(), chords.end(), chord) != chords.end())
@@ -67,7 +67,7 @@ KeyMap resolveKeys(const ActionRegistry& registry, const KeyList& preset, const 
 
   std::set<std::string> ofFile;
   for (const auto& [text, chord] : file) ofFile.insert(text);
-  std::vector<std::string> bound;  // by the file so far
+  std::vector<std::string> bound;  // bound by the file so far
   for (const auto& entry : file) {
     const std::string& text = entry.first;
     if (registry.find(text.substr(0, text.find(' '))) == nullptr) {

@@ -1,9 +1,9 @@
-// Which keys run which actions: the actions' own shortcuts, over these a preset's, over those the
-// user's file keys.json, an object of action text and chord:
+// Maps keys to actions. A preset overrides the default shortcuts of the actions. The user's file
+// keys.json overrides the preset. It is an object of action texts and chords:
 //
 //   {"tool.move": "G", "light.add disk": "Ctrl+Shift+D", "view.vpls": ""}
 //
-// "" takes the keys away. Recordings are played with the actions' own shortcuts.
+// "" removes the keys of an action. Replays use the default shortcuts only.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@
 
 namespace lamplighter {
 
-// Action texts and chords, in the order given.
+// Action texts and chords, in file order.
 using KeyList = std::vector<std::pair<std::string, std::string>>;
 
-// Each problem is one line that says which entry and what is wrong with it; the entry is left out.
-// Never throws for a bad text.
+// Each problem is one line with the entry and its error; the entry is ignored. Never throws for
+// invalid text.
 KeyList parseKeys(std::string_view text, std::vector<std::string>& problems);
 
-// All keys. What is bound later takes the key from what had it; two entries of the file that want
-// the same key, and actions that lose theirs to the file, are told.
+// All keys. A later binding takes a key from an earlier one. Reports two entries of the file that
+// use the same key, and actions that lose their key to the file.
 KeyMap resolveKeys(const ActionRegistry& registry, const KeyList& preset, const KeyList& file,
                    std::vector<std::string>& problems);
 

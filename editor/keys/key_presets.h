@@ -1,5 +1,5 @@
-// Sets of keys for the tools that are used most: after the row of the keyboard (W E R) or after the
-// words (G R S, grab, rotate, scale).
+// Presets of keys for the most used tools: by keyboard row (W E R), or by initials (G R S for grab,
+// rotate, scale).
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace lamplighter {
 
 std::vector<std::string> keyPresetNames();
-// What a preset binds otherwise than the actions' own shortcuts: action text and chords.
+// The bindings of a preset that differ from the default shortcuts: action text and chords.
 const std::vector<std::pair<std::string, std::string>>& keysOfPreset(const std::string& name);
 
 }  // namespace lamplighter

@@ -11,13 +11,14 @@
 namespace lamplighter {
 namespace {
 
-// Copies are averaged down to at most so many pixels a side: what edges do from frame to frame is
-// not what is waited for, and a thousand copies stay small.
+// Copies are averaged down to at most this number of pixels per side. Changes at edges from frame
+// to frame then do not count, and a thousand copies stay small.
 constexpr int kSide = 80;
-// So many copies at most; then every second one goes. 256 of 80 x 45 pixels are 11 MB.
+// The maximum number of copies; then every second copy is dropped. 256 copies of 80 x 45 pixels
+// take 11 MB.
 constexpr size_t kMostSeen = 256;
 constexpr size_t kMostResults = 1000;
-// Pictures that differ by less than this share of their mean are the same to the eye.
+// Relative difference below which two pictures look the same.
 constexpr double kInvisible = 1e-4;
 
 Image smallCopy(RadianceImage& picture) {
@@ -68,7 +69,7 @@ void EditLatency::frame(const Frame& frame) {
     begin_ = frame.begin;
     frames_ = 0;
     stride_ = 1;
-    // Where the edit before was not done yet its copy of the last frame is at hand.
+    // If the previous edit was still measured, its copy of the last frame is used.
     before_ = smallCopy(*last);
     seen_.clear();
   } else if (!sameView) {
@@ -101,7 +102,8 @@ void EditLatency::finish() {
   result.settled = moment(seen_.back());
   for (size_t i = 0; i < kLatencyPercents.size(); ++i) {
     const double most = start * (1.0 - kLatencyPercents[i] / 100.0);
-    // From the end back as long as it is near enough: for good, and not in passing.
+    // Searches backwards from the end while the pictures are close enough: only a permanent
+    // approach counts.
     size_t first = seen_.size() - 1;
     while (first > 0 && distance(seen_[first - 1].picture, settled) <= most) --first;
     result.within[i] = moment(seen_[first]);

@@ -1,4 +1,4 @@
-// Edit latencies as figures: for the reports of replays.
+// Statistics of edit latencies for the reports of replays.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@
 
 namespace lamplighter {
 
-// "3 edits seen: 95% in 4 frames (median), 12 at most"; counted by frames alone, so that it is the
-// same on every machine. "": none was measured.
+// "3 edits seen: 95% in 4 frames (median), 12 at most". Counts frames only, so that the text is the
+// same on every machine. "": nothing was measured.
 std::string latencySummary(const EditLatency& latency);
-// Every edit, with frames and milliseconds.
+// Every edit with its frames and milliseconds.
 nlohmann::ordered_json latencyJson(const EditLatency& latency);
 
 }  // namespace lamplighter

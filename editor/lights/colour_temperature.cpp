@@ -8,7 +8,7 @@ namespace lamplighter {
 
 namespace {
 
-// Of CIE XYZ to linear Rec. 709, white point D65 (ITU-R BT.709-6; columns are X, Y, Z).
+// CIE XYZ to linear Rec. 709, white point D65 (ITU-R BT.709-6; columns are X, Y, Z).
 const mat3 kRec709FromXyz(3.2404542f, -0.9692660f, 0.0556434f,   // X
                           -1.5371385f, 1.8760108f, -0.2040259f,  // Y
                           -0.4985314f, 0.0415560f, 1.0572252f);  // Z
@@ -22,10 +22,10 @@ vec2 uvOf(const vec3& rgb) {
 
 vec2 locusAt(double mired) { return uvOf(planckianColour(static_cast<float>(1e6 / mired))); }
 
-// Even steps in mired are about even steps along the curve.
+// Uniform steps in mired are nearly uniform steps along the curve.
 constexpr double kFirst = 1e6 / kMostKelvin, kLast = 1e6 / kLeastKelvin, kStep = 4.0;
 
-// The curve at these steps.
+// The points of the curve at these steps.
 const std::vector<vec2>& locus() {
   static const std::vector<vec2> kLocus = [] {
     std::vector<vec2> points;

@@ -1,4 +1,5 @@
-// Colours of black bodies, as light is named in shops: 2700 K is a warm lamp, 6500 K daylight.
+// Colours of black bodies by temperature, as used for lamps: 2700 K is a warm lamp, 6500 K is
+// daylight.
 #pragma once
 
 #include <optional>
@@ -9,17 +10,18 @@ namespace lamplighter {
 
 inline constexpr float kLeastKelvin = 1000.0f, kMostKelvin = 15000.0f;
 
-// Linear Rec. 709 of luminance 1. What lies outside of its gamut, below about 1900 K, has no blue.
+// Linear Rec. 709 with luminance 1. Colours outside the gamut, below about 1900 K, have no blue.
 // The chromaticity is Krystek's fit (M. Krystek, "An algorithm to calculate correlated colour
-// temperature", Color Research & Application 10(1), 1985), good to 8e-5 in CIE 1960 u and v from
-// 1000 to 15000 K.
+// temperature", Color Research & Application 10(1), 1985), accurate to 8e-5 in CIE 1960 u and v
+// from 1000 to 15000 K.
 vec3 planckianColour(float kelvin);
 
-// The temperature whose colour is nearest in CIE 1960 u and v; none for black and for colours that
-// are farther than 0.0054 from all of them, up to which CIE 13.3 takes a lamp for white.
+// The temperature with the nearest colour in CIE 1960 u and v. None for black, and for colours
+// whose distance to all of them is over 0.0054, the limit up to which CIE 13.3 accepts a lamp as
+// white.
 std::optional<float> temperatureOf(const vec3& colour);
 
-// The colour with another temperature and the same luminance.
+// Changes the temperature of a colour and keeps its luminance.
 vec3 withTemperature(const vec3& colour, float kelvin);
 
 }  // namespace lamplighter

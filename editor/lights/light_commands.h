@@ -1,4 +1,4 @@
-// Which groups of lights there are and how they and the sky stand.
+// The light groups of a document, and the states of the groups and of the sky.
 #pragma once
 
 #include <utility>

@@ -21,7 +21,7 @@ std::vector<LightSource> requireLights(const Editing& editing) {
   return lights;
 }
 
-// Several commands as one step.
+// Makes several commands one undo step.
 class OneStep {
  public:
   OneStep(const Editing& editing, const std::string& label)
@@ -90,7 +90,7 @@ void editLights(const Editing& editing, LightOperation operation, LightProperty 
     const auto now = valueOf(scene, light, property, own);
     double wanted = value;
     if (operation != LightOperation::set) {
-      // Light of a colour that is no temperature has none to be changed.
+      // A colour that is not near a colour temperature has no temperature to change.
       if (!now) continue;
       wanted = isFactor ? *now * value : *now + value;
     }

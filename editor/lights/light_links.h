@@ -1,4 +1,4 @@
-// Which objects lights leave out, as it is edited (renderer/scene/light_linking.h).
+// Edits of light linking: which objects a light excludes (renderer/scene/light_linking.h).
 #pragma once
 
 #include <vector>
@@ -7,14 +7,14 @@
 
 namespace lamplighter {
 
-// Of what is selected, what is no light.
+// The selected nodes that are not lights.
 std::vector<NodeId> selectedObjects(const Document& document);
-// What any of the selected lights leaves out and is there, by itself and not through a parent.
+// The existing objects that any selected light excludes directly, not through a parent.
 std::vector<NodeId> leftOutBySelection(const Document& document);
 
-// From now on these lights (kNoNode: the sky) leave these objects out, or do so no more. One step.
-// Throws InputError when there are no lights or no objects, for a light that would leave out itself
-// alone, and when the scene would have more lists that differ than it can (kMostLinks).
+// Makes these lights (kNoNode: the sky) exclude these objects, or include them again. One undo
+// step. Throws InputError if there are no lights or no objects, if a light would exclude only
+// itself, or if the scene would have more than kMostLinks different lists.
 void leaveOut(const Editing& editing, const std::vector<NodeId>& lights,
               const std::vector<NodeId>& objects, bool out);
 

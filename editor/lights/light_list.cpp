@@ -21,21 +21,21 @@ float areaOf(const Primitive& p, const mat4& world) {
   return static_cast<float>(area);
 }
 
-// The solid angle of a spot's cone, each direction by its share of the intensity on the axis: KHR's
-// falloff squared is linear between the cones, so that ∫ = 2π [(1 − cos i) + (cos i − cos o)/3].
+// The solid angle of a spot's cone, weighted by the intensity relative to the axis. The square of
+// KHR's falloff is linear between the cones, so ∫ = 2π [(1 − cos i) + (cos i − cos o)/3].
 double spotSolidAngle(const PunctualLight& l) {
   const double inner = std::cos(l.innerCone), outer = std::cos(l.outerCone);
   return 2.0 * static_cast<double>(kPi) * ((1.0 - inner) + (inner - outer) / 3.0);
 }
 
-// A lamp that gives less when it is tilted is measured as it hangs.
+// A lamp whose output depends on its tilt is measured at its current tilt.
 LightMeasure punctualMeasure(const PunctualLight& l, const mat4& world) {
   const bool isSpot = l.kind == PunctualKind::spot;
   if (l.profile && l.kind != PunctualKind::directional) {
     const vec3 aim = mat3(world) * vec3(0, 0, -1);
     const float length = glm::length(aim);
     const float tilt = l.profile->atTilt(length > 0.0f ? aim / length : vec3(0, 0, -1));
-    constexpr double kLeast = 1e-3;  // one that gives nothing as it hangs can be set all the same
+    constexpr double kLeast = 1e-3;  // a lamp without output at its tilt can still be set
     return {isSpot ? LightKind::spot : LightKind::point, 0.0, 0.0,
             std::max(static_cast<double>(tilt), kLeast), l.profile->solidAngle};
   }
@@ -50,7 +50,7 @@ LightMeasure punctualMeasure(const PunctualLight& l, const mat4& world) {
   return {};
 }
 
-// Calls visit(primitive, material) for what emits.
+// Calls visit(primitive, material) for each emissive primitive.
 template <typename Visit>
 void forEachEmissive(const Scene& scene, const Node& node, Visit visit) {
   if (node.mesh == kNone) return;

@@ -1,5 +1,5 @@
-// The lights of a scene, of every kind, and what is theirs whatever carries it: area and punctual
-// lights on nodes, emissive materials on meshes, the sky.
+// All lights of a scene, and the properties that lights of every kind have: area and punctual
+// lights on nodes, emissive materials on meshes, and the sky.
 #pragma once
 
 #include <vector>
@@ -15,18 +15,18 @@ struct LightSource {
   LightMeasure measure;
 };
 
-// In the order of the nodes; the sky last, unless it is black.
+// In node order. The sky is last, unless it is black.
 std::vector<LightSource> lightsOf(const Scene& scene);
-// Those of them that are selected.
+// The selected ones of these lights.
 std::vector<LightSource> selectedLights(const Document& document);
-// Of one node that is a light.
+// The measure of a node that is a light.
 LightMeasure measureOf(const Scene& scene, const Node& node, const mat4& world);
 
-// Radiance, intensity or irradiance, as the kind has it. A mesh: the mean over what emits, textures
-// aside; a sky: over the sphere, a picture's scale alone.
+// Radiance, intensity or irradiance, depending on the kind. Mesh: the mean over the emissive
+// surfaces, without textures. Sky: the mean over the sphere; for a picture, only its scale.
 vec3 emissionOf(const Scene& scene, const LightSource& light);
 const LightState& stateOf(const Scene& scene, const LightSource& light);
-// The materials by which a mesh emits, each once.
+// The emissive materials of a mesh, each once.
 std::vector<int> emissiveMaterials(const Scene& scene, const Node& node);
 
 }  // namespace lamplighter

@@ -15,7 +15,7 @@ PunctualLight withProfile(const Scene& scene, const Node& node,
   const auto lumens = [&](const Node& n) {
     return unitsPerRadiance(measureOf(scene, n, worldMatrix(scene, n.id)), LightUnit::lumens);
   };
-  // A lamp that gives none at this tilt keeps its intensity.
+  // A lamp without output at this tilt keeps its intensity.
   if (lumens(node) > 0.0 && lumens(with) > 0.0)
     with.punctual->intensity *= static_cast<float>(lumens(node) / lumens(with));
   return *with.punctual;

@@ -1,4 +1,4 @@
-// Profiles of IES files on lights.
+// IES profiles of lights.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,9 @@
 
 namespace lamplighter {
 
-// Whether a light of this kind can have a profile: point and spot.
+// Whether a light of this kind can have a profile (point and spot lights).
 bool takesProfile(const Node& node);
-// The light with another profile, or none, and as many lumens as before.
+// The light with another profile, or none, and with the same luminous flux.
 PunctualLight withProfile(const Scene& scene, const Node& node,
                           std::shared_ptr<const IesProfile> profile);
 

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kMostStrength = 1e8;  // of the renderer's units, as in the inspector
 
-// What was changed by this edit already, or what is there.
+// The node as this edit has changed it so far, or else the current node.
 Node& nodeIn(LightEdit& edit, const Node& now) {
   const auto it = std::find_if(edit.nodes.begin(), edit.nodes.end(),
                                [&](const Node& n) { return n.id == now.id; });
   return it == edit.nodes.end() ? edit.nodes.emplace_back(now) : *it;
 }
 
-// Gives it the emission; of a mesh all materials by what is changed of their mean, each once.
+// Sets the emission. For a mesh, scales each emissive material once by the change of the mean.
 bool setEmission(const Scene& scene, const LightSource& light, const vec3& emission,
                  LightEdit& edit) {
   if (light.node == kNoNode) return false;
@@ -118,7 +118,7 @@ CommonValue commonValue(const Scene& scene, const std::vector<LightSource>& ligh
     out.least = std::min(out.least, *value);
     out.most = std::max(out.most, *value);
   }
-  // Temperatures are found from colours, and so to a kelvin.
+  // Temperatures are computed from colours, so they are accurate to one kelvin.
   const double same = property == LightProperty::temperature ? 1.0 : 1e-6 * std::abs(out.most);
   out.isMixed = out.most - out.least > same || out.hasMixedUnits;
   return out;

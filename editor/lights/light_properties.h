@@ -1,4 +1,4 @@
-// What can be set for many lights at once, as one number each.
+// Properties that can be set for several lights at once, each as one number.
 #pragma once
 
 #include <optional>
@@ -15,39 +15,40 @@ struct LightPropertyInfo {
   LightProperty property;
   const char* name;   // in actions
   const char* label;  // in the panel
-  const char* unit;   // as shown; intensity has units of its own
+  const char* unit;   // displayed unit; intensity has its own units
   double least, most;
 };
 const std::vector<LightPropertyInfo>& lightProperties();
 const LightPropertyInfo& lightPropertyInfo(LightProperty property);
 
-// In metres, degrees, kelvin; intensity in `unit`, or in the one unitFor() gives instead. None
-// where the light has no such property: a disk has no height, a green light no temperature.
+// The value in metres, degrees or kelvin. Intensity is in `unit`, or in the replacement that
+// unitFor() gives. None if the light does not have the property: a disk has no height, a green
+// light no temperature.
 std::optional<double> valueOf(const Scene& scene, const LightSource& light, LightProperty property,
                               LightUnit unit);
 
-// The values of many lights as one field shows them.
+// The values of several lights, as one field shows them.
 struct CommonValue {
-  int count = 0;         // lights that have it
-  bool isMixed = false;  // and not all the same, to six digits
+  int count = 0;         // number of lights that have the property
+  bool isMixed = false;  // their values differ in the first six digits
   double least = 0.0, most = 0.0;
-  LightUnit unit = LightUnit::lumens;  // intensity: that of the first
-  bool hasMixedUnits = false;          // intensity: some have another
-  // In which an intensity is to be typed: the one that all have, or the one that was asked for.
+  LightUnit unit = LightUnit::lumens;  // intensity: unit of the first light
+  bool hasMixedUnits = false;          // intensity: the lights have different units
+  // The unit of an intensity that the user types: the common unit of all lights, or else `wanted`.
   LightUnit unitOr(LightUnit wanted) const { return count > 0 && !hasMixedUnits ? unit : wanted; }
 };
 CommonValue commonValue(const Scene& scene, const std::vector<LightSource>& lights,
                         LightProperty property, LightUnit unit);
 
-// The light with the property at a value, as a node and, for meshes, materials. False where it has
-// no such property. Values are clamped to those that it can have.
+// A light with the property set to a value: its node and, for meshes, its materials. False if the
+// light does not have the property. Values are clamped to the valid range.
 struct LightEdit {
   std::vector<Node> nodes;
   std::vector<std::pair<int, Material>> materials;
 };
 bool setValue(const Scene& scene, const LightSource& light, LightProperty property, LightUnit unit,
               double value, LightEdit& edit);
-// The same for its colour, whose luminance stays.
+// Sets the colour and keeps the luminance.
 bool setColour(const Scene& scene, const LightSource& light, const vec3& colour, LightEdit& edit);
 
 }  // namespace lamplighter

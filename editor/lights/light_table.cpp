@@ -21,7 +21,7 @@ vec2 sizeOf(const Scene& scene, const LightSource& light) {
   return isRound ? vec2(node.area->size.x) : node.area->size;
 }
 
-// What a column is sorted by: a text or a number; neither where it shows nothing.
+// The sort key of a row: a text or a number; neither if the cell is empty.
 struct SortKey {
   std::string text;
   std::optional<double> number;
@@ -41,7 +41,7 @@ SortKey keyOf(const LightRow& r, LightColumn column) {
       return {r.name, {}};
     case LightColumn::kind:
       return {kindLabel(r.source.measure.kind), {}};
-    case LightColumn::colour: {  // by saturation: whites together
+    case LightColumn::colour: {  // by saturation: white lights are together
       const float most = std::max({r.colour.r, r.colour.g, r.colour.b});
       const float least = std::min({r.colour.r, r.colour.g, r.colour.b});
       return {"", most > 0.0f ? 1.0 - static_cast<double>(least / most) : 0.0};
@@ -49,7 +49,7 @@ SortKey keyOf(const LightRow& r, LightColumn column) {
     case LightColumn::temperature:
       return {"", r.kelvin ? std::optional<double>(*r.kelvin) : std::nullopt};
     case LightColumn::strength:
-      return {unitSymbol(r.unit), r.strength};  // those of one unit together
+      return {unitSymbol(r.unit), r.strength};  // lights with the same unit are together
     case LightColumn::size:
       return {"", r.size.x > 0.0f ? std::optional<double>(static_cast<double>(r.size.x * r.size.y))
                                   : std::nullopt};
@@ -75,7 +75,7 @@ SortKey keyOf(const LightRow& r, LightColumn column) {
   return {};
 }
 
-// Goes through the patches as the method looks at them: parts of one that is divided, or all of it.
+// Visits the patches of the method: the parts of a divided patch, or the whole patch.
 template <typename Visit>
 void forEachPatch(const VisibilityDatabase& visibility, Visit visit) {
   std::vector<int> open;
@@ -166,7 +166,7 @@ std::map<NodeId, LightFigures> lightFigures(const Inspection& in, double lightSe
     }
     if (!light.isLive) continue;
     ++f.samples;
-    ++f.work;  // the sample itself, also where nothing is known of patches
+    ++f.work;  // the sample itself, even without information on patches
     if (light.slot < 0) continue;
     const auto slot = static_cast<size_t>(light.slot);
     if (bySlot.size() <= slot) bySlot.resize(slot + 1, nullptr);
@@ -181,7 +181,7 @@ std::map<NodeId, LightFigures> lightFigures(const Inspection& in, double lightSe
         LightFigures* f = bySlot[slot];
         if (f == nullptr || static_cast<Occlusion>(row[slot]) == Occlusion::full) continue;
         ++f->work;
-        if (f == last) continue;  // samples of a light stand together, mostly
+        if (f == last) continue;  // samples of a light are mostly adjacent
         last = f;
         if (std::find(reached.begin(), reached.end(), f) == reached.end()) reached.push_back(f);
       }

@@ -1,5 +1,5 @@
-// The light table: a row for each light of the scene, with what the user set and what the method
-// makes of it. Plain data; the panel only draws it.
+// The light table: one row for each light of the scene, with the user's settings and the costs in
+// the method. This is plain data; the panel only draws it.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@
 
 namespace lamplighter {
 
-// What a light costs and brings, by the method's own account.
+// Cost and contribution of a light, as reported by the method.
 struct LightFigures {
-  int samples = 0;            // its VPLs that are shown, bounced ones included
-  int patches = 0;            // patches that at least one of them reaches, wholly or in part
+  int samples = 0;            // its VPLs in the inspection, with bounces
+  int patches = 0;            // patches that at least one of its VPLs reaches, fully or partly
   uint64_t work = 0;          // VPLs × patches that they reach
-  int mapsPending = 0;        // VPLs that wait to be brought up to date
-  int age = 0;                // frames that the oldest of these has waited
-  double milliseconds = 0.0;  // its part, by work, of the time that a frame takes for light
-  double share = 0.0;         // its part of the flux of all that shine
+  int mapsPending = 0;        // VPLs that wait for an update
+  int age = 0;                // longest wait of these, in frames
+  double milliseconds = 0.0;  // its part of the frame's lighting time, in proportion to `work`
+  double share = 0.0;         // its part of the flux of all active lights
 
   bool operator==(const LightFigures&) const = default;
 };
@@ -30,14 +30,14 @@ struct LightFigures {
 struct LightRow {
   LightSource source;
   std::string name;
-  vec3 colour{1.0f};            // of luminance 1; white for black ones
-  std::optional<float> kelvin;  // where the colour is near a temperature's
+  vec3 colour{1.0f};            // luminance 1; white for black lights
+  std::optional<float> kelvin;  // only if the colour is close to a colour temperature
   double strength = 0.0;        // in `unit`
   LightUnit unit = LightUnit::lumens;
   vec2 size{0.0f};  // [m]; a mesh: √area
   LightState state;
   bool visible = true;
-  bool shines = true;  // by all states together, hidden ones aside
+  bool shines = true;  // on, considering all states except hidden
   bool selected = false;
   LightFigures figures;
 };
@@ -60,16 +60,18 @@ enum class LightColumn {
   age
 };
 
-// Rows as the document has them, in the order of its nodes, without figures.
+// Rows from the document, in node order, without figures.
 std::vector<LightRow> lightRows(const Document& document, LightUnit unit);
-// Stable, by what the column shows; rows that show nothing there come last both ways.
+// Stable sort by the displayed value of the column. Rows without a value are last in both
+// directions.
 void sortRows(std::vector<LightRow>& rows, LightColumn column, bool ascending);
-// The ids of rows from one to another, as a click with Shift selects; the clicked one last.
+// The ids of the rows between two rows, for a click with Shift. The clicked row is last.
 std::vector<NodeId> rowsBetween(const std::vector<LightRow>& rows, NodeId from, NodeId to);
 
-// By light; the sky under kNoNode. `lightSeconds`: what the method took for light in one frame.
+// Figures by light; the sky is kNoNode. `lightSeconds`: the lighting time of the method in one
+// frame.
 std::map<NodeId, LightFigures> lightFigures(const Inspection& inspection, double lightSeconds);
-// Each light's part of all flux in the scene, by luminance.
+// The part of each light in the total flux of the scene, by luminance.
 std::map<NodeId, double> fluxShares(const RenderScene& scene);
 
 }  // namespace lamplighter

@@ -13,7 +13,7 @@ namespace lamplighter {
 
 namespace {
 
-// A number and what follows it; thousands may be parted by commas.
+// A number and the rest of the text. Commas may separate thousands.
 struct Typed {
   double value = 0.0;
   std::string rest;

@@ -1,4 +1,4 @@
-// Cells of the light table that are edited in place: what is typed, for all selected lights.
+// Edits cells of the light table in place. The typed text applies to all selected lights.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace lamplighter {
 
-// Whether the column's cells can be typed in.
+// Whether the cells of the column accept text.
 bool isTyped(LightColumn column);
-// "strength" and so on, in actions and names of widgets.
+// "strength" etc., for actions and widget names.
 const char* columnName(LightColumn column);
-// The selected lights with the text for the cell, one step: "lamp", "800 lm", "2700 K", "1.2 x
-// 0.6", "kitchen". A strength without a unit is in `shown`. Where many are selected names are
-// numbered. Throws InputError for what is no such value.
+// Applies the cell text to the selected lights, as one undo step: "lamp", "800 lm", "2700 K", "1.2
+// x 0.6", "kitchen". A strength without a unit is in `shown`. If several lights are selected, their
+// names get numbers. Throws InputError if the text is not a valid value.
 void editLightTableCells(const Editing& editing, LightColumn column, const std::string& text,
                          LightUnit shown);
 

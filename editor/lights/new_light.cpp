@@ -11,9 +11,10 @@ namespace lamplighter {
 namespace {
 
 constexpr float kSpotInner = 0.35f, kSpotOuter = 0.7f;  // 20° and 40°
-constexpr float kSunTilt = 0.6f;                        // from straight down; shadows to be seen
+constexpr float kSunTilt = 0.6f;  // from straight down, so that shadows are visible
 
-// The strength of a light of one unit's: the irradiance E at the distance, at π E^-1 · 0.4.
+// The strength of a light, given its irradiance E at the distance for unit strength: 0.4 · 2^−EV ·
+// π / E.
 float strengthFor(float irradiance, float exposureEv) {
   return 0.4f * std::exp2(-exposureEv) * kPi / irradiance;
 }
@@ -25,7 +26,7 @@ AreaLight areaLight(AreaShape shape, float distance, float exposureEv) {
   light.size = vec2(size);
   if (shape == AreaShape::tube) light.size = vec2(2.0f * size, std::max(0.1f * size, 0.01f));
   const float height = std::clamp(distance, 0.2f, 3.0f);
-  // L A / h² · ρ/π = 0.4 · 2^−EV, with what is seen of it from below as A.
+  // L A / h² · ρ/π = 0.4 · 2^−EV, where A is the area visible from below.
   light.radiance = vec3(0.4f * std::exp2(-exposureEv) * kPi * height * height /
                         projectedAreaOf(light, mat4(1.0f)));
   return light;
@@ -56,7 +57,7 @@ Node newLight(const std::string& kind, float distance, float exposureEv) {
   const auto& kinds = newLightKinds();
   const auto index = std::find(kinds.begin(), kinds.end(), kind) - kinds.begin();
   Node n;
-  // Facing down: the light's −Z along the world's −Y.
+  // Face down: map the light's −Z to the world's −Y.
   n.local.rotation = glm::angleAxis(-0.5f * kPi, vec3(1, 0, 0));
   switch (index) {
     case 0:

@@ -1,4 +1,4 @@
-// Lights as they are when they are put into a scene: of a size and strength that suit the place.
+// Creates lights whose size and strength fit the place where they are added.
 #pragma once
 
 #include <string>
@@ -11,8 +11,9 @@ namespace lamplighter {
 // rectangle, disk, sphere, tube, spot, point, sun
 const std::vector<std::string>& newLightKinds();
 
-// A light that shows a white surface at `distance` [m] before it as 0.4 · 2^−EV: mid-grey to white
-// at that exposure. Its size follows the distance, too. Throws InputError for an unknown kind.
+// The strength is chosen so that a white surface at `distance` [m] from the light has the radiance
+// 0.4 · 2^−EV, which that exposure shows between mid-grey and white. The size also follows the
+// distance. Throws InputError for an unknown kind.
 Node newLight(const std::string& kind, float distance, float exposureEv);
 
 }  // namespace lamplighter

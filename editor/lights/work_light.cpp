@@ -6,7 +6,7 @@
 namespace lamplighter {
 
 float workLightIntensity(float distance, float exposureEv) {
-  // I/d² · ρ/π = 0.06 · 2^−EV, with ρ = 0.5: what is nearer, and what is bounced, is brighter.
+  // I/d² · ρ/π = 0.06 · 2^−EV with ρ = 0.5. Nearer surfaces and bounced light are brighter.
   return 0.06f * std::exp2(-exposureEv) * kPi / 0.5f * distance * distance;
 }
 
@@ -26,7 +26,8 @@ const Scene& WorkLight::with(const Scene& scene, const View& view, float intensi
   lamp.punctual = PunctualLight{PunctualKind::point, vec3(intensity)};
   lit_ = scene;
   lit_.nodes.push_back(lamp);
-  if (!shiningLights(lit_).nodes.back()) lit_.nodes.back().light.solo = true;  // whatever is solo
+  // stays on when other lights are solo
+  if (!shiningLights(lit_).nodes.back()) lit_.nodes.back().light.solo = true;
   if (wasOn) {
     if (lamp.local.translation != lamp_.local.translation) changes.moved.push_back(kWorkLight);
     if (lamp.punctual != lamp_.punctual) changes.lights.push_back(kWorkLight);

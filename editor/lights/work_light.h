@@ -1,5 +1,5 @@
-// A lamp at the camera that lights dark scenes while they are worked on. It is put into the scene
-// that is rendered, never into the document.
+// A lamp at the camera that lights dark scenes during editing. It is added to the rendered scene,
+// never to the document.
 #pragma once
 
 #include "renderer/scene/camera.h"
@@ -7,16 +7,16 @@
 
 namespace lamplighter {
 
-// Never given to a node of a document.
+// No node of a document has this id.
 inline constexpr NodeId kWorkLight = ~NodeId{0};
 
-// Candela by which a grey surface at a distance [m] is well to be seen at an exposure.
+// The intensity [cd] that makes a grey surface at a distance [m] clearly visible at an exposure.
 float workLightIntensity(float distance, float exposureEv);
 
-// The scene that is rendered. Copies it while there is a work light.
+// The rendered scene. Copies the document's scene only while the work light is on.
 class WorkLight {
  public:
-  // `changes` become those of the result since the last call.
+  // `changes` receives the changes of the result since the last call.
   const Scene& with(const Scene& scene, const View& view, float intensity, SceneChanges& changes);
 
  private:

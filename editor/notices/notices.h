@@ -1,5 +1,5 @@
-// What happened, in the order it happened: saved, undone, refused. The status line shows the last,
-// toasts the newest, the log panel all that are kept.
+// Messages about events, in order: saved, undone, rejected. The status line shows the last one,
+// toasts show the newest ones, and the log panel shows all that are kept.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@
 
 namespace lamplighter {
 
-// A hint says what to do next; it goes as soon as anything else is told.
+// A hint says what to do next. The next notice removes it.
 enum class NoticeKind : uint8_t { info, hint, warning, error };
 
 struct Notice {
-  uint64_t id = 0;  // grows; another number once it happened again
+  uint64_t id = 0;  // increases; a repeated notice gets a new id
   NoticeKind kind = NoticeKind::info;
   std::string text;  // one line
-  int count = 1;     // how often it happened in a row
+  int count = 1;     // number of repetitions in a row
 };
 
 class Notices {
  public:
-  // The same again is counted, not listed twice. Empty texts are none.
+  // A repeated notice is counted and not listed twice. Empty texts are ignored.
   void add(NoticeKind kind, const std::string& text);
   void clear() { all_.clear(); }
-  const std::deque<Notice>& all() const { return all_; }  // the newest last
+  const std::deque<Notice>& all() const { return all_; }  // newest last
 
  private:
   static constexpr size_t kMost = 1000;

@@ -1,6 +1,6 @@
-// What a user sets once for all levels, and what the program remembers of them: declared here;
-// settings panel, file, actions and docs/reference/settings.md follow. No part of a level, and
-// never read where input is replayed or recorded.
+// The settings of a user for all levels, and the state that the program remembers. The settings are
+// declared here; the settings panel, the file, the actions and docs/reference/settings.md follow.
+// They are not part of a level. Replays and recordings never read them.
 #pragma once
 
 #include <filesystem>
@@ -11,26 +11,26 @@
 
 namespace lamplighter {
 
-// By their sections in the settings panel.
+// Grouped by the sections of the settings panel.
 struct PreferenceSection {
   std::string label;
   std::vector<ParameterSpec> specs;
 };
 const std::vector<PreferenceSection>& preferenceSections();
-// nullptr: there is none of that name.
+// nullptr if the name is unknown.
 const ParameterSpec* findPreference(const std::string& name);
 // Throws InputError.
 const ParameterSpec& preferenceNamed(const std::string& name);
 
 struct Preferences {
-  Settings values;                                      // those that differ from their defaults
-  std::vector<std::filesystem::path> recentFiles;       // the last one first
+  Settings values;                                      // only values that differ from the defaults
+  std::vector<std::filesystem::path> recentFiles;       // last opened first
   std::vector<std::filesystem::path> favouriteFolders;  // of the file dialog
   std::filesystem::path assetFolder;                    // of the asset browser
 
   bool operator==(const Preferences&) const = default;
 
-  // Values at their defaults are not kept. Throws InputError for an unknown name or bad value.
+  // Default values are not stored. Throws InputError for an unknown name or an invalid value.
   void setText(const std::string& name, const std::string& text);
   void set(const std::string& name, ParameterValue value);
   bool boolean(const char* name) const { return values.boolean(preferenceNamed(name)); }
@@ -40,9 +40,9 @@ struct Preferences {
 
   static constexpr size_t kMostRecent = 10;
   void addRecent(const std::filesystem::path& file);
-  // Folders of the recent files, each once.
+  // Folders of the recent files, without duplicates.
   std::vector<std::filesystem::path> recentFolders() const;
-  // A favourite, or none any more.
+  // Adds a favourite folder, or removes it if it is one.
   void toggleFavourite(const std::filesystem::path& folder);
 };
 

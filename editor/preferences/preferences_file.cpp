@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kSettingsFormat = 1;
 constexpr size_t kMostPaths = 100, kLongestPath = 4096;
 
-// Short, printable: a file may hold anything.
+// Shortens text and makes it printable, because a file may contain anything.
 std::string shown(const Json& j) {
   std::string text = j.dump(-1, ' ', true, Json::error_handler_t::replace);
   if (text.size() > 40) text = text.substr(0, 37) + "...";
@@ -26,7 +26,7 @@ std::string shown(const Json& j) {
 
 std::string shown(const std::string& text) { return shown(Json(text)); }
 
-// The value as the declaration wants it: a JSON number is int or float by that.
+// The value with the declared type, which decides whether a JSON number is int or float.
 ParameterValue valueOf(const ParameterSpec& spec, const Json& j) {
   const bool isText = std::holds_alternative<std::string>(spec.defaultValue);
   const bool isFlag = std::holds_alternative<bool>(spec.defaultValue);
@@ -115,7 +115,7 @@ std::string preferencesText(const Preferences& p) {
   for (const auto& [name, value] : p.values.values()) {
     std::visit(
         [&, key = name](const auto& v) {
-          // A float as a double has digits nobody wrote.
+          // A float converted to double would have extra digits.
           if constexpr (std::is_same_v<std::decay_t<decltype(v)>, float>)
             values[key] = std::stod(fmt::format("{}", v));
           else

@@ -9,8 +9,8 @@
 
 namespace lamplighter {
 
-// Takes what is sound; each problem is one line that says where and what is wrong, and leaves its
-// default. Never throws for a bad text.
+// Reads all valid values. Each problem is one line with its place and error; that value keeps its
+// default. Never throws for invalid text.
 Preferences parsePreferences(std::string_view text, std::vector<std::string>& problems);
 std::string preferencesText(const Preferences& preferences);
 

@@ -8,7 +8,7 @@
 namespace lamplighter {
 namespace {
 
-// One parameter's values in draft, work and final. Those of work are the defaults.
+// The values of one parameter in draft, work and final. The values of work are the defaults.
 struct Row {
   const ParameterSpec& spec;
   ParameterValue draft, final;

@@ -1,5 +1,5 @@
-// Sets of values for the budgets and qualities of all methods at once: quick to look at, to work
-// with, to keep.
+// Presets of budgets and quality parameters for all methods: draft for fast feedback, work for
+// editing, final for results.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace lamplighter {
 struct Preset {
   std::string name;  // "draft"
   std::string label, help;
-  Settings values;  // all of what presets set; the same parameters in each
+  Settings values;  // every preset sets the same parameters
 };
 
 // draft, work, final.
 const std::vector<Preset>& presets();
-// The settings with the preset's values; method, exposure and all else as they are. What is a
-// parameter's default is left unset.
+// The settings with the values of the preset. Method, exposure and all other settings stay
+// unchanged. Values equal to a parameter's default are left unset.
 RenderSettings withPreset(const RenderSettings& settings, const Preset& preset);
 bool hasPreset(const RenderSettings& settings, const Preset& preset);
 

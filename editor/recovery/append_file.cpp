@@ -53,7 +53,8 @@ void AppendFile::append(std::string_view text) {
     size_ += static_cast<int64_t>(text.size());
     return;
   }
-  // Half a line would end the journal for its reader. If this fails too, the next line covers it.
+  // An incomplete line would end the journal for readers. If this also fails, the next line
+  // overwrites it.
   if (::ftruncate(descriptor_, size_) != 0) errno = 0;
   throw InputError(path_.string(), std::string("cannot be written (") + std::strerror(error) + ")",
                    "free some space, or save your work now");
@@ -81,7 +82,7 @@ FileLock::~FileLock() {
 void syncFolder(const std::filesystem::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
-  if (::fsync(descriptor) != 0) errno = 0;  // some file systems cannot
+  if (::fsync(descriptor) != 0) errno = 0;  // some file systems do not support it
   ::close(descriptor);
 }
 

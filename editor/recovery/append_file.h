@@ -1,5 +1,5 @@
-// Files of the journal: lines that are on the disk when they are written, and a lock that ends with
-// its process however that ends.
+// File access of the journal: writes that are on the disk when they return, and a lock that ends
+// with its process, even after a crash.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@ namespace lamplighter {
 class AppendFile {
  public:
   AppendFile() = default;
-  // Begins the file; throws InputError.
+  // Creates the file. Throws InputError.
   explicit AppendFile(const std::filesystem::path& path);
   AppendFile(AppendFile&& other) noexcept;
   AppendFile& operator=(AppendFile&& other) noexcept;
   ~AppendFile();
 
   bool isOpen() const { return descriptor_ >= 0; }
-  // On the disk when this returns. Throws InputError with the file as it was.
+  // The text is on the disk when this returns. On failure, restores the file and throws InputError.
   void append(std::string_view text);
 
  private:
@@ -30,7 +30,7 @@ class AppendFile {
 class FileLock {
  public:
   FileLock() = default;
-  // Holds it from now on, or not: somebody else does. The file is made where it is not there.
+  // Tries to take the lock; fails if another process has it. Creates the file if it does not exist.
   explicit FileLock(const std::filesystem::path& path);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
@@ -41,7 +41,7 @@ class FileLock {
   int descriptor_ = -1;
 };
 
-// What was renamed or made in a folder stays so after a power failure.
+// Makes renamed and new files in a folder survive a power failure.
 void syncFolder(const std::filesystem::path& folder);
 
 }  // namespace lamplighter

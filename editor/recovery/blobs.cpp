@@ -33,7 +33,7 @@ std::string Blobs::put(std::span<const uint8_t> bytes) {
 }
 
 std::vector<uint8_t> Blobs::get(const std::string& name) const {
-  // A name, not a way to another folder.
+  // The name must not be a path to another folder.
   const bool isPlain = name.starts_with(kPrefix) && name.find('/') == std::string::npos;
   std::ifstream in(folder_ / name, std::ios::binary);
   std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -1,4 +1,4 @@
-// Bytes that are too many for a line of the journal: pasted meshes and pixels, pictures of skies.
+// Data that is too large for a line of the journal: pasted meshes and pixels, pictures of skies.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,12 @@
 
 namespace lamplighter {
 
-// Each in a file of its own, named by what is in it, so that it is written once.
+// Stores each blob in its own file. The name is derived from the content, so each blob is written
+// once.
 class Blobs {
  public:
   explicit Blobs(std::filesystem::path folder) : folder_(std::move(folder)) {}
-  // On the disk when this returns. Throws InputError.
+  // The bytes are on the disk when this returns. Throws InputError.
   std::string put(std::span<const uint8_t> bytes);
   std::vector<uint8_t> get(const std::string& name) const;  // throws InputError
 

@@ -1,5 +1,5 @@
-// What a session does so that no work is lost: it keeps a journal and offers what others have left.
-// Does nothing until it is started: replays and most headless runs have no journal.
+// Protects a session against loss of work: it keeps a journal, and offers the journals that killed
+// processes left. It does nothing until start(): replays and most headless runs have no journal.
 #pragma once
 
 #include <filesystem>
@@ -15,20 +15,21 @@ namespace lamplighter {
 
 class CrashRecovery {
  public:
-  // Keeps a journal in `root` from now on, and looks for what is left there.
+  // Starts a journal in `root` and searches there for recoverable journals.
   void start(std::filesystem::path root, int process, Journal::Clock clock,
              const Document& document);
   bool isOn() const { return journal_ != nullptr; }
   Journal* journal() { return journal_.get(); }
 
-  // What can be recovered, newest first.
+  // The recoverable sessions, newest first.
   const std::vector<Recoverable>& found() const { return found_; }
   void look();
 
   void opened(const Document& document);
-  // Why the edit is not in the journal, or empty.
+  // Call after a committed edit. Returns why the edit is not in the journal, or an empty text.
   std::string committed(const Document& document, const std::string& label);
-  // Around a save, which a journal that cannot be written does not hold up; why, or empty.
+  // Call before and after a save. A failure of the journal does not stop the save. Returns the
+  // reason, or an empty text.
   std::string saving();
   std::string saved(const Document& document);
   void adopt(Recovered recovered);

@@ -23,7 +23,7 @@ std::vector<T> valuesOf(const Json& list, Blobs& blobs) {
   return out;
 }
 
-// The indices of those that are in `base`, and the others as they are.
+// Stores the indices of the items that are in `base`, and the other items in full.
 template <typename T, typename Write>
 Json assets(const std::vector<T>& base, const std::vector<T>& values, Write write) {
   Json out = Json::array();
@@ -67,7 +67,7 @@ Json nodesDelta(const std::vector<Node>& from, const std::vector<Node>& to, Blob
     if (it == was.end() || !(*it->second == n)) set.push_back(toJson(n, blobs));
     order.push_back(n.id);
   }
-  std::vector<NodeId> expected;  // what is gone taken away, what is new at the end
+  std::vector<NodeId> expected;  // the order after deletions, with new nodes at the end
   for (const Node& n : from)
     if (stays.contains(n.id))
       expected.push_back(n.id);
@@ -115,7 +115,7 @@ void applyNodes(std::vector<Node>& nodes, const Json& delta, Blobs& blobs) {
   nodes = std::move(ordered);
 }
 
-// What the rest of the program takes for granted of a scene.
+// Checks the invariants that the rest of the program assumes of a scene.
 void checkIndices(const Scene& s) {
   const auto within = [](int i, size_t n) { return i == kNone || (i >= 0 && size_t(i) < n); };
   std::unordered_map<NodeId, bool> before;
@@ -139,7 +139,7 @@ void checkIndices(const Scene& s) {
 
 Json deltaBetween(const Scene& base, const Document& before, const Document& after, Blobs& blobs,
                   bool whole) {
-  // By structured bindings: a member that is added does not compile until it is written here too.
+  // Structured bindings: a new member does not compile until it is handled here.
   const auto& [name, nodes, meshes, materials, textures, cameras, nextId, sky, skyLight,
                lightGroups, bookmarks, skyIsDefault, source] = after.scene;
   const Scene& was = before.scene;

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string lineOf(const Json& json) {
-  // Names may hold bytes that are no UTF-8; better a name with a mark than no line.
+  // Names may contain invalid UTF-8. A name with a replacement character is better than no line.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -32,7 +32,7 @@ Journal::Journal(fs::path root, int process, Clock clock)
 void Journal::begin(const Document& document) {
   close();
   files_ = filesOf(document.scene);
-  // Of a level that came from no file there is nothing to refer to.
+  // A level without a file has no meshes or textures that the journal can refer to.
   base_ = files_.empty() ? Scene() : document.scene;
   last_ = document;
   savedHash_ = sceneHash(document.scene);

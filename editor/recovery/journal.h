@@ -1,14 +1,14 @@
-// What keeps the work when the program is killed: every committed edit is a line on the disk before
-// the edit counts as done. A session that has edits has a folder:
+// Keeps the work if the program is killed: every committed edit is written to the disk as one line
+// before the edit counts as done. A session with edits has a folder:
 //
-//   lock           held by the process that lives
-//   journal.jsonl  a header, the document as a whole, then each edit as the values it leaves
-//   level.glb      the level as it was opened, for its meshes and textures, once it is needed
-//   autosave.glb   the document as of the last autosave, for anybody to open
-//   blob-*         meshes and pixels that were pasted, pictures of skies
+//   lock           held by the running process
+//   journal.jsonl  a header, the whole document, then the new values of each edit
+//   level.glb      the level as opened, for its meshes and textures; written on demand
+//   autosave.glb   the document of the last autosave, a normal glTF file
+//   blob-*         pasted meshes and pixels, pictures of skies
 //
-// An undo is an edit too. The last line of a process that was killed may be torn and then does not
-// count: it was not confirmed.
+// An undo is also an edit. If the process was killed, the last line may be incomplete. It is then
+// ignored, because the edit was not confirmed.
 #pragma once
 
 #include <cstdint>
@@ -30,31 +30,32 @@ struct Recovered;
 class Journal {
  public:
   using Clock = std::function<int64_t()>;  // seconds since 1970
-  // Folders are made in `root`, with the process's number in their names. Makes nothing yet.
+  // Folders in `root` have the process id in their names. The constructor creates nothing.
   Journal(std::filesystem::path root, int process, Clock clock);
 
-  // Another level is edited from now on; what was written of the one before goes away.
+  // Call when another level is opened. Deletes the journal of the previous level.
   void begin(const Document& document);
-  // The same level goes on that another process was killed with.
+  // Continues the level of a killed process.
   void adopt(Recovered recovered);
-  // An edit was committed. On the disk when this returns; throws InputError when it cannot be, and
-  // the next call writes what is missing.
+  // Call after a committed edit. The edit is on the disk when this returns. If it cannot be
+  // written, throws InputError, and the next call writes what is missing.
   void record(const Document& document, const std::string& label);
-  // Before and after the level's file is replaced.
+  // Call before and after the level's file is replaced.
   void saving();
   void saved(const Document& document);
-  // The end of a session that has nothing more to lose.
+  // Ends a session that has nothing to lose.
   void close();
 
-  // What an autosave writes, by value: it may run on another thread, beside record().
+  // The data of an autosave, as a copy: it may be written on another thread in parallel with
+  // record().
   struct Autosave {
     std::filesystem::path folder;
     Scene base, scene;
     bool needsLevel = false;
     void write() const;  // throws InputError
   };
-  std::optional<Autosave> autosave(const Document& document) const;  // nothing: no edits to lose
-  // After it was written: the journal begins anew, at once or not at all.
+  std::optional<Autosave> autosave(const Document& document) const;  // nothing: no unsaved edits
+  // Call after the autosave was written. Restarts the journal, atomically.
   void restart(const Document& document, bool hasLevel);
 
   int edits() const { return edits_; }  // since the level was opened or saved
@@ -69,11 +70,11 @@ class Journal {
   Clock clock_;
   FileLock lock_;
   AppendFile file_;
-  Scene base_;  // as opened
+  Scene base_;  // the level as opened
   std::vector<FileStamp> files_;
-  bool hasLevel_ = false;    // level.glb is there
-  bool isReplaced_ = false;  // the file that was opened is not as it was any more
-  Document last_;            // as of the last line
+  bool hasLevel_ = false;    // level.glb exists
+  bool isReplaced_ = false;  // the opened file has changed since
+  Document last_;            // the document of the last line
   uint64_t savedHash_ = 0;
   int edits_ = 0;
 };

@@ -1,4 +1,5 @@
-// Primitives of a mesh as bytes and back, as the machine has them: for the journal on this machine.
+// Converts primitives of a mesh to bytes and back, in the machine's own format: for journals on the
+// same machine.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 namespace lamplighter {
 
 std::vector<uint8_t> bytesOf(const std::vector<Primitive>& primitives);
-// Throws InputError for what are none.
+// Throws InputError for invalid bytes.
 std::vector<Primitive> primitivesOf(std::span<const uint8_t> bytes);
 
 }  // namespace lamplighter

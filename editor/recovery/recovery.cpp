@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whole lines only: without its end the last one is torn.
+// Complete lines only: a last line without a line break is incomplete.
 std::vector<std::string> linesOf(const fs::path& journal) {
   std::ifstream in(journal, std::ios::binary);
   std::vector<std::string> lines;
@@ -49,7 +49,7 @@ bool isJournal(const Json& header) {
          header["lamplighter_journal"] == 1;
 }
 
-// Edits before the first line.
+// The number of edits before the first line.
 int editsOf(const Json& header) {
   constexpr int kMost = 1'000'000'000;
   const int edits = wholeOf<int>(header.at("edits"));
@@ -66,7 +66,7 @@ std::vector<FileStamp> stampsOf(const Json& files) {
   return out;
 }
 
-// The meshes and textures that the lines refer to.
+// The scene with the meshes and textures that the lines refer to.
 Scene baseOf(const Recovered& r) {
   if (r.hasLevel) return loadGltf(r.folder / "level.glb").scene;
   if (r.files.empty()) return {};
@@ -85,7 +85,7 @@ Recovered read(const fs::path& folder) {
   out.files = stampsOf(header.at("files"));
   out.hasLevel = header.at("level").get<bool>();
   out.savedHash = hashOf(header.at("saved"));
-  out.edits = editsOf(header) - 1;  // the first line is none
+  out.edits = editsOf(header) - 1;  // the first line is not an edit
   out.base = baseOf(out);
   out.document.scene = out.base;
   out.document.path = header.at("scene").get<std::string>();
@@ -108,7 +108,7 @@ Recovered read(const fs::path& folder) {
 
 namespace {
 
-// Nothing where there is nothing to lose, or no journal that can be read.
+// Nothing if there is no unsaved work or no readable journal.
 std::optional<Recoverable> recoverableIn(const fs::path& folder) {
   const std::vector<std::string> lines = linesOf(folder / "journal.jsonl");
   if (lines.size() < 2) return std::nullopt;
@@ -120,7 +120,7 @@ std::optional<Recoverable> recoverableIn(const fs::path& folder) {
     if (last.is_object() && last.contains("time")) r.time = wholeOf<int64_t>(last["time"]);
     if (r.edits > 0) return r;
   } catch (const std::exception&) {
-    // Damaged: it must not keep the program from starting.
+    // A damaged journal must not prevent the program from starting.
   }
   return std::nullopt;
 }
@@ -163,7 +163,7 @@ void discard(const fs::path& folder) {
 }
 
 fs::path recoveryFolder() {
-  // Relative paths are invalid by the specification, and are ignored.
+  // The specification declares relative paths invalid; they are ignored.
   const auto absolute = [](const char* variable) {
     const char* value = std::getenv(variable);
     const fs::path path(value != nullptr ? value : "");

@@ -51,7 +51,7 @@ struct Writer {
   }
   Json put(const std::shared_ptr<const IesProfile>& v) {
     if (!v) return {};
-    // Not as text: files of before Unicode hold any bytes.
+    // As bytes, because files from before Unicode contain arbitrary bytes.
     const std::span bytes(reinterpret_cast<const uint8_t*>(v->text.data()), v->text.size());
     return {{"file", v->file}, {"text", blobs.put(bytes)}};
   }
@@ -91,7 +91,7 @@ struct Reader {
       if (i < 0 || i > 16) damagedJournal("a kind is none");
       v = static_cast<T>(i);
     } else if constexpr (std::is_floating_point_v<T>) {
-      // What is no number is written as null.
+      // NaN and infinity are written as null.
       v = j.is_null() ? std::numeric_limits<T>::quiet_NaN() : j.get<T>();
     } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
       v = wholeOf<T>(j);
@@ -156,8 +156,8 @@ struct Reader {
   }
 };
 
-// The members of each type, by structured bindings: a member that is added does not compile until
-// it is written here too, so that no edit can be missing from the journal. `A` writes or reads.
+// The members of each type, listed by structured bindings: a new member does not compile until it
+// is added here, so the journal cannot miss an edit. `A` writes or reads.
 
 template <typename A, typename T>
 requires std::is_same_v<std::remove_const_t<T>, Transform>
@@ -296,7 +296,7 @@ void fromJson(const Json& j, Blobs& b, Sky& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, LightState& v) { Reader{j, b}.get(j, v); }
 void fromJson(const Json& j, Blobs& b, LightGroup& v) { Reader{j, b}.get(j, v); }
 
-// Each value with the letter of its type, which JSON would lose: 1 and 1.0 are the same there.
+// Each value with a letter for its type, because JSON does not distinguish 1 and 1.0.
 Json toJson(const RenderSettings& render, Blobs&) {
   Json values = Json::object();
   for (const auto& [name, value] : render.values.values()) {

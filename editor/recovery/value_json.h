@@ -1,5 +1,6 @@
-// Every value that an edit can change as JSON and back, to the last bit: what a journal's lines are
-// made of. Readers throw InputError or nlohmann's exceptions for what is no such value.
+// Converts every value that an edit can change to JSON and back, bit for bit. The lines of a
+// journal contain these values. Readers throw InputError or nlohmann's exceptions for invalid
+// values.
 #pragma once
 
 #include <concepts>
@@ -19,8 +20,8 @@ using Json = nlohmann::ordered_json;
 // Throws InputError: the journal is damaged.
 [[noreturn]] void damagedJournal(const std::string& what);
 
-// A whole number that T holds; what the JSON library makes of another is undefined. Throws
-// InputError.
+// Reads an integer that fits T. The JSON library's own conversion is undefined for other values.
+// Throws InputError.
 template <std::integral T>
 T wholeOf(const Json& json) {
   if (json.is_number_unsigned()) {

@@ -10,7 +10,7 @@
 namespace lamplighter {
 namespace {
 
-// Pixels a side of a block of the larger picture.
+// Side of a block in pixels of the larger picture.
 int blockOf(int width, int blocks) { return std::max(1, width / std::max(blocks, 1)); }
 
 }  // namespace

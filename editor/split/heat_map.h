@@ -1,4 +1,4 @@
-// How far two pictures are apart, in false colour with a legend.
+// The difference of two pictures in false colours, with a legend.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 
 namespace lamplighter {
 
-// The largest |a − b| of a pixel's channels as a share of the mean of b: the ramp ends at `scale`.
-// Both of one size; the picture is enlarged to width × height. The legend names what they are.
+// The value of a pixel is the largest |a − b| of its channels, relative to the mean of b. The ramp
+// ends at `scale`. Both pictures must have the same size; the result is enlarged to width × height.
+// The legend names both pictures.
 ViewPicture heatMapOf(const Image& a, const Image& b, float scale, int width, int height,
                       const std::string& nameOfA, const std::string& nameOfB);
 
-// A picture of blocks at the size of what they are blocks of, each as it is; pixels beyond the last
-// block are that block's.
+// Enlarges a picture of blocks to full size without filtering. Pixels beyond the last block have
+// the value of that block.
 Image enlarged(const Image& blocks, int width, int height);
 
 }  // namespace lamplighter

@@ -53,13 +53,13 @@ void SplitView::turnOn(SplitSide first, SplitSide second) {
 
 void SplitView::turnOff() {
   on_ = false;
-  fresh_ = true;  // it is told of no changes meanwhile
+  fresh_ = true;  // it gets no changes while it is off
   picture_.reset();
   taken_.reset();
   heat_.reset();
   heatFirst_.reset();
   heatSecond_.reset();
-  renderer_.reset();  // with its maps and copies of the scene
+  renderer_.reset();  // frees its shadow maps and copies of the scene
 }
 
 bool SplitView::drag(const ViewportInput& input, int width) {

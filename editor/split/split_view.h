@@ -1,5 +1,5 @@
-// Two pictures of the same view, side by side with a divider between them, or how far they are
-// apart. Each side is the live picture, or another method or the same with other parameters.
+// Shows two pictures of the same view side by side with a divider, or their difference. Each side
+// is the live picture, another method, or the same method with other parameters.
 #pragma once
 
 #include <functional>
@@ -15,20 +15,20 @@
 
 namespace lamplighter {
 
-// "live", or a method's name; either with parameters of its own: "many_lights,vpls=1000".
+// "live" or the name of a method; either may have its own parameters: "many_lights,vpls=1000".
 struct SplitSide {
   std::string text = "live";
-  std::string method;  // "": that of the document
-  Settings values;     // instead of the document's
+  std::string method;  // "": the document's method
+  Settings values;     // override the document's values
   bool isLive() const { return method.empty() && values.values().empty(); }
   RenderSettings of(const RenderSettings& document) const;
 };
-// Throws InputError for a method or parameter that there is not. `method`: the document's.
+// Throws InputError for an unknown method or parameter. `method`: the document's.
 SplitSide readSide(const std::string& text, const std::string& method);
 
 class SplitView {
  public:
-  // Makes the renderer of the second side when it is first needed.
+  // Creates the renderer of the second side on demand.
   using MakeRenderer = std::function<std::unique_ptr<FrameRenderer>()>;
   void setRenderer(MakeRenderer make) { make_ = std::move(make); }
 
@@ -38,30 +38,31 @@ class SplitView {
   void setShown(Shown shown) { shown_ = shown; }
   void turnOn(SplitSide first, SplitSide second);
   void turnOff();
-  // The one side whole, then the other.
+  // Shows the second side over the whole view or, if it is shown already, the first side.
   void toggleWhole();
-  // A hand on the divider: true when it takes the input. `width`: the view's.
+  // Handles a drag of the divider. Returns true if it used the input. `width`: of the view.
   bool drag(const ViewportInput& input, int width);
   bool hot() const { return hot_; }  // the pointer is on the divider or drags it
-  // Of the view's width, left of the divider.
+  // Position of the divider, as a fraction of the view's width.
   float position() const { return position_; }
   void setPosition(float share) { position_ = share; }
-  // What the heat map's ramp ends at, as a share of the second picture's mean.
+  // End of the heat map's ramp, relative to the mean of the second picture.
   float heatScale() const { return heatScale_; }
   void setHeatScale(float share) { heatScale_ = share; }
   const SplitSide& first() const { return first_; }
   const SplitSide& second() const { return second_; }
 
-  // After the first side's frame. Where the second is the plain reference and a worker traces that
-  // already, its picture is taken.
+  // Call after the frame of the first side. If the second side is the reference with default
+  // parameters and a worker already traces it, the worker's picture is used.
   void frame(const Document& document, const SceneChanges& changes, const View& view,
              bool lightOnly, const GiOutput& first, const ErrorMeter& meter);
   bool settled() const { return !on_ || settled_; }
-  // Null: none yet. Of the view's size.
+  // Null: none yet. Has the size of the view.
   const std::shared_ptr<RadianceImage>& secondPicture() const { return picture_; }
-  // Null unless it is shown.
+  // Null unless the heat map is shown.
   const std::shared_ptr<const ViewPicture>& heat() const { return heat_; }
-  // What the viewport shows, of the display: `first` as it is shown alone.
+  // The display-referred picture of the viewport. `first`: the first side's display-referred
+  // picture.
   Image8 compose(const Image8& first, float exposureEv, ToneMapper mapper) const;
 
  private:
@@ -74,9 +75,9 @@ class SplitView {
   float position_ = 0.5f, heatScale_ = 0.5f;
   SplitSide first_, second_;
   std::shared_ptr<RadianceImage> picture_;
-  std::shared_ptr<const ReferenceHalves> taken_;  // what picture_ was made of, if the meter's
+  std::shared_ptr<const ReferenceHalves> taken_;  // source of picture_ if it comes from the meter
   std::shared_ptr<const ViewPicture> heat_;
-  // What heat_ is of.
+  // The two pictures that heat_ compares.
   std::shared_ptr<RadianceImage> heatFirst_, heatSecond_;
   float heatFor_ = 0.0f;
 };

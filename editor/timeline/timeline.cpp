@@ -24,7 +24,7 @@ void Timeline::add(uint32_t frame, double begin, double end, const GiStats& stat
   double rest = timing.seconds();
   for (const auto& [name, seconds] : stats.stageSeconds) {
     const auto found = std::find(stages().begin(), stages().end(), name);
-    if (found == stages().end()) continue;  // it is in "other" then
+    if (found == stages().end()) continue;  // it counts as "other"
     timing.stageSeconds[static_cast<size_t>(found - stages().begin())] = seconds;
     rest -= seconds;
   }

@@ -10,13 +10,14 @@ namespace {
 constexpr float kRadiansPerPixel = 0.0045f;
 constexpr float kDollyPerNotch = 0.88f;
 constexpr float kSpeedPerNotch = 1.2f;
-constexpr float kSteepest = 1.55f;  // radians of pitch, short of straight up
+constexpr float kSteepest = 1.55f;  // largest pitch [rad], just below straight up
 
-// Turns by yaw about the world's Y and by pitch about the view's own X; the horizon stays level.
+// Rotates by yaw around the world's Y axis and by pitch around the view's X axis. The horizon stays
+// level.
 quat turned(const quat& orientation, float yaw, float pitch) {
   const vec3 forward = orientation * vec3(0, 0, -1);
   const float oldPitch = std::asin(std::clamp(forward.y, -1.0f, 1.0f));
-  // Straight up or down the heading is that of the view's up vector.
+  // When looking straight up or down, the up vector gives the heading.
   const vec3 up = orientation * vec3(0, 1, 0);
   const vec3 heading =
       std::abs(forward.y) < 0.999f ? forward : -std::copysign(1.0f, forward.y) * up;

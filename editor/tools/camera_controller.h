@@ -1,4 +1,4 @@
-// Moves the view: fly, orbit, pan, dolly.
+// Moves the camera: fly, orbit, pan, dolly.
 #pragma once
 
 #include "editor/tools/viewport_input.h"
@@ -8,13 +8,13 @@ namespace lamplighter {
 
 class CameraController {
  public:
-  // Right button: look around, WASD and QE fly, wheel changes the speed. Middle: pan. Alt + left:
-  // orbit about the pivot. Wheel: dolly. True when it used the input.
+  // Right button: look around; WASD and QE fly, the wheel changes the speed. Middle button: pan.
+  // Alt + left button: orbit around the pivot. Wheel: dolly. Returns true if it used the input.
   bool update(View& view, const ViewportInput& input);
 
-  // Looks at `bounds` from where the view looks now.
+  // Moves the camera so that `bounds` fills the view; keeps the direction.
   void frame(View& view, const Bounds& bounds);
-  // A new scene: the pivot lies `distance` ahead, speed is a share of it a second.
+  // Call for a new scene: the pivot is `distance` ahead; the speed per second is a fraction of it.
   void reset(float distance);
   bool flying() const { return flying_; }
   float speed() const { return speed_; }  // m/s

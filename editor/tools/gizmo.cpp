@@ -12,11 +12,11 @@ namespace lamplighter {
 
 namespace {
 
-constexpr float kReach = 92.0f;  // pixels that an axis is long
-constexpr float kGrab = 8.0f;    // pixels about a line that take it
+constexpr float kReach = 92.0f;  // length of an axis in pixels
+constexpr float kGrab = 8.0f;    // distance from a line in pixels for grabbing it
 constexpr float kPlaneFrom = 0.28f,
-                kPlaneTo = 0.5f;     // where the squares of planes lie along their axes
-constexpr float kScreenRing = 1.2f;  // radius of the ring that turns in the picture's plane
+                kPlaneTo = 0.5f;     // the range of the plane squares along their axes
+constexpr float kScreenRing = 1.2f;  // radius of the ring for rotation in the picture plane
 constexpr float kMoveStep = 0.25f;   // m
 constexpr float kTurnStep = 15.0f * kPi / 180.0f;
 constexpr float kScaleStep = 0.1f;
@@ -33,8 +33,8 @@ Line pointerRay(const View& view, const vec2& pointer) {
   return {view.eye, view.rayDirection(pointer.x, pointer.y)};
 }
 
-// The parameter along the axis (unit) where it passes nearest to the ray; none when they are
-// parallel, or when that is behind the eye: past the axis' vanishing point.
+// The parameter of the point on the axis (unit direction) that is nearest to the ray. None if they
+// are parallel, or if that point is behind the eye, past the axis' vanishing point.
 std::optional<float> nearestOnAxis(const vec3& origin, const vec3& axis, const Line& ray) {
   const float b = glm::dot(axis, ray.direction);
   const float denominator = 1.0f - b * b;
@@ -53,8 +53,8 @@ std::optional<vec3> onPlane(const vec3& origin, const vec3& normal, const Line& 
   return ray.origin + t * ray.direction;
 }
 
-// The rotation in a matrix that turns, scales all axes alike and may mirror; none for others. A
-// mirroring one is minus a rotation, and the minus cancels where a turn is carried through it.
+// The rotation in a matrix that rotates, scales uniformly and may mirror; none for other matrices.
+// A mirroring matrix is minus a rotation. The minus cancels when a rotation is transformed by it.
 std::optional<quat> turnOf(const mat3& a) {
   const float determinant = glm::determinant(a);
   const float scale = std::copysign(std::cbrt(std::abs(determinant)), determinant);
@@ -88,7 +88,7 @@ std::optional<Gizmo::Axes> Gizmo::axesOf(const View& view, const Document& docum
   Axes a;
   a.origin = vec3(world[3]);
   if (glm::dot(a.origin - view.eye, view.forward()) < view.znear) return std::nullopt;
-  // Scaling is along the object's own axes, moving and turning along the world's.
+  // Scaling uses the object's own axes, moving and rotating the world axes.
   if (mode == ToolMode::scale) a.axes = glm::mat3_cast(decompose(world).rotation);
   a.size = kReach * metresPerPixel(view, a.origin);
   return a;
@@ -110,7 +110,7 @@ Gizmo::Handle Gizmo::handleAt(const View& view, const Axes& axes, const vec2& po
       const auto points =
           circle(axes.origin, axes.axes[(i + 1) % 3], axes.axes[(i + 2) % 3], axes.size);
       for (size_t k = 0; k < points.size(); ++k) {
-        // The far half of a ring is hidden by the near one.
+        // The near half of a ring hides the far half.
         if (glm::dot(points[k] - axes.origin, view.eye - axes.origin) < 0.0f) continue;
         const auto s = projectSegment(view, points[k], points[(k + 1) % points.size()]);
         if (s)
@@ -160,16 +160,16 @@ std::optional<vec3> Gizmo::gripOf(const View& view, const Axes& a, Handle handle
   } else if (const auto t = nearestOnAxis(a.origin, a.axes[index], ray)) {
     return *t * a.axes[index];
   }
-  // Near the horizon a pixel is kilometres.
-  constexpr float kFarthest = 100.0f;  // times the distance to the eye
+  // Near the horizon one pixel spans kilometres.
+  constexpr float kFarthest = 100.0f;  // multiple of the distance to the eye
   if (!point || glm::length(*point - view.eye) > kFarthest * glm::length(a.origin - view.eye)) {
     return std::nullopt;
   }
   return *point - a.origin;
 }
 
-// A ring seen nearly from the side has no use for where the ray meets its plane: the pointer pulls
-// at the ring's nearest point along the ring.
+// For a ring seen nearly edge-on, the intersection of the ray with its plane is useless. Instead,
+// the pointer drags the ring's nearest point along the ring.
 std::optional<vec2> Gizmo::pullOf(const View& view, const Axes& a, Handle handle) const {
   if (mode != ToolMode::rotate || handle == Handle::screen) return std::nullopt;
   const vec3& axis = a.axes[(static_cast<int>(handle) - 1) % 3];
@@ -219,7 +219,7 @@ std::vector<Node> Gizmo::rotated(const vec3& axis, float angle) const {
     const vec3 newPlace = drag_->axes.origin + turn * (place - drag_->axes.origin);
     const mat4 toParent = glm::inverse(drag_->parents[i]);
     if (const auto parentTurn = turnOf(mat3(drag_->parents[i]))) {
-      // Scale and shear stay as they are, to the bit.
+      // Keep scale and shear bit for bit.
       local.rotation =
           glm::normalize(glm::inverse(*parentTurn) * turn * *parentTurn * local.rotation);
       local.translation = vec3(toParent * vec4(newPlace, 1.0f));
@@ -276,7 +276,7 @@ std::optional<std::vector<Node>> Gizmo::dragged(const View& view, const vec2& po
     case ToolMode::scale: {
       vec3 factors(1.0f);
       if (d.handle == Handle::screen) {
-        // To the right and up grows; a handle's length doubles.
+        // Moving right or up enlarges. Moving by the length of a handle doubles the size.
         const vec2 way = pointer - d.pointer;
         float f = std::exp2((way.x - way.y) / kReach);
         if (snapping) f = std::max(snapped(f, kScaleStep), kScaleStep);
@@ -298,7 +298,7 @@ std::optional<std::vector<Node>> Gizmo::dragged(const View& view, const vec2& po
 
 bool Gizmo::update(const View& view, const ViewportInput& in, Document& document, History& history,
                    const SurfaceSnap& surface) {
-  if (drag_ && !history.inTransaction()) drag_.reset();  // somebody else has ended the step
+  if (drag_ && !history.inTransaction()) drag_.reset();  // other code has ended the step
   if (drag_) {
     if (in.keys.contains(Key::escape) || in.pressed[1]) {
       cancel(history);
@@ -317,7 +317,7 @@ bool Gizmo::update(const View& view, const ViewportInput& in, Document& document
     } else {
       nodes = dragged(view, in.pointer, snapping);
     }
-    // Where the pointer means no place, beyond the horizon say, all stays as it was last.
+    // If the pointer has no valid position, for example beyond the horizon, keep the last state.
     if (nodes) {
       history.run(std::make_unique<EditNodes>(
           std::string(kLabels[static_cast<int>(mode)]) + " " + name, document, std::move(*nodes)));

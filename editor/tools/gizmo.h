@@ -15,10 +15,10 @@ namespace lamplighter {
 
 enum class ToolMode { select, move, rotate, scale };
 
-// What a move snaps to: steps of a length, or what is under the pointer.
+// What a move snaps to: grid steps, or the surface or vertex under the pointer.
 enum class SnapTo { grid, surface, vertex };
 
-// Where the active node's origin comes to lie when it is put on what is under the pointer.
+// The new position of the active node's origin when it snaps to what is under the pointer.
 using SurfaceSnap = std::function<std::optional<vec3>(SnapTo)>;
 
 class Gizmo {
@@ -27,34 +27,35 @@ class Gizmo {
   bool snap = false;  // always, not only while Ctrl is held
   SnapTo snapTo = SnapTo::grid;
 
-  // Hovers, begins, goes on with and ends a drag. True when the pointer is its. A drag is one
-  // transaction of `history`; Esc or the right button takes it back. While Shift is held a move
-  // follows the surface, and while it snaps what `snapTo` says.
+  // Handles hover, start, update and end of a drag. Returns true if the gizmo uses the pointer. A
+  // drag is one transaction of `history`; Esc or the right button cancels it. With Shift a move
+  // follows the surface. With snapping it follows `snapTo`.
   bool update(const View& view, const ViewportInput& input, Document& document, History& history,
               const SurfaceSnap& surface = {});
   bool dragging() const { return drag_.has_value(); }
-  // Something comes in between: the drag ends as it is, is taken back, or its document is gone.
+  // Call when something interrupts the drag. It is committed as it is, or cancelled, or its
+  // document is gone.
   void finish(History& history);
   void cancel(History& history);
   void forget() { drag_.reset(); }
   void draw(Overlay& overlay, const View& view, const Document& document) const;
 
  private:
-  // x, y, z: an axis, or the ring about it; xy, …: the plane; screen: in the plane of the picture,
-  // for scale: all axes alike.
+  // x, y, z: an axis, or the ring around it; xy, …: a plane; screen: the plane of the picture, or,
+  // for scale, all axes uniformly.
   enum class Handle { none, x, y, z, yz, zx, xy, screen };
   struct Axes {
     vec3 origin{0.0f};
     mat3 axes{1.0f};    // unit columns
-    float size = 1.0f;  // metres that the handles reach
+    float size = 1.0f;  // length of the handles [m]
   };
   struct Drag {
     Handle handle;
-    Axes axes;  // as they were
+    Axes axes;  // at the start of the drag
     vec2 pointer{0.0f};
-    vec3 grip{0.0f};            // where the pointer's ray met the handle, relative to the origin
-    std::optional<vec2> pull;   // a ring seen from the side: pixels a radian, along the ring
-    std::vector<Node> nodes;    // the topmost selected ones, before
+    vec3 grip{0.0f};            // where the pointer's ray hit the handle, relative to the origin
+    std::optional<vec2> pull;   // a ring seen edge-on: pixels per radian, along the ring
+    std::vector<Node> nodes;    // topmost selected nodes, before the drag
     std::vector<mat4> parents;  // their parents' world matrices
   };
 

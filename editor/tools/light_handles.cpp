@@ -11,21 +11,21 @@ namespace lamplighter {
 
 namespace {
 
-constexpr float kHandleGrab = 8.0f;       // px
-constexpr float kHandleReach = 60.0f;     // px that aim and cones are away from the light
-constexpr float kLeast = 0.001f;          // m, of a size
-constexpr float kSizeStep = 0.05f;        // m
+constexpr float kHandleGrab = 8.0f;    // px
+constexpr float kHandleReach = 60.0f;  // distance of the aim and cone handles from the light [px]
+constexpr float kLeast = 0.001f;       // smallest size [m]
+constexpr float kSizeStep = 0.05f;     // m
 constexpr float kConeStep = kPi / 36.0f;  // 5°
-constexpr float kMostCone = 0.5f * kPi;   // glTF's bound of a spot's cones
+constexpr float kMostCone = 0.5f * kPi;   // glTF's limit of a spot's cones
 constexpr float kLeastCone = 0.01f;       // rad
 
 const vec4 kColour{1.0f, 0.93f, 0.6f, 1.0f};
-// About each handle, so that it shows on bright walls.
+// An edge around each handle makes it visible on bright walls.
 const vec4 kEdgeColour{0.0f, 0.0f, 0.0f, 0.6f};
 constexpr float kEdge = 1.5f;  // px
 
 struct Place {
-  vec3 origin, aim;  // aim: unit, where the light shines
+  vec3 origin, aim;  // aim: unit vector in which the light shines
   float reach;       // m
 };
 
@@ -40,21 +40,22 @@ std::optional<Place> placeOf(const View& view, const mat4& world) {
   return p;
 }
 
-// The way from the axis to a cone's handle: across the line of sight, so that it lies in the
-// picture's plane as far as it can.
+// The direction from the axis to a cone's handle. It is perpendicular to the line of sight, so that
+// it lies in the picture plane as far as possible.
 vec3 sideOf(const View& view, const vec3& aim) {
   const vec3 side = glm::cross(view.forward(), aim);
   return glm::length(side) > 1e-3f ? glm::normalize(side) : view.right();
 }
 
-// Where a ray through the pointer meets a plane; none behind the eye or along the plane.
+// The point where the pointer's ray hits a plane. None behind the eye or parallel to the plane.
 std::optional<vec3> onPlane(const View& view, const vec2& pointer, const vec3& origin,
                             const vec3& normal) {
   const vec3 direction = view.rayDirection(pointer.x, pointer.y);
   const float along = glm::dot(normal, direction);
   if (std::abs(along) < 1e-4f) return std::nullopt;
   const float t = glm::dot(normal, origin - view.eye) / along;
-  constexpr float kFarthest = 100.0f;  // times the light's distance: past that a pixel is too much
+  // multiple of the light's distance; beyond it one pixel spans too much
+  constexpr float kFarthest = 100.0f;
   if (t <= 0.0f || t > kFarthest * glm::length(origin - view.eye)) return std::nullopt;
   return view.eye + t * direction;
 }
@@ -76,7 +77,7 @@ std::vector<vec2> outlineOf(const vec2& centre, float r, bool isRound) {
 bool isBall(const AreaLight& light) { return light.shape == AreaShape::sphere; }
 bool isTube(const AreaLight& light) { return light.shape == AreaShape::tube; }
 
-// A tube's axis is its X. The plane through it that faces the eye as far as it can.
+// The normal of the plane through a tube's axis (X) that faces the eye as far as possible.
 vec3 facingNormal(const View& view, const mat4& world) {
   const vec3 axis = glm::normalize(vec3(world[0]));
   const vec3 normal = view.forward() - glm::dot(view.forward(), axis) * axis;
@@ -104,7 +105,7 @@ std::vector<LightHandles::Handle> LightHandles::handlesOf(const View& view,
              {Kind::top, at(0, y)},
              {Kind::bottom, at(0, -y)}};
     } else if (isBall(*node->area)) {
-      // On its outline as it is seen.
+      // On the visible outline.
       const mat3 toWorld(world);
       const vec3 right = glm::normalize(glm::inverse(toWorld) * view.right());
       out = {{Kind::rim, vec3(world[3]) + toWorld * (x * right)}};
@@ -138,7 +139,7 @@ std::vector<LightHandles::Handle> LightHandles::handlesOf(const View& view,
 
 bool LightHandles::update(const View& view, const ViewportInput& in, Document& document,
                           History& history, bool snap, const AimTarget& target) {
-  if (drag_ && !history.inTransaction()) drag_.reset();  // somebody else has ended the step
+  if (drag_ && !history.inTransaction()) drag_.reset();  // other code has ended the step
   if (drag_) {
     if (in.keys.contains(Key::escape) || in.pressed[1]) {
       cancel(history);
@@ -174,7 +175,8 @@ std::optional<Node> LightHandles::dragged(const View& view, const ViewportInput&
   const auto place = placeOf(view, drag_->world);
   if (!place) return std::nullopt;
   if (drag_->kind == Kind::aim) {
-    // At what is under the pointer, or where nothing is at a place as far away as the light.
+    // Aims at the surface under the pointer or, if there is none, at a point at the light's
+    // distance.
     std::optional<vec3> at = target ? target() : std::nullopt;
     if (!at) at = onPlane(view, in.pointer, place->origin, view.forward());
     return at ? aimed(*at) : std::nullopt;
@@ -207,7 +209,7 @@ std::optional<Node> LightHandles::resized(const vec3& at, bool bothSides, bool s
   const int axis = drag_->kind == Kind::right || drag_->kind == Kind::left ? 0 : 1;
   const float sign = drag_->kind == Kind::right || drag_->kind == Kind::top ? 1.0f : -1.0f;
   const float before = size[axis];
-  const float out = sign * p[axis];  // from the middle, to where the edge is pulled
+  const float out = sign * p[axis];  // from the centre to the new position of the edge
   size[axis] = rounded(bothSides ? 2.0f * out : out + 0.5f * before);
   if (!bothSides) {
     vec3 middle(0.0f);
@@ -217,7 +219,7 @@ std::optional<Node> LightHandles::resized(const vec3& at, bool bothSides, bool s
   return node;
 }
 
-// The least turn that takes the light's direction to that place.
+// Rotates the light by the smallest angle so that it aims at the point.
 std::optional<Node> LightHandles::aimed(const vec3& at) const {
   Node node = drag_->node;
   const vec3 way = at - vec3(drag_->world[3]);

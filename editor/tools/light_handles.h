@@ -1,5 +1,6 @@
-// Handles of the active light in the viewport: its edges or rim set its size, its tip aims it, and
-// a spot has its two cones. Shown with every tool; the gizmo's handles go first.
+// Viewport handles of the active light: edges or rim set the size, the tip sets the direction, and
+// a spot light has its two cones. They are shown with every tool. The gizmo's handles have
+// priority.
 #pragma once
 
 #include <functional>
@@ -14,16 +15,16 @@
 
 namespace lamplighter {
 
-// The place under the pointer that a light is aimed at.
+// The point under the pointer that the light aims at.
 using AimTarget = std::function<std::optional<vec3>()>;
 
 class LightHandles {
  public:
   enum class Kind { none, right, left, top, bottom, rim, aim, outerCone, innerCone };
 
-  // Hovers, begins, goes on with and ends a drag, as Gizmo::update() does: true when the pointer is
-  // its. Edges leave the opposite edge where it is, with Shift both move; sizes snap to 5 cm and
-  // cones to 5° when `snap` is on or Ctrl is held, but not both.
+  // Handles hover, start, update and end of a drag, as Gizmo::update() does. Returns true if a
+  // handle uses the pointer. An edge keeps the opposite edge in place; with Shift both move. Sizes
+  // snap to 5 cm and cones to 5° if either `snap` or Ctrl is on, but not both.
   bool update(const View& view, const ViewportInput& input, Document& document, History& history,
               bool snap, const AimTarget& target);
   bool dragging() const { return drag_.has_value(); }
@@ -34,15 +35,15 @@ class LightHandles {
 
   struct Handle {
     Kind kind = Kind::none;
-    vec3 place{0.0f};  // world
+    vec3 place{0.0f};  // world space
   };
-  // Of the active node; empty where that is no light.
+  // The handles of the active node. Empty if it is not a light.
   static std::vector<Handle> handlesOf(const View& view, const Document& document);
 
  private:
   struct Drag {
     Kind kind;
-    Node node;  // as it was
+    Node node;  // before the drag
     mat4 world, parent;
   };
   std::optional<Node> dragged(const View& view, const ViewportInput& input, bool snapping,

@@ -1,5 +1,5 @@
-// Lines and marks that tools and views ask the ui to draw over the viewport. Viewport pixels, y
-// down.
+// Lines and marks that tools and views draw over the viewport through the ui. Coordinates are
+// viewport pixels, y down.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace lamplighter {
 
-// Of the handle that the pointer would take.
+// Colour of the handle under the pointer.
 inline const vec4 kHoverColour{1.0f, 0.85f, 0.3f, 1.0f};
 
 struct OverlayShape {
@@ -22,9 +22,9 @@ struct OverlayShape {
 
 struct OverlayText {
   vec2 position{0.0f};
-  std::string text;  // lines are parted by \n
+  std::string text;  // lines are separated by \n
   vec4 colour{1.0f};
-  bool boxed = false;  // on a dark ground, to be read over any picture
+  bool boxed = false;  // on a dark background, readable over any picture
 };
 
 struct Overlay {

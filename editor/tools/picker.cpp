@@ -6,7 +6,7 @@ namespace lamplighter {
 
 NodeId pick(const View& view, const RenderScene& scene, const RayCaster& rays, const vec2& pointer,
             const std::function<bool(NodeId)>& mayPick) {
-  // Through what may not be picked.
+  // Skips surfaces that cannot be picked.
   constexpr int kMostPassed = 256;
   Ray ray{view.eye, 0.0f, view.rayDirection(pointer.x, pointer.y)};
   Hit hit = rays.intersect(ray, Surfaces::seen);

@@ -1,4 +1,4 @@
-// What lies under the pointer.
+// Finds the node under the pointer.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,11 @@
 
 namespace lamplighter {
 
-// Half the width of the mark that stands for a light without a surface, in pixels.
+// Half the width of the mark of a light without a surface, in pixels.
 inline constexpr float kMarkRadius = 9.0f;
 
-// The node under a viewport pixel: a mark of a punctual light that nothing hides, else the surface
-// that the pixel's ray meets; kNoNode where there is neither. What may not be picked is seen
-// through.
+// The node under a viewport pixel: a visible mark of a punctual light, otherwise the surface that
+// the pixel's ray hits; kNoNode if there is neither. Objects that cannot be picked are ignored.
 NodeId pick(const View& view, const RenderScene& scene, const RayCaster& rays, const vec2& pointer,
             const std::function<bool(NodeId)>& mayPick);
 

@@ -1,4 +1,4 @@
-// From the world to viewport pixels and back, for tools and overlays.
+// Projects points from the world to viewport pixels and back, for tools and overlays.
 #pragma once
 
 #include <optional>
@@ -9,25 +9,25 @@
 
 namespace lamplighter {
 
-// The part of a segment that lies before the eye, in viewport pixels; none when it lies behind.
+// The part of a segment in front of the eye, in viewport pixels. None if all of it is behind.
 struct Segment2 {
   vec2 a, b;
 };
 std::optional<Segment2> projectSegment(const View& view, vec3 a, vec3 b);
 std::optional<vec2> projectPoint(const View& view, const vec3& p);
 
-// World metres that a pixel spans at the distance of p.
+// The world-space size [m] of a pixel at the distance of p.
 float metresPerPixel(const View& view, const vec3& p);
 
 float distanceToSegment(const vec2& p, const vec2& a, const vec2& b);
 
-// Adds the world-space line or closed loop to an overlay, cut at the eye.
+// Adds a world-space line or closed loop to an overlay, clipped at the eye.
 void addLine(Overlay& overlay, const View& view, const vec3& a, const vec3& b, const vec4& colour,
              float thickness = 1.5f);
 void addLoop(Overlay& overlay, const View& view, const std::vector<vec3>& points,
              const vec4& colour, float thickness = 1.5f);
 
-// Points of a circle about `centre` in the plane of the unit vectors u and v.
+// Points of a circle around `centre` in the plane of the unit vectors u and v.
 std::vector<vec3> circle(const vec3& centre, const vec3& u, const vec3& v, float radius,
                          int sides = 48);
 

@@ -15,7 +15,7 @@ const vec4 kActive{1.0f, 0.78f, 0.35f, 1.0f};
 const vec4 kLight{1.0f, 0.93f, 0.6f, 0.75f};
 const vec4 kLeftOut{0.93f, 0.36f, 0.5f, 0.9f};
 
-// The box that holds the node's mesh, in its own space, as twelve edges.
+// Draws the bounding box of the node's mesh in local space, as twelve edges.
 void drawBox(Overlay& overlay, const View& view, const Mesh& mesh, const mat4& world,
              const vec4& colour) {
   Bounds b;
@@ -34,7 +34,7 @@ void drawBox(Overlay& overlay, const View& view, const Mesh& mesh, const mat4& w
   }
 }
 
-// Outline of an area light and a line along which it shines.
+// Draws the outline of an area light and a line in its direction.
 void drawAreaLight(Overlay& overlay, const View& view, const AreaLight& light, const mat4& world,
                    const vec4& colour) {
   const auto at = [&](const vec3& p) { return vec3(world * vec4(p, 1.0f)); };
@@ -73,7 +73,7 @@ void drawAreaLight(Overlay& overlay, const View& view, const AreaLight& light, c
             colour, 2.0f);
 }
 
-// A sun-like mark; spots and directional lights show where they aim.
+// Draws a mark that looks like a sun. Spots and directional lights also show their direction.
 void drawPunctual(Overlay& overlay, const View& view, const RenderPunctual& light,
                   const vec4& colour) {
   const auto mark = projectPoint(view, light.position);
@@ -101,7 +101,7 @@ void drawPunctual(Overlay& overlay, const View& view, const RenderPunctual& ligh
     addLine(overlay, view, light.position, rim[i], colour, 1.0f);
 }
 
-// Boxes around what the selected lights leave out, each with a line from the light.
+// Draws boxes around the objects that the selected lights exclude, each with a line from the light.
 void drawLeftOut(Overlay& overlay, const View& view, const Document& document,
                  const std::vector<mat4>& world, const std::vector<bool>& visible) {
   const Scene& scene = document.scene;

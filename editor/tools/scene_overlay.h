@@ -1,4 +1,4 @@
-// What is drawn over the picture for the scene itself: marks of lights, the selection.
+// Draws marks of lights and the selection over the picture.
 #pragma once
 
 #include "editor/document/document.h"

@@ -17,7 +17,7 @@ bool SurfaceSearch::isIgnored(NodeId id) const {
 
 std::optional<Hit> SurfaceSearch::hitAlong(const vec3& eye, const vec3& direction) const {
   Ray ray{eye, 0.0f, direction};
-  constexpr int kMostLayers = 1000;  // of ignored surfaces one behind the other
+  constexpr int kMostLayers = 1000;  // of consecutive ignored surfaces
   for (int i = 0; i < kMostLayers; ++i) {
     const Hit hit = rays.intersect(ray, Surfaces::seen);
     if (!hit) return std::nullopt;

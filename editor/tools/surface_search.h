@@ -1,4 +1,4 @@
-// The surface, or its corner, that a ray of the camera meets first among what may be met.
+// Finds the first surface, or its vertex, on a ray of the camera. Some nodes can be ignored.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ struct SurfaceSearch {
   const Document& document;
   const RenderScene& scene;
   const RayCaster& rays;
-  const std::vector<NodeId>& ignored;  // and all that hangs below them
+  const std::vector<NodeId>& ignored;  // with all their descendants
 
-  // The nearest surface along a unit direction from `eye`; none: nothing is there.
+  // The nearest surface from `eye` along a unit direction. None if the ray hits nothing.
   std::optional<SurfacePoint> along(const vec3& eye, const vec3& direction) const;
-  // The corner of the triangle under the pointer that is nearest to it in the picture.
+  // The vertex of the triangle under the pointer that is nearest to the pointer in the picture.
   std::optional<vec3> vertexAt(const View& view, const vec2& pointer) const;
 
  private:

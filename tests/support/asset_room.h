@@ -1,4 +1,4 @@
-// One of our own scenes, seen through its camera.
+// A scene from assets/, seen from its own camera.
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,7 @@ void PrintTo(const EditSequence& edits, std::ostream* out) {
 
 EditSequence randomEdits(int count, uint32_t seed) {
   std::mt19937 random(seed);
-  // Of the generator's bits themselves: distributions differ from library to library.
+  // Uses the bits of the generator, because distributions differ between standard libraries.
   const auto unit = [&] { return static_cast<float>(random() >> 8) / 8388608.0f - 1.0f; };
   EditSequence edits;
   for (int i = 0; i < count; ++i) {

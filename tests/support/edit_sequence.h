@@ -1,5 +1,5 @@
-// Random edits of a scene, for tests that ask whether what is kept from edit to edit is what would
-// be made from nothing. A sequence that fails is made as short as it still fails.
+// Random edits of a scene. Tests use them to check that incremental updates give the same result as
+// a full rebuild. A failing sequence is shortened as far as possible.
 #pragma once
 
 #include <functional>
@@ -14,9 +14,9 @@ struct Edit {
   bool operator==(const Edit&) const = default;
   enum class Kind { move, turn, scale, mirror, hideOrShow, add, remove, brighten, kind };
   Kind kind = Kind::move;
-  uint32_t node = 0;      // of those there are, modulo their number
+  uint32_t node = 0;      // index, modulo the number of nodes
   vec3 amount{0.0f};      // in [−1, 1]³
-  bool together = false;  // with the edit before, as one change
+  bool together = false;  // in the same change as the previous edit
 };
 using EditSequence = std::vector<Edit>;
 void PrintTo(const EditSequence& edits, std::ostream* out);
@@ -24,8 +24,9 @@ void PrintTo(const EditSequence& edits, std::ostream* out);
 EditSequence randomEdits(int count, uint32_t seed);
 void apply(Scene& scene, const Edit& edit);
 
-// Runs check(sequence), which says whether all is well. Returns an empty sequence when it is; else
-// the shortest part of the sequence that was found to fail too, edits left out one after the other.
+// Runs check(sequence), which returns whether the test passes. Returns an empty sequence if it
+// passes. Otherwise removes edits one after the other and returns the shortest failing sequence
+// found.
 EditSequence shortestFailing(const EditSequence& edits,
                              const std::function<bool(const EditSequence&)>& check);
 

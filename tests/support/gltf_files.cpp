@@ -89,7 +89,7 @@ nlohmann::ordered_json everythingScene(std::string& binary) {
   add(bytesOf<uint16_t>({1, 2}));                                    // 4 sparse indices
   add(bytesOf<float>({5, 0, 1, 5, 0, -1}));                          // 5 sparse values
   add(bytesOf<float>({0, 1}));                                       // 6 times
-  add(bytesOf<float>({0, 0, 0, 0, 1, 0}));                           // 7 places
+  add(bytesOf<float>({0, 0, 0, 0, 1, 0}));                           // 7 positions
   add(kPng);                                                         // 8
   auto json = nlohmann::ordered_json::parse(R"({
     "asset": {"version": "2.0", "generator": "by hand", "extras": {"kept": true}},

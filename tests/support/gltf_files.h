@@ -1,4 +1,4 @@
-// glTF files that tests write themselves.
+// Writes glTF files for tests.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace lamplighter::test {
 
-// A folder of its own for a test; removed with what is in it.
+// A temporary folder of a test. The destructor removes it with its files.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -19,7 +19,7 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  // Writes a file in it and returns where it is.
+  // Writes a file in the folder and returns its path.
   std::filesystem::path write(const std::string& name, const std::string& content) const;
 
  private:
@@ -31,10 +31,10 @@ std::string readText(const std::filesystem::path& path);
 // The bytes of a .glb.
 std::string glb(const std::string& json, const std::string& binary);
 
-// A small level with one of each: two nested nodes, a square with normals and texture coordinates,
-// a strip, a sparse accessor, a textured material, a camera, a point and a rectangle light, a skin,
-// an animation, an extension that nobody knows, extras. `binary` becomes its only buffer, of a
-// .glb.
+// A small level with one of each feature: two nested nodes, a square with normals and texture
+// coordinates, a strip, a sparse accessor, a textured material, a camera, a point and a rectangle
+// light, a skin, an animation, an unknown extension, extras. `binary` receives its only buffer, for
+// a .glb.
 nlohmann::ordered_json everythingScene(std::string& binary);
 
 }  // namespace lamplighter::test

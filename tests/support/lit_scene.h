@@ -1,4 +1,4 @@
-// A scene brought to a backend, for tests of kernels.
+// A scene uploaded to a backend, for tests of kernels.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@
 namespace lamplighter::test {
 
 struct LitScene {
-  // On the cpu backend unless another is given.
+  // Uses the cpu backend by default.
   explicit LitScene(const Scene& scene, std::unique_ptr<Backend> on = makeCpuBackend());
 
-  // The picture under these VPLs alone, with or without their shadow maps.
+  // The picture lit by only these VPLs, with or without their shadow maps.
   Image sum(std::vector<shared::Vpl> vpls, const View& view, int resolution, bool shadows = true,
             float clampDistance = 0.0f, float bias = 0.002f);
 
@@ -22,11 +22,11 @@ struct LitScene {
   std::unique_ptr<Backend> backend;
 };
 
-// A VPL of intensity 1 with its frame turned by `angle` about its axis.
+// A VPL of intensity 1. Its frame is rotated by `angle` around its axis.
 shared::Vpl makeVpl(const vec3& position, const vec3& normal, float kind = shared::kVplCosine,
                     float angle = 0.3f);
 
-// Renders frames until settled; `limit` frames at most, then fails the test.
+// Renders frames until the picture is settled. Fails the test after `limit` frames.
 GiOutput renderSettled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
                        const View& view, const Settings& settings, int limit = 1000);
 

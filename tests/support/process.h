@@ -1,4 +1,4 @@
-// Runs the program as its callers do.
+// Runs the program as a separate process.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 namespace lamplighter::test {
 
 struct ProcessResult {
-  int code = -1;  // exit code; −1: ended by a signal
+  int code = -1;  // exit code; −1: a signal ended the process
   std::string out, err;
 };
 
-// `arguments` after the program's name; the shell is not involved. No standard input, no DISPLAY.
-// `output`: where standard output goes instead of into the result.
+// Runs the program with `arguments`, without a shell, standard input or DISPLAY. `output`: the file
+// for standard output; if given, standard output is not in the result.
 ProcessResult runLamplighter(const std::vector<std::string>& arguments,
                              const std::string& output = "");
 

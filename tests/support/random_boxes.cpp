@@ -8,7 +8,7 @@
 namespace lamplighter::test {
 namespace {
 
-// Uniform numbers from the generator's bits, the same with every standard library.
+// Uniform numbers from the bits of the generator, equal with every standard library.
 class Random {
  public:
   explicit Random(uint32_t seed) : engine_(seed) {}

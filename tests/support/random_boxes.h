@@ -1,4 +1,4 @@
-// A scene without any symmetry, for comparing backends.
+// A scene without symmetry, for comparing backends.
 #pragma once
 
 #include "renderer/scene/scene.h"
@@ -6,9 +6,9 @@
 
 namespace lamplighter::test {
 
-// A room of 8×4×8 m about the origin, open at the top, with turned boxes of several colours in it.
+// A room of 8×4×8 m around the origin, open at the top, with rotated boxes in several colours.
 Scene randomBoxes(int count, uint32_t seed);
-// VPLs in that room's air with random axes.
+// VPLs with random axes in the air of that room.
 std::vector<shared::Vpl> randomVpls(int count, uint32_t seed);
 
 }  // namespace lamplighter::test

@@ -1,4 +1,4 @@
-// Renders in tests without going through a file or a backend.
+// Renders in tests without files and without a backend.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ View lookAt(const vec3& eye, const vec3& target, int width, int height, float yf
 
 vec3 meanOf(const Image& image);
 
-// The form factor from a point with unit normal n to a polygon that is wholly above its horizon,
-// counter-clockwise as seen from the point: Lambert's formula, 1/2π Σ Γᵢ · n.
+// The form factor from a point with unit normal n to a polygon that is completely above its horizon
+// and counter-clockwise as seen from the point: Lambert's formula, 1/2π Σ Γᵢ · n.
 double polygonFormFactor(const vec3& x, const vec3& n, const std::vector<vec3>& polygon);
 
 }  // namespace lamplighter::test

@@ -1,4 +1,4 @@
-// Light samples of a scene for tests of what lies between them and its surfaces.
+// Light samples of a scene for tests of visibility.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace lamplighter::test {
 
-// So many VPLs in all, three tenths of them direct, of three bounces, with seed 1.
+// Creates `count` VPLs with three bounces and seed 1; 30% of them are direct.
 std::vector<shared::Vpl> lightsOf(const RenderScene& scene, int count);
 
 }  // namespace lamplighter::test

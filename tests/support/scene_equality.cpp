@@ -6,7 +6,8 @@ namespace lamplighter::test {
 
 namespace {
 
-// Nodes depth first, siblings in their order: by place, not by id.
+// Nodes in depth-first order with siblings in their order, so that nodes are compared by position
+// and not by id.
 struct Placed {
   const Node* node;
   size_t depth;

@@ -1,4 +1,4 @@
-// Whether two scenes are the same level, whatever their ids and the order of siblings' subtrees.
+// Compares two scenes, ignoring ids and the order of siblings' subtrees.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace lamplighter::test {
 
-// Empty when they are the same; else the first difference, in words. Compared bit for bit: nodes by
-// their place in the tree, meshes with all attributes, materials, cameras, texture pixels and wrap
-// modes. Not compared: ids, source, whether a placeholder stands for an image.
+// Empty if the scenes are equal, otherwise a description of the first difference. The comparison is
+// bit for bit: nodes by their position in the tree, meshes with all attributes, materials, cameras,
+// texture pixels and wrap modes. It ignores ids, the source, and whether an image is a placeholder.
 std::string difference(const Scene& a, const Scene& b);
 
 }  // namespace lamplighter::test

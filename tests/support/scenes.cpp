@@ -64,7 +64,7 @@ std::shared_ptr<const Mesh> sphereMesh(float radius, uint32_t rings, float bump,
   for (uint32_t i = 0; i <= rings; ++i) {
     for (uint32_t j = 0; j <= around; ++j) {
       const float theta = kPi * static_cast<float>(i) / static_cast<float>(rings);
-      // The first and the last of a ring are the same point.
+      // The first and the last vertex of a ring have the same position.
       const float phi = 2.0f * kPi * static_cast<float>(j % around) / static_cast<float>(around);
       constexpr float kStep = 1e-3f;
       const bool isPole = i == 0 || i == rings;

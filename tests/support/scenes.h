@@ -11,10 +11,10 @@ namespace lamplighter::test {
 std::shared_ptr<const Mesh> squareMesh(float size, int material = kNone);
 // An axis-aligned box with outward faces, centred on its node.
 std::shared_ptr<const Mesh> boxMesh(const vec3& size, int material = kNone);
-// A box seen from within.
+// A box seen from inside.
 std::shared_ptr<const Mesh> roomMesh(const vec3& size, int material = kNone);
-// A sphere with smooth normals, `rings` from pole to pole and twice as many about, joined at its
-// seam by doubled vertices. With `bump`, its radius is more or less by that share, in waves.
+// A sphere with smooth normals. It has `rings` segments from pole to pole and twice as many around;
+// vertices at the seam are duplicated. `bump` varies the radius in waves by that fraction.
 std::shared_ptr<const Mesh> sphereMesh(float radius, uint32_t rings, float bump = 0.0f,
                                        int material = kNone);
 
@@ -22,7 +22,7 @@ std::shared_ptr<const Mesh> sphereMesh(float radius, uint32_t rings, float bump 
 NodeId addNode(Scene& scene, const std::string& name, NodeId parent = kNoNode,
                const vec3& at = vec3(0.0f));
 NodeId addMesh(Scene& scene, std::shared_ptr<const Mesh> mesh, const vec3& at = vec3(0.0f));
-// A rectangle light at `at` that emits down.
+// A rectangle light at `at` that emits downwards.
 NodeId addRectangleLight(Scene& scene, const vec3& at, const vec2& size, const vec3& radiance);
 int addMaterial(Scene& scene, const vec3& albedo, const vec3& emissive = vec3(0.0f));
 

@@ -1,4 +1,4 @@
-// The scenes of other people that tests read: a folder beside the repository, which may be absent.
+// Third-party scenes for tests, in a folder beside the repository that may be missing.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@ namespace lamplighter::test {
 // LAMPLIGHTER_SHARED_DIR/scenes; check with std::filesystem::exists().
 std::filesystem::path sharedScenes();
 
-// The rows of a table with tabs between columns, by the names in its first line. Empty where there
-// is no such file.
+// Reads the rows of a tab-separated table, with columns named by its first line. Empty if the file
+// does not exist.
 std::vector<std::map<std::string, std::string>> readTable(const std::filesystem::path& path);
 
 }  // namespace lamplighter::test

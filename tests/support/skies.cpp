@@ -13,7 +13,7 @@ vec3 directionOf(double azimuth, double height) {
   return vec3(r * std::sin(azimuth), height, -r * std::cos(azimuth));
 }
 
-// The mean of f(direction) over the sphere, times 4π.
+// ∫ f(direction) dω over the sphere.
 template <typename F>
 vec3 integral(F f) {
   constexpr int kColumns = 2880, kRows = 1440;

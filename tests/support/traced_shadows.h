@@ -1,4 +1,4 @@
-// What every technique of many_lights should show: the same VPLs with a ray for each shadow.
+// The expected picture of every technique of many_lights: the same VPLs with a shadow ray for each.
 #pragma once
 
 #include <span>
@@ -14,13 +14,13 @@
 
 namespace lamplighter::test {
 
-// Those that are shown.
+// The VPLs of the inspection.
 std::vector<shared::Vpl> shownLights(const Inspection& inspection);
 
-// One sample at each pixel's middle, as with `antialias` 1, without `corner_light`. No light leaves
-// anything out. `vpls`: as the picture that it is compared with has them, which were chosen for its
-// view. `visibility`, if any: rays are traced only where it does not know, as maps are looked up;
-// it is right where that changes nothing.
+// One sample at each pixel centre, as with `antialias` 1, without `corner_light`, and without light
+// linking. `vpls`: the VPLs of the picture to compare with, which depend on its view. `visibility`,
+// if given: rays are traced only where it gives no answer, just as maps are looked up. If it is
+// correct, it does not change the result.
 Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
                         std::span<const shared::Vpl> vpls, const View& view,
                         const Settings& settings, const VisibilityDatabase* visibility = nullptr);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# How far both methods are from the independent pictures of the Cornell box, as rows of Markdown
-# tables: the reference at growing sample counts, many_lights at growing counts of light samples,
-# and refined to growing counts.
+# The errors of both methods against the independent pictures of the Cornell box, as rows of Markdown
+# tables: the reference over sample counts, many_lights over counts of light samples, and many_lights
+# refined to increasing counts.
 # usage: tests/tools/accuracy.sh LAMPLIGHTER [SPP...]   (./dev accuracy; 4096 paths take half an hour)
 set -eu
 cd "$(dirname "$0")/../.."

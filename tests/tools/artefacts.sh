@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the paper's section 6.1 says goes wrong, before and after what was done about it: a table in
-# Markdown, and the pictures of docs/results/artefacts.md into docs/images/.
+# The artefacts of the paper's section 6.1, before and after our corrections: prints a Markdown table,
+# and writes the pictures of docs/results/artefacts.md to docs/images/.
 # usage: tests/tools/artefacts.sh LAMPLIGHTER   (needs oiiotool and jq: ./dev artefacts)
 set -eu
 cd "$(dirname "$0")/../.."
@@ -11,7 +11,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p docs/images
 
-# Without either, with samples where light arrives, with the light of corners besides, and refined.
+# before: without corrections; chosen: importance sampling of lights; then also the compensation of
+# the clamping bias (corner_light); refined: also refinement.
 arguments_of() {
   case $1 in
     before) echo --set importance=1 --set corner_light=off ;;
@@ -63,7 +64,7 @@ done
 refs=$shared/references
 rows cornell "$refs/scenes/cornell.gltf" "$refs/refs/cornell_b5.exr" "$refs/refs/cornell_mask.exr" \
   "1 2 3" "300 1024 4096" --bounces 5 --size 512x384
-# Without speculars, as glints of a pixel would be most of the error.
+# Without speculars, because highlights of single pixels would dominate the error.
 room=(--size 240x135 --set speculars=false)
 for scene in living-room classroom; do
   file=$shared/scenes/$scene/$scene.gltf

@@ -50,7 +50,7 @@ done < "$shared/scenes.tsv"
 sheet 2 docs/images/contact_sheet.jpg "${scenes[@]}"
 sheet 6 docs/images/contact_sheet_kit.jpg "${pieces[@]}"
 
-# The pieces as one line: how many, and their largest relRMSE and bias.
+# The pieces in one line: their number, and their largest relRMSE and bias.
 worst=$(awk -F'|' 'NF > 4 { n++; b = $5 - 1; if (b < 0) b = -b; if ($4 > e) e = $4; if (b > m) m = b }
   END { printf "%d pieces: relRMSE at most %.3f, bias within %.3f of 1.", n, e, m }' <<<"$pieces_table")
 cat > docs/results/contact_sheet.md <<TXT

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # The editor's states at three sizes, as contact sheets: editor_sheet.sh LAMPLIGHTER [FOLDER]
-# -> docs/images/editor_sheet_*.jpg; with FOLDER the single pictures are kept there.
-# Windows are of Xvfb, with so few light samples that a sheet takes a minute or two. ONLY=small, large
-# or dense makes one of them.
+# -> docs/images/editor_sheet_*.jpg; with FOLDER the single pictures are also kept there.
+# The windows run in Xvfb with few light samples, so that a sheet takes only a minute or two.
+# ONLY=small, large or dense makes only that sheet.
 set -eu
 lamplighter=$1
 source_dir=$(cd "$(dirname "$0")/../.." && pwd)
-# The file dialog shows where the scene lies, so that is no folder of this checkout.
+# The file dialog shows the scene's folder, so this must not be a folder of the checkout.
 work=${TMPDIR:-/tmp}/lamplighter-sheet
 mkdir "$work"
 trap 'rm -rf "$work"' EXIT
@@ -15,7 +15,7 @@ scene=$work/scenes/default.gltf
 keep=${2:-$work/pictures}
 mkdir -p "$keep"
 
-# A recording is written line by line; each of these takes the next frame or a few.
+# These functions write a recording line by line. Each uses the next frame or several frames.
 frame=0 file='' shots=''
 line() { printf '{"f":%d,%s}\n' "$frame" "$1" >> "$file"; }
 act() {  # ACTION
@@ -55,7 +55,7 @@ shot() {  # NAME: once the picture is settled
   shots="$shots $1"
 }
 
-# All states, for a viewport of about W x H pixels.
+# All states, for a viewport of approximately W x H pixels.
 states() {
   local w=$1 h=$2 x y
   x=$((w * 45 / 100)) y=$((h * 80 / 100))

@@ -28,8 +28,8 @@ edit() {  # edit SCENE OUT FILTER : a scene changed by a jq filter
 many=(--vpls 300 --bounces 5 --set direct_share=0.0834 --set map_resolution=128
   --set settled_map_scale=1 --set antialias=8)
 
-# 5-8: direct light alone; maps of 64², 128², 256² and 512² by rows, 25, 50, 100 light samples by
-# columns.
+# 5-8: direct light only. Rows: shadow maps of 64², 128², 256² and 512²; columns: 25, 50, 100 light
+# samples.
 names=()
 for resolution in 64 128 256 512; do
   for vpls in 25 50 100; do
@@ -43,7 +43,7 @@ mosaic 3x4 figure_5_8.jpg "${names[@]}"
 # 5-9: a white object beside the pillar, in view of the green wall, and behind the pillar.
 white='(.materials[] | select(.name == "mover").pbrMetallicRoughness.baseColorFactor) = [0.75, 0.75, 0.75, 1]'
 at() { echo "$white | (.nodes[] | select(.name == \"mover\").translation) = [$1]"; }
-# A small lamp aims at the green wall, so that what it reflects is seen.
+# A small lamp aims at the green wall, so that its reflected light is visible.
 lamp='(.nodes[] | select(.name == "ceiling light")) |= (.translation = [-2.9, 2.6, -1.2] | .scale = [0.3, 0.3, 0.3] | .rotation = [-0.1464466, 0.6903456, 0.1464466, 0.6903456])'
 eye='(.nodes[] | select(.name == "camera")) |= (.translation = [-1.2, 1.3, 1.2] | .rotation = [0, 0.1305262, 0, 0.9914449])'
 edit pillar_room 9-open "$(at '-1.3, 0.9, -0.9') | $eye | $lamp"
@@ -52,7 +52,7 @@ exposure=2.5
 for name in 9-open 9-hidden; do picture $name "$work/$name.gltf" --size 480x300 "${many[@]}"; done
 mosaic 2x1 figure_5_9.jpg 9-open 9-hidden
 
-# 5-10: what a block takes of the indirect light: with it, and without.
+# 5-10: the indirect light that a block occludes: with and without the block.
 exposure=0
 nothing='.scenes[0].nodes -= [.nodes | to_entries[] | select(.value.name == "plinth").key]'
 place='(.nodes[] | select(.name == "mover").translation) = [1.1, 0.55, -0.4]'

@@ -18,7 +18,7 @@ for view in $still; do
 done
 "$lamplighter" render "$scene" -o "$work/vpls.png" --marks --size 480x300 --exposure 1 --backend cpu
 
-# Light is old only while something moves.
+# Irradiance is out of date only while something moves.
 cat > "$work/moving.jsonl" <<JSON
 {"lamplighter":1,"scene":"$scene","sceneHash":"","window":[1050,389],"fps":60,"method":"many_lights","settings":{"antialias":4,"updates":20,"technique":"light_maps"},"exposure":1}
 {"f":6,"action":"view.map_age"}
@@ -38,7 +38,7 @@ for view in $still map_age pending_patches vpls; do
   oiiotool "$work/$view.png" --ch R,G,B --text:x=11:y=23:size=17:color=0,0,0:font=$font "$view" \
     --text:x=10:y=22:size=17:color=1,1,1:font=$font "$view" -o "$work/$view.png"
 done
-# All but the first eight have room for legends below.
+# All pictures after the first eight have space for a legend at the bottom.
 cd "$work"
 oiiotool lit.png light_only.png direct.png indirect.png albedo.png normals.png flat.png patches.png \
   --mosaic:pad=4 4x2 -o above.png

@@ -18,15 +18,15 @@
 namespace lamplighter {
 namespace {
 
-// A scene that was just opened is shown for so long before an exposure is found for it, or until it
-// is settled: by then most of its light samples are in.
+// After this number of frames, or when the picture is settled, the exposure of a newly opened scene
+// is set. Most of its light samples are then included.
 constexpr int kFramesToExposure = 8;
 
 constexpr ImGuiWindowFlags kPanelFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                          ImGuiWindowFlags_NoSavedSettings |
                                          ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-// A panel's window at a fixed place.
+// Begins a panel's window at a fixed position.
 void beginPanel(const char* id, const Rect& rect, bool scrolls = true) {
   ImGui::SetNextWindowPos({rect.min.x, rect.min.y});
   ImGui::SetNextWindowSize({rect.size().x, rect.size().y});
@@ -35,8 +35,8 @@ void beginPanel(const char* id, const Rect& rect, bool scrolls = true) {
   ImGui::Begin(id, nullptr, flags);
 }
 
-// What a frame did to refine the picture, as if that were refreshes: it costs otherwise, so that
-// its pace is found on its own.
+// Reports the refinement work of a frame as if it were refreshes. Its cost per item differs, so its
+// rate is controlled separately.
 GiStats refinementOf(GiStats stats) {
   stats.vplsRefreshed = stats.mapsRefined;
   return stats;
@@ -87,7 +87,7 @@ void Application::frame() {
   const PanelContext ui{*session_, widgets_, uiScale(), ""};
   drawPanels(ui);
   viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
-  // A replay must not depend on how far a thread has come.
+  // A replay must not depend on the progress of a thread.
   if (!replaying_) meterWorker_.exchange(session_->watch().meter);
   const bool renders = rendersFrame();
   if (renders) {
@@ -112,7 +112,7 @@ void Application::frame() {
   autosave_.frame(*session_, now);
 }
 
-// What is clicked is looked up in what was rendered, so each edit is.
+// Clicks are resolved in the rendered frame, so every edit is rendered.
 bool Application::rendersFrame() {
   const size_t position = session_->history().position();
   const bool renders = !skipsPictures_ || position != renderedPosition_;
@@ -125,7 +125,7 @@ void Application::close() {
   session_->crashRecovery().close();
 }
 
-// Each edit once, when its picture has settled. A replay has a report for that.
+// Logs each edit once, when its picture has settled. A replay has its own report.
 void Application::logLatency() {
   const EditLatency& latency = session_->watch().latency;
   if (latency.measured() == latenciesLogged_) return;
@@ -159,7 +159,7 @@ void Application::handle(const InputEvent& event) {
 
 namespace {
 
-// Keys that lead through a panel while something in it is marked for the keyboard.
+// Keys that navigate in a panel while one of its items has the keyboard focus.
 bool isOfNavigation(Key key, const Modifiers& modifiers) {
   const bool leads = key == Key::space || key == Key::enter || key == Key::escape ||
                      key == Key::tab || (key >= Key::left && key <= Key::end);
@@ -169,12 +169,12 @@ bool isOfNavigation(Key key, const Modifiers& modifiers) {
 }  // namespace
 
 void Application::pressKey(Key key) {
-  // Keys belong to a text field, a dialog or the flying camera before they are shortcuts.
+  // Text fields, dialogs and the flying camera get keys before shortcuts do.
   const Modifiers modifiers = router_.state().modifiers();
   if (ImGui::GetIO().WantTextInput || dialogOpen()) return;
   if (isOfNavigation(key, modifiers)) return;
   if (session_->flying() && !modifiers.ctrl) return;
-  if (session_->dragging() && key == Key::escape) return;  // it takes back the drag
+  if (session_->dragging() && key == Key::escape) return;  // Escape cancels the drag
   if (const std::string text = session_->actions().textForKey(key, modifiers); !text.empty())
     runAction(text);
 }
@@ -184,7 +184,7 @@ bool Application::dialogOpen() const {
 }
 
 void Application::runAction(const std::string& text) {
-  // Actions that need a file ask for it where none is given.
+  // Actions that need a file open a file dialog if no file is given.
   if (text == "file.open") {
     requests_.openDialog = true;
   } else if (text == "file.save_as" || (text == "file.save" && session_->document().path.empty())) {
@@ -205,7 +205,8 @@ void Application::runAction(const std::string& text) {
   }
 }
 
-// Where time goes by steps of fixed length, as in recordings, work goes by counts.
+// With a fixed time step, as in recordings, the work per frame is limited by counts instead of
+// time.
 std::optional<int> Application::updatesWithinTime() {
   const Settings& settings = session_->document().render.values;
   const float milliseconds = settings.real(parameters::frameTime());
@@ -214,7 +215,7 @@ std::optional<int> Application::updatesWithinTime() {
                   frameTime_.vplsWithin(1e-3 * milliseconds));
 }
 
-// At rest the same time goes into making the picture better; not where work goes by counts.
+// At rest, the same time is used to refine the picture, but not if work is limited by counts.
 int Application::refineUpdates() {
   const Settings& settings = session_->document().render.values;
   const float milliseconds = settings.real(parameters::frameTime());
@@ -224,7 +225,7 @@ int Application::refineUpdates() {
                               : std::min(updates, refineTime_.vplsWithin(1e-3 * milliseconds));
 }
 
-// After the frame was rendered: it tells of the picture beside it, not of the one before.
+// Call after the frame was rendered, so that the text describes the current picture.
 void Application::drawStatusLine(const PanelContext& ui) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(10), ui.px(2)});
   beginPanel("##status", layout_.status, false);
@@ -263,10 +264,10 @@ void Application::drawPanels(PanelContext ui) {
   viewport_.setCovered(
       {explained, histogramPanel(ui, below, requests_), historyPanel(ui, layout_.view, requests_)});
   layout_.splitters(ui);
-  // At once, so that this frame shows what they do.
+  // Run now, so that this frame shows the effects.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
 
-  // A field that went away while it was being edited leaves its step open.
+  // If a field disappears while it is edited, its transaction stays open; commit it.
   if (session_->history().inTransaction() && !ImGui::IsAnyItemActive() && !session_->dragging())
     session_->history().commit();
 }
@@ -298,7 +299,7 @@ void Application::drawDialogs(PanelContext ui) {
   if (!loader_.running()) {
     const std::string action = recoveryDialog_.draw(ui);
     if (!action.empty() && !session_->runAction(action)) showError(session_->status());
-    if (action == "recovery.recover") framesToExposure_ = 0;  // it has its own
+    if (action == "recovery.recover") framesToExposure_ = 0;  // it has its own exposure
   }
   settingsDialog(ui, settingsState_, requests_);
   switch (saveQuestion_.draw(ui)) {
@@ -349,7 +350,7 @@ void Application::openSave(const std::filesystem::path& path, bool forced) {
   }
 }
 
-// Does what waited for the changes to be saved or given up.
+// Continues the operation that waited until the changes were saved or discarded.
 void Application::closeIfSaved() {
   const Pending pending = std::exchange(pending_, Pending::none);
   if (pending == Pending::quit) finished_ = true;
@@ -383,8 +384,8 @@ void Application::takeLoaded() {
   }
 }
 
-// A level that was opened is exposed after a few frames, and again as long as light is still to
-// come: on a slow machine most of it comes later. Not when the user has begun to work by then.
+// Sets the exposure of an opened level after a few frames, and repeats this while light samples are
+// still missing: on a slow machine most of them come later. Stops when the user has made an edit.
 void Application::followExposure() {
   const GiOutput& output = session_->output();
   if (framesToExposure_ == 0 || (--framesToExposure_ > 0 && !output.settled)) return;
@@ -440,13 +441,13 @@ void Application::answerRequests() {
                               ? "Shaders compiled anew"
                               : "The cpu backend has no shaders");
     } catch (const gl::ShaderError& e) {
-      session_->setStatus(e.what());  // what was good stays in use
+      session_->setStatus(e.what());  // the valid values stay in use
     }
   }
   if (const auto path = session_->takeOpenRequest()) {
     if (replaying_) {
-      // At once: a frame count must not depend on how long a file takes to load. And from the
-      // level's own folder, so that a recording means the same wherever it is replayed.
+      // Load synchronously: frame counts must not depend on the loading time. The path is relative
+      // to the level's folder, so that a recording has the same effect everywhere.
       openNow(session_->document().path.parent_path() / *path);
     } else if (session_->modified()) {
       pending_ = Pending::open;
@@ -457,7 +458,7 @@ void Application::answerRequests() {
     }
   }
   if (session_->quitRequested() || platform_.closeRequested()) {
-    // A replay asks as the editor did, but its window can always be closed.
+    // A replay asks about unsaved changes as the editor does, but closing its window always works.
     const bool endsReplay = replaying_ && platform_.closeRequested();
     session_->requestQuit(false);
     platform_.refuseClose();
@@ -481,7 +482,7 @@ void Application::updateTitle() {
 }
 
 bool Application::idle() const {
-  // A few frames more, for what reacts a frame late: hover colours, layouts, popups.
+  // A few more frames for delayed reactions: hover colours, layouts, popups.
   constexpr int kAfterglow = 4;
   return quietFrames_ > kAfterglow && !toastState_.any() && !thumbnails_.busy() && input_.empty() &&
          session_->output().settled && session_->output().refined && !loader_.running();

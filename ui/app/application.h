@@ -1,6 +1,5 @@
-// The editor as a running program: input comes in, panels and tools act on the session, a picture
-// goes out. It runs in a window or in nothing at all, from a hand or from a recording, by the same
-// code.
+// The running editor: it takes input, lets panels and tools act on the session, and shows a
+// picture. The same code runs in a window or headless, from a user or from a recording.
 #pragma once
 
 #include <functional>
@@ -42,43 +41,44 @@ class Application {
   InputQueue& input() { return input_; }
   const WidgetMap& widgets() const { return widgets_; }
 
-  // Every frame lasts this long for tools and panels; 0: as long as it did. Recordings need it
-  // fixed.
+  // The duration of every frame for tools and panels; 0: the real duration. Recordings need a fixed
+  // time step.
   void setTimeStep(float seconds) { timeStep_ = seconds; }
-  // Told of each frame's events, with their targets named.
+  // Receives the events of each frame, with named targets.
   using Listener = std::function<void(const std::vector<InputEvent>&)>;
   void setListener(Listener listener) { listener_ = std::move(listener); }
   void setReplaying(bool replaying) { replaying_ = replaying; }
-  // Time goes on by the time step with each frame, so that what is shown of it is the same each
-  // time. After setTimeStep().
+  // Advances the clock by the time step in each frame, so that displayed times are the same in
+  // every run. Call after setTimeStep().
   void useFrameClock();
-  // Frames in which nothing was edited are laid out and take input, but are not rendered or drawn.
+  // If true, frames without an edit take input and do the layout, but are not rendered or drawn.
   void skipPictures(bool skips) { skipsPictures_ = skips; }
-  // Takes the user's settings and keys, and keeps what changes. Not where input is replayed or
-  // recorded. `preferences` are those that were read from the files.
+  // Uses the user's settings and keys, and saves changes. Not called for replays and recordings.
+  // `preferences` were read from the files.
   void setUser(std::unique_ptr<UserFiles> files, Preferences preferences);
 
-  // Loads on another thread; the frames go on meanwhile.
+  // Loads on another thread while frames continue.
   void openInBackground(const std::filesystem::path& path) { loader_.start(path); }
   // Loads before it returns. Throws InputError.
   void openNow(const std::filesystem::path& path);
   bool loading() const { return loader_.running(); }
-  // An exposure that suits the picture; no step of the history, since nobody chose it.
+  // Sets an exposure that suits the picture. It is not an undo step, because the user did not
+  // choose it.
   void followExposure();
   void exposeAutomatically();
   void showError(const std::string& text);
 
   void frame();
   bool finished() const { return finished_; }
-  // Nothing is left to be saved: the journal goes away.
+  // Call when there is nothing left to save. Deletes the journal.
   void close();
-  // Frames since the last input.
+  // Number of frames since the last input.
   int quietFrames() const { return quietFrames_; }
-  // Nothing will change without input.
+  // True if nothing will change without input.
   bool idle() const;
 
  private:
-  double seconds() const;  // since some moment
+  double seconds() const;  // since an arbitrary start
   void takeInput();
   void handle(const InputEvent& event);
   void pressKey(Key key);
@@ -98,7 +98,7 @@ class Application {
   void updateTitle();
   bool dialogOpen() const;
   // ui/app/application_user.cpp
-  float uiScale() const;  // pixels a design pixel
+  float uiScale() const;  // pixels per design pixel
   void exchangePreferences();
   void drawBottom(const PanelContext& ui);
   bool focusByKey(const std::string& action);
@@ -128,7 +128,7 @@ class Application {
   MessageBox messageBox_;
   SaveQuestion saveQuestion_;
   OverwriteQuestion overwriteQuestion_;
-  std::filesystem::path savesTo_;  // once that is answered
+  std::filesystem::path savesTo_;  // after the overwrite question is answered
   ProgressBox progressBox_;
   CommandPalette palette_;
   RecoveryDialog recoveryDialog_;
@@ -138,10 +138,10 @@ class Application {
   AssetPanelState assetState_;
   Thumbnails thumbnails_;
   ToastState toastState_;
-  std::unique_ptr<UserFiles> userFiles_;  // null: nothing is read or kept
-  Settings appliedPreferences_;           // that the layout goes by
+  std::unique_ptr<UserFiles> userFiles_;  // null: no files are read or written
+  Settings appliedPreferences_;           // the values that the layout uses now
 
-  // What to do once the question of unsaved changes is answered.
+  // The next step after the question about unsaved changes is answered.
   enum class Pending { none, quit, open };
   Pending pending_ = Pending::none;
   std::filesystem::path pendingOpen_;
@@ -154,15 +154,15 @@ class Application {
   bool frameClock_ = false;
   uint64_t frames_ = 0;
   bool skipsPictures_ = false;
-  size_t renderedPosition_ = ~size_t{0};  // of the history, when a frame was rendered last
+  size_t renderedPosition_ = ~size_t{0};  // position of the history at the last rendered frame
   bool replaying_ = false;
   bool finished_ = false;
   int framesToExposure_ = 0;
-  std::optional<float> lastExposure_;  // [EV], of a level whose light is still to come
+  std::optional<float> lastExposure_;  // [EV]; of a level whose lighting is not rendered yet
   size_t latenciesLogged_ = 0;
   int quietFrames_ = 0;
-  std::optional<int> focusStep_;       // to another panel; 0: to the menus
-  size_t titlePosition_ = ~size_t{0};  // of the history, when the title was made
+  std::optional<int> focusStep_;       // moves the focus to another panel; 0: to the menus
+  size_t titlePosition_ = ~size_t{0};  // position of the history when the title was set
   std::string title_;
 };
 

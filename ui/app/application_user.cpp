@@ -1,4 +1,4 @@
-// What the application has of its user: how large it is drawn, where its borders are.
+// The user's preferences in the application: the scale, and the borders of the layout.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -34,8 +34,8 @@ float Application::uiScale() const {
   return std::clamp(platform_.contentScale() * factor, kLeastUiScale, kMostUiScale);
 }
 
-// Once a frame, before panels are laid out: settings that were changed move the borders, borders
-// that were dragged are settings.
+// Call once per frame before the panels: changed settings move the borders, and dragged borders
+// change the settings.
 void Application::exchangePreferences() {
   Preferences& p = session_->home().preferences;
   if (p.values != appliedPreferences_) {
@@ -54,7 +54,7 @@ void Application::exchangePreferences() {
     keep("render_share", sizes.renderShare);
   }
   takePreferences(*session_);
-  // Shown or not: a program that waits for them is not idle.
+  // Independent of the panel: a program that waits for thumbnails is not idle.
   if (platform_.hasGl()) thumbnails_.update();
   appliedPreferences_ = p.values;
   if (!userFiles_) return;
@@ -83,7 +83,7 @@ void Application::drawBottom(const PanelContext& ui) {
 
 namespace {
 
-// Gives a window the keyboard and marks what is first in it.
+// Gives a window the keyboard focus and selects its first item.
 void focus(ImGuiWindow* window, ImGuiNavLayer layer) {
   ImGui::FocusWindow(window);
   ImGuiContext& g = *ImGui::GetCurrentContext();
@@ -95,7 +95,7 @@ void focus(ImGuiWindow* window, ImGuiNavLayer layer) {
 
 }  // namespace
 
-// The panels in the order of the window, round; those that are not shown are passed over.
+// Cycles through the visible panels, in the order of the window.
 void Application::focusPanel(int step) {
   static constexpr std::array kPanels = {"##viewport",  "##toolbar", "##outliner",
                                          "##inspector", "##render",  "##lights"};
@@ -125,7 +125,7 @@ bool Application::focusByKey(const std::string& action) {
   return true;
 }
 
-// Within a frame: what is first in the panel is found while it is drawn.
+// Call within a frame: the first item of the panel is found while the panel is drawn.
 void Application::focusAsAsked() {
   const std::optional<int> step = std::exchange(focusStep_, std::nullopt);
   if (!step) return;

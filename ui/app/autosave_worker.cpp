@@ -8,8 +8,8 @@ namespace lamplighter {
 
 namespace {
 
-// The journal has every edit anyway: this is for the level's own file being lost as well, and for
-// opening the work in another program.
+// The journal already has every edit. An autosave helps if the level's file is lost, and other
+// programs can open it.
 constexpr double kSecondsBetween = 120.0;
 
 }  // namespace
@@ -21,12 +21,12 @@ void AutosaveWorker::finish() {
 void AutosaveWorker::frame(Session& session, double seconds) {
   Journal* journal = session.crashRecovery().journal();
   if (journal == nullptr) return;
-  // Not in the middle of a drag: what it has done so far may be taken back.
+  // Not during a drag, because it may be cancelled.
   if (session.history().inTransaction()) return;
   if (work_ && written_) {
     finish();
     if (journal->folder() != work_->folder) {
-      // Another level was opened meanwhile: nobody needs this one.
+      // Another level was opened meanwhile; drop the result.
     } else if (!error_.empty()) {
       session.setStatus("Autosave: " + error_);
     } else {

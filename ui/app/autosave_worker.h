@@ -1,4 +1,4 @@
-// Writes autosaves beside the frames: a large level takes seconds.
+// Writes autosaves on another thread, because a large level takes seconds.
 #pragma once
 
 #include <atomic>
@@ -17,17 +17,18 @@ class AutosaveWorker {
   AutosaveWorker(const AutosaveWorker&) = delete;
   AutosaveWorker& operator=(const AutosaveWorker&) = delete;
 
-  // Once a frame, `seconds` by a clock: begins one when it is time, takes in what was written.
+  // Call once per frame. Starts an autosave when it is time, and handles a finished one. `seconds`:
+  // the time of a clock.
   void frame(Session& session, double seconds);
-  void finish();  // waits for what is being written
+  void finish();  // waits for the current autosave
 
  private:
   std::thread thread_;
   std::atomic<bool> written_ = false;
   std::optional<Journal::Autosave> work_;
-  std::string error_;   // the thread's, until it is written
-  double last_ = -1.0;  // when one was begun; < 0: never looked
-  int editsThen_ = 0;   // in the journal when the last one was begun
+  std::string error_;   // written by the thread
+  double last_ = -1.0;  // start time of the last autosave; < 0: frame() was never called
+  int editsThen_ = 0;   // edits in the journal when the last autosave started
 };
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// Which backend there is to have, and where its OpenGL comes from.
+// Creates backends and their OpenGL contexts.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,12 @@
 
 namespace lamplighter {
 
-// kind: "cpu", "gl" or "auto" (the faster, by a short measurement). The caller's OpenGL context is
-// current and outlives the backend.
+// kind: "cpu", "gl" or "auto" (chooses the faster one by a short measurement). The caller's OpenGL
+// context must be current and outlive the backend.
 std::unique_ptr<Backend> makeBackend(const std::string& kind, const Stopwatch& stopwatch);
 
-// The same without a window: gl gets a context of its own. Throws InputError when "gl" is asked for
-// and there is none to be had; "auto" is "cpu" then.
+// Creates a backend without a window: gl gets its own context. Throws InputError if "gl" is
+// requested and no context can be created; "auto" then chooses "cpu".
 std::unique_ptr<Backend> makeHeadlessBackend(const std::string& kind, const Stopwatch& stopwatch);
 
 }  // namespace lamplighter

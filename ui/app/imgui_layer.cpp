@@ -54,7 +54,7 @@ void mapKeys(ImGuiIO& io) {
   map(ImGuiKey_Z, Key::z);
 }
 
-// In menus and dialogs Enter presses what is marked, as Space does; elsewhere it types into a
+// In menus and dialogs Enter activates the focused item, as Space does. Elsewhere it goes to a text
 // field.
 bool enterPresses() {
   const ImGuiContext& g = *ImGui::GetCurrentContext();
@@ -71,7 +71,7 @@ ImGuiLayer::ImGuiLayer(Platform& platform) : platform_(platform), context_(ImGui
   io.LogFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-  // The same rules on every system, so that a recording replays anywhere.
+  // The same behaviour on every system, so that a recording replays anywhere.
   io.ConfigMacOSXBehaviors = false;
   io.MouseDrawCursor = false;
   mapKeys(io);
@@ -103,7 +103,7 @@ void ImGuiLayer::rescale(float scale) {
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui_ImplOpenGL3_CreateFontsTexture();
   } else {
-    // Text is measured with the same atlas, whether anything is drawn or not.
+    // Text is measured with the same atlas, even if nothing is drawn.
     unsigned char* pixels = nullptr;
     int width = 0, height = 0;
     io.Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
@@ -126,8 +126,8 @@ void ImGuiLayer::beginFrame(const PointerKeys& input, float seconds, float scale
     io.KeysDown[static_cast<size_t>(Key::enter)] = false;
     io.KeysDown[static_cast<size_t>(Key::space)] = true;
   }
-  // With Ctrl or Alt these keys are shortcuts, and no way through a panel; within a text they are
-  // its own. Panels change by F6.
+  // With Ctrl or Alt these keys are shortcuts and do not navigate. In a text field they belong to
+  // the text. F6 changes the panel.
   if ((input.held(Key::ctrl) || input.held(Key::alt)) && !io.WantTextInput) {
     for (const Key key : {Key::left, Key::right, Key::up, Key::down, Key::pageUp, Key::pageDown})
       io.KeysDown[static_cast<size_t>(key)] = false;
@@ -135,7 +135,8 @@ void ImGuiLayer::beginFrame(const PointerKeys& input, float seconds, float scale
   if (input.held(Key::ctrl)) io.KeysDown[static_cast<size_t>(Key::tab)] = false;
   io.KeyCtrl = input.held(Key::ctrl);
   io.KeyShift = input.held(Key::shift);
-  // Alone, Alt would lead into a menu; the camera orbits by it. It slows dragged values.
+  // Alt alone would open a menu, but the camera uses Alt to orbit. Alt also slows down dragged
+  // values.
   io.KeyAlt = input.held(Key::alt) && (io.WantTextInput || io.MouseDown[0]);
   io.KeySuper = input.held(Key::super);
   io.AddInputCharactersUTF8(input.text.c_str());

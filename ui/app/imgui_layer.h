@@ -1,5 +1,5 @@
-// Dear ImGui's context: its set-up, what it is fed each frame, and how its draw lists reach OpenGL.
-// Nothing but this class writes to ImGuiIO, so a recording sees all that ImGui sees.
+// Dear ImGui's context: set-up, input of each frame, and drawing its draw lists with OpenGL. Only
+// this class writes to ImGuiIO, so a recording contains everything that ImGui sees.
 #pragma once
 
 #include "ui/platform/platform.h"
@@ -16,9 +16,9 @@ class ImGuiLayer {
   ImGuiLayer(const ImGuiLayer&) = delete;
   ImGuiLayer& operator=(const ImGuiLayer&) = delete;
 
-  // `scale`: pixels a design pixel.
+  // `scale`: pixels per design pixel.
   void beginFrame(const PointerKeys& input, float seconds, float scale);
-  // Lays out what was drawn and, where there is OpenGL, draws it into the platform's framebuffer.
+  // Ends the ImGui frame. With OpenGL, draws it into the platform's framebuffer.
   void endFrame(bool draws = true);
 
  private:

@@ -6,8 +6,8 @@
 namespace lamplighter {
 
 void InputQueue::push(InputEvent event) {
-  // A mouse reports hundreds of places a second; only the last before something else happens
-  // counts.
+  // A mouse reports hundreds of positions per second. Only the last one before another event is
+  // kept.
   if (event.kind == EventKind::pointer && !queue_.empty() &&
       queue_.back().kind == EventKind::pointer) {
     queue_.back() = std::move(event);
@@ -37,7 +37,7 @@ std::vector<InputEvent> InputQueue::takeFrame() {
         keys.insert(event.key);
         break;
       case EventKind::action:
-        // An action may change what lies under the pointer, so what follows waits for its frame.
+        // An action may change what is under the pointer, so the next events wait for its frame.
         fits = taken.empty() || acted;
         acted = true;
         break;

@@ -1,4 +1,5 @@
-// The one way in for input, from a hand or a file. It hands out what fits one frame.
+// The only entry for input, from the user or from a file. It returns the events in portions that
+// fit one frame.
 #pragma once
 
 #include <deque>
@@ -12,9 +13,9 @@ class InputQueue {
  public:
   void push(InputEvent event);
   bool empty() const { return queue_.empty(); }
-  // The next events that one frame can show. A frame samples the state of buttons and keys once, so
-  // it stops before an event that would hide an earlier one: the pointer leaving where a button has
-  // just gone down, a button or key that changes twice.
+  // The next events that one frame can show. A frame reads the state of buttons and keys once. So
+  // this stops before an event that would hide an earlier one: for example, the pointer leaves the
+  // place of a button press, or a button or key changes twice.
   std::vector<InputEvent> takeFrame();
 
  private:

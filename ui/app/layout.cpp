@@ -16,10 +16,10 @@ constexpr float kLeastPanel = 150.0f, kLeastView = 160.0f, kLeastBottom = 120.0f
 void Layout::divide(vec2 window, float menuHeight, float scale, bool showsBottom) {
   scale_ = scale;
   const auto px = [&](float designPixels) { return std::round(designPixels * scale); };
-  // The view keeps some room whatever the window's size.
+  // The view keeps a minimum size at any window size.
   const float most = std::max(window.x / scale - kLeastView, 2 * kLeastPanel);
   shown_ = sizes_;
-  // Names can be cut and scrolled, fields cannot: the left column gives way first.
+  // Names can be cut and scrolled, fields cannot. So the left column shrinks first.
   shown_.left = std::clamp(sizes_.left, kLeastPanel, std::max(most - sizes_.right, kLeastPanel));
   shown_.right = std::clamp(sizes_.right, kLeastPanel, most - shown_.left);
   shown_.renderShare = std::clamp(sizes_.renderShare, 0.15f, 0.85f);

@@ -12,19 +12,18 @@
 namespace lamplighter {
 namespace {
 
-// Paths a block in each half after which more would not be seen in the figures.
+// Paths per block in each half; more would not change the displayed figures.
 constexpr int kMostSamples = 4096;
 
-// Of the processor's threads; frames take all of them where they can.
+// Number of threads of the worker. Frames use all threads if they can.
 int threadsBeside() { return std::max(1, tbb::this_task_arena::max_concurrency() / 4); }
 
-// The scheduler gives this thread little where others want the core: a tenth of it, so that there
-// is a figure after some seconds even while the picture is being refined. Linux counts priorities
-// by thread.
+// Lowers the priority of this thread: if others want the core, it gets a tenth of it. A figure then
+// appears after some seconds even during refinement. Linux has priorities per thread.
 void yieldToOthers() {
   constexpr int kNice = 10;
   const auto thread = static_cast<id_t>(::syscall(SYS_gettid));
-  ::setpriority(PRIO_PROCESS, thread, kNice);  // at worst it stays as it is
+  ::setpriority(PRIO_PROCESS, thread, kNice);  // on failure the priority is unchanged
 }
 
 }  // namespace
@@ -72,7 +71,7 @@ void MeterWorker::run() {
       subject = wanted_;
       stop_ = false;
     }
-    // Without memory for it there is no figure; the editor goes on.
+    // If memory is short there is no figure, and the editor continues.
     try {
       beside.execute([&] { trace(subject); });
     } catch (const std::exception&) {

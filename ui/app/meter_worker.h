@@ -1,4 +1,5 @@
-// Traces the error meter's reference beside the frames, on what they leave of the processor.
+// Traces the reference of the error meter in parallel with the frames, with the CPU time that they
+// leave.
 #pragma once
 
 #include <atomic>
@@ -18,21 +19,21 @@ class MeterWorker {
   MeterWorker(const MeterWorker&) = delete;
   MeterWorker& operator=(const MeterWorker&) = delete;
 
-  // Once a frame: takes what the meter wants traced, hands it what was traced since.
+  // Call once per frame: gets the wanted subject from the meter, and gives it the latest result.
   void exchange(ErrorMeter& meter);
 
  private:
   void run();
   void trace(const std::shared_ptr<const MeterSubject>& subject);
 
-  std::thread thread_;  // started when something is wanted first
+  std::thread thread_;  // started with the first subject
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::shared_ptr<const MeterSubject> wanted_;     // null: nothing
-  std::shared_ptr<const ReferenceHalves> traced_;  // not handed over yet
-  std::atomic<bool> stop_ = false;                 // what is traced is not wanted any more
+  std::shared_ptr<const MeterSubject> wanted_;     // null: no subject
+  std::shared_ptr<const ReferenceHalves> traced_;  // result that the meter does not have yet
+  std::atomic<bool> stop_ = false;                 // the current subject is no longer wanted
   bool quit_ = false;
-  std::unique_ptr<ReferenceSampler> sampler_;  // the thread's
+  std::unique_ptr<ReferenceSampler> sampler_;  // used only by the thread
 };
 
 }  // namespace lamplighter

@@ -22,7 +22,8 @@ int largestDifference(const uint8_t* a, const uint8_t* b) {
 
 constexpr int kTile = 16;
 
-// The mean difference of each tile's pixels and channels; those at the border may be smaller.
+// The largest mean difference of the tiles, over pixels and channels. Tiles at the border may be
+// smaller.
 double largestTile(const Image8& a, const Image8& b) {
   double largest = 0.0;
   for (int y0 = 0; y0 < a.height; y0 += kTile) {

@@ -1,4 +1,4 @@
-// Comparing a replay's pictures with its baselines.
+// Compares the pictures of a replay with its baselines.
 #pragma once
 
 #include <filesystem>
@@ -10,13 +10,15 @@ namespace lamplighter {
 
 struct PictureDifference {
   bool sameSize = true;
-  int max = 0;        // of a channel, of 255
-  int largest = 0;    // the same with one pixel in a thousand left out: silhouettes, which differ
-                      // between a rasterizer and rays, and between rasterizers
+  int max = 0;  // largest difference of a channel, of 255
+  // the same without the worst 0.1% of the pixels: silhouettes differ between rasterizer and ray
+  // tracer, and between rasterizers
+  int largest = 0;
   double mean = 0.0;  // over pixels and channels, of 255
-  double tile = 0.0;  // the largest mean of a tile of 16 x 16 pixels: a word or an icon that is not
-                      // there, which would be lost in the mean
-  size_t pixels = 0;  // that differ at all
+  // largest mean of a tile of 16 x 16 pixels; detects a missing word or icon, which hardly changes
+  // the mean of the whole picture
+  double tile = 0.0;
+  size_t pixels = 0;  // pixels that differ
 
   bool none() const { return sameSize && max == 0; }
   bool within(double mostLargest, double mostMean) const {
@@ -25,14 +27,15 @@ struct PictureDifference {
   std::string text() const;
 };
 
-// Half the size each way, every pixel the mean of up to four. Baselines are kept this way.
+// The picture at half width and half height. Each pixel is the mean of up to four. Baselines have
+// this size.
 Image8 halved(const Image8& image);
-// Display-referred pictures, alpha aside.
+// Compares display-referred pictures without alpha.
 PictureDifference comparePictures(const Image8& a, const Image8& b);
-// Where they differ: black is equal, through red to white where a channel is 64 of 255 off or more.
-// Both of one size.
+// The difference as a picture: black is equal; the colours go through red to white, which means
+// that a channel differs by 64 of 255 or more. Both pictures must have the same size.
 Image8 differencePicture(const Image8& a, const Image8& b);
-// A picture as it was written, without any conversion. Throws InputError.
+// Reads a picture without any colour conversion. Throws InputError.
 Image8 readPicture(const std::filesystem::path& path);
 
 }  // namespace lamplighter

@@ -27,13 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Frames that a checkpoint may take to settle before the recording counts as broken.
+// The maximum number of frames until a checkpoint settles. After it the recording counts as broken.
 constexpr int kPatience = 5000;
-// Frames without input before a checkpoint counts: some widgets act a frame after the input.
+// Frames without input before a checkpoint: some widgets react one frame after the input.
 constexpr int kQuietFrames = 2;
 
-// Where actions of a recording save: in the folder that is asked for, or else where it is gone
-// after.
+// The folder where actions of a recording save files: the requested folder, or a temporary folder
+// that is deleted.
 class WriteFolder {
  public:
   explicit WriteFolder(const fs::path& asked) : path_(asked), isOurs_(asked.empty()) {
@@ -66,7 +66,7 @@ class Replay {
         writeFolder_(options_.outputFolder) {}
 
   using MakeRenderer = SplitView::MakeRenderer;
-  // `reports`: how soon edits were seen goes to the screen and the report.
+  // `reports`: writes edit latencies to the screen and to the report.
   void run(Platform& platform, const MakeRenderer& makeRenderer, bool reports);
 
  private:
@@ -80,10 +80,11 @@ class Replay {
 
   const ReplayOptions& options_;
   ReplayChecks& checks_;
-  Recording updated_;  // with the hashes of this run
+  Recording updated_;  // the recording with the hashes of this run
   Player player_;
   WriteFolder writeFolder_;
-  std::optional<WriteFolder> journals_;  // with what others have left, where the recording has some
+  // copies of the journals that the recording provides, if any
+  std::optional<WriteFolder> journals_;
 };
 
 void Replay::start(Application& app) {
@@ -95,7 +96,7 @@ void Replay::start(Application& app) {
   session.document().render = header().render;
   if (!options_.method.empty()) session.document().render.method = options_.method;
   keepJournal(session);
-  for (int i = 0; i < 2; ++i) app.frame();  // the layout's sizes are known after these
+  for (int i = 0; i < 2; ++i) app.frame();  // these frames compute the sizes of the layout
   const fs::path scene = player_.recording().scenePath();
   if (scene.empty()) return;
   const std::string hash = hashText(fileHash(scene));
@@ -128,7 +129,7 @@ void Replay::run(Platform& platform, const MakeRenderer& makeRenderer, bool repo
     std::vector<InputEvent> ignored;
     platform.poll(ignored, 0.0);
     for (InputEvent& event : player_.beginFrame()) app.input().push(std::move(event));
-    // Only what is looked at need be rendered.
+    // Only frames at checkpoints must be rendered.
     app.skipPictures(options_.frameClock && !player_.waits());
     try {
       app.frame();
@@ -161,7 +162,7 @@ void Replay::writeReport(Session& session) const {
 
 std::string Replay::hashOf(const Session& session) const {
   Document document = session.document();
-  // The method that the command line asked for is no edit of the recording's.
+  // The method from the command line is not an edit of the recording.
   if (!options_.method.empty() && document.render.method == options_.method)
     document.render.method = header().render.method;
   return hashText(documentHash(document));
@@ -198,13 +199,13 @@ void Replay::check(Application& app, Platform& platform, const Checkpoint& check
 int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   const Recording recording = readRecording(options.recording);
   const RecordingHeader& header = recording.header;
-  // The cpu backend gives the same bits everywhere, so that is what a replay takes unless told.
+  // The cpu backend gives the same bits everywhere, so it is the default for replays.
   const std::string backend = options.backend == "auto" ? "cpu" : options.backend;
   const bool needsGl = backend == "gl" ||
                        std::count(options.against.begin(), options.against.end(), "backend=gl") > 0;
   const std::optional<float> scale = askedUiScale();
   std::unique_ptr<Platform> platform;
-  // OpenGL is needed only by the gl backend and for pictures of the panels.
+  // Only the gl backend and screenshots of the panels need OpenGL.
   std::unique_ptr<gl::HeadlessContext> context;
   if (options.headless) {
     try {
@@ -223,7 +224,7 @@ int runReplay(const ReplayOptions& options, const Stopwatch& stopwatch) {
   ReplayChecks checks(options, recording);
   const auto play = [&](const ReplayRun& run, const std::string& onBackend, int threads) {
     const ThreadLimit limit(threads);
-    // Without a stopwatch no stage of a frame is timed.
+    // Without a stopwatch the stages of a frame are not timed.
     const auto renderer = [&] {
       return std::make_unique<FrameRenderer>(makeBackend(onBackend, stopwatch),
                                              options.frameClock ? Stopwatch() : stopwatch);

@@ -13,8 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a picture of the cpu backend may differ from its baseline by, of 255: rays that meet two
-// triangles at one distance may take either one on another processor.
+// Tolerances of the cpu backend's pictures, of 255. If a ray hits two triangles at the same
+// distance, another processor may choose the other one.
 constexpr double kCpuLargest = 4.0, kCpuMean = 0.02;
 
 void add(std::string& problems, const std::string& more) {
@@ -101,7 +101,7 @@ std::string ReplayChecks::firstRunProblem(const Checkpoint& checkpoint, const st
 }
 
 void ReplayChecks::take(const Checkpoint& checkpoint, const std::string& document, Image8 picture) {
-  // Another method, when the command line asks for one, gives another picture.
+  // A method given on the command line renders a different picture.
   const bool isOtherMethod = !options_.method.empty();
   std::string problem = documentProblem(checkpoint, document);
   if (run_.label.empty()) {

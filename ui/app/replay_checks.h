@@ -1,5 +1,5 @@
-// What a replay's checkpoints are compared with: the baselines beside the recording, earlier
-// checkpoints of the same run that must look the same, and the checkpoints of another run.
+// Compares the checkpoints of a replay with the baselines beside the recording, with earlier
+// checkpoints of the same run that must look the same, and with the checkpoints of another run.
 #pragma once
 
 #include <filesystem>
@@ -14,27 +14,27 @@
 
 namespace lamplighter {
 
-// One run of a recording, as its checkpoints are compared.
+// One run of a recording.
 struct ReplayRun {
-  std::string label;           // "" for the first, else how it is played: "threads=1"
-  bool hasSameBackend = true;  // as the first
+  std::string label;           // "" for the first run, otherwise its options: "threads=1"
+  bool hasSameBackend = true;  // the same backend as the first run
   bool isOnCpu = true;
 };
 
 class ReplayChecks {
  public:
-  // Both must outlive this.
+  // Both arguments must outlive this object.
   ReplayChecks(const ReplayOptions& options, const Recording& recording)
       : options_(options), recording_(recording) {}
 
   void begin(const ReplayRun& run);
-  // A checkpoint that was reached. Throws InputError when a picture cannot be read or written.
+  // Checks a checkpoint. Throws InputError if a picture cannot be read or written.
   void take(const Checkpoint& checkpoint, const std::string& document, Image8 picture);
-  // As --update-baselines: the baseline becomes this picture.
+  // For --update-baselines: makes this picture the baseline.
   void writeBaseline(const Checkpoint& checkpoint, const Image8& picture) const;
 
-  // Where a checkpoint's picture goes: the output folder, or out/replay when a check fails and
-  // nobody named a folder.
+  // The path for a checkpoint's picture: in the output folder, or in out/replay if a check failed
+  // and no folder was given.
   std::filesystem::path outputOf(const Checkpoint& checkpoint, const std::string& ending) const;
 
   int passed() const { return passed_; }
@@ -58,7 +58,7 @@ class ReplayChecks {
   const ReplayOptions& options_;
   const Recording& recording_;
   ReplayRun run_;
-  std::vector<Seen> first_, now_;  // of the first run, and of this one
+  std::vector<Seen> first_, now_;  // of the first run and of the current run
   int passed_ = 0, failed_ = 0;
   nlohmann::ordered_json report_ = nlohmann::ordered_json::array();
 };

@@ -1,4 +1,4 @@
-// The editor in a window, and replays: what the command line hands on to the ui.
+// The entry points of the ui for the command line: the editor in a window, and replays.
 #pragma once
 
 #include "editor/cli/cli.h"

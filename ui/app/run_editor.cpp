@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 constexpr int kRecordedWidth = 1280, kRecordedHeight = 720;
 constexpr int kFramesPerSecond = 60;  // of recordings
 
-// What the user sees while OpenGL compiles: the only work that must be done on this thread.
+// Shown while OpenGL compiles shaders, the only long work that must run on this thread.
 void showPreparing(Window& window, float scale) {
   ImGuiLayer gui(window);
   WidgetMap widgets;
-  for (int i = 0; i < 2; ++i) {  // the first frame only measures
+  for (int i = 0; i < 2; ++i) {  // the first frame only computes sizes
     std::vector<InputEvent> ignored;
     window.poll(ignored, 0.0);
     gui.beginFrame({}, 1.0f / 60.0f, scale);
@@ -54,7 +54,7 @@ RecordingHeader headerFor(const fs::path& scene, const fs::path& recording,
 
 void pump(Platform& platform, Application& app) {
   std::vector<InputEvent> events;
-  // An idle program leaves the processor alone; it looks up now and then for blinking cursors.
+  // An idle program uses almost no CPU; it wakes up regularly for blinking cursors.
   platform.poll(events, app.idle() ? 0.2 : 0.0);
   for (InputEvent& event : events) app.input().push(std::move(event));
 }
@@ -65,8 +65,8 @@ int runEditor(const EditorOptions& options, const Frontend& frontend) {
   const Stopwatch& stopwatch = frontend.stopwatch;
   const fs::path scene = options.scene.empty() ? defaultScene() : fs::path(options.scene);
   const bool recording = !options.record.empty();
-  // A recording must mean the same in another window, so its window has one size and one scale, and
-  // it knows nothing of the user's settings.
+  // A recording must have the same effect in another window. So its window has a fixed size and
+  // scale, and does not use the user's settings.
   auto files = std::make_unique<UserFiles>(recording ? fs::path() : configFolder());
   Preferences preferences = files->readPreferences();
   Window window(preferences.integer("window_width"), preferences.integer("window_height"),
@@ -78,23 +78,23 @@ int runEditor(const EditorOptions& options, const Frontend& frontend) {
     return std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
   };
   auto renderer = makeRenderer();
-  // Recordings must not depend on what is there from before.
+  // Recordings must not depend on files of earlier sessions.
   if (!recording) renderer->setCacheFolder(transferFolder());
   Application app(window, std::make_unique<Session>(std::move(renderer)));
   app.session().split().setRenderer(makeRenderer);
   if (!recording) app.setUser(std::move(files), std::move(preferences));
   const fs::path journal = options.journal.empty() ? recoveryFolder() : fs::path(options.journal);
-  // What is left from before must not stand in a recording either.
+  // Recoverable work must not affect a recording either.
   if (!recording && !journal.empty())
     app.session().keepJournal(journal, frontend.process, frontend.unixTime);
   std::optional<Recorder> recorder;
-  // What is recorded must not hang on a thread's pace; there it is measured by an action.
+  // Recordings must not depend on the timing of a thread; they measure by an action.
   app.session().watch().meter.setOn(!recording);
   if (!recording) {
     app.openInBackground(scene);
   } else {
     app.setTimeStep(1.0f / kFramesPerSecond);
-    for (int i = 0; i < 2; ++i) app.frame();  // the layout's sizes are known after these
+    for (int i = 0; i < 2; ++i) app.frame();  // these frames compute the sizes of the layout
     app.openNow(scene);
     app.frame();
     app.exposeAutomatically();

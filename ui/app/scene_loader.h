@@ -1,4 +1,4 @@
-// Loads a scene on a thread of its own, so that the window stays alive meanwhile.
+// Loads a scene on its own thread, so that the window stays responsive.
 #pragma once
 
 #include <atomic>
@@ -19,16 +19,16 @@ class SceneLoader {
   struct Result {
     std::filesystem::path path;
     std::optional<LoadedScene> loaded;
-    std::string error;  // why there is none; empty when it was cancelled
+    std::string error;  // reason of a failure; empty if cancelled
   };
 
-  // Ends what is running and loads this.
+  // Cancels a load in progress and starts a new one.
   void start(const std::filesystem::path& path);
   bool running() const { return thread_.joinable(); }
   void cancel() { cancelled_ = true; }
   float done() const { return done_; }
   std::string what() const;
-  // What came of it, once, when it is there.
+  // The result, once, when loading has finished.
   std::optional<Result> take();
 
  private:

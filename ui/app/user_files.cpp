@@ -13,10 +13,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr size_t kMostBytes = 1 << 20;
-// Frames that settings stay the same before they are written: a slider that is dragged is not.
+// The number of frames without a change before settings are written, so that nothing is written
+// while a slider is dragged.
 constexpr int kFramesUnchanged = 30;
 
-// None: there is no such file, or it cannot be read, of which `problem` tells.
+// None: the file does not exist, or it cannot be read and `problem` says why.
 std::optional<std::string> contents(const fs::path& path, std::string& problem) {
   std::error_code error;
   if (!fs::exists(path, error)) return std::nullopt;
@@ -93,7 +94,7 @@ void UserFiles::flush(const Preferences& preferences) {
   if (folder_.empty() || !writes_) return;
   const std::string text = preferencesText(preferences);
   if (text == written_) return;
-  // Nobody has set anything yet: then there is no need of a file.
+  // All values are defaults, so no file is needed.
   if (written_.empty() && preferences == Preferences()) return;
   try {
     std::error_code error;

@@ -1,5 +1,5 @@
-// The user's settings.json and keys.json: read when the window opens, the first written when
-// something has changed. Replays and recordings have none of this.
+// The user's settings.json and keys.json. Both are read when the window opens; settings.json is
+// written after a change. Replays and recordings do not use them.
 #pragma once
 
 #include <filesystem>
@@ -13,21 +13,21 @@ namespace lamplighter {
 
 class UserFiles {
  public:
-  // Empty: there is no such folder, so nothing is read or kept.
+  // Empty: there is no such folder, and nothing is read or written.
   explicit UserFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // What is there; defaults for what is not or is broken. A broken settings file is put aside under
-  // another name, or where that fails is left alone and never written.
+  // Reads the settings; missing or invalid values get their defaults. A broken settings file is
+  // renamed. If the renaming fails, the file stays and is never overwritten.
   Preferences readPreferences();
   KeyList readKeys();
-  // What was wrong, each one line that names the file.
+  // Problems of the files, one line each, with the file name.
   const std::vector<std::string>& problems() const { return problems_; }
 
-  // Writes them once they have stayed the same for some calls, one a frame.
+  // Call once per frame. Writes the preferences after they have not changed for several calls.
   void keep(const Preferences& preferences);
-  // At once, if they are not written yet.
+  // Writes unsaved preferences at once.
   void flush(const Preferences& preferences);
-  // What kept them from being written, once; "": nothing.
+  // The reason why writing failed, once; "": no failure.
   std::string takeWriteProblem();
 
  private:
@@ -37,9 +37,9 @@ class UserFiles {
   std::vector<std::string> problems_;
   std::string writeProblem_;
   bool writes_ = true;
-  std::string written_;  // as it is in the file
+  std::string written_;  // content of the file
   Preferences last_;
-  int unchanged_ = 0;  // calls of keep() since last_ was another
+  int unchanged_ = 0;  // calls of keep() since last_ changed
 };
 
 }  // namespace lamplighter

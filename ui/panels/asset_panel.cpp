@@ -20,12 +20,12 @@ std::string actionOf(const AssetFile& file) {
   return "place.start asset.place " + quoted(file.path.string());
 }
 
-// The name without its folder, as much of it as there is room for.
+// The file name without its folder, shortened to the available width.
 void caption(const std::string& name, const ImVec2& low, float width) {
   const auto widthOf = [](const std::string& t) { return ImGui::CalcTextSize(t.c_str()).x; };
   std::string text = name.substr(name.rfind('/') + 1), whole = text;
   while (widthOf(text) > width && !whole.empty()) {
-    // Whole characters: all but the first byte of one are 10xxxxxx in UTF-8.
+    // Do not cut a UTF-8 character: all its bytes except the first are 10xxxxxx.
     unsigned char last = 0;
     do {
       last = static_cast<unsigned char>(whole.back());
@@ -68,7 +68,7 @@ void bar(const PanelContext& ui, AssetPanelState& state, Requests& requests) {
   ImGui::AlignTextToFramePadding();
   const std::filesystem::path& folder = home.preferences.assetFolder;
   ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
-  // The whole path is longer than the bar, as a rule; the tooltip has it.
+  // The whole path is usually too long for the bar; the tooltip shows it.
   const std::string end = (folder.parent_path().filename() / folder.filename()).string();
   ImGui::TextUnformatted(endOf(end, ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopStyleColor();
@@ -94,7 +94,7 @@ void grid(const PanelContext& ui, const std::vector<AssetFile>& files, Thumbnail
     if (ImGui::Selectable("##asset", isPlaced, 0, {side, high})) requests.actions.push_back(action);
     ImGui::PopID();
     ui.name(file.name);
-    // What is scrolled away is not rendered before it is seen.
+    // Items outside the visible area are not rendered until they are scrolled into view.
     if (ImGui::IsItemVisible()) {
       static const Thumbnails::Thumbnail kNone;
       const int wanted = std::clamp(static_cast<int>(side), 32, 512);
@@ -117,7 +117,7 @@ void assetPanel(PanelContext ui, AssetPanelState& state, Thumbnails* thumbnails,
   const std::filesystem::path& folder = home.preferences.assetFolder;
   if (folder != home.assetsListed && !state.listed)
     requests.actions.push_back("asset.folder " + quoted(folder.string()));
-  state.listed = true;  // once; a folder that is gone is told once
+  state.listed = true;  // list only once, so that a missing folder is reported once
   bar(ui, state, requests);
   ImGui::BeginChild("grid", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
   const std::vector<AssetFile> files = matchingAssets(home.assetFiles, state.search);

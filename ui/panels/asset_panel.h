@@ -1,4 +1,4 @@
-// The asset browser: a folder of glTF files by their thumbnails, to be placed by clicks.
+// The asset browser: thumbnails of a folder of glTF files. A click places an asset.
 #pragma once
 
 #include <string>
@@ -14,9 +14,9 @@ struct Requests;
 
 struct AssetPanelState {
   std::string search;
-  bool listed = false;  // the folder of the settings was asked for
+  bool listed = false;  // the folder from the settings was requested
 };
-// `thumbnails`: null where nothing is drawn.
+// `thumbnails`: null if nothing is drawn.
 void assetPanel(PanelContext ui, AssetPanelState& state, Thumbnails* thumbnails,
                 Requests& requests);
 

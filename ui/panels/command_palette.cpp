@@ -22,7 +22,7 @@ std::vector<std::string> wordsOf(const std::string& text) {
   return words;
 }
 
-// 0: it does not fit. Names that begin so come before names and labels that hold the words.
+// 0: no match. Names that start with the text rank above names and labels that contain the words.
 int rank(const Action& action, const std::vector<std::string>& words) {
   const std::string name = lowerCase(action.name), label = lowerCase(action.label);
   for (const std::string& word : words) {
@@ -35,7 +35,7 @@ int rank(const Action& action, const std::vector<std::string>& words) {
   return startsPart ? 2 : 1;
 }
 
-// A name that is whole, with a space behind it: what follows are its arguments.
+// The action if the text starts with its full name and a space; the rest are arguments.
 const Action* namedAction(const ActionRegistry& registry, const std::string& text) {
   const size_t space = text.find(' ');
   return space == std::string::npos ? nullptr : registry.find(text.substr(0, space));
@@ -133,7 +133,7 @@ std::string CommandPalette::draw(PanelContext ui) {
     const bool isNamed = namedAction(ui.session.actions(), text_) == &action;
     const bool hasArguments = isNamed && wordsOf(text_).size() > 1;
     if (needsArguments(action) && !hasArguments) {
-      open(action.name + " ");  // they are to be typed
+      open(action.name + " ");  // the user types the arguments
       ImGui::CloseCurrentPopup();
     } else {
       out = isNamed ? text_ : action.name;

@@ -1,5 +1,5 @@
-// Every action by its name: type a part of it, choose with the arrow keys, Enter runs it. Words
-// after the name are the action's arguments.
+// The command palette lists every action. The user types a part of the name, chooses with the arrow
+// keys, and runs the action with Enter. Words after the name are the arguments.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace lamplighter {
 
-// The actions that fit what was typed, best first: each of its words occurs in the name or the
-// label. Once the name of an action and a space stand there it is that action alone, and what
-// follows are arguments.
+// The actions that match the typed text, best first. All typed words must occur in the name or the
+// label. After the full name of an action and a space, only that action matches, and the rest of
+// the text is its arguments.
 std::vector<const Action*> matchingActions(const ActionRegistry& registry, const std::string& text);
 
 class CommandPalette {
  public:
-  // With a text to begin with, such as "edit.duplicate_line ".
+  // Opens with an initial text, for example "edit.duplicate_line ".
   void open(std::string text = "");
-  // What is to be run, once; "": nothing yet.
+  // The action text to run, once; "": none.
   std::string draw(PanelContext ui);
 
  private:

@@ -1,4 +1,4 @@
-// How right the picture is: the error meter, and the split view with what its sides are.
+// The accuracy of the picture: the error meter, and the split view with the choice of its sides.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +11,7 @@
 namespace lamplighter {
 namespace {
 
-// What a side may be without typing: live, each method, and each by its techniques.
+// The predefined sides: live, each method, and each method with each of its techniques.
 std::vector<std::string> sides() {
   std::vector<std::string> all{"live"};
   for (const MethodInfo& method : methods()) {
@@ -24,7 +24,7 @@ std::vector<std::string> sides() {
   return all;
 }
 
-// The chosen text, if another was chosen.
+// Returns the new text if the user chose another one.
 std::optional<std::string> sideCombo(const PanelContext& ui, const char* label,
                                      const std::string& widget, const std::string& current) {
   labelledRow(ui, label,

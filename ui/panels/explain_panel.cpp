@@ -1,4 +1,4 @@
-// The answer to "why is it dark here?": a row for each light.
+// Shows the explanation of "why is it dark here?" with a row for each light.
 #include <algorithm>
 
 #include <spdlog/fmt/fmt.h>
@@ -33,7 +33,7 @@ void coloured(const std::string& text, unsigned colour) {
   ImGui::PopStyleColor();
 }
 
-// Flush right within its column.
+// Right-aligned in its column.
 void number(const std::string& text, unsigned colour = theme::kText) {
   const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
   if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
@@ -82,7 +82,7 @@ void header(const PanelContext& ui, const Explanation& e, Requests& requests) {
 }
 
 void blockers(const PanelContext& ui, const LightShare& l, int row, Requests& requests) {
-  // The first; the others are told by its tooltip.
+  // The first blocker; the tooltip lists the others.
   const BlockingObject& first = l.blockers.front();
   std::string label = first.name;
   if (l.blockers.size() > 1) label += fmt::format(" +{}", l.blockers.size() - 1);
@@ -146,7 +146,7 @@ Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
   if (answer == nullptr) return {};
   ui.prefix = "explain/";
   const float gap = ui.px(10);
-  // Rather over the panels beside a very narrow view than without room for its columns.
+  // If the view is very narrow, covers the neighbouring panels rather than cutting off columns.
   const float width = std::max(std::min(ui.px(kExplainWidth), view.size().x - 2.0f * gap),
                                ui.px(kLeastExplainWidth));
   const float rowHeight = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;

@@ -12,14 +12,14 @@ namespace lamplighter {
 namespace {
 
 constexpr float kHistogramWidth = 330.0f, kLeastHistogramWidth = 280.0f, kBarsHeight = 92.0f,
-                kLeastBarsHeight = 30.0f;  // design pixels; of the bars
+                kLeastBarsHeight = 30.0f;  // height of the bars in design pixels
 
 float atStops(const Rect& area, float stops) {
   const float t = (stops - Histogram::kLowest) / (Histogram::kHighest - Histogram::kLowest);
   return area.min.x + t * area.size().x;
 }
 
-// Bars, with lines at 1 and at middle grey and a tick a stop.
+// Draws the bars, with lines at 1 and at middle grey and a tick per stop.
 void bars(const PanelContext& ui, const Histogram& h, float height) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -28,14 +28,14 @@ void bars(const PanelContext& ui, const Histogram& h, float height) {
   const Rect area{{at.x, at.y}, {at.x + width, at.y + height}};
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {area.max.x, area.max.y}, theme::colour(theme::kBackground), ui.px(3));
-  // The end bins hold all beyond: they must not press the others flat.
+  // The first and last bins also count all values beyond. They must not scale down the other bars.
   const uint64_t most =
       std::max<uint64_t>(*std::max_element(h.bins.begin() + 1, h.bins.end() - 1), 1);
   const float step = width / Histogram::kBins;
   for (int i = 0; i < Histogram::kBins; ++i) {
     const auto count = static_cast<float>(h.bins[static_cast<size_t>(i)]);
     if (count == 0.0f) continue;
-    // The root shows rare brightnesses too.
+    // The square root makes rare brightnesses visible.
     const float share = std::min(std::sqrt(count / static_cast<float>(most)), 1.0f);
     const float x = area.min.x + step * static_cast<float>(i);
     const float top = area.max.y - std::max(share * (height - ui.px(4)), 1.0f);
@@ -109,8 +109,8 @@ Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
   ImGui::PopStyleVar(2);
   const Histogram& h =
       session.display().histogram(session.output().radiance, session.document().render.exposureEv);
-  // Where there is no room for all, the fields go, which the render panel and the menu have as
-  // well, and then height.
+  // If space is short, first the fields are hidden, because the render panel and the menu also have
+  // them. Then the height shrinks.
   const ImGuiStyle& style = ImGui::GetStyle();
   const float room = view.size().y - 2.0f * gap - 2.0f * style.WindowPadding.y -
                      ImGui::GetTextLineHeight() - style.ItemSpacing.y;

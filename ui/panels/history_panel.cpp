@@ -8,9 +8,9 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kHistoryWidth = 240.0f, kRows = 12.0f;  // design pixels; lines at most
+constexpr float kHistoryWidth = 240.0f, kRows = 12.0f;  // design pixels; maximum number of lines
 
-// Row 0 is the level as it was, or as far back as undo goes.
+// Row 0 is the opened level, or the oldest state that undo can reach.
 std::string textOf(const History& history, size_t step) {
   if (step == 0) return "As opened";
   if (step == history.first()) return fmt::format("{}  earlier steps are forgotten", step);
@@ -41,13 +41,13 @@ Rect historyPanel(PanelContext ui, const Rect& view, Requests& requests) {
   ImGui::TextUnformatted("History");
   ImGui::BeginChild("##steps", {0, -row});
   const size_t now = history.position();
-  // Only the rows in sight: there may be a hundred thousand.
+  // Only the visible rows: there may be a hundred thousand.
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(count), row);
   while (clipper.Step()) {
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
       const size_t step = history.first() + static_cast<size_t>(i);
-      // What is undone is dim.
+      // Undone steps are dimmed.
       ImGui::PushStyleColor(
           ImGuiCol_Text, step > now ? theme::colour(theme::kTextDim) : theme::colour(theme::kText));
       if (ImGui::Selectable((textOf(history, step) + "###" + std::to_string(step)).c_str(),
@@ -57,7 +57,7 @@ Rect historyPanel(PanelContext ui, const Rect& view, Requests& requests) {
       ui.name("step " + std::to_string(step));
     }
   }
-  // What is current stays in sight when it changes.
+  // Scrolls to the current step when it changes.
   ImGuiStorage& memory = *ImGui::GetStateStorage();
   const ImGuiID id = ImGui::GetID("shown");
   if (memory.GetInt(id, -1) != static_cast<int>(now)) {

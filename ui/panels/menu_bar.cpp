@@ -9,8 +9,8 @@
 namespace lamplighter {
 namespace {
 
-// The order within menus; "-" is a line, ">NAME" begins a menu within that "<" ends. Actions that
-// are not listed follow at the end of the menu of their group, so that none is out of reach.
+// The order within menus. "-" is a separator, ">NAME" starts a submenu, and "<" ends it. Unlisted
+// actions follow at the end of the menu of their group, so that every action can be reached.
 struct Menu {
   const char* title;
   std::vector<std::string> groups;  // first parts of action names
@@ -96,7 +96,7 @@ const std::vector<Menu>& menus() {
 
 std::string groupOf(const std::string& name) { return name.substr(0, name.find('.')); }
 
-// "rectangle|disk|sphere": one item for each.
+// "rectangle|disk|sphere": returns each choice.
 std::vector<std::string> choicesOf(const std::string& usage) {
   std::vector<std::string> choices;
   if (usage.find('|') == std::string::npos || usage.find(' ') != std::string::npos) return choices;
@@ -113,20 +113,20 @@ std::vector<ActionChoice> choicesNow(const Session& session, const Action& actio
   std::vector<ActionChoice> out;
   for (const std::string& choice : choicesOf(action.usage)) {
     std::string label = choice;
-    if (label.size() > 2)  // lm and cd are no words
+    if (label.size() > 2)  // lm and cd are not words
       label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
     out.push_back({choice, label});
   }
   return out;
 }
 
-// Whether it can be run without arguments.
+// Whether the action can run without arguments.
 bool standsAlone(const Action& action) {
   return action.usage.empty() || action.usage.front() == '[';
 }
 
-// The application asks for what some need; arguments of others are typed in the palette, unless
-// they are a choice, which is a menu.
+// Whether the user types the arguments in the palette. For some actions the application asks;
+// choices are a submenu.
 bool isTyped(const Action& action) {
   const bool asks =
       action.name == "file.open" || action.name == "file.save_as" || action.name == "edit.rename";
@@ -207,7 +207,7 @@ void drawMenu(const PanelContext& ui, const Menu& menu, Requests& requests) {
     any = true;
     menuItem(ui, *action, requests);
   }
-  // Those whose arguments are typed have a menu of their own: no menu may be taller than a window.
+  // Actions with typed arguments have their own submenu, so that no menu is taller than the window.
   const auto typed =
       std::stable_partition(rest.begin(), rest.end(), [](const Action* a) { return !isTyped(*a); });
   if (any && !rest.empty()) ImGui::Separator();

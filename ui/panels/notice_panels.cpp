@@ -1,4 +1,4 @@
-// What happened: toasts for the newest, the log for all.
+// Shows notices: toasts for the newest, the log for all.
 #include <algorithm>
 
 #include "editor/session/user_state.h"
@@ -33,7 +33,7 @@ std::string textOf(const Notice& notice) {
   return (isBad(notice) ? withIcon(icon::kWarning, notice.text) : notice.text) + times;
 }
 
-// Which notices are toasts now: the new ones, for their time.
+// Updates the list of toasts: adds new notices and removes expired ones.
 void advance(const PanelContext& ui, ToastState& state, float dt) {
   const auto& all = ui.session.home().notices.all();
   const Preferences& preferences = ui.session.home().preferences;
@@ -74,7 +74,7 @@ void toasts(PanelContext ui, ToastState& state, const Rect& view, float dt) {
     const Rect rect{{view.max.x - ui.px(12) - wide, lowest - height},
                     {view.max.x - ui.px(12), lowest}};
     lowest -= height + ui.px(6);
-    // Upon the view and below menus and dialogs; clicks go through.
+    // Above the view and below menus and dialogs. Clicks pass through.
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled({rect.min.x, rect.min.y}, {rect.max.x, rect.max.y},
                        theme::colour(theme::kPanel, 240), ui.px(4));

@@ -47,7 +47,7 @@ class Tree {
           id = at ? at->parent : kNoNode;
         }
     }
-    // A selection made elsewhere opens what it is in and scrolls there, once.
+    // A selection made elsewhere opens its parents and scrolls there, once.
     const NodeId active = ui.session.document().active();
     reveal_ = active != state.scrolledTo ? active : kNoNode;
     state.scrolledTo = active;
@@ -55,7 +55,7 @@ class Tree {
       if (at->parent != kNoNode) open_.insert(at->parent);
   }
 
-  // Makes the last item a place to let go what is dragged; kNoNode: the top of the tree.
+  // Makes the last item a drop target; kNoNode: the top level of the tree.
   void dropOn(NodeId parent) {
     if (!ImGui::BeginDragDropTarget()) return;
     if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(kDragged)) {
@@ -65,7 +65,7 @@ class Tree {
     }
     ImGui::EndDragDropTarget();
   }
-  // The tree that was drawn is another one afterwards.
+  // Call after drawing, because the drop changes the tree.
   void takeDropped() {
     if (dropped_.empty()) return;
     try {
@@ -93,7 +93,7 @@ class Tree {
     if (leaf) flags |= ImGuiTreeNodeFlags_Leaf | ImGuiTreeNodeFlags_NoTreePushOnOpen;
     if (ui_.session.document().isSelected(node.id)) flags |= ImGuiTreeNodeFlags_Selected;
     if (!state_.search.empty() || open_.contains(node.id)) ImGui::SetNextItemOpen(true);
-    // Only the first levels stand open at first, so that a large level stays a readable list.
+    // Only the first levels are open at first, so that the list of a large level stays readable.
     if (depth_ < 2) ImGui::SetNextItemOpen(true, ImGuiCond_FirstUseEver);
 
     ImGui::PushID(static_cast<int>(node.id));
@@ -119,7 +119,7 @@ class Tree {
     ImGui::TreePop();
   }
 
-  // One of several that are selected is chosen when it is let go, so that all can be dragged.
+  // An item of a multiple selection is selected on release, so that all items can be dragged.
   void press(const Node& node) {
     const bool adds = ImGui::GetIO().KeyCtrl || ImGui::GetIO().KeyShift;
     if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) {
@@ -135,7 +135,7 @@ class Tree {
     if (ImGui::IsItemHovered()) select(node.id);
   }
 
-  // What is dragged, the selection or what was not in it, hangs below what it is let go on.
+  // Dropped items become children of the target. These are the selection, or one item outside it.
   void drag(const Node& node, const std::string& name) {
     if (ImGui::BeginDragDropSource(ImGuiDragDropFlags_SourceAllowNullID)) {
       state_.pressed = kNoNode;
@@ -150,7 +150,7 @@ class Tree {
     dropOn(node.id);
   }
 
-  // The eye and the lock, at the right; dim unless they say something or are pointed at.
+  // Eye and lock at the right. They are dim unless they are active or hovered.
   void marks(const Node& node, const std::string& widget) {
     const bool hovered = ImGui::IsItemHovered();
     const float width = ImGui::GetFrameHeight();
@@ -165,7 +165,7 @@ class Tree {
       ui_.session.setVisible(node.id, !node.visible);
   }
 
-  // True when it was clicked.
+  // True if it was clicked.
   bool mark(const char* what, const std::string& widget, const char* help, const char* symbol,
             bool isFilled, bool isShown) {
     const float width = ImGui::GetFrameHeight();
@@ -204,7 +204,7 @@ class Tree {
   std::map<std::string, int> named_;
   std::set<NodeId> matches_, open_;
   NodeId reveal_ = kNoNode;
-  std::vector<NodeId> dropped_;  // let go in this frame
+  std::vector<NodeId> dropped_;  // items dropped in this frame
   NodeId droppedOn_ = kNoNode;
   int depth_ = 0;
 };
@@ -222,10 +222,10 @@ void outliner(PanelContext ui, OutlinerState& state) {
   Tree tree(ui, state);
   tree.draw();
   ImGui::PopStyleVar(2);
-  // What is left of the panel: a click there selects nothing, and it stands for the top.
+  // The rest of the panel: a click clears the selection; it is the drop target for the top level.
   const ImVec2 rest = ImGui::GetContentRegionAvail();
   if (rest.x > 0.0f) {
-    // No button: keys would stop at it.
+    // Not a button, so that keyboard navigation skips it.
     ImGui::Dummy({rest.x, std::max(rest.y, ui.px(24))});
     if (ImGui::IsItemClicked()) ui.session.select({});
     ui.name("top");

@@ -1,4 +1,5 @@
-// The panels, one function each; called every frame within an ImGui window that app/layout made.
+// The panels, one function each. They are called every frame within an ImGui window that app/layout
+// placed.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +11,14 @@
 
 namespace lamplighter {
 
-// What panels ask of the application, which does it after the frame.
+// Requests of panels to the application, which handles them after the frame.
 struct Requests {
   bool openDialog = false;
   bool saveDialog = false;
   bool timelineDialog = false;
-  bool folderDialog = false;         // of assets
-  std::vector<std::string> actions;  // to run, as text
-  std::string palette;               // open the command palette with this in it
+  bool folderDialog = false;         // for the asset folder
+  std::vector<std::string> actions;  // action texts to run
+  std::string palette;               // opens the command palette with this text
 };
 
 void menuBar(PanelContext ui, Requests& requests);
@@ -26,21 +27,21 @@ void toolbar(PanelContext ui, Requests& requests);
 struct OutlinerState {
   std::string search;
   NodeId scrolledTo = kNoNode;
-  NodeId pressed = kNoNode;  // one of several that are selected, until it is let go or dragged
+  NodeId pressed = kNoNode;  // pressed item of a multiple selection, until release or drag
 };
 void outliner(PanelContext ui, OutlinerState& state);
 
 struct InspectorState {
   NodeId node = kNoNode;
-  std::string name;    // being typed
-  vec3 degrees{0.0f};  // of the rotation below, as the fields show it
+  std::string name;    // typed text
+  vec3 degrees{0.0f};  // of the rotation below, as displayed
   quat rotation{1, 0, 0, 0};
-  int slot = 0;                 // which of the mesh's materials
-  bool focusName = false;       // give the name field the keyboard
-  bool choosesSky = false;      // a file dialog for the sky's picture is wanted
-  bool choosesProfile = false;  // one for the light's profile
-  bool choosesPicture = false;  // one for its picture
-  std::string linkSearch;       // among what it may leave out
+  int slot = 0;                 // index into the mesh's material slots
+  bool focusName = false;       // the name field takes the keyboard focus
+  bool choosesSky = false;      // request a file dialog for the sky's picture
+  bool choosesProfile = false;  // request a file dialog for the light's profile
+  bool choosesPicture = false;  // request a file dialog for the light's picture
+  std::string linkSearch;       // filters the objects of light linking
 };
 void inspector(PanelContext ui, InspectorState& state);
 // Parts of the inspector.
@@ -49,34 +50,36 @@ void materialFields(PanelContext ui, const Node& node, InspectorState& state);
 void areaLightFields(PanelContext ui, const Node& node, InspectorState& state);
 void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state);
 void profileFields(const PanelContext& ui, const Node& node,
-                   InspectorState& state);  // of an IES file
+                   InspectorState& state);  // for IES files
 void pictureFields(const PanelContext& ui, const Node& node, InspectorState& state);
-// What a light, or the sky (kNoNode), leaves out; and the same of the selected lights.
+// The objects that a light, or the sky (kNoNode), excludes by light linking; and the same for all
+// selected lights.
 void linkFields(const PanelContext& ui, NodeId light, InspectorState& state);
 void selectedLinkFields(const PanelContext& ui);
 void skyFields(PanelContext ui, InspectorState& state);
-// Instead of all these while several objects are selected: what they have in common.
+// Replaces the other parts while several objects are selected: shows their common values.
 void multiInspector(PanelContext ui, InspectorState& state);
 
 struct TimelineState {
-  std::optional<Timeline> held;  // what is pointed at
+  std::optional<Timeline> held;  // the frames under the pointer, kept while it is there
 };
 void renderPanel(PanelContext ui, TimelineState& state, Requests& requests);
 void compareSection(const PanelContext& ui, Requests& requests);
 void timelineSection(const PanelContext& ui, TimelineState& state, Requests& requests);
-// The method's parameters of a group under a header that opens; nothing where it has none of them.
+// The method's parameters of a group, under a collapsible header. Draws nothing if the group is
+// empty.
 void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group);
 
-// How often each brightness is in the picture, with exposure and tone mapper: a window in the lower
-// right corner of `view`, while it is asked for. What it covers.
+// Histogram of the picture's brightness, with exposure and tone mapper: a window in the lower right
+// corner of `view`, if it is switched on. Returns the covered rectangle.
 Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests);
 
-// Why the point that was clicked is as dark as it is; a window in the upper right corner of `view`,
-// while there is such a point. What it covers.
+// Explains the brightness of the clicked point: a window in the upper right corner of `view`, while
+// there is such a point. Returns the covered rectangle.
 Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests);
 
-// The steps of the history, a click on one goes there; a window in the lower left corner of `view`,
-// while it is asked for. What it covers.
+// The steps of the history; a click on a step goes there. A window in the lower left corner of
+// `view`, if it is switched on. Returns the covered rectangle.
 Rect historyPanel(PanelContext ui, const Rect& view, Requests& requests);
 
 struct StatusInfo {
@@ -86,7 +89,7 @@ struct StatusInfo {
 };
 void statusLine(PanelContext ui, const StatusInfo& info);
 
-// Modal dialogs. They are opened by a call and draw themselves each frame.
+// Modal dialogs. A call opens them; they draw themselves in each frame.
 
 // A message with an OK button.
 class MessageBox {
@@ -99,7 +102,7 @@ class MessageBox {
   std::string title_, text_;
 };
 
-// "Save changes?" before something that would lose them.
+// Asks "Save changes?" before an operation that would lose them.
 class SaveQuestion {
  public:
   enum class Answer { none, save, discard, cancel };
@@ -110,7 +113,7 @@ class SaveQuestion {
   bool opening_ = false;
 };
 
-// "It was changed by others. Overwrite?"
+// Asks whether to overwrite a file that another program changed.
 class OverwriteQuestion {
  public:
   enum class Answer { none, overwrite, saveAs, cancel };
@@ -118,13 +121,13 @@ class OverwriteQuestion {
   Answer draw(PanelContext ui);
 
  private:
-  std::string changed_;  // the file; empty: nothing is asked
+  std::string changed_;  // the changed file; empty: the dialog is closed
 };
 
 // A line of text in the middle of the window.
 void centredNotice(float scale, const char* text);
 
-// A bar over everything while long work runs.
+// A progress bar over all panels during a long operation.
 struct Progress {
   std::string title, what;
   float done = 0.0f;
@@ -132,7 +135,7 @@ struct Progress {
 };
 class ProgressBox {
  public:
-  // nullptr: nothing runs, so it closes. True when Cancel was clicked.
+  // nullptr: no operation runs, and the dialog closes. Returns true if Cancel was clicked.
   bool draw(PanelContext ui, const Progress* progress);
 
  private:

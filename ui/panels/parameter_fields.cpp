@@ -25,7 +25,7 @@ std::string formatOf(const ParameterSpec& spec, const char* number) {
   return format;
 }
 
-// One field made from what the parameter says of itself. The new value, if it changed.
+// Draws a field from the declaration of the parameter. Returns the new value if it changed.
 std::optional<ParameterValue> parameterField(const PanelContext& ui, const ParameterSpec& spec,
                                              const Settings& settings) {
   const std::string id = "##" + spec.name;
@@ -68,7 +68,7 @@ std::optional<ParameterValue> parameterField(const PanelContext& ui, const Param
   return chosen;
 }
 
-// Right-click puts a parameter back to its default.
+// A right-click menu that resets a parameter to its default.
 bool resetMenu(const PanelContext& ui, const ParameterSpec& spec, bool isSet) {
   bool reset = false;
   if (ImGui::BeginPopupContextItem(("reset " + spec.name).c_str())) {
@@ -79,16 +79,16 @@ bool resetMenu(const PanelContext& ui, const ParameterSpec& spec, bool isSet) {
   return reset;
 }
 
-// Below a budget's slider: what it cost in the last seconds; what it buys where it is pointed at.
+// Below the slider of a budget: its cost in the last seconds. The tooltip shows its benefit.
 void costLine(const PanelContext& ui, const ParameterSpec& spec, const Settings& settings) {
   const auto cost =
       costOf(spec.name, ui.session.watch().timeline, ui.session.output().stats, settings);
   if (!cost) return;
   const float start = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
   const float width = ImGui::CalcTextSize(cost->measured.c_str()).x;
-  // Flush with the field: some are too long to begin where it does.
+  // Right-aligned with the field, because some texts are too long to start at its left edge.
   ImGui::SetCursorPosX(start + std::max(room - width, 0.0f));
-  // One line whatever it says, so that nothing below moves with what was measured.
+  // Always one line, so that the items below do not move when the text changes.
   ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
   ImGui::TextUnformatted(cost->measured.c_str());
   ImGui::PopStyleColor();
@@ -117,7 +117,7 @@ void parameterSection(const PanelContext& ui, const MethodInfo& method, Paramete
   const auto& all = method.parameters;
   const auto isInGroup = [&](const ParameterSpec& spec) { return spec.group == group; };
   if (std::none_of(all.begin(), all.end(), isInGroup)) return;
-  // What is turned most often is open at first: all of it would not fit the panel.
+  // The group of the most used parameters is open at first. All groups would not fit the panel.
   const bool openAtFirst = group == ParameterGroup::lightSamples;
   if (!section(ui, labelOf(group), openAtFirst)) return;
   for (const ParameterSpec& spec : all)

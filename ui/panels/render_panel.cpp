@@ -27,7 +27,7 @@ void methodCombo(const PanelContext& ui, const MethodInfo& current) {
   ImGui::EndCombo();
 }
 
-// Side by side, the one that holds lit up.
+// Preset buttons side by side. The active preset is highlighted.
 void presetRow(const PanelContext& ui, Requests& requests) {
   labelledRow(ui, "Preset", "Budgets and qualities at once; each is one step to undo.");
   const float gap = ui.px(4);

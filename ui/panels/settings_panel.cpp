@@ -1,4 +1,4 @@
-// The user's settings, made from their declarations, and the keys that are bound.
+// The user's settings, generated from their declarations, and the bound keys.
 #include <algorithm>
 
 #include <imgui.h>
@@ -17,7 +17,7 @@ std::string withUnit(const char* number, const ParameterSpec& spec) {
   return spec.unit.empty() ? number : std::string(number) + " " + spec.unit;
 }
 
-// The new value as text, if it changed.
+// Returns the new value as text if it changed.
 std::optional<std::string> field(const PanelContext& ui, const ParameterSpec& spec,
                                  const Settings& settings) {
   const std::string id = "##" + spec.name;
@@ -57,7 +57,7 @@ std::optional<std::string> field(const PanelContext& ui, const ParameterSpec& sp
   return chosen;
 }
 
-// A slider that changed the scale under the hand that drags it would run away.
+// Changing the scale during the drag would move the slider away from the pointer.
 bool waitsForRelease(const ParameterSpec& spec) { return spec.name == "ui_scale"; }
 
 void uiScaleRow(const PanelContext& ui, const ParameterSpec& spec, Requests& requests) {

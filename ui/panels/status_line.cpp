@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-// For text that ends in an ellipsis, which imgui.h of 1.86 does not have.
+// For text with an ellipsis, which imgui.h of 1.86 does not declare.
 #include <imgui_internal.h>
 
 #include "ui/panels/panels.h"
@@ -22,10 +22,10 @@ struct Part {
 };
 using Parts = std::vector<Part>;
 
-// What gives way first where there is no room for all; what is not named here stays.
+// The order in which parts are hidden if space is short. Other parts always stay.
 constexpr std::array kGiveWay = {"backend", "passes",  "interpolated", "transfers", "latency",
                                  "samples", "pending", "error",        "vpls",      "time"};
-constexpr float kGap = 18.0f;  // design pixels between two parts
+constexpr float kGap = 18.0f;  // gap between two parts, in design pixels
 
 float widthOf(const PanelContext& ui, const Parts& parts) {
   float width = 0.0f;
@@ -33,7 +33,7 @@ float widthOf(const PanelContext& ui, const Parts& parts) {
   return width;
 }
 
-// Leaves out what there is no room for, the least important first.
+// Hides parts until the rest fits, the least important first.
 void fit(const PanelContext& ui, Parts& parts, float room) {
   for (const std::string_view name : kGiveWay) {
     if (widthOf(ui, parts) <= room) return;
@@ -82,7 +82,7 @@ std::string latencyShort(const LatencyResult& result) {
 
 std::string frames(int count) { return grouped(count) + (count == 1 ? " frame" : " frames"); }
 
-// All that there is to tell of the picture, in the order in which it is shown.
+// All parts that describe the picture, in display order.
 Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
   Parts parts;
   const GiOutput& output = ui.session.output();
@@ -187,18 +187,18 @@ void statusLine(PanelContext ui, const StatusInfo& info) {
   ImGui::AlignTextToFramePadding();
   const std::string& status = ui.session.status();
   Parts parts = partsOf(ui, info);
-  // A message keeps a third of the line, or what it needs of that.
+  // A message gets a third of the line, or less if it is shorter.
   const float whole = ImGui::GetContentRegionAvail().x;
   fit(ui, parts, whole - std::min(ImGui::CalcTextSize(status.c_str()).x, whole / 3.0f));
   for (const Part& p : parts) draw(ui, p);
 
-  // What there is to tell stands at the end, so that what stands before does not move.
+  // The message is at the end, so that the parts before it do not move.
   if (status.empty()) return;
   const float room = ImGui::GetContentRegionAvail().x;
   const float width = ImGui::CalcTextSize(status.c_str()).x;
   if (width < room) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room - width);
   ImVec2 at = ImGui::GetCursorScreenPos();
-  at.y += ImGui::GetStyle().FramePadding.y;  // as the parts stand
+  at.y += ImGui::GetStyle().FramePadding.y;  // aligned with the parts
   const ImVec2 end{at.x + std::min(width, room), at.y + ImGui::GetTextLineHeight()};
   ImGui::RenderTextEllipsis(ImGui::GetWindowDrawList(), at, end, end.x, end.x, status.c_str(),
                             status.c_str() + status.size(), nullptr);

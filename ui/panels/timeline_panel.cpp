@@ -1,4 +1,4 @@
-// What the last seconds' frames were spent on: bars of stages, their legend, and what was counted.
+// The time spent by the frames of the last seconds: bars of stages, a legend, and counters.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,12 +11,12 @@
 namespace lamplighter {
 namespace {
 
-// By Timeline::stages(). Neighbours in a bar differ in hue and in lightness.
+// In the order of Timeline::stages(). Neighbours differ in hue and in lightness.
 constexpr unsigned kStageColours[] = {0xd9b44a, 0x4f80c8, 0x9fc25b, 0x376c8a, 0xa0558a,
                                       0x5fb6a6, 0x8d8f98, 0xe2793f, 0x3f6b59, 0xc7a3d8,
                                       0xb5534c, 0x7fb7e6, 0xd58bbb, 0x4a4e57};
 
-// Stages that took less are not told of [s]: they would read 0.0 ms.
+// Shorter stages are not listed [s]: they would read 0.0 ms.
 constexpr double kSeen = 5e-5;
 
 unsigned colourOf(size_t stage) {
@@ -29,7 +29,7 @@ std::string milliseconds(double seconds) {
   return text;
 }
 
-// What the graph's upper edge stands for [s]: all but the longest frames fit, and the budget does.
+// The time at the upper edge of the graph [s]. All but the longest frames and the budget fit.
 double rangeOf(const Timeline& timeline, size_t bars, double budget) {
   std::vector<double> lengths;
   const auto& frames = timeline.frames();
@@ -74,7 +74,7 @@ struct Graph {
   }
 };
 
-// The newest frame at the right edge.
+// Draws the bars with the newest frame at the right edge.
 void drawBars(const PanelContext& ui, const Timeline& timeline, const Graph& graph, bool hovered) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float gap = ui.px(1);
@@ -102,7 +102,7 @@ void drawBars(const PanelContext& ui, const Timeline& timeline, const Graph& gra
   }
 }
 
-// Upon the bars, on a plate that leaves them to be seen.
+// Draws a label over the bars, on a translucent background.
 void label(const PanelContext& ui, ImDrawList& list, const ImVec2& at, unsigned colour,
            const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -121,7 +121,7 @@ void drawGraph(const PanelContext& ui, TimelineState& state) {
   graph.bar = ui.px(4);
   ImGui::InvisibleButton("##timeline", {width, ui.px(96)});
   ui.name("timeline");
-  // Bars that move on could not be pointed at: they stand while the pointer is over them.
+  // Moving bars would be hard to point at, so they stop while the pointer is over them.
   const bool hovered = ImGui::IsItemHovered();
   if (hovered && !state.held) state.held = live;
   if (!hovered) state.held.reset();
@@ -144,8 +144,8 @@ void drawGraph(const PanelContext& ui, TimelineState& state) {
   list.PopClipRect();
 }
 
-// A square and a name for each stage with its mean, in two columns; those that took no time are
-// dim, so that nothing below moves.
+// A square and a name for each stage with its mean time, in two columns. Stages that took no time
+// are dimmed and not removed, so that the items below do not move.
 void drawLegend(const PanelContext& ui) {
   const Timeline& timeline = ui.session.watch().timeline;
   if (!ImGui::BeginTable("##stages", 2, ImGuiTableFlags_SizingStretchSame)) return;

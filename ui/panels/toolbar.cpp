@@ -1,5 +1,5 @@
-// The tools, as buttons in one row. Where there is no room for all labels, those of what is known
-// by its icon go first; what has no room even so is in a menu at the end.
+// The tools as a row of buttons. If space is short, the labels of buttons with well-known icons are
+// hidden first. Buttons that still do not fit are in a menu at the end.
 #include <functional>
 #include <vector>
 
@@ -18,20 +18,20 @@ struct Item {
   std::string help;
   std::function<void()> run;
   bool on = false, enabled = true;
-  bool beginsGroup = false;  // a line stands before it
-  int keepsLabel = 0;        // which of the steps below takes its label
+  bool beginsGroup = false;  // a separator is before it
+  int keepsLabel = 0;        // the shrink step (see below) that hides its label
   struct Choice {
     std::string widget;
     const char *icon, *label;
     std::function<void()> run;
   };
-  std::vector<Choice> choices = {};  // of a menu that it opens, instead of running anything
-  const char* moreLabel = "";        // of a menu within that
+  std::vector<Choice> choices = {};  // items of a menu that it opens instead of running an action
+  const char* moreLabel = "";        // label of its submenu in the "more" menu
   std::vector<Choice> moreChoices = {};
 };
 using Items = std::vector<Item>;
 
-// How many labels are left out: none; of what tells of the picture; of lights and undo; all.
+// Steps of hiding labels: none; of the tools that inspect the picture; of lights and undo; all.
 constexpr int kShrinkSteps = 4;
 
 bool showsLabel(const Item& item, int step) {
@@ -99,7 +99,7 @@ void button(const PanelContext& ui, const Item& item, int step) {
   ImGui::EndPopup();
 }
 
-// What did not fit, from `first` on.
+// The menu with the items that did not fit, starting at `first`.
 void more(const PanelContext& ui, const Items& items, size_t first) {
   ImGui::SameLine();
   if (ImGui::Button("\u2026##more")) ImGui::OpenPopup("##rest");
@@ -186,7 +186,7 @@ void addActions(const PanelContext& ui, Items& items, Requests& requests) {
   add("redo", icon::kRedo, "Redo",
       history.canRedo() ? "Redo: " + history.redoLabel() : "Nothing to redo", "edit.redo", 1)
       .enabled = history.canRedo();
-  // What tells of the picture. They stand for actions as they are.
+  // Tools that inspect the picture. They run their actions directly.
   for (const Named& seeing : {Named{"tool.explain", icon::kExplain, "Why dark?"},
                               Named{"view.probe", icon::kProbeLight, "Probe"},
                               Named{"tool.measure", icon::kMeasure, "Measure"},
@@ -219,7 +219,8 @@ void toolbar(PanelContext ui, Requests& requests) {
   int step = 0;
   while (step + 1 < kShrinkSteps && whole(step) > room) ++step;
   const bool fits = whole(step) <= room;
-  float used = fits ? 0.0f : ImGui::GetFrameHeight() + ui.px(kSpacing);  // of "more"
+  // width of the "more" button
+  float used = fits ? 0.0f : ImGui::GetFrameHeight() + ui.px(kSpacing);
   size_t shown = 0;
   for (; shown < items.size(); ++shown) {
     const Item& item = items[shown];

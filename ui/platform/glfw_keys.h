@@ -1,10 +1,10 @@
-// GLFW's key codes as ours.
+// Converts GLFW's key codes to Key.
 #pragma once
 
 #include "editor/input/event.h"
 
 namespace lamplighter {
 
-Key keyOfGlfw(int glfwKey);  // Key::none for keys that nothing is bound to
+Key keyOfGlfw(int glfwKey);  // Key::none for keys that cannot be bound
 
 }  // namespace lamplighter

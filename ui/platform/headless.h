@@ -1,5 +1,6 @@
-// No window: the user interface is laid out as ever. With OpenGL (a surfaceless EGL context) it is
-// drawn too, so that pictures of it can be taken; without, nothing is needed at all.
+// A platform without a window. The layout of the user interface is done as in a window. With OpenGL
+// (a surfaceless EGL context) it is also drawn, for screenshots. Without OpenGL it has no
+// requirements.
 #pragma once
 
 #include "ui/platform/platform.h"
@@ -8,7 +9,7 @@ namespace lamplighter {
 
 class Headless final : public Platform {
  public:
-  // `drawing`: an OpenGL context is current and stays so. `scale`: pixels a design pixel.
+  // `drawing`: an OpenGL context is current and stays current. `scale`: pixels per design pixel.
   Headless(int width, int height, bool drawing, float scale = 1.0f);
   ~Headless() override;
   Headless(const Headless&) = delete;

@@ -1,4 +1,4 @@
-// What the program runs in: a window, or nothing at all. All input comes out of here as
+// The platform that the program runs on: a window, or headless. It delivers all input as
 // InputEvents.
 #pragma once
 
@@ -17,9 +17,9 @@ class Platform {
   virtual ~Platform() = default;
 
   virtual glm::ivec2 size() const = 0;        // framebuffer pixels
-  virtual float contentScale() const = 0;     // pixels a design pixel
-  virtual glm::ivec2 windowSize() const = 0;  // as a window is asked for: before the screen's scale
-  // Appends what happened since the last call; waits up to `seconds` for something to happen.
+  virtual float contentScale() const = 0;     // pixels per design pixel
+  virtual glm::ivec2 windowSize() const = 0;  // requested window size, before the screen's scale
+  // Appends the events since the last call. Waits up to `seconds` for an event.
   virtual void poll(std::vector<InputEvent>& events, double seconds) = 0;
   virtual bool closeRequested() const = 0;
   virtual void refuseClose() = 0;
@@ -28,15 +28,15 @@ class Platform {
   virtual std::string clipboard() const = 0;
   virtual void setClipboard(const std::string& text) = 0;
 
-  // Whether an OpenGL context is current: without one nothing is drawn, only laid out.
+  // Whether an OpenGL context is current. Without one the layout is done, but nothing is drawn.
   virtual bool hasGl() const = 0;
-  // Binds and clears what is drawn into; present() shows it.
+  // Binds and clears the framebuffer. present() shows it.
   virtual void beginDrawing() = 0;
   virtual void present() = 0;
-  // What has been drawn since beginDrawing(), row 0 the top. Empty without OpenGL.
+  // The picture drawn since beginDrawing(), top row first. Empty without OpenGL.
   virtual Image8 screenshot() = 0;
 
-  virtual double seconds() const = 0;  // wall time since some moment
+  virtual double seconds() const = 0;  // wall time since an arbitrary start
 };
 
 }  // namespace lamplighter

@@ -1,11 +1,11 @@
-// What is in the framebuffer that is bound for reading.
+// Reads the framebuffer that is bound for reading.
 #pragma once
 
 #include "renderer/image/image.h"
 
 namespace lamplighter {
 
-// Opaque, row 0 the top.
+// Opaque, top row first.
 Image8 readPixels(glm::ivec2 size);
 
 }  // namespace lamplighter

@@ -1,6 +1,5 @@
-// How large the user interface is drawn, where the user says so by the environment variable
-// LAMPLIGHTER_UI_SCALE: for screens that tell nothing of their density, and to see the panels as
-// they are on another screen.
+// The scale of the user interface from the environment variable LAMPLIGHTER_UI_SCALE. It is for
+// screens that do not report their density, and for testing the panels at another scale.
 #pragma once
 
 #include <optional>
@@ -8,12 +7,12 @@
 
 namespace lamplighter {
 
-// Pixels a design pixel; all platforms keep to these limits.
+// Limits of the pixels per design pixel, on all platforms.
 inline constexpr float kLeastUiScale = 0.5f, kMostUiScale = 4.0f;
 
-// From the variable's text. Throws InputError where that is no number within the limits.
+// Parses the text of the variable. Throws InputError if it is not a number within the limits.
 float parseUiScale(const std::string& text);
-// None: the variable is not set, so the screen decides.
+// None: the variable is not set, and the screen decides.
 std::optional<float> askedUiScale();
 
 }  // namespace lamplighter

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include <epoxy/gl.h>
-// GLFW must not bring in a GL header of its own.
+// GLFW must not include its own GL header.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <spdlog/spdlog.h>
@@ -17,7 +17,7 @@
 namespace lamplighter {
 namespace {
 
-// A code point as UTF-8.
+// Converts a code point to UTF-8.
 std::string utf8(unsigned codepoint) {
   std::string out;
   const auto put = [&](unsigned byte) { out.push_back(static_cast<char>(byte)); };
@@ -63,7 +63,7 @@ struct Window::Callbacks {
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
   }
   static void cursor(GLFWwindow* window, double x, double y) {
-    // GLFW speaks of screen coordinates; everything here of framebuffer pixels.
+    // GLFW uses screen coordinates; the program uses framebuffer pixels.
     int w = 1, h = 1, fw = 1, fh = 1;
     glfwGetWindowSize(window, &w, &h);
     glfwGetFramebufferSize(window, &fw, &fh);
@@ -91,7 +91,7 @@ struct Window::Callbacks {
     InputEvent e;
     e.kind = EventKind::key;
     e.key = keyOfGlfw(key);
-    if (e.key == Key::none || action == GLFW_REPEAT) return;  // ImGui repeats by itself
+    if (e.key == Key::none || action == GLFW_REPEAT) return;  // ImGui creates its own key repeats
     e.down = action == GLFW_PRESS;
     self(window).events_.push_back(e);
   }
@@ -101,7 +101,7 @@ struct Window::Callbacks {
     e.text = utf8(codepoint);
     self(window).events_.push_back(e);
   }
-  // As the action that takes files in, behind the place where they were dropped.
+  // Queues the action for dropped files, after the pointer position of the drop.
   static void drop(GLFWwindow* window, int count, const char** paths) {
     InputEvent e;
     e.kind = EventKind::action;
@@ -126,7 +126,7 @@ Window::Window(int width, int height, const std::string& title, Kind kind,
 #ifdef LAMPLIGHTER_DEBUG
   glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, GLFW_TRUE);
 #endif
-  // A size that was kept from a larger screen, or written by hand, is no reason to have no window.
+  // A saved size from a larger screen, or one edited by hand, must not prevent opening the window.
   if (GLFWmonitor* monitor = kind == Kind::resizable ? glfwGetPrimaryMonitor() : nullptr) {
     int x = 0, y = 0, w = 0, h = 0;
     glfwGetMonitorWorkarea(monitor, &x, &y, &w, &h);

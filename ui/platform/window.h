@@ -1,4 +1,4 @@
-// A window of GLFW with an OpenGL 4.5 core context.
+// A GLFW window with an OpenGL 4.5 core context.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ namespace lamplighter {
 
 class Window final : public Platform {
  public:
-  // fixed: the size is in pixels and cannot be changed, whatever the screen's scale; for
+  // fixed: the size is in pixels and cannot change, independent of the screen's scale; for
   // recordings.
   enum class Kind { resizable, fixed };
-  // `scale`: pixels a design pixel; none: as the screen says, or 1 where the size is fixed.
-  // Throws InputError when there is no display or no OpenGL 4.5.
+  // `scale`: pixels per design pixel. None: the screen's scale, or 1 for a fixed size. Throws
+  // InputError if there is no display or no OpenGL 4.5.
   Window(int width, int height, const std::string& title, Kind kind,
          std::optional<float> scale = {});
   ~Window() override;

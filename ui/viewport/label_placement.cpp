@@ -20,7 +20,8 @@ Rect within(const Rect& r, const Rect& area) {
 
 Rect clearPlace(const Rect& label, const Rect& area, const std::vector<Rect>& covered) {
   const Rect wanted = within(label, area);
-  // Beside one panel's edge or, in a corner between two, beside an edge of each.
+  // Candidate positions: beside the edge of one panel or, in a corner between two panels, beside an
+  // edge of each.
   std::vector<float> xs{wanted.min.x}, ys{wanted.min.y};
   for (const Rect& c : covered) {
     if (c.empty()) continue;

@@ -1,4 +1,4 @@
-// Where a label of the overlay goes so that it can be read.
+// Places labels of the overlay so that they are readable.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace lamplighter {
 
-// `label` moved as little as need be to lie within `area` and beside everything in `covered`; left
-// within the area where there is no such place.
+// Moves `label` by the shortest distance so that it is within `area` and does not overlap
+// `covered`. If there is no such place, it is only moved into the area.
 Rect clearPlace(const Rect& label, const Rect& area, const std::vector<Rect>& covered);
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// The frame's picture as a texture that ImGui can draw: tone-mapped, display-referred.
+// The picture of the frame as a texture for ImGui: tone-mapped, display-referred.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,16 @@ class Picture {
   Picture(const Picture&) = delete;
   Picture& operator=(const Picture&) = delete;
 
-  // Shows this radiance at this exposure. Needs a current OpenGL context, then and when this ends.
+  // Shows radiance at an exposure. Needs a current OpenGL context, here and in the destructor.
   void show(const std::shared_ptr<RadianceImage>& radiance, float exposureEv, ToneMapper mapper);
-  // Shows a picture that is of the display already.
+  // Shows a picture that is already display-referred.
   void show(const std::shared_ptr<const ViewPicture>& picture);
-  uint32_t texture() const { return texture_; }  // 0: nothing yet
+  uint32_t texture() const { return texture_; }  // 0: no picture yet
 
  private:
-  std::unique_ptr<gl::DisplayPass> pass_;  // made when first needed: there may be no OpenGL
+  std::unique_ptr<gl::DisplayPass> pass_;  // created on demand: there may be no OpenGL
   gl::Texture view_;
-  std::shared_ptr<const ViewPicture> viewFrom_;  // what is in it
+  std::shared_ptr<const ViewPicture> viewFrom_;  // the picture in the texture
   uint32_t texture_ = 0;
 };
 

@@ -11,7 +11,7 @@ float dividerOf(const Rect& area, const SplitView& split) {
   return std::round(area.min.x + split.position() * area.size().x);
 }
 
-// A name on a dark plate; `right`: it ends there, else it begins at `x`.
+// A name on a dark background. `right`: it ends at `x`, otherwise it starts there.
 void plate(const PanelContext& ui, ImDrawList& list, float x, float y, bool right,
            const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -40,7 +40,7 @@ void drawSplitLabels(const PanelContext& ui, ImDrawList& list, const Rect& area,
   using Shown = SplitView::Shown;
   const float gap = ui.px(8), y = area.min.y + gap;
   const std::string waits = split.settled() ? "" : " \u2026";
-  if (split.shown() == Shown::heat) return;  // the legend says what it is
+  if (split.shown() == Shown::heat) return;  // the legend describes the heat map
   if (split.shown() != Shown::both) {
     const bool isFirst = split.shown() == Shown::first;
     plate(ui, list, area.min.x + gap, y, false,

@@ -1,4 +1,4 @@
-// The second side of a split view, the divider, and what the sides are.
+// Draws the second side of a split view, the divider, and the labels of the sides.
 #pragma once
 
 #include "ui/widgets/rect.h"
@@ -6,10 +6,10 @@
 
 namespace lamplighter {
 
-// texture: of the second side's picture, 0: none yet.
+// texture: the picture of the second side; 0: none yet.
 void drawSecondSide(const PanelContext& ui, ImDrawList& list, const Rect& area,
                     const SplitView& split, uint32_t texture);
-// Over the picture and its overlay.
+// Drawn over the picture and its overlay.
 void drawSplitLabels(const PanelContext& ui, ImDrawList& list, const Rect& area,
                      const SplitView& split);
 

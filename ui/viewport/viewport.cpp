@@ -34,7 +34,7 @@ void drawShapes(ImDrawList& list, const Overlay& overlay, vec2 origin, float sca
   for (const OverlayShape& shape : overlay.shapes) drawShape(list, shape, origin, scale);
 }
 
-// Those on a plate keep within `area` and clear of what is `covered`.
+// Texts with a background are kept within `area` and away from `covered`.
 void drawTexts(ImDrawList& list, const Overlay& overlay, vec2 origin, float scale, const Rect& area,
                const std::vector<Rect>& covered) {
   for (const OverlayText& text : overlay.texts) {

@@ -1,4 +1,4 @@
-// The 3D view: takes the pointer over it to the tools, and shows picture and overlay.
+// The 3D view: passes pointer input to the tools, and shows the picture and the overlay.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@ namespace lamplighter {
 
 class Viewport {
  public:
-  // Lays the view over `area` of the window and hands the session what the hand does there.
+  // Places the view at `area` of the window and passes the input over it to the session.
   void takeInput(PanelContext ui, const Rect& area, const PointerKeys& input, float seconds);
-  // What panels upon the view hide this frame: labels keep clear of it.
+  // The parts of the view that panels cover in this frame. Labels avoid them.
   void setCovered(std::vector<Rect> covered) { covered_ = std::move(covered); }
-  // Draws the picture (an OpenGL texture, 0: none), that of a split view's second side, and the
-  // session's overlay behind all panels.
+  // Draws the picture (an OpenGL texture, 0: none), the second picture of a split view, and the
+  // session's overlay, behind all panels.
   void draw(PanelContext ui, uint32_t texture, uint32_t second) const;
 
  private:

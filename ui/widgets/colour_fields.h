@@ -1,4 +1,4 @@
-// Fields for colours and for light: a colour and how much of it.
+// Fields for colours, and for light as a colour with a strength.
 #pragma once
 
 #include <string>
@@ -7,11 +7,12 @@
 
 namespace lamplighter {
 
-// A swatch with a picker for a reflectance in [0, 1], linear in and out. True when it changed.
+// A swatch with a colour picker for a reflectance in [0, 1]. Input and output are linear. Returns
+// true if it changed.
 bool colourField(const PanelContext& ui, const std::string& widget, const std::string& step,
                  vec3& linear);
 
-// Light as a colour of full brightness and a strength: value = colour × strength.
+// Light as a colour with its brightest channel at 1 and a strength: value = colour × strength.
 struct ColouredStrength {
   vec3 colour{1.0f};
   float strength = 0.0f;

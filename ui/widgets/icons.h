@@ -4,7 +4,7 @@
 namespace lamplighter::icon {
 
 inline constexpr unsigned short kFirst = 0xf000, kLast = 0xf2ff;
-inline constexpr unsigned short kProbe = 0xf245;  // in the font if any is
+inline constexpr unsigned short kProbe = 0xf245;  // its presence shows that the icon font is loaded
 
 inline constexpr const char* kSelect = "\uf245";     // mouse-pointer
 inline constexpr const char* kMove = "\uf047";       // arrows

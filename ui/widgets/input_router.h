@@ -1,5 +1,5 @@
-// From events to the state of pointer, buttons and keys that a frame sees; and from window pixels
-// back to names for recordings.
+// Converts events to the state of pointer, buttons and keys in a frame. Converts window pixels back
+// to names of targets for recordings.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ namespace lamplighter {
 struct PointerKeys {
   vec2 pointer{-1.0f};  // window pixels
   std::array<bool, 3> buttons{};
-  vec2 wheel{0.0f};                                          // this frame
+  vec2 wheel{0.0f};                                          // in this frame
   std::array<bool, static_cast<size_t>(Key::count)> keys{};  // held
-  std::vector<Key> pressed;                                  // this frame, in order
-  std::string text;                                          // typed this frame, UTF-8
+  std::vector<Key> pressed;                                  // in this frame, in order
+  std::string text;                                          // typed in this frame, UTF-8
 
   bool held(Key key) const { return keys[static_cast<size_t>(key)]; }
   Modifiers modifiers() const { return {held(Key::ctrl), held(Key::shift), held(Key::alt)}; }
@@ -27,15 +27,16 @@ class InputRouter {
  public:
   explicit InputRouter(const WidgetMap& widgets) : widgets_(widgets) {}
 
-  // Forgets what belongs to one frame only.
+  // Clears the state that belongs to one frame only.
   void beginFrame();
-  // Takes in an event that is no action. Throws InputError for a widget that is not on the screen.
+  // Applies an event that is not an action. Throws InputError for a widget that is not on the
+  // screen.
   void apply(const InputEvent& event);
   const PointerKeys& state() const { return state_; }
 
-  // The event as a recording holds it: window pixels become viewport pixels or a place on a widget.
-  // While a button is held the names stay those of the press, so that a drag means the same in
-  // another layout.
+  // Converts an event to its form in recordings: window pixels become viewport pixels or a position
+  // on a widget. While a button is held, the target of the press is kept, so that a drag has the
+  // same effect in another layout.
   InputEvent named(const InputEvent& event);
 
  private:
@@ -48,7 +49,7 @@ class InputRouter {
   vec2 namedPointer_{-1.0f};
 };
 
-// The widget that is the 3D view; events aim at it in pixels, not in shares.
+// The widget of the 3D view. Events address it in pixels, other widgets in fractions.
 inline const std::string kViewportTarget = "viewport";
 
 }  // namespace lamplighter

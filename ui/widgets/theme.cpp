@@ -35,7 +35,8 @@ void loadFonts(float scale) {
   static constexpr ImWchar kIcons[] = {icon::kFirst, icon::kLast, 0};
   ImFontConfig config;
   config.MergeMode = true;
-  config.GlyphMinAdvanceX = std::round(size * 1.15f);  // one width, so that labels line up
+  // the same width for all icons, so that labels are aligned
+  config.GlyphMinAdvanceX = std::round(size * 1.15f);
   io.Fonts->AddFontFromFileTTF(kIconFont, std::round(size * 0.95f), &config, kIcons);
 }
 

@@ -23,7 +23,7 @@ Thumbnails::Done Thumbnails::make(const Name& name, const std::filesystem::path&
   Done done{name, std::nullopt, ""};
   try {
     done.image = cachedThumbnail(name.first, name.second, cacheFolder);
-  } catch (const std::exception& e) {  // what cannot be opened has no thumbnail
+  } catch (const std::exception& e) {  // a file that cannot be opened has no thumbnail
     done.problem = e.what();
   }
   return done;
@@ -68,7 +68,7 @@ void Thumbnails::show(const Done& done) {
 }
 
 void Thumbnails::run() {
-  // One core at low priority: frames go first.
+  // One core at low priority, so that frames are not delayed.
   tbb::task_arena beside(1, 1, tbb::task_arena::priority::low);
   for (;;) {
     Name name;

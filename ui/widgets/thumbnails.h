@@ -1,5 +1,5 @@
-// Thumbnails of glTF files as textures: rendered on a thread beside the frames, or from the cache
-// on disk; only what is asked for, the last asked for first.
+// Thumbnails of glTF files as textures. A thread renders them in parallel with the frames, or reads
+// them from the cache on disk. Only requested thumbnails are rendered, the last request first.
 #pragma once
 
 #include <condition_variable>
@@ -19,8 +19,8 @@ namespace lamplighter {
 
 class Thumbnails {
  public:
-  // Without a cache folder, as in replays, all are rendered: one a frame, within update(), so that
-  // a picture of the window does not hang on a thread's pace.
+  // Without a cache folder, as in replays, update() renders one thumbnail per frame. Screenshots
+  // then do not depend on the timing of a thread.
   void setCacheFolder(std::filesystem::path folder) { cacheFolder_ = std::move(folder); }
   Thumbnails() = default;
   ~Thumbnails();
@@ -28,12 +28,13 @@ class Thumbnails {
   Thumbnails& operator=(const Thumbnails&) = delete;
 
   struct Thumbnail {
-    uint32_t texture = 0;  // 0: not there yet, or there will be none
-    std::string problem;   // why there is none
+    uint32_t texture = 0;  // 0: not ready yet, or failed
+    std::string problem;   // why it failed
   };
   // Needs a current OpenGL context.
   const Thumbnail& get(const std::filesystem::path& file, int size);
-  // Once a frame: makes textures of what was rendered since. True when there are new ones.
+  // Call once per frame. Creates textures for the finished thumbnails. Returns true if there are
+  // new ones.
   bool update();
   bool busy() const { return !wanted_.empty(); }
 
@@ -53,13 +54,13 @@ class Thumbnails {
     gl::Texture texture;
   };
   std::map<Name, Entry> entries_;
-  std::vector<Name> wanted_;  // the next one last; the frames' own list
+  std::vector<Name> wanted_;  // next one last; used only by the frames' thread
   std::filesystem::path cacheFolder_;
 
   std::thread thread_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Name> queue_;  // the next one last
+  std::vector<Name> queue_;  // next one last
   std::vector<Done> done_;
   bool quit_ = false;
 };

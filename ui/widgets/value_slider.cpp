@@ -8,14 +8,16 @@
 namespace lamplighter {
 namespace {
 
-// ImGui's stand-ins for 0 on logarithmic scales: one decimal for whole numbers, three for others.
+// The values that ImGui uses instead of 0 on logarithmic scales: one decimal for integers, three
+// for real numbers.
 constexpr float kLeastInt = 0.1f, kLeastReal = 0.001f;
 
-// Draws the slider over a field that is filled behind it, once the value of this frame is known.
+// Draws the slider over the filled part of the field. The fill is drawn last, when the value of
+// this frame is known.
 template <typename Slider, typename Share>
 bool filled(const Slider& slider, const Share& share) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  ImDrawListSplitter layers;  // of its own: tables use that of the list
+  ImDrawListSplitter layers;  // its own splitter, because tables use that of the list
   layers.Split(&list, 2);
   layers.SetCurrentChannel(&list, 1);
   for (const ImGuiCol c : {ImGuiCol_FrameBg, ImGuiCol_FrameBgHovered, ImGuiCol_FrameBgActive,

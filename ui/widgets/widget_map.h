@@ -1,6 +1,6 @@
-// Where each named widget lies, so that recordings can say "render/vpls" and not pixels: a new
-// layout does not break them. Panels fill it each frame; input is resolved with the map of the
-// frame before, which is the one on the screen when a hand points at something.
+// The position of each named widget. Recordings contain names, for example "render/vpls", instead
+// of pixels, so that a new layout does not break them. Panels fill the map in each frame. Input
+// uses the map of the previous frame, because that is what the user sees.
 #pragma once
 
 #include <map>
@@ -15,17 +15,17 @@ class WidgetMap {
  public:
   struct Place {
     Rect rect;
-    Rect visible;   // what fragment leaves of it
-    int order = 0;  // later ones lie on top
+    Rect visible;   // the part of it that is not clipped
+    int order = 0;  // higher values are on top
   };
 
-  // Starts a frame: what add() gathered becomes what find() and at() see.
+  // Starts a frame: find() and at() now use what add() collected in the last frame.
   void flip();
   void add(const std::string& name, const Rect& rect, const Rect& visible);
 
   // nullptr: not on the screen.
   const Place* find(const std::string& name) const;
-  // The topmost widget there, "" for none.
+  // The topmost widget at a point; "" for none.
   std::string at(vec2 point) const;
   const std::map<std::string, Place>& all() const { return shown_; }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-// For how long the pointer has been over an item, which imgui.h of 1.86 does not tell.
+// For the hover time of an item, which imgui.h of 1.86 does not declare.
 #include <imgui_internal.h>
 
 #include "ui/widgets/theme.h"
@@ -39,7 +39,7 @@ void labelledRow(const PanelContext& ui, const char* label, const char* help) {
 
 void tooltip(const PanelContext& ui, const std::string& text) {
   if (text.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  // A pointer that only passes should not be followed by a trail of boxes.
+  // A delay, so that a pointer that only passes does not open tooltips.
   constexpr float kWait = 0.5f;  // seconds
   const ImGuiContext& imgui = *ImGui::GetCurrentContext();
   if (ImGui::IsAnyItemActive() || (imgui.HoveredId != 0 && imgui.HoveredIdTimer < kWait)) return;

@@ -1,5 +1,4 @@
-// Small building blocks of panels: named widgets, labelled rows, edits that are one undo step a
-// drag.
+// Building blocks of panels: named widgets, labelled rows, and fields whose drag is one undo step.
 #pragma once
 
 #include <string>
@@ -11,49 +10,50 @@
 
 namespace lamplighter {
 
-// What every panel is given.
+// The arguments of every panel.
 struct PanelContext {
   Session& session;
   WidgetMap& widgets;
-  float scale = 1.0f;  // pixels a design pixel
-  std::string prefix;  // of the names of the widgets, "inspector/"
+  float scale = 1.0f;  // pixels per design pixel
+  std::string prefix;  // prefix of the widget names: "inspector/"
 
   float px(float designPixels) const;
-  // Gives the last ImGui item a name that recordings can use.
+  // Gives the last ImGui item a name for recordings.
   void name(const std::string& widget) const;
 };
 
-// A row "label  [field……]": writes the label and leaves the cursor at the field with its width set.
+// Starts a row "label  [field……]": draws the label, moves the cursor to the field and sets its
+// width.
 void labelledRow(const PanelContext& ui, const char* label, const char* help = nullptr);
 // Width of the label column.
 float labelWidth(const PanelContext& ui);
-// A tooltip for the last item, shown after a short wait, wrapped.
+// A tooltip for the last item, shown after a short delay, with line wrapping.
 void tooltip(const PanelContext& ui, const std::string& text);
-// A section header that opens and closes; named "section LABEL".
+// A collapsible section header, named "section LABEL".
 bool section(const PanelContext& ui, const char* label, bool openAtFirst = true);
-// Of the ImGui window that is being filled.
+// The rectangle of the current ImGui window.
 Rect windowRect();
-// A modal popup with an edge, since it may lie upon panels of its own colour.
+// A modal popup with a border, to separate it from panels of the same colour.
 bool beginBorderedModal(const char* title, ImGuiWindowFlags flags);
-// `text` without as much of its beginning as there is no room for: "\u2026/scenes/halls".
+// Removes as much of the beginning of `text` as needed to fit: "…/scenes/halls".
 std::string endOf(const std::string& text, float room);
-// Dim text, wrapped.
+// Dimmed text with line wrapping.
 void note(const std::string& text);
-// "icon  label", or the label alone where there is no icon font.
+// "icon  label", or only the label if there is no icon font.
 std::string withIcon(const char* icon, const std::string& label);
 
-// Makes the edits of the last ImGui item one undoable step: begins a transaction where the item
-// becomes active and commits it where it is left. Call it after the item, before the edit is made.
+// Makes the edits of the last ImGui item one undo step: opens a transaction when the item becomes
+// active and commits it when it becomes inactive. Call it after the item and before the edit.
 void trackEdit(const PanelContext& ui, const std::string& label);
 
-// One component field with a coloured edge: "x 1.25". True when it changed.
+// A field for one component with a coloured edge: "x 1.25". Returns true if it changed.
 bool dragField(const PanelContext& ui, const std::string& widget, float& value, float speed,
                const char* format, float minimum = 0.0f, float maximum = 0.0f);
-// Three of them side by side, named WIDGET.x, .y, .z.
+// Three such fields side by side, named WIDGET.x, .y, .z.
 bool dragVector(const PanelContext& ui, const std::string& widget, const std::string& step,
                 vec3& value, float speed, const char* format);
 
-// Colours are linear in the document and shown sRGB-encoded.
+// Colours are linear in the document and sRGB-encoded on the screen.
 vec3 linearToSrgb(const vec3& c);
 vec3 srgbToLinear(const vec3& c);
 

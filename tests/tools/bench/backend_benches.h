@@ -1,4 +1,4 @@
-// Benchmarks that are added once for each backend.
+// Benchmarks that are registered once for each backend.
 #pragma once
 
 #include <functional>
@@ -15,9 +15,9 @@ using MakeBackend = std::function<std::unique_ptr<Backend>()>;
 void addNaiveBenchmarks(const std::string& backend, const MakeBackend& make);
 // Adds frames of each technique on one backend.
 void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make);
-// Adds frames of glossy levels on one backend.
+// Adds frames of levels with glossy materials on one backend.
 void addSpecularBenchmarks(const std::string& backend, const MakeBackend& make);
-// Adds what paper 1 shows in its figures 5-3 to 5-6, on one backend.
+// Adds the benchmarks for figures 5-3 to 5-6 of paper 1, on one backend.
 void addFigureBenchmarks(const std::string& backend, const MakeBackend& make);
 
 }  // namespace lamplighter

@@ -1,11 +1,11 @@
-// An object to move about in levels that have none of their own.
+// A movable object for levels that have none.
 #pragma once
 
 #include "renderer/scene/scene.h"
 
 namespace lamplighter {
 
-// Puts a ball of a metre into the middle of the level.
+// Adds a ball of one metre at the centre of the level.
 NodeId addBall(Scene& scene);
 
 }  // namespace lamplighter

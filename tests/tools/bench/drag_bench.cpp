@@ -1,6 +1,5 @@
-// Dragging: a light or an object moves by a few centimetres in every frame, as under a hand, with
-// the budgets that the editor's window has by default, or with 100 updates a frame whatever they
-// cost; then it is let go.
+// Dragging: a light or an object moves by a few centimetres in every frame. The budgets are the
+// defaults of the editor's window, or 100 updates per frame at any cost. At the end it is released.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -29,14 +28,14 @@ double seconds() {
 
 struct Case {
   std::string scene;  // a path
-  const char* node;   // "ball": one is put into the level
+  const char* node;   // "ball": a ball is added to the level
   const char* technique;
   const char* backend;
   int width = 640, height = 360;
-  bool byTime = true;  // else 100 updates a frame
-  bool prt = false;    // the mover, which is complex, has its transfer
+  bool byTime = true;  // otherwise 100 updates per frame
+  bool prt = false;    // precomputed transfer is on for the mover, which is complex
   int vpls = 300;
-  int maps = std::get<int>(parameters::mapResolution().defaultValue);  // texels a side
+  int maps = std::get<int>(parameters::mapResolution().defaultValue);  // texels per side
 };
 
 std::string roomPath(const std::string& name) { return "assets/scenes/" + name + ".gltf"; }

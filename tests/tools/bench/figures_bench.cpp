@@ -1,6 +1,6 @@
-// What paper 1 shows of its engine in figures 5-3 to 5-6, measured on this one: frame time against
-// the number of VPLs and against updates a frame, the time of shadow maps against the vertices of
-// what moves, and the share of each stage.
+// The measurements of figures 5-3 to 5-6 of paper 1, repeated with this renderer: frame time over
+// the number of VPLs and over updates per frame, the time of shadow maps over the vertices of the
+// moving object, and the time of each stage.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,7 +23,7 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// A scene that is rendered again and again while its mover goes to and fro.
+// Renders a scene repeatedly while its mover moves back and forth.
 class Moving {
  public:
   Moving(const std::string& path, const MakeBackend& make, int vpls, int updates)
@@ -81,7 +81,7 @@ class Moving {
   int steps_ = 0;
 };
 
-// Figure 5-3, for what is on by default: the camera moves.
+// Figure 5-3 with the default settings: the camera moves.
 void againstVpls(benchmark::State& state, const std::string& path, const MakeBackend& make) {
   if (!fs::exists(fs::path(LAMPLIGHTER_SOURCE_DIR) / path)) {
     state.SkipWithError("the scene is not there");
@@ -112,7 +112,7 @@ void againstUpdates(benchmark::State& state, const MakeBackend& make) {
       static_cast<double>(refreshed) / static_cast<double>(state.iterations());
 }
 
-// A ball of about so many vertices.
+// A ball of approximately `vertices` vertices.
 std::shared_ptr<Mesh> ball(int vertices) {
   auto mesh = std::make_shared<Mesh>();
   Primitive& p = mesh->primitives.emplace_back();
@@ -140,7 +140,8 @@ std::shared_ptr<Mesh> ball(int vertices) {
   return mesh;
 }
 
-// Figure 5-5: all 300 maps anew while a ball of more and more vertices moves.
+// Figure 5-5: all 300 shadow maps are rendered while a ball with an increasing number of vertices
+// moves.
 void againstVertices(benchmark::State& state, const MakeBackend& make) {
   Moving level("assets/scenes/pillar_room.gltf", make, 300, 300);
   const auto mesh = ball(static_cast<int>(state.range(0)));
@@ -159,7 +160,7 @@ void againstVertices(benchmark::State& state, const MakeBackend& make) {
   state.counters["visibility_ms"] = 1e3 * visibility / frames;
 }
 
-// Figure 5-6: an object moves, and 100 VPLs are refreshed a frame.
+// Figure 5-6: an object moves, and 100 VPLs are updated per frame.
 void stages(benchmark::State& state, const std::string& path, const MakeBackend& make) {
   Moving level(path, make, 300, 100);
   level.settle();

@@ -1,6 +1,6 @@
-// The inner loop on one core: what a light with a shadow map costs a pixel, beside the least that
-// such a loop can do: the bare kernel of the trials that this machine's worth was judged by, with
-// one normal, without the test in the receiver's plane, sums in floating point.
+// The inner loop on one core: the cost of a light with a shadow map per pixel, compared with a
+// minimal loop. The minimal loop is the bare kernel from the trials that measured this machine: one
+// normal, no test of the receiver's plane, sums in floating point.
 #include <filesystem>
 
 #include <benchmark/benchmark.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kResolution = 64;
 constexpr float kClamp2 = 0.25f, kBias = 0.002f;
-constexpr int kTilesAtOnce = 16, kLightsAtOnce = 32;  // as the product has them
+constexpr int kTilesAtOnce = 16, kLightsAtOnce = 32;  // as in the product
 
 struct LitRoom {
   Scene scene;
@@ -57,7 +57,8 @@ const LitRoom& room() {
   return lit;
 }
 
-// Eight pixels and a light. Everything that does not depend on the pixel is outside of the loop.
+// Eight pixels and one light. Everything that does not depend on the pixel is computed outside the
+// loop.
 void addBare(const cpu::GBuffer& g, size_t first, const cpu::LightRecord& light,
              std::array<std::vector<float>, 3>& out) {
   const hn::FixedTag<float, cpu::kLanes> d;
@@ -98,7 +99,7 @@ void addBare(const cpu::GBuffer& g, size_t first, const cpu::LightRecord& light,
   }
 }
 
-// CPU time, so that other work on the machine counts less.
+// CPU time, so that other load on the machine has less effect.
 void report(benchmark::State& state) {
   state.counters["light_pixels_per_s"] = benchmark::Counter(
       room().lightPixels() * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);

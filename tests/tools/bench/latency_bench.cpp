@@ -1,6 +1,6 @@
-// Edit latency: a light or an object is moved once, with the budgets that the editor's window has
-// by default; frames and milliseconds until the picture is within 50, 95 and 99% of the settled
-// one. Each iteration is one edit, there and back in turn.
+// Edit latency: a light or an object moves once, with the default budgets of the editor's window.
+// Measures frames and milliseconds until the picture is within 50, 95 and 99% of the settled one.
+// Each iteration is one edit; the direction alternates.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>

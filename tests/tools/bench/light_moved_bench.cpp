@@ -1,6 +1,6 @@
-// The light of the Cornell box jumps to where cornell_lightmoved has it: how long after that edit
-// the live picture is within 10 and 5% of the picture of an independent renderer. Comparing is not
-// counted. 512 × 384, 5 bounces, every light sample may change in the first frame.
+// The light of the Cornell box jumps to its position in cornell_lightmoved. Measures the time until
+// the live picture is within 10 and 5% of the picture of an independent renderer, without the time
+// of the comparison. 512 × 384, 5 bounces, every light sample may change in the first frame.
 #include <chrono>
 #include <filesystem>
 #include <limits>
@@ -45,7 +45,7 @@ void lightMoved(benchmark::State& state) {
   settings.set(parameters::vpls().name, vpls);
   settings.set(parameters::updates().name, vpls);
   settings.set(parameters::bounces().name, 5);
-  // One lamp: few samples of it are enough, and most carry bounces.
+  // There is one lamp. It needs few direct samples; most samples are bounces.
   settings.set(parameters::directShare().name, 0.15f);
   settings.set(parameters::importance().name, 2);
   settings.set(parameters::clampDistance().name, 1.0f);

@@ -1,5 +1,5 @@
-// What `many_lights` costs with the technique `naive`: the scenes of paper 1, figure 5-1, against
-// the number of VPLs (figure 5-3's baseline), and the kernels on their own.
+// The cost of `many_lights` with the technique `naive`: the scenes of paper 1, figure 5-1, over the
+// number of VPLs (the baseline of figure 5-3), and the kernels alone.
 #include <chrono>
 #include <filesystem>
 
@@ -47,7 +47,7 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// The camera orbits: G-buffer and all sums anew in each frame, maps kept.
+// The camera orbits: each frame computes the G-buffer and all sums again and keeps the shadow maps.
 void cameraMoves(benchmark::State& state, const std::string& name, const MakeBackend& make) {
   const int vpls = static_cast<int>(state.range(0));
   Level level(name);
@@ -65,8 +65,8 @@ void cameraMoves(benchmark::State& state, const std::string& name, const MakeBac
   state.counters["vpls"] = shown;
 }
 
-// The mover moves: besides, every map that sees it is rendered, and the bounced VPLs are sampled
-// anew.
+// The mover moves: each frame also renders every shadow map that sees it and samples the bounced
+// VPLs again.
 void objectMoves(benchmark::State& state, const std::string& name, const MakeBackend& make) {
   const int vpls = static_cast<int>(state.range(0));
   Level level(name);
@@ -89,7 +89,7 @@ void objectMoves(benchmark::State& state, const std::string& name, const MakeBac
   state.counters["maps"] = maps;
 }
 
-// Nanoseconds a light and pixel of the sum alone, and maps a second, on one scene.
+// On one scene: nanoseconds per light and pixel for the sum alone, and shadow maps per second.
 void kernels(benchmark::State& state, const std::string& name, const MakeBackend& make) {
   Level level(name);
   FrameRenderer renderer(make(), seconds);

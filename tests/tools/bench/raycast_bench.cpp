@@ -1,5 +1,5 @@
-// What rays cost: millions a second on all threads, coherent and not, and what it costs to bring
-// the tree up to date when one object of many moves.
+// The cost of rays: millions per second on all threads, coherent and incoherent, and the cost of
+// updating the tree when one of many objects moves.
 #include <array>
 #include <cmath>
 #include <memory>
@@ -20,7 +20,7 @@
 namespace lamplighter {
 namespace {
 
-// A ball of radius 1 with 2·n² triangles, bumpy so that rays do not all leave it alike.
+// A ball of radius 1 with 2·n² triangles, with bumps so that rays leave it in different directions.
 std::shared_ptr<const Mesh> ball(uint32_t n) {
   Primitive p;
   for (uint32_t i = 0; i <= n; ++i) {
@@ -44,7 +44,7 @@ std::shared_ptr<const Mesh> ball(uint32_t n) {
   return mesh;
 }
 
-// 64 balls of 1,568 triangles each over a floor, in a sky: 100,354 triangles.
+// 64 balls of 1,568 triangles each over a floor, under a sky: 100,354 triangles.
 struct World {
   Scene scene;
   RenderScene render;
@@ -72,7 +72,8 @@ struct World {
     castOnce();
   }
 
-  // The primary rays of a picture in 4×2 blocks, and one cosine-distributed ray from each hit.
+  // The primary rays of a picture in 4×2 blocks, and one cosine-distributed ray from each hit
+  // point.
   void castOnce() {
     View view;
     view.eye = vec3(0, 9, 18);
@@ -141,9 +142,8 @@ void incoherentRays(benchmark::State& state) {
 BENCHMARK(coherentRays)->DenseRange(0, 2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(incoherentRays)->DenseRange(0, 2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-// What Embree alone makes of the same rays: one static tree over all triangles, rays and hits in
-// its own layout, filled beforehand. 0: as fast as it goes; 1: and robust; 2: told that they are
-// coherent.
+// Embree alone with the same rays: one static tree over all triangles, rays and hits prepared in
+// Embree's layout. 0: fastest; 1: also robust; 2: with the coherent flag.
 void bareRays(benchmark::State& state) {
   const World& w = world();
   RTCDevice device = rtcNewDevice("isa=avx2");

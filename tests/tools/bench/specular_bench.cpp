@@ -1,5 +1,5 @@
-// What highlights cost: frames in which the camera moves, of levels with metals and glazes, without
-// speculars and with them.
+// The cost of highlights: frames with a moving camera in levels with metals and glazes, without and
+// with speculars.
 #include <filesystem>
 
 #include <benchmark/benchmark.h>
@@ -38,7 +38,7 @@ void frames(benchmark::State& state, const std::string& file, const MakeBackend&
     renderer.backend().finish();
   };
   frame(SceneChanges::all());
-  frame({});  // shaders are built when first wanted
+  frame({});  // shaders are built on first use
   for (auto _ : state) {
     view.eye.x += 0.001f;
     frame({});

@@ -1,5 +1,5 @@
-// The visibility database: building it, and bringing it up to date after an object or a light
-// moved; and what it spares the sums (figure 5-3's "VD" against its "Naïve").
+// The visibility database: building it, updating it after an object or a light moved, and the time
+// that it saves in the sums ("VD" against "Naïve" in figure 5-3).
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct Case {
   const char* name;
   const char* path;   // assets/ or shared/
-  const char* mover;  // "": a ball of a metre is put into the middle of the level
+  const char* mover;  // "": a ball of one metre is added at the centre of the level
   int vpls;
 };
 constexpr Case kCases[] = {
@@ -85,7 +85,7 @@ void build(benchmark::State& state, const Case& c) {
   state.counters["partial"] = static_cast<double>(counts.partial) / entries;
 }
 
-// With more and more VPLs, each for itself or by clusters.
+// With increasing numbers of VPLs, separately or in clusters.
 void buildMany(benchmark::State& state, Case c, bool clusters) {
   if (skip(state, c)) return;
   c.vpls = static_cast<int>(state.range(0));
@@ -99,7 +99,8 @@ void buildMany(benchmark::State& state, Case c, bool clusters) {
   }
 }
 
-// Steps of 5 cm: to and fro along an axis, or around a circle, so that no two go the same way.
+// Steps of 5 cm: back and forth along an axis, or around a circle, so that no two directions are
+// equal.
 void moveObject(benchmark::State& state, const Case& c, bool inCircles) {
   if (skip(state, c)) return;
   World w(c);
@@ -122,7 +123,7 @@ void moveObject(benchmark::State& state, const Case& c, bool inCircles) {
     database.setScene(w.render, changes);
     database.refreshAll(w.render);
   };
-  // The first step of a drag finds out what all others do, the next ones know.
+  // The first step of a drag computes data that the following steps reuse.
   const RenderSceneChanges first = move();
   const auto begin = std::chrono::steady_clock::now();
   take(first);
@@ -153,7 +154,7 @@ void moveOneLight(benchmark::State& state, const Case& c) {
   }
 }
 
-// A hundred lights move at once, as those of a light that is dragged.
+// A hundred lights move at once, like the samples of a light that is dragged.
 void moveLights(benchmark::State& state, const Case& c) {
   if (skip(state, c)) return;
   World w(c);
@@ -171,9 +172,9 @@ void moveLights(benchmark::State& state, const Case& c) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-// What the paper's merging of passes (4.3.5) would save, in draws for the lights that need their
-// maps: K lights of one object a draw, the same merged, and as the gl backend does it, where each
-// pixel has a list of its own and the object with most lights says how many.
+// The saving of the paper's merging of passes (4.3.5), in draws for the lights that need their
+// shadow maps: K lights of one object per draw; the same merged; and the gl backend's way, where
+// each pixel has its own list and the object with most lights determines the number of draws.
 void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
   if (skip(state, c)) return;
   const World w(c);
@@ -191,7 +192,7 @@ void mergePassesOf(benchmark::State& state, const Case& c, int lightsPerPass) {
   state.counters["by_lists"] = listed;
 }
 
-// A frame in which the camera moved. `technique`: with "+block4" and the like, by blocks.
+// A frame in which the camera moved. `technique`: with "+block4" etc., by blocks.
 void frames(benchmark::State& state, const Case& c, const std::string& technique,
             const MakeBackend& make, int width, int height, int lightsPerPass, bool merge,
             bool prt) {
@@ -219,7 +220,7 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
     renderer.backend().finish();
   };
   frame(SceneChanges::all());
-  frame({});  // shaders are built when first wanted
+  frame({});  // shaders are built on first use
   for (auto _ : state) {
     view.eye.x += 0.001f;
     frame({});
@@ -280,14 +281,14 @@ void addTechniqueBenchmarks(const std::string& backend, const MakeBackend& make)
       add(name + "everything", frames, c, std::string("light_maps+block4"), make, size.x, size.y,
           1024, false, true);
     }
-    // Its own lists for each patch against merged passes of the paper's 6 lights.
+    // Separate lists for each patch, compared with the paper's merged passes of 6 lights.
     if (backend == "gl" && std::string(c.name) != "zdm2") {
       for (const bool merge : {false, true}) {
         add("visibility/merge_passes/" + backend + "/" + c.name + "/6/" + (merge ? "on" : "off"),
             frames, c, std::string("light_maps"), make, 640, 360, 6, merge, false);
       }
     }
-    // The paper's K lights a pass.
+    // The paper's K lights per pass.
     if (backend != "gl" || std::string(c.name) != "area_light_room") continue;
     for (const int most : {1, 6, 64}) {
       add("visibility/lights_a_pass/" + backend + "/" + c.name + "/" + std::to_string(most), frames,

@@ -1,5 +1,6 @@
-// The error of many_lights against the path-traced reference as the number of VPLs grows, on every
-// scene, with 0, 1 and 5 bounces; what the clamp takes away apart: docs/results/convergence.md.
+// The error of many_lights against the path-traced reference over the number of VPLs, on every
+// scene, with 0, 1 and 5 bounces. The loss by clamping is listed separately:
+// docs/results/convergence.md.
 //   lamplighter_convergence [--data FOLDER] [PART_OF_A_SCENE'S_PATH...]
 #include <algorithm>
 #include <cmath>
@@ -27,15 +28,15 @@ namespace fs = std::filesystem;
 constexpr int kWidth = 160, kHeight = 100;
 constexpr int kCounts[] = {64, 256, 1024, 4096, 16384};
 constexpr int kBounces[] = {0, 1, 5};
-// Two pictures of as many paths a pixel, of which the mean is the reference: what they differ by
-// tells its own noise.
+// The reference is the mean of two pictures with this number of paths per pixel. Their difference
+// gives its noise.
 constexpr int kPaths = 256;
-// Pictures with shifted pixels that many_lights averages.
+// many_lights averages this number of pictures with shifted pixels.
 constexpr int kAntialias = 16;
-// So near that next to nothing is taken away [m].
+// Distance so small that clamping removes almost nothing [m].
 constexpr float kNoClamp = 0.1f;
 
-// Through its first camera, or from outside.
+// The view through the first camera, or from outside if there is none.
 View viewOfScene(const Scene& scene) {
   for (const Node& node : scene.nodes)
     if (node.camera != kNone) return viewOfCamera(scene, node, kWidth, kHeight);
@@ -44,8 +45,8 @@ View viewOfScene(const Scene& scene) {
   return viewOfBounds(render.bounds, kWidth, kHeight);
 }
 
-// 1 where one surface fills the pixel that is no emitter: neither edges nor the light's own picture
-// are light that is summed, and both would outweigh it.
+// 1 where one non-emissive surface covers the whole pixel. Edges and the picture of the light
+// itself are excluded: they are not summed light, and their errors would dominate.
 Image surfaceMask(const Scene& scene, const View& view) {
   RenderScene render;
   update(render, scene, SceneChanges::all());
@@ -88,7 +89,7 @@ Image settled(const Scene& scene, const View& view, const std::string& method,
 
 struct Reference {
   Image mean;
-  double noise = 0.0;  // relRMSE of the mean that is its own
+  double noise = 0.0;  // relRMSE of the mean that comes from its own noise
 };
 
 Reference reference(const Scene& scene, const View& view, const Image& mask, int bounces) {
@@ -106,8 +107,8 @@ Reference reference(const Scene& scene, const View& view, const Image& mask, int
   return r;
 }
 
-// A level of 127,000 patches takes many minutes to tell what each does with 16,384 samples;
-// without, the picture is the same (docs/results/equality.md).
+// For a level of 127,000 patches it takes many minutes to compute the visibility of each from
+// 16,384 samples. Without it, the picture is the same (docs/results/equality.md).
 std::string techniqueFor(const std::string& scene) {
   return scene == "zdm2" ? "naive" : std::get<std::string>(parameters::technique().defaultValue);
 }
@@ -138,7 +139,7 @@ void addScene(const fs::path& path, const fs::path& folder) {
     for (const int vpls : kCounts) {
       last = manyLights(scene, view, techniqueFor(name), bounces, vpls);
       const double all = compareImages(last, truth.mean, &mask).relRmse;
-      // The reference's noise is not ours.
+      // Subtracts the noise of the reference.
       const double error = std::sqrt(std::max(0.0, all * all - truth.noise * truth.noise));
       line += fmt::format(" {:.1f}% |", 100 * error);
       data << vpls << '\t' << 100 * error << '\n';

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Plots what lamplighter_convergence --data wrote: error against light samples, a panel for each
-# number of bounces, a line for each scene, of one colour in all of them.
+# Plots the data of lamplighter_convergence --data: error over light samples, with a panel for each
+# number of bounces and a line for each scene. A scene has the same colour in all panels.
 # usage: tests/tools/convergence/plot.sh FOLDER OUT.png   (needs gnuplot)
 set -eu
 folder=$1 out=$2
@@ -27,7 +27,7 @@ lines_of() { # bounces
   for bounces in 0 1 5; do
     right=$(awk "BEGIN { print $left + 0.23 }")
     echo "set lmargin at screen $left; set rmargin at screen $right; set title '$bounces bounces'"
-    # The first panel has all scenes: its key stands right of the last.
+    # The first panel has all scenes, so its key is used; it is to the right of the last panel.
     if [ "$bounces" = 0 ]; then
       echo "set ylabel 'relRMSE, %'"
       echo "set key at screen 0.83, screen 0.93 left top reverse Left samplen 2"

@@ -21,7 +21,7 @@ namespace lamplighter::equality {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 200;
-constexpr int kMapMemory = 2048;  // [MiB], for a map of each VPL
+constexpr int kMapMemory = 2048;  // [MiB], enough for a map of each VPL
 
 struct NamedView {
   std::string name;
@@ -46,7 +46,7 @@ struct Picture {
   std::vector<shared::Vpl> lights;
 };
 
-// A scene on one backend.
+// Renders a scene on one backend.
 class Renderer {
  public:
   Renderer(const std::string& backend, const Scene& scene)
@@ -62,8 +62,8 @@ class Renderer {
       throw std::runtime_error("too little memory for the technique that is asked for");
     return {out.radiance->pixels(), test::shownLights(frames_.inspect())};
   }
-  // Of the last picture, by the same VPLs. `known`: only where the visibility database does not
-  // know.
+  // The last picture with ray-traced shadows and the same VPLs. `known`: traces rays only where the
+  // visibility database has no answer.
   Image withRays(const View& view, const Settings& settings, bool known) const {
     const Inspection last = frames_.inspect();
     return test::withTracedShadows(frames_.scene(), *frames_.rays(), test::shownLights(last), view,
@@ -79,7 +79,7 @@ class Renderer {
 bool sameLights(const std::vector<shared::Vpl>& a, const std::vector<shared::Vpl>& b) {
   return std::ranges::equal(a, b, [](const shared::Vpl& x, const shared::Vpl& y) {
     return x.position == y.position && x.normal == y.normal && x.tangent == y.tangent &&
-           vec3(x.intensity) == vec3(y.intensity);  // w: its slot
+           vec3(x.intensity) == vec3(y.intensity);  // w: shadow map slot
   });
 }
 
@@ -96,7 +96,8 @@ Settings naiveSettings(int resolution, int vpls) {
   s.set(parameters::vpls().name, vpls);
   s.set(parameters::updates().name, 65536);
   s.set(parameters::antialias().name, 1);
-  // Found by rays for each of them: it would but make the mean brighter that errors are shares of.
+  // Both would compute it with rays. It would only increase the mean and so decrease the relative
+  // errors.
   s.set(parameters::cornerLight().name, false);
   return s;
 }

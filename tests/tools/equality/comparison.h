@@ -1,4 +1,5 @@
-// How far pictures of many_lights are from `naive` with the same VPLs, and both from rays.
+// Compares pictures of many_lights with `naive` for the same VPLs, and both with ray-traced
+// shadows.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +11,17 @@
 
 namespace lamplighter::equality {
 
-// One way to make a picture, on one backend.
+// One column of the table: a technique on a backend.
 struct Column {
   std::string backend;  // "cpu" or "gl"
-  int resolution;       // of shadow maps at rest
+  int resolution;       // resolution of shadow maps at rest
   std::string name;
   Settings settings;
 };
 
-// Settings of the technique `naive`: every VPL with its own shadow map at every pixel, whatever
-// `block`, `group_share` and `prt` say. resolution: of maps at rest, texels a side; those before it
-// are as by default where it is a multiple of them.
+// Settings of the technique `naive`: every VPL has its own shadow map and lights every pixel,
+// independent of `block`, `group_share` and `prt`. `resolution`: side of the maps at rest [texels].
+// Previous resolutions keep their defaults if `resolution` is a multiple of them.
 Settings naiveSettings(int resolution, int vpls);
 
 struct Row {
@@ -28,12 +29,13 @@ struct Row {
   std::vector<double> errors;  // relRMSE from naive, by column
 };
 
-// A picture that is over its limit.
+// A picture whose error is above its limit.
 struct Over {
   std::string scene, view;
   Column column;
   double error = 0.0;
-  // With a ray for each shadow; and that itself with rays only where the technique looks maps up.
+  // Errors relative to ray-traced shadows: with a ray for each shadow, and (`database`) with rays
+  // only where the technique looks up shadow maps.
   double naiveFromRays = 0.0, fromRays = 0.0, database = 0.0;
 };
 
@@ -42,9 +44,9 @@ struct Compared {
   std::vector<Over> over;
 };
 
-// From every camera of the scene and from outside (`all of it`). Throws std::runtime_error where
-// the VPLs are not those of naive, or where something has no room, so that another technique than
-// that of the column is shown. `folder`, unless empty: where pictures over the limit go.
+// Compares from every camera of the scene and from a view of the whole scene (`all of it`). Throws
+// std::runtime_error if the VPLs differ from those of naive, or if memory is short and a technique
+// other than the column's is used. `folder`: for pictures above the limit; empty: none are written.
 Compared compare(const std::string& name, const Scene& scene, int vpls,
                  const std::vector<Column>& columns, double limit,
                  const std::filesystem::path& folder);

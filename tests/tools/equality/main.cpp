@@ -1,7 +1,8 @@
-// The summary of docs/results/equality.md: how far many_lights is from `naive` with the same VPLs,
-// settled, on every scene, from every camera and from outside, on both backends; its techniques
-// `visibility` and `light_maps` at full resolution, and all that is on unless it is switched off.
-// The summary goes to standard output, every picture's figure to standard error.
+// Prints the summary of docs/results/equality.md: the difference between many_lights and `naive`
+// with the same VPLs, settled, on every scene, from every camera and from outside, on both
+// backends. It tests the techniques `visibility` and `light_maps` at full resolution, and the
+// default settings. The summary goes to standard output, the figures of each picture to standard
+// error.
 //   lamplighter_equality [--pictures FOLDER] [--maps N,...] [--tables N,...] [PART_OF_A_PATH...]
 #include <algorithm>
 #include <filesystem>
@@ -25,11 +26,12 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::string> kBackends = {"cpu", "gl"};
-using Resolutions = std::vector<int>;  // texels a side of maps at rest, those of all tables first
+// texels per side of maps at rest; the first is used for all tables
+using Resolutions = std::vector<int>;
 
-constexpr int kGroupedVpls = 800;  // from which on they are grouped
+constexpr int kGroupedVpls = 800;  // from this number of VPLs on they are grouped
 
-// What its size lets be done in a while.
+// A number of VPLs that a scene of this size can render in reasonable time.
 int fewVpls(size_t triangles) { return triangles < 10000 ? 300 : 100; }
 int defaultVpls(size_t) { return std::get<int>(parameters::vpls().defaultValue); }
 int groupedVpls(size_t) { return kGroupedVpls; }
@@ -41,7 +43,7 @@ Column column(const std::string& backend, int resolution, const std::string& nam
   return c;
 }
 
-// Full resolution, and no groups.
+// Full resolution, without groups.
 std::vector<Column> shadowColumns(int vpls, const Resolutions& resolutions) {
   std::vector<Column> columns;
   for (const std::string& backend : kBackends)
@@ -64,7 +66,7 @@ std::vector<Column> allColumns(int vpls, const Resolutions& resolutions) {
   return columns;
 }
 
-// With so many VPLs more take too long.
+// With this number of VPLs, other columns take too long.
 std::vector<Column> groupColumns(int vpls, const Resolutions& resolutions) {
   std::vector<Column> columns = allColumns(vpls, resolutions);
   std::erase_if(columns, [&](const Column& c) { return c.resolution != resolutions[0]; });
@@ -77,7 +79,7 @@ Column transferColumn(const std::string& backend, int vpls, const Resolutions& r
   return c;
 }
 
-// The light of the same samples: those on a mesh light it, as in `naive`.
+// The light of the same samples: samples on a mesh light that mesh, as in `naive`.
 std::vector<Column> transferColumns(int vpls, const Resolutions& resolutions) {
   std::vector<Column> columns;
   for (const std::string& backend : kBackends)
@@ -85,7 +87,7 @@ std::vector<Column> transferColumns(int vpls, const Resolutions& resolutions) {
   return columns;
 }
 
-// What a mesh's parts reflect onto each other is another light than that of samples on it.
+// Reflection between parts of a mesh is different light than that of samples on the mesh.
 std::vector<Column> reflectionColumns(int vpls, const Resolutions& resolutions) {
   Column c = transferColumn("cpu", vpls, resolutions);
   c.settings.set(parameters::prtBounces().name, 4);
@@ -116,7 +118,7 @@ void rule(std::ostream& out, size_t columns) {
   out << "|\n";
 }
 
-// Those that are over the limit once more, with how far both are from what is right.
+// Prints the pictures above the limit, with the errors of both techniques against ray tracing.
 void printOver(const std::vector<Over>& over) {
   std::cerr
       << "\n| scene | view | backend | maps | technique | from naive | naive from rays | from "
@@ -134,26 +136,26 @@ std::string percent(double error, double limit) {
   return fmt::format(" {}{:.2f}%{} |", mark, 100 * error, mark);
 }
 
-// Of all pictures of one kind with maps of one resolution.
+// Statistics of all pictures of one kind with one resolution of the maps.
 struct Tally {
   size_t all = 0, under = 0;
   double most = 0.0;
 };
 
-// What one table comes to: its largest error of each scene, with the first resolution.
+// The result of one table: the largest error of each scene, at the first resolution.
 struct Result {
   const Kind* kind;
   std::map<std::string, double> worst;
   std::map<int, Tally, std::greater<>> tallies;  // by resolution
 };
 
-// The many small pieces of one folder are one row of the summary.
+// The small scenes of one folder share one row of the summary.
 std::string rowOf(const fs::path& path) {
   const std::string folder = path.parent_path().filename();
   return folder == "dungeon-kit" ? folder : path.stem().string();
 }
 
-// The whole table goes to standard error, row by row, since it takes long.
+// Prints the whole table to standard error row by row, because it takes long.
 Result measure(const Kind& kind, const std::vector<fs::path>& scenes,
                const Resolutions& resolutions, const fs::path& folder) {
   const std::vector<Column> header = kind.columns(1, resolutions);
@@ -190,7 +192,7 @@ Result measure(const Kind& kind, const std::vector<fs::path>& scenes,
   return result;
 }
 
-// The largest error of each scene, over its views and both backends, by table.
+// Prints the largest error of each scene over its views and both backends, by table.
 void printSummary(const std::vector<fs::path>& scenes, const std::vector<Result>& results) {
   std::cout << "\n| scene |";
   for (const Result& r : results) std::cout << ' ' << r.kind->title << " |";

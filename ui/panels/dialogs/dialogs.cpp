@@ -26,8 +26,8 @@ struct AnswerButton {
   const char* name;  // of the widget
 };
 
-// The text, below it buttons in a row at the right; closes the box and returns the index of the one
-// that was chosen, else kNone. Escape chooses the first.
+// Shows the text and, below it at the right, a row of buttons. Closes the box and returns the index
+// of the chosen button, or kNone. Escape chooses the first.
 int choose(const PanelContext& ui, const std::string& text, std::span<const AnswerButton> choices) {
   paragraph(ui, text);
   const float width = ui.px(96), gap = ui.px(7);

@@ -37,7 +37,7 @@ const char* titleOf(FileDialog::Kind kind) {
   return "Choose a folder of assets###file";
 }
 
-constexpr size_t kMostPlaces = 9;  // a key for each
+constexpr size_t kMostPlaces = 9;  // one key for each
 
 }  // namespace
 
@@ -80,7 +80,7 @@ void FileDialog::go(const fs::path& folder) {
   filters_ = false;
   chosen_ = -1;
   if (!writes()) file_.clear();
-  ImGui::ClearActiveID();  // the line would put back what stood in it
+  ImGui::ClearActiveID();  // otherwise ImGui would restore the old text of the line
   takesFocus_ = true;
 }
 
@@ -131,7 +131,7 @@ void FileDialog::drawPlaces(const PanelContext& ui) {
   }
 }
 
-// True when a file was clicked twice.
+// True if a file was double-clicked.
 bool FileDialog::drawEntries(const PanelContext& ui, const std::vector<FileEntry>& shown) {
   for (size_t i = 0; i < shown.size(); ++i) {
     const FileEntry entry = shown[i];
@@ -146,7 +146,7 @@ bool FileDialog::drawEntries(const PanelContext& ui, const std::vector<FileEntry
     if (!clicked) continue;
     if (entry.folder) {
       go(folder_ / entry.name);
-      break;  // the entries are others now
+      break;  // the list of entries has changed
     }
     file_ = entry.name;
     filters_ = false;
@@ -160,7 +160,7 @@ bool FileDialog::drawEntries(const PanelContext& ui, const std::vector<FileEntry
   return false;
 }
 
-// True when Enter was pressed.
+// True if Enter was pressed.
 bool FileDialog::drawLine(const PanelContext& ui) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (takesFocus_) ImGui::SetKeyboardFocusHere();
@@ -178,7 +178,7 @@ bool FileDialog::drawLine(const PanelContext& ui) {
   return entered;
 }
 
-// True when the line or the chosen file is to be taken.
+// True if the text of the line or the chosen file is confirmed.
 bool FileDialog::pressKeys(const PanelContext& ui, const std::vector<FileEntry>& shown,
                            bool entered) {
   const int last = static_cast<int>(shown.size()) - 1;
@@ -203,7 +203,7 @@ bool FileDialog::pressKeys(const PanelContext& ui, const std::vector<FileEntry>&
   }
   if (!entered) return false;
   takesFocus_ = true;
-  // What was typed in part is what is left of the list.
+  // If the typed text matches only one entry, choose it.
   if (chosen_ < 0 && filters_ && last == 0) chosen_ = 0;
   if (chosen_ >= 0 && chosen_ <= last) {
     const FileEntry entry = shown[static_cast<size_t>(chosen_)];
@@ -215,7 +215,7 @@ bool FileDialog::pressKeys(const PanelContext& ui, const std::vector<FileEntry>&
     return true;
   }
   std::error_code error;
-  const fs::path typed = folder_ / file_;  // an absolute name replaces the folder
+  const fs::path typed = folder_ / file_;  // an absolute path replaces the folder
   if (!file_.empty() && fs::is_directory(typed, error)) {
     file_.clear();
     go(typed);
@@ -241,7 +241,7 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
       {std::min(ui.px(720), 0.96f * window.x), std::min(ui.px(460), 0.92f * window.y)});
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
-  // Arrow keys choose here, whatever has the keyboard.
+  // Arrow keys choose an entry, independent of the focus.
   if (!beginBorderedModal(title, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoNavInputs))
     return std::nullopt;

@@ -1,6 +1,6 @@
-// The in-app file browser: folders, places, a line to type a name, a path or a part of a name in.
-// By keys alone: arrows choose, Enter takes what is chosen, Backspace in an empty line and Alt+Up
-// go up a folder, Ctrl+1 and so on go to the places, Escape leaves.
+// The file browser of the editor: folders, places, and a text line for a name, a path or a part of
+// a name. Keyboard: arrows choose an entry, Enter confirms it, Backspace in an empty line and
+// Alt+Up open the parent folder, Ctrl+1 etc. open the places, Escape cancels.
 #pragma once
 
 #include <filesystem>
@@ -36,9 +36,9 @@ class FileDialog {
   Kind kind_ = Kind::open;
   bool opening_ = false, takesFocus_ = false, scrolls_ = false;
   std::filesystem::path folder_;
-  std::string file_;      // the line
-  bool filters_ = false;  // it was typed: what does not hold it is not listed
-  int chosen_ = -1;       // of the entries shown, by arrow keys
+  std::string file_;      // the text line
+  bool filters_ = false;  // the user typed in the line: it filters the list
+  int chosen_ = -1;       // index of the shown entry chosen by arrow keys
   std::vector<FileEntry> entries_;
   std::string error_;
 };

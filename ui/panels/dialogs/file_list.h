@@ -1,4 +1,4 @@
-// What a file dialog lists.
+// The list of files in a file dialog.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +9,20 @@ namespace lamplighter {
 
 enum class FileKind { scene, picture, profile, timeline, folder };
 
-// Whether a file's ending is of that kind; no file is a folder.
+// Whether the file extension belongs to the kind. No file is of the kind folder.
 bool fits(FileKind kind, const std::filesystem::path& path);
-// Endings, as the dialog shows them: ".gltf, .glb".
+// Extensions as displayed: ".gltf, .glb".
 const char* endingsOf(FileKind kind);
 
 struct FileEntry {
   std::string name;
   bool folder = false;
 };
-// Folders first, then the files of the kind, by name; hidden ones are left out. `error`: why the
-// folder cannot be read, "" where it can.
+// Folders first, then the files of the kind, sorted by name, without hidden ones. `error`: why the
+// folder cannot be read; "" on success.
 std::vector<FileEntry> listFolder(const std::filesystem::path& folder, FileKind kind,
                                   std::string& error);
-// Those whose names hold the text, in any case.
+// The entries whose names contain the text, ignoring case.
 std::vector<FileEntry> filtered(const std::vector<FileEntry>& entries, const std::string& text);
 
 }  // namespace lamplighter

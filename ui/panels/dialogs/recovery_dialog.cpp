@@ -7,7 +7,7 @@ namespace lamplighter {
 
 namespace {
 
-// "2026-03-01 14:05", by the clock on the wall.
+// "2026-03-01 14:05", in local time.
 std::string timeText(int64_t secondsSince1970) {
   const std::time_t time = secondsSince1970;
   std::tm local{};
@@ -65,7 +65,7 @@ std::string RecoveryDialog::draw(PanelContext ui) {
       ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false))
     action = "recovery.recover";
   ui.name("recover");
-  // One level at a time is worked on: the others wait for the next start.
+  // Only one level can be open. The others are offered at the next start.
   if (action == "recovery.recover") later_ = true;
   if (later_ || !action.empty()) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

@@ -1,4 +1,4 @@
-// Offers the work that a killed process has left.
+// Offers to recover the work of killed processes.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@ namespace lamplighter {
 
 class RecoveryDialog {
  public:
-  // The action that was chosen, or empty.
+  // The action text that the user chose, or empty.
   std::string draw(PanelContext ui);
 
  private:
-  bool later_ = false;  // asked for; not again until the next start
+  bool later_ = false;  // the user chose "later": do not ask again until the next start
 };
 
 }  // namespace lamplighter

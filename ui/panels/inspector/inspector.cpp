@@ -32,7 +32,7 @@ void nameField(const PanelContext& ui, const Node& node, InspectorState& state) 
   if (std::exchange(state.focusName, false)) ImGui::SetKeyboardFocusHere();
   ImGui::InputText("##name", &state.name);
   ui.name("name");
-  // Typed text becomes the name when it is done, so that it is one step.
+  // The typed text becomes the name only at the end of the edit, so that it is one undo step.
   if (ImGui::IsItemDeactivatedAfterEdit() && !state.name.empty() && state.name != node.name)
     ui.session.setName(node.id, state.name);
   else if (!ImGui::IsItemActive())
@@ -83,7 +83,7 @@ void inspector(PanelContext ui, InspectorState& state) {
     state = {.focusName = state.focusName};
     state.node = node.id;
     state.name = node.name;
-    state.rotation = quat(0, 0, 0, 0);  // no rotation: the angles are found anew
+    state.rotation = quat(0, 0, 0, 0);  // not a rotation: forces the angles to be computed again
   }
   if (document.selection.size() > 1) return multiInspector(ui, state);
   ImGui::PushID(static_cast<int>(node.id));
@@ -102,7 +102,7 @@ void transformFields(PanelContext ui, const Node& node, InspectorState& state) {
   if (state.rotation != node.local.rotation) {
     state.rotation = node.local.rotation;
     state.degrees = glm::degrees(glm::eulerAngles(state.rotation));
-    // No "-0.0" for what is nothing but rounding.
+    // Prevents "-0.0" from rounding errors.
     for (int i = 0; i < 3; ++i)
       if (std::abs(state.degrees[i]) < 0.005f) state.degrees[i] = 0.0f;
   }

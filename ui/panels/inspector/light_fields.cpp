@@ -29,12 +29,13 @@ bool shapeCombo(const PanelContext& ui, AreaLight& light) {
   return changed;
 }
 
-// The black body of nearest colour; an edit gives the light the colour of another, as bright.
+// Shows the temperature of the nearest black-body colour. An edit sets the colour of another
+// temperature and keeps the luminance.
 bool temperatureField(const PanelContext& ui, const std::string& step, vec3& emission) {
   const std::optional<float> kelvin = temperatureOf(emission);
   labelledRow(ui, "Temperature",
               "The colour of a black body. Candles 1900 K, warm lamps 2700 K, daylight 6500 K.");
-  // What the temperature would look like, also where the colour is none.
+  // Shows the colour of the temperature, even if the light's colour is not near any temperature.
   const float side = ImGui::GetFrameHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   float value = kelvin.value_or(6500.0f);
@@ -54,7 +55,8 @@ bool temperatureField(const PanelContext& ui, const std::string& step, vec3& emi
   return true;
 }
 
-// Strength in the unit that the session shows, or the light's own where it has no such unit.
+// Shows the strength in the unit of the session, or in the light's own unit if it does not have
+// that unit.
 bool strengthField(const PanelContext& ui, const std::string& step, const LightMeasure& measure,
                    vec3& emission) {
   const LightUnit wanted = ui.session.lighting().unit;
@@ -83,8 +85,8 @@ bool strengthField(const PanelContext& ui, const std::string& step, const LightM
   ImGui::SameLine(0, ui.px(5));
   const std::string label = std::string(unitSymbol(unit)) + "##unit";
   if (ImGui::Button(label.c_str(), {unitWidth, 0})) {
-    // The next that this light has.
-    constexpr int kUnits = 4;  // lux is the sun's alone
+    // Selects the next unit that this light has.
+    constexpr int kUnits = 4;  // only the sun has lux
     for (int i = 1; i <= kUnits; ++i) {
       const auto next = static_cast<LightUnit>((static_cast<int>(wanted) + i) % kUnits);
       if (unitsPerRadiance(measure, next) <= 0.0) continue;
@@ -108,7 +110,7 @@ bool emissionFields(const PanelContext& ui, const std::string& step, const Light
   return changed;
 }
 
-// Whether it shines, by itself and by all others.
+// Whether the light is on, by its own state and by the states of groups and other lights.
 void stateFields(const PanelContext& ui, const Node& node) {
   LightState state = node.light;
   labelledRow(ui, "Shines", "Off gives no light. While any light is solo, only those that are do.");

@@ -1,4 +1,4 @@
-// What a light leaves out: the list, what may be added to it, and what is taken away again.
+// Light linking of a light: the list of excluded objects, and controls to add and remove objects.
 #include <algorithm>
 #include <cctype>
 
@@ -15,7 +15,7 @@ namespace {
 
 std::string nameOf(const Node& n) { return n.name.empty() ? "(unnamed)" : n.name; }
 
-// One object of the list: a click selects it, the cross lights it again.
+// One object of the list: a click selects it, the cross removes it from the list.
 void entry(const PanelContext& ui, NodeId light, const Node& n) {
   ImGui::PushID(static_cast<int>(n.id));
   const float width = ui.px(30);
@@ -92,7 +92,7 @@ void linkFields(const PanelContext& ui, NodeId light, InspectorState& state) {
   const Node* node = scene.find(light);
   const std::vector<NodeId> leftOut =
       light == kNoNode ? scene.skyLight.leftOut : node->light.leftOut;
-  std::vector<Node> there;  // copies: an edit may replace the document's
+  std::vector<Node> there;  // copies, because an edit may replace the document's nodes
   for (const NodeId id : leftOut)
     if (const Node* n = scene.find(id)) there.push_back(*n);
   labelledRow(ui, "Leaves out",

@@ -1,11 +1,11 @@
-// The inspector while several objects are selected: what they have in common, "mixed" where they
-// differ. Each edit is of all of them, as one step.
+// The inspector while several objects are selected. It shows their common values, and "mixed" where
+// they differ. Each edit applies to all of them, as one undo step.
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
 #include <imgui.h>
-// For values that differ, which imgui.h of 1.86 does not tell.
+// For mixed values, which imgui.h of 1.86 does not declare.
 #include <imgui_internal.h>
 
 #include "editor/edits/object_edits.h"
@@ -19,7 +19,7 @@
 namespace lamplighter {
 namespace {
 
-// What cannot be done is said in the status line.
+// Shows errors in the status line.
 void attempt(const PanelContext& ui, const std::function<void()>& edit) {
   try {
     edit();
@@ -28,7 +28,8 @@ void attempt(const PanelContext& ui, const std::function<void()>& edit) {
   }
 }
 
-// A field of numbers that says "mixed" until it is dragged or typed in. True when it changed.
+// A number field that shows "mixed" until it is dragged or the user types a value. Returns true if
+// it changed.
 bool mixedField(const PanelContext& ui, const std::string& widget, bool isMixed, float& value,
                 float speed, const char* format, float least = 0.0f, float most = 0.0f) {
   return dragField(ui, widget, value, speed, isMixed ? "mixed" : format, least, most);
@@ -54,7 +55,7 @@ void vectorRow(const PanelContext& ui, const char* label, const std::string& nam
   }
 }
 
-// A switch of all selected nodes; half on where they differ.
+// A switch of all selected nodes; half on if they differ.
 template <typename Of>
 bool mixedCheckbox(const PanelContext& ui, const char* label, const std::string& widget, Of of,
                    bool& value) {
@@ -198,7 +199,7 @@ void meshKindField(const PanelContext& ui) {
 
 void multiInspector(PanelContext ui, InspectorState& state) {
   ui.prefix = "inspector/";
-  state.node = kNoNode;  // whichever comes next is shown anew
+  state.node = kNoNode;  // forces a refresh for the next node
   note(std::to_string(ui.session.document().selection.size()) +
        " objects are selected. What is set here is set for all of them.");
   ImGui::PushID("many");

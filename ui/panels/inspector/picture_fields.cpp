@@ -1,4 +1,4 @@
-// The picture of a rectangle or disk light: its file, and what it looks like.
+// The picture of a rectangle or disk light: its file and a preview.
 #include <algorithm>
 
 #include <imgui.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kPreviewColumns = 64, kMostPreviewRows = 64;
 
-// In so many squares that it can be told from others: panels draw no textures.
+// Draws the picture as at most 64 × 64 coloured squares, because panels draw no textures.
 void preview(const PanelContext& ui, const LightPicture& picture, bool isDisk) {
   const Image8& image = *picture.image;
   const float width = std::min(ImGui::GetContentRegionAvail().x, ui.px(200));

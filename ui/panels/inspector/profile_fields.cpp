@@ -1,4 +1,4 @@
-// The profile of a point or spot light: its file, and what it looks like.
+// The profile of a point or spot light: its file and a plot.
 #include <cmath>
 
 #include <imgui.h>
@@ -12,8 +12,8 @@ namespace {
 
 constexpr int kSteps = 90;
 
-// Intensity over angle from the nadir, in two planes, each to both sides: the curve that luminaires
-// are sold by.
+// Plots intensity over the angle from the nadir in two planes, each to both sides, like the curves
+// in luminaire catalogues.
 void polarPlot(const PanelContext& ui, const IesProfile& profile) {
   const float side = std::min(ImGui::GetContentRegionAvail().x, ui.px(200));
   const ImVec2 corner = ImGui::GetCursorScreenPos();

@@ -8,7 +8,7 @@ namespace {
 
 constexpr float kMostRadiance = 1e6f;
 
-// A colour and how bright it is; true when it changed.
+// A colour and its strength. Returns true if it changed.
 bool radianceFields(const PanelContext& ui, const char* label, const std::string& widget,
                     const char* help, vec3& radiance) {
   const std::string step = std::string("Change ") + label + " of the sky";
@@ -23,7 +23,7 @@ bool radianceFields(const PanelContext& ui, const char* label, const std::string
   return changed;
 }
 
-// The other kind of sky with as much of the look as it can have.
+// Converts the sky to the other kind and keeps its look as far as possible.
 Sky asConstant(const Sky& sky) {
   if (sky.kind == SkyKind::gradient) return Sky(sky.horizon);
   return sky.isBlack() || sky.kind == SkyKind::image ? Sky(kDefaultSky) : sky;
@@ -50,7 +50,7 @@ void kindField(const PanelContext& ui, const Sky& sky, InspectorState& state) {
     if (i == 0) ui.session.setSky(Sky());
     if (i == 1) ui.session.setSky(asConstant(sky));
     if (i == 2) ui.session.setSky(asGradient(sky));
-    if (i == 3) state.choosesSky = true;  // it is one when there is a file
+    if (i == 3) state.choosesSky = true;  // becomes a picture sky when a file is chosen
   }
   ImGui::EndCombo();
 }

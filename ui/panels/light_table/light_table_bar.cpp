@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include <imgui.h>
-// For values that differ, which imgui.h of 1.86 does not tell.
+// For mixed values, which imgui.h of 1.86 does not declare.
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
@@ -22,7 +22,7 @@ std::string quotedName(const std::string& text) {
   return out + '"';
 }
 
-// "800 lm", "2,700 K", or what the values lie between where they differ.
+// "800 lm", "2,700 K", or the range of the values if they differ.
 std::string textOf(const CommonValue& v, LightProperty property) {
   if (v.count == 0) return "\u2013";
   std::string unit = lightPropertyInfo(property).unit;
@@ -63,7 +63,7 @@ class Bar {
   }
 
  private:
-  // To the right, or on a line of its own where what comes has less room than it needs.
+  // Continues on the right, or on a new line if the next item needs more room.
   void gap(float width = 4, float needs = 72) {
     ImGui::SameLine(0, ui_.px(width));
     if (ImGui::GetContentRegionAvail().x < ui_.px(needs)) ImGui::NewLine();
@@ -92,7 +92,7 @@ class Bar {
     gap();
   }
 
-  // What they are now, a field for another value, and what to do with it.
+  // The current values, a field for a new value, and the operations.
   void values() {
     const CommonValue common =
         commonValue(ui_.session.document().scene, lights_, property_, ui_.session.lighting().unit);

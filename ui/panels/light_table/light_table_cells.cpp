@@ -4,7 +4,7 @@
 #include <utility>
 
 #include <imgui.h>
-// For the places of cells, which imgui.h of 1.86 does not tell.
+// For the rectangles of cells, which imgui.h of 1.86 does not declare.
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
@@ -73,7 +73,7 @@ void LightCells::cell(const LightRow& row, LightColumn column, const std::string
   if (!ImGui::IsMouseDoubleClicked(0) || !ImGui::IsWindowHovered() ||
       !visible.Contains(ImGui::GetIO().MousePos) || isEdited(row, column))
     return;
-  // The first click of the two left this row alone selected.
+  // The first click of the double click has reduced the selection to this row.
   std::vector<NodeId>& before = state.before;
   if (std::find(before.begin(), before.end(), row.source.node) != before.end()) {
     std::erase(before, row.source.node);

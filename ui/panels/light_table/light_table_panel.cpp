@@ -1,4 +1,4 @@
-// The light table as it is drawn: rows and figures come from editor/lights/light_table.h.
+// Draws the light table. The rows and figures come from editor/lights/light_table.h.
 #include "ui/panels/light_table/light_table_panel.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 struct ColumnInfo {
   LightColumn column;
-  const char* name;  // of the widget
+  const char* name;  // name of the widget
   const char* label;
   float width;  // design pixels
   bool isNumber;
@@ -50,7 +50,8 @@ constexpr std::array kColumns = {
 };
 
 constexpr float kLeastTableHeight = 84.0f;  // design pixels
-constexpr float kMostSpare = 160.0f;  // design pixels that the names may take in a wide window
+// design pixels; largest extra width of the names in a wide window
+constexpr float kMostSpare = 160.0f;
 
 void rightAligned(const std::string& text) {
   const float left = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
@@ -78,7 +79,7 @@ class Table {
     spare_ = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
     for (const ColumnInfo& c : kColumns) spare_ -= ui_.px(c.width) + 2 * ui_.px(4) + 1.0f;
     spare_ = std::clamp(spare_, 0.0f, ui_.px(kMostSpare));
-    // Below a bar that takes many lines the panel scrolls.
+    // If the bar takes many lines, the panel scrolls.
     const float height = std::max(ImGui::GetContentRegionAvail().y, ui_.px(kLeastTableHeight));
     if (ImGui::BeginTable("##table", static_cast<int>(kColumns.size()), kFlags, {0.0f, height})) {
       headers();
@@ -95,7 +96,7 @@ class Table {
   void headers() {
     ImGui::TableSetupScrollFreeze(1, 1);
     for (const ColumnInfo& c : kColumns) {
-      // A wide window has room for long names.
+      // In a wide window the name column is wider.
       const float more = c.column == LightColumn::name ? spare_ : 0.0f;
       ImGui::TableSetupColumn(c.label, ImGuiTableColumnFlags_WidthFixed, ui_.px(c.width) + more);
     }
@@ -106,7 +107,8 @@ class Table {
     }
   }
 
-  // ImGui would cut the label for the sake of its arrow, and stands it flush left over figures.
+  // Draws the label itself. ImGui would shorten it to make room for the sort arrow, and would
+  // left-align it above right-aligned figures.
   void heading(const ColumnInfo& c) {
     const float room = ImGui::GetContentRegionAvail().x, left = ImGui::GetCursorScreenPos().x;
     ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(0, 0));
@@ -125,7 +127,7 @@ class Table {
     if (isSorted) sortMark(list, 0.5f * (low.x + high.x), low.y, high.y);
   }
 
-  // At the edge that the largest stand at.
+  // On the side of the largest values.
   void sortMark(ImDrawList& list, float x, float top, float bottom) const {
     const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
     if (specs == nullptr || specs->SpecsCount == 0) return;
@@ -216,7 +218,7 @@ class Table {
       editLightStates(ui_.session.editing(), {r.source.node}, label, apply);
   }
 
-  // As in the outliner: with the id where others have the name, too.
+  // As in the outliner: the name, plus the id if the name is not unique.
   std::string widgetOf(const LightRow& r) const {
     const std::string name = r.name.empty() ? "(unnamed)" : r.name;
     return named_.at(r.name) > 1 || r.name.empty() ? name + "#" + std::to_string(r.source.node)
@@ -226,7 +228,7 @@ class Table {
   void select(NodeId id) {
     Session& s = ui_.session;
     state_.before = s.document().selection;
-    if (id == kNoNode) return s.select({});  // the inspector shows the sky then
+    if (id == kNoNode) return s.select({});  // the inspector then shows the sky
     if (ImGui::GetIO().KeyShift) {
       s.select(rowsBetween(rows_, s.document().active(), id));
     } else if (ImGui::GetIO().KeyCtrl) {
@@ -243,7 +245,7 @@ class Table {
   LightCells cells_;
   std::vector<LightRow> rows_;
   std::map<std::string, int> named_;
-  float spare_ = 0.0f;  // pixels beyond what the columns need
+  float spare_ = 0.0f;  // width beyond the needs of the columns [pixels]
 };
 
 }  // namespace

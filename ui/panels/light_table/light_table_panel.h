@@ -1,4 +1,4 @@
-// The light table, below the view: all lights, and edits of those that are selected.
+// The light table below the view: shows all lights and edits the selected ones.
 #pragma once
 
 #include <string>
@@ -11,37 +11,37 @@ namespace lamplighter {
 
 struct LightTableState {
   int property = 0;   // index into lightProperties()
-  std::string value;  // being typed
-  std::string group;  // likewise
-  // The cell that is being edited, of the row of a light; kNoNode: none.
+  std::string value;  // typed text
+  std::string group;  // typed text
+  // The light whose cell is being edited; kNoNode: none.
   NodeId row = kNoNode;
   LightColumn column = LightColumn::name;
   std::string text;
-  bool begins = false;  // give it the keyboard
-  // As the selection was before the last click: a double click edits all of it.
+  bool begins = false;  // the field takes the keyboard focus in this frame
+  // The selection before the last click. A double click edits all of these lights.
   std::vector<NodeId> before;
 };
 void lightTable(PanelContext ui, LightTableState& state, Requests& requests);
-// Its upper part: what is done to all selected lights.
+// The upper part: operations on all selected lights.
 void lightTableBar(PanelContext ui, LightTableState& state, Requests& requests);
 
-// What a cell of the table says.
+// The text of a cell.
 std::string cellText(const LightRow& row, LightColumn column);
 
-// light_table_cells.cpp: editing cells in place, within the table as it is drawn.
+// light_table_cells.cpp: edits cells in place while the table is drawn.
 struct LightCells {
   const PanelContext& ui;
   LightTableState& state;
 
-  // The cell that was just drawn: names it, and a double click on it begins to edit it in all
-  // selected rows.
+  // Call after a cell was drawn. Gives the cell a name. A double click on it starts to edit this
+  // cell in all selected rows.
   void cell(const LightRow& row, LightColumn column, const std::string& widget) const;
-  // Enter on the row that is selected edits its name.
+  // Enter on the selected row edits its name.
   void byKeyboard(const std::vector<LightRow>& rows) const;
   bool isEdited(const LightRow& row, LightColumn column) const {
     return state.row != kNoNode && state.row == row.source.node && state.column == column;
   }
-  // Instead of the cell. Enter and leaving it take what is typed, Escape does not.
+  // Draws a text field instead of the cell. Enter or a lost focus applies the text, Escape cancels.
   void field(const LightRow& row, LightColumn column) const;
 
  private:
@@ -49,7 +49,8 @@ struct LightCells {
   void colourPopup(const LightRow& row) const;
 };
 
-// A filled square of a linear colour, brightest channel 1, as wide as asked and as high as a line.
+// A filled square of a linear colour, scaled so that the brightest channel is 1. Its height is one
+// line.
 void swatch(const PanelContext& ui, const vec3& linear, float width);
 
 }  // namespace lamplighter
