@@ -28,4 +28,7 @@ done
 rows=$(find renderer editor ui shaders -name '*.h' -o -name '*.cpp' -o -name '*.glsl' | sed 's|/[^/]*$||' | sort | uniq -c |
   awk '$1 > 34')
 if [ -n "$rows" ]; then printf 'folders of more than 34 files:\n%s\n' "$rows"; bad=1; fi
+rows=$(find renderer editor ui shaders tests \( -name '*.h' -o -name '*.cpp' -o -name '*.glsl' \) -exec wc -l {} + |
+  awk '$2 != "total" && $1 > 500')
+if [ -n "$rows" ]; then printf 'files of more than 500 lines:\n%s\n' "$rows"; bad=1; fi
 exit $bad

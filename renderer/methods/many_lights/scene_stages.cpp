@@ -1,0 +1,97 @@
+// The stages of ManyLights that bring visibility, light maps and transfer up to date.
+#include "renderer/methods/many_lights/many_lights.h"
+#include "renderer/methods/many_lights/parameters.h"
+
+namespace lamplighter {
+
+void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
+  if (!options.useVisibility) {
+    visibility_.reset();
+    return;
+  }
+  RenderSceneChanges changes = in.changes;
+  if (!visibility_) {
+    visibility_ = std::make_unique<VisibilityDatabase>();
+    changes.rebuilt = true;
+  }
+  visibility_->limitMemory(options.visibilityBytes);
+  visibility_->setScene(in.scene, changes);
+}
+
+void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiStats& stats) {
+  if (!visibility_) return;
+  const std::vector<shared::Vpl> shown = shownBySlot();
+  visibilityNeeds_ = visibility_->leastBytes(shown.size());
+  neededFor_ = lights_.slots();
+  if (visibilityNeeds_ > options.visibilityBytes) {
+    visibility_.reset();
+    options.forgoVisibility();
+    return;
+  }
+  const uint64_t before = visibility_->tests();
+  visibility_->setLights(in.scene, shown);
+  // Lights whose maps still show a mover at its old position wait.
+  const std::vector<bool> upToDate = lights_.upToDate();
+  std::vector<int> slots;
+  for (size_t slot = 0; slot < upToDate.size(); ++slot)
+    if (upToDate[slot]) slots.push_back(static_cast<int>(slot));
+  visibility_->refresh(in.scene, slots);
+  stats.visibilityTests = visibility_->tests() - before;
+}
+
+LightMaps::Options ManyLights::lightMapOptions(const FrameInputs& in, const Options& options) {
+  return {options.lightMapTexel, options.clampDistance, options.lightMapBytes,
+          in.backend.info().mostLightMapTexels};
+}
+
+void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
+  if (!options.useLightMaps) {
+    lightMaps_.reset();
+  } else {
+    if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
+    const uint64_t before = lightMaps_->texelsWritten();
+    const bool isAtRest = in.changes.none() && lights_.pending() == 0;
+    lightMaps_->update(in.scene, *visibility_, shownBySlot(), lightMapOptions(in, options),
+                       &in.view, isAtRest);
+    stats.lightMapTexels = lightMaps_->texelsWritten() - before;
+    stats.lightMapTexel = lightMaps_->texel();
+  }
+}
+
+// Returns whether the picture changes.
+bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStats& stats) {
+  if (!options.usePrt || !in.backend.info().takesTransfer) {
+    prt_.reset();
+    return false;
+  }
+  // The first call after enabling treats everything as changed.
+  RenderSceneChanges changes = in.changes;
+  if (!prt_) {
+    prt_ = std::make_unique<PrtLights>(TransferCache(in.cacheFolder));
+    changes.rebuilt = true;
+  }
+  const uint64_t before = prt_->rays();
+  const std::vector<shared::Vpl> bySlot = shownBySlot();
+  const bool changed =
+      prt_->update(in.scene, changes, in.rays, *visibility_,
+                   {bySlot, lights_.upToDate(), lights_.haveBounced(options.counts.bounces)},
+                   options.prt, !in.inBackground);
+  stats.raysTraced += prt_->rays() - before;
+  const Transfers::Progress progress = prt_->progress();
+  stats.transfersPending = static_cast<int>(progress.pending);
+  stats.transferShare = progress.share;
+  const PrtLights::Left left = prt_->left();
+  stats.transferObjects = left.objects;
+  stats.transferObjectsLeft = left.wholly;
+  stats.transferLightsLeft = left.lights;
+  stats.transferObjectsWithoutRoom = left.withoutRoom;
+  return changed;
+}
+
+std::vector<shared::Vpl> ManyLights::shownBySlot() const {
+  std::vector<shared::Vpl> bySlot(static_cast<size_t>(lights_.slots()));
+  for (const shared::Vpl& vpl : lights_.shown()) bySlot[static_cast<size_t>(vpl.intensity.w)] = vpl;
+  return bySlot;
+}
+
+}  // namespace lamplighter
