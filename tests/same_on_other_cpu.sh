@@ -65,7 +65,8 @@ picture default,reference assets/scenes/default.gltf --method reference --spp 4
 picture area_light_room,reference assets/scenes/area_light_room.gltf --method reference --spp 4
 if [ -d ../shared/scenes ]; then
   rays ../shared/scenes/zdm2-map/zdm2.glb 60000
-  picture kenney ../shared/scenes/kenney-fps-level/kenney-fps-level.gltf --vpls 32 --set technique=naive
+  # Traced shadow maps keep Embree's distances (RayCaster::distance8), so only the reference is equal.
+  picture kenney,reference ../shared/scenes/kenney-fps-level/kenney-fps-level.gltf --method reference --spp 2
 else
   echo "levels are left out: there is no ../shared/scenes"
 fi

@@ -101,23 +101,6 @@ void placeLanes(const RenderScene& scene, const RTCRayHit8& r, const float* tFar
   hn::Store(hn::IfThenElse(inPlane, nearest, t), tag, out.t);
 }
 
-// Only the distances: from one vertex and Embree's triangle normal, which consists only of products
-// and differences.
-void placeDistances(const RenderScene& scene, const RTCRayHit8& r, const float* tFar, float* out) {
-  constexpr FloatTag tag;
-  Lanes3 corner;
-  forEachLane(scene, r, [&](size_t lane, const uint32_t* corners) {
-    corner.set(lane, corners != nullptr ? scene.positions[corners[0]] : vec3(0.0f));
-  });
-  const auto normal = load(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z);
-  const auto oa = load(corner) - load(r.ray.org_x, r.ray.org_y, r.ray.org_z);
-  const auto along = dotUnfused(load(r.ray.dir_x, r.ray.dir_y, r.ray.dir_z), normal);
-  const auto nearest = hn::Load(tag, r.ray.tnear);
-  const auto t =
-      hn::Min(hn::Max(hn::Div(dotUnfused(oa, normal), along), nearest), hn::Load(tag, tFar));
-  hn::Store(hn::IfThenElse(hn::Eq(along, hn::Zero(tag)), nearest, t), tag, out);
-}
-
 // Rejects hits in holes of the alpha mask. N is 1 or 8; valid lanes are −1.
 void alphaFilter(const RTCFilterFunctionNArguments* a) {
   const auto& scene = *static_cast<const RenderScene*>(a->geometryUserPtr);
@@ -458,12 +441,12 @@ void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
 
 void RayCaster::distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const {
   alignas(32) RTCRayHit8 r{};
-  alignas(32) float tFar[8], t[8];
+  alignas(32) float tFar[8];
   impl_->cast8(rays, Surfaces::all, r, tFar);
-  placeDistances(impl_->scene, r, tFar, t);
   for (size_t i = 0; i < 8; ++i)
-    distances[i] =
-        r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity() : t[i];
+    distances[i] = r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                       ? std::numeric_limits<float>::infinity()
+                       : r.ray.tfar[i];
 }
 
 bool mayTouch(const Ray& ray, const Bounds& box) {

@@ -49,7 +49,8 @@ class RayCaster {
   // directions).
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                   Surfaces which = Surfaces::all) const;
-  // Only the distances, infinity for a miss. Slightly faster than intersect8().
+  // Only Embree's own distances, infinity for a miss. They do not depend on the order in which
+  // triangles at a shared edge are met, but their last bits depend on the processor.
   void distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const;
 
  private:

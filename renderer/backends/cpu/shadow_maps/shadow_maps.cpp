@@ -47,7 +47,7 @@ uint64_t traceShadowMap(const RayCaster& rays, const shared::Vpl& vpl, int resol
       for (int lane = 0; lane < kLanes; ++lane) {
         const int x = x0 + lane % kBlockWidth, y = y0 + lane / kBlockWidth;
         if (x >= resolution || y >= lastRow) continue;
-        // No hit: 0.
+        // A miss has an infinite distance and stores 0.
         const float t = distance[lane];
         map[static_cast<size_t>(y) * resolution + x] =
             directional ? std::max(0.0f, 1.0f - t / (2.0f * vpl.normal.w)) : 1.0f / t;
