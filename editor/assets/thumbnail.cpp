@@ -8,6 +8,7 @@
 #include "editor/document/write_file.h"
 #include "editor/input/recording.h"
 #include "renderer/base/error.h"
+#include "renderer/base/hash.h"
 #include "renderer/debug_views/view_picture.h"
 #include "renderer/image/image_io.h"
 #include "renderer/scene/gltf/gltf_io.h"
@@ -42,7 +43,7 @@ uint64_t hashOfAsset(const fs::path& file) {
   uint64_t hash = fileHash(file);
   for (const FileStamp& stamp : referencedFiles(file)) {
     for (const uint64_t part : {stamp.size, static_cast<uint64_t>(stamp.modified)})
-      hash = (hash ^ part) * 0x100000001b3ull;  // FNV-1a's prime
+      hash = hashedWith(hash, part);
   }
   return hash;
 }

@@ -13,6 +13,7 @@
 #include "renderer/bake/page_dilation.h"
 #include "renderer/bake/second_uvs.h"
 #include "renderer/base/error.h"
+#include "renderer/base/hash.h"
 #include "renderer/image/image_io.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
@@ -22,34 +23,18 @@ namespace {
 // Increase whenever the content of tiles changes.
 constexpr uint64_t kBakeVersion = 1;
 
-// FNV-1a over 64-bit words.
-class ContentHash {
- public:
-  void add(uint64_t value) { hash_ = (hash_ ^ value) * 0x100000001b3ull; }
-  template <typename T>
-  void addAll(const std::vector<T>& values) {
-    add(values.size());
-    const auto bytes = std::as_bytes(std::span(values));
-    for (size_t at = 0; at < bytes.size(); at += 8) {
-      uint64_t word = 0;
-      std::memcpy(&word, &bytes[at], std::min<size_t>(8, bytes.size() - at));
-      add(word);
-    }
-  }
-  uint64_t value() const { return hash_; }
-
- private:
-  uint64_t hash_ = 0xcbf29ce484222325ull;
-};
-
 // Hash of everything that the tiles depend on.
 uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobOptions& o) {
-  ContentHash key;
-  key.add(sceneHash(scene));
-  key.addAll(render.positions), key.addAll(render.normals), key.addAll(render.indices);
-  key.addAll(render.uv0), key.addAll(render.uv1), key.addAll(render.colors);
-  for (const Texture& t : render.textures) key.addAll(t.image->pixels);
-  const auto add = [&](uint64_t value) { key.add(value); };
+  uint64_t key = kHashStart;
+  const auto add = [&](uint64_t value) { key = hashedWith(key, value); };
+  const auto addAll = [&](const auto& values) {
+    add(values.size());
+    forEachWord(values, add);
+  };
+  add(sceneHash(scene));
+  addAll(render.positions), addAll(render.normals), addAll(render.indices);
+  addAll(render.uv0), addAll(render.uv1), addAll(render.colors);
+  for (const Texture& t : render.textures) addAll(t.image->pixels);
   add(kBakeVersion);
   add(std::bit_cast<uint32_t>(o.atlas.texelsPerMetre));
   add(static_cast<uint64_t>(o.atlas.pageSize));
@@ -65,7 +50,7 @@ uint64_t keyOfBake(const Scene& scene, const RenderScene& render, const BakeJobO
     add(o.light.counts.seed);
     add(std::bit_cast<uint32_t>(o.light.clampDistance));
   }
-  return key.value();
+  return key;
 }
 
 std::vector<BakedTexel> find(const BakeTile& tile, const BakedLight& light, int pageSize) {

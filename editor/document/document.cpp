@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "renderer/base/hash.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 
@@ -10,26 +11,19 @@ namespace lamplighter {
 
 namespace {
 
-// FNV-1a, 64 bits, over the values' bytes in a fixed order; no padding and no pointers go in, so
-// the hash is the same on every machine.
+// Hashes the values' bytes in a fixed order; no padding and no pointers go in, so the hash is the
+// same on every machine.
 class Hasher {
  public:
-  void bytes(const void* data, size_t size) {
-    const auto* p = static_cast<const uint8_t*>(data);
-    for (size_t i = 0; i < size; ++i) hash_ = (hash_ ^ p[i]) * 0x100000001b3ull;
-  }
   void add(uint32_t v) {
-    for (int i = 0; i < 4; ++i, v >>= 8) {
-      const auto byte = static_cast<uint8_t>(v);
-      bytes(&byte, 1);
-    }
+    for (int i = 0; i < 4; ++i, v >>= 8) hash_ = hashedWith(hash_, v & 0xff);
   }
   void add(int v) { add(static_cast<uint32_t>(v)); }
   void add(bool v) { add(v ? 1u : 0u); }
   void add(float v) { add(std::bit_cast<uint32_t>(v == 0.0f ? 0.0f : v)); }  // −0 is 0
   void add(const std::string& s) {
     add(static_cast<uint32_t>(s.size()));
-    bytes(s.data(), s.size());
+    hash_ = hashOfBytes(s, hash_);
   }
   void add(const vec2& v) { add(v.x), add(v.y); }
   void add(const vec3& v) { add(v.x), add(v.y), add(v.z); }
@@ -40,7 +34,7 @@ class Hasher {
   uint64_t value() const { return hash_; }
 
  private:
-  uint64_t hash_ = 0xcbf29ce484222325ull;
+  uint64_t hash_ = kHashStart;
 };
 
 // Nothing for the state that lights have at first.

@@ -12,6 +12,7 @@
 
 #include "editor/document/write_file.h"
 #include "renderer/base/error.h"
+#include "renderer/base/hash.h"
 #include "renderer/base/json_text.h"
 #include "renderer/registry/registry.h"
 
@@ -313,13 +314,10 @@ std::string hashText(uint64_t hash) { return fmt::format("{:016x}", hash); }
 uint64_t fileHash(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path.string(), "cannot be read", "name a file that can");
-  uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a
+  uint64_t hash = kHashStart;
   std::array<char, 65536> block;
-  while (in.read(block.data(), block.size()) || in.gcount() > 0) {
-    for (std::streamsize i = 0; i < in.gcount(); ++i) {
-      hash = (hash ^ static_cast<uint8_t>(block[static_cast<size_t>(i)])) * 0x100000001b3ull;
-    }
-  }
+  while (in.read(block.data(), block.size()) || in.gcount() > 0)
+    hash = hashOfBytes(std::span(block).first(static_cast<size_t>(in.gcount())), hash);
   return hash;
 }
 

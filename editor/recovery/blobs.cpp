@@ -6,6 +6,7 @@
 #include "editor/document/write_file.h"
 #include "editor/input/recording.h"
 #include "renderer/base/error.h"
+#include "renderer/base/hash.h"
 
 namespace lamplighter {
 
@@ -15,16 +16,11 @@ namespace {
 
 constexpr const char* kPrefix = "blob-";
 
-uint64_t hashOf(std::span<const uint8_t> bytes) {
-  uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a
-  for (const uint8_t b : bytes) hash = (hash ^ b) * 0x100000001b3ull;
-  return hash;
-}
-
 }  // namespace
 
 std::string Blobs::put(std::span<const uint8_t> bytes) {
-  const std::string name = kPrefix + hashText(hashOf(bytes)) + "-" + std::to_string(bytes.size());
+  const std::string name =
+      kPrefix + hashText(hashOfBytes(bytes)) + "-" + std::to_string(bytes.size());
   std::error_code error;
   if (fs::file_size(folder_ / name, error) == bytes.size() && !error) return name;
   fs::create_directories(folder_, error);
@@ -38,7 +34,7 @@ std::vector<uint8_t> Blobs::get(const std::string& name) const {
   std::ifstream in(folder_ / name, std::ios::binary);
   std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   const size_t dash = name.rfind('-');
-  if (!isPlain || !in || name != kPrefix + hashText(hashOf(bytes)) + name.substr(dash))
+  if (!isPlain || !in || name != kPrefix + hashText(hashOfBytes(bytes)) + name.substr(dash))
     throw InputError((folder_ / name).string(), "is missing or damaged",
                      "use the autosave beside it");
   return bytes;

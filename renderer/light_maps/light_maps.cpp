@@ -4,13 +4,13 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/hash.h"
 #include "renderer/light_maps/accumulate.h"
 #include "renderer/light_maps/light_map_eligibility.h"
 #include "renderer/light_maps/texel_grid.h"
@@ -312,16 +312,10 @@ uint64_t LightMaps::bytes() const {
   return n;
 }
 
-// FNV-1a over 64-bit words.
 uint64_t LightMaps::hash() const {
-  uint64_t hash = 14695981039346656037u;
-  for (const Object& o : objects_) {
-    for (const double sum : o.sums) {
-      uint64_t bits;
-      std::memcpy(&bits, &sum, sizeof bits);
-      hash = (hash ^ bits) * 1099511628211u;
-    }
-  }
+  uint64_t hash = kHashStart;
+  for (const Object& o : objects_)
+    for (const double sum : o.sums) hash = hashedWith(hash, std::bit_cast<uint64_t>(sum));
   return hash;
 }
 

@@ -14,6 +14,8 @@
 
 #include <unistd.h>
 
+#include "renderer/base/hash.h"
+
 namespace lamplighter {
 namespace {
 
@@ -35,12 +37,12 @@ static_assert(sizeof(Header) == 48 && std::is_trivially_copyable_v<Header>);
 static_assert(sizeof(Transfer::Vertex) == 4 * kShCoefficients * sizeof(float));
 static_assert(std::endian::native == std::endian::little);
 
-// FNV-1a over 64-bit words with a final mix; two hashes with different starts form a key.
+// Hashes 64-bit words with a final mix; two hashes with different starts form a key.
 class Hasher {
  public:
-  explicit Hasher(uint64_t start = 14695981039346656037u) : hash_(start) {}
+  explicit Hasher(uint64_t start = kHashStart) : hash_(start) {}
   void add(uint64_t word) {
-    hash_ = (hash_ ^ word) * 1099511628211u;
+    hash_ = hashedWith(hash_, word);
     hash_ ^= hash_ >> 32;  // moves high bits to the low half
   }
   void add(float v) { add(uint64_t{std::bit_cast<uint32_t>(v)}); }
@@ -49,11 +51,7 @@ class Hasher {
   void add(const vec4& v) { add(v.x), add(v.y), add(v.z), add(v.w); }
   void addBytes(std::span<const uint8_t> bytes) {
     add(uint64_t{bytes.size()});
-    for (size_t i = 0; i < bytes.size(); i += sizeof(uint64_t)) {
-      uint64_t word = 0;
-      std::memcpy(&word, &bytes[i], std::min(sizeof word, bytes.size() - i));
-      add(word);
-    }
+    forEachWord(bytes, [&](uint64_t word) { add(word); });
   }
   uint64_t value() const {
     uint64_t h = hash_;
@@ -127,7 +125,7 @@ bool isFinite(const Transfer& transfer) {
 }  // namespace
 
 TransferKey transferKey(const RenderScene& own, const TransferOptions& options) {
-  return {hashOf(own, options, 14695981039346656037u), hashOf(own, options, 0x9e3779b97f4a7c15u)};
+  return {hashOf(own, options, kHashStart), hashOf(own, options, 0x9e3779b97f4a7c15u)};
 }
 
 fs::path TransferCache::fileOf(const TransferKey& key) const {

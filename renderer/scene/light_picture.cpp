@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "renderer/base/hash.h"
 #include "renderer/image/image_io.h"
 #include "renderer/scene/scene.h"
 
@@ -48,8 +49,7 @@ std::shared_ptr<const LightPicture> decodeLightPicture(
   auto picture = std::make_shared<LightPicture>();
   picture->file = file;
   picture->image = std::make_shared<const Image8>(std::move(*image));
-  picture->hash = 0xcbf29ce484222325ull;  // FNV-1a
-  for (const uint8_t b : *bytes) picture->hash = (picture->hash ^ b) * 0x100000001b3ull;
+  picture->hash = hashOfBytes(*bytes);
   picture->bytes = std::move(bytes);
   findMeans(*picture);
   if (luminance(picture->mean) > 0.0f && luminance(picture->meanOfDisk) > 0.0f) return picture;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "renderer/base/error.h"
+#include "renderer/base/hash.h"
 #include "renderer/image/image_io.h"
 #include "shaders/shared/sky.h"
 
@@ -25,14 +26,6 @@ Image halved(const Image& image) {
     }
   }
   return out;
-}
-
-// FNV-1a, 64 bits.
-uint64_t hashOf(const void* data, size_t size) {
-  const auto* p = static_cast<const uint8_t*>(data);
-  uint64_t hash = 0xcbf29ce484222325ull;
-  for (size_t i = 0; i < size; ++i) hash = (hash ^ p[i]) * 0x100000001b3ull;
-  return hash;
 }
 
 vec3 interpolated(const Image& image, const vec2& at) {
@@ -108,8 +101,7 @@ std::shared_ptr<const SkyImage> makeSkyImage(Image pixels, std::string name,
   auto image = std::make_shared<SkyImage>();
   image->map = SkyMap(pixels);
   image->name = std::move(name);
-  image->hash = file ? hashOf(file->data(), file->size())
-                     : hashOf(pixels.pixels.data(), pixels.pixels.size() * sizeof(vec3));
+  image->hash = file ? hashOfBytes(*file) : hashOfBytes(pixels.pixels);
   image->pixels = std::move(pixels);
   image->file = std::move(file);
   return image;

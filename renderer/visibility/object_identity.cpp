@@ -4,16 +4,20 @@
 #include <concepts>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/base/hash.h"
+
 namespace lamplighter {
 namespace {
 
-// FNV-1a over words, in several independent sums to hide the latency of the multiplication.
+// Hashes words, in several independent sums to hide the latency of the multiplication.
 class Hash {
  public:
+  Hash() { sums_.fill(kHashStart); }
   template <typename T>
   void add(const T* values, size_t count) {
     static_assert(sizeof(T) % sizeof(uint32_t) == 0);
@@ -29,21 +33,17 @@ class Hash {
   void add(size_t count, const WordAt& wordAt) requires std::invocable<WordAt, size_t> {
     size_t i = 0;
     for (; i + kSums <= count; i += kSums)
-      for (size_t s = 0; s < kSums; ++s) take(sums_[s], wordAt(i + s));
-    for (; i < count; ++i) take(sums_[0], wordAt(i));
+      for (size_t s = 0; s < kSums; ++s) sums_[s] = hashedWith(sums_[s], wordAt(i + s));
+    for (; i < count; ++i) sums_[0] = hashedWith(sums_[0], wordAt(i));
   }
   uint64_t value() const {
-    uint64_t value = kFirst;
-    for (const uint64_t sum : sums_) take(value, sum);
-    return value;
+    return std::accumulate(sums_.begin(), sums_.end(), kHashStart, hashedWith);
   }
 
  private:
   static constexpr size_t kSums = 8;
-  static constexpr uint64_t kFirst = 14695981039346656037u;
-  static void take(uint64_t& sum, uint64_t word) { sum = (sum ^ word) * 1099511628211u; }
 
-  std::array<uint64_t, kSums> sums_{kFirst, kFirst, kFirst, kFirst, kFirst, kFirst, kFirst, kFirst};
+  std::array<uint64_t, kSums> sums_;
 };
 
 }  // namespace
