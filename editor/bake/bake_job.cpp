@@ -117,8 +117,8 @@ void writeScene(const Scene& scene, const RenderScene& render, const LightMapAtl
   j["quantity"] = "irradiance, W/m2, linear Rec. 709; reflected radiance is albedo / pi times it";
   for (int i = 0; i < report.pages; ++i) j["pages"].push_back(pageName(o, i));
   NodeId last = kNoNode;
-  for (const PlacedChart& c : atlas.charts) {
-    const NodeId id = render.objects[c.chart.object].node;
+  for (const ObjectChart& c : atlas.charts) {
+    const NodeId id = render.objects[c.object].node;
     if (id == last) continue;
     last = id;
     j["nodes"].push_back(

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "renderer/bake/unwrap.h"
+#include "renderer/atlas/placed_chart.h"
+#include "renderer/scene/render_scene.h"
 
 namespace lamplighter {
 
@@ -11,26 +12,16 @@ struct AtlasOptions {
   float texelsPerMetre = 8.0f;
   int pageSize = 1024;  // texels per side
 };
-// Width of the border around each chart [texels]. It belongs to the chart, so that filters do not
-// read neighbouring charts.
-inline constexpr int kGutter = 2;
 
-struct PlacedChart {
-  BakeChart chart;
+// A chart of an object, in world space.
+struct ObjectChart : PlacedChart {
+  uint32_t object = 0;  // index into RenderScene::objects
   int page = 0;
-  glm::ivec2 at{0}, size{0};  // on the page, including the gutter [texels]
-  float texelsPerMetre = 1.0f;
-
-  // Projects a point of the chart to the page [texels]. The centre of texel (0, 0) is (0.5, 0.5).
-  // Row 0 is the top row, as in images.
-  vec2 texelsOf(const vec3& p) const {
-    return vec2(at + kGutter) + texelsPerMetre * (chart.project(p) - chart.min);
-  }
 };
 
 struct LightMapAtlas {
   int pageSize = 0, pages = 0;
-  std::vector<PlacedChart> charts;  // ordered by object
+  std::vector<ObjectChart> charts;  // ordered by object
   struct Coarser {
     NodeId node = kNoNode;
     float texelsPerMetre = 0.0f;

@@ -42,10 +42,10 @@ Nearest nearestOf(const std::array<vec2, 3>& t, const vec2& p, uint32_t triangle
 }
 
 // The points of one chart that are nearest to each quarter of its texels, including the gutter.
-std::vector<Nearest> nearestPoints(const RenderScene& scene, const PlacedChart& placed) {
+std::vector<Nearest> nearestPoints(const RenderScene& scene, const ObjectChart& placed) {
   const glm::ivec2 size = kQuarters * placed.size;
   std::vector<Nearest> nearest(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
-  const RenderObject& o = scene.objects[placed.chart.object];
+  const RenderObject& o = scene.objects[placed.object];
   constexpr float kScale = kQuarters;
   for (const uint32_t triangle : placed.chart.triangles) {
     std::array<vec2, 3> t;
@@ -72,7 +72,7 @@ std::vector<Nearest> nearestPoints(const RenderScene& scene, const PlacedChart& 
 
 std::vector<BakePoint> bakePoints(const RenderScene& scene, const LightMapAtlas& atlas, int page) {
   std::vector<BakePoint> points;
-  for (const PlacedChart& placed : atlas.charts) {
+  for (const ObjectChart& placed : atlas.charts) {
     if (placed.page != page) continue;
     const std::vector<Nearest> nearest = nearestPoints(scene, placed);
     const int stride = kQuarters * placed.size.x;
@@ -84,7 +84,7 @@ std::vector<BakePoint> bakePoints(const RenderScene& scene, const LightMapAtlas&
               (kQuarters * y + k / kQuarters) * stride + kQuarters * x + k % kQuarters)];
         const auto add = [&](const Nearest& n) {
           points.push_back({static_cast<uint16_t>(placed.at.x + x),
-                            static_cast<uint16_t>(placed.at.y + y), placed.chart.object, n.triangle,
+                            static_cast<uint16_t>(placed.at.y + y), placed.object, n.triangle,
                             glm::mix(n.u, 1.0f / 3.0f, kFromEdges),
                             glm::mix(n.v, 1.0f / 3.0f, kFromEdges)});
         };

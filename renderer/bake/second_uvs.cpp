@@ -23,17 +23,17 @@ void copyVertex(std::vector<T>& to, const std::vector<T>& from, uint32_t vertex)
 
 // `charts`: those of this primitive, which is object `o` of the rendered scene.
 Primitive withUvs(const Primitive& p, const RenderScene& render, const RenderObject& o,
-                  const std::vector<const PlacedChart*>& charts, int pageSize) {
-  std::vector<const PlacedChart*> chartOf(o.triangleCount(), nullptr);
-  for (const PlacedChart* c : charts)
+                  const std::vector<const ObjectChart*>& charts, int pageSize) {
+  std::vector<const ObjectChart*> chartOf(o.triangleCount(), nullptr);
+  for (const ObjectChart* c : charts)
     for (const uint32_t t : c->chart.triangles) chartOf[t] = c;
   Primitive out;
   out.material = p.material;
-  std::map<std::pair<uint32_t, const PlacedChart*>, uint32_t> vertices;
-  std::vector<std::pair<uint32_t, const PlacedChart*>> order;
+  std::map<std::pair<uint32_t, const ObjectChart*>, uint32_t> vertices;
+  std::vector<std::pair<uint32_t, const ObjectChart*>> order;
   for (uint32_t i = 0; i < o.indexCount; ++i) {
     const uint32_t vertex = p.indices[i];
-    const PlacedChart* chart = chartOf[i / 3];
+    const ObjectChart* chart = chartOf[i / 3];
     const auto [it, isNew] =
         vertices.emplace(std::pair(vertex, chart), static_cast<uint32_t>(vertices.size()));
     if (isNew) order.emplace_back(vertex, chart);
@@ -55,8 +55,8 @@ Primitive withUvs(const Primitive& p, const RenderScene& render, const RenderObj
 }  // namespace
 
 Scene withLightMapUvs(const Scene& scene, const RenderScene& render, const LightMapAtlas& atlas) {
-  std::map<uint32_t, std::vector<const PlacedChart*>> byObject;
-  for (const PlacedChart& c : atlas.charts) byObject[c.chart.object].push_back(&c);
+  std::map<uint32_t, std::vector<const ObjectChart*>> byObject;
+  for (const ObjectChart& c : atlas.charts) byObject[c.object].push_back(&c);
   Scene out = scene;
   std::set<int> replaced;  // meshes of the scene that were already replaced
   uint32_t object = 0;

@@ -4,9 +4,8 @@
 // shadows of the object on itself and the interreflection between its parts. Unlike in the paper,
 // it has colour.
 //
-// It is computed in the object's own space: world space without the rotation and translation of the
-// object, in units that keep the volume under its scale. So translation, rotation and uniform scale
-// do not change it; only a stretch does.
+// It is computed in the object's own space (own_space.h), so translation, rotation and uniform
+// scale do not change it; only a stretch does.
 #pragma once
 
 #include <atomic>
@@ -15,21 +14,9 @@
 #include <vector>
 
 #include "renderer/prt/spherical_harmonics.h"
-#include "renderer/scene/render_scene.h"
+#include "renderer/scene/own_space.h"
 
 namespace lamplighter {
-
-// The object's own space in the world: x_world = scale · rotation · x_own + translation.
-struct OwnSpace {
-  mat3 rotation{1.0f};
-  // from node space to own space; rounded, so that a rotation does not change its bits
-  mat3 stretch{1.0f};
-  vec3 translation{0.0f};
-  float scale = 1.0f;  // not rounded [m]
-};
-
-// None if the node flattens the object or the transform is not finite.
-std::optional<OwnSpace> ownSpaceOf(const RenderObject& object);
 
 // A scene that contains only the object, in its own space. The transfer depends only on it. It has
 // the same bits for every position and rotation of the object.

@@ -1,16 +1,14 @@
-// Charts, their places on pages, and the points of texels.
+// The places of charts on pages, and the points of texels.
 #include "renderer/bake/atlas.h"
 
 #include <cmath>
 #include <map>
-#include <set>
 
 #include <gtest/gtest.h>
 
 #include "renderer/bake/bake_points.h"
 #include "renderer/bake/page_dilation.h"
 #include "renderer/bake/second_uvs.h"
-#include "renderer/bake/skyline.h"
 #include "renderer/base/error.h"
 #include "tests/support/scenes.h"
 
@@ -29,81 +27,6 @@ Scene oneMesh(std::shared_ptr<const Mesh> mesh) {
   return scene;
 }
 
-size_t trianglesIn(const std::vector<BakeChart>& charts) {
-  size_t count = 0;
-  for (const BakeChart& c : charts) count += c.triangles.size();
-  return count;
-}
-
-TEST(Skyline, PacksWithoutOverlapAndRefusesWhatDoesNotFit) {
-  Skyline page(64);
-  std::set<std::pair<int, int>> taken;
-  int placed = 0;
-  for (int i = 0; i < 40; ++i) {
-    const glm::ivec2 size(5 + i % 7, 4 + i % 5);
-    const auto at = page.place(size);
-    if (!at) continue;
-    ++placed;
-    for (int y = at->y; y < at->y + size.y; ++y)
-      for (int x = at->x; x < at->x + size.x; ++x) {
-        ASSERT_TRUE(x >= 0 && y >= 0 && x < 64 && y < 64);
-        EXPECT_TRUE(taken.emplace(x, y).second);
-      }
-  }
-  EXPECT_EQ(placed, 40);
-  EXPECT_FALSE(page.place({65, 1}));
-  EXPECT_FALSE(page.place({64, 64}));
-  EXPECT_FALSE(page.place({64, 64})) << "a refusal changes nothing";
-}
-
-TEST(Unwrap, ABoxHasItsSixSides) {
-  const RenderScene render = rendered(oneMesh(test::boxMesh(vec3(1, 2, 3))));
-  const std::vector<BakeChart> charts = unwrap(render, 0, 16.0f);
-  ASSERT_EQ(charts.size(), 6u);
-  EXPECT_EQ(trianglesIn(charts), 12u);
-  float area = 0.0f;
-  for (const BakeChart& c : charts) area += c.extent().x * c.extent().y;
-  EXPECT_NEAR(area, 2.0f * (2 + 3 + 6), 1e-3f) << "boxes as small as the sides";
-}
-
-TEST(Unwrap, ASphereIsCutWhereItBends) {
-  const RenderScene render = rendered(oneMesh(test::sphereMesh(1.0f, 24)));
-  const std::vector<BakeChart> charts = unwrap(render, 0, 16.0f);
-  EXPECT_EQ(trianglesIn(charts), render.objects[0].triangleCount());
-  EXPECT_GE(charts.size(), 5u);
-  EXPECT_LE(charts.size(), 40u);
-  for (const BakeChart& c : charts) {
-    for (const uint32_t t : c.triangles) {
-      const uint32_t* i = &render.indices[3 * t];
-      const vec3 n = glm::normalize(glm::cross(render.positions[i[1]] - render.positions[i[0]],
-                                               render.positions[i[2]] - render.positions[i[0]]));
-      EXPECT_GE(glm::dot(n, c.normal), std::cos(kMostBend) - 1e-4f);
-    }
-  }
-}
-
-// A strip that climbs round and round has all its triangles connected and nearly level, and lies
-// above itself.
-TEST(Unwrap, WhatLiesAboveItselfIsCut) {
-  constexpr int kSteps = 64;  // two turns
-  auto mesh = std::make_shared<Mesh>();
-  Primitive& p = mesh->primitives.emplace_back();
-  for (int i = 0; i <= kSteps; ++i) {
-    const float angle = 4.0f * kPi * static_cast<float>(i) / kSteps;
-    const float height = 0.02f * static_cast<float>(i);
-    for (const float r : {1.0f, 2.0f}) {
-      p.positions.emplace_back(r * std::cos(angle), height, r * std::sin(angle));
-      p.normals.emplace_back(0, 1, 0);
-    }
-  }
-  for (uint32_t i = 0; i < kSteps; ++i)
-    for (const uint32_t k : {0u, 2u, 1u, 1u, 2u, 3u}) p.indices.push_back(2 * i + k);
-  const RenderScene render = rendered(oneMesh(mesh));
-  const std::vector<BakeChart> charts = unwrap(render, 0, 16.0f);
-  EXPECT_EQ(trianglesIn(charts), 2u * kSteps);
-  EXPECT_GE(charts.size(), 2u);
-}
-
 TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelIsTwoCharts) {
   Scene scene;
   for (int i = 0; i < 12; ++i)
@@ -113,8 +36,8 @@ TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelIsTwoCharts) {
   EXPECT_GT(atlas.pages, 1);
   EXPECT_TRUE(atlas.coarser.empty());
   std::map<uint32_t, int> pageOf;
-  for (const PlacedChart& c : atlas.charts) {
-    EXPECT_EQ(pageOf.emplace(c.chart.object, c.page).first->second, c.page);
+  for (const ObjectChart& c : atlas.charts) {
+    EXPECT_EQ(pageOf.emplace(c.object, c.page).first->second, c.page);
     EXPECT_FLOAT_EQ(c.texelsPerMetre, 16.0f);
   }
   for (int page = 0; page < atlas.pages; ++page) {
@@ -149,7 +72,7 @@ TEST(BakePoints, LieOnTheSurfaceUnderTheirTexels) {
   const RenderScene render = rendered(oneMesh(test::squareMesh(2.0f)));
   const LightMapAtlas atlas = makeAtlas(render, {8.0f, 64});
   ASSERT_EQ(atlas.charts.size(), 1u);
-  const PlacedChart& c = atlas.charts[0];
+  const ObjectChart& c = atlas.charts[0];
   int on = 0;
   for (const BakePoint& p : bakePoints(render, atlas, 0)) {
     const uint32_t* i = &render.indices[3 * p.triangle];

@@ -1,4 +1,4 @@
-#include "renderer/bake/skyline.h"
+#include "renderer/atlas/skyline.h"
 
 #include <algorithm>
 

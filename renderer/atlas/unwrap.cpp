@@ -1,4 +1,4 @@
-#include "renderer/bake/unwrap.h"
+#include "renderer/atlas/unwrap.h"
 
 #include <algorithm>
 #include <array>
@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <unordered_set>
 #include <utility>
 
@@ -27,9 +28,9 @@ struct Triangles {
   std::vector<std::vector<uint32_t>> neighbours;  // triangles across an edge
 };
 
-Triangles trianglesOf(const RenderScene& scene, const RenderObject& object) {
+Triangles trianglesOf(std::span<const vec3> positions, std::span<const uint32_t> indices) {
   Triangles t;
-  const uint32_t count = object.triangleCount();
+  const auto count = static_cast<uint32_t>(indices.size() / 3);
   // Welds vertices at equal positions, independent of other attributes.
   const auto byPlace = [](const vec3& a, const vec3& b) {
     return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -41,7 +42,7 @@ Triangles trianglesOf(const RenderScene& scene, const RenderObject& object) {
     std::array<vec3, 3> corners;
     std::array<uint32_t, 3> place;
     for (uint32_t k = 0; k < 3; ++k) {
-      corners[k] = scene.positions[scene.indices[object.firstIndex + 3 * i + k]];
+      corners[k] = positions[indices[3 * i + k]];
       place[k] = places.emplace(corners[k], static_cast<uint32_t>(places.size())).first->second;
     }
     const vec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -66,7 +67,7 @@ Triangles trianglesOf(const RenderScene& scene, const RenderObject& object) {
 // The occupied cells of a chart's plane.
 class Grid {
  public:
-  Grid(const BakeChart& chart, float cellsPerMetre) : chart_(chart), cells_(cellsPerMetre) {}
+  Grid(const MeshChart& chart, float cellsPerMetre) : chart_(chart), cells_(cellsPerMetre) {}
 
   // Occupies the cells whose centres the triangle covers. Does nothing and returns false if one is
   // occupied.
@@ -96,14 +97,14 @@ class Grid {
 
  private:
   static float cross(const vec2& a, const vec2& b) { return a.x * b.y - a.y * b.x; }
-  const BakeChart& chart_;
+  const MeshChart& chart_;
   float cells_;
   std::unordered_set<uint64_t> taken_;  // y and x of each cell
 };
 
 // Rotates the chart in its plane so that its first axis is along `direction`, and computes its
 // bounds.
-void turn(BakeChart& chart, const vec3& direction, const Triangles& t) {
+void turn(MeshChart& chart, const vec3& direction, const Triangles& t) {
   const vec3 along = direction - glm::dot(direction, chart.normal) * chart.normal;
   chart.tangent = glm::normalize(along);
   chart.bitangent = glm::cross(chart.normal, chart.tangent);
@@ -119,14 +120,14 @@ void turn(BakeChart& chart, const vec3& direction, const Triangles& t) {
 
 // The smallest rectangle around a polygon is aligned with one of its edges: tries the longest
 // edges.
-void turnToSmallestBox(BakeChart& chart, const Triangles& t) {
+void turnToSmallestBox(MeshChart& chart, const Triangles& t) {
   std::vector<vec3> edges;
   for (const uint32_t i : chart.triangles)
     for (size_t k = 0; k < 3; ++k) edges.push_back(t.corners[i][(k + 1) % 3] - t.corners[i][k]);
   std::stable_sort(edges.begin(), edges.end(),
                    [](const vec3& a, const vec3& b) { return glm::dot(a, a) > glm::dot(b, b); });
   edges.resize(std::min(edges.size(), kMostEdges));
-  BakeChart best = chart;
+  MeshChart best = chart;
   float least = std::numeric_limits<float>::infinity();
   for (const vec3& edge : edges) {
     if (!(glm::length(glm::cross(edge, chart.normal)) > 0.0f)) continue;
@@ -141,23 +142,24 @@ void turnToSmallestBox(BakeChart& chart, const Triangles& t) {
 
 }  // namespace
 
-std::vector<BakeChart> unwrap(const RenderScene& scene, uint32_t object, float cellsPerMetre) {
-  const RenderObject& o = scene.objects[object];
-  const Triangles t = trianglesOf(scene, o);
+std::vector<MeshChart> unwrap(std::span<const vec3> positions, std::span<const uint32_t> indices,
+                              float cellsPerMetre) {
+  const Triangles t = trianglesOf(positions, indices);
+  Bounds bounds;
+  for (const uint32_t i : indices) bounds.add(positions[i]);
   std::vector<uint32_t> bySize(t.corners.size());
   std::iota(bySize.begin(), bySize.end(), 0u);
   std::stable_sort(bySize.begin(), bySize.end(),
                    [&](uint32_t a, uint32_t b) { return t.areas[a] > t.areas[b]; });
-  const float extent = std::max(o.bounds.radius(), 1e-6f);
+  const float extent = std::max(bounds.radius(), 1e-6f);
   const float cells = std::min(cellsPerMetre, kMostCellsOfChart / (2.0f * extent));
   const float leastCosine = std::cos(kMostBend);
 
   std::vector<uint8_t> isTaken(t.corners.size(), 0);
-  std::vector<BakeChart> charts;
+  std::vector<MeshChart> charts;
   for (const uint32_t seed : bySize) {
     if (isTaken[seed] || t.normals[seed] == vec3(0.0f)) continue;
-    BakeChart& chart = charts.emplace_back();
-    chart.object = object;
+    MeshChart& chart = charts.emplace_back();
     chart.normal = t.normals[seed];
     const Frame frame(chart.normal);
     chart.tangent = frame.tangent;
