@@ -53,7 +53,9 @@ void addViewActions(ActionRegistry& r) {
            [view = info.view](Session& s, const Arguments&) { s.display().setView(view); },
            {},
            true,
-           [view = info.view](const Session& s) { return s.display().view() == view; }});
+           [view = info.view](const Session& s) { return s.display().view() == view; },
+           {},
+           [view = info.view](const Session& s) { return problemOf(view, s.inspect()); }});
   }
   r.add({"view.vpls",
          "Light samples",

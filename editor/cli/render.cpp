@@ -109,8 +109,7 @@ void requireView(const FrameRenderer& renderer, DebugView debugView, const Rende
     throw InputError("--marks", "there is no light sample", "leave it out, or use many_lights");
   if (isRadiance(debugView)) return;
   const std::string problem = problemOf(debugView, inspection);
-  if (!problem.empty())
-    throw InputError("--view " + o.view, problem, "add --set technique=light_maps");
+  if (!problem.empty()) throw InputError("--view " + o.view, problem, "or choose another view");
   const size_t count = inspection.lights.size();
   if (needsLightSample(debugView) && static_cast<size_t>(o.viewVpl) >= count)
     throw InputError("--view-vpl", "there is no light sample " + std::to_string(o.viewVpl),

@@ -31,6 +31,9 @@ struct Action {
   bool duringDrag = false;
   std::function<bool(const Session&)> checked;  // null: the action is not a toggle
   std::function<std::vector<ActionChoice>(const Session&)> choices;  // null: see `usage`
+  // Why the action would show nothing now; "": it has an effect. It can run nevertheless, but menus
+  // show it grey. Null: it always has an effect.
+  std::function<std::string(const Session&)> problem;
 };
 
 // Keys by action text: "tool.move", "bookmark.go 3".

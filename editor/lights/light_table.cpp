@@ -7,7 +7,6 @@
 #include "editor/lights/colour_temperature.h"
 #include "editor/lights/work_light.h"
 #include "renderer/sampling/emitters/lights.h"
-#include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter {
 
@@ -73,26 +72,6 @@ SortKey keyOf(const LightRow& r, LightColumn column) {
       return {"", r.figures.age};
   }
   return {};
-}
-
-// Visits the patches of the method: the parts of a divided patch, or the whole patch.
-template <typename Visit>
-void forEachPatch(const VisibilityDatabase& visibility, Visit visit) {
-  std::vector<int> open;
-  for (uint32_t object = 0; object < visibility.objects(); ++object) {
-    const ObjectPatches& patches = visibility.patches(object);
-    open.assign(patches.roots.begin(), patches.roots.end());
-    while (!open.empty()) {
-      const int patch = open.back();
-      open.pop_back();
-      const Patch& p = patches.patches[static_cast<size_t>(patch)];
-      if (!p.isLeaf() && visibility.isDivided(object, patch)) {
-        open.insert(open.end(), {p.firstChild, p.firstChild + 1});
-      } else {
-        visit(visibility.row(object, patch));
-      }
-    }
-  }
 }
 
 }  // namespace
@@ -172,9 +151,9 @@ std::map<NodeId, LightFigures> lightFigures(const Inspection& in, double lightSe
     if (bySlot.size() <= slot) bySlot.resize(slot + 1, nullptr);
     bySlot[slot] = &f;
   }
-  if (in.visibility != nullptr) {
+  if (in.patches) {
     std::vector<LightFigures*> reached;
-    forEachPatch(*in.visibility, [&](std::span<const uint8_t> row) {
+    in.patches->forEachPatch([&](std::span<const uint8_t> row) {
       reached.clear();
       LightFigures* last = nullptr;
       for (size_t slot = 0; slot < std::min(row.size(), bySlot.size()); ++slot) {

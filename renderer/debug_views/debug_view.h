@@ -1,13 +1,18 @@
-// The pictures that the viewport can show besides the lit one. Menu, keys, actions and the command
-// line are generated from this table.
+// The pictures that the viewport can show besides the lit one: views of the scene and of what
+// methods show (Inspection), and views that methods draw themselves (MethodInfo::views). Menu,
+// keys, actions and the command line are generated from this table.
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "renderer/methods/inspection.h"
 
 namespace lamplighter {
 
+// Views of methods have the values after the last one.
 enum class DebugView {
   lit,
   lightOnly,
@@ -34,10 +39,12 @@ enum class DebugView {
 
 struct DebugViewInfo {
   DebugView view;
-  const char* name;   // for --view, and for actions after "view."
-  const char* label;  // in the menu
-  const char* key;    // "" for none; rebindable
-  const char* help;   // one sentence
+  std::string name;                    // for --view, and for actions after "view."
+  std::string label;                   // in the menu
+  std::string key;                     // "" for none; rebindable
+  std::string help;                    // one sentence
+  std::vector<Capability> needs = {};  // of the method
+  std::string method = {};             // that draws the view; "": it is no view of a method
 };
 
 // In the order of the menu.

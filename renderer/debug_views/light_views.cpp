@@ -4,7 +4,6 @@
 #include "renderer/debug_views/debug_views.h"
 #include "renderer/debug_views/painter.h"
 #include "renderer/image/tone_map.h"
-#include "renderer/light_maps/light_maps.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::views {
@@ -28,26 +27,19 @@ float gridLine(const vec2& at, const vec2& texelsAPixel) {
 }  // namespace
 
 ViewPicture lightMaps(const ViewSubject& in) {
-  const LightMaps& maps = *in.inspection.lightMaps;
-  const VisibilityDatabase& visibility = *in.inspection.visibility;
-  Painter p(in);
-  p.findPatches(visibility);
+  const TexelView& texels = *in.inspection.texels;
+  const Painter p(in);
   ViewPicture out;
-  out.image = p.paint([&](const Seen& s, size_t i) {
-    const uint32_t object = s.hit->object;
-    const LightMapTile* tile = s.front ? maps.tile(object, p.leaf(i)) : nullptr;
-    if (tile == nullptr) return shaded(colours::kNoData, s);
-    const ObjectPatches& patches = visibility.patches(object);
-    const Patch& patch = patches.patches[static_cast<size_t>(p.leaf(i))];
-    const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
-    const vec3 e = maps.irradiance(patches, object, p.leaf(i), s.surface.position);
+  out.image = p.paint([&](const Seen& s, size_t) {
+    const Hit& hit = *s.hit;
+    const auto grid = s.front ? texels.gridAt(hit.object, hit.triangle, s.surface.position)
+                              : std::optional<TexelView::Grid>();
+    if (!grid) return shaded(colours::kNoData, s);
+    const vec3 e = texels.irradianceAt(hit.object, hit.triangle, s.surface.position);
     const vec3 colour = toneMapPixel(e / kPi, in.exposureEv, in.toneMapper);
-    const vec2 texels(static_cast<float>(tile->columns - 1), static_cast<float>(tile->rows - 1));
-    const vec2 perMetre = texels / (patch.max - patch.min);
-    const vec2 at = (chart.project(s.surface.position) - patch.min) * perMetre;
     // At a grazing angle a pixel covers more texels.
     const float covered = s.footprint / std::max(s.facing, 0.05f);
-    const float line = gridLine(at, 0.75f * covered * perMetre);
+    const float line = gridLine(grid->at, 0.75f * covered * (grid->cells / grid->size));
     const vec3 lineColour = luminance(colour) > 0.35f ? vec3(0.0f) : vec3(1.0f);
     return glm::mix(colour, lineColour, 0.3f * line);
   });
@@ -69,10 +61,12 @@ class LightAge {
   float at(const Seen& s, size_t pixel) const {
     // The default of the light sums, so that one near indirect VPL does not dominate.
     constexpr float kClampDistance = 0.5f;  // [m]
+    std::span<const uint8_t> states;
+    if (in_.patches) states = in_.patches->states(s.hit->object, painter_.leaf(pixel));
     float all = 0.0f, aged = 0.0f;
     for (const InspectedLight& light : in_.lights) {
-      if (in_.visibility != nullptr && light.isLive &&
-          in_.visibility->state(s.hit->object, painter_.leaf(pixel), light.slot) == Occlusion::full)
+      if (in_.patches && light.isLive &&
+          static_cast<Occlusion>(states[static_cast<size_t>(light.slot)]) == Occlusion::full)
         continue;
       const float given = luminance(vec3(light.vpl.intensity)) *
                           shared::vplGeometry(light.vpl, s.surface.position, s.normal,
@@ -124,7 +118,7 @@ std::vector<float> lightAges(const Painter& p, const ViewSubject& in) {
 
 ViewPicture mapAge(const ViewSubject& in) {
   Painter p(in);
-  if (in.inspection.visibility != nullptr) p.findPatches(*in.inspection.visibility);
+  if (in.inspection.patches) p.findPatches();
   const std::vector<float> ages = lightAges(p, in);
   const int most = colours::niceMaximum(
       p.largest([&](size_t i) { return static_cast<int>(std::ceil(ages[i])); }));

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/debug_views/patch_lookup.h"
 #include "renderer/debug_views/view_colours.h"
 #include "renderer/debug_views/view_picture.h"
 #include "renderer/scene/surface.h"
@@ -71,21 +69,26 @@ class Painter {
   }
 
   // For views of patches.
-  void findPatches(const VisibilityDatabase& visibility) {
-    lookup_ = std::make_unique<PatchLookup>(visibility);
+  void findPatches() {
+    const PatchView& patches = *in_.inspection.patches;
     leaves_.assign(hits_.size(), kNone);
+    patches_.assign(hits_.size(), kNone);
     forEachPixel([&](int, int, size_t i) {
       const Hit& hit = hits_[i];
-      if (hit)
-        leaves_[i] =
-            lookup_->leafAt(hit.object, hit.triangle, in_.view.eye + hit.t * direction_[i]);
+      if (!hit) return;
+      leaves_[i] = patches.leafAt(hit.object, hit.triangle, position(i));
+      patches_[i] = patches.patchOf(hit.object, leaves_[i]);
     });
   }
   int leaf(size_t i) const { return leaves_[i]; }
-  const PatchLookup& lookup() const { return *lookup_; }
+  int patch(size_t i) const { return patches_[i]; }
+  PatchView::Shape shape(size_t i) const {
+    return in_.inspection.patches->shapeOf(hits_[i].object, patches_[i]);
+  }
   // Whether the pixel is at the border of its patch: the pixel to its right or below has another
-  // patch.
+  // patch. Without findPatches() there are no borders.
   bool isBorder(size_t i) const {
+    if (patches_.empty()) return false;
     const auto width = static_cast<size_t>(in_.view.width);
     return ((i + 1) % width != 0 && !samePatch(i, i + 1)) ||
            (i + width < hits_.size() && !samePatch(i, i + width));
@@ -103,6 +106,7 @@ class Painter {
   }
 
   const Hit& hit(size_t i) const { return hits_[i]; }
+  vec3 position(size_t i) const { return in_.view.eye + hits_[i].t * direction_[i]; }
   size_t pixels() const { return hits_.size(); }
 
   Seen seen(size_t i) const {
@@ -131,16 +135,14 @@ class Painter {
   }
   bool samePatch(size_t a, size_t b) const {
     if (!hits_[a] || !hits_[b] || hits_[a].object != hits_[b].object) return !hits_[a] && !hits_[b];
-    return lookup_->wholeOf(hits_[a].object, leaves_[a]) ==
-           lookup_->wholeOf(hits_[b].object, leaves_[b]);
+    return patches_[a] == patches_[b];
   }
 
   const ViewSubject& in_;
   std::vector<Hit> hits_;  // by pixel
   std::vector<vec3> direction_;
   float pixelAngle_ = 0.0f;
-  std::unique_ptr<PatchLookup> lookup_;
-  std::vector<int> leaves_;
+  std::vector<int> leaves_, patches_;  // by pixel
 };
 
 // Slight shading by a light at the camera, to show shapes; hues stay those of the legend.
@@ -148,13 +150,9 @@ inline vec3 shaded(const vec3& colour, const Seen& s) { return colour * (0.6f + 
 
 // Darkens the colour along patch borders. The effect fades where patches are small in the picture;
 // otherwise a level seen from far away would show only borders.
-inline vec3 outlined(const Painter& p, const ViewSubject& in, const Seen& s, size_t i,
-                     const vec3& colour) {
+inline vec3 outlined(const Painter& p, const Seen& s, size_t i, const vec3& colour) {
   if (!p.isBorder(i)) return colour;
-  const uint32_t object = s.hit->object;
-  const Patch& patch = in.inspection.visibility->patches(object)
-                           .patches[static_cast<size_t>(p.lookup().wholeOf(object, p.leaf(i)))];
-  const vec2 size = patch.chart == kNone ? vec2(2.0f * patch.box.radius()) : patch.max - patch.min;
+  const vec2 size = p.shape(i).size;
   const float pixels = std::min(size.x, size.y) * std::sqrt(s.facing) / s.footprint;
   return colour * (1.0f - 0.55f * std::clamp((pixels - 4.0f) / 12.0f, 0.0f, 1.0f));
 }

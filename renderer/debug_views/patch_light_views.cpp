@@ -7,8 +7,6 @@
 
 #include "renderer/debug_views/debug_views.h"
 #include "renderer/debug_views/painter.h"
-#include "renderer/light_maps/light_maps.h"
-#include "renderer/prt/prt_lights.h"
 #include "shaders/shared/vpl_shading.h"
 
 namespace lamplighter::views {
@@ -32,8 +30,8 @@ std::vector<int> ofPatches(const Painter& p,
 }
 
 // Colours from `zero` (if given) over the ramp up to the largest count.
-ViewPicture paintCounts(const Painter& p, const ViewSubject& in, const std::vector<int>& counts,
-                        size_t of, const char* title, const char* noneLabel) {
+ViewPicture paintCounts(const Painter& p, const std::vector<int>& counts, size_t of,
+                        const char* title, const char* noneLabel) {
   const int most = std::min(colours::niceMaximum(p.largest([&](size_t i) { return counts[i]; })),
                             std::max(static_cast<int>(of), 1));
   constexpr float kFirst = 0.35f;  // skips the ramp's blue, which resembles the colour for zero
@@ -43,7 +41,7 @@ ViewPicture paintCounts(const Painter& p, const ViewSubject& in, const std::vect
     const vec3 colour = noneLabel == nullptr ? colours::ramp(t)
                         : counts[i] == 0     ? colours::kSettled
                                              : colours::ramp(glm::mix(kFirst, 1.0f, t));
-    return outlined(p, in, s, i, shaded(colour, s));
+    return outlined(p, s, i, shaded(colour, s));
   });
   out.legend.title = title;
   out.legend.ramp = colours::rampSteps(noneLabel == nullptr ? 0.0f : kFirst);
@@ -56,56 +54,55 @@ ViewPicture paintCounts(const Painter& p, const ViewSubject& in, const std::vect
 }  // namespace
 
 ViewPicture lightsPerPatch(const ViewSubject& in) {
-  const VisibilityDatabase& visibility = *in.inspection.visibility;
   std::vector<size_t> slots;
   for (const InspectedLight& light : in.inspection.lights)
     if (light.isLive) slots.push_back(static_cast<size_t>(light.slot));
   Painter p(in);
-  p.findPatches(visibility);
+  p.findPatches();
   const std::vector<int> counts = ofPatches(p, [&](uint32_t object, int leaf) {
-    const auto row = visibility.row(object, leaf);
+    const auto row = in.inspection.patches->states(object, leaf);
     return static_cast<int>(std::count_if(slots.begin(), slots.end(), [&](size_t slot) {
       return row[slot] != static_cast<uint8_t>(Occlusion::full);
     }));
   });
-  return paintCounts(p, in, counts, slots.size(), "Light samples that reach the patch", nullptr);
+  return paintCounts(p, counts, slots.size(), "Light samples that reach the patch", nullptr);
 }
 
 ViewPicture pendingPatches(const ViewSubject& in) {
-  const VisibilityDatabase& visibility = *in.inspection.visibility;
+  const PatchView& patches = *in.inspection.patches;
   std::vector<const InspectedLight*> waiting;
   for (const InspectedLight& light : in.inspection.lights)
     if (light.isStale) waiting.push_back(&light);
   Painter p(in);
-  p.findPatches(visibility);
+  p.findPatches();
   // A light that is not shown yet may reach everything.
   const std::vector<int> counts = ofPatches(p, [&](uint32_t object, int leaf) {
     return static_cast<int>(
         std::count_if(waiting.begin(), waiting.end(), [&](const InspectedLight* light) {
-          return !light->isLive || visibility.state(object, leaf, light->slot) != Occlusion::full;
+          return !light->isLive || patches.state(object, leaf, light->slot) != Occlusion::full;
         }));
   });
-  return paintCounts(p, in, counts, in.inspection.lights.size(), "Light samples waited for",
+  return paintCounts(p, counts, in.inspection.lights.size(), "Light samples waited for",
                      "up to date");
 }
 
 ViewPicture lightOcclusion(const ViewSubject& in) {
-  const VisibilityDatabase& visibility = *in.inspection.visibility;
   std::vector<const InspectedLight*> samples;
   for (const InspectedLight& light : in.inspection.lights)
     if (light.isLive && light.id.bounce == 0 && light.id.light == in.chosenNode)
       samples.push_back(&light);
   Painter p(in);
-  p.findPatches(visibility);
+  p.findPatches();
   // Samples that face the pixel, and twice the visible ones among them: `partial` counts half.
   const auto shareAt = [&](const Seen& s, int leaf) {
+    const auto states = in.inspection.patches->states(s.hit->object, leaf);
     int facing = 0, open = 0;
     for (const InspectedLight* light : samples) {
       if (shared::vplGeometry(light->vpl, s.surface.position, s.normal, s.geometricNormal, 0.0f) ==
           0.0f)
         continue;
       ++facing;
-      const Occlusion state = visibility.state(s.hit->object, leaf, light->slot);
+      const auto state = static_cast<Occlusion>(states[static_cast<size_t>(light->slot)]);
       open += state == Occlusion::none ? 2 : state == Occlusion::partial ? 1 : 0;
     }
     return facing == 0 ? -1.0f : 0.5f * static_cast<float>(open) / static_cast<float>(facing);
@@ -122,13 +119,13 @@ ViewPicture lightOcclusion(const ViewSubject& in) {
   p.forEachPixel([&](int x, int, size_t i) {
     if (!p.hit(i)) return;
     const bool same = x % kRun != 0 && p.hit(i - 1) && p.hit(i - 1).object == p.hit(i).object &&
-                      p.leaf(i - 1) == p.leaf(i) && p.lookup().isPlanar(p.hit(i).object, p.leaf(i));
+                      p.leaf(i - 1) == p.leaf(i) && p.shape(i).isPlanar;
     shares[i] = same ? shares[i - 1] : shareAt(p.seen(i), p.leaf(i));
   });
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {
     const vec3 colour = samples.empty() ? colours::kNoData : colourOf(shares[i]);
-    return outlined(p, in, s, i, shaded(colour, s));
+    return outlined(p, s, i, shaded(colour, s));
   });
   out.legend.title = "Share of the light that nothing stands before";
   for (int i = 0; i <= 32; ++i) out.legend.ramp.push_back(colourOf(static_cast<float>(i) / 32.0f));
@@ -140,25 +137,24 @@ ViewPicture lightOcclusion(const ViewSubject& in) {
 }
 
 ViewPicture lightMapDensity(const ViewSubject& in) {
-  const LightMaps& maps = *in.inspection.lightMaps;
-  const VisibilityDatabase& visibility = *in.inspection.visibility;
+  const TexelView& texels = *in.inspection.texels;
   Painter p(in);
-  p.findPatches(visibility);
-  // The larger of the two texel spacings, in tenths of a millimetre.
-  const std::vector<int> apart = ofPatches(p, [&](uint32_t object, int leaf) {
-    const LightMapTile* tile = maps.tile(object, leaf);
-    if (tile == nullptr) return 0;
-    const Patch& patch = visibility.patches(object).patches[static_cast<size_t>(leaf)];
-    const vec2 size = (patch.max - patch.min) / vec2(static_cast<float>(tile->columns - 1),
-                                                     static_cast<float>(tile->rows - 1));
-    return std::max(1, static_cast<int>(std::lround(1e4f * std::max(size.x, size.y))));
+  if (in.inspection.patches) p.findPatches();
+  // The larger of the two texel spacings, in tenths of a millimetre; 0: no texels.
+  std::vector<int> apart(p.pixels(), 0);
+  p.forEachPixel([&](int, int, size_t i) {
+    if (!p.hit(i)) return;
+    const auto grid = texels.gridAt(p.hit(i).object, p.hit(i).triangle, p.position(i));
+    if (!grid) return;
+    const vec2 size = grid->size / grid->cells;
+    apart[i] = std::max(1, static_cast<int>(std::lround(1e4f * std::max(size.x, size.y))));
   });
   const int most = colours::niceMaximum(p.largest([&](size_t i) { return apart[i]; }));
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {
     const float t = static_cast<float>(apart[i]) / static_cast<float>(most);
     const bool has = apart[i] > 0 && s.front;
-    return outlined(p, in, s, i, shaded(has ? colours::ramp(t) : colours::kNoData, s));
+    return outlined(p, s, i, shaded(has ? colours::ramp(t) : colours::kNoData, s));
   });
   out.legend.title = "Texels of light maps apart";
   out.legend.ramp = colours::rampSteps();
@@ -171,16 +167,11 @@ ViewPicture lightMapDensity(const ViewSubject& in) {
 }
 
 ViewPicture prtObjects(const ViewSubject& in) {
-  const PrtLights& prt = *in.inspection.prt;
   const Painter p(in);
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t) {
-    const uint32_t object = s.hit->object;
-    const bool known = object < prt.objects();
-    return shaded(known && prt.hasTransfer(object)     ? colours::kNone
-                  : known && prt.wantsTransfer(object) ? colours::kPartial
-                                                       : colours::kNoData,
-                  s);
+    static constexpr std::array kStates = {colours::kNoData, colours::kPartial, colours::kNone};
+    return shaded(kStates[static_cast<size_t>(in.inspection.transfer(s.hit->object))], s);
   });
   out.legend.title = "Lit by precomputed transfer";
   out.legend.swatches = {

@@ -12,33 +12,28 @@ namespace colours = view_colours;
 
 ViewPicture patches(const ViewSubject& in) {
   Painter p(in);
-  p.findPatches(*in.inspection.visibility);
+  p.findPatches();
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {
-    const uint32_t object = s.hit->object;
-    vec3 colour = colours::ofPatch(object, p.lookup().wholeOf(object, p.leaf(i)));
-    if (!p.lookup().isPlanar(object, p.leaf(i)))
-      colour = glm::mix(vec3(luminance(colour)), colour, 0.25f);
-    return outlined(p, in, s, i, shaded(colour, s));
+    vec3 colour = colours::ofPatch(s.hit->object, p.patch(i));
+    if (!p.shape(i).isPlanar) colour = glm::mix(vec3(luminance(colour)), colour, 0.25f);
+    return outlined(p, s, i, shaded(colour, s));
   });
   return out;
 }
 
 ViewPicture patchLevels(const ViewSubject& in) {
   Painter p(in);
-  p.findPatches(*in.inspection.visibility);
-  const auto levelOf = [&](size_t i) {
-    const uint32_t object = p.hit(i).object;
-    return p.lookup().isPlanar(object, p.leaf(i)) ? p.lookup().levelOf(object, p.leaf(i)) : 0;
-  };
+  p.findPatches();
+  const auto levelOf = [&](size_t i) { return p.shape(i).isPlanar ? p.shape(i).level : 0; };
   const int most = std::max(1, p.largest(levelOf));
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {
     const vec3 colour =
-        p.lookup().isPlanar(s.hit->object, p.leaf(i))
+        p.shape(i).isPlanar
             ? colours::ramp(static_cast<float>(levelOf(i)) / static_cast<float>(most))
             : colours::kNoData;
-    return outlined(p, in, s, i, shaded(colour, s));
+    return outlined(p, s, i, shaded(colour, s));
   });
   out.legend = {"Patch halved",
                 {{colours::kNoData, "not planar"}},
@@ -50,19 +45,19 @@ ViewPicture patchLevels(const ViewSubject& in) {
 
 ViewPicture occlusion(const ViewSubject& in) {
   const auto& lights = in.inspection.lights;
-  const VisibilityDatabase& visibility = *in.inspection.visibility;
   const InspectedLight& light =
       lights[std::clamp<size_t>(static_cast<size_t>(in.chosenLight), 0, lights.size() - 1)];
   Painter p(in);
-  p.findPatches(visibility);
+  p.findPatches();
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {
-    if (!light.isLive) return outlined(p, in, s, i, shaded(colours::kNoData, s));
+    if (!light.isLive) return outlined(p, s, i, shaded(colours::kNoData, s));
     const bool away = shared::vplGeometry(light.vpl, s.surface.position, s.normal,
                                           s.geometricNormal, 0.0f) == 0.0f;
     static constexpr std::array kStates = {colours::kNone, colours::kPartial, colours::kFull};
-    const auto state = static_cast<size_t>(visibility.state(s.hit->object, p.leaf(i), light.slot));
-    return outlined(p, in, s, i, shaded(away ? colours::kAway : kStates[state], s));
+    const auto state =
+        static_cast<size_t>(in.inspection.patches->state(s.hit->object, p.leaf(i), light.slot));
+    return outlined(p, s, i, shaded(away ? colours::kAway : kStates[state], s));
   });
   out.legend.title = "Between the light sample and the patch";
   out.legend.swatches = {{colours::kNone, "nothing"},
@@ -73,12 +68,11 @@ ViewPicture occlusion(const ViewSubject& in) {
 }
 
 ViewPicture partialLights(const ViewSubject& in) {
-  const VisibilityDatabase& visibility = *in.inspection.visibility;
   std::vector<size_t> slots;
   for (const InspectedLight& light : in.inspection.lights)
     if (light.isLive) slots.push_back(static_cast<size_t>(light.slot));
   Painter p(in);
-  p.findPatches(visibility);
+  p.findPatches();
   std::vector<int> counts(p.pixels(), 0);
   p.forEachPixel([&](int x, int, size_t i) {
     if (!p.hit(i)) return;
@@ -87,7 +81,7 @@ ViewPicture partialLights(const ViewSubject& in) {
       counts[i] = counts[i - 1];
       return;
     }
-    const auto row = visibility.row(object, p.leaf(i));
+    const auto row = in.inspection.patches->states(object, p.leaf(i));
     counts[i] = static_cast<int>(std::count_if(slots.begin(), slots.end(), [&](size_t slot) {
       return row[slot] == static_cast<uint8_t>(Occlusion::partial);
     }));
@@ -97,7 +91,7 @@ ViewPicture partialLights(const ViewSubject& in) {
   ViewPicture out;
   out.image = p.paint([&](const Seen& s, size_t i) {
     const float t = static_cast<float>(counts[i]) / static_cast<float>(most);
-    return outlined(p, in, s, i, shaded(colours::ramp(t), s));
+    return outlined(p, s, i, shaded(colours::ramp(t), s));
   });
   out.legend = {"Light samples that may be shadowed",
                 {},

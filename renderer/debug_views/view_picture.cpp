@@ -3,14 +3,10 @@
 #include "renderer/debug_views/debug_views.h"
 #include "renderer/debug_views/painter.h"
 #include "renderer/image/tone_map.h"
+#include "renderer/registry/registry.h"
 
 namespace lamplighter {
 namespace {
-
-const char* const kNeedsVisibility =
-    "it needs the technique visibility or light_maps of many_lights";
-const char* const kNeedsLightMaps = "it needs the technique light_maps of many_lights";
-const char* const kNeedsLights = "it needs the light samples of many_lights";
 
 vec3 encoded(const vec3& linear) {
   return {encodeSrgb(linear.r), encodeSrgb(linear.g), encodeSrgb(linear.b)};
@@ -49,29 +45,28 @@ std::string problemOf(DebugView view, const ViewSubject& in) {
 
 }  // namespace
 
+namespace {
+
+// "it needs texels: many_lights with the technique light_maps".
+std::string whoShows(Capability capability) {
+  std::string who;
+  for (const MethodInfo& method : methods())
+    for (const ShownCapability& shown : method.shows)
+      if (shown.capability == capability)
+        who += (who.empty() ? "" : ", or ") + method.name + (shown.when.empty() ? "" : " ") +
+               shown.when;
+  return std::string("it needs ") + nameOf(capability) + (who.empty() ? "" : ": choose ") + who;
+}
+
+}  // namespace
+
 std::string problemOf(DebugView view, const Inspection& inspection) {
-  switch (view) {
-    case DebugView::patches:
-    case DebugView::patchLevels:
-    case DebugView::partialLights:
-    case DebugView::lightsPerPatch:
-    case DebugView::pendingPatches:
-      return inspection.visibility == nullptr ? kNeedsVisibility : "";
-    case DebugView::occlusion:
-    case DebugView::lightOcclusion:
-      if (inspection.visibility == nullptr) return kNeedsVisibility;
-      return inspection.lights.empty() ? "the level has no light sample" : "";
-    case DebugView::lightMaps:
-    case DebugView::lightMapDensity:
-      return inspection.lightMaps == nullptr ? kNeedsLightMaps : "";
-    case DebugView::prtObjects:
-      return inspection.prt == nullptr ? "it needs prt of many_lights, on the cpu backend" : "";
-    case DebugView::mapAge:
-    case DebugView::shadowMap:
-      return inspection.lights.empty() ? kNeedsLights : "";
-    default:
-      return "";
-  }
+  const DebugViewInfo& info = infoOf(view);
+  for (const Capability capability : info.needs)
+    if (!inspection.has(capability)) return whoShows(capability);
+  if (!info.method.empty() && !inspection.pictures.contains(info.name))
+    return "it is a view of the method " + info.method;
+  return "";
 }
 
 void takeFromBackend(DebugView view, Backend& backend, RadianceImage& radiance, ViewSubject& in) {
@@ -133,9 +128,9 @@ ViewPicture drawView(DebugView view, const ViewSubject& in) {
     case DebugView::direct:
     case DebugView::indirect:
     case DebugView::flat:
-      break;
+      return flat(in);
   }
-  return flat(in);
+  return in.inspection.pictures.at(infoOf(view).name)();  // of a method
 }
 
 }  // namespace lamplighter

@@ -8,37 +8,12 @@
 
 #include "renderer/backends/kernels.h"
 #include "renderer/debug_views/debug_view.h"
-#include "renderer/image/image.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/camera.h"
 
 namespace lamplighter {
-
-// The meaning of a picture's colours. All are display colours.
-struct Legend {
-  struct Swatch {
-    vec3 colour{0.0f};
-    std::string label;
-  };
-  std::string title;
-  std::vector<Swatch> swatches;
-  std::vector<vec3> ramp;  // evenly spaced from `low` to `high`; empty: no ramp
-  std::string low, high;
-  // Labels at positions of the ramp, from 0 to 1, in addition to `low` and `high` or instead of
-  // them.
-  std::vector<std::pair<float, std::string>> ticks;
-
-  bool empty() const { return swatches.empty() && ramp.empty(); }
-};
-
-struct ViewPicture {
-  Image8 image;  // display colours
-  Legend legend;
-  // why the view cannot be made, so that `image` is the flat view instead; "": no problem
-  std::string problem;
-};
 
 // What the false colour view shows: illuminance of surfaces or luminance of the picture.
 struct FalseColour {

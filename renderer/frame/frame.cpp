@@ -1,8 +1,9 @@
 #include "renderer/frame/frame.h"
 
-#include "renderer/registry/registry.h"
-
 #include <utility>
+
+#include "renderer/base/error.h"
+#include "renderer/registry/registry.h"
 
 namespace lamplighter {
 
@@ -34,14 +35,18 @@ GiOutput FrameRenderer::render(const Request& request) {
 
   // 3. Run the method; create it if another one is requested.
   if (!method_ || methodName_ != request.method) {
-    method_ = findMethod(request.method).make();
+    const MethodInfo& info = findMethod(request.method);
+    if (const std::string problem = problemOf(info, *backend_); !problem.empty())
+      throw InputError("method", problem, "choose another one, or another --backend");
+    method_ = info.make();
     methodName_ = request.method;
   } else if (isOtherScene) {
     method_->reset();  // another scene: nothing of the previous one may remain
   }
-  return method_->render({scene_, changes, *rays_, request.view, *backend_, request.settings,
-                          frame_++, stopwatch_, request.lightOnly, request.inBackground,
-                          cacheFolder_, request.refineUpdates, request.part});
+  services_.beginFrame(scene_, changes, *rays_, {request.inBackground, request.refineUpdates},
+                       isOtherScene);
+  return method_->render({scene_, changes, request.view, *backend_, services_, request.settings,
+                          frame_++, stopwatch_, request.lightOnly, request.part});
 }
 
 void FrameRenderer::restart() {

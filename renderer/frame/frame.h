@@ -22,10 +22,8 @@ class FrameRenderer {
     const std::string& method;
     const Settings& settings;
     bool lightOnly = false;     // visible surfaces are shown white
-    bool inBackground = false;  // as in FrameInputs
-    // The number of light samples by which this frame may refine a settled picture; 0: no
-    // refinement.
-    int refineUpdates = 0;
+    bool inBackground = false;  // as in FrameBudget
+    int refineUpdates = 0;      // as in FrameBudget
     LightPart part = LightPart::all;
   };
   // Renders one frame. Throws InputError for an unknown method.
@@ -38,9 +36,8 @@ class FrameRenderer {
   // Internal data of the method, for debug views. Valid until the next call of another function.
   Inspection inspect() const { return method_ ? method_->inspect() : Inspection(); }
 
-  // The folder where slow precomputations are kept between runs; created when needed. Empty (the
-  // default): not kept.
-  void setCacheFolder(std::filesystem::path folder) { cacheFolder_ = std::move(folder); }
+  // As in Services.
+  void setCacheFolder(std::filesystem::path folder) { services_.setCacheFolder(std::move(folder)); }
 
   // Discards what the method keeps: the next picture is computed from scratch.
   void restart();
@@ -48,6 +45,7 @@ class FrameRenderer {
   Backend& backend() { return *backend_; }
   const RenderScene& scene() const { return scene_; }
   const RayCaster* rays() const { return rays_.get(); }  // null before the first frame
+  Services& services() { return services_; }
 
  private:
   std::unique_ptr<Backend> backend_;
@@ -59,7 +57,7 @@ class FrameRenderer {
   std::string methodName_;
   std::unique_ptr<GiMethod> method_;
   uint32_t frame_ = 0;
-  std::filesystem::path cacheFolder_;
+  Services services_;
 };
 
 }  // namespace lamplighter

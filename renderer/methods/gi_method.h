@@ -1,7 +1,6 @@
 // The interface of all global illumination methods, including the path tracer.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,9 +11,9 @@
 #include "renderer/base/parameters.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/methods/light_part.h"
-#include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
+#include "renderer/services/services.h"
 
 namespace lamplighter {
 
@@ -22,24 +21,18 @@ namespace lamplighter {
 // method reads a clock. Measured times never influence the result.
 using Stopwatch = std::function<double()>;  // seconds since some fixed moment
 
-// The input of a method for one frame. The scene and the rays are up to date when render() is
-// called.
+// The input of a method for one frame. The scene, the backend and the services are up to date when
+// render() is called.
 struct FrameInputs {
   const RenderScene& scene;
   const RenderSceneChanges& changes;  // since the previous frame
-  const RayCaster& rays;
   const View& view;
-  Backend& backend;  // its scene is also up to date
+  Backend& backend;
+  Services& services;
   const Settings& settings;
   uint32_t frame = 0;  // counts from 0
   Stopwatch stopwatch;
-  bool lightOnly = false;  // visible surfaces are shown white; bounces use the real albedo
-  // If true, slow precomputations may finish some frames later. If false, the frame waits for them,
-  // so that every run gives the same frames.
-  bool inBackground = false;
-  std::filesystem::path cacheFolder;  // for precomputed data; empty: not kept
-  // The number of light samples by which this frame may refine a settled picture; 0: no refinement.
-  int refineUpdates = 0;
+  bool lightOnly = false;           // visible surfaces are shown white; bounces use the real albedo
   LightPart part = LightPart::all;  // the light in the picture; a picture of a part is not refined
 };
 
@@ -102,12 +95,30 @@ class GiMethod {
   virtual Inspection inspect() const { return {}; }
 };
 
+// A debug view that a method draws itself (Inspection::pictures).
+struct MethodView {
+  std::string name;   // for --view; no other view has it
+  std::string label;  // in the menu
+  std::string help;   // one sentence
+};
+
+// A capability of Inspection that the method has, and when: "with technique light_maps"; "":
+// always.
+struct ShownCapability {
+  Capability capability;
+  std::string when;
+};
+
 struct MethodInfo {
   std::string name;      // for --method
   std::string label;     // in the panel
   std::string citation;  // of the paper
   std::vector<ParameterSpec> parameters;
   std::function<std::unique_ptr<GiMethod>()> make;
+  std::vector<Service> services = {};       // all that it may ask for
+  std::vector<ShownCapability> shows = {};  // besides its own views
+  std::vector<MethodView> views = {};       // its own
+  std::vector<std::string> backends = {};   // on which it runs; empty: on all
 };
 
 }  // namespace lamplighter

@@ -1,34 +1,111 @@
-// Internal data of a method for debug views: pointers to what it keeps between frames.
+// What a method shows of its internal data, for debug views and tools: a set of capabilities. A
+// view asks for those that it needs and does not know the method.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "renderer/image/legend.h"
 #include "renderer/sampling/vpl_set.h"
+#include "renderer/visibility/occlusion/occlusion.h"
 
 namespace lamplighter {
 
-class LightMaps;
-class PrtLights;
-class VisibilityDatabase;
+enum class Capability : uint8_t { lights, patches, texels, transfer, points, links };
+const char* nameOf(Capability capability);  // in the plural: "light samples"
 
 // A light sample that is shown, or that waits to be shown.
 struct InspectedLight {
   shared::Vpl vpl{};
   VplId id;
-  int slot = -1;          // of its shadow map; also its column in the database
+  int slot = -1;          // of its shadow map; also its index in PatchView::states()
   bool isLive = false;    // shown; otherwise `vpl` is its future state
   bool isStale = false;   // it waits for an update
   int framesWaiting = 0;  // since it waits
   bool isSample = true;   // SceneVpl::isSample
 };
 
-// Valid until the method's next render() or reset(). Data that a method does not have are null or
-// empty.
+// Patches: pieces of surface for which the method knows which light samples reach them.
+// Neighbouring leaves with the same knowledge form one patch. All functions may be called in
+// parallel.
+class PatchView {
+ public:
+  virtual ~PatchView() = default;
+
+  // The leaf at a point of a triangle of an object (index into RenderScene::objects).
+  virtual int leafAt(uint32_t object, uint32_t triangle, const vec3& position) const = 0;
+  // The patch to which a leaf belongs.
+  virtual int patchOf(uint32_t object, int leaf) const = 0;
+  struct Shape {
+    int level = 0;         // how often its root was divided
+    bool isPlanar = true;  // a rectangle; otherwise a box around geometry that is not planar
+    vec2 size{0.0f};       // of the rectangle; of a box its diagonal [m]
+  };
+  virtual Shape shapeOf(uint32_t object, int patch) const = 0;
+
+  // What stands between the patch of the leaf and each light sample: values of Occlusion, by slot.
+  virtual std::span<const uint8_t> states(uint32_t object, int leaf) const = 0;
+  Occlusion state(uint32_t object, int leaf, int slot) const {
+    return static_cast<Occlusion>(states(object, leaf)[static_cast<size_t>(slot)]);
+  }
+  // Calls visit(states) for each patch.
+  using Visit = std::function<void(std::span<const uint8_t> states)>;
+  virtual void forEachPatch(const Visit& visit) const = 0;
+};
+
+// Light that is stored in grids of texels on surfaces. All functions may be called in parallel.
+class TexelView {
+ public:
+  virtual ~TexelView() = default;
+
+  // A grid, and the place of a point in it. Texels are at the corners of the cells.
+  struct Grid {
+    vec2 size{0.0f};   // along the axes of the grid [m]
+    vec2 cells{1.0f};  // along each axis
+    vec2 at{0.0f};     // the point, in cells from the first texel
+  };
+  // None where the method stores no light.
+  virtual std::optional<Grid> gridAt(uint32_t object, uint32_t triangle,
+                                     const vec3& position) const = 0;
+  // Where gridAt() gives a grid: E on the front of the surface [W/m²].
+  virtual vec3 irradianceAt(uint32_t object, uint32_t triangle, const vec3& position) const = 0;
+};
+
+// Whether an object is lit by precomputed transfer.
+enum class TransferState : uint8_t { none, pending, ready };
+
+// A place in the scene where the method computes something, such as a probe.
+struct InspectedPoint {
+  vec3 position{0.0f}, normal{0.0f};  // a zero normal: no direction
+  bool isStale = false;               // it waits for an update
+};
+
+// A connection along which light is exchanged.
+struct InspectedLink {
+  vec3 from{0.0f}, to{0.0f};
+  float weight = 0.0f;  // relative to the other links
+};
+
+// Valid until the method's next render() or reset(). Capabilities that a method does not have are
+// null or empty.
 struct Inspection {
-  const VisibilityDatabase* visibility = nullptr;
-  const LightMaps* lightMaps = nullptr;
   std::vector<InspectedLight> lights;  // in an order that does not change with edits
-  const PrtLights* prt = nullptr;
+  std::shared_ptr<const PatchView> patches;
+  std::shared_ptr<const TexelView> texels;
+  std::function<TransferState(uint32_t object)> transfer;
+  std::function<std::vector<InspectedPoint>()> points;
+  std::function<std::vector<InspectedLink>()> links;
+  // The method's own debug views (MethodInfo::views), by name. Each function draws one for the view
+  // of the last frame.
+  std::map<std::string, std::function<ViewPicture()>> pictures;
+
+  bool has(Capability capability) const;
 };
 
 }  // namespace lamplighter

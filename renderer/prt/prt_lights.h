@@ -63,6 +63,8 @@ class PrtLights {
   std::vector<uint8_t> reflecting() const;
   // Whether the object is to have transfer, ready or not.
   bool wantsTransfer(uint32_t object) const { return objects_[object].isWanted; }
+  // The light points of the object, in world space; none without transfer.
+  std::span<const vec3> lightPoints(uint32_t object) const { return objects_[object].places; }
   // Whether the normal points to the front side of the triangle.
   bool isFront(uint32_t object, uint32_t triangle, const vec3& normal) const;
   // By slot, whether this irradiance includes the light. Pixels sum the other lights: those too

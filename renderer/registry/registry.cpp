@@ -1,26 +1,46 @@
 #include "renderer/registry/registry.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "renderer/base/error.h"
 #include "renderer/methods/many_lights/many_lights.h"
 #include "renderer/methods/path_tracer/reference_method.h"
 
 namespace lamplighter {
+namespace {
 
-const std::vector<MethodInfo>& methods() {
-  static const std::vector<MethodInfo> all{manyLightsInfo(), referenceInfo()};
+std::deque<MethodInfo>& list() {
+  static std::deque<MethodInfo> all{manyLightsInfo(), referenceInfo()};
   return all;
 }
 
+}  // namespace
+
+const std::deque<MethodInfo>& methods() { return list(); }
+
 const MethodInfo& findMethod(const std::string& name) {
   const auto& all = methods();
-  const auto it =
-      std::find_if(all.begin(), all.end(), [&](const MethodInfo& m) { return m.name == name; });
+  const auto it = std::ranges::find(all, name, &MethodInfo::name);
   if (it != all.end()) return *it;
   std::string names;
   for (const MethodInfo& m : all) names += (names.empty() ? "" : ", ") + m.name;
   throw InputError("method", "there is no '" + name + "'", "give one of: " + names);
+}
+
+void addMethod(MethodInfo method) {
+  if (std::ranges::find(methods(), method.name, &MethodInfo::name) != methods().end())
+    throw std::logic_error("there are two methods " + method.name);
+  list().push_back(std::move(method));
+}
+
+std::string problemOf(const MethodInfo& method, const Backend& backend) {
+  const std::string& name = backend.info().name;
+  if (method.backends.empty() || std::ranges::find(method.backends, name) != method.backends.end())
+    return "";
+  std::string names;
+  for (const std::string& b : method.backends) names += (names.empty() ? "" : " or ") + b;
+  return method.name + " runs on the backend " + names + ", not on " + name;
 }
 
 }  // namespace lamplighter

@@ -1,16 +1,24 @@
 // All methods by name.
 #pragma once
 
+#include <deque>
 #include <string>
-#include <vector>
 
 #include "renderer/methods/gi_method.h"
 
 namespace lamplighter {
 
-// In the order of the user interface.
-const std::vector<MethodInfo>& methods();
+// In the order of the user interface. References stay valid.
+const std::deque<MethodInfo>& methods();
 // Throws InputError if there is no method of that name.
 const MethodInfo& findMethod(const std::string& name);
+
+// Adds a method of a library that the renderer does not link, such as renderer_gl. For the start of
+// the program, before other threads and before the first use of the list. Throws std::logic_error
+// if the name is taken.
+void addMethod(MethodInfo method);
+
+// Why the method does not run on the backend; "": it does.
+std::string problemOf(const MethodInfo& method, const Backend& backend);
 
 }  // namespace lamplighter

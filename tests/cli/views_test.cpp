@@ -52,8 +52,12 @@ TEST_F(RenderView, WritesEachAndTheyDiffer) {
   std::vector<std::vector<vec3>> pictures;
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
-    const ProcessResult r = render(
-        "view.png", {"--view", info.name, "--set", "technique=light_maps", "--set", "prt=true"});
+    std::vector<std::string> flags{"--view", info.name};
+    if (info.method.empty())
+      flags.insert(flags.end(), {"--set", "technique=light_maps", "--set", "prt=true"});
+    else
+      flags.insert(flags.end(), {"--method", info.method});
+    const ProcessResult r = render("view.png", flags);
     ASSERT_EQ(r.code, 0) << r.err;
     const Image image = readImage(folder_ / "view.png");
     for (const auto& other : pictures) EXPECT_NE(other, image.pixels);
@@ -105,12 +109,14 @@ TEST_F(RenderView, RefusesWhatItCannotShow) {
   fails("a.png", {"--view", "colour"}, "'colour' is none; give one of lit, light_only");
   fails("a.exr", {"--view", "albedo"}, "is no radiance");
   fails("a.png", {"--view", "occlusion", "--set", "technique=naive"},
-        "needs the technique visibility or light_maps");
-  fails("a.png", {"--view", "light_maps", "--set", "technique=visibility"}, "needs the technique");
-  fails("a.png", {"--view", "map_age", "--method", "reference"}, "needs the light samples");
+        "needs patches: choose many_lights with the technique visibility or light_maps");
+  fails("a.png", {"--view", "light_maps", "--set", "technique=visibility"},
+        "needs texels: choose many_lights with the technique light_maps");
+  fails("a.png", {"--view", "map_age", "--method", "reference"},
+        "needs light samples: choose many_lights");
   fails("a.png", {"--view", "occlusion", "--set", "technique=visibility", "--view-vpl", "1000"},
         "there is no light sample 1000; give one from 0 to ");
-  fails("a.png", {"--view", "prt_objects"}, "needs prt of many_lights");
+  fails("a.png", {"--view", "prt_objects"}, "choose many_lights with prt");
   fails("a.png", {"--view", "edge_mask", "--set", "block=1"}, "needs block over 1");
   fails("a.exr", {"--view", "false_colour"}, "is no radiance");
   fails("a.exr", {"--marks"}, "marks are no radiance");

@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/vpl_shading.h"
@@ -28,7 +27,7 @@ std::vector<shared::Vpl> shownLights(const Inspection& inspection) {
 
 Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
                         std::span<const shared::Vpl> vpls, const View& view,
-                        const Settings& settings, const VisibilityDatabase* visibility) {
+                        const Settings& settings, const PatchView* known) {
   const float clampDistance = settings.real(parameters::clampDistance());
   const float least = settings.real(parameters::leastRoughness());
   const bool speculars = settings.boolean(parameters::speculars());
@@ -49,20 +48,18 @@ Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
     const bool isGlossy = shared::isGlossy(gloss.metallic, gloss.roughness);
     const shared::Lobe lobe =
         shared::makeLobe(s.albedo, gloss.metallic, gloss.roughness, least, nv);
-    std::vector<ShadowMode> uses;
-    if (visibility != nullptr) {
-      uses.resize(visibility->slots());
-      const int leaf = visibility->patches(hit.object).leafAt(hit.triangle, s.position);
-      PatchLights(*visibility, nullptr).uses(hit.object, leaf, false, uses);
-    }
+    std::span<const uint8_t> states;
+    if (known != nullptr)
+      states = known->states(hit.object, known->leafAt(hit.object, hit.triangle, s.position));
     vec3 e(0.0f), reflected(0.0f);
     for (const shared::Vpl& vpl : vpls) {
       const float g = shared::vplGeometry(vpl, s.position, ns, ng, clampDistance);
       if (g == 0.0f) continue;
-      const ShadowMode use =
-          uses.empty() ? ShadowMode::addShadowed : uses[static_cast<size_t>(vpl.intensity.w)];
-      if (use == ShadowMode::skip) continue;
-      if (use == ShadowMode::addShadowed && isShadowed(rays, start, vpl)) continue;
+      const auto state = states.empty()
+                             ? Occlusion::partial
+                             : static_cast<Occlusion>(states[static_cast<size_t>(vpl.intensity.w)]);
+      if (state == Occlusion::full) continue;
+      if (state == Occlusion::partial && isShadowed(rays, start, vpl)) continue;
       e += g * vec3(vpl.intensity);
       if (isGlossy)
         reflected += vec3(vpl.intensity) *

@@ -10,7 +10,6 @@
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
-#include "renderer/visibility/visibility_database.h"
 
 namespace lamplighter::test {
 
@@ -18,11 +17,11 @@ namespace lamplighter::test {
 std::vector<shared::Vpl> shownLights(const Inspection& inspection);
 
 // One sample at each pixel centre, as with `antialias` 1, without `corner_light`, and without light
-// linking. `vpls`: the VPLs of the picture to compare with, which depend on its view. `visibility`,
+// linking. `vpls`: the VPLs of the picture to compare with, which depend on its view. `known`,
 // if given: rays are traced only where it gives no answer, just as maps are looked up. If it is
 // correct, it does not change the result.
 Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
                         std::span<const shared::Vpl> vpls, const View& view,
-                        const Settings& settings, const VisibilityDatabase* visibility = nullptr);
+                        const Settings& settings, const PatchView* known = nullptr);
 
 }  // namespace lamplighter::test

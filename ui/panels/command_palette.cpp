@@ -102,7 +102,8 @@ std::string CommandPalette::draw(PanelContext ui) {
   for (int i = 0; i <= last; ++i) {
     const Action& action = *found[static_cast<size_t>(i)];
     ImGui::PushID(i);
-    const bool enabled = !action.enabled || action.enabled(ui.session);
+    const bool enabled = (!action.enabled || action.enabled(ui.session)) &&
+                         (!action.problem || action.problem(ui.session).empty());
     const std::string label = action.label + (needsArguments(action) ? "\u2026" : "");
     if (ImGui::Selectable("##item", i == chosen_)) run = i;
     ui.name(action.name);

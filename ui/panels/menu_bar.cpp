@@ -5,6 +5,7 @@
 
 #include "editor/actions/arguments.h"
 #include "ui/panels/panels.h"
+#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {
@@ -156,14 +157,19 @@ void menuItem(const PanelContext& ui, const Action& action, Requests& requests) 
   }
   const bool checked = action.checked && action.checked(ui.session);
   const std::string label = action.label + (isTyped(action) ? "\u2026" : "");
-  if (ImGui::MenuItem(label.c_str(), shortcut, checked, enabled)) {
+  const std::string problem = action.problem ? action.problem(ui.session) : "";
+  if (!problem.empty()) ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
+  const bool isChosen = ImGui::MenuItem(label.c_str(), shortcut, checked, enabled);
+  if (!problem.empty()) ImGui::PopStyleColor();
+  if (isChosen) {
     if (isTyped(action))
       requests.palette = action.name + " ";
     else
       requests.actions.push_back(action.name);
   }
   ui.name(action.name);
-  tooltip(ui, action.help);
+  tooltip(ui,
+          problem.empty() ? action.help : action.help + " Nothing to show now: " + problem + ".");
 }
 
 void drawMenu(const PanelContext& ui, const Menu& menu, Requests& requests) {

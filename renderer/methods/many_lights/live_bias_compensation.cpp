@@ -21,7 +21,7 @@ void LiveBiasCompensation::goOn(const FrameInputs& in, const std::vector<Inspect
   std::vector<SceneVpl> vpls;
   for (const InspectedLight& light : lights)
     if (light.isLive) vpls.push_back({light.vpl, light.id, light.isSample});
-  const BiasCompensation biasCompensation(in.scene, in.rays, vpls, options);
+  const BiasCompensation biasCompensation(in.scene, in.services.rays(), vpls, options);
   pixels_.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
   const int end = std::min(view.height, rows_ + std::max(1, kPixelsAFrame / view.width));
   biasCompensation.findRows(view, vec2(0.0f), rows_, end, pixels_);

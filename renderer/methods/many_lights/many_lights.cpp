@@ -4,6 +4,7 @@
 
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/inspected_surfaces.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/sun_shadow_tiles.h"
@@ -42,7 +43,7 @@ constexpr int kFewestForGroups = 800;
 
 LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
   return {vpls < kFewestForGroups ? 0.0f : share,
-          [&rays = in.rays](const vec3& a, const vec3& b) {
+          [&rays = in.services.rays()](const vec3& a, const vec3& b) {
             return !rays.occluded({a, 0.0f, b - a, 1.0f});
           },
           !in.changes.none()};
@@ -92,7 +93,7 @@ class ManyLights::Stages {
 GiOutput ManyLights::render(const FrameInputs& in) {
   GiOutput out;
   Stages stages(in, out.stats);
-  Options options(in.settings, in.refineUpdates > 0);
+  Options options(in.settings, in.services.budget().refineUpdates > 0);
   const bool wantsVisibility = options.useVisibility;
   if (in.changes.rebuilt || lights_.slots() != neededFor_) visibilityNeeds_ = 0;
   if (visibilityNeeds_ > options.visibilityBytes) options.forgoVisibility();
@@ -212,23 +213,24 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
 void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiStats& stats) {
   const bool sceneChanged = !started_ || !in.changes.none();
-  std::vector<MoverFinder::Mover> movers;
+  const RayCaster& rays = in.services.rays();
+  std::span<const MoverFinder::Mover> movers;
   if (sceneChanged) {
-    movers = movers_.update(in.scene, in.changes);
+    movers = in.services.movers();
     pointVisibility_.outdate(in.changes, movers);
   }
   // While the camera moves the samples are kept; when it rests they are chosen for its view.
-  View chosenFor = steadyView(in.view, in.rays);
+  View chosenFor = steadyView(in.view, rays);
   choiceIsCurrent_ = !started_ || in.view == view_ || chosenFor == chosenFor_;
   if (!choiceIsCurrent_) chosenFor = *chosenFor_;
   const bool choosesOtherwise =
       chosenFor != chosenFor_ || options.clampDistance != options_.clampDistance;
   chosenFor_ = chosenFor;
-  if (paths_.update(in.scene, in.rays, in.changes, movers, options.counts, options.mostPaths) ||
+  if (paths_.update(in.scene, rays, in.changes, movers, options.counts, options.mostPaths) ||
       choosesOtherwise) {
-    VplSet set = chooseForView(paths_.set(in.scene), options.counts, in.scene, in.rays, chosenFor,
+    VplSet set = chooseForView(paths_.set(in.scene), options.counts, in.scene, rays, chosenFor,
                                options.clampDistance, pointVisibility_);
-    divideSuns(set.vpls, in.scene, in.rays, &chosenFor, options.counts.sunMaps);
+    divideSuns(set.vpls, in.scene, rays, &chosenFor, options.counts.sunMaps);
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
   }
@@ -361,8 +363,9 @@ void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& s
   if (options.refinement.vpls == 0) return;
   gbufferIsCurrent_ = false;
   const MapSize size = mapRooms_.scale() > 1 ? MapSize::fine : MapSize::coarse;
-  out.stats.mapsRefined = refinement_.goOn(in, options.refinement, *out.radiance, lights_.live(),
-                                           lights_.slots(), size, in.refineUpdates);
+  out.stats.mapsRefined =
+      refinement_.goOn(in, options.refinement, *out.radiance, lights_.live(), lights_.slots(), size,
+                       in.services.budget().refineUpdates);
   if (refinement_.image()) out.radiance = refinement_.image();
   out.stats.vplsRefined = refinement_.vpls();
   out.stats.vplsToRefine = options.refinement.vpls;
@@ -399,6 +402,28 @@ void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages
     mean_ = std::make_shared<HostImage>(std::move(sum_));
   }
   stages.end("antialiasing");
+}
+
+Inspection ManyLights::inspect() const {
+  Inspection out;
+  out.lights = lights_.inspect();
+  if (visibility_) out.patches = std::make_shared<DatabasePatches>(*visibility_);
+  if (visibility_ && lightMaps_)
+    out.texels = std::make_shared<LightMapTexels>(*visibility_, *lightMaps_);
+  if (prt_) {
+    out.transfer = [prt = prt_.get()](uint32_t object) {
+      if (object >= prt->objects()) return TransferState::none;
+      if (prt->hasTransfer(object)) return TransferState::ready;
+      return prt->wantsTransfer(object) ? TransferState::pending : TransferState::none;
+    };
+    out.points = [prt = prt_.get()] {
+      std::vector<InspectedPoint> points;
+      for (uint32_t object = 0; object < prt->objects(); ++object)
+        for (const vec3& place : prt->lightPoints(object)) points.push_back({place, vec3(0.0f)});
+      return points;
+    };
+  }
+  return out;
 }
 
 MethodInfo manyLightsInfo() {
@@ -441,7 +466,13 @@ MethodInfo manyLightsInfo() {
            parameters::antialias(),
            parameters::cornerLight(),
            parameters::refine()},
-          [] { return std::make_unique<ManyLights>(); }};
+          [] { return std::make_unique<ManyLights>(); },
+          {Service::rays, Service::movers},
+          {{Capability::lights, ""},
+           {Capability::patches, "with the technique visibility or light_maps"},
+           {Capability::texels, "with the technique light_maps"},
+           {Capability::transfer, "with prt, on the cpu backend"},
+           {Capability::points, "with prt, on the cpu backend"}}};
 }
 
 }  // namespace lamplighter

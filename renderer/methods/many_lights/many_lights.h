@@ -24,9 +24,7 @@ class ManyLights final : public GiMethod {
  public:
   GiOutput render(const FrameInputs& in) override;
   void reset() override { *this = ManyLights(); }
-  Inspection inspect() const override {
-    return {visibility_.get(), lightMaps_.get(), lights_.inspect(), prt_.get()};
-  }
+  Inspection inspect() const override;
 
  private:
   class Stages;
@@ -61,7 +59,6 @@ class ManyLights final : public GiMethod {
   View view_;
   std::optional<View> chosenFor_;  // the view for which VPLs were chosen by importance, if any
   bool choiceIsCurrent_ = true;    // chosenFor_ is the present view, not an earlier one
-  MoverFinder movers_;
   LightPaths paths_;
   PointVisibility pointVisibility_;  // from the view for which VPLs are chosen
   LiveLights lights_;

@@ -76,7 +76,7 @@ int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImag
     counts_.sunMaps = std::min(counts_.sunMaps, kSunMaps);
     // Finds the number of paths that gives about the wanted number of VPLs.
     lights_ = LightSet(in.scene);
-    const VplSet set = generateVpls(in.scene, in.rays, lights_, counts_);
+    const VplSet set = generateVpls(in.scene, in.services.rays(), lights_, counts_);
     counts_.paths = set.paths;
     sum_ = Image(live.width(), live.height());
     addScaled(sum_, live.pixels(), static_cast<float>(liveVpls));
@@ -108,7 +108,7 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   batch_ = std::make_unique<Batch>();
   Batch& batch = *batch_;
   // Distributes the VPLs of each light and bounce evenly over the jitters.
-  VplSet set = generateVpls(in.scene, in.rays, lights_, counts_, &in.view);
+  VplSet set = generateVpls(in.scene, in.services.rays(), lights_, counts_, &in.view);
   findFootprints(lights_, set.vpls);
   batch.samples = sampleCount(set.vpls);
   // The lobes become sharper with each batch, so that the mean converges to the exact highlights.
@@ -123,7 +123,7 @@ void Refinement::begin(const FrameInputs& in, const Options& options) {
   if (options.clampDistance > 0.0f) {
     batch.nearPixels.resize(batch.image.pixels.size());
     batch.biasCompensation.emplace(
-        in.scene, in.rays, batch.vpls,
+        in.scene, in.services.rays(), batch.vpls,
         BiasCompensation::Options{counts_.directShare < 1.0f ? counts_.bounces : 0,
                                   counts_.directShare > 0.0f || counts_.bounces == 0,
                                   options.clampDistance, kNearPaths,

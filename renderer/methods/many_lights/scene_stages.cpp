@@ -67,15 +67,15 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStat
   // The first call after enabling treats everything as changed.
   RenderSceneChanges changes = in.changes;
   if (!prt_) {
-    prt_ = std::make_unique<PrtLights>(TransferCache(in.cacheFolder));
+    prt_ = std::make_unique<PrtLights>(TransferCache(in.services.cacheFolder()));
     changes.rebuilt = true;
   }
   const uint64_t before = prt_->rays();
   const std::vector<shared::Vpl> bySlot = shownBySlot();
   const bool changed =
-      prt_->update(in.scene, changes, in.rays, *visibility_,
+      prt_->update(in.scene, changes, in.services.rays(), *visibility_,
                    {bySlot, lights_.upToDate(), lights_.haveBounced(options.counts.bounces)},
-                   options.prt, !in.inBackground);
+                   options.prt, !in.services.budget().inBackground);
   stats.raysTraced += prt_->rays() - before;
   const Transfers::Progress progress = prt_->progress();
   stats.transfersPending = static_cast<int>(progress.pending);

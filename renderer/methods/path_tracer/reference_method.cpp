@@ -61,13 +61,14 @@ class ReferenceMethod final : public GiMethod {
   // threads nor the distribution over frames changes a bit. Returns the number of rays.
   uint64_t addSamples(const FrameInputs& in, int until) {
     const tbb::blocked_range2d<int> pixels(0, view_.height, 16, 0, view_.width, 16);
+    const RayCaster& caster = in.services.rays();
     std::atomic<uint64_t> rays = 0;
     tbb::parallel_for(pixels, [&](const tbb::blocked_range2d<int>& tile) {
       uint64_t here = 0;
       for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
         for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
           for (int i = samples_; i < until; ++i) {
-            sum_.at(x, y) += tracePath(in.scene, in.rays, lights_, view_, x, y,
+            sum_.at(x, y) += tracePath(in.scene, caster, lights_, view_, x, y,
                                        static_cast<uint32_t>(i), options_, &here);
           }
         }
@@ -102,7 +103,8 @@ MethodInfo referenceInfo() {
           "Optimally combining sampling techniques for Monte Carlo rendering. SIGGRAPH 1995.",
           {parameters::bounces(), parameters::seed(), parameters::samplesPerPixel(),
            parameters::samplesPerFrame(), parameters::speculars(), parameters::leastRoughness()},
-          [] { return std::make_unique<ReferenceMethod>(); }};
+          [] { return std::make_unique<ReferenceMethod>(); },
+          {Service::rays}};
 }
 
 }  // namespace lamplighter

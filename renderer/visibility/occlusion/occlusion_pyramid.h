@@ -8,18 +8,12 @@
 #include <vector>
 
 #include "renderer/patches/patch_set.h"
+#include "renderer/visibility/occlusion/occlusion.h"
 #include "renderer/visibility/occlusion/pyramid_planes.h"
 #include "renderer/visibility/occlusion/shadow_volume.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {
-
-// State of a light on a patch. Conservative: partial if not certain.
-enum class Occlusion : uint8_t {
-  none,     // nothing blocks the light from any point of the patch
-  partial,  // something may block it
-  full      // no visible point gets light: all is in shadow, or back-facing
-};
 
 // A patch in world space: the corners of its convex hull.
 struct PatchRegion {

@@ -10,7 +10,6 @@
 #include "renderer/debug_views/view_colours.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/tone_map.h"
-#include "renderer/light_maps/light_maps.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -128,10 +127,14 @@ TEST_F(Views, PatchesDifferAndLookAlikeWithin) {
 TEST_F(Views, LevelsCountHalvings) {
   settle();
   const ViewPicture picture = draw(DebugView::patchLevels);
-  const VisibilityDatabase& v = *renderer_.inspect().visibility;
-  ASSERT_FALSE(v.isDivided(objectOf(open_), v.patches(objectOf(open_)).roots[0]));
+  const auto levelAt = [&](NodeId node, const vec3& at) {
+    const auto known = renderer_.inspect().patches;
+    const uint32_t object = objectOf(node);
+    return known->shapeOf(object, known->patchOf(object, known->leafAt(object, 0, at))).level;
+  };
+  ASSERT_EQ(levelAt(open_, kOpen), 0);
   EXPECT_TRUE(isHue(colourAt(picture, kOpen), colours::ramp(0.0f)));
-  ASSERT_TRUE(v.isDivided(objectOf(half_), v.patches(objectOf(half_)).roots[0]));
+  ASSERT_EQ(levelAt(half_, kHalf), 1);
   EXPECT_TRUE(isHue(colourAt(picture, kHalf), colours::ramp(1.0f)));
   EXPECT_EQ(picture.legend.low, "0 times");
 }
@@ -142,10 +145,10 @@ TEST_F(Views, PartialLightsAreCounted) {
   const Inspection inspection = renderer_.inspect();
   const auto count = [&](NodeId node, const vec3& at) {
     const uint32_t object = objectOf(node);
-    const int leaf = inspection.visibility->patches(object).leafAt(0, at);
+    const int leaf = inspection.patches->leafAt(object, 0, at);
     int partial = 0;
     for (const InspectedLight& light : inspection.lights)
-      partial += inspection.visibility->state(object, leaf, light.slot) == Occlusion::partial;
+      partial += inspection.patches->state(object, leaf, light.slot) == Occlusion::partial;
     return partial;
   };
   const int half = count(half_, kHalf), open = count(open_, kOpen);
@@ -164,13 +167,12 @@ TEST_F(Views, LightMapsShowTheirIrradiance) {
   const ViewPicture picture = draw(DebugView::lightMaps, 0, kExposure);
   const Inspection inspection = renderer_.inspect();
   const uint32_t object = objectOf(open_);
-  const ObjectPatches& patches = inspection.visibility->patches(object);
   // Where the pixel's ray meets the floor.
   const vec3 pixel = glm::floor(view_.project(kOpen)) + 0.5f;
   const vec3 direction = view_.rayDirection(pixel.x, pixel.y);
   const vec3 at = view_.eye - view_.eye.y / direction.y * direction;
-  ASSERT_NE(inspection.lightMaps->tile(object, patches.leafAt(0, at)), nullptr);
-  const vec3 e = inspection.lightMaps->irradiance(patches, object, patches.leafAt(0, at), at);
+  ASSERT_TRUE(inspection.texels->gridAt(object, 0, at).has_value());
+  const vec3 e = inspection.texels->irradianceAt(object, 0, at);
   const vec3 expected = toneMapPixel(e / kPi, kExposure), seen = colourAt(picture, kOpen);
   EXPECT_GT(expected.g, 0.05f);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(seen[c], expected[c], 1.0f / 255.0f);

@@ -62,9 +62,9 @@ Rendered rendered(const Scene& scene, const View& view, const std::string& techn
 }
 
 // The picture that is shown, with rays.
-Image withRays(const FrameRenderer& of, const View& view, const VisibilityDatabase* visibility) {
+Image withRays(const FrameRenderer& of, const View& view, const PatchView* known) {
   return test::withTracedShadows(of.scene(), *of.rays(), test::shownLights(of.inspect()), view,
-                                 Settings(), visibility);
+                                 Settings(), known);
 }
 
 struct Case {
@@ -118,10 +118,10 @@ TEST_P(VisibilityKnowledge, IsWhatRaysSay) {
   const Scene scene = loadGltf(path).scene;
   const View view = viewOf(scene, 2);
   const Rendered shown = rendered(scene, view, "visibility", GetParam().vpls);
-  const VisibilityDatabase* known = shown.renderer->inspect().visibility;
+  const auto known = shown.renderer->inspect().patches;
   ASSERT_NE(known, nullptr);
   const Image rays = withRays(*shown.renderer, view, nullptr);
-  EXPECT_LT(compareImages(withRays(*shown.renderer, view, known), rays).relRmse, 0.0005);
+  EXPECT_LT(compareImages(withRays(*shown.renderer, view, known.get()), rays).relRmse, 0.0005);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, VisibilityKnowledge,
                          testing::Values(Case{"narrow_gap.gltf", 300}, Case{"default.gltf", 300},

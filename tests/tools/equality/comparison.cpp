@@ -67,7 +67,7 @@ class Renderer {
   Image withRays(const View& view, const Settings& settings, bool known) const {
     const Inspection last = frames_.inspect();
     return test::withTracedShadows(frames_.scene(), *frames_.rays(), test::shownLights(last), view,
-                                   settings, known ? last.visibility : nullptr);
+                                   settings, known ? last.patches.get() : nullptr);
   }
 
  private:

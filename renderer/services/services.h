@@ -1,0 +1,76 @@
+// What methods share: each service is made when a method asks for it for the first time, kept
+// between frames, and brought up to date from the changes of the scene.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "renderer/raycast/ray_caster.h"
+#include "renderer/sampling/surface_sampler.h"
+#include "renderer/services/object_charts.h"
+#include "renderer/shadow_maps/refresh_scheduler.h"
+
+namespace lamplighter {
+
+enum class Service : uint8_t { rays, movers, surfaces, charts };
+inline constexpr Service kServices[] = {Service::rays, Service::movers, Service::surfaces,
+                                        Service::charts};
+const char* nameOf(Service service);  // "rays"
+
+// How much a frame may do besides the budgets in a method's parameters.
+struct FrameBudget {
+  // If true, slow precomputations may finish some frames later. If false, the frame waits for them,
+  // so that every run gives the same frames.
+  bool inBackground = false;
+  // The number of light samples by which this frame may refine a settled picture; 0: no refinement.
+  int refineUpdates = 0;
+};
+
+class Services {
+ public:
+  // Called by FrameRenderer before each frame, with the changes since the previous one. The scene
+  // and the rays must stay valid during the frame. `isOtherScene`: nothing of the previous scene
+  // may remain.
+  void beginFrame(const RenderScene& scene, const RenderSceneChanges& changes,
+                  const RayCaster& rays, const FrameBudget& budget, bool isOtherScene);
+  // The folder where slow precomputations are kept between runs; created when needed. Empty (the
+  // default): not kept.
+  void setCacheFolder(std::filesystem::path folder) { cacheFolder_ = std::move(folder); }
+
+  const FrameBudget& budget() const { return budget_; }
+  const std::filesystem::path& cacheFolder() const { return cacheFolder_; }
+
+  const RayCaster& rays();
+  // The objects that moved or changed their shape since the last frame in which a method asked; the
+  // first time every object.
+  std::span<const MoverFinder::Mover> movers();
+  // Points on all surfaces, uniform by area.
+  const SurfaceSampler& surfaces();
+  // By object: its charts and texel layout in object space. Valid until the next call.
+  std::span<const ObjectAtlas> charts(float texelsPerMetre);
+
+  // Whether a method has asked for the service since construction.
+  bool hasAsked(Service service) const { return (asked_ >> static_cast<int>(service) & 1u) != 0; }
+
+ private:
+  void note(Service service) { asked_ |= 1u << static_cast<int>(service); }
+
+  const RenderScene* scene_ = nullptr;
+  const RayCaster* rays_ = nullptr;
+  FrameBudget budget_;
+  std::filesystem::path cacheFolder_;
+  uint32_t asked_ = 0;  // one bit per service
+
+  MoverFinder moverFinder_;
+  std::optional<std::vector<MoverFinder::Mover>> movers_;  // of this frame
+  std::optional<SurfaceSampler> surfaces_;
+  std::unique_ptr<ObjectCharts> charts_;
+  // Since the finder and the sampler were updated.
+  RenderSceneChanges unseenByMovers_, unseenBySurfaces_;
+};
+
+}  // namespace lamplighter
