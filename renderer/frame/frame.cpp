@@ -1,8 +1,8 @@
 #include "renderer/frame/frame.h"
 
-#include "renderer/registry/registry.h"
-
 #include <utility>
+
+#include "renderer/registry/registry.h"
 
 namespace lamplighter {
 
@@ -34,7 +34,7 @@ GiOutput FrameRenderer::render(const Request& request) {
 
   // 3. Run the method; create it if another one is requested.
   if (!method_ || methodName_ != request.method) {
-    method_ = findMethod(request.method).make();
+    method_ = findMethod(request.method).make(*backend_);
     methodName_ = request.method;
   } else if (isOtherScene) {
     method_->reset();  // another scene: nothing of the previous one may remain

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/backend.h"
 #include "renderer/base/parameters.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/methods/light_part.h"
@@ -107,7 +107,9 @@ struct MethodInfo {
   std::string label;     // in the panel
   std::string citation;  // of the paper
   std::vector<ParameterSpec> parameters;
-  std::function<std::unique_ptr<GiMethod>()> make;
+  // The method on this backend, which must outlive it. Throws InputError if the backend does not
+  // have the kernels that the method needs.
+  std::function<std::unique_ptr<GiMethod>(Backend&)> make;
 };
 
 }  // namespace lamplighter
