@@ -18,7 +18,7 @@ void addRenderActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "render.method NAME");
            RenderSettings settings = s.document().render;
-           settings.method = findMethod(a[0]).name;
+           settings.method = runnableMethod(a[0], s.renderer().backend()).name;
            s.setRender(settings);
          },
          {}});

@@ -16,6 +16,7 @@
 #include "editor/document/cache_folder.h"
 #include "editor/document/sky_text.h"
 #include "editor/document/write_file.h"
+#include "renderer/backends/many_lights_kernels.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
 #include "renderer/debug_views/view_picture.h"
@@ -45,7 +46,9 @@ uint64_t peakMemoryBytes() {
 
 std::string statsText(const RenderOptions& o, const View& view, const GiOutput& out,
                       const Totals& t, Backend& backend) {
-  const KernelCounts counts = backend.counts();
+  const BackendCounts counts = backend.counts();
+  const auto* kernels = backend.kernelsInUse<ManyLightsKernels>();
+  const ManyLightsCounts lights = kernels ? kernels->lightCounts() : ManyLightsCounts();
   nlohmann::ordered_json j;
   j["scene"] = o.scene;
   j["method"] = o.method;
@@ -72,19 +75,19 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
   if (out.stats.lightMapTexel > 0.0f) j["light_map_texel"] = out.stats.lightMapTexel;  // m
   if (out.stats.vplsToRefine > 0) j["vpls_refined"] = out.stats.vplsRefined;
   j["samples_per_pixel"] = out.stats.samplesPerPixel;
-  j["shadow_maps"] = counts.shadowMaps;
-  j["light_pixels"] = counts.lightPixels;
-  j["map_look_ups"] = counts.lookUps;
+  j["shadow_maps"] = lights.shadowMaps;
+  j["light_pixels"] = lights.lightPixels;
+  j["map_look_ups"] = lights.lookUps;
   j["visibility_tests"] = t.visibilityTests;
   j["rays"] = counts.rays + t.raysOfMethod;
   // of the backend: shadow maps, G-buffer, copies of the scene
   j["memory_bytes"] = counts.memoryBytes;
   // By purpose. memory_bytes already contains the shadow maps and all other memory of the backend.
   nlohmann::ordered_json& memory = j["memory"];
-  memory["shadow maps"] = counts.mapBytes;
-  memory["shadow maps held"] = counts.mapsHeld;
+  memory["shadow maps"] = lights.mapBytes;
+  memory["shadow maps held"] = lights.mapsHeld;
   memory["shadow maps without room"] = out.stats.mapsWithoutRoom;
-  memory["rest of the backend"] = counts.memoryBytes - counts.mapBytes;
+  memory["rest of the backend"] = counts.memoryBytes - lights.mapBytes;
   for (const auto& [what, bytes] : out.stats.memoryBytes) memory[what] = bytes;
   if (out.stats.visibilityNeeds > 0) memory["visibility without room"] = out.stats.visibilityNeeds;
   j["peak_memory_bytes"] = peakMemoryBytes();  // of the whole process

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/radiance_image.h"
 #include "renderer/scene/camera.h"
 
 namespace lamplighter {

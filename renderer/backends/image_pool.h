@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/radiance_image.h"
 
 namespace lamplighter {
 

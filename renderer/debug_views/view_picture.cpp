@@ -1,5 +1,6 @@
 #include "renderer/debug_views/view_picture.h"
 
+#include "renderer/backends/many_lights_kernels.h"
 #include "renderer/debug_views/debug_views.h"
 #include "renderer/debug_views/painter.h"
 #include "renderer/image/tone_map.h"
@@ -71,12 +72,14 @@ std::string problemOf(DebugView view, const Inspection& inspection) {
 
 void takeFromBackend(DebugView view, Backend& backend, RadianceImage& radiance, ViewSubject& in) {
   if (view == DebugView::falseColour) in.radiance = &radiance.pixels();
-  if (view == DebugView::edgeMask) in.interpolated = backend.readInterpolated();
+  auto* kernels = backend.kernelsInUse<ManyLightsKernels>();
+  if (kernels == nullptr) return;
+  if (view == DebugView::edgeMask) in.interpolated = kernels->readInterpolated();
   const auto& lights = in.inspection.lights;
   if (view != DebugView::shadowMap || lights.empty()) return;
   const auto chosen = static_cast<size_t>(std::max(in.chosenLight, 0));
   const InspectedLight& light = lights[std::min(chosen, lights.size() - 1)];
-  if (light.isLive && light.slot >= 0) in.shadowMap = backend.readShadowMap(light.slot);
+  if (light.isLive && light.slot >= 0) in.shadowMap = kernels->readShadowMap(light.slot);
 }
 
 ViewPicture drawView(DebugView view, const ViewSubject& in) {

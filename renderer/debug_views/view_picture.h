@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/backend.h"
 #include "renderer/debug_views/debug_view.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/methods/inspection.h"
@@ -37,8 +37,8 @@ struct ViewSubject {
   // For falseColour: the radiance of the picture; for illuminance, with all visible surfaces white
   // (FrameInputs::lightOnly).
   const Image* radiance = nullptr;
-  std::vector<float> shadowMap;       // of the chosen light sample (Backend::readShadowMap)
-  std::vector<uint8_t> interpolated;  // Backend::readInterpolated
+  std::vector<float> shadowMap;       // of the chosen light sample (ManyLightsKernels)
+  std::vector<uint8_t> interpolated;  // ManyLightsKernels::readInterpolated
 };
 
 // Why a view cannot be made from this; "": it can.

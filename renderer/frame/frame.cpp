@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "renderer/base/error.h"
 #include "renderer/registry/registry.h"
 
 namespace lamplighter {
@@ -35,10 +34,7 @@ GiOutput FrameRenderer::render(const Request& request) {
 
   // 3. Run the method; create it if another one is requested.
   if (!method_ || methodName_ != request.method) {
-    const MethodInfo& info = findMethod(request.method);
-    if (const std::string problem = problemOf(info, *backend_); !problem.empty())
-      throw InputError("method", problem, "choose another one, or another --backend");
-    method_ = info.make();
+    method_ = runnableMethod(request.method, *backend_).make(*backend_);
     methodName_ = request.method;
   } else if (isOtherScene) {
     method_->reset();  // another scene: nothing of the previous one may remain

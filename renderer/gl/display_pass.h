@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/radiance_image.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/shader_source.h"
 #include "renderer/image/tone_map.h"

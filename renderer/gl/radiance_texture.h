@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/radiance_image.h"
 #include "renderer/gl/objects.h"
 
 namespace lamplighter::gl {

@@ -18,8 +18,8 @@ class PatchLights {
  public:
   // maps: null if there are none; maps without memory count as none. mergesPasses: sum the lights
   // that need shadow maps in merged passes (pass_merging.h), if the backend sums in passes. prt:
-  // null if there is none, and for backends that do not support it (BackendInfo::takesTransfer).
-  // lightProxies: which VPLs have maps, and the proxies of the others; null: all have maps.
+  // null if there is none. lightProxies: which VPLs have maps, and the proxies of the others; null:
+  // all have maps.
   PatchLights(const VisibilityDatabase& visibility, const LightMaps* maps,
               bool mergesPasses = false, const PrtLights* prt = nullptr,
               const LightProxies* lightProxies = nullptr)

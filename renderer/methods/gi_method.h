@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/backend.h"
 #include "renderer/base/parameters.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/methods/light_part.h"
@@ -109,16 +109,32 @@ struct ShownCapability {
   std::string when;
 };
 
+// Kernels that a method needs of the backend.
+struct KernelNeed {
+  std::string name;
+  bool (*isMetBy)(const Backend&);
+};
+template <typename Interface>
+KernelNeed kernelNeed(std::string name) {
+  return {std::move(name), [](const Backend& backend) { return backend.offers<Interface>(); }};
+}
+
+struct MethodNeeds {
+  std::vector<Service> services = {};  // all that it may ask for
+  std::vector<KernelNeed> kernels = {};
+  bool openGl = false;  // it draws with OpenGL itself, so only on the gl backend
+};
+
 struct MethodInfo {
   std::string name;      // for --method
   std::string label;     // in the panel
   std::string citation;  // of the paper
   std::vector<ParameterSpec> parameters;
-  std::function<std::unique_ptr<GiMethod>()> make;
-  std::vector<Service> services = {};       // all that it may ask for
+  // The method on this backend, which must meet its needs and outlive it.
+  std::function<std::unique_ptr<GiMethod>(Backend&)> make;
+  MethodNeeds needs = {};
   std::vector<ShownCapability> shows = {};  // besides its own views
   std::vector<MethodView> views = {};       // its own
-  std::vector<std::string> backends = {};   // on which it runs; empty: on all
 };
 
 }  // namespace lamplighter

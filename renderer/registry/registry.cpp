@@ -35,12 +35,21 @@ void addMethod(MethodInfo method) {
 }
 
 std::string problemOf(const MethodInfo& method, const Backend& backend) {
-  const std::string& name = backend.info().name;
-  if (method.backends.empty() || std::ranges::find(method.backends, name) != method.backends.end())
-    return "";
-  std::string names;
-  for (const std::string& b : method.backends) names += (names.empty() ? "" : " or ") + b;
-  return method.name + " runs on the backend " + names + ", not on " + name;
+  const std::string& on = backend.info().name;
+  if (method.needs.openGl && on != "gl")
+    return method.name + " needs OpenGL, so it does not run on the backend " + on;
+  for (const KernelNeed& kernels : method.needs.kernels)
+    if (!kernels.isMetBy(backend))
+      return method.name + " needs the kernels " + kernels.name + ", which the backend " + on +
+             " does not have";
+  return "";
+}
+
+const MethodInfo& runnableMethod(const std::string& name, const Backend& backend) {
+  const MethodInfo& method = findMethod(name);
+  const std::string problem = problemOf(method, backend);
+  if (problem.empty()) return method;
+  throw InputError("method", problem, "choose another method or another --backend");
 }
 
 }  // namespace lamplighter

@@ -20,5 +20,7 @@ void addMethod(MethodInfo method);
 
 // Why the method does not run on the backend; "": it does.
 std::string problemOf(const MethodInfo& method, const Backend& backend);
+// The method of that name. Throws InputError if there is none, or if it does not run on the backend.
+const MethodInfo& runnableMethod(const std::string& name, const Backend& backend);
 
 }  // namespace lamplighter

@@ -10,18 +10,19 @@ LitScene::LitScene(const Scene& scene, std::unique_ptr<Backend> on) : backend(st
   const RenderSceneChanges changes = update(render, scene, SceneChanges::all());
   rays = std::make_unique<RayCaster>(render);
   backend->setScene(render, changes, *rays);
+  kernels = &backend->kernels<ManyLightsKernels>("many_lights");
 }
 
 Image LitScene::sum(std::vector<shared::Vpl> vpls, const View& view, int resolution, bool shadows,
                     float clampDistance, float bias) {
-  backend->reserveShadowMaps(static_cast<int>(vpls.size()), resolution);
+  kernels->reserveShadowMaps(static_cast<int>(vpls.size()), resolution);
   for (size_t i = 0; i < vpls.size(); ++i) {
     vpls[i].intensity.w = shadows ? static_cast<float>(i) : -1.0f;
   }
-  if (shadows) backend->renderShadowMaps(vpls);
+  if (shadows) kernels->renderShadowMaps(vpls);
   backend->renderGBuffer(view, vec2(0.0f));
-  backend->sumVpls(vpls, {vec4(clampDistance, bias, resolution, vpls.size())}, nullptr);
-  return backend->compose()->pixels();
+  kernels->sumVpls(vpls, {vec4(clampDistance, bias, resolution, vpls.size())}, nullptr);
+  return kernels->compose()->pixels();
 }
 
 shared::Vpl makeVpl(const vec3& position, const vec3& normal, float kind, float angle) {
@@ -42,6 +43,11 @@ GiOutput renderSettled(FrameRenderer& renderer, const Scene& scene, const SceneC
   }
   ADD_FAILURE() << "not settled after " << limit << " frames";
   return out;
+}
+
+ManyLightsCounts lightCounts(Backend& backend) {
+  const auto* kernels = backend.kernelsInUse<ManyLightsKernels>();
+  return kernels == nullptr ? ManyLightsCounts() : kernels->lightCounts();
 }
 
 bool sameBits(const Image& a, const Image& b) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/backends/many_lights_kernels.h"
 #include "renderer/frame/frame.h"
 
 namespace lamplighter::test {
@@ -20,6 +21,7 @@ struct LitScene {
   RenderScene render;
   std::unique_ptr<RayCaster> rays;
   std::unique_ptr<Backend> backend;
+  ManyLightsKernels* kernels = nullptr;  // of the backend
 };
 
 // A VPL of intensity 1. Its frame is rotated by `angle` around its axis.
@@ -29,6 +31,9 @@ shared::Vpl makeVpl(const vec3& position, const vec3& normal, float kind = share
 // Renders frames until the picture is settled. Fails the test after `limit` frames.
 GiOutput renderSettled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
                        const View& view, const Settings& settings, int limit = 1000);
+
+// Counters of the sums and maps of many_lights; zero if it has not run.
+ManyLightsCounts lightCounts(Backend& backend);
 
 bool sameBits(const Image& a, const Image& b);
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/backend.h"
 #include "renderer/methods/gi_method.h"
 
 namespace lamplighter {

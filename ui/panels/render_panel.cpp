@@ -15,14 +15,16 @@ void methodCombo(const PanelContext& ui, const MethodInfo& current) {
   ui.name("method");
   if (!open) return;
   for (const MethodInfo& method : methods()) {
-    if (ImGui::Selectable(method.label.c_str(), method.name == current.name) &&
+    const std::string problem = problemOf(method, ui.session.renderer().backend());
+    const auto flags = problem.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+    if (ImGui::Selectable(method.label.c_str(), method.name == current.name, flags) &&
         method.name != current.name) {
       RenderSettings render = ui.session.document().render;
       render.method = method.name;
       ui.session.setRender(render);
     }
     ui.name("method/" + method.name);
-    tooltip(ui, method.citation);
+    tooltip(ui, problem.empty() ? method.citation : problem);
   }
   ImGui::EndCombo();
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/radiance_image.h"
 #include "renderer/debug_views/view_picture.h"
 #include "renderer/gl/objects.h"
 

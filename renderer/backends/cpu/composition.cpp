@@ -8,13 +8,14 @@
 #include "renderer/base/simd.h"
 
 namespace lamplighter::cpu {
+
 vec3 Background::at(int x, int y) const {
   if (sky.kind == SkyKind::constant) return sky.radiance;
   return sky.radianceFrom(view.rayDirection(static_cast<float>(x) + 0.5f + jitter.x,
                                             static_cast<float>(y) + 0.5f + jitter.y));
 }
 
-void compose(const GBuffer& g, const PictureLight& light, const Background& background, bool white,
+void compose(const GBuffer& g, const PacketLight& light, const Background& background, bool white,
              Image& out) {
   tbb::parallel_for(0, g.tiles(), [&](int tile) {
     const int tileX = tile % g.tilesX * kTileSize, tileY = tile / g.tilesX * kTileSize;
@@ -24,8 +25,8 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
                 y = tileY + packet / kPacketsPerRow * kPacketHeight;
       if (x >= g.width || y >= g.height) continue;
       const size_t first = static_cast<size_t>(tile) * kTilePixels + packet * kLanes;
-      PictureLight::Irradiance room;
-      const PictureLight::Packet irradiance = light.at(tile, packet, room);
+      PacketIrradiance room;
+      const PacketIrradianceView irradiance = light(tile, packet, room);
       const auto channel = [&](const float* e, const std::vector<float>& albedo,
                                const std::vector<float>& emission) {
         const Floats8 scaled = hn::Mul(hn::LoadU(kTag, e), inversePi);
@@ -55,6 +56,24 @@ void compose(const GBuffer& g, const PictureLight& light, const Background& back
       }
     }
   });
+}
+
+void compose(const GBuffer& g, const Image& irradiance, const Background& background, bool white,
+             Image& out) {
+  const auto light = [&](int tile, int packet, PacketIrradiance& room) {
+    const int left = tile % g.tilesX * kTileSize + packet % kPacketsPerRow * kPacketWidth;
+    const int top = tile / g.tilesX * kTileSize + packet / kPacketsPerRow * kPacketHeight;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      // Lanes outside the image repeat its last row and column.
+      const vec3& e = irradiance.at(std::min(left + lane % kPacketWidth, g.width - 1),
+                                    std::min(top + lane / kPacketWidth, g.height - 1));
+      room.r[lane] = e.r;
+      room.g[lane] = e.g;
+      room.b[lane] = e.b;
+    }
+    return PacketIrradianceView{room.r, room.g, room.b};
+  };
+  compose(g, light, background, white, out);
 }
 
 }  // namespace lamplighter::cpu

@@ -4,6 +4,7 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
+#include "renderer/backends/many_lights_kernels.h"
 
 namespace lamplighter {
 namespace {
@@ -95,15 +96,16 @@ double frameSeconds(Backend& backend, const RenderScene& scene, const RayCaster&
   RenderSceneChanges all;
   all.rebuilt = true;
   backend.setScene(scene, all, rays);
-  backend.reserveShadowMaps(kVpls, kMapResolution);
+  auto& kernels = backend.kernels<ManyLightsKernels>("many_lights");
+  kernels.reserveShadowMaps(kVpls, kMapResolution);
   const std::vector<shared::Vpl> vpls = trialVpls();
   const shared::ShadingParams params{vec4(0.1f, 0.002f, kMapResolution, kVpls),
                                      vec4(1.0f, 0.0f, 0.0f, 0.0f)};
   const auto frame = [&](std::span<const shared::Vpl> maps) {
-    backend.renderShadowMaps(maps);
+    kernels.renderShadowMaps(maps);
     backend.renderGBuffer(trialView(), vec2(0.0f));
-    backend.sumVpls(vpls, params, nullptr);
-    backend.compose();
+    kernels.sumVpls(vpls, params, nullptr);
+    kernels.compose();
     backend.finish();
   };
   frame(vpls);

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/backend.h"
 #include "renderer/methods/gi_method.h"
 
 namespace lamplighter {

@@ -1,18 +1,76 @@
-// The gl backend: rasterised G-buffer and shadow maps, light sums in fragment shaders. OpenGL 4.5
-// core without vendor extensions.
+// The gl backend: rasterised G-buffer and full-screen passes. OpenGL 4.5 core without vendor
+// extensions.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/backend.h"
+#include "renderer/backends/gbuffer_view.h"
+#include "renderer/backends/gl/gl_composition.h"
+#include "renderer/backends/gl/gl_gbuffer.h"
 #include "renderer/gl/headless_context.h"
 #include "renderer/gl/shader_source.h"
 
 namespace lamplighter {
+namespace gl {
 
-// Needs a current context, now and at each later call, including the destruction of the pictures
-// that it returned. Throws gl::ShaderError.
+class GlBackend final : public Backend {
+ public:
+  // `context`: null, or its own context. Throws ShaderError.
+  GlBackend(std::unique_ptr<HeadlessContext> context, const std::filesystem::path& shaders);
+  ~GlBackend() override { dropKernels(); }
+
+  const BackendInfo& info() const override { return info_; }
+  void finish() override { glFinish(); }
+  GBufferView hostGBuffer() override;
+  Image readNormals() override { return gbuffer_.readNormals(); }
+  Image readAlbedo() override { return gbuffer_.readAlbedo(); }
+  std::shared_ptr<RadianceImage> compose(const Image& irradiance, bool white) override {
+    return composition_.compose(gbuffer_, scene_.scene().sky, irradiance, white);
+  }
+
+  // For kernels. The textures of the G-buffer are bound by GlGBuffer::bind().
+  const GlScene& scene() const { return scene_; }
+  const GlGBuffer& gbuffer() const { return gbuffer_; }
+  const std::filesystem::path& shaders() const { return shaders_; }  // the folder
+  // Like compose() above, with E in the RGB of a float texture of the size of the G-buffer.
+  // Negative values count as zero.
+  std::shared_ptr<RadianceTexture> compose(GLuint irradiance, bool white) {
+    return composition_.compose(gbuffer_, scene_.scene().sky, irradiance, white);
+  }
+
+  // Compiles all shaders again, also those of kernels. If they have errors it throws ShaderError,
+  // and what was not compiled yet keeps the previous ones.
+  void reload(const std::filesystem::path& shaders);
+
+ protected:
+  BackendCounts ownCounts() const override;
+  void takeScene(const RenderScene& scene, const RenderSceneChanges& changes,
+                 const RayCaster& rays) override;
+  void drawGBuffer(const View& view, vec2 jitter) override;
+
+ private:
+  // First member, because all others need it until they are destroyed.
+  std::unique_ptr<HeadlessContext> context_;
+  std::filesystem::path shaders_;
+  BackendInfo info_;
+  GlScene scene_;
+  GlGBuffer gbuffer_;
+  GlComposition composition_;
+  const RayCaster* rays_ = nullptr;
+  cpu::GBuffer hostGBuffer_;  // for hostGBuffer()
+  bool hostIsCurrent_ = false;
+};
+
+// Offers the kernels of all methods: renderer/registry/gl/gl_kernels.cpp, which lists them.
+void offerKernels(GlBackend& backend);
+
+}  // namespace gl
+
+// With the kernels of all methods. Needs a current context, now and at each later call, including
+// the destruction of the pictures that it returned. Throws gl::ShaderError, as does the first use
+// of kernels.
 std::unique_ptr<Backend> makeGlBackend(
     const std::filesystem::path& shaders = gl::defaultShaderFolder());
 
@@ -21,8 +79,7 @@ std::unique_ptr<Backend> makeGlBackend(
     std::unique_ptr<gl::HeadlessContext> context,
     const std::filesystem::path& shaders = gl::defaultShaderFolder());
 
-// Compiles the shaders again. Throws gl::ShaderError if they have errors; then the previous ones
-// stay in use. Does nothing to other backends.
+// GlBackend::reload(). Does nothing to other backends.
 void reloadShaders(Backend& backend, const std::filesystem::path& shaders);
 
 }  // namespace lamplighter

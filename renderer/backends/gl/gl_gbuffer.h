@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <map>
 
-#include "renderer/backends/gl/frustum.h"
 #include "renderer/backends/gl/gl_scene.h"
 #include "renderer/backends/gl/shading_points.h"
 #include "renderer/gl/program.h"
 #include "renderer/scene/camera.h"
+#include "renderer/scene/frustum.h"
 
 namespace lamplighter::gl {
 

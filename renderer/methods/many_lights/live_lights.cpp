@@ -248,10 +248,10 @@ void LiveLights::pairUp(std::vector<Group>& groups) const {
   std::erase_if(groups, [](const Group& group) { return group.entries.empty(); });
 }
 
-int LiveLights::refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved,
-                        const RefreshWork& stale) {
+int LiveLights::refresh(ManyLightsKernels& kernels, const RefreshBudget& budget,
+                        const RefreshWork& moved, const RefreshWork& stale) {
   refresh(budget, moved, stale);
-  return updateMaps(backend, std::vector<uint8_t>(static_cast<size_t>(slots_), 1), {});
+  return updateMaps(kernels, std::vector<uint8_t>(static_cast<size_t>(slots_), 1), {});
 }
 
 int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
@@ -304,7 +304,7 @@ std::vector<uint32_t> LiveLights::spreadTurns() const {
   return turns;
 }
 
-int LiveLights::updateMaps(Backend& backend, const std::vector<uint8_t>& marked,
+int LiveLights::updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked,
                            const MapLimits& limits) {
   ++calls_;
   // A stale VPL waits for its refresh, but keeps its map.
@@ -365,8 +365,8 @@ int LiveLights::updateMaps(Backend& backend, const std::vector<uint8_t>& marked,
     if (!hasMap) e.isFine = false;
     changed_ = changed_ || e.hasMap != hasMap;
   }
-  if (!dropped.empty()) backend.dropShadowMaps(dropped);
-  if (!maps.empty()) backend.renderShadowMaps(maps);
+  if (!dropped.empty()) kernels.dropShadowMaps(dropped);
+  if (!maps.empty()) kernels.renderShadowMaps(maps);
   return static_cast<int>(maps.size());
 }
 
@@ -375,7 +375,8 @@ int LiveLights::coarse(const std::vector<uint8_t>& marked) const {
                                         [&](const Entry& e) { return isCoarse(e, marked); }));
 }
 
-int LiveLights::sharpenMaps(Backend& backend, const std::vector<uint8_t>& marked, int most) {
+int LiveLights::sharpenMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked,
+                            int most) {
   std::vector<Entry*> next;
   for (Entry& e : entries_)
     if (isCoarse(e, marked)) next.push_back(&e);
@@ -390,7 +391,7 @@ int LiveLights::sharpenMaps(Backend& backend, const std::vector<uint8_t>& marked
     e->isFine = true;
   }
   changed_ = true;
-  backend.renderShadowMaps(maps, MapSize::fine);
+  kernels.renderShadowMaps(maps, MapSize::fine);
   return static_cast<int>(maps.size());
 }
 

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/many_lights_kernels.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/shadow_maps/refresh_scheduler.h"
@@ -50,18 +50,19 @@ class LiveLights {
   // Renders maps for the VPLs in the marked slots. If they do not all fit, or many are new, the
   // maps are spread over all of them. If memory is short, maps are taken from the VPLs that were
   // not marked for the longest time. Returns the number of rendered maps.
-  int updateMaps(Backend& backend, const std::vector<uint8_t>& marked, const MapLimits& limits);
+  int updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked,
+                 const MapLimits& limits);
   // When nothing is pending: renders fine maps for up to `most` marked VPLs, brightest first. A
   // refreshed VPL gets a coarse map again. Returns the number of rendered maps.
-  int sharpenMaps(Backend& backend, const std::vector<uint8_t>& marked, int most);
+  int sharpenMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked, int most);
   // The number of fine maps that an unlimited call would render.
   int coarse(const std::vector<uint8_t>& marked) const;
   // Whether VPLs without a map are not shown at all (naive).
   void showOnlyMapped(bool onlyMapped);
 
   // refresh() and updateMaps(), with a map for each VPL.
-  int refresh(Backend& backend, const RefreshBudget& budget, const RefreshWork& moved = {},
-              const RefreshWork& stale = {});
+  int refresh(ManyLightsKernels& kernels, const RefreshBudget& budget,
+              const RefreshWork& moved = {}, const RefreshWork& stale = {});
 
   // By slot: there is a map of the light as it is shown.
   std::vector<uint8_t> hasMap() const;
@@ -134,7 +135,7 @@ class LiveLights {
   int slots_ = 0;
   bool changed_ = true;
   bool onlyMapped_ = true;
-  // By slot: the backend has a map in it (of any light); the call in which it was last marked.
+  // By slot: the kernels have a map in it (of any light); the call in which it was last marked.
   std::vector<uint8_t> holds_;
   std::vector<uint64_t> lastMarked_;
   uint64_t calls_ = 0;  // number of updateMaps() calls

@@ -54,10 +54,10 @@ LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
 // makes the frame about twice as long as a frame of a drag, which does other work too; with still
 // fewer, the fixed work of a frame would dominate. With rasterised maps (gl), each frame sums all
 // lights again, so fewer frames are better.
-int mapsAFrame(const FrameInputs& in, const ManyLightsOptions& options, int scale) {
+int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options, int scale) {
   const RefreshWork& most = options.budget.work;
   uint64_t maps = std::min<uint64_t>(most.shadowMaps, static_cast<uint64_t>(options.budget.vpls));
-  if (in.backend.info().tracesShadowMaps) {
+  if (traits.tracesShadowMaps) {
     const auto side = static_cast<uint64_t>(scale * options.mapResolution);
     maps = std::min(scale == 1 ? maps : 2 * maps / static_cast<uint64_t>(scale),
                     most.rays / side / side);
@@ -104,14 +104,14 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   stages.end("light samples");
 
   // 2. Refresh some of them completely: position, intensity, where their maps are needed,
-  out.stats.vplsRefreshed = refreshLights(in, options);
+  out.stats.vplsRefreshed = refreshLights(options);
   updateVisibility(in, options, out.stats);
   stages.end("visibility");
 
   // 3. their maps, if the view needs them, and their unshadowed light.
   updateMaps(in, options, out.stats);
   stages.end("shadow maps");
-  sharpenMaps(in, options, out.stats);
+  sharpenMaps(options, out.stats);
   stages.end("finer maps");
   updateLightMaps(in, options, out.stats);
   stages.end("light maps");
@@ -188,7 +188,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   // per antialiasing sample.
   const int aFrame = std::max({1, out.stats.vplsRefreshed, out.stats.mapsRendered});
   const int exchange = paths_.isAtRest() ? 0 : LightPaths::kRestingFrames;
-  const int sharper = mapsAFrame(in, options, mapRooms_.scale());
+  const int sharper = mapsAFrame(kernels_->traits(), options, mapRooms_.scale());
   out.stats.framesUntilSettled = std::max((pending + aFrame - 1) / aFrame, exchange) +
                                  (out.stats.mapsToSharpen + sharper - 1) / sharper + samples -
                                  samples_;
@@ -200,7 +200,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   out.stats.samplesPerPixel = std::max(samples_, 1);
   out.stats.mapsHeld = lights_.mapsHeld();
   out.stats.mapsWithoutRoom = lights_.withoutMap();
-  out.stats.memoryBytes["shadow maps"] = in.backend.counts().mapBytes;
+  out.stats.memoryBytes["shadow maps"] = kernels_->lightCounts().mapBytes;
   if (visibility_) out.stats.memoryBytes["visibility"] = visibility_->bytes();
   if (wantsVisibility && !visibility_) out.stats.visibilityNeeds = visibilityNeeds_;
   if (lightMaps_) {
@@ -252,14 +252,14 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   if (slots != mapSlots_ || rooms != mapRooms_) lights_.loseMaps();
   mapSlots_ = slots;
   mapRooms_ = rooms;
-  in.backend.reserveShadowMaps(slots, rooms.coarse, rooms.fine);
+  kernels_->reserveShadowMaps(slots, rooms.coarse, rooms.fine);
   lights_.showOnlyMapped(!options.useVisibility);
 }
 
-int ManyLights::refreshLights(const FrameInputs& in, const Options& options) {
+int ManyLights::refreshLights(const Options& options) {
   RefreshWork moved, stale;
   moved.shadowMaps = stale.shadowMaps = 1;
-  if (in.backend.info().tracesShadowMaps) {
+  if (kernels_->traits().tracesShadowMaps) {
     const auto side = static_cast<uint64_t>(options.mapResolution);
     moved.rays = stale.rays = side * side;
   }
@@ -282,27 +282,28 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
              options.speculars != options_.speculars) {
     wanted_ = shadowMapDemand(*visibility_, in.scene, in.view);
   }
-  if (visibility_ && options.speculars && in.backend.info().specularsTakeAllMaps &&
+  if (visibility_ && options.speculars && kernels_->traits().specularsTakeAllMaps &&
       hasGlossy(in.scene))
     std::fill(wanted_.begin(), wanted_.end(), uint8_t{1});
   // A path is refreshed as a whole, even if it has more VPLs than the budget.
-  const int maps = std::max(mapsAFrame(in, options, 1), stats.vplsRefreshed);
+  const int maps = std::max(mapsAFrame(kernels_->traits(), options, 1), stats.vplsRefreshed);
   const int refining = Refinement::slots(options.refinement);
   stats.mapsRendered =
-      lights_.updateMaps(in.backend, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
+      lights_.updateMaps(*kernels_, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
   if (visibility_)
     lightProxies_.update(lights_.shown(), slots, lights_.hasMap(), wanted_,
                          groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 // Only when all other work is done: the frame after an edit is busy enough.
-void ManyLights::sharpenMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
+void ManyLights::sharpenMaps(const Options& options, GiStats& stats) {
   const int scale = mapRooms_.scale();
   if (scale == 1) return;
   const bool isDone = lights_.pending() == 0 && stats.vplsRefreshed == 0 &&
                       stats.mapsRendered == 0 && paths_.isAtRest() && choiceIsCurrent_;
   if (isDone)
-    stats.mapsSharpened = lights_.sharpenMaps(in.backend, wanted_, mapsAFrame(in, options, scale));
+    stats.mapsSharpened =
+        lights_.sharpenMaps(*kernels_, wanted_, mapsAFrame(kernels_->traits(), options, scale));
   stats.mapsToSharpen = lights_.coarse(wanted_);
 }
 
@@ -318,7 +319,7 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
            static_cast<float>(options.lightsPerPass)),
       vec4(static_cast<float>(options.block), isMiddle && isHasty_ ? 1.0f : 0.0f, 0.0f, 0.0f),
       speculars(options.speculars, options.leastRoughness)};
-  const KernelCounts before = in.backend.counts();
+  const ManyLightsCounts before = kernels_->lightCounts();
   const bool isWhole = in.part == LightPart::all;
   if (isWhole)
     partLights_.forget();
@@ -329,20 +330,20 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
     vpls.insert(vpls.end(), lightProxies.lights().begin(), lightProxies.lights().end());
     const PatchLights patches(*visibility_, isWhole ? lightMaps_.get() : partLights_.maps(),
                               options.mergePasses, isWhole ? prt_.get() : nullptr, &lightProxies);
-    in.backend.sumVpls(vpls, params, &patches);
+    kernels_->sumVpls(vpls, params, &patches);
   } else {
-    in.backend.sumVpls(vpls, params, nullptr);
+    kernels_->sumVpls(vpls, params, nullptr);
   }
-  const KernelCounts after = in.backend.counts();
+  const ManyLightsCounts after = kernels_->lightCounts();
   mergedPasses_ = static_cast<int>(after.mergedPasses - before.mergedPasses);
   passesSaved_ = static_cast<int>(after.passesSaved - before.passesSaved);
   interpolatedShare_ = static_cast<float>(after.pixelsInterpolated - before.pixelsInterpolated) /
                        static_cast<float>(in.view.width * in.view.height);
   stages.end("light sums");
-  std::shared_ptr<RadianceImage> image = in.backend.compose(in.lightOnly);
+  std::shared_ptr<RadianceImage> image = kernels_->compose(in.lightOnly);
   if (in.part == LightPart::indirect) {
-    in.backend.sumVpls({}, params, nullptr);
-    image = without(*in.backend.compose(in.lightOnly), *image);
+    kernels_->sumVpls({}, params, nullptr);
+    image = without(*kernels_->compose(in.lightOnly), *image);
   }
   stages.end("composition");
   return image;
@@ -354,8 +355,8 @@ void ManyLights::takePart(const FrameInputs& in, const Options& options,
   vpls = PartLights::lightsOf(in.part, vpls, lights_.inspect());
   if (!visibility_ || !isNew) return;
   partLights_.update(in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
-                     {options.useLightMaps, lightMapOptions(in, options)}, lights_.hasMap(),
-                     wanted_, groupsOf(in, options.groupShare, lights_.slots()));
+                     {options.useLightMaps, lightMapOptions(options)}, lights_.hasMap(), wanted_,
+                     groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
@@ -364,8 +365,8 @@ void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& s
   gbufferIsCurrent_ = false;
   const MapSize size = mapRooms_.scale() > 1 ? MapSize::fine : MapSize::coarse;
   out.stats.mapsRefined =
-      refinement_.goOn(in, options.refinement, *out.radiance, lights_.live(), lights_.slots(), size,
-                       in.services.budget().refineUpdates);
+      refinement_.goOn(in, *kernels_, options.refinement, *out.radiance, lights_.live(),
+                       lights_.slots(), size, in.services.budget().refineUpdates);
   if (refinement_.image()) out.radiance = refinement_.image();
   out.stats.vplsRefined = refinement_.vpls();
   out.stats.vplsToRefine = options.refinement.vpls;
@@ -466,13 +467,15 @@ MethodInfo manyLightsInfo() {
            parameters::antialias(),
            parameters::cornerLight(),
            parameters::refine()},
-          [] { return std::make_unique<ManyLights>(); },
-          {Service::rays, Service::movers},
+          [](Backend& backend) {
+            return std::make_unique<ManyLights>(backend.kernels<ManyLightsKernels>("many_lights"));
+          },
+          {{Service::rays, Service::movers}, {kernelNeed<ManyLightsKernels>("many_lights")}},
           {{Capability::lights, ""},
            {Capability::patches, "with the technique visibility or light_maps"},
            {Capability::texels, "with the technique light_maps"},
-           {Capability::transfer, "with prt, on the cpu backend"},
-           {Capability::points, "with prt, on the cpu backend"}}};
+           {Capability::transfer, "with prt"},
+           {Capability::points, "with prt"}}};
 }
 
 }  // namespace lamplighter

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "renderer/backends/many_lights_kernels.h"
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/gi_method.h"
@@ -22,8 +23,10 @@ namespace lamplighter {
 
 class ManyLights final : public GiMethod {
  public:
+  explicit ManyLights(ManyLightsKernels& kernels) : kernels_(&kernels) {}
+
   GiOutput render(const FrameInputs& in) override;
-  void reset() override { *this = ManyLights(); }
+  void reset() override { *this = ManyLights(*kernels_); }
   Inspection inspect() const override;
 
  private:
@@ -37,11 +40,11 @@ class ManyLights final : public GiMethod {
                                        Stages& stages);
   void takePart(const FrameInputs& in, const Options& options, std::vector<shared::Vpl>& vpls,
                 bool isNew);
-  int refreshLights(const FrameInputs& in, const Options& options);
+  int refreshLights(const Options& options);
   void updateVisibility(const FrameInputs& in, Options& options, GiStats& stats);
   void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
-  void sharpenMaps(const FrameInputs& in, const Options& options, GiStats& stats);
-  static LightMaps::Options lightMapOptions(const FrameInputs& in, const Options& options);
+  void sharpenMaps(const Options& options, GiStats& stats);
+  LightMaps::Options lightMapOptions(const Options& options) const;
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
@@ -51,6 +54,7 @@ class ManyLights final : public GiMethod {
                                              bool isSmooth, Stages& stages);
   void addSample(const FrameInputs& in, const Options& options, Stages& stages);
 
+  ManyLightsKernels* kernels_;  // of the backend
   bool started_ = false, lightOnly_ = false;
   float lightMapTexel_ = 0.0f;  // spacing in the picture [m]
   LightPart part_ = LightPart::all;

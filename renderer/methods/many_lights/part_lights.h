@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/radiance_image.h"
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/inspection.h"

@@ -63,8 +63,8 @@ void Refinement::restart() {
   if (started_) *this = Refinement();
 }
 
-int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImage& live,
-                     int liveVpls, int firstSlot, MapSize size, int most) {
+int Refinement::goOn(const FrameInputs& in, ManyLightsKernels& kernels, const Options& options,
+                     RadianceImage& live, int liveVpls, int firstSlot, MapSize size, int most) {
   if (done_) return 0;
   if (!started_) {
     started_ = true;
@@ -98,7 +98,7 @@ int Refinement::goOn(const FrameInputs& in, const Options& options, RadianceImag
   const size_t left = endOfShift(batch.shift) - batch.summed;
   const size_t count =
       std::min({left, static_cast<size_t>(std::max(most, 1)), static_cast<size_t>(slots(options))});
-  addPart(in, options, firstSlot, size, count);
+  addPart(in, kernels, options, firstSlot, size, count);
   if (batch.summed == batch.vpls.size()) finishBatch(options.vpls);
   return static_cast<int>(count);
 }
@@ -139,8 +139,8 @@ size_t Refinement::endOfShift(int shift) const {
 
 // Sums a part of the batch's VPLs, scaled to the brightness of all; the picture is weighted by
 // their share. So every picture is complete, with emission and sky.
-void Refinement::addPart(const FrameInputs& in, const Options& options, int firstSlot, MapSize size,
-                         size_t count) {
+void Refinement::addPart(const FrameInputs& in, ManyLightsKernels& kernels, const Options& options,
+                         int firstSlot, MapSize size, size_t count) {
   Batch& batch = *batch_;
   const size_t all = batch.vpls.size(), end = batch.summed + count;
   const float share = all == 0 ? 1.0f : static_cast<float>(count) / static_cast<float>(all);
@@ -151,14 +151,14 @@ void Refinement::addPart(const FrameInputs& in, const Options& options, int firs
                          static_cast<float>(static_cast<size_t>(firstSlot) + part.size()));
     part.push_back(vpl);
   }
-  in.backend.renderShadowMaps(part, size);
-  in.backend.sumVpls(part,
-                     {vec4(options.clampDistance, options.shadowBias, 0.0f,
-                           static_cast<float>(options.lightsPerPass)),
-                      vec4(1.0f, 0.0f, 0.0f, 0.0f),
-                      vec4(options.speculars ? 1.0f : 0.0f, options.leastRoughness, 0.0f, 0.0f)},
-                     nullptr);
-  addScaled(batch.image, in.backend.compose(in.lightOnly)->pixels(), share);
+  kernels.renderShadowMaps(part, size);
+  kernels.sumVpls(part,
+                  {vec4(options.clampDistance, options.shadowBias, 0.0f,
+                        static_cast<float>(options.lightsPerPass)),
+                   vec4(1.0f, 0.0f, 0.0f, 0.0f),
+                   vec4(options.speculars ? 1.0f : 0.0f, options.leastRoughness, 0.0f, 0.0f)},
+                  nullptr);
+  addScaled(batch.image, kernels.compose(in.lightOnly)->pixels(), share);
   if (batch.biasCompensation) {
     const auto row = [&](size_t vpls) {
       return all == 0 ? in.view.height

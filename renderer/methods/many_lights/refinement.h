@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "renderer/backends/many_lights_kernels.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/bias_compensation.h"
 #include "renderer/sampling/vpl_set.h"
@@ -36,8 +37,8 @@ class Refinement {
 
   // Adds at most `most` VPLs, with maps of this size in the slots from firstSlot on. `live`, the
   // settled picture, has the weight of its VPLs. Returns the number of VPLs added.
-  int goOn(const FrameInputs& in, const Options& options, RadianceImage& live, int liveVpls,
-           int firstSlot, MapSize size, int most);
+  int goOn(const FrameInputs& in, ManyLightsKernels& kernels, const Options& options,
+           RadianceImage& live, int liveVpls, int firstSlot, MapSize size, int most);
 
   bool done() const { return done_; }
   int vpls() const { return vpls_; }  // in the mean, including the live ones
@@ -59,8 +60,8 @@ class Refinement {
   };
   size_t endOfShift(int shift) const;
   void begin(const FrameInputs& in, const Options& options);
-  void addPart(const FrameInputs& in, const Options& options, int firstSlot, MapSize size,
-               size_t count);
+  void addPart(const FrameInputs& in, ManyLightsKernels& kernels, const Options& options,
+               int firstSlot, MapSize size, size_t count);
   void finishBatch(int target);
 
   bool started_ = false, done_ = false;

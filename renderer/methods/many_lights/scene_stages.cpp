@@ -39,9 +39,9 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiSta
   stats.visibilityTests = visibility_->tests() - before;
 }
 
-LightMaps::Options ManyLights::lightMapOptions(const FrameInputs& in, const Options& options) {
+LightMaps::Options ManyLights::lightMapOptions(const Options& options) const {
   return {options.lightMapTexel, options.clampDistance, options.lightMapBytes,
-          in.backend.info().mostLightMapTexels};
+          kernels_->traits().mostLightMapTexels};
 }
 
 void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
@@ -51,8 +51,8 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
     if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
     const uint64_t before = lightMaps_->texelsWritten();
     const bool isAtRest = in.changes.none() && lights_.pending() == 0;
-    lightMaps_->update(in.scene, *visibility_, shownBySlot(), lightMapOptions(in, options),
-                       &in.view, isAtRest);
+    lightMaps_->update(in.scene, *visibility_, shownBySlot(), lightMapOptions(options), &in.view,
+                       isAtRest);
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
     stats.lightMapTexel = lightMaps_->texel();
   }
@@ -60,7 +60,7 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
 
 // Returns whether the picture changes.
 bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStats& stats) {
-  if (!options.usePrt || !in.backend.info().takesTransfer) {
+  if (!options.usePrt) {
     prt_.reset();
     return false;
   }

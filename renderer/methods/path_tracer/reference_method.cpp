@@ -103,8 +103,8 @@ MethodInfo referenceInfo() {
           "Optimally combining sampling techniques for Monte Carlo rendering. SIGGRAPH 1995.",
           {parameters::bounces(), parameters::seed(), parameters::samplesPerPixel(),
            parameters::samplesPerFrame(), parameters::speculars(), parameters::leastRoughness()},
-          [] { return std::make_unique<ReferenceMethod>(); },
-          {Service::rays}};
+          [](Backend&) { return std::make_unique<ReferenceMethod>(); },
+          {{Service::rays}}};
 }
 
 }  // namespace lamplighter

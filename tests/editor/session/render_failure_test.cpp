@@ -1,19 +1,24 @@
 // A frame that cannot be rendered must cost neither the work nor the picture.
+#include "renderer/backends/cpu/many_lights/cpu_many_lights.h"
 #include "renderer/base/error.h"
 #include "tests/editor/session_fixture.h"
 
 namespace lamplighter {
 namespace {
 
-// The cpu backend on a device whose memory holds maps of 32² texels at most.
-class SmallBackend final : public Backend {
+// The kernels of the cpu backend on a device whose memory holds maps of 32² texels at most.
+class SmallKernels final : public ManyLightsKernels {
  public:
-  const BackendInfo& info() const override { return inner_->info(); }
-  KernelCounts counts() const override { return inner_->counts(); }
-  void setScene(const RenderScene& scene, const RenderSceneChanges& changes,
-                const RayCaster& rays) override {
-    inner_->setScene(scene, changes, rays);
+  explicit SmallKernels(std::unique_ptr<ManyLightsKernels> inner) : inner_(std::move(inner)) {}
+
+  void takeScene(const RenderScene& scene, const RenderSceneChanges& changes,
+                 const RayCaster& rays) override {
+    inner_->takeScene(scene, changes, rays);
   }
+  void takeGBuffer() override { inner_->takeGBuffer(); }
+  BackendCounts counts() const override { return inner_->counts(); }
+  const ManyLightsTraits& traits() const override { return inner_->traits(); }
+  ManyLightsCounts lightCounts() const override { return inner_->lightCounts(); }
   void reserveShadowMaps(int slots, const MapRoom& coarse, const MapRoom& fine) override {
     if (coarse.resolution > 32)
       throw InputError("many_lights", "no memory", "lower map_resolution");
@@ -23,26 +28,28 @@ class SmallBackend final : public Backend {
   void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
     inner_->renderShadowMaps(vpls, size);
   }
-  void renderGBuffer(const View& view, vec2 jitter) override {
-    inner_->renderGBuffer(view, jitter);
-  }
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                const PatchLights* patches) override {
     inner_->sumVpls(vpls, params, patches);
   }
   std::shared_ptr<RadianceImage> compose(bool white) override { return inner_->compose(white); }
   std::vector<float> readShadowMap(int slot) override { return inner_->readShadowMap(slot); }
-  Image readNormals() override { return inner_->readNormals(); }
-  Image readAlbedo() override { return inner_->readAlbedo(); }
-  void finish() override { inner_->finish(); }
 
  private:
-  std::unique_ptr<Backend> inner_ = makeCpuBackend();
+  std::unique_ptr<ManyLightsKernels> inner_;
 };
+
+std::unique_ptr<Backend> smallBackend() {
+  auto backend = std::make_unique<cpu::CpuBackend>();
+  backend->offer<ManyLightsKernels>([b = backend.get()] {
+    return std::make_unique<SmallKernels>(cpu::makeManyLightsKernels(*b));
+  });
+  return backend;
+}
 
 class RenderFailure : public testing::Test {
  protected:
-  Session session_{std::make_unique<FrameRenderer>(std::make_unique<SmallBackend>())};
+  Session session_{std::make_unique<FrameRenderer>(smallBackend())};
   NodeId light_ = 0;
 
   void SetUp() override {

@@ -41,9 +41,9 @@ TEST_P(SharedSamples, AreFarLessWorkAndShowTheSame) {
   const Room room(GetParam());
   FrameRenderer renderer(makeCpuBackend());
   settled(renderer, room, SceneChanges::all(), settingsOf(1, "4"));
-  const uint64_t once = renderer.backend().counts().lightPixels;
+  const uint64_t once = test::lightCounts(renderer.backend()).lightPixels;
   const Image shared = settled(renderer, room, {}, settingsOf(8, "4"));
-  const uint64_t eight = renderer.backend().counts().lightPixels - once;
+  const uint64_t eight = test::lightCounts(renderer.backend()).lightPixels - once;
   RecordProperty("share", std::to_string(static_cast<double>(eight) / (8.0 * once)));
   EXPECT_GT(eight, 0u);
   EXPECT_LT(eight, 6 * once);
@@ -94,20 +94,20 @@ TEST(SharedSamples, BordersOfShadowsStaySmooth) {
     shared::Vpl vpl = test::makeVpl(vec3(0.3f, 5.0f, 0.1f), vec3(0, -1, 0));
     vpl.intensity = vec4(vec3(50.0f), 0.0f);
     const std::vector vpls{vpl};
-    lit.backend->reserveShadowMaps(1, 512);
-    lit.backend->renderShadowMaps(vpls);
+    lit.kernels->reserveShadowMaps(1, 512);
+    lit.kernels->renderShadowMaps(vpls);
     const View view = test::lookAt(vec3(0, 1.5f, 6.0f), vec3(0, 0.5f, 0), 161, 99);
     shared::ShadingParams params{vec4(0.0f, 0.002f, 512.0f, 64.0f), vec4(4.0f, 0, 0, 0), vec4(0)};
     Image mean(view.width, view.height);
     if (isShared) {  // there is a middle to take light of
       lit.backend->renderGBuffer(view, vec2(0.0f));
-      lit.backend->sumVpls(vpls, params, nullptr);
+      lit.kernels->sumVpls(vpls, params, nullptr);
     }
     for (int i = 0; i < 16; ++i) {
       lit.backend->renderGBuffer(view, vec2((static_cast<float>(i % 4) - 1.5f) / 4.0f,
                                             (static_cast<float>(i / 4) - 1.5f) / 4.0f));
-      lit.backend->sumVpls(vpls, params, nullptr);
-      const Image sample = lit.backend->compose(false)->pixels();
+      lit.kernels->sumVpls(vpls, params, nullptr);
+      const Image sample = lit.kernels->compose(false)->pixels();
       for (size_t p = 0; p < sample.pixels.size(); ++p) mean.pixels[p] += sample.pixels[p] / 16.0f;
     }
     return mean;

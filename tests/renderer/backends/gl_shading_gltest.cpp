@@ -137,16 +137,16 @@ TEST_F(GlShading, SkyIsSeenWhereNothingIs) {
     sky.rotation = sky.kind == SkyKind::image ? 0.8f : 0.0f;
     scene.sky = sky;
     LitScene traced(scene), raster(scene, makeGlBackend());
-    for (LitScene* lit : {&traced, &raster}) lit->backend->reserveShadowMaps(1, 8);
+    for (LitScene* lit : {&traced, &raster}) lit->kernels->reserveShadowMaps(1, 8);
     for (const vec3& target : {vec3(1, 0, 0.2f), vec3(-0.2f, 1, 0), vec3(0, -1, 0.3f)}) {
       const View view = lookAt(vec3(0, 0.1f, 0.7f), vec3(0, 0.1f, 0.7f) + target, 90, 60, 1.4f);
       for (const vec2& jitter : {vec2(0.0f), vec2(0.4f, -0.3f)}) {
         for (LitScene* lit : {&traced, &raster}) {
           lit->backend->renderGBuffer(view, jitter);
-          lit->backend->sumVpls(lamp, {}, nullptr);
+          lit->kernels->sumVpls(lamp, {}, nullptr);
         }
-        const Image a = traced.backend->compose()->pixels(),
-                    b = raster.backend->compose()->pixels();
+        const Image a = traced.kernels->compose()->pixels(),
+                    b = raster.kernels->compose()->pixels();
         EXPECT_LE(differing(a, b, 2e-3f), 2.0 / 5400);
         const vec3 corner = sky.radianceFrom(view.rayDirection(0.5f + jitter.x, 0.5f + jitter.y));
         EXPECT_LT(glm::length(a.at(0, 0) - corner), 1e-4f);
@@ -238,12 +238,12 @@ TEST_F(GlShading, PicturesStayWhatTheyAreWhileHeld) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   const std::vector vpls = test::randomVpls(3, 1);
   lit.sum(vpls, viewOfBoxes(), 16);
-  const std::shared_ptr<RadianceImage> held = lit.backend->compose();
-  const std::shared_ptr<RadianceImage> second = lit.backend->compose();
+  const std::shared_ptr<RadianceImage> held = lit.kernels->compose();
+  const std::shared_ptr<RadianceImage> second = lit.kernels->compose();
   ASSERT_NE(textureOf(*held), textureOf(*second));
   lit.sum({}, viewOfBoxes(), 16);
   EXPECT_GT(test::meanOf(held->pixels()).r, 0.0f);  // read only now
-  EXPECT_EQ(test::meanOf(lit.backend->compose()->pixels()).r, 0.0f);
+  EXPECT_EQ(test::meanOf(lit.kernels->compose()->pixels()).r, 0.0f);
 }
 
 TEST_F(GlShading, APictureTooLargeForTheDeviceIsRefused) {
@@ -254,10 +254,11 @@ TEST_F(GlShading, APictureTooLargeForTheDeviceIsRefused) {
 TEST_F(GlShading, CountsItsWork) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   lit.sum(test::randomVpls(4, 1), viewOfBoxes(20, 10), 16);
-  const KernelCounts counts = lit.backend->counts();
-  EXPECT_EQ(counts.shadowMaps, 4u);
+  const BackendCounts counts = lit.backend->counts();
+  const ManyLightsCounts lights = lit.kernels->lightCounts();
+  EXPECT_EQ(lights.shadowMaps, 4u);
   EXPECT_EQ(counts.rays, 0u);
-  EXPECT_EQ(counts.lightPixels, 4u * 200u);
+  EXPECT_EQ(lights.lightPixels, 4u * 200u);
   EXPECT_GE(counts.memoryBytes, 4u * 16 * 16 * sizeof(float) + 20u * 10 * 16);
   EXPECT_EQ(lit.backend->info().name, "gl");
   EXPECT_EQ(lit.backend->info().device, context().renderer());

@@ -31,9 +31,9 @@ Difference compare(const std::vector<float>& raster, const std::vector<float>& t
 }
 
 std::vector<float> mapOf(LitScene& lit, const shared::Vpl& vpl, int resolution) {
-  lit.backend->reserveShadowMaps(static_cast<int>(vpl.intensity.w) + 1, resolution);
-  lit.backend->renderShadowMaps(std::span(&vpl, 1));
-  return lit.backend->readShadowMap(static_cast<int>(vpl.intensity.w));
+  lit.kernels->reserveShadowMaps(static_cast<int>(vpl.intensity.w) + 1, resolution);
+  lit.kernels->renderShadowMaps(std::span(&vpl, 1));
+  return lit.kernels->readShadowMap(static_cast<int>(vpl.intensity.w));
 }
 
 // Where the maps differ a silhouette passes within a texel: a rasteriser snaps corners to a grid.
@@ -44,12 +44,12 @@ TEST_F(GlShadowMap, OfRandomBoxesHoldsWhatRaysMeet) {
   for (const int resolution : {33, 64, 256}) {
     const std::vector<shared::Vpl> vpls = test::randomVpls(12, 5);
     for (LitScene* lit : {&traced, &raster}) {
-      lit->backend->reserveShadowMaps(12, resolution);
-      lit->backend->renderShadowMaps(vpls);
+      lit->kernels->reserveShadowMaps(12, resolution);
+      lit->kernels->renderShadowMaps(vpls);
     }
     for (int slot = 0; slot < 12; ++slot) {
       const Difference d =
-          compare(raster.backend->readShadowMap(slot), traced.backend->readShadowMap(slot));
+          compare(raster.kernels->readShadowMap(slot), traced.kernels->readShadowMap(slot));
       sum.texels += d.texels;
       sum.covered += d.covered;
       sum.other += d.other;
@@ -79,7 +79,7 @@ TEST_F(GlShadowMap, HasNoHolesAtTheCreases) {
       EXPECT_EQ(d.missed, 0) << "resolution " << resolution;
       // On the creases themselves both agree but for the room's edges.
       int wrong = 0;
-      const std::vector<float> t = traced.backend->readShadowMap(0);
+      const std::vector<float> t = traced.kernels->readShadowMap(0);
       for (int i = 0; i < resolution; ++i) {
         for (const int texel : {i * resolution + i, i * resolution + resolution - 1 - i}) {
           wrong += std::abs(r[texel] - t[texel]) > 2e-3f * t[texel];
@@ -133,28 +133,28 @@ TEST_F(GlShadowMap, MapsMaySpanSeveralArrays) {
   const Scene scene = test::randomBoxes(10, 3);
   LitScene lit(scene, makeGlBackend());
   shared::Vpl vpl = test::randomVpls(1, 1)[0];
-  lit.backend->reserveShadowMaps(5000, 16, 2100);
+  lit.kernels->reserveShadowMaps(5000, 16, 2100);
   std::vector<shared::Vpl> vpls(2100, vpl);
   for (size_t i = 0; i < vpls.size(); ++i) vpls[i].intensity.w = static_cast<float>(4999 - i);
   for (size_t first = 0; first < vpls.size(); first += 300)
-    lit.backend->renderShadowMaps(std::span(vpls).subspan(first, 300));
-  const std::vector<float> map = lit.backend->readShadowMap(4999);
+    lit.kernels->renderShadowMaps(std::span(vpls).subspan(first, 300));
+  const std::vector<float> map = lit.kernels->readShadowMap(4999);
   EXPECT_GT(*std::max_element(map.begin(), map.end()), 0.0f);
   for (const int slot : {4998, 4700, 3000, 2952, 2951, 2900})
-    EXPECT_EQ(lit.backend->readShadowMap(slot), map) << slot;
-  EXPECT_TRUE(lit.backend->readShadowMap(2899).empty());
-  EXPECT_EQ(lit.backend->counts().mapsHeld, 2100u);
-  EXPECT_LE(lit.backend->counts().mapBytes, 2100u * 16 * 16 * sizeof(float));
+    EXPECT_EQ(lit.kernels->readShadowMap(slot), map) << slot;
+  EXPECT_TRUE(lit.kernels->readShadowMap(2899).empty());
+  EXPECT_EQ(lit.kernels->lightCounts().mapsHeld, 2100u);
+  EXPECT_LE(lit.kernels->lightCounts().mapBytes, 2100u * 16 * 16 * sizeof(float));
 
   vpl.intensity.w = 7.0f;
-  EXPECT_THROW(lit.backend->renderShadowMaps(std::span(&vpl, 1)), std::length_error);
+  EXPECT_THROW(lit.kernels->renderShadowMaps(std::span(&vpl, 1)), std::length_error);
   const std::vector<int> dropped = {4999, 2951};
-  lit.backend->dropShadowMaps(dropped);
-  EXPECT_EQ(lit.backend->counts().mapsHeld, 2098u);
-  lit.backend->renderShadowMaps(std::span(&vpl, 1));
-  EXPECT_EQ(lit.backend->readShadowMap(7), map);
-  EXPECT_TRUE(lit.backend->readShadowMap(4999).empty());
-  EXPECT_EQ(lit.backend->readShadowMap(4998), map);
+  lit.kernels->dropShadowMaps(dropped);
+  EXPECT_EQ(lit.kernels->lightCounts().mapsHeld, 2098u);
+  lit.kernels->renderShadowMaps(std::span(&vpl, 1));
+  EXPECT_EQ(lit.kernels->readShadowMap(7), map);
+  EXPECT_TRUE(lit.kernels->readShadowMap(4999).empty());
+  EXPECT_EQ(lit.kernels->readShadowMap(4998), map);
 }
 
 // A slot has a map of one size, and its place is free for others when it gets the other.
@@ -162,29 +162,29 @@ TEST_F(GlShadowMap, ASlotHasAMapOfEitherSize) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   std::vector<shared::Vpl> vpls(3, test::randomVpls(1, 1)[0]);
   for (size_t i = 0; i < vpls.size(); ++i) vpls[i].intensity.w = static_cast<float>(i);
-  Backend& backend = *lit.backend;
-  const auto textures = [&] { return backend.counts().mapBytes / sizeof(float); };
-  backend.reserveShadowMaps(3, {16, 3}, {64, 2});
-  backend.renderShadowMaps(vpls);
-  const std::vector<float> coarse = backend.readShadowMap(1);
+  ManyLightsKernels& kernels = *lit.kernels;
+  const auto textures = [&] { return kernels.lightCounts().mapBytes / sizeof(float); };
+  kernels.reserveShadowMaps(3, {16, 3}, {64, 2});
+  kernels.renderShadowMaps(vpls);
+  const std::vector<float> coarse = kernels.readShadowMap(1);
   EXPECT_EQ(coarse.size(), 16u * 16);
-  backend.renderShadowMaps(std::span(vpls).first(2), MapSize::fine);
-  EXPECT_EQ(backend.counts().mapsHeld, 3u);
+  kernels.renderShadowMaps(std::span(vpls).first(2), MapSize::fine);
+  EXPECT_EQ(kernels.lightCounts().mapsHeld, 3u);
   EXPECT_EQ(textures(), 3u * 16 * 16 + 2 * 64 * 64);
-  EXPECT_EQ(backend.readShadowMap(1).size(), 64u * 64);
-  EXPECT_EQ(backend.readShadowMap(2), coarse);
-  EXPECT_THROW(backend.renderShadowMaps(std::span(vpls).last(1), MapSize::fine), std::length_error);
-  backend.renderShadowMaps(std::span(vpls).subspan(1, 1));
-  EXPECT_EQ(backend.readShadowMap(1), coarse);
-  backend.renderShadowMaps(std::span(vpls).last(1), MapSize::fine);
-  EXPECT_EQ(backend.readShadowMap(2), backend.readShadowMap(0));
-  EXPECT_EQ(backend.readShadowMap(1), coarse);
+  EXPECT_EQ(kernels.readShadowMap(1).size(), 64u * 64);
+  EXPECT_EQ(kernels.readShadowMap(2), coarse);
+  EXPECT_THROW(kernels.renderShadowMaps(std::span(vpls).last(1), MapSize::fine), std::length_error);
+  kernels.renderShadowMaps(std::span(vpls).subspan(1, 1));
+  EXPECT_EQ(kernels.readShadowMap(1), coarse);
+  kernels.renderShadowMaps(std::span(vpls).last(1), MapSize::fine);
+  EXPECT_EQ(kernels.readShadowMap(2), kernels.readShadowMap(0));
+  EXPECT_EQ(kernels.readShadowMap(1), coarse);
   EXPECT_EQ(textures(), 3u * 16 * 16 + 2 * 64 * 64);
 }
 
 TEST_F(GlShadowMap, TooLargeIsRefused) {
   LitScene lit(test::randomBoxes(1, 3), makeGlBackend());
-  EXPECT_THROW(lit.backend->reserveShadowMaps(1, 1 << 20), InputError);
+  EXPECT_THROW(lit.kernels->reserveShadowMaps(1, 1 << 20), InputError);
 }
 
 TEST_F(GlShadowMap, FollowsMovedObjects) {

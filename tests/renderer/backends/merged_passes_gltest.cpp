@@ -4,7 +4,7 @@
 #include <set>
 
 #include "renderer/backends/gl/gl_backend.h"
-#include "renderer/backends/gl/light_lists.h"
+#include "renderer/backends/gl/many_lights/light_lists.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/pass_merging.h"
 #include "renderer/methods/common_parameters.h"

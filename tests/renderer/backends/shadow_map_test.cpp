@@ -37,9 +37,9 @@ TEST(ShadowMap, OfABoxOnAFloorHoldsTheClosedForm) {
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0.3f, 0.5f, 0.2f));
   LitScene lit(scene);
   const shared::Vpl vpl = makeVpl(vec3(0.1f, 3.0f, -0.2f), vec3(0.2f, -1.0f, 0.1f));
-  lit.backend->reserveShadowMaps(1, kResolution);
-  lit.backend->renderShadowMaps(std::vector{vpl});
-  const std::vector<float> map = lit.backend->readShadowMap(0);
+  lit.kernels->reserveShadowMaps(1, kResolution);
+  lit.kernels->renderShadowMaps(std::vector{vpl});
+  const std::vector<float> map = lit.kernels->readShadowMap(0);
 
   const glm::dvec3 o(vpl.position), n(vpl.normal), t(vpl.tangent), b(glm::cross(n, t));
   const Bounds box{vec3(-0.2f, 0.0f, -0.3f), vec3(0.8f, 1.0f, 0.7f)};
@@ -79,9 +79,9 @@ TEST(ShadowMap, OfADirectionalLightIsLinearInHeight) {
   LitScene lit(scene);
   shared::Vpl vpl = makeVpl(vec3(0.0f), vec3(0, 1, 0), shared::kVplDirectional, 0.0f);
   const float radius = vpl.normal.w = 5.0f, side = vpl.tangent.w = 4.0f;
-  lit.backend->reserveShadowMaps(1, kResolution);
-  lit.backend->renderShadowMaps(std::vector{vpl});
-  const std::vector<float> map = lit.backend->readShadowMap(0);
+  lit.kernels->reserveShadowMaps(1, kResolution);
+  lit.kernels->renderShadowMaps(std::vector{vpl});
+  const std::vector<float> map = lit.kernels->readShadowMap(0);
   int covered = 0;
   for (int i = 0; i < kResolution * kResolution; ++i) {
     const vec2 s = shared::shadowTexelCentre(vec2(i % kResolution, i / kResolution), kResolution);

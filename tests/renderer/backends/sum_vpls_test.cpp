@@ -48,8 +48,8 @@ std::vector<shared::Vpl> lights() {
           colored(spot, vec3(5, 1, 9)), colored(sun, vec3(0.3f, 0.2f, 0.4f))};
 }
 
-vec3 expectedRadiance(const LitScene& lit, Backend& backend, const View& view, int x, int y,
-                      const std::vector<shared::Vpl>& vpls) {
+vec3 expectedRadiance(const LitScene& lit, ManyLightsKernels& kernels, const View& view, int x,
+                      int y, const std::vector<shared::Vpl>& vpls) {
   Ray ray{view.eye, 0.0f,
           view.rayDirection(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)};
   const Hit hit = lit.rays->intersect(ray);
@@ -69,7 +69,7 @@ vec3 expectedRadiance(const LitScene& lit, Backend& backend, const View& view, i
     const vec2 texel = shared::shadowTexel(at, kResolution);
     const vec2 centre = shared::shadowTexelCentre(texel, kResolution);
     const size_t index = static_cast<size_t>(texel.y) * kResolution + static_cast<size_t>(texel.x);
-    const float stored = backend.readShadowMap(static_cast<int>(i))[index];
+    const float stored = kernels.readShadowMap(static_cast<int>(i))[index];
     const bool occluded =
         directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias, kResolution)
                     : shared::hemisphereOccluded(stored, q, n, centre, kBias, kResolution);
@@ -85,7 +85,7 @@ TEST(SumVpls, FollowsTheSharedDefinition) {
   int wrong = 0, dark = 0;
   for (int y = 0; y < view.height; ++y) {
     for (int x = 0; x < view.width; ++x) {
-      const vec3 expected = expectedRadiance(lit, *lit.backend, view, x, y, lights());
+      const vec3 expected = expectedRadiance(lit, *lit.kernels, view, x, y, lights());
       const vec3 d = glm::abs(image.at(x, y) - expected);
       dark += expected == vec3(0.0f);
       wrong += std::max({d.x, d.y, d.z}) > 1e-5f + 1e-4f * expected.g;
@@ -114,10 +114,11 @@ TEST(CpuBackend, CountsItsWork) {
     LitScene lit(blocks());
     const View view = test::lookAt(vec3(3, 3, 4), vec3(0), 20, 10);
     lit.sum(lights(), view, static_cast<int>(resolution));
-    const KernelCounts counts = lit.backend->counts();
-    EXPECT_EQ(counts.shadowMaps, 4u);
+    const BackendCounts counts = lit.backend->counts();
+    const ManyLightsCounts work = lit.kernels->lightCounts();
+    EXPECT_EQ(work.shadowMaps, 4u);
     EXPECT_EQ(counts.rays, 4u * raysAMap + 200u);
-    EXPECT_EQ(counts.lightPixels, 4u * 200u);
+    EXPECT_EQ(work.lightPixels, 4u * 200u);
     EXPECT_GE(counts.memoryBytes, 4u * resolution * resolution * sizeof(float));
   }
 }

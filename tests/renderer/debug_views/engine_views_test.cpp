@@ -168,7 +168,9 @@ TEST_F(EngineViews, TheEdgeMaskShowsWhatWasInterpolated) {
   const ViewPicture picture = draw(DebugView::edgeMask);
   EXPECT_EQ(picture.problem, "");
   size_t between = 0, all = 0;
-  for (const uint8_t p : renderer_.backend().readInterpolated()) {
+  auto* kernels = renderer_.backend().kernelsInUse<ManyLightsKernels>();
+  ASSERT_NE(kernels, nullptr);
+  for (const uint8_t p : kernels->readInterpolated()) {
     const uint8_t* c = picture.image.at(static_cast<int>(all % 640), static_cast<int>(all / 640));
     const vec3 colour = vec3(c[0], c[1], c[2]) / 255.0f;
     if (p != 0) {

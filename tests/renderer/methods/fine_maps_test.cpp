@@ -53,7 +53,7 @@ struct FineMaps : testing::Test, test::AssetRoom {
   }
   // How many of the maps that are held are fine.
   uint64_t fine() {
-    const KernelCounts counts = renderer.backend().counts();
+    const ManyLightsCounts counts = test::lightCounts(renderer.backend());
     const uint64_t coarse = 4 * kCoarse * kCoarse;
     return (counts.mapBytes - counts.mapsHeld * coarse) / (coarse * (kScale * kScale - 1));
   }
@@ -66,7 +66,7 @@ TEST_F(FineMaps, ASettledPictureIsThatOfFineMaps) {
       settings.set(parameters::technique().name, std::string(technique));
       settings.set(parameters::block().name, std::string(block));
       const Image picture = settle(SceneChanges::all()).radiance->pixels();
-      EXPECT_EQ(fine(), renderer.backend().counts().mapsHeld);
+      EXPECT_EQ(fine(), test::lightCounts(renderer.backend()).mapsHeld);
       EXPECT_TRUE(sameBits(picture, directly(kCoarse * kScale, 1)));
       EXPECT_FALSE(sameBits(picture, directly(kCoarse, 1)));
     }
@@ -93,10 +93,10 @@ TEST_F(FineMaps, ComeLastAndByTheBudget) {
     left = out.stats.mapsToSharpen;
   }
   EXPECT_TRUE(out.settled);
-  const uint64_t rendered = renderer.backend().counts().shadowMaps;
+  const uint64_t rendered = test::lightCounts(renderer.backend()).shadowMaps;
   const auto picture = out.radiance;
   EXPECT_EQ(step().radiance, picture);
-  EXPECT_EQ(renderer.backend().counts().shadowMaps, rendered);
+  EXPECT_EQ(test::lightCounts(renderer.backend()).shadowMaps, rendered);
 
   // Rays are counted one by one.
   settings.set(parameters::maxRays().name, 3 * kCoarse * kScale * kCoarse * kScale);
@@ -109,14 +109,14 @@ TEST_F(FineMaps, ComeLastAndByTheBudget) {
 // move touches is all of its own.
 TEST_F(FineMaps, WhatAnEditTouchesIsCoarse) {
   settle(SceneChanges::all());
-  const uint64_t held = renderer.backend().counts().mapsHeld;
+  const uint64_t held = test::lightCounts(renderer.backend()).mapsHeld;
   ASSERT_EQ(fine(), held);
   GiOutput out = step(move("mover", vec3(0.1f, 0.0f, 0.0f)));
   EXPECT_GT(out.stats.mapsRendered, 0);
   EXPECT_EQ(out.stats.mapsSharpened, 0);
   EXPECT_EQ(held - fine(), static_cast<uint64_t>(out.stats.mapsRendered));
   settle();
-  const uint64_t now = renderer.backend().counts().mapsHeld;
+  const uint64_t now = test::lightCounts(renderer.backend()).mapsHeld;
   EXPECT_EQ(fine(), now);
   settings.set(parameters::updates().name, 60);
   out = step(move("ceiling light", vec3(0.3f, 0.0f, 0.0f)));
@@ -152,10 +152,10 @@ TEST_F(FineMaps, TakeNoMoreMemoryThanTheyMay) {
     settings.set(parameters::vpls().name, vpls);
     GiOutput out = step(SceneChanges::all());
     while (!out.settled) {
-      EXPECT_LE(renderer.backend().counts().mapBytes, uint64_t{1} << 20);
+      EXPECT_LE(test::lightCounts(renderer.backend()).mapBytes, uint64_t{1} << 20);
       out = step();
     }
-    const KernelCounts counts = renderer.backend().counts();
+    const ManyLightsCounts counts = test::lightCounts(renderer.backend());
     EXPECT_EQ(counts.mapBytes,
               counts.mapsHeld * 4u * static_cast<uint64_t>(kCoarse * kCoarse * scale * scale));
   }

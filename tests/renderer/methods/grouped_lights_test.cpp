@@ -40,7 +40,7 @@ Result render(const Room& room, const Settings& settings) {
   FrameRenderer renderer(makeCpuBackend());
   const GiOutput out =
       test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
-  return {out.radiance->pixels(), renderer.backend().counts().lookUps};
+  return {out.radiance->pixels(), test::lightCounts(renderer.backend()).lookUps};
 }
 
 TEST(GroupedLights, LookUpLessAndShowTheSame) {

@@ -12,15 +12,16 @@ namespace lamplighter {
 namespace {
 
 // Remembers what each slot's map was rendered for.
-class RecordingBackend : public Backend {
+class RecordingKernels : public ManyLightsKernels {
  public:
   std::map<int, shared::Vpl> maps;
   std::map<int, MapSize> sizes;
   int rendered = 0;
 
-  const BackendInfo& info() const override { return info_; }
-  KernelCounts counts() const override { return {}; }
-  void setScene(const RenderScene&, const RenderSceneChanges&, const RayCaster&) override {}
+  void takeScene(const RenderScene&, const RenderSceneChanges&, const RayCaster&) override {}
+  BackendCounts counts() const override { return {}; }
+  const ManyLightsTraits& traits() const override { return traits_; }
+  ManyLightsCounts lightCounts() const override { return {}; }
   void reserveShadowMaps(int, const MapRoom&, const MapRoom&) override {}
   void dropShadowMaps(std::span<const int> slots) override {
     for (const int slot : slots) maps.erase(slot);
@@ -32,17 +33,13 @@ class RecordingBackend : public Backend {
     }
     rendered += static_cast<int>(vpls.size());
   }
-  void renderGBuffer(const View&, vec2) override {}
   void sumVpls(std::span<const shared::Vpl>, const shared::ShadingParams&,
                const PatchLights*) override {}
   std::shared_ptr<RadianceImage> compose(bool) override { return nullptr; }
   std::vector<float> readShadowMap(int) override { return {}; }
-  Image readNormals() override { return {}; }
-  Image readAlbedo() override { return {}; }
-  void finish() override {}
 
  private:
-  BackendInfo info_;
+  ManyLightsTraits traits_;
 };
 
 std::vector<SceneVpl> samples(NodeId light, uint32_t count, float flux, float x) {
@@ -68,9 +65,9 @@ class LiveLightsTest : public testing::Test {
       EXPECT_GE(slot, 0);
       EXPECT_LT(slot, lights.slots());
       EXPECT_EQ(++uses[slot], 1);
-      const auto it = backend.maps.find(slot);
-      EXPECT_NE(it, backend.maps.end());
-      if (it == backend.maps.end()) continue;
+      const auto it = kernels.maps.find(slot);
+      EXPECT_NE(it, kernels.maps.end());
+      if (it == kernels.maps.end()) continue;
       EXPECT_EQ(v.position, it->second.position);
       EXPECT_EQ(v.normal, it->second.normal);
       EXPECT_EQ(v.tangent, it->second.tangent);
@@ -83,7 +80,7 @@ class LiveLightsTest : public testing::Test {
   int settle(int budget, float flux) {
     int frames = 0;
     for (; lights.pending() > 0 && frames < 1000; ++frames) {
-      const int before = lights.pending(), done = lights.refresh(backend, {budget});
+      const int before = lights.pending(), done = lights.refresh(kernels, {budget});
       EXPECT_LE(done, budget);
       EXPECT_EQ(lights.pending(), before - done);
       EXPECT_NEAR(checkedSum(), flux, 1e-4f * flux);
@@ -91,7 +88,7 @@ class LiveLightsTest : public testing::Test {
     return frames;
   }
 
-  RecordingBackend backend;
+  RecordingKernels kernels;
   LiveLights lights;
 };
 
@@ -99,7 +96,7 @@ TEST_F(LiveLightsTest, FillsUnderTheBudgetAtFullBrightness) {
   lights.want(samples(1, 100, 5.0f, 0.0f));
   EXPECT_EQ(lights.live(), 0);
   EXPECT_EQ(settle(30, 5.0f), 4);
-  EXPECT_EQ(backend.rendered, 100);
+  EXPECT_EQ(kernels.rendered, 100);
   EXPECT_EQ(lights.live(), 100);
 }
 
@@ -108,7 +105,7 @@ TEST_F(LiveLightsTest, AMoveShowsOldAndNewVplsEachWhole) {
   settle(100, 5.0f);
   lights.want(samples(1, 100, 5.0f, 7.0f));
   EXPECT_EQ(lights.pending(), 100);
-  lights.refresh(backend, {40});
+  lights.refresh(kernels, {40});
   const auto shown = lights.shown();
   ASSERT_EQ(shown.size(), 100u);
   EXPECT_EQ(std::count_if(shown.begin(), shown.end(),
@@ -126,7 +123,7 @@ TEST_F(LiveLightsTest, BrightnessAloneNeedsNoMap) {
   EXPECT_TRUE(lights.changed());
   EXPECT_EQ(lights.pending(), 0);
   EXPECT_NEAR(checkedSum(), 8.0f, 1e-4f);
-  EXPECT_EQ(backend.rendered, 20);
+  EXPECT_EQ(kernels.rendered, 20);
   lights.clearChanged();
   lights.want(samples(1, 20, 8.0f, 0.0f));
   EXPECT_FALSE(lights.changed());
@@ -137,14 +134,14 @@ TEST_F(LiveLightsTest, MapsBecomeFineTheBrightestFirst) {
   for (size_t i = 0; i < wanted.size(); ++i)
     wanted[i].vpl.intensity *= vec4(vec3(1.0f + static_cast<float>(i)), 1.0f);
   lights.want(wanted);
-  while (lights.pending() > 0) lights.refresh(backend, {20});
+  while (lights.pending() > 0) lights.refresh(kernels, {20});
   std::vector<uint8_t> marked(static_cast<size_t>(lights.slots()), 1);
   marked[0] = 0;
   EXPECT_EQ(lights.coarse(marked), 19);
-  EXPECT_EQ(lights.sharpenMaps(backend, marked, 5), 5);
+  EXPECT_EQ(lights.sharpenMaps(kernels, marked, 5), 5);
   float coarse = 0.0f, fine = 1e30f;
-  for (const auto& [slot, vpl] : backend.maps) {
-    const bool isFine = backend.sizes[slot] == MapSize::fine;
+  for (const auto& [slot, vpl] : kernels.maps) {
+    const bool isFine = kernels.sizes[slot] == MapSize::fine;
     if (slot == 0) {
       EXPECT_FALSE(isFine);
     } else if (isFine) {
@@ -155,12 +152,12 @@ TEST_F(LiveLightsTest, MapsBecomeFineTheBrightestFirst) {
   }
   EXPECT_GT(fine, coarse);
   EXPECT_EQ(lights.coarse(marked), 14);
-  EXPECT_EQ(lights.sharpenMaps(backend, marked, 100), 14);
-  EXPECT_EQ(lights.sharpenMaps(backend, marked, 100), 0);
+  EXPECT_EQ(lights.sharpenMaps(kernels, marked, 100), 14);
+  EXPECT_EQ(lights.sharpenMaps(kernels, marked, 100), 0);
   // Those that move have coarse maps again.
   for (size_t i = 0; i < 3; ++i) wanted[5 + i].vpl.position.x += 1.0f;
   lights.want(wanted);
-  lights.refresh(backend, {20});
+  lights.refresh(kernels, {20});
   EXPECT_EQ(lights.coarse(marked), 3);
 }
 
@@ -204,7 +201,7 @@ TEST_F(LiveLightsTest, OnlyMapsThatSeeTheMoverAreRefreshed) {
   lights.markStale(std::vector<MoverFinder::Mover>{{box, box}});
   EXPECT_EQ(lights.pending(), 3);
   settle(100, 5.0f);
-  EXPECT_EQ(backend.rendered, 13);
+  EXPECT_EQ(kernels.rendered, 13);
 }
 
 // Two bounces of 20 paths; the flux of both is 5.
@@ -237,7 +234,7 @@ TEST_F(LiveLightsTest, APathIsReplacedWhole) {
   EXPECT_EQ(lights.pending(), 40);
   for (int frame = 0; lights.pending() > 0; ++frame) {
     ASSERT_LT(frame, 20);
-    EXPECT_LE(lights.refresh(backend, {5}), 4);
+    EXPECT_LE(lights.refresh(kernels, {5}), 4);
     std::map<float, std::map<float, int>> places;  // by path: where its VPLs are
     for (const shared::Vpl& v : lights.shown()) ++places[v.position.y][v.position.x];
     EXPECT_EQ(places.size(), 20u);
@@ -247,7 +244,7 @@ TEST_F(LiveLightsTest, APathIsReplacedWhole) {
     }
     EXPECT_NEAR(checkedSum(), 5.0f, 1e-4f);
   }
-  EXPECT_EQ(backend.rendered, 80);
+  EXPECT_EQ(kernels.rendered, 80);
 }
 
 // What a path leaves no more stays until its turn, and what it leaves besides is not missing
@@ -262,7 +259,7 @@ TEST_F(LiveLightsTest, APathGetsShorterAndLongerInOneFrame) {
     lights.want(bounced(0.0f, length), paths);
     EXPECT_GT(lights.pending(), 0);
     EXPECT_FLOAT_EQ(checkedSum(), before);
-    lights.refresh(backend, {2});
+    lights.refresh(kernels, {2});
     EXPECT_EQ(lights.pending(), 0);
     EXPECT_NEAR(checkedSum(), 5.0f - one * static_cast<float>(2 - length), 1e-4f);
   }
@@ -276,11 +273,11 @@ TEST_F(LiveLightsTest, AnUndoneMoveCostsNoMap) {
   lights.want(samples(1, 20, 5.0f, 0.0f));
   settle(100, 5.0f);
   lights.want(samples(1, 20, 5.0f, 7.0f));
-  lights.refresh(backend, {3});
+  lights.refresh(kernels, {3});
   lights.want(samples(1, 20, 5.0f, 0.0f));
   EXPECT_EQ(lights.pending(), 3);
   settle(100, 5.0f);
-  EXPECT_EQ(backend.rendered, 26);
+  EXPECT_EQ(kernels.rendered, 26);
 }
 
 TEST_F(LiveLightsTest, LostMapsAreNotShown) {
@@ -302,7 +299,7 @@ TEST_F(LiveLightsTest, NoneStarvesWhileAnObjectMoves) {
   int oldest = 0;
   for (int frame = 0; frame < 1500; ++frame) {
     lights.markStale(std::vector<MoverFinder::Mover>{{everywhere, everywhere}});
-    EXPECT_EQ(lights.refresh(backend, {10}), 10);
+    EXPECT_EQ(lights.refresh(kernels, {10}), 10);
     oldest = std::max(oldest, lights.oldestFrames());
   }
   // The dim ones have a hundredth of the others' brightness, which come round every three frames.

@@ -108,12 +108,12 @@ struct Wall {
     test::LitScene lit(scene);
     shared::Vpl vpl = test::makeVpl(vec3(-1.5f, 1.9f, 0), vec3(0.2f, -1, 0));
     vpl.intensity = vec4(vec3(5.0f), 0.0f);
-    lit.backend->reserveShadowMaps(1, 256);
-    lit.backend->renderShadowMaps({&vpl, 1});
+    lit.kernels->reserveShadowMaps(1, 256);
+    lit.kernels->renderShadowMaps({&vpl, 1});
     lit.backend->renderGBuffer(view, vec2(0.0f));
-    lit.backend->sumVpls({&vpl, 1}, {vec4(0.1f, 0.002f, 256.0f, 64.0f), vec4(block, 0, 0, 0)},
+    lit.kernels->sumVpls({&vpl, 1}, {vec4(0.1f, 0.002f, 256.0f, 64.0f), vec4(block, 0, 0, 0)},
                          nullptr);
-    return lit.backend->compose()->pixels();
+    return lit.kernels->compose()->pixels();
   }
 };
 
@@ -143,20 +143,20 @@ TEST(LowResolution, ReachesTheLastRowAndColumn) {
   test::LitScene lit(scene);
   shared::Vpl vpl = test::makeVpl(vec3(0, 50, 0), vec3(0, -1, 0));
   vpl.intensity = vec4(vec3(5.0f), 0.0f);
-  lit.backend->reserveShadowMaps(1, 64);
-  lit.backend->renderShadowMaps({&vpl, 1});
+  lit.kernels->reserveShadowMaps(1, 64);
+  lit.kernels->renderShadowMaps({&vpl, 1});
   for (const glm::ivec2 size : {glm::ivec2(64, 64), glm::ivec2(128, 32), glm::ivec2(96, 256),
                                 glm::ivec2(61, 35), glm::ivec2(65, 129)}) {
     for (const float block : {2.0f, 4.0f, 8.0f}) {
       for (const float haste : {0.0f, 1.0f}) {
         SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + " by " +
                      std::to_string(block) + (haste != 0.0f ? " in haste" : ""));
-        const uint64_t before = lit.backend->counts().pixelsInterpolated;
+        const uint64_t before = lit.kernels->lightCounts().pixelsInterpolated;
         lit.backend->renderGBuffer(test::lookAt(vec3(0, 6, 0.01f), vec3(0), size.x, size.y),
                                    vec2(0.0f));
-        lit.backend->sumVpls({&vpl, 1},
+        lit.kernels->sumVpls({&vpl, 1},
                              {vec4(0.1f, 0.002f, 64.0f, 64.0f), vec4(block, haste, 0, 0)}, nullptr);
-        EXPECT_EQ(lit.backend->counts().pixelsInterpolated - before,
+        EXPECT_EQ(lit.kernels->lightCounts().pixelsInterpolated - before,
                   static_cast<uint64_t>(size.x * size.y));
       }
     }
@@ -179,7 +179,7 @@ TEST_P(MovingCamera, ShowsNearlyWhatItRestsOn) {
   moved.eye += vec3(0.02f, 0.01f, 0.0f);
   FrameRenderer renderer(makeCpuBackend()), other(makeCpuBackend());
   test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
-  const auto sums = [&] { return renderer.backend().counts().lightPixels; };
+  const auto sums = [&] { return test::lightCounts(renderer.backend()).lightPixels; };
   const uint64_t before = sums();
   GiOutput out = renderer.render({scene, {}, moved, "many_lights", settings});
   const uint64_t inHaste = sums() - before;
@@ -196,7 +196,7 @@ TEST_P(MovingCamera, ShowsNearlyWhatItRestsOn) {
   EXPECT_NEAR(m.bias, 1.0, 0.001);
   // At this size it is little less work than the picture of all samples, and little more where all
   // is streaks (narrow_gap).
-  const uint64_t whole = other.backend().counts().lightPixels;
+  const uint64_t whole = test::lightCounts(other.backend()).lightPixels;
   RecordProperty("sums", std::to_string(inHaste) + " of " + std::to_string(whole));
   EXPECT_LT(static_cast<double>(inHaste), 1.03 * static_cast<double>(whole));
 }
@@ -214,15 +214,15 @@ TEST(LowResolution, SpheresBeforeTheSkyAreSummedPixelByPixel) {
   shared::Vpl vpl = test::makeVpl(vec3(0, 2, 4), vec3(0, -0.5f, -1));
   vpl.intensity = vec4(vec3(5.0f), 0.0f);
   const auto picture = [&](float block) {
-    lit.backend->reserveShadowMaps(1, 64);
-    lit.backend->renderShadowMaps({&vpl, 1});
+    lit.kernels->reserveShadowMaps(1, 64);
+    lit.kernels->renderShadowMaps({&vpl, 1});
     lit.backend->renderGBuffer(view, vec2(0.0f));
-    lit.backend->sumVpls({&vpl, 1}, {vec4(0.1f, 0.002f, 64.0f, 64.0f), vec4(block, 0, 0, 0)},
+    lit.kernels->sumVpls({&vpl, 1}, {vec4(0.1f, 0.002f, 64.0f, 64.0f), vec4(block, 0, 0, 0)},
                          nullptr);
-    return lit.backend->compose()->pixels();
+    return lit.kernels->compose()->pixels();
   };
   EXPECT_TRUE(test::sameBits(picture(1.0f), picture(4.0f)));
-  EXPECT_EQ(lit.backend->counts().pixelsInterpolated, 0u);
+  EXPECT_EQ(lit.kernels->lightCounts().pixelsInterpolated, 0u);
 }
 
 }  // namespace

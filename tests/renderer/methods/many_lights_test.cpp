@@ -99,27 +99,27 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
   EXPECT_TRUE(out.settled);
   EXPECT_EQ(out.stats.vplsRefreshed, 10);
   // Of some it is known everywhere in the view whether anything stands between.
-  const uint64_t maps = renderer.backend().counts().shadowMaps;
+  const uint64_t maps = test::lightCounts(renderer.backend()).shadowMaps;
   EXPECT_GT(maps, 80u);
   EXPECT_LE(maps, 100u);
   EXPECT_EQ(static_cast<uint64_t>(out.stats.mapsHeld), maps);
 
   // Nothing to do: no work at all, the same picture.
-  const uint64_t sums = renderer.backend().counts().lightPixels;
+  const uint64_t sums = test::lightCounts(renderer.backend()).lightPixels;
   const auto picture = out.radiance;
   out = step({});
   EXPECT_TRUE(out.settled);
   EXPECT_EQ(out.radiance, picture);
-  EXPECT_EQ(renderer.backend().counts().lightPixels, sums);
-  EXPECT_EQ(renderer.backend().counts().shadowMaps, maps);
+  EXPECT_EQ(test::lightCounts(renderer.backend()).lightPixels, sums);
+  EXPECT_EQ(test::lightCounts(renderer.backend()).shadowMaps, maps);
 
   // Another view: the sums alone, and maps that it is the first to look up.
   room.view.eye.x += 0.1f;
   EXPECT_FALSE(step({}).settled) << "fewer samples while the camera moves";
   EXPECT_TRUE(step({}).settled);
-  EXPECT_GT(renderer.backend().counts().lightPixels, sums);
-  EXPECT_GE(renderer.backend().counts().shadowMaps, maps);
-  EXPECT_LE(renderer.backend().counts().shadowMaps, 100u);
+  EXPECT_GT(test::lightCounts(renderer.backend()).lightPixels, sums);
+  EXPECT_GE(test::lightCounts(renderer.backend()).shadowMaps, maps);
+  EXPECT_LE(test::lightCounts(renderer.backend()).shadowMaps, 100u);
 }
 
 // The light moves: each frame's pixels lie between what the old and the new VPLs give, all told,

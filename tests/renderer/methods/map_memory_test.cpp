@@ -58,7 +58,7 @@ TEST(MapMemory, TheBoundHoldsInEveryFrameAndThePictureIsRight) {
     uint64_t most = 0;
     for (int frame = 0; frame < 100 && !out.settled; ++frame, changes = {}) {
       out = short_.render({room.scene, changes, room.view, "many_lights", settings});
-      most = std::max(most, short_.backend().counts().mapBytes);
+      most = std::max(most, test::lightCounts(short_.backend()).mapBytes);
     }
     ASSERT_TRUE(out.settled);
     EXPECT_LE(most, 4 * kMebibyte);
@@ -141,7 +141,7 @@ TEST(MapMemory, MapsComeAndGoWithoutAFlash) {
     SceneChanges changes = visit == 0 ? SceneChanges::all() : SceneChanges();
     for (int frame = 0; frame < 200 && !out.settled; ++frame, changes = {}) {
       out = renderer.render({rooms.scene, changes, rooms.view, "many_lights", settings});
-      EXPECT_LE(renderer.backend().counts().mapBytes, 3 * kMebibyte);
+      EXPECT_LE(test::lightCounts(renderer.backend()).mapBytes, 3 * kMebibyte);
       if (visit > 0) {
         EXPECT_LE(out.stats.mapsRendered, 10);
       }

@@ -167,29 +167,29 @@ TEST_F(Refined, KeepsTheBudget) {
   GiOutput out = step(SceneChanges::all());
   while (!out.settled) out = step();
   while (!out.refined) {
-    const uint64_t maps = renderer->backend().counts().shadowMaps;
+    const uint64_t maps = test::lightCounts(renderer->backend()).shadowMaps;
     out = step();
-    EXPECT_LE(renderer->backend().counts().shadowMaps - maps, 10u);
-    EXPECT_EQ(renderer->backend().counts().shadowMaps - maps,
+    EXPECT_LE(test::lightCounts(renderer->backend()).shadowMaps - maps, 10u);
+    EXPECT_EQ(test::lightCounts(renderer->backend()).shadowMaps - maps,
               static_cast<uint64_t>(out.stats.mapsRefined));
   }
   // And then nothing more is done.
   const auto picture = out.radiance;
-  const uint64_t sums = renderer->backend().counts().lightPixels;
+  const uint64_t sums = test::lightCounts(renderer->backend()).lightPixels;
   out = step();
   EXPECT_TRUE(out.refined);
   EXPECT_EQ(out.radiance, picture);
-  EXPECT_EQ(renderer->backend().counts().lightPixels, sums);
+  EXPECT_EQ(test::lightCounts(renderer->backend()).lightPixels, sums);
 }
 
 // Who does not ask for it has it not, whatever the setting says.
 TEST_F(Refined, IsOffUnlessTheCallerLetsIt) {
   GiOutput out = rest(SceneChanges::all(), false);
   const auto picture = out.radiance;
-  const uint64_t maps = renderer->backend().counts().shadowMaps;
+  const uint64_t maps = test::lightCounts(renderer->backend()).shadowMaps;
   out = step({}, false);
   EXPECT_EQ(out.radiance, picture);
-  EXPECT_EQ(renderer->backend().counts().shadowMaps, maps);
+  EXPECT_EQ(test::lightCounts(renderer->backend()).shadowMaps, maps);
   EXPECT_EQ(out.stats.vplsToRefine, 0);
 }
 

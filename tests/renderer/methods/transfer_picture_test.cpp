@@ -80,7 +80,7 @@ Rendered rendered(const BumpyRoom& room, const Settings& settings) {
   FrameRenderer renderer(makeCpuBackend());
   const GiOutput out =
       test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
-  return {out.radiance->pixels(), renderer.backend().counts().lookUps};
+  return {out.radiance->pixels(), test::lightCounts(renderer.backend()).lookUps};
 }
 
 // In the open the error stays within what 25 coefficients lose of one strong light. In the shadow

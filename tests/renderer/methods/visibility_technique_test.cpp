@@ -51,7 +51,7 @@ View viewOf(const Scene& scene, int divisor = 1) {
 struct Rendered {
   std::unique_ptr<FrameRenderer> renderer;
   Image image;
-  uint64_t lookUps() const { return renderer->backend().counts().lookUps; }
+  uint64_t lookUps() const { return test::lightCounts(renderer->backend()).lookUps; }
 };
 
 Rendered rendered(const Scene& scene, const View& view, const std::string& technique, int vpls) {

@@ -66,7 +66,8 @@ shared::ShadingParams paramsOf(bool speculars) {
           vec4(speculars ? 1.0f : 0.0f, kLeast, 0, 0)};
 }
 
-vec3 expectedRadiance(const LitScene& lit, Backend& backend, const View& view, int x, int y) {
+vec3 expectedRadiance(const LitScene& lit, ManyLightsKernels& kernels, const View& view, int x,
+                      int y) {
   Ray ray{view.eye, 0.0f,
           view.rayDirection(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)};
   const Hit hit = lit.rays->intersect(ray, Surfaces::seen);
@@ -86,7 +87,7 @@ vec3 expectedRadiance(const LitScene& lit, Backend& backend, const View& view, i
     const vec2 at = directional ? shared::directionalEncode(vpl, q) : shared::octahedralEncode(q);
     const vec2 texel = shared::shadowTexel(at, kResolution);
     const vec2 centre = shared::shadowTexelCentre(texel, kResolution);
-    const float stored = backend.readShadowMap(
+    const float stored = kernels.readShadowMap(
         static_cast<int>(vpl.intensity.w))[static_cast<size_t>(texel.y * kResolution + texel.x)];
     const bool occluded =
         directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias, kResolution)
@@ -106,12 +107,12 @@ const View kView = test::lookAt(vec3(3, 3, 4), vec3(0, 0.7f, 0), 61, 47, 0.8f);
 TEST(SpecularAccumulator, FollowTheSharedDefinition) {
   LitScene lit(blocks());
   lit.sum(lights(), kView, kResolution, true, kClamp, kBias);  // with its maps
-  lit.backend->sumVpls(lights(), paramsOf(true), nullptr);
-  const Image image = lit.backend->compose()->pixels();
+  lit.kernels->sumVpls(lights(), paramsOf(true), nullptr);
+  const Image image = lit.kernels->compose()->pixels();
   int wrong = 0, dark = 0;
   for (int y = 0; y < kView.height; ++y) {
     for (int x = 0; x < kView.width; ++x) {
-      const vec3 expected = expectedRadiance(lit, *lit.backend, kView, x, y);
+      const vec3 expected = expectedRadiance(lit, *lit.kernels, kView, x, y);
       const vec3 d = glm::abs(image.at(x, y) - expected);
       dark += expected == vec3(0.0f);
       wrong += !(std::max({d.x, d.y, d.z}) <= 1e-4f + 2e-3f * expected.g);  // no number is wrong
@@ -125,14 +126,14 @@ TEST(SpecularAccumulator, FollowTheSharedDefinition) {
 TEST(SpecularAccumulator, AreThereOnlyWhereAskedFor) {
   LitScene lit(blocks());
   const Image matt = lit.sum(lights(), kView, kResolution, true, kClamp, kBias);
-  lit.backend->sumVpls(lights(), paramsOf(true), nullptr);
-  const Image glossy = lit.backend->compose()->pixels();
-  const Image white = lit.backend->compose(true)->pixels();
-  lit.backend->sumVpls(lights(), paramsOf(false), nullptr);
-  EXPECT_TRUE(test::sameBits(lit.backend->compose()->pixels(), matt));
+  lit.kernels->sumVpls(lights(), paramsOf(true), nullptr);
+  const Image glossy = lit.kernels->compose()->pixels();
+  const Image white = lit.kernels->compose(true)->pixels();
+  lit.kernels->sumVpls(lights(), paramsOf(false), nullptr);
+  EXPECT_TRUE(test::sameBits(lit.kernels->compose()->pixels(), matt));
   EXPECT_FALSE(test::sameBits(glossy, matt));
   // Light alone is that of the surface, whatever it is made of.
-  EXPECT_TRUE(test::sameBits(lit.backend->compose(true)->pixels(), white));
+  EXPECT_TRUE(test::sameBits(lit.kernels->compose(true)->pixels(), white));
 }
 
 // What is kept must be what would be summed anew: a light that changes, a map that does.
@@ -140,18 +141,18 @@ TEST(SpecularAccumulator, KeptAreTheBitsOfFreshOnes) {
   LitScene lit(blocks());
   lit.sum(lights(), kView, kResolution, true, kClamp, kBias);
   std::vector<shared::Vpl> vpls = lights();
-  lit.backend->sumVpls(vpls, paramsOf(true), nullptr);
+  lit.kernels->sumVpls(vpls, paramsOf(true), nullptr);
   vpls[0].footprint.x = 0.1f;
   vpls[2].intensity.r = 8.0f;
   vpls[1].position.y += 0.4f;
-  lit.backend->renderShadowMaps(std::span(&vpls[1], 1));
-  lit.backend->sumVpls(vpls, paramsOf(true), nullptr);
-  const Image kept = lit.backend->compose()->pixels();
+  lit.kernels->renderShadowMaps(std::span(&vpls[1], 1));
+  lit.kernels->sumVpls(vpls, paramsOf(true), nullptr);
+  const Image kept = lit.kernels->compose()->pixels();
 
   LitScene fresh(blocks());
   fresh.sum(vpls, kView, kResolution, true, kClamp, kBias);
-  fresh.backend->sumVpls(vpls, paramsOf(true), nullptr);
-  EXPECT_TRUE(test::sameBits(kept, fresh.backend->compose()->pixels()));
+  fresh.kernels->sumVpls(vpls, paramsOf(true), nullptr);
+  EXPECT_TRUE(test::sameBits(kept, fresh.kernels->compose()->pixels()));
 }
 
 }  // namespace

@@ -55,8 +55,8 @@ TEST_F(GlSpeculars, LookAsOnCpu) {
   for (const int i : {0, 1}) {
     test::LitScene lit(scene, i == 0 ? makeGlBackend() : makeCpuBackend());
     matt[i] = lit.sum(vpls, view, 64, true, 0.3f);
-    lit.backend->sumVpls(vpls, params, nullptr);
-    images[i] = lit.backend->compose()->pixels();
+    lit.kernels->sumVpls(vpls, params, nullptr);
+    images[i] = lit.kernels->compose()->pixels();
   }
   const float mean = test::meanOf(images[1]).g;
   EXPECT_GT(compareImages(images[1], matt[1]).relRmse, 0.05);

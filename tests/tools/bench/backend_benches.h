@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/backend.h"
 
 namespace lamplighter {
 

@@ -5,6 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "renderer/backends/many_lights_kernels.h"
 #include "renderer/frame/frame.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
@@ -99,7 +100,8 @@ void kernels(benchmark::State& state, const std::string& name, const MakeBackend
   moved.moved = {level.mover};
   double sum = 0.0, maps = 0.0, gbuffer = 0.0;
   renderer.render({level.scene, SceneChanges::all(), level.view, "many_lights", settings});
-  const KernelCounts before = renderer.backend().counts();
+  const auto& kernels = renderer.backend().kernels<ManyLightsKernels>("many_lights");
+  const ManyLightsCounts before = kernels.lightCounts();
   for (auto _ : state) {
     level.scene.find(level.mover)->local.translation.x += 0.001f;
     GiOutput out = renderer.render({level.scene, moved, level.view, "many_lights", settings});
@@ -107,7 +109,7 @@ void kernels(benchmark::State& state, const std::string& name, const MakeBackend
     maps += out.stats.stageSeconds["shadow maps"];
     gbuffer += out.stats.stageSeconds["g-buffer"];
   }
-  const KernelCounts after = renderer.backend().counts();
+  const ManyLightsCounts after = kernels.lightCounts();
   state.counters["ns_per_light_pixel"] =
       1e9 * sum / static_cast<double>(after.lightPixels - before.lightPixels);
   state.counters["maps_per_s"] = static_cast<double>(after.shadowMaps - before.shadowMaps) / maps;

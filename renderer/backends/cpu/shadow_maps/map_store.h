@@ -10,7 +10,7 @@
 #include "renderer/backends/cpu/irradiance/shadow_map_diff.h"
 #include "renderer/backends/cpu/shadow_maps/map_memory.h"
 #include "renderer/backends/cpu/shadow_maps/shadow_raster.h"
-#include "renderer/backends/kernels.h"
+#include "renderer/backends/many_lights_kernels.h"
 
 namespace lamplighter::cpu {
 

@@ -1,0 +1,45 @@
+// Composes the picture of the gl backend from light and surfaces.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "renderer/backends/gl/gl_gbuffer.h"
+#include "renderer/gl/radiance_texture.h"
+
+namespace lamplighter::gl {
+
+class GlComposition {
+ public:
+  explicit GlComposition(const std::filesystem::path& shaders);
+  void reload(const std::filesystem::path& shaders);
+
+  // Le + ρ/π · E of each pixel; the sky where nothing is hit. `irradiance`: a texture of the size
+  // of the G-buffer. `white`: with ρ = 1.
+  std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const Sky& sky,
+                                           GLuint irradiance, bool white);
+  // The same with E in main memory.
+  std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const Sky& sky,
+                                           const Image& irradiance, bool white);
+
+  uint64_t bytes() const;
+
+ private:
+  // Sets the sky of the compose program for its kind of sky, and returns that program.
+  const Program& setSky(const GlGBuffer& gbuffer, const Sky& sky);
+  void resize(int width, int height);
+  std::shared_ptr<RadianceTexture> freePicture();
+
+  Program compose_[3];  // by kind of sky (shaders/shared/sky.h)
+  VertexArray emptyVertexArray_;
+  Framebuffer pictureFramebuffer_;
+  std::shared_ptr<const SkyImage> skyImage_;  // the image that skyTexture_ holds
+  Texture skyTexture_;
+  Texture irradiance_;  // RGB32F, holds the irradiance image of the last call that had one
+  // Pictures of this size; those that nobody else holds are reused.
+  std::vector<std::shared_ptr<RadianceTexture>> pictures_;
+  int width_ = 0, height_ = 0;
+};
+
+}  // namespace lamplighter::gl
