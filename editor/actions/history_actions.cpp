@@ -2,29 +2,12 @@
 #include <cmath>
 
 #include "editor/actions/arguments.h"
-#include "editor/edits/history_budget.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
+#include "renderer/base/parameters.h"
 
 namespace lamplighter {
-
-const ParameterSpec& undoMemory() {
-  static const ParameterSpec kSpec = [] {
-    ParameterSpec s;
-    s.name = "undo_memory";
-    s.label = "Undo memory";
-    s.unit = "MiB";
-    s.help =
-        "What the steps that can be undone may keep in memory; beyond it the oldest are forgotten.";
-    s.defaultValue = 256;
-    s.minimum = 1;
-    s.maximum = 65536;
-    s.logarithmic = true;
-    return s;
-  }();
-  return kSpec;
-}
 
 void addHistoryActions(ActionRegistry& r) {
   r.add({"history.go",
@@ -49,8 +32,9 @@ void addHistoryActions(ActionRegistry& r) {
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "history.memory MIB");
-           const ParameterValue mebibytes = Settings::parse(undoMemory(), a[0]);
-           s.history().setBudget(static_cast<size_t>(std::get<int>(mebibytes)) * kMebibyte);
+           const ParameterSpec spec{"undo_memory", "Undo memory", "MiB", "", 256, 1, 65536};
+           const ParameterValue mebibytes = Settings::parse(spec, a[0]);
+           s.history().setBudget(static_cast<size_t>(std::get<int>(mebibytes)) << 20);
          },
          {}});
   r.add({"panel.history",

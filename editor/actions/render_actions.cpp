@@ -46,9 +46,8 @@ void addRenderActions(ActionRegistry& r) {
            const size_t equals = a[0].find('=');
            const std::string name = a[0].substr(0, equals);
            const auto& all = findMethod(s.document().render.method).parameters;
-           const auto spec = std::find_if(all.begin(), all.end(),
-                                          [&](const ParameterSpec& p) { return p.name == name; });
-           if (equals == std::string::npos || spec == all.end()) {
+           const ParameterSpec* spec = findParameter(all, name);
+           if (equals == std::string::npos || !spec) {
              throw InputError(a[0], "sets no parameter of " + s.document().render.method,
                               "give NAME=VALUE");
            }

@@ -6,7 +6,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
 
 namespace lamplighter {
 namespace {
@@ -49,7 +49,7 @@ const std::vector<Budget>& budgets() {
       {"max_rays",
        "rays",
        [](const GiStats& s, const Settings& settings) {
-         const double side = settings.integer(parameters::mapResolution());
+         const double side = manyLightsParameters().read(settings).mapResolution;
          return side * side * s.mapsRendered;
        },
        {"shadow maps"},
@@ -74,7 +74,7 @@ const std::vector<Budget>& budgets() {
        "paths a pixel",
 
        [](const GiStats& s, const Settings& settings) {
-         return s.raysTraced == 0 ? 0.0 : settings.integer(parameters::samplesPerFrame());
+         return s.raysTraced == 0 ? 0.0 : sampleParameters().read(settings).samplesPerFrame;
        },
        {"paths"},
        "More: less noise in fewer frames, which take longer each."},

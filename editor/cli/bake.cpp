@@ -10,7 +10,8 @@
 #include "editor/cli/subcommands.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
-#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
+#include "renderer/methods/path_tracer/parameters.h"
 #include "renderer/registry/registry.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
@@ -48,18 +49,18 @@ BakeLightOptions lightOf(const BakeOptions& o) {
   const Settings settings = settingsOf(o, method);
   BakeLightOptions light;
   light.reference = o.method == "reference";
-  const int bounces = settings.integer(parameters::bounces());
-  const auto seed = static_cast<uint32_t>(settings.integer(parameters::seed()));
   if (light.reference) {
-    light.paths.bounces = bounces;
-    light.paths.seed = seed;
-    light.samples = settings.integer(parameters::samplesPerPixel());
+    const PathTracerParameters parameters = pathTracerParameters().read(settings);
+    light.paths.bounces = parameters.bounces;
+    light.paths.seed = static_cast<uint32_t>(parameters.seed);
+    light.samples = parameters.samplesPerPixel;
   } else {
-    light.counts.total = settings.integer(parameters::vpls());
-    light.counts.directShare = settings.real(parameters::directShare());
-    light.counts.bounces = bounces;
-    light.counts.seed = seed;
-    light.clampDistance = settings.real(parameters::clampDistance());
+    const ManyLightsParameters parameters = manyLightsParameters().read(settings);
+    light.counts.total = parameters.vpls;
+    light.counts.directShare = parameters.directShare;
+    light.counts.bounces = parameters.bounces;
+    light.counts.seed = static_cast<uint32_t>(parameters.seed);
+    light.clampDistance = parameters.clampDistance;
   }
   return light;
 }

@@ -17,10 +17,7 @@ namespace lamplighter::cli {
 namespace {
 
 bool has(const MethodInfo& method, const std::string& name) {
-  for (const ParameterSpec& p : method.parameters) {
-    if (p.name == name) return true;
-  }
-  return false;
+  return findParameter(method.parameters, name) != nullptr;
 }
 
 }  // namespace
@@ -75,12 +72,10 @@ std::pair<int, int> parseSize(const std::string& text) {
 
 void setParameter(Settings& settings, const MethodInfo& method, const std::string& name,
                   const std::string& text) {
-  const auto& all = method.parameters;
-  const auto spec =
-      std::find_if(all.begin(), all.end(), [&](const ParameterSpec& p) { return p.name == name; });
-  if (spec == all.end()) {
+  const ParameterSpec* spec = findParameter(method.parameters, name);
+  if (!spec) {
     std::string names;
-    for (const ParameterSpec& p : all) names += (names.empty() ? "" : ", ") + p.name;
+    for (const ParameterSpec& p : method.parameters) names += (names.empty() ? "" : ", ") + p.name;
     throw InputError(method.name, "has no parameter '" + name + "'", "it has: " + names);
   }
   settings.set(name, Settings::parse(*spec, text));

@@ -14,7 +14,7 @@ namespace {
 void printSettingsJson() {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const PreferenceSection& section : preferenceSections()) {
-    for (const ParameterSpec& p : section.specs) {
+    for (const ParameterSpec& p : section.table.specs()) {
       nlohmann::ordered_json j{{"name", p.name}, {"label", p.label}, {"section", section.label},
                                {"unit", p.unit}, {"help", p.help},   {"range", rangeOf(p)}};
       std::visit([&](const auto& v) { j["default"] = v; }, p.defaultValue);
@@ -40,7 +40,7 @@ void printSettingsMarkdown() {
     std::cout << fmt::format(
         "\n## {}\n\n| name | unit | default | range | |\n| --- | --- | --- | --- | --- |\n",
         section.label);
-    for (const ParameterSpec& p : section.specs)
+    for (const ParameterSpec& p : section.table.specs())
       std::cout << fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name, p.unit,
                                Settings::format(p.defaultValue), rangeOf(p), p.help);
   }
@@ -56,7 +56,7 @@ void printSettingsMarkdown() {
 
 void printSettingsText() {
   for (const PreferenceSection& section : preferenceSections()) {
-    for (const ParameterSpec& p : section.specs)
+    for (const ParameterSpec& p : section.table.specs())
       std::cout << fmt::format("{} = {}{}  ({})\n    {}\n", p.name,
                                Settings::format(p.defaultValue), p.unit.empty() ? "" : " " + p.unit,
                                rangeOf(p), p.help);

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/path_tracer/parameters.h"
 
 namespace lamplighter {
 namespace {
@@ -10,12 +10,6 @@ namespace {
 // While the picture changes in every frame, it is compared only every few frames, because the gl
 // backend must read it back.
 constexpr int kFramesBetween = 6;
-
-PathTracerOptions pathsOf(const RenderSettings& render, bool lightOnly) {
-  const Settings& s = render.values;
-  return {s.integer(parameters::bounces()), static_cast<uint32_t>(s.integer(parameters::seed())),
-          lightOnly, s.boolean(parameters::speculars()), s.real(parameters::leastRoughness())};
-}
 
 }  // namespace
 
@@ -25,7 +19,8 @@ void ErrorMeter::frame(const Document& document, const View& view, bool lightOnl
   measured_ = false;
   if (changes.everything) ++levels_;
   stale_ = stale_ || !changes.none();
-  const PathTracerOptions paths = pathsOf(document.render, lightOnly);
+  const PathTracerOptions paths =
+      pathTracerParameters().read(document.render.values).options(lightOnly);
   if (stale_ || !subject_ || !(subject_->view == view) || !(subject_->paths == paths) ||
       subject_->block != block_) {
     halves_.reset();

@@ -1,6 +1,5 @@
 #include "editor/explain/light_samples.h"
 
-#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/vpl_set.h"
 
@@ -19,7 +18,7 @@ LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene
                           const RayCaster& rays, const Settings& settings) {
   LightSamples out;
   if (!inspection.lights.empty()) {
-    out.clampDistance = settings.real(parameters::clampDistance());
+    out.clampDistance = manyLightsParameters().read(settings).clampDistance;
     for (const InspectedLight& light : inspection.lights)
       if (light.isLive) out.samples.push_back({light.vpl, light.id});
     return out;
@@ -27,8 +26,9 @@ LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene
   out.clampDistance = kOwnClamp;
   VplCounts counts;
   counts.total = kOwnSamples;
-  counts.bounces = settings.integer(parameters::bounces());
-  counts.seed = static_cast<uint32_t>(settings.integer(parameters::seed()));
+  const PathParameters paths = pathParameters().read(settings);
+  counts.bounces = paths.bounces;
+  counts.seed = static_cast<uint32_t>(paths.seed);
   const VplSet set = generateVpls(scene, rays, LightSet(scene), counts);
   for (const SceneVpl& made : set.vpls) out.samples.push_back({made.vpl, made.id});
   return out;

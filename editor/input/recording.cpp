@@ -97,10 +97,8 @@ vec2 pairOf(const Json& j, const char* name) {
 ParameterValue valueOf(const std::string& method, const std::string& name, const Json& j) {
   const std::string given = j.is_string() ? j.get<std::string>() : j.dump();
   const auto from = [&](const MethodInfo& info) -> std::optional<ParameterValue> {
-    for (const ParameterSpec& p : info.parameters) {
-      if (p.name == name) return Settings::parse(p, given);
-    }
-    return std::nullopt;
+    const ParameterSpec* spec = findParameter(info.parameters, name);
+    return spec ? std::optional(Settings::parse(*spec, given)) : std::nullopt;
   };
   if (const auto own = from(findMethod(method))) return *own;
   for (const MethodInfo& other : methods()) {

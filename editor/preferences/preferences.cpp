@@ -11,27 +11,6 @@ namespace lamplighter {
 
 namespace {
 
-ParameterSpec number(const char* name, const char* label, const char* unit, const char* help,
-                     float usual, float least, float most) {
-  return {name, label, unit, help, usual, least, most};
-}
-
-ParameterSpec count(const char* name, const char* label, const char* unit, const char* help,
-                    int usual, int least, int most) {
-  return {name, label, unit, help, usual, static_cast<double>(least), static_cast<double>(most)};
-}
-
-ParameterSpec choice(const char* name, const char* label, const char* help, const char* usual,
-                     std::vector<std::string> choices) {
-  ParameterSpec spec{name, label, "", help, std::string(usual)};
-  spec.choices = std::move(choices);
-  return spec;
-}
-
-ParameterSpec flag(const char* name, const char* label, const char* help, bool usual) {
-  return {name, label, "", help, usual};
-}
-
 std::vector<std::string> presetNames() {
   std::vector<std::string> names;
   for (const Preset& p : presets()) names.push_back(p.name);
@@ -45,42 +24,90 @@ std::vector<std::string> mapperNames() {
 }
 
 std::vector<PreferenceSection> declared() {
+  using S = UserSettings;
   return {
       {"Appearance",
-       {number("ui_scale", "UI scale", "",
-               "How large the user interface is, times what the screen asks for.", 1.0f, 0.5f,
-               4.0f),
-        flag("toasts", "Toasts", "Shows what happened in a corner of the view for a while.", true),
-        number("toast_seconds", "Toasts stay", "s", "How long a toast stays; errors stay twice.",
-               4.0f, 1.0f, 30.0f),
-        count("thumbnail_size", "Thumbnails", "px", "How large the asset browser shows things.", 84,
-              48, 192)}},
+       {{&S::uiScale,
+         "ui_scale",
+         "UI scale",
+         "",
+         "How large the user interface is, times what the screen asks for.",
+         {0.5, 4.0}},
+        {&S::toasts, "toasts", "Toasts",
+         "Shows what happened in a corner of the view for a while."},
+        {&S::toastSeconds,
+         "toast_seconds",
+         "Toasts stay",
+         "s",
+         "How long a toast stays; errors stay twice.",
+         {1.0, 30.0}},
+        {&S::thumbnailSize,
+         "thumbnail_size",
+         "Thumbnails",
+         "px",
+         "How large the asset browser shows things.",
+         {48, 192}}}},
       {"Input",
-       {choice("keys", "Keys",
-               "Which keys move, rotate and scale; keys.json in the same folder binds single "
-               "actions.",
-               "wer", keyPresetNames())}},
+       {&S::keys, "keys", "Keys",
+        "Which keys move, rotate and scale; keys.json in the same folder binds single actions.",
+        keyPresetNames()}},
       {"Work",
-       {choice("light_unit", "Light unit", "What the strength of lights is shown and typed in.",
-               "lm", {"lm", "cd", "nits", "W"}),
-        choice("tone_mapper", "Tone mapper", "How radiance is brought to the display.", "filmic",
-               mapperNames()),
-        choice("preset", "Preset", "The budgets and qualities that the program starts with.",
-               "work", presetNames())}},
+       {{&S::lightUnit,
+         "light_unit",
+         "Light unit",
+         "What the strength of lights is shown and typed in.",
+         {"lm", "cd", "nits", "W"}},
+        {&S::toneMapper, "tone_mapper", "Tone mapper", "How radiance is brought to the display.",
+         mapperNames()},
+        {&S::preset, "preset", "Preset", "The budgets and qualities that the program starts with.",
+         presetNames()}}},
       {"Window",
-       {count("window_width", "Width", "px", "Of the window when it opens.", 1280, 640, 16384),
-        count("window_height", "Height", "px", "Of the window when it opens.", 720, 400, 16384),
-        number("left_width", "Outliner", "px", "Width of the outliner, at UI scale 1.", 232.0f,
-               150.0f, 4000.0f),
-        number("right_width", "Inspector", "px",
-               "Width of the inspector and the render panel, at UI scale 1.", 330.0f, 150.0f,
-               4000.0f),
-        number("bottom_height", "Lower panel", "px",
-               "Height of the light table, the asset browser or the log, at UI scale 1.", 220.0f,
-               120.0f, 4000.0f),
-        number("render_share", "Render panel", "", "Its share of the right column's height.", 0.5f,
-               0.15f, 0.85f)}},
+       {{&S::windowWidth,
+         "window_width",
+         "Width",
+         "px",
+         "Of the window when it opens.",
+         {640, 16384}},
+        {&S::windowHeight,
+         "window_height",
+         "Height",
+         "px",
+         "Of the window when it opens.",
+         {400, 16384}},
+        {&S::leftWidth,
+         "left_width",
+         "Outliner",
+         "px",
+         "Width of the outliner, at UI scale 1.",
+         {150.0, 4000.0}},
+        {&S::rightWidth,
+         "right_width",
+         "Inspector",
+         "px",
+         "Width of the inspector and the render panel, at UI scale 1.",
+         {150.0, 4000.0}},
+        {&S::bottomHeight,
+         "bottom_height",
+         "Lower panel",
+         "px",
+         "Height of the light table, the asset browser or the log, at UI scale 1.",
+         {120.0, 4000.0}},
+        {&S::renderShare,
+         "render_share",
+         "Render panel",
+         "",
+         "Its share of the right column's height.",
+         {0.15, 0.85}}}},
   };
+}
+
+const ParameterTable<UserSettings>& settingsTable() {
+  static const auto table = [] {
+    ParameterTable<UserSettings> all({});
+    for (const PreferenceSection& section : preferenceSections()) all.append(section.table);
+    return all;
+  }();
+  return table;
 }
 
 std::filesystem::path normal(const std::filesystem::path& path) {
@@ -97,17 +124,15 @@ const std::vector<PreferenceSection>& preferenceSections() {
 }
 
 const ParameterSpec* findPreference(const std::string& name) {
-  for (const PreferenceSection& section : preferenceSections()) {
-    for (const ParameterSpec& spec : section.specs)
-      if (spec.name == name) return &spec;
-  }
-  return nullptr;
+  return findParameter(settingsTable().specs(), name);
 }
 
 const ParameterSpec& preferenceNamed(const std::string& name) {
   if (const ParameterSpec* spec = findPreference(name)) return *spec;
   throw InputError(name, "there is no such setting", "docs/reference/settings.md lists them");
 }
+
+UserSettings Preferences::settings() const { return settingsTable().read(values); }
 
 void Preferences::setText(const std::string& name, const std::string& text) {
   set(name, Settings::parse(preferenceNamed(name), text));

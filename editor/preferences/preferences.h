@@ -1,20 +1,33 @@
 // The settings of a user for all levels, and the state that the program remembers. The settings are
-// declared here; the settings panel, the file, the actions and docs/reference/settings.md follow.
-// They are not part of a level. Replays and recordings never read them.
+// declared in preferences.cpp; the settings panel, the file, the actions and
+// docs/reference/settings.md follow. They are not part of a level. Replays and recordings never
+// read them.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "renderer/base/parameters.h"
+#include "renderer/base/parameter_table.h"
 
 namespace lamplighter {
+
+struct UserSettings {
+  float uiScale = 1.0f;  // relative to what the screen asks for
+  bool toasts = true;
+  float toastSeconds = 4.0f;
+  int thumbnailSize = 84;  // [pixels]
+  std::string keys = "wer";
+  std::string lightUnit = "lm", toneMapper = "filmic", preset = "work";
+  int windowWidth = 1280, windowHeight = 720;                            // [pixels]
+  float leftWidth = 232.0f, rightWidth = 330.0f, bottomHeight = 220.0f;  // at UI scale 1
+  float renderShare = 0.5f;  // of the right column's height
+};
 
 // Grouped by the sections of the settings panel.
 struct PreferenceSection {
   std::string label;
-  std::vector<ParameterSpec> specs;
+  ParameterTable<UserSettings> table;
 };
 const std::vector<PreferenceSection>& preferenceSections();
 // nullptr if the name is unknown.
@@ -33,10 +46,7 @@ struct Preferences {
   // Default values are not stored. Throws InputError for an unknown name or an invalid value.
   void setText(const std::string& name, const std::string& text);
   void set(const std::string& name, ParameterValue value);
-  bool boolean(const char* name) const { return values.boolean(preferenceNamed(name)); }
-  int integer(const char* name) const { return values.integer(preferenceNamed(name)); }
-  float real(const char* name) const { return values.real(preferenceNamed(name)); }
-  std::string choice(const char* name) const { return values.choice(preferenceNamed(name)); }
+  UserSettings settings() const;
 
   static constexpr size_t kMostRecent = 10;
   void addRecent(const std::filesystem::path& file);

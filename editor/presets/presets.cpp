@@ -2,7 +2,6 @@
 
 #include <functional>
 
-#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 
 namespace lamplighter {
@@ -15,21 +14,21 @@ struct Row {
 };
 
 const std::vector<Row>& rows() {
-  namespace p = parameters;
+  const auto& p = manyLightsParameters();
   static const std::vector<Row> all{
-      {p::vpls(), 100, 2000},
-      {p::bounces(), 1, 3},
-      {p::importance(), 4, 16},
-      {p::mapResolution(), 32, 128},
-      {p::settledMapScale(), 1, 6},
-      {p::mapMemory(), 64, 2048},
-      {p::frameTime(), 25.0f, 200.0f},
-      {p::lightMapTexel(), 0.2f, 0.05f},
-      {p::block(), std::string("8"), std::string("2")},
-      {p::antialias(), 1, 16},
-      {p::cornerLight(), false, true},
-      {p::refine(), 0, 1 << 20},
-      {p::samplesPerPixel(), 16, 1024},
+      {p["vpls"], 100, 2000},
+      {p["bounces"], 1, 3},
+      {p["importance"], 4, 16},
+      {p["map_resolution"], 32, 128},
+      {p["settled_map_scale"], 1, 6},
+      {p["map_memory"], 64, 2048},
+      {p["frame_time"], 25.0f, 200.0f},
+      {p["light_map_texel"], 0.2f, 0.05f},
+      {p["block"], std::string("8"), std::string("2")},
+      {p["antialias"], 1, 16},
+      {p["corner_light"], false, true},
+      {p["refine"], 0, 1 << 20},
+      {sampleParameters()["samples_per_pixel"], 16, 1024},
   };
   return all;
 }

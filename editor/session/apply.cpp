@@ -18,15 +18,15 @@ constexpr std::pair<LightUnit, const char*> kUnitNames[] = {{LightUnit::lumens, 
 }  // namespace
 
 void applyPreferences(Session& s, std::vector<std::string>& problems) {
-  const Preferences& p = s.home().preferences;
-  s.setKeys(resolveKeys(s.actions(), keysOfPreset(p.choice("keys")), s.home().fileKeys, problems));
+  const UserSettings settings = s.home().preferences.settings();
+  s.setKeys(resolveKeys(s.actions(), keysOfPreset(settings.keys), s.home().fileKeys, problems));
   for (const auto& [unit, name] : kUnitNames)
-    if (p.choice("light_unit") == name) s.lighting().unit = unit;
-  s.display().setToneMapper(findToneMapper(p.choice("tone_mapper")).mapper);
+    if (settings.lightUnit == name) s.lighting().unit = unit;
+  s.display().setToneMapper(findToneMapper(settings.toneMapper).mapper);
 }
 
 void applyPreset(Session& s) {
-  const std::string wanted = s.home().preferences.choice("preset");
+  const std::string wanted = s.home().preferences.settings().preset;
   for (const Preset& preset : presets()) {
     if (preset.name == wanted) s.document().render = withPreset(s.document().render, preset);
   }

@@ -214,7 +214,7 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
   const RenderSettings render =
       split_.on() ? split_.first().of(document_.render) : document_.render;
   Settings settings = render.values;
-  if (updates) settings.set(parameters::updates().name, *updates);
+  if (updates) settings.set(kUpdates, *updates);
   try {
     output_ =
         renderer_->render({scene, changes, view_, render.method, settings, display_.lightOnly(),

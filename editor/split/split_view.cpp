@@ -30,10 +30,8 @@ SplitSide readSide(const std::string& text, const std::string& method) {
   const auto& all = findMethod(side.method.empty() ? method : side.method).parameters;
   while (std::getline(in, part, ',')) {
     const size_t equals = part.find('=');
-    const auto spec = std::find_if(all.begin(), all.end(), [&](const ParameterSpec& p) {
-      return p.name == part.substr(0, equals);
-    });
-    if (equals == std::string::npos || spec == all.end())
+    const ParameterSpec* spec = findParameter(all, part.substr(0, equals));
+    if (equals == std::string::npos || !spec)
       throw InputError(text, "'" + part + "' sets no parameter of the method",
                        "give live or a method, then ,NAME=VALUE for each parameter");
     side.values.set(spec->name, Settings::parse(*spec, part.substr(equals + 1)));

@@ -54,6 +54,12 @@ const char* labelOf(ParameterGroup group) {
   return "Picture";
 }
 
+const ParameterSpec* findParameter(const std::vector<ParameterSpec>& specs, std::string_view name) {
+  const auto it = std::find_if(specs.begin(), specs.end(),
+                               [&](const ParameterSpec& spec) { return spec.name == name; });
+  return it == specs.end() ? nullptr : &*it;
+}
+
 ParameterValue Settings::parse(const ParameterSpec& spec, std::string_view text) {
   if (std::holds_alternative<int>(spec.defaultValue))
     return parseNumber<int>(spec, text, "whole number");

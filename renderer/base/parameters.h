@@ -29,7 +29,11 @@ struct ParameterSpec {
   bool logarithmic = false;             // the slider's scale
   std::vector<std::string> choices;     // for strings: the allowed ones
   ParameterGroup group = ParameterGroup::quality;
+  std::string benefit;  // of a budget: what a larger value gives, one sentence
 };
+
+// nullptr if there is none of that name.
+const ParameterSpec* findParameter(const std::vector<ParameterSpec>& specs, std::string_view name);
 
 // Values of a set of declared parameters. A parameter that is not set has its default value.
 class Settings {

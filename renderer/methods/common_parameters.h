@@ -1,22 +1,42 @@
-// Parameters that methods share, declared once.
+// Parameters that methods share, declared once. The struct of a method's parameters derives from
+// those that it uses, and its table contains their tables.
 #pragma once
 
-#include "renderer/base/parameters.h"
+#include "renderer/base/parameter_table.h"
 
-namespace lamplighter::parameters {
+namespace lamplighter {
 
-const ParameterSpec& bounces();  // int, number of indirect bounces, 0: direct light only; default 2
-const ParameterSpec& seed();     // int
-const ParameterSpec& vpls();     // int, total number of light samples; default 300
-const ParameterSpec& directShare();      // float in [0, 1]; default 0.5
-const ParameterSpec& mapResolution();    // int, texels per side, default 64
-const ParameterSpec& updates();          // int, most VPLs replaced per frame; default 100
-const ParameterSpec& clampDistance();    // float, metres; the bounded G-term's d0
-const ParameterSpec& shadowBias();       // float, share of the distance
-const ParameterSpec& samplesPerPixel();  // int; reference: paths per pixel
-const ParameterSpec& samplesPerFrame();  // int; reference: paths per pixel and frame
+struct PathParameters {
+  int bounces = 2;  // indirect; 0: direct light only
+  int seed = 1;
+  bool operator==(const PathParameters&) const = default;
+};
+const ParameterTable<PathParameters>& pathParameters();
 
-const ParameterSpec& speculars();       // bool, metallic-roughness BRDF at visible surfaces
-const ParameterSpec& leastRoughness();  // float in [0.05, 1]
+// How surfaces that the camera sees reflect light.
+struct SurfaceParameters {
+  bool speculars = true;  // metallic-roughness BRDF
+  float leastRoughness = 0.1f;
+  bool operator==(const SurfaceParameters&) const = default;
+};
+const ParameterTable<SurfaceParameters>& surfaceParameters();
 
-}  // namespace lamplighter::parameters
+// Of methods that trace paths for each pixel until there are enough.
+struct SampleParameters {
+  int samplesPerPixel = 64;
+  int samplesPerFrame = 1;  // per pixel
+  bool operator==(const SampleParameters&) const = default;
+};
+const ParameterTable<SampleParameters>& sampleParameters();
+
+// Of methods that spread the work of an edit over frames. The editor sets `updates` from the
+// measured times of earlier frames.
+struct FrameBudgetParameters {
+  int updates = 100;
+  float frameTime = 50.0f;  // [ms]; used only in the editor's window
+  bool operator==(const FrameBudgetParameters&) const = default;
+};
+const ParameterTable<FrameBudgetParameters>& frameBudgetParameters();
+inline constexpr char kUpdates[] = "updates";  // the name of that parameter
+
+}  // namespace lamplighter

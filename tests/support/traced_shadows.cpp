@@ -2,7 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
-#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/surface.h"
 #include "shaders/shared/vpl_shading.h"
 #include "shaders/shared/vpl_speculars.h"
@@ -28,9 +28,8 @@ std::vector<shared::Vpl> shownLights(const Inspection& inspection) {
 Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
                         std::span<const shared::Vpl> vpls, const View& view,
                         const Settings& settings, const PatchView* known) {
-  const float clampDistance = settings.real(parameters::clampDistance());
-  const float least = settings.real(parameters::leastRoughness());
-  const bool speculars = settings.boolean(parameters::speculars());
+  const ManyLightsParameters parameters = manyLightsParameters().read(settings);
+  const float clampDistance = parameters.clampDistance, least = parameters.leastRoughness;
   const auto radiance = [&](int x, int y) {
     const Ray ray{view.eye, 0.0f,
                   view.rayDirection(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f)};
@@ -38,7 +37,7 @@ Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
     if (!hit) return scene.sky.radianceFrom(ray.direction);
     const Surface s = surfaceAt(scene, hit.object, hit.triangle, hit.u, hit.v);
     const Gloss gloss =
-        speculars ? glossAt(scene, hit.object, hit.triangle, hit.u, hit.v) : Gloss();
+        parameters.speculars ? glossAt(scene, hit.object, hit.triangle, hit.u, hit.v) : Gloss();
     const bool front = glm::dot(ray.direction, s.geometricNormal) < 0.0f;
     const vec3 ng = front ? s.geometricNormal : -s.geometricNormal;
     const vec3 ns = front ? s.normal : -s.normal;

@@ -180,8 +180,8 @@ TEST_F(Home, SettingsAreKeptWhereThereIsAUser) {
   frames(60);
   UserFiles again(folder_);
   const Preferences kept = again.readPreferences();
-  EXPECT_EQ(kept.choice("light_unit"), "cd");
-  EXPECT_EQ(kept.integer("thumbnail_size"), 60);
+  EXPECT_EQ(kept.settings().lightUnit, "cd");
+  EXPECT_EQ(kept.settings().thumbnailSize, 60);
   ASSERT_EQ(kept.recentFiles.size(), 1u);
   EXPECT_EQ(kept.recentFiles[0], "/levels/attic.gltf");
 }

@@ -13,7 +13,6 @@
 #include "renderer/image/exposure.h"
 #include "renderer/image/image_io.h"
 #include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 
 namespace lamplighter {
 namespace {
@@ -208,21 +207,17 @@ void Application::runAction(const std::string& text) {
 // With a fixed time step, as in recordings, the work per frame is limited by counts instead of
 // time.
 std::optional<int> Application::updatesWithinTime() {
-  const Settings& settings = session_->document().render.values;
-  const float milliseconds = settings.real(parameters::frameTime());
-  if (timeStep_ > 0.0f || milliseconds == 0.0f) return std::nullopt;
-  return std::min(settings.integer(parameters::updates()),
-                  frameTime_.vplsWithin(1e-3 * milliseconds));
+  const auto budget = frameBudgetParameters().read(session_->document().render.values);
+  if (timeStep_ > 0.0f || budget.frameTime == 0.0f) return std::nullopt;
+  return std::min(budget.updates, frameTime_.vplsWithin(1e-3 * budget.frameTime));
 }
 
 // At rest, the same time is used to refine the picture, but not if work is limited by counts.
 int Application::refineUpdates() {
-  const Settings& settings = session_->document().render.values;
-  const float milliseconds = settings.real(parameters::frameTime());
   if (timeStep_ > 0.0f) return 0;
-  const int updates = settings.integer(parameters::updates());
-  return milliseconds == 0.0f ? updates
-                              : std::min(updates, refineTime_.vplsWithin(1e-3 * milliseconds));
+  const auto budget = frameBudgetParameters().read(session_->document().render.values);
+  if (budget.frameTime == 0.0f) return budget.updates;
+  return std::min(budget.updates, refineTime_.vplsWithin(1e-3 * budget.frameTime));
 }
 
 // Call after the frame was rendered, so that the text describes the current picture.

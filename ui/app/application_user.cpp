@@ -30,7 +30,7 @@ void Application::setUser(std::unique_ptr<UserFiles> files, Preferences preferen
 }
 
 float Application::uiScale() const {
-  const float factor = session_->home().preferences.real("ui_scale");
+  const float factor = session_->home().preferences.settings().uiScale;
   return std::clamp(platform_.contentScale() * factor, kLeastUiScale, kMostUiScale);
 }
 
@@ -39,8 +39,8 @@ float Application::uiScale() const {
 void Application::exchangePreferences() {
   Preferences& p = session_->home().preferences;
   if (p.values != appliedPreferences_) {
-    layout_.setSizes({p.real("left_width"), p.real("right_width"), p.real("bottom_height"),
-                      p.real("render_share")});
+    const UserSettings s = p.settings();
+    layout_.setSizes({s.leftWidth, s.rightWidth, s.bottomHeight, s.renderShare});
   } else {
     const LayoutSizes& sizes = layout_.sizes();
     const auto keep = [&](const char* name, float value) {

@@ -69,11 +69,12 @@ int runEditor(const EditorOptions& options, const Frontend& frontend) {
   // scale, and does not use the user's settings.
   auto files = std::make_unique<UserFiles>(recording ? fs::path() : configFolder());
   Preferences preferences = files->readPreferences();
-  Window window(preferences.integer("window_width"), preferences.integer("window_height"),
-                "Lamplighter", recording ? Window::Kind::fixed : Window::Kind::resizable,
+  const UserSettings settings = preferences.settings();
+  Window window(settings.windowWidth, settings.windowHeight, "Lamplighter",
+                recording ? Window::Kind::fixed : Window::Kind::resizable,
                 recording ? std::nullopt : askedUiScale());
-  showPreparing(window, std::clamp(window.contentScale() * preferences.real("ui_scale"),
-                                   kLeastUiScale, kMostUiScale));
+  showPreparing(window,
+                std::clamp(window.contentScale() * settings.uiScale, kLeastUiScale, kMostUiScale));
   const auto makeRenderer = [&] {
     return std::make_unique<FrameRenderer>(makeBackend(options.backend, stopwatch), stopwatch);
   };

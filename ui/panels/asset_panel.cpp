@@ -77,7 +77,7 @@ void bar(const PanelContext& ui, AssetPanelState& state, Requests& requests) {
 
 void grid(const PanelContext& ui, const std::vector<AssetFile>& files, Thumbnails* thumbnails,
           Requests& requests) {
-  const int pixels = ui.session.home().preferences.integer("thumbnail_size");
+  const int pixels = ui.session.home().preferences.settings().thumbnailSize;
   const float side = std::round(ui.px(static_cast<float>(pixels))), gap = ui.px(6);
   const float high = side + ImGui::GetTextLineHeight() + ui.px(4);
   const float room = ImGui::GetContentRegionAvail().x;

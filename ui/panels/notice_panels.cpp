@@ -36,8 +36,8 @@ std::string textOf(const Notice& notice) {
 // Updates the list of toasts: adds new notices and removes expired ones.
 void advance(const PanelContext& ui, ToastState& state, float dt) {
   const auto& all = ui.session.home().notices.all();
-  const Preferences& preferences = ui.session.home().preferences;
-  const float stays = preferences.real("toast_seconds");
+  const UserSettings settings = ui.session.home().preferences.settings();
+  const float stays = settings.toastSeconds;
   for (const Notice& notice : all) {
     if (notice.id > state.seen) state.seconds[notice.id] = 0.0f;
   }
@@ -50,7 +50,7 @@ void advance(const PanelContext& ui, ToastState& state, float dt) {
     it = notice == all.end() || it->second > most ? state.seconds.erase(it) : std::next(it);
   }
   while (state.seconds.size() > kMostToasts) state.seconds.erase(state.seconds.begin());
-  if (!preferences.boolean("toasts")) state.seconds.clear();
+  if (!settings.toasts) state.seconds.clear();
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void values(const PanelContext& ui, Requests& requests) {
   const Settings& settings = ui.session.home().preferences.values;
   for (const PreferenceSection& part : preferenceSections()) {
     if (!section(ui, part.label.c_str(), part.label != "Window")) continue;
-    for (const ParameterSpec& spec : part.specs) {
+    for (const ParameterSpec& spec : part.table.specs()) {
       labelledRow(ui, spec.label.c_str(), spec.help.c_str());
       if (waitsForRelease(spec)) {
         uiScaleRow(ui, spec, requests);

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/theme.h"
 
@@ -127,7 +126,8 @@ void drawGraph(const PanelContext& ui, TimelineState& state) {
   if (!hovered) state.held.reset();
   const Timeline& timeline = state.held ? *state.held : live;
 
-  const double budget = 1e-3 * ui.session.document().render.values.real(parameters::frameTime());
+  const auto& settings = ui.session.document().render.values;
+  const double budget = 1e-3 * frameBudgetParameters().read(settings).frameTime;
   graph.range = rangeOf(timeline, static_cast<size_t>(width / graph.bar), budget);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(graph.low, graph.high, theme::colour(theme::kBackground), ui.px(3));

@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include "renderer/light_maps/patch_lights.h"
-#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/inspected_surfaces.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/sun_shadow_tiles.h"
 #include "renderer/sampling/view_importance.h"
@@ -55,8 +53,8 @@ LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
 // fewer, the fixed work of a frame would dominate. With rasterised maps (gl), each frame sums all
 // lights again, so fewer frames are better.
 int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options, int scale) {
-  const RefreshWork& most = options.budget.work;
-  uint64_t maps = std::min<uint64_t>(most.shadowMaps, static_cast<uint64_t>(options.budget.vpls));
+  const RefreshWork most = options.budget().work;
+  uint64_t maps = std::min<uint64_t>(most.shadowMaps, static_cast<uint64_t>(options.updates));
   if (traits.tracesShadowMaps) {
     const auto side = static_cast<uint64_t>(scale * options.mapResolution);
     maps = std::min(scale == 1 ? maps : 2 * maps / static_cast<uint64_t>(scale),
@@ -94,9 +92,9 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   GiOutput out;
   Stages stages(in, out.stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0);
-  const bool wantsVisibility = options.useVisibility;
+  const bool wantsVisibility = options.useVisibility();
   if (in.changes.rebuilt || lights_.slots() != neededFor_) visibilityNeeds_ = 0;
-  if (visibilityNeeds_ > options.visibilityBytes) options.forgoVisibility();
+  if (visibilityNeeds_ > options.visibilityBytes()) options.forgoVisibility();
 
   // 1. Find which VPLs the scene requires, and which shown ones are out of date.
   takeScene(in, options);
@@ -121,20 +119,11 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
   // 4. Render the picture, if anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
-  const bool shadingChanged =
-      options.clampDistance != options_.clampDistance ||
-      options.shadowBias != options_.shadowBias ||
-      options.useVisibility != options_.useVisibility ||
-      options.visibilityBytes != options_.visibilityBytes ||
-      options.useLightMaps != options_.useLightMaps || options.groupShare != options_.groupShare ||
-      options.lightMapTexel != options_.lightMapTexel ||
-      options.lightMapBytes != options_.lightMapBytes ||
-      out.stats.lightMapTexel != lightMapTexel_ || options.mergePasses != options_.mergePasses ||
-      options.block != options_.block || options.speculars != options_.speculars ||
-      options.leastRoughness != options_.leastRoughness || options.usePrt != options_.usePrt ||
-      !(options.prt == options_.prt) || in.lightOnly != lightOnly_ || in.part != part_;
+  const bool shadingChanged = options.lightSums() != options_.lightSums() ||
+                              out.stats.lightMapTexel != lightMapTexel_ ||
+                              in.lightOnly != lightOnly_ || in.part != part_;
   if (viewChanged) gbufferIsCurrent_ = false;
-  if (view_ != in.view || shadingChanged || options.fillsCorners != options_.fillsCorners)
+  if (view_ != in.view || shadingChanged || options.cornerLight != options_.cornerLight)
     corners_.forget();
   const bool shadedNow =
       !image_ || viewChanged || lights_.changed() || shadingChanged || prtChanged || isHasty_;
@@ -147,7 +136,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     corners_.outdate();
   }
   const bool refinesOtherwise =
-      options.refinement != options_.refinement || options.antialias != options_.antialias;
+      options.refinement() != options_.refinement() || options.antialias != options_.antialias;
   options_ = options;
   lightMapTexel_ = out.stats.lightMapTexel;
   lightOnly_ = in.lightOnly;
@@ -169,7 +158,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
   out.settled = isReady && samples_ == samples;
   out.radiance = out.settled && samples > 0 ? mean_ : image_;
-  if (options.fillsCorners) {
+  if (options.cornerLight) {
     out.radiance = fillCorners(in, options, out.radiance, out.settled, stages);
     out.settled = out.settled && corners_.isWhole(in.view);
   }
@@ -178,7 +167,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
   const bool mayRefine = in.part == LightPart::all;
   if (out.settled && !shadedNow && mayRefine) refine(in, options, stages, out);
-  out.refined = out.settled && (options.refinement.vpls == 0 || refinement_.done() || !mayRefine);
+  out.refined = out.settled && (options.refine == 0 || refinement_.done() || !mayRefine);
 
   out.stats.vpls = lights_.live();
   out.stats.vplsPending = pending;
@@ -226,11 +215,11 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
   const bool choosesOtherwise =
       chosenFor != chosenFor_ || options.clampDistance != options_.clampDistance;
   chosenFor_ = chosenFor;
-  if (paths_.update(in.scene, rays, in.changes, movers, options.counts, options.mostPaths) ||
+  if (paths_.update(in.scene, rays, in.changes, movers, options.counts(), options.maxPaths) ||
       choosesOtherwise) {
-    VplSet set = chooseForView(paths_.set(in.scene), options.counts, in.scene, rays, chosenFor,
+    VplSet set = chooseForView(paths_.set(in.scene), options.counts(), in.scene, rays, chosenFor,
                                options.clampDistance, pointVisibility_);
-    divideSuns(set.vpls, in.scene, rays, &chosenFor, options.counts.sunMaps);
+    divideSuns(set.vpls, in.scene, rays, &chosenFor, options.sunMaps);
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
   }
@@ -247,13 +236,13 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiS
     stats.mapsSpared = lights_.markStale(movers, isSpared);
   }
   // The backend loses all maps when their number changes.
-  const int slots = lights_.slots() + Refinement::slots(options.refinement);
+  const int slots = lights_.slots() + Refinement::slots(options.refinement());
   const Options::MapRooms rooms = options.mapRooms(slots);
   if (slots != mapSlots_ || rooms != mapRooms_) lights_.loseMaps();
   mapSlots_ = slots;
   mapRooms_ = rooms;
   kernels_->reserveShadowMaps(slots, rooms.coarse, rooms.fine);
-  lights_.showOnlyMapped(!options.useVisibility);
+  lights_.showOnlyMapped(!options.useVisibility());
 }
 
 int ManyLights::refreshLights(const Options& options) {
@@ -269,7 +258,7 @@ int ManyLights::refreshLights(const Options& options) {
   }
   if (visibility_) moved.visibilityTests = visibility_->testsPerColumn();
   if (lightMaps_) moved.lightMapTexels = 2 * lightMaps_->texels();  // subtracted and added again
-  return lights_.refresh(options.budget, moved, stale);
+  return lights_.refresh(options.budget(), moved, stale);
 }
 
 // Finds again which maps the view needs, if anything changed that affects this.
@@ -278,7 +267,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
   if (!visibility_) {
     wanted_.assign(slots, 1);
   } else if (lights_.changed() || !in.changes.none() || in.view != view_ ||
-             wanted_.size() != slots || options.useVisibility != options_.useVisibility ||
+             wanted_.size() != slots || options.useVisibility() != options_.useVisibility() ||
              options.speculars != options_.speculars) {
     wanted_ = shadowMapDemand(*visibility_, in.scene, in.view);
   }
@@ -287,7 +276,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
     std::fill(wanted_.begin(), wanted_.end(), uint8_t{1});
   // A path is refreshed as a whole, even if it has more VPLs than the budget.
   const int maps = std::max(mapsAFrame(kernels_->traits(), options, 1), stats.vplsRefreshed);
-  const int refining = Refinement::slots(options.refinement);
+  const int refining = Refinement::slots(options.refinement());
   stats.mapsRendered =
       lights_.updateMaps(*kernels_, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
   if (visibility_)
@@ -355,21 +344,21 @@ void ManyLights::takePart(const FrameInputs& in, const Options& options,
   vpls = PartLights::lightsOf(in.part, vpls, lights_.inspect());
   if (!visibility_ || !isNew) return;
   partLights_.update(in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
-                     {options.useLightMaps, lightMapOptions(options)}, lights_.hasMap(), wanted_,
+                     {options.useLightMaps(), lightMapOptions(options)}, lights_.hasMap(), wanted_,
                      groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
                         GiOutput& out) {
-  if (options.refinement.vpls == 0) return;
+  if (options.refine == 0) return;
   gbufferIsCurrent_ = false;
   const MapSize size = mapRooms_.scale() > 1 ? MapSize::fine : MapSize::coarse;
   out.stats.mapsRefined =
-      refinement_.goOn(in, *kernels_, options.refinement, *out.radiance, lights_.live(),
+      refinement_.goOn(in, *kernels_, options.refinement(), *out.radiance, lights_.live(),
                        lights_.slots(), size, in.services.budget().refineUpdates);
   if (refinement_.image()) out.radiance = refinement_.image();
   out.stats.vplsRefined = refinement_.vpls();
-  out.stats.vplsToRefine = options.refinement.vpls;
+  out.stats.vplsToRefine = options.refine;
   stages.end("refinement");
 }
 
@@ -377,15 +366,14 @@ std::shared_ptr<RadianceImage> ManyLights::fillCorners(
     const FrameInputs& in, const Options& options, const std::shared_ptr<RadianceImage>& picture,
     bool isSmooth, Stages& stages) {
   if (isSmooth && !corners_.isWhole(in.view)) {
-    const VplCounts& counts = options.counts;
     const auto reflecting =
         prt_ && in.part == LightPart::all ? prt_->reflecting() : std::vector<uint8_t>();
     corners_.goOn(
         in, lights_.inspect(),
-        {counts.directShare < 1.0f && in.part != LightPart::direct ? counts.bounces : 0,
-         (counts.directShare > 0.0f || counts.bounces == 0) && in.part != LightPart::indirect,
-         options.clampDistance, kCornerPaths, counts.seed, 0, in.lightOnly, options.speculars,
-         options.leastRoughness, reflecting});
+        {options.directShare < 1.0f && in.part != LightPart::direct ? options.bounces : 0,
+         (options.directShare > 0.0f || options.bounces == 0) && in.part != LightPart::indirect,
+         options.clampDistance, kCornerPaths, static_cast<uint32_t>(options.seed), 0, in.lightOnly,
+         options.speculars, options.leastRoughness, reflecting});
     if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
     stages.end("corners");
   }
@@ -431,42 +419,7 @@ MethodInfo manyLightsInfo() {
   return {"many_lights",
           "Many lights",
           "Barczak, Interactive Illumination Using Large Sets of Point Lights, 2006, chapter 4",
-          {parameters::vpls(),
-           parameters::directShare(),
-           parameters::bounces(),
-           parameters::seed(),
-           parameters::importance(),
-           parameters::mapResolution(),
-           parameters::settledMapScale(),
-           parameters::sunMaps(),
-           parameters::groupShare(),
-           parameters::updates(),
-           parameters::maxShadowMaps(),
-           parameters::maxVisibilityTests(),
-           parameters::maxLightMapTexels(),
-           parameters::maxRays(),
-           parameters::maxPaths(),
-           parameters::frameTime(),
-           parameters::mapMemory(),
-           parameters::visibilityMemory(),
-           parameters::lightMapMemory(),
-           parameters::prtMemory(),
-           parameters::clampDistance(),
-           parameters::shadowBias(),
-           parameters::technique(),
-           parameters::lightMapTexel(),
-           parameters::lightsPerPass(),
-           parameters::mergePasses(),
-           parameters::block(),
-           parameters::prt(),
-           parameters::prtPoints(),
-           parameters::prtBounces(),
-           parameters::prtError(),
-           parameters::speculars(),
-           parameters::leastRoughness(),
-           parameters::antialias(),
-           parameters::cornerLight(),
-           parameters::refine()},
+          manyLightsParameters().specs(),
           [](Backend& backend) {
             return std::make_unique<ManyLights>(backend.kernels<ManyLightsKernels>("many_lights"));
           },

@@ -1,37 +1,47 @@
-// Parameters of many_lights only; common_parameters.h has those shared with other methods.
+// The parameters of many_lights as they are set. options.h has what its stages use.
 #pragma once
 
-#include "renderer/base/parameters.h"
+#include "renderer/methods/common_parameters.h"
 
-namespace lamplighter::parameters {
+namespace lamplighter {
 
-const ParameterSpec& technique();        // the acceleration techniques of the paper that are used
-const ParameterSpec& sunMaps();          // int, shadow maps per sun
-const ParameterSpec& importance();       // int, candidates per indirect VPL; 1: all are used
-const ParameterSpec& settledMapScale();  // int, resolution of fine maps / resolution of coarse maps
-// int, limit of each kind of work per frame; 0: no limit
-const ParameterSpec& maxShadowMaps();
-const ParameterSpec& maxVisibilityTests();
-const ParameterSpec& maxLightMapTexels();
-const ParameterSpec& maxRays();
-const ParameterSpec& maxPaths();          // int, paths traced again; 0: no limit
-const ParameterSpec& groupShare();        // float, percent; 0: no groups
-const ParameterSpec& mapMemory();         // int, MiB
-const ParameterSpec& visibilityMemory();  // int, MiB
-const ParameterSpec& lightMapMemory();    // int, MiB
-const ParameterSpec& prtMemory();         // int, MiB
-const ParameterSpec& frameTime();         // float, ms; used only in the editor's window
-const ParameterSpec& lightMapTexel();     // float, m
-const ParameterSpec& lightsPerPass();     // int, VPLs per draw of the gl backend
-const ParameterSpec& mergePasses();       // bool, gl backend: merge passes
-const ParameterSpec& block();        // choice, pixels per side of the low-resolution pass's blocks
-const ParameterSpec& prt();          // bool, cpu backend: transfer for complex meshes
-const ParameterSpec& prtPoints();    // int, light points per object
-const ParameterSpec& prtBounces();   // int, interreflections within a mesh
-const ParameterSpec& prtError();     // float, largest relative error of light by transfer
-const ParameterSpec& antialias();    // int, G-buffers averaged when the lights are settled
-const ParameterSpec& cornerLight();  // bool
-// int, total number of VPLs; used only if the caller allows refinement
-const ParameterSpec& refine();
+// The acceleration techniques of the paper, each in addition to those before it.
+enum class ManyLightsTechnique { naive, visibility, lightMaps };
 
-}  // namespace lamplighter::parameters
+// Those that change how the light of the same light samples is summed. Memory is in MiB.
+struct LightSumParameters : SurfaceParameters {
+  ManyLightsTechnique technique = ManyLightsTechnique::lightMaps;
+  float clampDistance = 0.5f;  // d0 of the bounded geometry term [m]
+  float shadowBias = 0.002f;   // share of the distance
+  float groupShare = 0.2f;     // percent; 0: no groups
+  int visibilityMemory = 1024, lightMapMemory = 1024, prtMemory = 1024;
+  float lightMapTexel = 0.1f;  // [m]
+  bool mergePasses = false;    // gl backend
+  int block = 4;               // side of the blocks of the low-resolution pass [pixels]
+  bool prt = false;            // transfer for complex meshes
+  int prtPoints = 128;         // light points per object
+  int prtBounces = 0;          // within a mesh
+  float prtError = 0.15f;      // largest relative error of light by transfer
+  bool operator==(const LightSumParameters&) const = default;
+};
+
+struct ManyLightsParameters : LightSumParameters, PathParameters, FrameBudgetParameters {
+  int vpls = 300;  // direct and indirect ones
+  float directShare = 0.5f;
+  int importance = 8;  // candidates per indirect VPL; 1: all are used
+  int mapResolution = 64;
+  int settledMapScale = 6;  // resolution of fine maps / resolution of coarse maps
+  int sunMaps = 128;        // per sun
+  // Limits of each kind of work per frame; 0: no limit.
+  int maxShadowMaps = 0, maxVisibilityTests = 0, maxLightMapTexels = 0, maxRays = 0, maxPaths = 0;
+  int mapMemory = 512;       // MiB
+  int lightsPerPass = 1024;  // VPLs per draw of the gl backend; does not change a picture
+  int antialias = 4;         // G-buffers averaged when the lights are settled
+  bool cornerLight = true;
+  int refine = 65536;  // total number of VPLs; used only if the caller allows refinement
+  bool operator==(const ManyLightsParameters&) const = default;
+};
+
+const ParameterTable<ManyLightsParameters>& manyLightsParameters();
+
+}  // namespace lamplighter

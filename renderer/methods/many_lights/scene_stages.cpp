@@ -1,11 +1,10 @@
 // The stages of ManyLights that bring visibility, light maps and transfer up to date.
 #include "renderer/methods/many_lights/many_lights.h"
-#include "renderer/methods/many_lights/parameters.h"
 
 namespace lamplighter {
 
 void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
-  if (!options.useVisibility) {
+  if (!options.useVisibility()) {
     visibility_.reset();
     return;
   }
@@ -14,7 +13,7 @@ void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
     visibility_ = std::make_unique<VisibilityDatabase>();
     changes.rebuilt = true;
   }
-  visibility_->limitMemory(options.visibilityBytes);
+  visibility_->limitMemory(options.visibilityBytes());
   visibility_->setScene(in.scene, changes);
 }
 
@@ -23,7 +22,7 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiSta
   const std::vector<shared::Vpl> shown = shownBySlot();
   visibilityNeeds_ = visibility_->leastBytes(shown.size());
   neededFor_ = lights_.slots();
-  if (visibilityNeeds_ > options.visibilityBytes) {
+  if (visibilityNeeds_ > options.visibilityBytes()) {
     visibility_.reset();
     options.forgoVisibility();
     return;
@@ -40,12 +39,12 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiSta
 }
 
 LightMaps::Options ManyLights::lightMapOptions(const Options& options) const {
-  return {options.lightMapTexel, options.clampDistance, options.lightMapBytes,
+  return {options.lightMapTexel, options.clampDistance, options.lightMapBytes(),
           kernels_->traits().mostLightMapTexels};
 }
 
 void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
-  if (!options.useLightMaps) {
+  if (!options.useLightMaps()) {
     lightMaps_.reset();
   } else {
     if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
@@ -60,7 +59,7 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
 
 // Returns whether the picture changes.
 bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStats& stats) {
-  if (!options.usePrt) {
+  if (!options.prt) {
     prt_.reset();
     return false;
   }
@@ -74,8 +73,8 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStat
   const std::vector<shared::Vpl> bySlot = shownBySlot();
   const bool changed =
       prt_->update(in.scene, changes, in.services.rays(), *visibility_,
-                   {bySlot, lights_.upToDate(), lights_.haveBounced(options.counts.bounces)},
-                   options.prt, !in.services.budget().inBackground);
+                   {bySlot, lights_.upToDate(), lights_.haveBounced(options.bounces)},
+                   options.transfer(), !in.services.budget().inBackground);
   stats.raysTraced += prt_->rays() - before;
   const Transfers::Progress progress = prt_->progress();
   stats.transfersPending = static_cast<int>(progress.pending);

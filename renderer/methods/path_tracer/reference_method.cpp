@@ -6,8 +6,7 @@
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/path_tracer/path_tracer.h"
+#include "renderer/methods/path_tracer/parameters.h"
 
 namespace lamplighter {
 
@@ -18,16 +17,12 @@ class ReferenceMethod final : public GiMethod {
  public:
   GiOutput render(const FrameInputs& in) override {
     const double begin = in.stopwatch ? in.stopwatch() : 0.0;
-    const Settings& s = in.settings;
+    const PathTracerParameters parameters = pathTracerParameters().read(in.settings);
     const bool sameScene = in.changes.none() && sum_.width != 0;
     if (!sameScene) lights_ = LightSet(in.scene, lights_);
-    const PathTracerOptions options{s.integer(parameters::bounces()),
-                                    static_cast<uint32_t>(s.integer(parameters::seed())),
-                                    in.lightOnly,
-                                    s.boolean(parameters::speculars()),
-                                    s.real(parameters::leastRoughness()),
-                                    in.part};
-    const int wanted = s.integer(parameters::samplesPerPixel());
+    PathTracerOptions options = parameters.options(in.lightOnly);
+    options.part = in.part;
+    const int wanted = parameters.samplesPerPixel;
     const bool samePaths = options == options_;
     // If fewer paths are wanted than there are, it also restarts, so that the picture has the exact
     // count.
@@ -39,7 +34,7 @@ class ReferenceMethod final : public GiMethod {
     }
 
     GiOutput out;
-    const int next = std::min(wanted, samples_ + s.integer(parameters::samplesPerFrame()));
+    const int next = std::min(wanted, samples_ + parameters.samplesPerFrame);
     if (next > samples_) {
       out.stats.raysTraced = addSamples(in, next);
       picture_ = std::make_shared<HostImage>(mean());
@@ -48,7 +43,7 @@ class ReferenceMethod final : public GiMethod {
     out.radiance = picture_;
     out.settled = samples_ >= wanted;
     out.stats.samplesPerPixel = samples_;
-    const int aFrame = std::max(1, s.integer(parameters::samplesPerFrame()));
+    const int aFrame = std::max(1, parameters.samplesPerFrame);
     out.stats.framesUntilSettled = (std::max(0, wanted - samples_) + aFrame - 1) / aFrame;
     if (in.stopwatch) out.stats.stageSeconds["paths"] = in.stopwatch() - begin;
     return out;
@@ -95,14 +90,19 @@ class ReferenceMethod final : public GiMethod {
 
 }  // namespace
 
+const ParameterTable<PathTracerParameters>& pathTracerParameters() {
+  static const ParameterTable<PathTracerParameters> table{pathParameters(), sampleParameters(),
+                                                          surfaceParameters()};
+  return table;
+}
+
 MethodInfo referenceInfo() {
   return {"reference",
           "Reference (path tracing)",
           "J. T. Kajiya: The rendering equation. SIGGRAPH 1986. Light sampling combined as in E. "
           "Veach and L. Guibas: "
           "Optimally combining sampling techniques for Monte Carlo rendering. SIGGRAPH 1995.",
-          {parameters::bounces(), parameters::seed(), parameters::samplesPerPixel(),
-           parameters::samplesPerFrame(), parameters::speculars(), parameters::leastRoughness()},
+          pathTracerParameters().specs(),
           [](Backend&) { return std::make_unique<ReferenceMethod>(); },
           {{Service::rays}}};
 }

@@ -41,7 +41,7 @@ TEST(Preferences, AreDeclaredOnceEachWithAllThatPanelsAndDocsNeed) {
   std::set<std::string> names;
   for (const PreferenceSection& section : preferenceSections()) {
     EXPECT_FALSE(section.label.empty());
-    for (const ParameterSpec& spec : section.specs) {
+    for (const ParameterSpec& spec : section.table.specs()) {
       EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
       EXPECT_FALSE(spec.label.empty()) << spec.name;
       EXPECT_FALSE(spec.help.empty()) << spec.name;
@@ -98,10 +98,11 @@ TEST(Preferences, TakeWhatIsSoundAndTellOfTheRest) {
      "left_width": null},
     "recent_files": [1], "favourite_folders": ["relative", "/absolute"], "other": 1})",
                                          problems);
-  EXPECT_EQ(p.integer("thumbnail_size"), 64);
-  EXPECT_FLOAT_EQ(p.real("ui_scale"), 1.0f);
-  EXPECT_TRUE(p.boolean("toasts"));
-  EXPECT_EQ(p.choice("keys"), "wer");
+  const UserSettings settings = p.settings();
+  EXPECT_EQ(settings.thumbnailSize, 64);
+  EXPECT_FLOAT_EQ(settings.uiScale, 1.0f);
+  EXPECT_TRUE(settings.toasts);
+  EXPECT_EQ(settings.keys, "wer");
   EXPECT_TRUE(p.recentFiles.empty());
   EXPECT_EQ(p.favouriteFolders, std::vector<std::filesystem::path>{"/absolute"});
   EXPECT_EQ(problems.size(), 7u);
@@ -117,7 +118,7 @@ TEST_F(SettingsActions, ChangeWhatTheSessionGoesBy) {
   ASSERT_TRUE(session_.runAction("settings.set keys=grs"));
   EXPECT_EQ(session_.actions().forKey(Key::g, {})->name, "tool.move");
   ASSERT_TRUE(session_.runAction("view.ui_scale 1.5"));
-  EXPECT_FLOAT_EQ(session_.home().preferences.real("ui_scale"), 1.5f);
+  EXPECT_FLOAT_EQ(session_.home().preferences.settings().uiScale, 1.5f);
   // What was changed elsewhere is kept by it.
   ASSERT_TRUE(session_.runAction("lights.unit nits"));
   ASSERT_TRUE(session_.runAction("settings.set toasts=false"));

@@ -5,8 +5,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
@@ -17,12 +15,12 @@ namespace {
 
 Settings settingsOf(int antialias, const std::string& block) {
   Settings s;
-  s.set(parameters::vpls().name, 200);
-  s.set(parameters::updates().name, 200);
-  s.set(parameters::bounces().name, 1);
-  s.set(parameters::antialias().name, antialias);
-  s.set(parameters::cornerLight().name, false);
-  s.set(parameters::block().name, block);
+  s.set("vpls", 200);
+  s.set("updates", 200);
+  s.set("bounces", 1);
+  s.set("antialias", antialias);
+  s.set("corner_light", false);
+  s.set("block", block);
   return s;
 }
 

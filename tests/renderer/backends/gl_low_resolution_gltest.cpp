@@ -6,8 +6,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
@@ -23,12 +21,12 @@ namespace fs = std::filesystem;
 Settings settingsOf(int block, const std::string& technique = "light_maps", int vpls = 150,
                     int lightsPerPass = 1024) {
   Settings s;
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::updates().name, vpls);
-  s.set(parameters::antialias().name, 1);
-  s.set(parameters::lightsPerPass().name, lightsPerPass);
-  s.set(parameters::block().name, std::to_string(block));
+  s.set("technique", technique);
+  s.set("vpls", vpls);
+  s.set("updates", vpls);
+  s.set("antialias", 1);
+  s.set("lights_per_pass", lightsPerPass);
+  s.set("block", std::to_string(block));
   return s;
 }
 
@@ -127,7 +125,7 @@ TEST_F(GlLowResolution, MergedPassesAreThoseOfTheLists) {
   const View view = viewOf(scene, 161, 97);
   Settings settings = settingsOf(4, "light_maps", 60, 6);
   const Image listed = rendered(makeGlBackend(), scene, view, settings);
-  settings.set(parameters::mergePasses().name, true);
+  settings.set("merge_passes", true);
   // Float sums in another order; a cell at the limit of contrast may change sides.
   EXPECT_LT(compareImages(rendered(makeGlBackend(), scene, view, settings), listed).relRmse, 1e-3);
 }
@@ -188,9 +186,9 @@ TEST_F(GlLowResolution, AMovingCameraShowsNearlyWhatItRestsOn) {
     Scene scene = loadAsset(name + ".gltf");
     if (name == "pillar_room") addLamp(scene);
     Settings settings = settingsOf(4);
-    settings.set(parameters::importance().name, 1);  // samples are not chosen anew
-    settings.set(parameters::settledMapScale().name, 1);
-    settings.set(parameters::cornerLight().name, false);
+    settings.set("importance", 1);  // samples are not chosen anew
+    settings.set("settled_map_scale", 1);
+    settings.set("corner_light", false);
     const View view = viewOf(scene, 318, 211);
     View from[2] = {view, view};
     from[0].eye += vec3(0.02f, 0.01f, 0.0f);

@@ -6,8 +6,6 @@
 
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
@@ -25,12 +23,12 @@ constexpr int kWidth = 192, kHeight = 128;
 
 Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass = 1024) {
   Settings s;
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::updates().name, 150);
-  s.set(parameters::antialias().name, 1);
-  s.set(parameters::block().name, std::string("1"));
-  s.set(parameters::lightsPerPass().name, lightsPerPass);
+  s.set("technique", technique);
+  s.set("vpls", vpls);
+  s.set("updates", 150);
+  s.set("antialias", 1);
+  s.set("block", std::string("1"));
+  s.set("lights_per_pass", lightsPerPass);
   return s;
 }
 
@@ -169,7 +167,7 @@ TEST_F(GlPatches, LightMapsMayLoseTheirRoom) {
   SceneChanges changes = SceneChanges::all();
   for (const int mebibytes : {512, 1, 512}) {
     Settings settings = settingsOf("light_maps", 60);
-    settings.set(parameters::lightMapMemory().name, mebibytes);
+    settings.set("light_map_memory", mebibytes);
     const GiOutput out = test::renderSettled(kept, scene, changes, view, settings);
     EXPECT_EQ(out.stats.lightMapTexel > 0.0f, mebibytes > 1);
     EXPECT_TRUE(test::sameBits(out.radiance->pixels(), rendered(makeGlBackend(), scene, settings)))
@@ -185,8 +183,8 @@ TEST_F(GlPatches, ThousandsOfLightsAreThoseOfTheCpuBackend) {
   for (const char* technique : {"visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
     Settings settings = settingsOf(technique, 2500);
-    settings.set(parameters::mapResolution().name, 16);
-    settings.set(parameters::updates().name, 5000);
+    settings.set("map_resolution", 16);
+    settings.set("updates", 5000);
     const Image gl = rendered(makeGlBackend(), scene, settings);
     const Metrics m = compareImages(gl, rendered(makeCpuBackend(), scene, settings));
     RecordProperty(technique, std::to_string(m.relRmse));

@@ -4,8 +4,6 @@
 
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
@@ -44,13 +42,13 @@ struct Room {
 Settings settingsOf(bool prt, const std::string& technique = "light_maps", int block = 1,
                     int bounces = 4) {
   Settings s;
-  s.set(parameters::prt().name, prt);
-  s.set(parameters::prtBounces().name, bounces);
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::block().name, std::to_string(block));
-  s.set(parameters::vpls().name, 200);
-  s.set(parameters::updates().name, 200);
-  s.set(parameters::antialias().name, 1);
+  s.set("prt", prt);
+  s.set("prt_bounces", bounces);
+  s.set("technique", technique);
+  s.set("block", std::to_string(block));
+  s.set("vpls", 200);
+  s.set("updates", 200);
+  s.set("antialias", 1);
   return s;
 }
 

@@ -7,8 +7,6 @@
 #include "renderer/backends/gl/many_lights/light_lists.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/pass_merging.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
@@ -29,13 +27,13 @@ Scene loadAsset(const std::string& name) {
 
 Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, bool merge) {
   Settings s;
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::updates().name, vpls);
-  s.set(parameters::antialias().name, 1);
-  s.set(parameters::block().name, std::string("1"));
-  s.set(parameters::lightsPerPass().name, lightsPerPass);
-  s.set(parameters::mergePasses().name, merge);
+  s.set("technique", technique);
+  s.set("vpls", vpls);
+  s.set("updates", vpls);
+  s.set("antialias", 1);
+  s.set("block", std::string("1"));
+  s.set("lights_per_pass", lightsPerPass);
+  s.set("merge_passes", merge);
   return s;
 }
 
@@ -85,7 +83,7 @@ TEST_F(MergedGlPasses, TakeLightsOfSeveralKindsArraysAndBlocks) {
   Image pictures[2];
   for (const bool merge : {false, true}) {
     Settings settings = settingsOf("light_maps", 2500, 64, merge);
-    settings.set(parameters::mapResolution().name, 16);
+    settings.set("map_resolution", 16);
     pictures[merge] = rendered(makeGlBackend(), scene, settings).radiance->pixels();
   }
   EXPECT_LT(compareImages(pictures[1], pictures[0]).relRmse, kRounding);

@@ -5,37 +5,35 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/error.h"
-#include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/registry/registry.h"
 
 namespace lamplighter {
 namespace {
 
+const ParameterSpec& spec(const char* name) { return manyLightsParameters()[name]; }
+
 TEST(Parameters, TextReadsBackAsItself) {
-  const ParameterSpec& share = parameters::directShare();
-  for (const float f : {0.0f, 0.1f, 1.0f / 3.0f, 1.0f}) {
-    EXPECT_EQ(std::get<float>(Settings::parse(share, Settings::format(f))), f);
-  }
-  EXPECT_EQ(std::get<int>(Settings::parse(parameters::vpls(), "1024")), 1024);
+  for (const float f : {0.0f, 0.1f, 1.0f / 3.0f, 1.0f})
+    EXPECT_EQ(std::get<float>(Settings::parse(spec("direct_share"), Settings::format(f))), f);
+  EXPECT_EQ(std::get<int>(Settings::parse(spec("vpls"), "1024")), 1024);
 }
 
 TEST(Parameters, WhatIsOutOfRangeIsRefused) {
-  EXPECT_THROW(Settings::parse(parameters::directShare(), "1.5"), InputError);
-  EXPECT_THROW(Settings::parse(parameters::directShare(), "nan"), InputError);
-  EXPECT_THROW(Settings::parse(parameters::directShare(), ""), InputError);
-  EXPECT_THROW(Settings::parse(parameters::vpls(), "0"), InputError);
-  EXPECT_THROW(Settings::parse(parameters::vpls(), "12.5"), InputError);
-  EXPECT_THROW(Settings::parse(parameters::vpls(), "99999999999999999999"), InputError);
-  EXPECT_THROW(Settings::parse(parameters::vpls(), "30x"), InputError);
+  for (const char* text : {"1.5", "nan", ""})
+    EXPECT_THROW(Settings::parse(spec("direct_share"), text), InputError) << text;
+  for (const char* text : {"0", "12.5", "99999999999999999999", "30x"})
+    EXPECT_THROW(Settings::parse(spec("vpls"), text), InputError) << text;
+  EXPECT_THROW(Settings::parse(spec("technique"), "fast"), InputError);
 }
 
 TEST(Parameters, UnsetOnesHaveTheirDefault) {
   Settings s;
-  EXPECT_EQ(s.integer(parameters::bounces()), 2);
+  EXPECT_EQ(s.integer(spec("bounces")), 2);
   s.set("bounces", 5);
-  EXPECT_EQ(s.integer(parameters::bounces()), 5);
+  EXPECT_EQ(s.integer(spec("bounces")), 5);
   s.reset("bounces");
-  EXPECT_EQ(s.integer(parameters::bounces()), 2);
+  EXPECT_EQ(s.integer(spec("bounces")), 2);
 }
 
 // Panels show group by group: one that is not listed would not be seen at all.
@@ -50,8 +48,8 @@ TEST(Parameters, EveryParameterIsInAGroupThatPanelsShow) {
     }
     EXPECT_EQ(shown.size(), method.parameters.size()) << method.name;
   }
-  EXPECT_EQ(parameters::updates().group, ParameterGroup::budgets);
-  EXPECT_EQ(parameters::vpls().group, ParameterGroup::lightSamples);
+  EXPECT_EQ(spec("updates").group, ParameterGroup::budgets);
+  EXPECT_EQ(spec("vpls").group, ParameterGroup::lightSamples);
 }
 
 }  // namespace

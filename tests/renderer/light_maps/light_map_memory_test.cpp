@@ -5,8 +5,6 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/vpl_set.h"
 #include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
@@ -130,13 +128,13 @@ TEST(LightMapMemory, CountsTheLightsThatThereAre) {
 TEST(LightMapMemory, ThePictureStaysNearlyTheSame) {
   const test::AssetRoom room("pillar_room", 96, 60);
   Settings settings;
-  settings.set(parameters::vpls().name, 200);
-  settings.set(parameters::bounces().name, 1);
-  settings.set(parameters::updates().name, 400);
-  settings.set(parameters::antialias().name, 1);
-  settings.set(parameters::lightMapTexel().name, 0.02f);
+  settings.set("vpls", 200);
+  settings.set("bounces", 1);
+  settings.set("updates", 400);
+  settings.set("antialias", 1);
+  settings.set("light_map_texel", 0.02f);
   const auto render = [&](int mebibytes) {
-    settings.set(parameters::lightMapMemory().name, mebibytes);
+    settings.set("light_map_memory", mebibytes);
     FrameRenderer renderer(makeCpuBackend());
     return test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
   };
@@ -156,14 +154,14 @@ TEST(LightMapMemory, ThePictureFollowsWhatIsLeft) {
   update(render, scene, SceneChanges::all());
   const View view = viewOfBounds(render.bounds, 192, 128);
   Settings settings;
-  settings.set(parameters::vpls().name, 60);
-  settings.set(parameters::antialias().name, 1);
-  settings.set(parameters::lightMapTexel().name, 0.02f);
+  settings.set("vpls", 60);
+  settings.set("antialias", 1);
+  settings.set("light_map_texel", 0.02f);
   FrameRenderer kept(makeCpuBackend());
   std::vector<float> texels;
   SceneChanges changes = SceneChanges::all();
   for (const int mebibytes : {512, 1, 4, 1, 512}) {
-    settings.set(parameters::lightMapMemory().name, mebibytes);
+    settings.set("light_map_memory", mebibytes);
     const GiOutput out = test::renderSettled(kept, scene, changes, view, settings);
     FrameRenderer anew(makeCpuBackend());
     const GiOutput fresh = test::renderSettled(anew, scene, SceneChanges::all(), view, settings);

@@ -5,7 +5,6 @@
 
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/lit_scene.h"
 
@@ -18,9 +17,9 @@ const std::filesystem::path kReferences =
 Metrics compareCornell(const std::string& name, int vpls, int bounces) {
   const Scene scene = loadGltf(kReferences / "scenes" / (name + ".gltf")).scene;
   Settings settings;
-  settings.set(parameters::vpls().name, vpls);
-  settings.set(parameters::bounces().name, bounces);
-  settings.set(parameters::updates().name, vpls);
+  settings.set("vpls", vpls);
+  settings.set("bounces", bounces);
+  settings.set("updates", vpls);
   View view;
   for (const Node& node : scene.nodes) {
     if (node.camera != kNone) view = viewOfCamera(scene, node, 512, 384);

@@ -4,8 +4,6 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -26,13 +24,13 @@ struct Room {
     test::addMesh(scene, test::roomMesh(vec3(6, 4, 6), white), vec3(0, 2, 0));
     cube = test::addMesh(scene, test::boxMesh(vec3(1), red), vec3(-2.0f, 0.6f, 2.2f));
     light = test::addRectangleLight(scene, vec3(0.5f, 3.8f, 0.5f), vec2(1, 0.8f), vec3(10));
-    settings.set(parameters::vpls().name, 600);
-    settings.set(parameters::bounces().name, 2);
-    settings.set(parameters::updates().name, 80);
-    settings.set(parameters::mapResolution().name, 32);
-    settings.set(parameters::antialias().name, 1);
+    settings.set("vpls", 600);
+    settings.set("bounces", 2);
+    settings.set("updates", 80);
+    settings.set("map_resolution", 32);
+    settings.set("antialias", 1);
     // Of the paths and their maps alone: which of these are looked up is visibility's business.
-    settings.set(parameters::technique().name, std::string("naive"));
+    settings.set("technique", std::string("naive"));
   }
 };
 
@@ -41,7 +39,7 @@ class Drag : public testing::TestWithParam<std::tuple<bool, int>> {};
 TEST_P(Drag, FollowsWithoutAJumpAndSettlesAsAFreshStart) {
   const auto [isLight, maxPaths] = GetParam();
   Room room;
-  room.settings.set(parameters::maxPaths().name, maxPaths);
+  room.settings.set("max_paths", maxPaths);
   FrameRenderer renderer(makeCpuBackend());
   vec3 last = test::meanOf(
       test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, room.settings)

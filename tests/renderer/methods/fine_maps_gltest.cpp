@@ -4,8 +4,6 @@
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
@@ -20,16 +18,16 @@ struct FineMapsGl : test::GlTest, test::AssetRoom {
   FineMapsGl() : AssetRoom("pillar_room", 93, 61) {}
   void SetUp() override {
     test::GlTest::SetUp();
-    settings.set(parameters::vpls().name, 40);
-    settings.set(parameters::updates().name, 16);
-    settings.set(parameters::antialias().name, 1);
-    settings.set(parameters::mapResolution().name, 32);
-    settings.set(parameters::settledMapScale().name, 4);
+    settings.set("vpls", 40);
+    settings.set("updates", 16);
+    settings.set("antialias", 1);
+    settings.set("map_resolution", 32);
+    settings.set("settled_map_scale", 4);
   }
   Image directly(int resolution, int scale) const {
     Settings other = settings;
-    other.set(parameters::mapResolution().name, resolution);
-    other.set(parameters::settledMapScale().name, scale);
+    other.set("map_resolution", resolution);
+    other.set("settled_map_scale", scale);
     FrameRenderer fresh(makeGlBackend());
     return test::renderSettled(fresh, scene, SceneChanges::all(), view, other).radiance->pixels();
   }
@@ -41,7 +39,7 @@ constexpr double kRounding = 1e-5;
 TEST_F(FineMapsGl, ASettledPictureIsThatOfFineMaps) {
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
-    settings.set(parameters::technique().name, std::string(technique));
+    settings.set("technique", std::string(technique));
     const Image picture = directly(32, 4);
     EXPECT_LT(compareImages(picture, directly(128, 1)).relRmse, kRounding);
     EXPECT_GT(compareImages(picture, directly(32, 1)).relRmse, 100 * kRounding);
@@ -52,10 +50,10 @@ TEST_F(FineMapsGl, ASettledPictureIsThatOfFineMaps) {
 TEST_F(FineMapsGl, OnTheWayItIsAsByTheCpuBackend) {
   for (const char* technique : {"naive", "light_maps"}) {
     SCOPED_TRACE(technique);
-    settings.set(parameters::technique().name, std::string(technique));
+    settings.set("technique", std::string(technique));
     // By how many maps are to become fine; a fine map counts as two of the cpu backend's.
     const auto picturesOf = [&](std::unique_ptr<Backend> backend, int updates) {
-      settings.set(parameters::updates().name, updates);
+      settings.set("updates", updates);
       FrameRenderer renderer(std::move(backend));
       std::map<int, Image> pictures;
       GiOutput out = renderer.render({scene, SceneChanges::all(), view, "many_lights", settings});

@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "renderer/frame/frame.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
@@ -23,11 +21,11 @@ struct FineMaps : testing::Test, test::AssetRoom {
   FrameRenderer renderer{makeCpuBackend()};
 
   FineMaps() : AssetRoom("pillar_room", 93, 61) {
-    settings.set(parameters::vpls().name, 60);
-    settings.set(parameters::updates().name, 20);
-    settings.set(parameters::antialias().name, 1);
-    settings.set(parameters::mapResolution().name, kCoarse);
-    settings.set(parameters::settledMapScale().name, kScale);
+    settings.set("vpls", 60);
+    settings.set("updates", 20);
+    settings.set("antialias", 1);
+    settings.set("map_resolution", kCoarse);
+    settings.set("settled_map_scale", kScale);
   }
   GiOutput step(const SceneChanges& changes = {}) {
     return renderer.render({scene, changes, view, "many_lights", settings});
@@ -46,8 +44,8 @@ struct FineMaps : testing::Test, test::AssetRoom {
   }
   Image directly(int resolution, int scale) const {
     Settings other = settings;
-    other.set(parameters::mapResolution().name, resolution);
-    other.set(parameters::settledMapScale().name, scale);
+    other.set("map_resolution", resolution);
+    other.set("settled_map_scale", scale);
     FrameRenderer fresh(makeCpuBackend());
     return test::renderSettled(fresh, scene, SceneChanges::all(), view, other).radiance->pixels();
   }
@@ -63,8 +61,8 @@ TEST_F(FineMaps, ASettledPictureIsThatOfFineMaps) {
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     for (const char* block : {"1", "4"}) {
       SCOPED_TRACE(std::string(technique) + ", blocks of " + block);
-      settings.set(parameters::technique().name, std::string(technique));
-      settings.set(parameters::block().name, std::string(block));
+      settings.set("technique", std::string(technique));
+      settings.set("block", std::string(block));
       const Image picture = settle(SceneChanges::all()).radiance->pixels();
       EXPECT_EQ(fine(), test::lightCounts(renderer.backend()).mapsHeld);
       EXPECT_TRUE(sameBits(picture, directly(kCoarse * kScale, 1)));
@@ -99,7 +97,7 @@ TEST_F(FineMaps, ComeLastAndByTheBudget) {
   EXPECT_EQ(test::lightCounts(renderer.backend()).shadowMaps, rendered);
 
   // Rays are counted one by one.
-  settings.set(parameters::maxRays().name, 3 * kCoarse * kScale * kCoarse * kScale);
+  settings.set("max_rays", 3 * kCoarse * kScale * kCoarse * kScale);
   out = step(move("mover", vec3(0.2f, 0.0f, 0.0f)));
   while (out.stats.mapsSharpened == 0) out = step();
   EXPECT_EQ(out.stats.mapsSharpened, std::min(3, 3 + out.stats.mapsToSharpen));
@@ -118,7 +116,7 @@ TEST_F(FineMaps, WhatAnEditTouchesIsCoarse) {
   settle();
   const uint64_t now = test::lightCounts(renderer.backend()).mapsHeld;
   EXPECT_EQ(fine(), now);
-  settings.set(parameters::updates().name, 60);
+  settings.set("updates", 60);
   out = step(move("ceiling light", vec3(0.3f, 0.0f, 0.0f)));
   EXPECT_LT(fine(), now / 2);
 }
@@ -127,7 +125,7 @@ TEST_F(FineMaps, WhatAnEditTouchesIsCoarse) {
 TEST_F(FineMaps, AnyWayThereIsThePictureFromNothing) {
   for (const char* technique : {"naive", "light_maps"}) {
     SCOPED_TRACE(technique);
-    settings.set(parameters::technique().name, std::string(technique));
+    settings.set("technique", std::string(technique));
     const Image first = settle(SceneChanges::all()).radiance->pixels();
     const View front = view;
     for (int i = 0; i < 12; ++i) {
@@ -146,10 +144,10 @@ TEST_F(FineMaps, AnyWayThereIsThePictureFromNothing) {
 
 // They are as fine as the memory lets all of them be.
 TEST_F(FineMaps, TakeNoMoreMemoryThanTheyMay) {
-  settings.set(parameters::mapMemory().name, 1);
+  settings.set("map_memory", 1);
   for (const auto& [vpls, scale] : {std::pair(20, 4), {120, 2}, {600, 1}}) {
     SCOPED_TRACE(vpls);
-    settings.set(parameters::vpls().name, vpls);
+    settings.set("vpls", vpls);
     GiOutput out = step(SceneChanges::all());
     while (!out.settled) {
       EXPECT_LE(test::lightCounts(renderer.backend()).mapBytes, uint64_t{1} << 20);

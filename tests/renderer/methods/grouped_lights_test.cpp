@@ -8,8 +8,6 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/light_proxies.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 
@@ -22,12 +20,12 @@ struct Room : test::AssetRoom {
 
 Settings settingsOf(const std::string& technique, int vpls, float groupShare) {
   Settings s;
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::bounces().name, 1);
-  s.set(parameters::updates().name, vpls);
-  s.set(parameters::antialias().name, 1);
-  s.set(parameters::groupShare().name, groupShare);
+  s.set("technique", technique);
+  s.set("vpls", vpls);
+  s.set("bounces", 1);
+  s.set("updates", vpls);
+  s.set("antialias", 1);
+  s.set("group_share", groupShare);
   return s;
 }
 
@@ -66,8 +64,8 @@ TEST(GroupedLights, LookUpLessAndShowTheSame) {
 TEST(GroupedLights, LeaveNoTraceOfHowTheyCameAbout) {
   Room room("pillar_room");
   Settings settings = settingsOf("light_maps", 900, 0.4f);
-  settings.set(parameters::updates().name, 250);
-  settings.set(parameters::mapResolution().name, 16);
+  settings.set("updates", 250);
+  settings.set("map_resolution", 16);
   FrameRenderer renderer(makeCpuBackend());
   test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
   for (int edit = 0; edit < 4; ++edit) {

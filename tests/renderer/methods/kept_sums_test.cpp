@@ -8,8 +8,6 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/edit_sequence.h"
 #include "tests/support/lit_scene.h"
@@ -22,15 +20,15 @@ Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
   const bool isByTransfer = technique.ends_with("transfer");
   const bool isByBlocks = technique.starts_with("blocks");
-  s.set(parameters::technique().name, isByTransfer || isByBlocks ? "light_maps" : technique);
-  s.set(parameters::prt().name, isByTransfer);
-  s.set(parameters::prtBounces().name, technique == "reflecting transfer" ? 4 : 0);
-  s.set(parameters::block().name, isByBlocks ? technique.substr(technique.size() - 1) : "1");
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::bounces().name, 2);
-  s.set(parameters::updates().name, 9);
-  s.set(parameters::mapResolution().name, 16);
-  s.set(parameters::antialias().name, 1);
+  s.set("technique", isByTransfer || isByBlocks ? "light_maps" : technique);
+  s.set("prt", isByTransfer);
+  s.set("prt_bounces", technique == "reflecting transfer" ? 4 : 0);
+  s.set("block", isByBlocks ? technique.substr(technique.size() - 1) : "1");
+  s.set("vpls", vpls);
+  s.set("bounces", 2);
+  s.set("updates", 9);
+  s.set("map_resolution", 16);
+  s.set("antialias", 1);
   return s;
 }
 
@@ -100,7 +98,7 @@ TEST(KeptSums, FollowBlocksAndSizes) {
   for (const auto& [block, width] :
        {std::pair("4", 93), {"8", 93}, {"4", 95}, {"1", 95}, {"2", 92}, {"4", 92}, {"1", 93}}) {
     Settings settings = settingsOf("light_maps", 40);
-    settings.set(parameters::block().name, std::string(block));
+    settings.set("block", std::string(block));
     room.view.width = width;
     const Image kept = settled(renderer, room.scene, changes, room.view, settings);
     EXPECT_TRUE(test::sameBits(kept, settledWith(room, settings))) << block << ", " << width;
@@ -123,9 +121,9 @@ TEST(KeptSums, BlocksAreTheSameBitsAtAnyNumberOfThreads) {
 TEST(KeptSums, ADragCostsWhatItTouches) {
   Room room;
   Settings settings = settingsOf("light_maps", 100);
-  settings.set(parameters::updates().name, 10);
+  settings.set("updates", 10);
   constexpr int kResolution = 18;  // of maps that are traced, a ray a texel
-  settings.set(parameters::mapResolution().name, kResolution);
+  settings.set("map_resolution", kResolution);
   FrameRenderer renderer(makeCpuBackend());
   settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
   const auto pixels = static_cast<uint64_t>(room.view.width) * room.view.height;
@@ -157,8 +155,8 @@ TEST(KeptSums, WhatStaysIsLookedUpWhereItsMapChanged) {
   room.view.height = 160;
   for (const char* technique : {"visibility", "light_maps", "blocks of 4"}) {
     Settings settings = settingsOf(technique, 100);
-    settings.set(parameters::updates().name, 1000);
-    settings.set(parameters::mapResolution().name, 64);
+    settings.set("updates", 1000);
+    settings.set("map_resolution", 64);
     FrameRenderer renderer(makeCpuBackend());
     settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
     std::vector<uint64_t> lookUps;  // by edit
@@ -212,7 +210,7 @@ TEST(KeptSums, FollowHowPatchesUseTheSameLights) {
   Settings settings = settingsOf("light_maps", 60);
   FrameRenderer renderer(makeCpuBackend());
   const Image fine = settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
-  settings.set(parameters::lightMapTexel().name, 0.5f);
+  settings.set("light_map_texel", 0.5f);
   const Image kept = settled(renderer, room.scene, {}, room.view, settings);
   FrameRenderer anew(makeCpuBackend());
   EXPECT_TRUE(
@@ -224,7 +222,7 @@ TEST(KeptSums, FollowHowPatchesUseTheSameLights) {
 TEST(KeptSums, OutlastAntialiasing) {
   Room room;
   Settings settings = settingsOf("light_maps", 40);
-  settings.set(parameters::antialias().name, 4);
+  settings.set("antialias", 4);
   FrameRenderer renderer(makeCpuBackend());
   const Image first = settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
   for (const float step : {0.3f, -0.3f}) {

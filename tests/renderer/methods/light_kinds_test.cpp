@@ -10,8 +10,6 @@
 
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
 #include "tests/support/lit_scene.h"
@@ -141,11 +139,11 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   const View view = test::lookAt(vec3(1.5f, 2.2f, 4.5f), vec3(0), 96, 64, 0.75f);
 
   Settings settings;
-  settings.set(parameters::vpls().name, 512);
-  settings.set(parameters::bounces().name, 1);
-  settings.set(parameters::updates().name, 4096);
-  settings.set(parameters::antialias().name, 4);
-  settings.set(parameters::refine().name, 8192);
+  settings.set("vpls", 512);
+  settings.set("bounces", 1);
+  settings.set("updates", 4096);
+  settings.set("antialias", 4);
+  settings.set("refine", 8192);
   FrameRenderer renderer(makeCpuBackend());
   GiOutput out;
   SceneChanges changes = SceneChanges::all();

@@ -7,8 +7,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
@@ -24,11 +22,11 @@ constexpr int kWidth = 320, kHeight = 240;
 
 Settings settingsOf(int vpls, const std::string& block) {
   Settings s;
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::updates().name, vpls);
-  s.set(parameters::bounces().name, 1);
-  s.set(parameters::antialias().name, 1);
-  s.set(parameters::block().name, block);
+  s.set("vpls", vpls);
+  s.set("updates", vpls);
+  s.set("bounces", 1);
+  s.set("antialias", 1);
+  s.set("block", block);
   return s;
 }
 
@@ -67,7 +65,7 @@ TEST_P(LowResolutionPicture, IsTheOneOfAllPixels) {
   for (const View& view : viewsOf(scene)) {
     const auto picture = [&](const std::string& block) {
       Settings settings = settingsOf(GetParam().vpls, block);
-      settings.set(parameters::mapResolution().name, GetParam().mapResolution);
+      settings.set("map_resolution", GetParam().mapResolution);
       GiOutput out = test::renderSettled(renderer, scene, changes, view, settings);
       changes = {};
       return out;
@@ -171,9 +169,9 @@ TEST_P(MovingCamera, ShowsNearlyWhatItRestsOn) {
   const Scene scene =
       loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / GetParam().scene).scene;
   Settings settings = settingsOf(GetParam().vpls, "4");
-  settings.set(parameters::importance().name, 1);  // samples are not chosen anew
-  settings.set(parameters::settledMapScale().name, 1);
-  settings.set(parameters::cornerLight().name, false);
+  settings.set("importance", 1);  // samples are not chosen anew
+  settings.set("settled_map_scale", 1);
+  settings.set("corner_light", false);
   const View view = viewsOf(scene)[0];
   View moved = view;
   moved.eye += vec3(0.02f, 0.01f, 0.0f);

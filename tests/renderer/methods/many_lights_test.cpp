@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -19,11 +17,11 @@ using test::sameBits;
 
 Settings settingsOf(int vpls, int bounces, int updates, int antialias = 1) {
   Settings s;
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::bounces().name, bounces);
-  s.set(parameters::updates().name, updates);
-  s.set(parameters::antialias().name, antialias);
-  s.set(parameters::mapResolution().name, 32);
+  s.set("vpls", vpls);
+  s.set("bounces", bounces);
+  s.set("updates", updates);
+  s.set("antialias", antialias);
+  s.set("map_resolution", 32);
   return s;
 }
 
@@ -56,7 +54,7 @@ TEST(ManyLights, DirectLightIsThePolygonsFormFactor) {
     // A light map is right at its texels; between them it lies over a curve by a chord.
     for (const auto& [technique, tolerance] : {std::pair("naive", 1e-3), {"light_maps", 2e-3}}) {
       Settings settings = settingsOf(1024, 0, 1024);
-      settings.set(parameters::technique().name, std::string(technique));
+      settings.set("technique", std::string(technique));
       const GiOutput out = renderSettled(renderer, scene, SceneChanges::all(), view, settings);
       EXPECT_NEAR(static_cast<double>(test::meanOf(out.radiance->pixels()).r) / expected, 1.0,
                   tolerance)
@@ -69,7 +67,7 @@ TEST(ManyLights, DirectLightIsThePolygonsFormFactor) {
 TEST(ManyLights, AgreesWithThePathTracer) {
   const Room room;
   Settings settings = settingsOf(4096, 2, 4096, 2);
-  settings.set(parameters::mapResolution().name, 64);
+  settings.set("map_resolution", 64);
   FrameRenderer renderer(makeCpuBackend());
   View view = room.view;
   view.width = 40;
@@ -84,7 +82,7 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
   Room room;
   FrameRenderer renderer(makeCpuBackend());
   Settings settings = settingsOf(100, 1, 30);
-  settings.set(parameters::settledMapScale().name, 1);
+  settings.set("settled_map_scale", 1);
   const auto step = [&](const SceneChanges& changes) {
     return renderer.render({room.scene, changes, room.view, "many_lights", settings});
   };
@@ -128,7 +126,7 @@ TEST(ManyLights, AMoveNeverFlickers) {
   Room room;
   FrameRenderer renderer(makeCpuBackend());
   Settings settings = settingsOf(120, 0, 17);
-  settings.set(parameters::settledMapScale().name, 1);
+  settings.set("settled_map_scale", 1);
   const float before =
       test::meanOf(renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings)
                        .radiance->pixels())
@@ -160,7 +158,7 @@ TEST(ManyLights, SettledAfterManyMovesEqualsAFreshStart) {
     Room room;
     FrameRenderer renderer(makeCpuBackend());
     Settings settings = settingsOf(90, 2, 20, 2);
-    settings.set(parameters::technique().name, std::string(technique));
+    settings.set("technique", std::string(technique));
     SceneChanges changes = SceneChanges::all();
     NodeId second = kNoNode;
     for (int move = 0; move < 12; ++move) {
@@ -195,26 +193,26 @@ TEST(ManyLights, SettingsThereAndBackGiveTheSameBits) {
   Settings settings = settingsOf(60, 1, 50, 3);
   const Image first = renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings)
                           .radiance->pixels();
-  const auto differs = [&](const ParameterSpec& spec, const ParameterValue& value) {
+  const auto differs = [&](const char* name, const ParameterValue& value) {
     const Settings before = settings;
-    settings.set(spec.name, value);
+    settings.set(name, value);
     const Image changed =
         renderSettled(renderer, room.scene, {}, room.view, settings).radiance->pixels();
-    EXPECT_FALSE(sameBits(first, changed)) << spec.name;
+    EXPECT_FALSE(sameBits(first, changed)) << name;
     settings = before;
     const Image back =
         renderSettled(renderer, room.scene, {}, room.view, settings).radiance->pixels();
-    EXPECT_TRUE(sameBits(first, back)) << spec.name;
+    EXPECT_TRUE(sameBits(first, back)) << name;
   };
-  differs(parameters::vpls(), 200);
-  differs(parameters::directShare(), 0.9f);
-  differs(parameters::bounces(), 3);
-  differs(parameters::seed(), 7);
-  differs(parameters::mapResolution(), 17);
-  differs(parameters::settledMapScale(), 2);
-  differs(parameters::clampDistance(), 1.5f);
-  differs(parameters::shadowBias(), 0.1f);
-  differs(parameters::antialias(), 1);
+  differs("vpls", 200);
+  differs("direct_share", 0.9f);
+  differs("bounces", 3);
+  differs("seed", 7);
+  differs("map_resolution", 17);
+  differs("settled_map_scale", 2);
+  differs("clamp_distance", 1.5f);
+  differs("shadow_bias", 0.1f);
+  differs("antialias", 1);
 }
 
 TEST(ManyLights, TheSameBitsAtAnyNumberOfThreads) {

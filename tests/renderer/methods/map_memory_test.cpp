@@ -8,8 +8,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
@@ -33,12 +31,12 @@ struct Room {
 
 Settings settingsOf(const std::string& technique, int vpls, int mebibytes) {
   Settings s;
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::bounces().name, 1);
-  s.set(parameters::updates().name, 200);
-  s.set(parameters::antialias().name, 1);
-  s.set(parameters::mapMemory().name, mebibytes);
+  s.set("technique", technique);
+  s.set("vpls", vpls);
+  s.set("bounces", 1);
+  s.set("updates", 200);
+  s.set("antialias", 1);
+  s.set("map_memory", mebibytes);
   return s;
 }
 
@@ -130,11 +128,11 @@ TEST(MapMemory, MapsComeAndGoWithoutAFlash) {
   FrameRenderer renderer(makeCpuBackend());
   Settings settings = settingsOf("light_maps", 240, 3);
   // Maps alone come and go, not the light samples, nor what is added where all is settled.
-  settings.set(parameters::importance().name, 1);
-  settings.set(parameters::cornerLight().name, false);
+  settings.set("importance", 1);
+  settings.set("corner_light", false);
   int stoodIn = 0;
   for (int visit = 0; visit < 6; ++visit) {
-    settings.set(parameters::updates().name, visit == 0 ? 400 : 10);
+    settings.set("updates", visit == 0 ? 400 : 10);
     rooms.look(visit % 2 == 0 ? -3.0f : 3.0f, visit % 2 == 0 ? 3.0f : -3.0f);
     std::vector<Image> frames;
     GiOutput out;

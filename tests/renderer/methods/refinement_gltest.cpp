@@ -1,8 +1,6 @@
 // A picture at rest that is refined on the gl backend.
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
@@ -23,8 +21,8 @@ struct RefinementGl : test::GlTest {
     test::addMesh(scene, test::roomMesh(vec3(3, 2.4f, 3), white), vec3(0, 1.2f, 0));
     box = test::addMesh(scene, test::boxMesh(vec3(0.7f), white), vec3(-0.5f, 0.35f, -0.5f));
     test::addRectangleLight(scene, vec3(0.2f, 2.2f, 0.1f), vec2(0.8f, 0.6f), vec3(10, 8, 6));
-    settings.set(parameters::vpls().name, 100);
-    settings.set(parameters::refine().name, 2000);
+    settings.set("vpls", 100);
+    settings.set("refine", 2000);
   }
 
   Image refined(FrameRenderer& renderer, const SceneChanges& changes) {

@@ -3,8 +3,6 @@
 #include <tbb/global_control.h>
 
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -30,12 +28,12 @@ struct Refined : testing::Test {
     test::addMesh(scene, test::roomMesh(vec3(3, 2.4f, 3), white), vec3(0, 1.2f, 0));
     box = test::addMesh(scene, test::boxMesh(vec3(0.7f), white), vec3(-0.5f, 0.35f, -0.5f));
     test::addRectangleLight(scene, vec3(0.2f, 2.2f, 0.1f), vec2(0.8f, 0.6f), vec3(10, 8, 6));
-    settings.set(parameters::vpls().name, 200);
-    settings.set(parameters::bounces().name, kBounces);
-    settings.set(parameters::updates().name, 70);
-    settings.set(parameters::antialias().name, 4);
-    settings.set(parameters::mapResolution().name, 32);
-    settings.set(parameters::refine().name, 4096);
+    settings.set("vpls", 200);
+    settings.set("bounces", kBounces);
+    settings.set("updates", 70);
+    settings.set("antialias", 4);
+    settings.set("map_resolution", 32);
+    settings.set("refine", 4096);
   }
 
   GiOutput step(const SceneChanges& changes = {}, bool refines = true) {
@@ -61,10 +59,10 @@ struct Refined : testing::Test {
 
 TEST_F(Refined, ConvergesToThePathTracer) {
   const Image reference = test::renderReference(scene, view, 2048, kBounces);
-  settings.set(parameters::mapResolution().name, 64);
+  settings.set("map_resolution", 64);
   double last = 1.0;
   for (const int vpls : {1024, 4096, 16384}) {
-    settings.set(parameters::refine().name, vpls);
+    settings.set("refine", vpls);
     const GiOutput out = rest(vpls == 1024 ? SceneChanges::all() : SceneChanges(), true);
     EXPECT_GE(out.stats.vplsRefined, vpls);
     const Metrics m = compareImages(out.radiance->pixels(), reference);
@@ -120,23 +118,23 @@ TEST_F(Refined, WhatIsShownOtherwiseIsRefinedAnew) {
     EXPECT_TRUE(sameBits(picture, rest(SceneChanges::all(), true).radiance->pixels())) << what;
     renderer = std::move(used);
   };
-  settings.set(parameters::refine().name, 2048);
+  settings.set("refine", 2048);
   isAsFromNothing("refine");
-  settings.set(parameters::clampDistance().name, 0.2f);
+  settings.set("clamp_distance", 0.2f);
   isAsFromNothing("clamp_distance");
-  settings.set(parameters::seed().name, 5);
+  settings.set("seed", 5);
   isAsFromNothing("seed");
-  settings.set(parameters::antialias().name, 1);
+  settings.set("antialias", 1);
   isAsFromNothing("antialias");
-  settings.set(parameters::mapResolution().name, 16);
+  settings.set("map_resolution", 16);
   isAsFromNothing("map_resolution");
-  settings.set(parameters::technique().name, std::string("naive"));
+  settings.set("technique", std::string("naive"));
   isAsFromNothing("technique");
   view.eye.x -= 0.2f;
   isAsFromNothing("view");
   view.width = 50;
   isAsFromNothing("size");
-  settings.set(parameters::bounces().name, 0);
+  settings.set("bounces", 0);
   isAsFromNothing("bounces");
 }
 

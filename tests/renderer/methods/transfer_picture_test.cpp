@@ -10,8 +10,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -56,18 +54,18 @@ struct BumpyRoom {
 // With transfer for all light and its reflections, unless it is told how much of it may be wrong.
 Settings settingsOf(bool prt, int bounces, float error = 1.0f) {
   Settings s;
-  s.set(parameters::prt().name, prt);
-  s.set(parameters::prtError().name, error);
-  s.set(parameters::prtBounces().name, 4);
-  s.set(parameters::block().name, std::string("1"));
+  s.set("prt", prt);
+  s.set("prt_error", error);
+  s.set("prt_bounces", 4);
+  s.set("block", std::string("1"));
   // It is found from the light of the whole picture, transfer's too.
-  s.set(parameters::cornerLight().name, false);
-  s.set(parameters::importance().name, 1);  // of all samples, as many as for any view
-  s.set(parameters::vpls().name, 1000);
-  s.set(parameters::updates().name, 1000);
-  s.set(parameters::bounces().name, bounces);
-  s.set(parameters::antialias().name, 4);
-  s.set(parameters::settledMapScale().name, 1);
+  s.set("corner_light", false);
+  s.set("importance", 1);  // of all samples, as many as for any view
+  s.set("vpls", 1000);
+  s.set("updates", 1000);
+  s.set("bounces", bounces);
+  s.set("antialias", 4);
+  s.set("settled_map_scale", 1);
   return s;
 }
 
@@ -108,7 +106,7 @@ TEST_P(TransferPictures, AreNearTheReference) {
   const Rendered with = rendered(room, settingsOf(true, c.bounces));
   const Rendered without = rendered(room, settingsOf(false, c.bounces));
   Settings one = settingsOf(true, c.bounces);
-  one.set(parameters::prtPoints().name, 1);
+  one.set("prt_points", 1);
   const Rendered careful = rendered(room, settingsOf(true, c.bounces, kError));
   const Metrics a = compareImages(with.image, reference, &mask);
   const Metrics b = compareImages(without.image, reference, &mask);
@@ -156,7 +154,7 @@ TEST(TransferPicture, IsThatOfPixelsButForTheError) {
     const Image pixels = rendered(room, settingsOf(false, 2)).image;
     const auto errorOf = [&](float most) {
       Settings settings = settingsOf(true, 2, most);
-      settings.set(parameters::prtBounces().name, 0);
+      settings.set("prt_bounces", 0);
       return compareImages(rendered(room, settings).image, pixels, &mask).relRmse;
     };
     const double all = errorOf(1.0f);
@@ -174,7 +172,7 @@ TEST(TransferPicture, IsTheSameAfterTheBackgroundAndFromTheCache) {
   fs::remove_all(folder);
   const BumpyRoom room;
   Settings settings = settingsOf(true, 1);
-  settings.set(parameters::vpls().name, 100);
+  settings.set("vpls", 100);
   const Image waited = rendered(room, settings).image;
   for (const bool isCached : {false, true}) {
     FrameRenderer renderer(makeCpuBackend());
@@ -199,9 +197,9 @@ TEST(TransferPicture, ItsRaysAreOfTheBudget) {
     BumpyRoom room;
     FrameRenderer renderer(makeCpuBackend());
     Settings settings = settingsOf(prt, 1);
-    settings.set(parameters::vpls().name, 100);
+    settings.set("vpls", 100);
     test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
-    settings.set(parameters::maxRays().name, kMaps * kRaysAMap);
+    settings.set("max_rays", kMaps * kRaysAMap);
     const Scene before = room.scene;
     room.scene.nodes[1].local.translation.x += 0.5f;  // the plate
     return renderer
@@ -218,7 +216,7 @@ TEST(TransferPicture, FollowsItsSwitch) {
   const BumpyRoom room;
   FrameRenderer renderer(makeCpuBackend());
   Settings on = settingsOf(true, 1), off = settingsOf(false, 1);
-  for (Settings* s : {&on, &off}) s->set(parameters::vpls().name, 100);
+  for (Settings* s : {&on, &off}) s->set("vpls", 100);
   const auto show = [&](const Settings& s, const SceneChanges& changes) {
     return test::renderSettled(renderer, room.scene, changes, room.view, s).radiance->pixels();
   };

@@ -8,8 +8,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shared_files.h"
@@ -24,12 +22,12 @@ constexpr int kWidth = 192, kHeight = 128;
 
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::block().name, std::string("1"));
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::updates().name, 150);
-  s.set(parameters::antialias().name, 1);
-  s.set(parameters::cornerLight().name, false);  // found by rays for each of them
+  s.set("technique", technique);
+  s.set("block", std::string("1"));
+  s.set("vpls", vpls);
+  s.set("updates", 150);
+  s.set("antialias", 1);
+  s.set("corner_light", false);  // found by rays for each of them
   return s;
 }
 

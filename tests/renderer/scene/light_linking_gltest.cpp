@@ -2,8 +2,6 @@
 // speculars, and with the low-resolution pass.
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
@@ -34,13 +32,13 @@ TEST_P(GlLinking, LooksTheSameOnBothBackends) {
   scene.find(bulb)->punctual = PunctualLight{PunctualKind::point, vec3(3, 4, 5)};
   const View view = test::lookAt(vec3(0, 4, 4.5f), vec3(0), 128, 80, 0.8f);
   Settings settings;
-  settings.set(parameters::vpls().name, 64);
-  settings.set(parameters::bounces().name, 1);
-  settings.set(parameters::antialias().name, 1);
-  settings.set(parameters::updates().name, 4096);
-  settings.set(parameters::technique().name, std::string(GetParam().technique));
-  settings.set(parameters::block().name, std::string(GetParam().block));
-  settings.set(parameters::speculars().name, GetParam().speculars);
+  settings.set("vpls", 64);
+  settings.set("bounces", 1);
+  settings.set("antialias", 1);
+  settings.set("updates", 4096);
+  settings.set("technique", std::string(GetParam().technique));
+  settings.set("block", std::string(GetParam().block));
+  settings.set("speculars", GetParam().speculars);
   FrameRenderer gl(makeGlBackend()), cpu(makeCpuBackend());
   const Image plain =
       test::renderSettled(gl, scene, SceneChanges::all(), view, settings).radiance->pixels();

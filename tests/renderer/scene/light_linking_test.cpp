@@ -8,8 +8,6 @@
 
 #include "renderer/base/error.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/gltf_files.h"
 #include "tests/support/lit_scene.h"
@@ -98,15 +96,15 @@ TEST(LightLinking, DirectLightIsThatOfTheOtherLights) {
 
 Settings manyLights(const char* technique, bool prt, int prtBounces = 0) {
   Settings s;
-  s.set(parameters::vpls().name, 300);
-  s.set(parameters::bounces().name, 2);
-  s.set(parameters::updates().name, 4096);
-  s.set(parameters::antialias().name, 1);
-  s.set(parameters::mapResolution().name, 64);
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::prt().name, prt);
-  s.set(parameters::prtBounces().name, prtBounces);
-  s.set(parameters::cornerLight().name, false);
+  s.set("vpls", 300);
+  s.set("bounces", 2);
+  s.set("updates", 4096);
+  s.set("antialias", 1);
+  s.set("map_resolution", 64);
+  s.set("technique", technique);
+  s.set("prt", prt);
+  s.set("prt_bounces", prtBounces);
+  s.set("corner_light", false);
   return s;
 }
 
@@ -135,8 +133,8 @@ TEST_P(LiveLinking, IsTheRebuiltPicture) {
       test::addMesh(t.scene, test::sphereMesh(0.5f, 10, 0.0f, gloss), vec3(1, 0.7f, 0));
   t.scene.sky = test::gradientSky();
   Settings settings = manyLights(GetParam().technique, GetParam().prt, GetParam().prtBounces);
-  settings.set(parameters::block().name, std::string(GetParam().block));
-  settings.set(parameters::speculars().name, GetParam().speculars);
+  settings.set("block", std::string(GetParam().block));
+  settings.set("speculars", GetParam().speculars);
   FrameRenderer live(makeCpuBackend());
   settled(live, t.scene, SceneChanges::all(), t.view, settings);
   const auto edit = [&](const char* what, auto change) {
@@ -187,9 +185,9 @@ TEST(LightLinking, MethodsAgree) {
   };
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     Settings s = manyLights(technique, false);
-    s.set(parameters::vpls().name, 2048);
-    s.set(parameters::antialias().name, 4);
-    s.set(parameters::cornerLight().name, true);
+    s.set("vpls", 2048);
+    s.set("antialias", 4);
+    s.set("corner_light", true);
     FrameRenderer renderer(makeCpuBackend());
     const Image picture = settled(renderer, t.scene, SceneChanges::all(), t.view, s);
     const Metrics m = compareImages(inBlocks(picture), inBlocks(reference));

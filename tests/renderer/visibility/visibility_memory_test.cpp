@@ -6,8 +6,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
@@ -115,12 +113,12 @@ TEST(VisibilityMemory, ThePictureStaysTheSame) {
   for (const Node& node : scene.nodes)
     if (node.camera != kNone) view = viewOfCamera(scene, node, 96, 60);
   Settings settings;
-  settings.set(parameters::vpls().name, 2000);
-  settings.set(parameters::bounces().name, 1);
-  settings.set(parameters::updates().name, 4000);
-  settings.set(parameters::antialias().name, 1);
+  settings.set("vpls", 2000);
+  settings.set("bounces", 1);
+  settings.set("updates", 4000);
+  settings.set("antialias", 1);
   const auto render = [&](int mebibytes) {
-    settings.set(parameters::visibilityMemory().name, mebibytes);
+    settings.set("visibility_memory", mebibytes);
     FrameRenderer renderer(makeCpuBackend());
     return test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
   };
@@ -143,21 +141,21 @@ TEST(VisibilityMemory, WhereNothingFitsThePictureIsThatOfNaive) {
     test::addMesh(scene, box,
                   vec3(0.1f * static_cast<float>(i % 40), 0.1f, 0.1f * static_cast<float>(i / 40)));
   Settings settings;
-  settings.set(parameters::vpls().name, 300);
-  settings.set(parameters::bounces().name, 1);
-  settings.set(parameters::updates().name, 1000);
-  settings.set(parameters::antialias().name, 1);
-  settings.set(parameters::visibilityMemory().name, 1);
+  settings.set("vpls", 300);
+  settings.set("bounces", 1);
+  settings.set("updates", 1000);
+  settings.set("antialias", 1);
+  settings.set("visibility_memory", 1);
   FrameRenderer renderer(makeCpuBackend());
   const GiOutput without =
       test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
   EXPECT_GT(without.stats.visibilityNeeds, kMebibyte);
   EXPECT_EQ(without.stats.memoryBytes.count("visibility"), 0u);
-  settings.set(parameters::visibilityMemory().name, 512);
+  settings.set("visibility_memory", 512);
   const GiOutput with = test::renderSettled(renderer, scene, {}, view, settings);
   EXPECT_EQ(with.stats.visibilityNeeds, 0u);
   EXPECT_GT(with.stats.memoryBytes.at("visibility"), kMebibyte);
-  settings.set(parameters::technique().name, std::string("naive"));
+  settings.set("technique", std::string("naive"));
   FrameRenderer other(makeCpuBackend());
   const GiOutput naive = test::renderSettled(other, scene, SceneChanges::all(), view, settings);
   EXPECT_TRUE(test::sameBits(without.radiance->pixels(), naive.radiance->pixels()));

@@ -11,7 +11,6 @@
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/frame_time_control.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
@@ -35,7 +34,7 @@ struct Case {
   bool byTime = true;  // otherwise 100 updates per frame
   bool prt = false;    // precomputed transfer is on for the mover, which is complex
   int vpls = 300;
-  int maps = std::get<int>(parameters::mapResolution().defaultValue);  // texels per side
+  int maps = ManyLightsParameters().mapResolution;  // texels per side
 };
 
 std::string roomPath(const std::string& name) { return "assets/scenes/" + name + ".gltf"; }
@@ -55,18 +54,18 @@ void drag(benchmark::State& state, const Case& c) {
   for (Node& node : scene.nodes)
     if (node.name == c.node) dragged = &node;
   Settings settings;
-  settings.set(parameters::vpls().name, c.vpls);
-  settings.set(parameters::mapResolution().name, c.maps);
-  settings.set(parameters::technique().name, std::string(c.technique));
-  settings.set(parameters::antialias().name, 1);
-  settings.set(parameters::prt().name, c.prt);
+  settings.set("vpls", c.vpls);
+  settings.set("map_resolution", c.maps);
+  settings.set("technique", std::string(c.technique));
+  settings.set("antialias", 1);
+  settings.set("prt", c.prt);
   FrameRenderer renderer(backendOf(c.backend), seconds);
   FrameTimeControl control;
-  const double milliseconds = settings.real(parameters::frameTime());
+  const double milliseconds = frameBudgetParameters().read(settings).frameTime;
   const auto frame = [&](const SceneChanges& changes) {
     Settings now = settings;
     const int fit = c.byTime ? control.vplsWithin(1e-3 * milliseconds) : 100;
-    now.set(parameters::updates().name, std::min(settings.integer(parameters::updates()), fit));
+    now.set("updates", std::min(frameBudgetParameters().read(settings).updates, fit));
     GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
     control.measured(out.stats);
     return out;

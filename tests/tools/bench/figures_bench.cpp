@@ -9,8 +9,6 @@
 #include <benchmark/benchmark.h>
 
 #include "renderer/frame/frame.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/tools/bench/backend_benches.h"
 
@@ -41,10 +39,10 @@ class Moving {
       update(level, scene_, SceneChanges::all());
       view_ = viewOfBounds(level.bounds, 640, 360);
     }
-    settings_.set(parameters::vpls().name, vpls);
-    settings_.set(parameters::updates().name, updates);
-    settings_.set(parameters::bounces().name, 1);
-    settings_.set(parameters::antialias().name, 1);
+    settings_.set("vpls", vpls);
+    settings_.set("updates", updates);
+    settings_.set("bounces", 1);
+    settings_.set("antialias", 1);
   }
 
   Scene& scene() { return scene_; }

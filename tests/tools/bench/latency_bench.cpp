@@ -14,7 +14,6 @@
 #include "renderer/frame/frame.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/frame_time_control.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
@@ -44,9 +43,9 @@ void editLatency(benchmark::State& state, const std::string& scenePath, const st
   EditLatency latency;
   const auto frame = [&](const SceneChanges& changes) {
     Settings now = settings;
-    const double budget = 1e-3 * settings.real(parameters::frameTime());
-    now.set(parameters::updates().name,
-            std::min(settings.integer(parameters::updates()), control.vplsWithin(budget)));
+    const double budget = 1e-3 * frameBudgetParameters().read(settings).frameTime;
+    now.set("updates",
+            std::min(frameBudgetParameters().read(settings).updates, control.vplsWithin(budget)));
     const double begin = seconds();
     const GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
     renderer.backend().finish();

@@ -11,8 +11,6 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
@@ -42,13 +40,13 @@ void lightMoved(benchmark::State& state) {
 
   const auto vpls = static_cast<int>(state.range(0));
   Settings settings;
-  settings.set(parameters::vpls().name, vpls);
-  settings.set(parameters::updates().name, vpls);
-  settings.set(parameters::bounces().name, 5);
+  settings.set("vpls", vpls);
+  settings.set("updates", vpls);
+  settings.set("bounces", 5);
   // There is one lamp. It needs few direct samples; most samples are bounces.
-  settings.set(parameters::directShare().name, 0.15f);
-  settings.set(parameters::importance().name, 2);
-  settings.set(parameters::clampDistance().name, 1.0f);
+  settings.set("direct_share", 0.15f);
+  settings.set("importance", 2);
+  settings.set("clamp_distance", 1.0f);
 
   double to10 = 0.0, to5 = 0.0, error = 0.0, firstError = 0.0;
   std::map<std::string, double> stages;

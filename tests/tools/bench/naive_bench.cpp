@@ -7,8 +7,6 @@
 
 #include "renderer/backends/many_lights_kernels.h"
 #include "renderer/frame/frame.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/tools/bench/backend_benches.h"
 
@@ -36,11 +34,11 @@ struct Level {
 
 Settings settingsOf(int vpls, int updates) {
   Settings settings;
-  settings.set(parameters::vpls().name, vpls);
-  settings.set(parameters::updates().name, updates);
-  settings.set(parameters::bounces().name, 1);
-  settings.set(parameters::antialias().name, 1);
-  settings.set(parameters::technique().name, std::string("naive"));
+  settings.set("vpls", vpls);
+  settings.set("updates", updates);
+  settings.set("bounces", 1);
+  settings.set("antialias", 1);
+  settings.set("technique", std::string("naive"));
   return settings;
 }
 

@@ -5,8 +5,6 @@
 #include <benchmark/benchmark.h>
 
 #include "renderer/frame/frame.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/tools/bench/backend_benches.h"
 
@@ -27,11 +25,11 @@ void frames(benchmark::State& state, const std::string& file, const MakeBackend&
   for (const Node& node : scene.nodes)
     if (node.camera != kNone) view = viewOfCamera(scene, node, 640, 360);
   Settings settings;
-  settings.set(parameters::vpls().name, 300);
-  settings.set(parameters::updates().name, 300);
-  settings.set(parameters::antialias().name, 1);
-  settings.set(parameters::cornerLight().name, false);
-  settings.set(parameters::speculars().name, speculars);
+  settings.set("vpls", 300);
+  settings.set("updates", 300);
+  settings.set("antialias", 1);
+  settings.set("corner_light", false);
+  settings.set("speculars", speculars);
   FrameRenderer renderer(make());
   const auto frame = [&](const SceneChanges& changes) {
     renderer.render({scene, changes, view, "many_lights", settings});

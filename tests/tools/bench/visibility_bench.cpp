@@ -9,8 +9,6 @@
 
 #include "renderer/frame/frame.h"
 #include "renderer/light_maps/pass_merging.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/many_lights/parameters.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/light_shapes.h"
@@ -202,17 +200,16 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
   for (const Node& node : w.scene.nodes)
     if (node.camera != kNone) view = viewOfCamera(w.scene, node, width, height);
   Settings settings;
-  settings.set(parameters::vpls().name, c.vpls);
-  settings.set(parameters::updates().name, c.vpls);
-  settings.set(parameters::bounces().name, 1);
-  settings.set(parameters::antialias().name, 1);
+  settings.set("vpls", c.vpls);
+  settings.set("updates", c.vpls);
+  settings.set("bounces", 1);
+  settings.set("antialias", 1);
   const size_t plus = technique.find("+block");
-  settings.set(parameters::technique().name, technique.substr(0, plus));
-  settings.set(parameters::block().name,
-               plus == std::string::npos ? std::string("1") : technique.substr(plus + 6));
-  settings.set(parameters::lightsPerPass().name, lightsPerPass);
-  settings.set(parameters::mergePasses().name, merge);
-  settings.set(parameters::prt().name, prt);
+  settings.set("technique", technique.substr(0, plus));
+  settings.set("block", plus == std::string::npos ? std::string("1") : technique.substr(plus + 6));
+  settings.set("lights_per_pass", lightsPerPass);
+  settings.set("merge_passes", merge);
+  settings.set("prt", prt);
   FrameRenderer renderer(make());
   GiStats stats;
   const auto frame = [&](const SceneChanges& changes) {

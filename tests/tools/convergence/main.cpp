@@ -14,7 +14,6 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
@@ -95,9 +94,9 @@ struct Reference {
 Reference reference(const Scene& scene, const View& view, const Image& mask, int bounces) {
   const auto half = [&](int seed) {
     Settings s;
-    s.set(parameters::bounces().name, bounces);
-    s.set(parameters::seed().name, seed);
-    s.set(parameters::samplesPerPixel().name, kPaths);
+    s.set("bounces", bounces);
+    s.set("seed", seed);
+    s.set("samples_per_pixel", kPaths);
     return settled(scene, view, "reference", s);
   };
   const Image a = half(1), b = half(2);
@@ -110,18 +109,19 @@ Reference reference(const Scene& scene, const View& view, const Image& mask, int
 // For a level of 127,000 patches it takes many minutes to compute the visibility of each from
 // 16,384 samples. Without it, the picture is the same (docs/results/equality.md).
 std::string techniqueFor(const std::string& scene) {
-  return scene == "zdm2" ? "naive" : std::get<std::string>(parameters::technique().defaultValue);
+  return scene == "zdm2" ? "naive"
+                         : std::get<std::string>(manyLightsParameters()["technique"].defaultValue);
 }
 
 Image manyLights(const Scene& scene, const View& view, const std::string& technique, int bounces,
                  int vpls, std::optional<float> clampDistance = {}) {
   Settings s;
-  s.set(parameters::technique().name, technique);
-  s.set(parameters::bounces().name, bounces);
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::updates().name, 65536);
-  s.set(parameters::antialias().name, kAntialias);
-  if (clampDistance) s.set(parameters::clampDistance().name, *clampDistance);
+  s.set("technique", technique);
+  s.set("bounces", bounces);
+  s.set("vpls", vpls);
+  s.set("updates", 65536);
+  s.set("antialias", kAntialias);
+  if (clampDistance) s.set("clamp_distance", *clampDistance);
   return settled(scene, view, "many_lights", s);
 }
 

@@ -13,7 +13,6 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "tests/support/traced_shadows.h"
 
@@ -87,18 +86,18 @@ bool sameLights(const std::vector<shared::Vpl>& a, const std::vector<shared::Vpl
 
 Settings naiveSettings(int resolution, int vpls) {
   Settings s;
-  s.set(parameters::technique().name, std::string("naive"));
-  const int coarse = std::get<int>(parameters::mapResolution().defaultValue);
+  s.set("technique", std::string("naive"));
+  const int coarse = ManyLightsParameters().mapResolution;
   const bool isMultiple = resolution % coarse == 0;
-  s.set(parameters::mapResolution().name, isMultiple ? coarse : resolution);
-  s.set(parameters::settledMapScale().name, isMultiple ? resolution / coarse : 1);
-  s.set(parameters::mapMemory().name, kMapMemory);
-  s.set(parameters::vpls().name, vpls);
-  s.set(parameters::updates().name, 65536);
-  s.set(parameters::antialias().name, 1);
+  s.set("map_resolution", isMultiple ? coarse : resolution);
+  s.set("settled_map_scale", isMultiple ? resolution / coarse : 1);
+  s.set("map_memory", kMapMemory);
+  s.set("vpls", vpls);
+  s.set("updates", 65536);
+  s.set("antialias", 1);
   // Both would compute it with rays. It would only increase the mean and so decrease the relative
   // errors.
-  s.set(parameters::cornerLight().name, false);
+  s.set("corner_light", false);
   return s;
 }
 

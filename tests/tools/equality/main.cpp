@@ -13,7 +13,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "renderer/gl/headless_context.h"
-#include "renderer/methods/common_parameters.h"
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/render_scene.h"
@@ -33,13 +32,13 @@ constexpr int kGroupedVpls = 800;  // from this number of VPLs on they are group
 
 // A number of VPLs that a scene of this size can render in reasonable time.
 int fewVpls(size_t triangles) { return triangles < 10000 ? 300 : 100; }
-int defaultVpls(size_t) { return std::get<int>(parameters::vpls().defaultValue); }
+int defaultVpls(size_t) { return ManyLightsParameters().vpls; }
 int groupedVpls(size_t) { return kGroupedVpls; }
 
 Column column(const std::string& backend, int resolution, const std::string& name, int vpls,
               const std::string& technique) {
   Column c{backend, resolution, name, naiveSettings(resolution, vpls)};
-  c.settings.set(parameters::technique().name, technique);
+  c.settings.set("technique", technique);
   return c;
 }
 
@@ -50,8 +49,8 @@ std::vector<Column> shadowColumns(int vpls, const Resolutions& resolutions) {
     for (const int resolution : resolutions)
       for (const std::string technique : {"visibility", "light_maps"}) {
         Column c = column(backend, resolution, technique, vpls, technique);
-        c.settings.set(parameters::block().name, std::string("1"));
-        c.settings.set(parameters::groupShare().name, 0.0f);
+        c.settings.set("block", std::string("1"));
+        c.settings.set("group_share", 0.0f);
         columns.push_back(c);
       }
   return columns;
@@ -75,7 +74,7 @@ std::vector<Column> groupColumns(int vpls, const Resolutions& resolutions) {
 
 Column transferColumn(const std::string& backend, int vpls, const Resolutions& resolutions) {
   Column c = column(backend, resolutions[0], "prt", vpls, "light_maps");
-  c.settings.set(parameters::prt().name, true);
+  c.settings.set("prt", true);
   return c;
 }
 
@@ -90,7 +89,7 @@ std::vector<Column> transferColumns(int vpls, const Resolutions& resolutions) {
 // Reflection between parts of a mesh is different light than that of samples on the mesh.
 std::vector<Column> reflectionColumns(int vpls, const Resolutions& resolutions) {
   Column c = transferColumn("cpu", vpls, resolutions);
-  c.settings.set(parameters::prtBounces().name, 4);
+  c.settings.set("prt_bounces", 4);
   return {c};
 }
 

@@ -14,7 +14,6 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
-#include "renderer/methods/common_parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 
 namespace lamplighter {
@@ -25,10 +24,10 @@ const std::filesystem::path kReferences =
 
 Image pathTraced(const Scene& scene, const View& view, int bounces, int samples, int seed) {
   Settings settings;
-  settings.set(parameters::bounces().name, bounces);
-  settings.set(parameters::seed().name, seed);
-  settings.set(parameters::samplesPerPixel().name, samples);
-  settings.set(parameters::samplesPerFrame().name, samples);
+  settings.set("bounces", bounces);
+  settings.set("seed", seed);
+  settings.set("samples_per_pixel", samples);
+  settings.set("samples_per_frame", samples);
   FrameRenderer renderer(makeCpuBackend());
   const GiOutput out = renderer.render({scene, SceneChanges::all(), view, "reference", settings});
   EXPECT_TRUE(out.settled);

@@ -5,7 +5,6 @@
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
-#include "renderer/methods/common_parameters.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -27,10 +26,10 @@ View litRoomView() { return test::lookAt(vec3(2, 2.5f, 4), vec3(0, 0.5f, 0), 37,
 
 Settings settingsOf(int samples, int perFrame, int bounces = 2, int seed = 1) {
   Settings settings;
-  settings.set(parameters::samplesPerPixel().name, samples);
-  settings.set(parameters::samplesPerFrame().name, perFrame);
-  settings.set(parameters::bounces().name, bounces);
-  settings.set(parameters::seed().name, seed);
+  settings.set("samples_per_pixel", samples);
+  settings.set("samples_per_frame", perFrame);
+  settings.set("bounces", bounces);
+  settings.set("seed", seed);
   return settings;
 }
 
