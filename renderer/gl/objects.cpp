@@ -12,4 +12,8 @@ Texture makeTexture2D(GLenum internalFormat, int width, int height, GLenum filte
   return texture;
 }
 
+void bindImage(GLuint unit, const Texture& texture, GLenum format, GLenum access) {
+  glBindImageTexture(unit, texture.name(), 0, GL_TRUE, 0, access, format);
+}
+
 }  // namespace lamplighter::gl

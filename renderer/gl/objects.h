@@ -88,14 +88,29 @@ struct ProgramKind {
   static void destroy(GLuint name) { glDeleteProgram(name); }
 };
 
+struct QueryKind {
+  static constexpr bool kNeedsArguments = true;
+  static GLuint create(GLenum kind) {
+    GLuint name = 0;
+    glCreateQueries(kind, 1, &name);
+    return name;
+  }
+  static void destroy(GLuint name) { glDeleteQueries(1, &name); }
+};
+
 using Buffer = Object<BufferKind>;
 using Texture = Object<TextureKind>;
 using Framebuffer = Object<FramebufferKind>;
 using VertexArray = Object<VertexArrayKind>;
 using Shader = Object<ShaderKind>;
 using ProgramObject = Object<ProgramKind>;
+using QueryObject = Object<QueryKind>;
 
 // A texture with one mipmap level, for texelFetch or linear filtering.
 Texture makeTexture2D(GLenum internalFormat, int width, int height, GLenum filter = GL_NEAREST);
+
+// Binds a texture (all layers of an array) as an image that shaders read or write. `format`: of the
+// image variable, as GL_R32UI; access: GL_READ_ONLY, GL_WRITE_ONLY or GL_READ_WRITE.
+void bindImage(GLuint unit, const Texture& texture, GLenum format, GLenum access);
 
 }  // namespace lamplighter::gl

@@ -1,5 +1,6 @@
 #include "renderer/gl/program.h"
 
+#include "renderer/base/error.h"
 #include "renderer/gl/shader_source.h"
 
 namespace lamplighter::gl {
@@ -23,18 +24,19 @@ Shader compile(GLenum stage, const ShaderSource& source) {
 
 }  // namespace
 
-Program::Program(const std::filesystem::path& folder, const ProgramFiles& files)
+Program::Program(const std::filesystem::path& folder, const std::vector<Stage>& stages,
+                 const std::vector<std::string>& defines)
     : object_(ProgramObject::make()) {
-  const Shader vertex = compile(GL_VERTEX_SHADER, loadShader(folder, files.vertex, files.defines));
-  glAttachShader(name(), vertex.name());
-  Shader fragment;
-  if (!files.fragment.empty()) {
-    fragment = compile(GL_FRAGMENT_SHADER, loadShader(folder, files.fragment, files.defines));
-    glAttachShader(name(), fragment.name());
+  std::vector<Shader> shaders;
+  std::string names;
+  for (const Stage& stage : stages) {
+    if (stage.file.empty()) continue;
+    shaders.push_back(compile(stage.kind, loadShader(folder, stage.file, defines)));
+    glAttachShader(name(), shaders.back().name());
+    names += (names.empty() ? "" : " + ") + stage.file;
   }
   glLinkProgram(name());
-  glDetachShader(name(), vertex.name());
-  if (fragment) glDetachShader(name(), fragment.name());
+  for (const Shader& shader : shaders) glDetachShader(name(), shader.name());
   GLint ok = GL_FALSE, length = 0;
   glGetProgramiv(name(), GL_LINK_STATUS, &ok);
   if (ok == GL_TRUE) return;
@@ -42,7 +44,37 @@ Program::Program(const std::filesystem::path& folder, const ProgramFiles& files)
   std::string log(static_cast<size_t>(length), '\0');
   glGetProgramInfoLog(name(), length, &length, log.data());
   log.resize(static_cast<size_t>(length));
-  throw ShaderError("program " + files.vertex + " + " + files.fragment + " does not link\n" + log);
+  throw ShaderError("program " + names + " does not link\n" + log);
+}
+
+Program::Program(const std::filesystem::path& folder, const ProgramFiles& files)
+    : Program(folder, {{GL_VERTEX_SHADER, files.vertex}, {GL_FRAGMENT_SHADER, files.fragment}},
+              files.defines) {}
+
+ComputeProgram::ComputeProgram(const std::filesystem::path& folder, const std::string& file,
+                               const std::vector<std::string>& defines)
+    : Program(folder, {{GL_COMPUTE_SHADER, file}}, defines) {
+  glGetProgramiv(name(), GL_COMPUTE_WORK_GROUP_SIZE, groupSize_);
+}
+
+void ComputeProgram::dispatch(const glm::uvec3& invocations, GLbitfield readers) const {
+  glm::uvec3 groups(0);
+  for (int i = 0; i < 3; ++i) {
+    const auto size = static_cast<uint32_t>(groupSize_[i]);
+    groups[i] = invocations[i] / size + (invocations[i] % size != 0 ? 1 : 0);
+    GLint most = 0;
+    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, static_cast<GLuint>(i), &most);
+    if (groups[i] > static_cast<uint32_t>(most)) {
+      throw InputError("OpenGL",
+                       std::to_string(groups[i]) + " work groups are more than the " +
+                           std::to_string(most) + " that it takes here",
+                       "use --backend cpu");
+    }
+  }
+  use();
+  glDispatchCompute(groups.x, groups.y, groups.z);  // nothing happens if one of them is 0
+  glMemoryBarrier(readers);
+  glUseProgram(0);
 }
 
 }  // namespace lamplighter::gl

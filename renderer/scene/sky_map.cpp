@@ -38,64 +38,7 @@ vec3 pixelDirection(const Image& image, int x, int y) {
       std::cos(kPi * (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height)));
 }
 
-// Finds the interval of u among the cumulative values first[0 … count], from 0 to 1.
-int findInterval(const float* first, int count, float u, float& within) {
-  const float* above = std::upper_bound(first + 1, first + count, u);
-  int i = static_cast<int>(above - first) - 1;
-  // Never selects an interval of zero width.
-  while (i > 0 && !(first[i + 1] > first[i])) --i;
-  while (i + 1 < count && !(first[i + 1] > first[i])) ++i;
-  within = std::clamp((u - first[i]) / (first[i + 1] - first[i]), 0.0f, 0x1.fffffep-1f);
-  return i;
-}
-
-// Appends the cumulative values of `count` weights, from 0 to 1, and returns the sum of the
-// weights. If all weights are 0, the values are uniform.
-double appendCumulative(const float* weights, int count, std::vector<float>& out) {
-  double total = 0.0;
-  for (int i = 0; i < count; ++i) total += static_cast<double>(weights[i]);
-  double below = 0.0;
-  out.push_back(0.0f);
-  for (int i = 0; i < count; ++i) {
-    below += static_cast<double>(weights[i]);
-    out.push_back(total > 0.0 ? static_cast<float>(below / total)
-                              : static_cast<float>(i + 1) / static_cast<float>(count));
-  }
-  out.back() = 1.0f;
-  return total;
-}
-
 }  // namespace
-
-GridChoice::GridChoice(int width, int height, const std::vector<float>& weights) : width_(width) {
-  std::vector<float> rowWeights;
-  double all = 0.0;
-  for (int y = 0; y < height; ++y) {
-    const double sum = appendCumulative(&weights[static_cast<size_t>(y) * width], width, cells_);
-    rowWeights.push_back(static_cast<float>(sum));
-    all += sum;
-  }
-  if (all > 0.0 && std::isfinite(all)) {
-    appendCumulative(rowWeights.data(), height, rows_);
-  } else {
-    cells_.clear();
-  }
-}
-
-GridChoice::Cell GridChoice::sample(vec2 u) const {
-  Cell cell;
-  cell.y = findInterval(rows_.data(), static_cast<int>(rows_.size()) - 1, u.y, cell.within.y);
-  const float* row = &cells_[static_cast<size_t>(cell.y) * (width_ + 1)];
-  cell.x = findInterval(row, width_, u.x, cell.within.x);
-  cell.probability = probability(cell.x, cell.y);
-  return cell;
-}
-
-float GridChoice::probability(int x, int y) const {
-  const float* row = &cells_[static_cast<size_t>(y) * (width_ + 1)];
-  return (rows_[static_cast<size_t>(y) + 1] - rows_[static_cast<size_t>(y)]) *
-         (row[x + 1] - row[x]);
-}
 
 SkyMap::SkyMap(const Image& image) {
   if (image.empty()) return;
@@ -140,8 +83,8 @@ SkyMap::SkyMap(const Image& image) {
     }
   }
   irradiance_ = vec3(total);
-  light_ = GridChoice(width_, height_, weights);
-  density_ = GridChoice(width_, height_, wide);
+  light_ = GridCdf(width_, height_, weights);
+  density_ = GridCdf(width_, height_, wide);
 }
 
 void SkyMap::findSuns(const Image& image, std::vector<uint8_t>& isSun) {
@@ -232,7 +175,7 @@ float SkyMap::cellSolidAngle(int y) const {
 }
 
 // Uniform over the solid angle of the cell.
-vec3 SkyMap::directionIn(const GridChoice::Cell& cell) const {
+vec3 SkyMap::directionIn(const GridCdf::Cell& cell) const {
   const auto factor = static_cast<float>(factor_);
   const vec2 low = vec2(cell.x, cell.y) * factor;
   const vec2 high = glm::min(low + factor, pixels_);
@@ -243,7 +186,7 @@ vec3 SkyMap::directionIn(const GridChoice::Cell& cell) const {
 
 SkyMap::Light SkyMap::sample(vec2 u) const {
   if (light_.empty()) return {};
-  const GridChoice::Cell cell = light_.sample(u);
+  const GridCdf::Cell cell = light_.sample(u);
   const vec3& radiance = cells_[static_cast<size_t>(cell.y) * width_ + cell.x];
   // mean · solid angle / probability, where probability ∝ luminance(mean) · solid angle.
   return {directionIn(cell), radiance * (luminance(irradiance_) / luminance(radiance))};

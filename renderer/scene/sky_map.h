@@ -6,32 +6,11 @@
 #include <vector>
 
 #include "renderer/base/alias_table.h"
+#include "renderer/base/cdf.h"
 #include "renderer/base/math.h"
 #include "renderer/image/image.h"
 
 namespace lamplighter {
-
-// Samples a cell of a grid by weight. Inverts the cumulative distribution of the rows, then that
-// within the row. Close numbers give close cells, so that low-discrepancy points stay well
-// distributed.
-class GridChoice {
- public:
-  GridChoice() = default;
-  GridChoice(int width, int height, const std::vector<float>& weights);  // ≥ 0, finite, row by row
-
-  struct Cell {
-    int x = 0, y = 0;
-    vec2 within{0.0f};  // the unused part of u, uniform in [0, 1)²
-    float probability = 0.0f;
-  };
-  bool empty() const { return rows_.empty(); }  // also if all weights are 0
-  Cell sample(vec2 u) const;
-  float probability(int x, int y) const;
-
- private:
-  int width_ = 0;
-  std::vector<float> rows_, cells_;  // cumulative, starting with 0; width + 1 entries per row
-};
 
 class SkyMap {
  public:
@@ -74,7 +53,7 @@ class SkyMap {
 
  private:
   float cellSolidAngle(int y) const;
-  vec3 directionIn(const GridChoice::Cell& cell) const;
+  vec3 directionIn(const GridCdf::Cell& cell) const;
   void findSuns(const Image& image, std::vector<uint8_t>& isSun);
 
   int width_ = 0, height_ = 0;  // size of the grid of cells
@@ -82,7 +61,7 @@ class SkyMap {
   vec2 pixels_{1.0f};           // size of the picture in pixels
   vec3 irradiance_{0.0f};
   std::vector<vec3> cells_;  // mean radiance without suns
-  GridChoice light_, density_;
+  GridCdf light_, density_;
   std::vector<Sun> suns_;
 };
 

@@ -33,6 +33,16 @@ SHARED_CONST int kHardPlaceBuffer = 0;  // by place, 1: a hard shadow may lie th
 // by triangle of the scene: one bit per link (light_linking.h)
 SHARED_CONST int kLeftOutBuffer = 1;
 
+// Of prefix sums and cumulative distributions (renderer/gl/scan.h). Rows of the sums and shares have
+// one more entry than the values.
+SHARED_CONST int kScanValues = 0;
+SHARED_CONST int kScanSums = 1;
+SHARED_CONST int kScanGroupSums = 2;  // by row and work group: the sum of its values
+SHARED_CONST int kScanOffsets = 3;    // by row and work group: the sum before it
+SHARED_CONST int kScanShares = 4;     // the sums divided by the total
+SHARED_CONST int kScanTotals = 5;     // by row
+SHARED_CONST int kScanGroup = 256;    // invocations of a work group
+
 SHARED_CONST int kPositionAttribute = 0;
 SHARED_CONST int kNormalAttribute = 1;
 SHARED_CONST int kTangentAttribute = 2;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "renderer/base/error.h"
+#include "renderer/gl/storage_buffer.h"
 #include "shaders/shared/bindings.h"
 
 namespace lamplighter::gl {
@@ -93,10 +94,7 @@ void GlScene::update(const RenderScene& scene, const RenderSceneChanges& changes
 
 void GlScene::uploadGeometry() {
   const RenderScene& s = *scene_;
-  GLint64 limit = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  if (static_cast<GLint64>(std::max(s.positions.size(), s.indices.size() / 3) * sizeof(vec3)) >
-      limit) {
+  if (std::max(s.positions.size(), s.indices.size() / 3) * sizeof(vec3) > mostStorageBytes()) {
     throw InputError(
         "scene", std::to_string(s.triangleCount()) + " triangles are more than OpenGL takes here",
         "use --backend cpu");

@@ -177,23 +177,5 @@ TEST(SkyMap, NeighbouringNumbersGiveNeighbouringDirections) {
   }
 }
 
-TEST(GridChoice, TakesCellsByTheirWeightAndNoneWithout) {
-  const GridChoice choice(3, 2, {0, 2, 1, 0, 0, 1});
-  EXPECT_FLOAT_EQ(choice.probability(1, 0), 0.5f);
-  EXPECT_FLOAT_EQ(choice.probability(2, 1), 0.25f);
-  std::map<std::pair<int, int>, int> counts;
-  for (uint32_t i = 0; i < 4096; ++i) {
-    const GridChoice::Cell cell = choice.sample(sobol2(i, 1));
-    EXPECT_GT(cell.probability, 0.0f);
-    EXPECT_TRUE(cell.within.x >= 0.0f && cell.within.x < 1.0f);
-    ++counts[{cell.x, cell.y}];
-  }
-  EXPECT_EQ(counts.size(), 3u);
-  EXPECT_NEAR(counts.at({1, 0}), 2048, 8);
-  EXPECT_TRUE(GridChoice(2, 2, {0, 0, 0, 0}).empty());
-  const GridChoice::Cell last = choice.sample(vec2(1.0f, 1.0f));  // not asked for, but harmless
-  EXPECT_GT(last.probability, 0.0f);
-}
-
 }  // namespace
 }  // namespace lamplighter

@@ -19,23 +19,6 @@ GlShadowMaps::Place placeOf(const shared::Vpl& vpl, const GlShadowMaps& maps,
 
 int mostLights(const vec4& clampAndBias) { return std::max(static_cast<int>(clampAndBias.w), 1); }
 
-// Creates a storage buffer with these values.
-template <typename T>
-void fill(Buffer& buffer, std::span<const T> values) {
-  GLint64 limit = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  if (values.size_bytes() > static_cast<size_t>(limit)) {
-    throw InputError("many_lights",
-                     "the light lists of what is seen are more than OpenGL takes here",
-                     "lower vpls, take the technique naive, or use --backend cpu");
-  }
-  if (!buffer) buffer = Buffer::make();
-  static const T kNothing{};
-  const bool none = values.empty();
-  glNamedBufferData(buffer.name(), static_cast<GLsizeiptr>(none ? sizeof(T) : values.size_bytes()),
-                    none ? &kNothing : values.data(), GL_STREAM_DRAW);
-}
-
 }  // namespace
 
 GlLighting::GlLighting(const std::filesystem::path& shaders, const VplBuffer& vpls)
@@ -184,9 +167,15 @@ void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, con
   lists.make(lights, objects, trees.nodes(), gbuffer.frustum(), sum.vpls, groups);
   if (sum.merges) lists.mergePasses(mostLights(sum.clampAndBias));
   passesSaved_ = lists.passesSaved();
-  fill(patches_->ranges, lists.ranges());
-  fill(patches_->entries, lists.entries());
-  fill(patches_->hardPlaces, lists.hardPlaces());
+  if (std::max({lists.ranges().size_bytes(), lists.entries().size_bytes(),
+                lists.hardPlaces().size_bytes()}) > mostStorageBytes()) {
+    throw InputError("many_lights",
+                     "the light lists of what is seen are more than OpenGL takes here",
+                     "lower vpls, take the technique naive, or use --backend cpu");
+  }
+  patches_->ranges.set(lists.ranges());
+  patches_->entries.set(lists.entries());
+  patches_->hardPlaces.set(lists.hardPlaces());
 }
 
 void GlLighting::begin(const GlScene& scene, const SumTarget& target, bool unmarked) {
@@ -210,8 +199,8 @@ void GlLighting::add(const GlScene& scene, const Sum& sum, const SumTarget& targ
   glBindTextureUnit(shared::kIrradiance, target.irradiance.name());
   if (patches_) {
     glBindTextureUnit(shared::kPlaces, target.places.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListRangeBuffer, patches_->ranges.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kListBuffer, patches_->entries.name());
+    patches_->ranges.bind(shared::kListRangeBuffer);
+    patches_->entries.bind(shared::kListBuffer);
   }
   const bool hasLinks = scene.scene().hasLinks && !patches_;
   if (hasLinks) scene.bindLeftOut();
@@ -271,8 +260,7 @@ uint64_t GlLighting::bytes() const {
   uint64_t bytes = pixels_.bytes();
   for (const SampleGrid& grid : grids_) bytes += grid.bytes();
   if (patches_) {
-    bytes += patches_->trees.bytes() + patches_->lists.ranges().size_bytes() +
-             patches_->lists.entries().size_bytes();
+    bytes += patches_->trees.bytes() + patches_->ranges.bytes() + patches_->entries.bytes();
   }
   return bytes;
 }

@@ -50,7 +50,8 @@ class GlLighting {
   struct Patches {
     GlPatches trees;
     LightLists lists;
-    Buffer ranges, entries, hardPlaces;
+    StorageBuffer<glm::uvec2> ranges;
+    StorageBuffer<uint32_t> entries, hardPlaces;
   };
   // One sum: the VPLs in its order, and their slots in the map arrays.
   struct Sum {

@@ -31,7 +31,7 @@ void GlLowResolution::take(const ShadingPoints& points, const SampleGrid& grid) 
 
 void GlLowResolution::interpolate(const ShadingPoints& points, SumTarget& pixels,
                                   const SampleGrid& grid, const GlScene& scene,
-                                  const Buffer& hardPlaces, bool hasHard) const {
+                                  const StorageBuffer<uint32_t>& hardPlaces, bool hasHard) const {
   points.bind();
   glBindTextureUnit(shared::kPlaces, grid.sums.places.name());
   glBindTextureUnit(shared::kSamples, grid.sums.irradiance.name());
@@ -41,7 +41,7 @@ void GlLowResolution::interpolate(const ShadingPoints& points, SumTarget& pixels
   draw(grid.contrastsFramebuffer, grid.columns(), grid.rows());
 
   glBindTextureUnit(shared::kContrasts, grid.contrasts.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shared::kHardPlaceBuffer, hardPlaces.name());
+  hardPlaces.bind(shared::kHardPlaceBuffer);
   scene.bindLeftOut();
   findCells_.use();
   findCells_.set(0, grid.block);

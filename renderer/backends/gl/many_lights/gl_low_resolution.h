@@ -6,6 +6,7 @@
 #include "renderer/backends/gl/gl_scene.h"
 #include "renderer/backends/gl/many_lights/sample_grid.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/storage_buffer.h"
 
 namespace lamplighter::gl {
 
@@ -22,7 +23,8 @@ class GlLowResolution {
   // in the stencil buffer of `pixels`; `points` are its points. Other cells keep their values.
   // hardPlaces: a buffer with LightLists::hardPlaces(); hasHard: whether it contains any.
   void interpolate(const ShadingPoints& points, SumTarget& pixels, const SampleGrid& grid,
-                   const GlScene& scene, const Buffer& hardPlaces, bool hasHard) const;
+                   const GlScene& scene, const StorageBuffer<uint32_t>& hardPlaces,
+                   bool hasHard) const;
 
  private:
   void draw(const Framebuffer& framebuffer, int width, int height) const;

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "renderer/base/error.h"
+#include "renderer/gl/storage_buffer.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/patches.h"
 
@@ -22,13 +23,6 @@ void write(const Buffer& buffer, uint32_t first, std::span<const T> values) {
   if (values.empty()) return;
   glNamedBufferSubData(buffer.name(), static_cast<GLintptr>(first * sizeof(T)),
                        static_cast<GLsizeiptr>(values.size_bytes()), values.data());
-}
-
-// Largest part of a buffer that shaders can access.
-uint64_t mostBytes() {
-  GLint64 limit = 0;
-  glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &limit);
-  return static_cast<uint64_t>(limit);
 }
 
 }  // namespace
@@ -95,12 +89,12 @@ void GlPatches::update(const RenderScene& scene, const PatchLights& lights) {
   }
 }
 
-uint64_t GlPatches::mostTexels() { return mostBytes() / sizeof(vec4); }
+uint64_t GlPatches::mostTexels() { return mostStorageBytes() / sizeof(vec4); }
 
 void GlPatches::allocate() {
   const uint64_t texels = uint64_t{total_.texels} * sizeof(vec4);
   const uint64_t light = uint64_t{total_.vertices} * sizeof(vec3);
-  if (light > mostBytes()) {
+  if (light > mostStorageBytes()) {
     throw InputError("many_lights",
                      std::to_string(total_.vertices) +
                          " vertices lit by transfer are more than OpenGL takes here",
