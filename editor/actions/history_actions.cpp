@@ -50,7 +50,7 @@ void addHistoryActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "history.memory MIB");
            const ParameterValue mebibytes = Settings::parse(undoMemory(), a[0]);
-           s.history().setBudget(static_cast<size_t>(std::get<int>(mebibytes)) * kMebibyte);
+           s.editing().setBudget(static_cast<size_t>(std::get<int>(mebibytes)) * kMebibyte);
          },
          {}});
   r.add({"panel.history",

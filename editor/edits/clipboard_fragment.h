@@ -3,11 +3,11 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "editor/document/document.h"
-#include "editor/edits/command.h"
+#include "editor/edits/editing.h"
 
 namespace lamplighter {
 
@@ -26,32 +26,17 @@ struct ClipboardFragment {
 // The nodes with all that hangs below them.
 ClipboardFragment clip(const Scene& scene, const std::vector<NodeId>& ids);
 
-// Meshes, materials and textures at the ends of the scene's lists.
-class AddAssets final : public Command {
- public:
-  std::string label() const override { return "Add assets"; }
-  void apply(Document& document) override;
-  void revert(Document& document) override;
-  bool absorb(const Command&) override { return false; }
-  bool changesNothing() const override {
-    return meshes.empty() && materials.empty() && textures.empty();
-  }
-  size_t bytes() const override;
-
+// What a paste adds: nodes with new ids, and the assets that the scene does not have yet.
+struct PastedNodes {
+  std::vector<Node> nodes;
+  std::vector<NodeId> roots;
   std::vector<std::shared_ptr<const Mesh>> meshes;
   std::vector<Material> materials;
   std::vector<Texture> textures;
 };
-
-// What a paste adds: nodes with new ids taken from Scene::nextId, and of assets those that the
-// scene does not have yet.
-struct PastedNodes {
-  std::vector<Node> nodes;
-  std::vector<NodeId> roots;
-  std::unique_ptr<AddAssets> assets;
-};
-// Nodes stay below their parents in the level that they come from, and come to stand on their own
-// at the same place in the world elsewhere.
-PastedNodes pasteInto(Scene& scene, const ClipboardFragment& fragment, bool isSameLevel);
+// In the level that the nodes come from they keep their parents. In another level they keep their
+// place in the world.
+PastedNodes pasteInto(Editing& editing, const ClipboardFragment& fragment, bool isSameLevel);
+void add(Transaction& edit, PastedNodes pasted);
 
 }  // namespace lamplighter

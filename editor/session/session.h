@@ -49,11 +49,11 @@ class Session {
   std::vector<std::filesystem::path> changedOnDisk(const std::filesystem::path& path) const;
   bool modified() const;  // since opened or saved; render settings are not saved and do not count
 
-  Document& document() { return document_; }
+  // The document is changed through transactions of editing() only.
   const Document& document() const { return document_; }
-  History& history() { return history_; }
-  const History& history() const { return history_; }
-  Editing editing() { return {document_, history_}; }
+  const History& history() const { return editing_.history(); }
+  Editing& editing() { return editing_; }
+  const Editing& editing() const { return editing_; }
   const ActionRegistry& actions() const { return actions_; }
   FrameRenderer& renderer() { return *renderer_; }
 
@@ -73,7 +73,7 @@ class Session {
   void setMeshKind(NodeId id, MeshKind kind);
   void setSky(const Sky& sky);
   void setRender(const RenderSettings& settings);
-  void select(std::vector<NodeId> ids);  // those that are there; the last one is active
+  void select(std::vector<NodeId> ids) { editing_.select(std::move(ids)); }
   void undo();
   void redo();
   void goToStep(size_t position);  // undoes or redoes until so many are done; throws InputError
@@ -197,8 +197,8 @@ class Session {
 
  private:
   struct Tools;
-  Document document_;
-  History history_{document_};
+  Editing editing_;
+  const Document& document_ = editing_.document();
   ActionRegistry actions_;
   std::unique_ptr<UserState> home_;
   std::unique_ptr<FrameRenderer> renderer_;
@@ -225,7 +225,8 @@ class Session {
   int level_ = 0, clipboardLevel_ = 0;  // counts what was opened
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 
-  void pruneSelection();
+  template <typename Change>
+  void editNode(NodeId id, const std::string& verb, Change change);
   void takeWritten(const std::filesystem::path& path,
                    const std::vector<std::filesystem::path>& written, bool keepsOthers);
   std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;

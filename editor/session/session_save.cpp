@@ -37,7 +37,7 @@ std::vector<fs::path> Session::changedOnDisk(const fs::path& path) const {
 
 void Session::save(const fs::path& wanted, bool forced) {
   finishDrag();
-  history_.commit();
+  editing_.commit();
   const fs::path path = writablePath(wanted);
   // A replay writes into a folder of its own; the level stays what it was opened from.
   const bool isElsewhere = path != wanted;
@@ -46,11 +46,11 @@ void Session::save(const fs::path& wanted, bool forced) {
     throw InputError(changed.front().string(),
                      "another program has changed or removed it since it was opened",
                      "save under another name (file.save_as), or over it (file.save force)");
-  std::string problem = crashRecovery_.saving();
+  std::string problem = crashRecovery_.saving(document_);
   const std::vector<fs::path> written = saveGltf(document_.scene, path, changed.empty());
   if (!isElsewhere) {
     takeWritten(path, written, changed.empty());
-    document_.path = path;
+    editing_.setPath(path);
   }
   savedHash_ = sceneHash(document_.scene);
   if (std::string after = crashRecovery_.saved(document_); problem.empty())

@@ -13,8 +13,8 @@ void Session::watchFrame(const SceneChanges& changes, double begin) {
   shown.exposureEv = watch_.shown.exposureEv;  // shows the same picture
   const bool edited = !changes.none() || !(shown == watch_.shown);
   watch_.shown = std::move(shown);
-  watch_.latency.frame({edited && !changes.everything, history_.undoLabel(), output_.settled, view_,
-                        output_.radiance, begin, end});
+  watch_.latency.frame({edited && !changes.everything, history().undoLabel(), output_.settled,
+                        view_, output_.radiance, begin, end});
   // The reference has neither a work light nor parts of the light.
   if (display_.part() == LightPart::all && !lighting_.workLight)
     watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_);
