@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "editor/actions/arguments.h"
-#include "editor/edits/edit_bookmarks.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
@@ -28,15 +27,15 @@ const CameraBookmark* find(const Session& s, int slot) {
 }
 
 void store(Session& s, int slot) {
-  std::vector<CameraBookmark> all = s.document().scene.bookmarks;
+  const std::string number = std::to_string(slot);
+  Transaction edit = s.editing().begin("Bookmark " + number);
+  std::vector<CameraBookmark>& all = edit.bookmarks();
   std::erase_if(all, [&](const CameraBookmark& b) { return b.slot == slot; });
   const View& view = s.view();
   all.push_back({slot, view.eye, view.orientation, view.yfov});
   std::sort(all.begin(), all.end(),
             [](const CameraBookmark& a, const CameraBookmark& b) { return a.slot < b.slot; });
-  const std::string number = std::to_string(slot);
-  s.history().run(
-      std::make_unique<EditBookmarks>("Bookmark " + number, s.document(), std::move(all)));
+  edit.commit();
   s.setStatus("Bookmark " + number + " is this view; " + number + " goes there");
 }
 
@@ -56,12 +55,11 @@ void go(Session& s, int slot) {
 }
 
 void clear(Session& s, int slot) {
-  std::vector<CameraBookmark> all = s.document().scene.bookmarks;
-  if (std::erase_if(all, [&](const CameraBookmark& b) { return b.slot == slot; }) == 0)
+  Transaction edit = s.editing().begin("Clear bookmark " + std::to_string(slot));
+  if (std::erase_if(edit.bookmarks(), [&](const CameraBookmark& b) { return b.slot == slot; }) == 0)
     throw InputError("bookmark " + std::to_string(slot), "nothing is put by there",
                      "give the number of another");
-  s.history().run(std::make_unique<EditBookmarks>("Clear bookmark " + std::to_string(slot),
-                                                  s.document(), std::move(all)));
+  edit.commit();
 }
 
 std::vector<ActionChoice> bookmarks(const Session& s) {

@@ -92,9 +92,9 @@ void addCostActions(ActionRegistry& r) {
            preset.help,
            "",
            [&preset](Session& s, const Arguments&) {
-             s.history().begin("Preset " + preset.label);
-             s.setRender(withPreset(s.document().render, preset));
-             s.history().commit();
+             Transaction edit = s.editing().begin("Preset " + preset.label);
+             edit.render() = withPreset(s.document().render, preset);
+             edit.commit();
            },
            {},
            false,

@@ -45,8 +45,7 @@ void dropProfile(Session& s, const fs::path& file) {
   if (!lights.empty()) {
     const std::string whose =
         lights.size() == 1 ? lights[0].name : std::to_string(lights.size()) + " lights";
-    s.history().run(
-        std::make_unique<EditNodes>("Profile " + name, s.document(), std::move(lights)));
+    setNodes(s.editing(), "Profile " + name, std::move(lights));
     return s.setStatus(whose + " shines by " + name);
   }
   auto place = s.surfaceUnderPointer({});
@@ -54,14 +53,14 @@ void dropProfile(Session& s, const fs::path& file) {
   if (!place) throw InputError(name, "there is no surface to put its light on", "point at one");
   Node n = newLight("point", glm::length(place->position - s.view().eye),
                     s.document().render.exposureEv);
-  n.id = s.document().scene.nextId++;
+  n.id = s.editing().newNodeId();
   n.name = file.stem().string() + " " + std::to_string(n.id);
   n.punctual = withProfile(scene, n, profile);
   // The light's axis, along which downlights shine, is its −Z. It must point away from the surface.
   Scene with = scene;
   with.nodes.push_back(n);
   if (const auto local = placedOn(with, n.id, *place)) n.local = *local;
-  s.history().run(std::make_unique<AddNodes>("Add " + n.name, std::vector<Node>{n}));
+  addNodes(s.editing(), "Add " + n.name, {n});
   s.select({n.id});
   s.setStatus("A light that shines by " + name);
 }

@@ -15,34 +15,39 @@ void copy(Session& s) { s.setClipboard(clip(s.document().scene, s.document().sel
 
 // Adds the copied nodes with new ids at their original positions, in the same or another level.
 void paste(Session& s) {
-  PastedNodes pasting = pasteInto(s.document().scene, s.clipboard(), s.clipboardIsOfThisLevel());
+  PastedNodes pasting = pasteInto(s.editing(), s.clipboard(), s.clipboardIsOfThisLevel());
   requireRoomFor(s.document().scene, pasting.nodes.size());
   const std::string label =
       pasting.nodes.size() == 1 ? "Paste " + pasting.nodes[0].name : "Paste objects";
-  // When the object is placed by a click, a transaction is already open.
-  const bool isOwnStep = !s.history().inTransaction();
-  if (isOwnStep) s.history().begin(label);
-  if (!pasting.assets->changesNothing()) s.history().run(std::move(pasting.assets));
-  s.history().run(std::make_unique<AddNodes>(label, std::move(pasting.nodes)));
-  if (isOwnStep) s.history().commit();
-  s.select(std::move(pasting.roots));
+  const std::vector<NodeId> roots = pasting.roots;
+  Transaction edit = s.editing().begin(label);
+  add(edit, std::move(pasting));
+  edit.commit();
+  s.select(roots);
 }
 
 void remove(Session& s, const std::string& verb) {
-  auto command = std::make_unique<DeleteNodes>(s.document(), s.document().selection, verb);
-  s.history().run(std::move(command));
+  const Scene& scene = s.document().scene;
+  const std::vector<bool> isRemoved = withDescendants(scene, s.document().selection);
+  const auto first = std::find(isRemoved.begin(), isRemoved.end(), true);
+  const bool isOne = std::count(first, isRemoved.end(), true) == 1;
+  Transaction edit = s.editing().begin(
+      verb + " " +
+      (isOne ? scene.nodes[static_cast<size_t>(first - isRemoved.begin())].name : "objects"));
+  edit.removeNodes(s.document().selection);
+  edit.commit();
   s.select({});
 }
 
 void duplicate(Session& s) {
-  Copies copies = copyNodes(s.document().scene, s.document().selection);
+  Copies copies = copyNodes(s.editing(), s.document().selection);
   requireRoomFor(s.document().scene, copies.nodes.size());
   const std::unordered_set<NodeId> isRoot(copies.roots.begin(), copies.roots.end());
   for (Node& n : copies.nodes)
     if (isRoot.contains(n.id)) n.name += " copy";
   const std::string label =
       copies.roots.size() == 1 ? "Duplicate " + copies.nodes.front().name : "Duplicate objects";
-  s.history().run(std::make_unique<AddNodes>(label, std::move(copies.nodes)));
+  addNodes(s.editing(), label, std::move(copies.nodes));
   s.select(std::move(copies.roots));
 }
 
@@ -51,10 +56,10 @@ void duplicate(Session& s) {
 void addEditActions(ActionRegistry& r) {
   r.add({"edit.undo", "Undo", "", "Takes the last change back.", "Ctrl+Z",
          [](Session& s, const Arguments&) { s.undo(); },
-         [](const Session& s) { return s.dragging() || s.history().canUndo(); }, true});
+         [](const Session& s) { return s.dragging() || s.editing().canUndo(); }, true});
   r.add({"edit.redo", "Redo", "", "Makes the change again that was taken back.",
          "Ctrl+Y, Ctrl+Shift+Z", [](Session& s, const Arguments&) { s.redo(); },
-         [](const Session& s) { return s.history().canRedo(); }});
+         [](const Session& s) { return s.editing().canRedo(); }});
   r.add({"edit.delete", "Delete", "", "Deletes what is selected.", "Delete",
          [](Session& s, const Arguments&) { remove(s, "Delete"); }, hasSelection});
   r.add({"edit.copy", "Copy", "", "Puts what is selected by, to be pasted.", "Ctrl+C",

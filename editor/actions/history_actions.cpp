@@ -34,7 +34,7 @@ void addHistoryActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "history.memory MIB");
            const ParameterSpec spec{"undo_memory", "Undo memory", "MiB", "", 256, 1, 65536};
            const ParameterValue mebibytes = Settings::parse(spec, a[0]);
-           s.history().setBudget(static_cast<size_t>(std::get<int>(mebibytes)) << 20);
+           s.editing().setBudget(static_cast<size_t>(std::get<int>(mebibytes)) << 20);
          },
          {}});
   r.add({"panel.history",

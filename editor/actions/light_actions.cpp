@@ -25,11 +25,11 @@ void addLight(Session& s, const std::string& kind) {
     distance = std::min(distance, 0.6f * glm::length(ahead->position - view.eye));
 
   Node n = newLight(kind, distance, s.document().render.exposureEv);
-  n.id = s.document().scene.nextId++;
+  n.id = s.editing().newNodeId();
   n.local.translation = view.eye + distance * view.forward();
   n.name = kind + " light " + std::to_string(n.id);
   const NodeId id = n.id;
-  s.history().run(std::make_unique<AddNodes>("Add " + n.name, std::vector<Node>{n}));
+  addNodes(s.editing(), "Add " + n.name, {n});
   s.select({id});
 }
 

@@ -47,7 +47,7 @@ void drop(Session& s) {
     nodes.push_back(std::move(n));
   }
   const std::string what = nodes.size() == 1 ? nodes[0].name : "objects";
-  s.history().run(std::make_unique<EditNodes>("Drop " + what, s.document(), std::move(nodes)));
+  setNodes(s.editing(), "Drop " + what, std::move(nodes));
 }
 
 }  // namespace
@@ -95,13 +95,9 @@ void addObjectActions(ActionRegistry& r) {
   r.add({"object.hide", "Hide or show", "", "Hides what is selected, or shows it again.", "H",
          [](Session& s, const Arguments&) {
            const bool visible = !activeNode(s.document()).visible;
-           std::vector<Node> nodes;
-           for (const NodeId id : s.document().selection) {
-             nodes.push_back(*s.document().scene.find(id));
-             nodes.back().visible = visible;
-           }
-           s.history().run(std::make_unique<EditNodes>(visible ? "Show" : "Hide", s.document(),
-                                                       std::move(nodes)));
+           Transaction edit = s.editing().begin(visible ? "Show" : "Hide");
+           for (const NodeId id : s.document().selection) edit.node(id).visible = visible;
+           edit.commit();
          },
          hasSelection});
 }

@@ -32,7 +32,7 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
   if (cells - 1.0 > kMostCopies)
     throw InputError(std::to_string(static_cast<long long>(cells)), "are too many copies",
                      "make 10000 at most in one step");
-  Scene& scene = s.document().scene;
+  const Scene& scene = s.document().scene;
   const std::vector<NodeId> originals = s.document().selection;
   std::vector<Node> nodes;
   std::vector<NodeId> roots = originals;
@@ -41,7 +41,7 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
       for (int x = 0; x < count.x; ++x) {
         if (x == 0 && y == 0 && z == 0) continue;
         const vec3 way = steps * vec3(x, y, z);
-        Copies copies = copyNodes(scene, originals);
+        Copies copies = copyNodes(s.editing(), originals);
         if (nodes.empty())
           requireRoomFor(scene, copies.nodes.size() * static_cast<size_t>(cells - 1.0));
         const std::unordered_set<NodeId> isRoot(copies.roots.begin(), copies.roots.end());
@@ -57,7 +57,7 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
     }
   }
   if (nodes.empty()) return;
-  s.history().run(std::make_unique<AddNodes>(label, std::move(nodes)));
+  addNodes(s.editing(), label, std::move(nodes));
   s.select(std::move(roots));
 }
 

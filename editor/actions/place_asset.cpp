@@ -1,6 +1,6 @@
 #include "editor/actions/place_asset.h"
 
-#include "editor/edits/edits.h"
+#include "editor/edits/clipboard_fragment.h"
 #include "editor/session/session.h"
 #include "editor/session/user_state.h"
 
@@ -8,13 +8,12 @@ namespace lamplighter {
 
 void placeAsset(Session& s, const std::filesystem::path& file) {
   const auto fragment = s.home().assets.load(file);
-  Scene& scene = s.document().scene;
-  PastedNodes pasting = pasteInto(scene, *fragment, false);
+  PastedNodes pasting = pasteInto(s.editing(), *fragment, false);
   NodeId root = pasting.roots.front();
   if (pasting.roots.size() > 1) {
     // A group, so that the asset moves as one object even if it has several nodes.
     Node group;
-    group.id = root = scene.nextId++;
+    group.id = root = s.editing().newNodeId();
     for (Node& n : pasting.nodes)
       if (n.parent == kNoNode) n.parent = group.id;
     pasting.nodes.insert(pasting.nodes.begin(), std::move(group));
@@ -23,20 +22,13 @@ void placeAsset(Session& s, const std::filesystem::path& file) {
   for (Node& n : pasting.nodes)
     if (n.id == root) n.name = name;
 
-  // When the asset is placed by a click, a transaction is already open.
-  const bool isOwnStep = !s.history().inTransaction();
-  if (isOwnStep) s.history().begin("Place " + name);
-  if (!pasting.assets->changesNothing()) s.history().run(std::move(pasting.assets));
-  s.history().run(std::make_unique<AddNodes>("Place " + name, std::move(pasting.nodes)));
+  Transaction edit = s.editing().begin("Place " + name);
+  add(edit, std::move(pasting));
   if (const auto place = s.surfaceAhead()) {
-    if (const auto local = placedOn(scene, root, *place)) {
-      Node node = *scene.find(root);
-      node.local = *local;
-      s.history().run(
-          std::make_unique<EditNodes>("Place " + name, s.document(), std::vector{node}));
-    }
+    if (const auto local = placedOn(s.document().scene, root, *place))
+      edit.node(root).local = *local;
   }
-  if (isOwnStep) s.history().commit();
+  edit.commit();
   s.select({root});
 }
 

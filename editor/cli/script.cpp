@@ -62,7 +62,7 @@ void answer(Session& session) {
 void runLine(Session& session, const std::string& text) {
   session.setStatus("");
   session.perform(text);
-  session.history().commit();
+  session.editing().commit();
   session.renderFrame();
   if (!session.renderError().empty()) throw InputError(session.renderError());
   answer(session);

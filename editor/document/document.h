@@ -1,5 +1,5 @@
-// What is being edited: scene, selection, settings, and where it came from. Changed by commands
-// only (editor/edits), except the selection, which is no change to the work.
+// What is being edited: scene, selection, settings, and the file it came from. It is changed through
+// editor/edits only.
 #pragma once
 
 #include <cstdint>

@@ -96,45 +96,16 @@ ClipboardFragment clip(const Scene& scene, const std::vector<NodeId>& ids) {
   return out;
 }
 
-void AddAssets::apply(Document& document) {
-  Scene& s = document.scene;
-  s.meshes.insert(s.meshes.end(), meshes.begin(), meshes.end());
-  s.materials.insert(s.materials.end(), materials.begin(), materials.end());
-  s.textures.insert(s.textures.end(), textures.begin(), textures.end());
-}
-
-void AddAssets::revert(Document& document) {
-  // They stand at the ends: whatever came after them was undone before.
-  Scene& s = document.scene;
-  s.meshes.resize(s.meshes.size() - meshes.size());
-  s.materials.resize(s.materials.size() - materials.size());
-  s.textures.resize(s.textures.size() - textures.size());
-}
-
-size_t AddAssets::bytes() const {
-  size_t sum = sizeof *this + materials.size() * sizeof(Material);
-  for (const Texture& t : textures) sum += sizeof t + t.image->pixels.size();
-  for (const auto& mesh : meshes) {
-    for (const Primitive& p : mesh->primitives) {
-      sum += sizeof(vec3) * (p.positions.size() + p.normals.size()) +
-             sizeof(vec4) * (p.tangents.size() + p.colors.size()) +
-             sizeof(vec2) * (p.uv0.size() + p.uv1.size()) + sizeof(uint32_t) * p.indices.size();
-    }
-  }
-  return sum;
-}
-
-PastedNodes pasteInto(Scene& scene, const ClipboardFragment& fragment, bool isSameLevel) {
+PastedNodes pasteInto(Editing& editing, const ClipboardFragment& fragment, bool isSameLevel) {
+  const Scene& scene = editing.document().scene;
   PastedNodes out;
-  out.assets = std::make_unique<AddAssets>();
-  AddAssets& assets = *out.assets;
   std::map<int, int> textures, materials, meshes;
   for (const auto& [index, texture] : fragment.textures)
-    textures[index] = indexOf(texture, scene.textures, assets.textures);
+    textures[index] = indexOf(texture, scene.textures, out.textures);
   for (const auto& [index, material] : fragment.materials) {
     Material m = material;
     eachTexture(m, [&](int& t) { t = textures.at(t); });
-    materials[index] = indexOf(m, scene.materials, assets.materials);
+    materials[index] = indexOf(m, scene.materials, out.materials);
   }
   for (const auto& [index, mesh] : fragment.meshes) {
     std::shared_ptr<const Mesh> here = mesh;
@@ -144,15 +115,14 @@ PastedNodes pasteInto(Scene& scene, const ClipboardFragment& fragment, bool isSa
         if (p.material != kNone) p.material = materials.at(p.material);
       here = std::move(changed);
     }
-    meshes[index] = indexOf(here, scene.meshes, assets.meshes);
+    meshes[index] = indexOf(here, scene.meshes, out.meshes);
   }
 
   std::map<NodeId, NodeId> newId;
-  NodeId nextId = scene.nextId;
-  for (const Node& n : fragment.nodes) newId[n.id] = nextId++;
+  for (const Node& n : fragment.nodes) newId[n.id] = editing.newNodeId();
   for (Node n : fragment.nodes) {
     const NodeId was = n.id;
-    n.id = scene.nextId++;
+    n.id = newId.at(was);
     n.light.leftOut = leftOutOf(n.light, newId, isSameLevel);
     if (n.mesh != kNone) n.mesh = meshes.at(n.mesh);
     if (const auto parent = newId.find(n.parent); parent != newId.end()) {
@@ -171,6 +141,13 @@ PastedNodes pasteInto(Scene& scene, const ClipboardFragment& fragment, bool isSa
     out.nodes.push_back(std::move(n));
   }
   return out;
+}
+
+void add(Transaction& edit, PastedNodes pasted) {
+  for (auto& mesh : pasted.meshes) edit.add(std::move(mesh));
+  for (Material& material : pasted.materials) edit.add(std::move(material));
+  for (Texture& texture : pasted.textures) edit.add(std::move(texture));
+  edit.addNodes(std::move(pasted.nodes));
 }
 
 }  // namespace lamplighter

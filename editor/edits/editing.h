@@ -1,15 +1,92 @@
-// What an edit changes: the document, and the history that keeps the change so that it can be
-// undone.
+// The document that is being edited, with its history. All changes go through transactions: they
+// become steps that can be undone, are reported to a listener, and tell the renderer what to
+// update.
 #pragma once
 
-#include "editor/document/document.h"
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "editor/edits/history.h"
+#include "editor/edits/transaction.h"
 
 namespace lamplighter {
 
-struct Editing {
-  Document& document;
-  History& history;
+class Editing {
+ public:
+  const Document& document() const { return document_; }
+  const History& history() const { return history_; }
+
+  // Starts an edit that becomes one step, if it changes something. Within another one it joins that
+  // step, but can still be rolled back on its own. An empty label stands for that of the first edit
+  // inside.
+  Transaction begin(std::string label);
+  // Starts an edit that goes on over several frames without an owner, as in a field of a panel:
+  // until commit() or cancel(). Commits what is open.
+  void hold(std::string label);
+  bool inTransaction() const { return !open_.empty(); }
+  void commit();  // all that is open, as one step
+  void cancel();
+
+  bool canUndo() const;
+  bool canRedo() const;
+  // These commit an open transaction first.
+  void undo();
+  void redo();
+  // Undoes or redoes until `step` is the newest that is done. Throws InputError if it is not
+  // between first() and last() of the history.
+  void goTo(size_t step);
+  void setBudget(size_t bytes) { history_.setBudget(bytes); }  // of the history
+
+  // Replaces the document and clears the history.
+  void open(Document document);
+  void setPath(std::filesystem::path path) { document_.path = std::move(path); }
+  // Render settings to start with: not a step that can be undone.
+  void setInitialRender(RenderSettings render);
+  // Selects the nodes that exist; the last one is active. Not a change of the work.
+  void select(std::vector<NodeId> ids);
+  // Never used before in this document, not even by nodes that are gone.
+  NodeId newNodeId() { return document_.scene.nextId++; }
+
+  // Called after every step that was done, undone or redone, with what changed since the last call.
+  // If it returns false, the next call includes this change.
+  using Listener = std::function<bool(const DocumentChange& change, const std::string& label)>;
+  void setListener(Listener listener);
+
+  // What changed since the last call.
+  SceneChanges takeChanges();
+  // The last changes did not arrive: the next ones are everything.
+  void showAll() { showsAll_ = true; }
+
+ private:
+  friend class Transaction;
+  struct Open {
+    uint64_t id;
+    std::string label;
+    DocumentChange change;
+  };
+  // Calls record(change) for every change that is being recorded.
+  template <typename Record>
+  void recordInAll(Record record) {
+    for (Open& o : open_) record(o.change);
+    record(untold_);
+    record(unshown_);
+  }
+  void put(const DocumentChange& change, void (DocumentChange::*side)(Document&) const);
+  bool isOpen(uint64_t id) const;
+  void commit(uint64_t id);  // with all that were started in it
+  void cancel(uint64_t id);
+  void tell(const std::string& label);
+
+  Document document_;
+  History history_;
+  std::vector<Open> open_;  // each one within the one before
+  uint64_t lastId_ = 0;
+  DocumentChange untold_;   // since the listener was called
+  DocumentChange unshown_;  // since takeChanges()
+  bool showsAll_ = true;
+  Listener listener_;
 };
 
 }  // namespace lamplighter

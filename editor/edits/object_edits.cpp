@@ -63,7 +63,7 @@ std::optional<float> commonNumber(const Document& document, const ObjectProperty
   return common;
 }
 
-void setNumber(const Editing& editing, const ObjectProperty& property, float value) {
+void setNumber(Editing& editing, const ObjectProperty& property, float value) {
   editSelected(
       editing, std::string("Set ") + property.name, [](const Node&) { return true; },
       [&](Node& n) { property.set(n, value); });
@@ -81,27 +81,22 @@ std::vector<int> selectedMaterials(const Document& document) {
   return out;
 }
 
-void editMaterials(const Editing& editing, const std::string& label,
+void editMaterials(Editing& editing, const std::string& label,
                    const std::function<void(Material&)>& change) {
-  const std::vector<int> materials = selectedMaterials(editing.document);
+  const std::vector<int> materials = selectedMaterials(editing.document());
   if (materials.empty())
     throw InputError("materials", "nothing that is selected has a material", "select objects");
-  const bool isOwnStep = !editing.history.inTransaction();
-  if (isOwnStep) editing.history.begin(label);
-  for (const int i : materials) {
-    Material m = editing.document.scene.materials[static_cast<size_t>(i)];
-    change(m);
-    editing.history.run(std::make_unique<EditMaterial>(editing.document, i, std::move(m)));
-  }
-  if (isOwnStep) editing.history.commit();
+  Transaction edit = editing.begin(label);
+  for (const int i : materials) change(edit.material(i));
+  edit.commit();
 }
 
-void editSelected(const Editing& editing, const std::string& label,
+void editSelected(Editing& editing, const std::string& label,
                   const std::function<bool(const Node&)>& applies,
                   const std::function<void(Node&)>& change) {
   std::vector<Node> nodes;
-  for (const NodeId id : editing.document.selection) {
-    const Node& n = *editing.document.scene.find(id);
+  for (const NodeId id : editing.document().selection) {
+    const Node& n = *editing.document().scene.find(id);
     if (!applies(n)) continue;
     nodes.push_back(n);
     change(nodes.back());
@@ -110,8 +105,7 @@ void editSelected(const Editing& editing, const std::string& label,
     throw InputError("objects", "nothing that is selected has it", "select others");
   const std::string what =
       nodes.size() == 1 ? nodes[0].name : std::to_string(nodes.size()) + " objects";
-  editing.history.run(
-      std::make_unique<EditNodes>(label + " of " + what, editing.document, std::move(nodes)));
+  setNodes(editing, label + " of " + what, std::move(nodes));
 }
 
 }  // namespace lamplighter

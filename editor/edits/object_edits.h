@@ -1,5 +1,5 @@
-// What many selected objects have in common, and edits of all of them at once: each one step, or
-// part of the open transaction.
+// Common values of the selected objects, and edits of all of them: each is one step, or joins the
+// open transaction.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace lamplighter {
 
-// A number that a node has, as the inspector shows it. Rotation about X, then Y, then Z, in
-// degrees; rotating one axis keeps the others.
+// A number of a node, as the inspector shows it. Rotations are about X, then Y, then Z, in degrees;
+// setting one axis keeps the others.
 struct ObjectProperty {
   const char* name;  // "position.x"
   float (*of)(const Node&);
@@ -22,17 +22,17 @@ const std::vector<ObjectProperty>& objectProperties();
 // Throws InputError.
 const ObjectProperty& objectProperty(const std::string& name);
 
-// Of all selected nodes; nothing where they differ or none is selected.
+// The value that all selected nodes share; none if they differ or nothing is selected.
 std::optional<float> commonNumber(const Document& document, const ObjectProperty& property);
-void setNumber(const Editing& editing, const ObjectProperty& property, float value);
+void setNumber(Editing& editing, const ObjectProperty& property, float value);
 
 // The materials of selected meshes, each once.
 std::vector<int> selectedMaterials(const Document& document);
 // Changes each of them; one step.
-void editMaterials(const Editing& editing, const std::string& label,
+void editMaterials(Editing& editing, const std::string& label,
                    const std::function<void(Material&)>& change);
 // Changes each selected node that `applies`; one step.
-void editSelected(const Editing& editing, const std::string& label,
+void editSelected(Editing& editing, const std::string& label,
                   const std::function<bool(const Node&)>& applies,
                   const std::function<void(Node&)>& change);
 

@@ -1,4 +1,4 @@
-// The tree of nodes as it is edited: what is locked, and hanging nodes below others.
+// Edits of the tree of nodes: parents and locks.
 #pragma once
 
 #include <vector>
@@ -7,33 +7,16 @@
 
 namespace lamplighter {
 
-// Whether the node or one above it is locked: it is neither picked nor moved in the viewport.
+// Whether the node or a node above it is locked, so that it cannot be picked or moved in the
+// viewport.
 bool isLocked(const Scene& scene, NodeId id);
-// Whether it is `above` itself or hangs below it.
+// Whether the node is `above` or below it.
 bool isWithin(const Scene& scene, NodeId id, NodeId above);
 
-// Nodes, with all below them, below another (kNoNode: at the top), as its last children; places and
-// shapes in the world stay. The tree keeps parents before children.
-class Reparent final : public Command {
- public:
-  // Throws InputError when the parent is one of them or hangs below one, or has no volume.
-  Reparent(const Document& document, const std::vector<NodeId>& ids, NodeId parent);
-  std::string label() const override { return label_; }
-  void apply(Document& document) override { put(document, after_, orderAfter_); }
-  void revert(Document& document) override { put(document, before_, orderBefore_); }
-  bool absorb(const Command&) override { return false; }
-  bool changesNothing() const override { return before_ == after_; }
-  size_t bytes() const override;
-
- private:
-  static void put(Document& document, const std::vector<Node>& nodes,
-                  const std::vector<NodeId>& order);
-  std::string label_;
-  std::vector<Node> before_, after_;  // those that hang elsewhere
-  std::vector<NodeId> orderBefore_, orderAfter_;
-};
-
-void reparent(const Editing& editing, const std::vector<NodeId>& ids, NodeId parent);
-void setLocked(const Editing& editing, const std::vector<NodeId>& ids, bool locked);
+// Moves nodes, with all that are below them, below another node (kNoNode: to the top), as its last
+// children. They keep their place and shape in the world. Throws InputError if the parent is one of
+// them or below one, or has no volume.
+void reparent(Editing& editing, const std::vector<NodeId>& ids, NodeId parent);
+void setLocked(Editing& editing, const std::vector<NodeId>& ids, bool locked);
 
 }  // namespace lamplighter

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/edits/edits.h"
-#include "editor/lights/light_commands.h"
 #include "renderer/base/error.h"
 
 namespace lamplighter {
@@ -16,35 +14,16 @@ std::string counted(size_t lights) {
 }
 
 std::vector<LightSource> requireLights(const Editing& editing) {
-  std::vector<LightSource> lights = selectedLights(editing.document);
+  std::vector<LightSource> lights = selectedLights(editing.document());
   if (lights.empty()) throw InputError("lights", "no light is selected", "select one or more");
   return lights;
 }
 
-// Makes several commands one undo step.
-class OneStep {
- public:
-  OneStep(const Editing& editing, const std::string& label)
-      : history_(editing.history), isOwn_(!editing.history.inTransaction()) {
-    if (isOwn_) history_.begin(label);
-  }
-  ~OneStep() {
-    if (isOwn_) history_.commit();
-  }
-
- private:
-  History& history_;
-  bool isOwn_;
-};
-
-void run(const Editing& editing, const std::string& label, LightEdit edit) {
-  const OneStep step(editing, label);
-  if (!edit.nodes.empty())
-    editing.history.run(
-        std::make_unique<EditNodes>(label, editing.document, std::move(edit.nodes)));
-  for (auto& [index, material] : edit.materials)
-    editing.history.run(
-        std::make_unique<EditMaterial>(editing.document, index, std::move(material)));
+void put(Editing& editing, const std::string& label, LightEdit changed) {
+  Transaction edit = editing.begin(label);
+  edit.setNodes(std::move(changed.nodes));
+  for (auto& [index, material] : changed.materials) edit.material(index) = std::move(material);
+  edit.commit();
 }
 
 void checkValue(LightOperation operation, LightProperty property, double value) {
@@ -66,22 +45,19 @@ void checkValue(LightOperation operation, LightProperty property, double value) 
   }
 }
 
-std::vector<LightGroup> groupsInUse(const Scene& scene, std::vector<LightGroup> groups) {
-  std::erase_if(groups, [&](const LightGroup& g) {
-    return scene.skyLight.group != g.name &&
-           std::none_of(scene.nodes.begin(), scene.nodes.end(),
-                        [&](const Node& n) { return n.light.group == g.name; });
-  });
-  return groups;
+bool isInUse(const Scene& scene, const LightGroup& group) {
+  return scene.skyLight.group == group.name ||
+         std::any_of(scene.nodes.begin(), scene.nodes.end(),
+                     [&](const Node& n) { return n.light.group == group.name; });
 }
 
 }  // namespace
 
-void editLights(const Editing& editing, LightOperation operation, LightProperty property,
-                double value, LightUnit unit) {
+void editLights(Editing& editing, LightOperation operation, LightProperty property, double value,
+                LightUnit unit) {
   const std::vector<LightSource> lights = requireLights(editing);
   checkValue(operation, property, value);
-  const Scene& scene = editing.document.scene;
+  const Scene& scene = editing.document().scene;
   LightEdit edit;
   size_t count = 0;
   for (const LightSource& light : lights) {
@@ -104,90 +80,82 @@ void editLights(const Editing& editing, LightOperation operation, LightProperty 
                             : std::string("no selected light has the property ") + info.name,
                      byUnit ? "give another unit" : "select others");
   }
-  run(editing, std::string("Change ") + info.name + " of " + counted(count), std::move(edit));
+  put(editing, std::string("Change ") + info.name + " of " + counted(count), std::move(edit));
 }
 
-void colourLights(const Editing& editing, const vec3& colour) {
+void colourLights(Editing& editing, const vec3& colour) {
   const std::vector<LightSource> lights = requireLights(editing);
   if (!(std::min({colour.r, colour.g, colour.b}) >= 0.0f && luminance(colour) > 0.0f))
     throw InputError("lights.colour", "a colour has no part below 0 and is not black",
                      "give three numbers from 0 to 1");
   LightEdit edit;
-  for (const LightSource& light : lights) setColour(editing.document.scene, light, colour, edit);
-  run(editing, "Change colour of " + counted(lights.size()), std::move(edit));
+  for (const LightSource& light : lights) setColour(editing.document().scene, light, colour, edit);
+  put(editing, "Change colour of " + counted(lights.size()), std::move(edit));
 }
 
-void editLightStates(const Editing& editing, const std::string& label,
+void editLightStates(Editing& editing, const std::string& label,
                      const std::function<void(LightState&)>& change) {
   std::vector<NodeId> nodes;
   for (const LightSource& light : requireLights(editing)) nodes.push_back(light.node);
   editLightStates(editing, nodes, label, change);
 }
 
-void editLightStates(const Editing& editing, const std::vector<NodeId>& nodes,
-                     const std::string& label, const std::function<void(LightState&)>& change) {
+void editLightStates(Editing& editing, const std::vector<NodeId>& nodes, const std::string& label,
+                     const std::function<void(LightState&)>& change) {
   LightEdit edit;
   for (const NodeId id : nodes) {
-    const Node* node = editing.document.scene.find(id);
+    const Node* node = editing.document().scene.find(id);
     if (node == nullptr) continue;
     edit.nodes.push_back(*node);
     change(edit.nodes.back().light);
   }
   const std::string what = label + " " + counted(edit.nodes.size());
-  run(editing, what, std::move(edit));
+  put(editing, what, std::move(edit));
 }
 
-void groupLights(const Editing& editing, const std::string& name) {
+void groupLights(Editing& editing, const std::string& name) {
   requireLights(editing);
   if (name.size() > 100) throw InputError("lights.group", "the name is too long", "shorten it");
-  const OneStep step(editing, name.empty() ? "Ungroup lights" : "Group lights");
-  const Scene& scene = editing.document.scene;
-  std::vector<LightGroup> groups = scene.lightGroups;
-  if (!name.empty() && findLightGroup(scene, name) == nullptr) groups.push_back({name});
+  Transaction edit = editing.begin(name.empty() ? "Ungroup lights" : "Group lights");
+  const Scene& scene = editing.document().scene;
   editLightStates(editing, "Group", [&](LightState& state) { state.group = name; });
-  editing.history.run(std::make_unique<EditLightStates>(editing.document, scene.skyLight,
-                                                        groupsInUse(scene, std::move(groups))));
+  std::vector<LightGroup>& groups = edit.lightGroups();
+  if (!name.empty() && findLightGroup(scene, name) == nullptr) groups.push_back({name});
+  std::erase_if(groups, [&](const LightGroup& g) { return !isInUse(scene, g); });
+  edit.commit();
 }
 
-void editLightGroup(const Editing& editing, const std::string& label, const std::string& name,
+void editLightGroup(Editing& editing, const std::string& label, const std::string& name,
                     const std::function<void(LightGroup&)>& change) {
-  std::vector<LightGroup> groups = editing.document.scene.lightGroups;
+  Transaction edit = editing.begin(label + " " + name);
+  std::vector<LightGroup>& groups = edit.lightGroups();
   const auto it = std::find_if(groups.begin(), groups.end(),
                                [&](const LightGroup& g) { return g.name == name; });
   if (it == groups.end())
     throw InputError(name, "there is no group of lights of that name", "look in the light table");
   change(*it);
-  const OneStep step(editing, label + " " + name);
-  editing.history.run(std::make_unique<EditLightStates>(
-      editing.document, editing.document.scene.skyLight, std::move(groups)));
+  edit.commit();
 }
 
-void editSkyState(const Editing& editing, const std::string& label,
+void editSkyState(Editing& editing, const std::string& label,
                   const std::function<void(LightState&)>& change) {
-  LightState state = editing.document.scene.skyLight;
-  change(state);
-  const OneStep step(editing, label);
-  editing.history.run(std::make_unique<EditLightStates>(editing.document, std::move(state),
-                                                        editing.document.scene.lightGroups));
+  Transaction edit = editing.begin(label);
+  change(edit.skyLight());
+  edit.commit();
 }
 
-void shineAll(const Editing& editing) {
-  LightEdit edit;
-  for (const Node& n : editing.document.scene.nodes) {
+void shineAll(Editing& editing) {
+  Transaction edit = editing.begin("Switch all lights on");
+  for (const Node& n : editing.document().scene.nodes) {
     if (n.light.on && !n.light.solo) continue;
-    edit.nodes.push_back(n);
-    edit.nodes.back().light.on = true;
-    edit.nodes.back().light.solo = false;
+    LightState& light = edit.node(n.id).light;
+    light.on = true;
+    light.solo = false;
   }
-  LightState sky = editing.document.scene.skyLight;
-  sky.on = true;
-  sky.solo = false;
-  std::vector<LightGroup> groups = editing.document.scene.lightGroups;
-  for (LightGroup& g : groups) g.muted = g.solo = false;
-  const OneStep step(editing, "Switch all lights on");
-  run(editing, "Switch all lights on", std::move(edit));
-  editing.history.run(
-      std::make_unique<EditLightStates>(editing.document, std::move(sky), std::move(groups)));
+  edit.skyLight().on = true;
+  edit.skyLight().solo = false;
+  for (LightGroup& g : edit.lightGroups()) g.muted = g.solo = false;
+  edit.commit();
 }
 
 }  // namespace lamplighter

@@ -15,7 +15,7 @@ std::vector<NodeId> leftOutBySelection(const Document& document);
 // Makes these lights (kNoNode: the sky) exclude these objects, or include them again. One undo
 // step. Throws InputError if there are no lights or no objects, if a light would exclude only
 // itself, or if the scene would have more than kMostLinks different lists.
-void leaveOut(const Editing& editing, const std::vector<NodeId>& lights,
+void leaveOut(Editing& editing, const std::vector<NodeId>& lights,
               const std::vector<NodeId>& objects, bool out);
 
 }  // namespace lamplighter

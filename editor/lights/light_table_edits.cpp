@@ -44,33 +44,26 @@ std::pair<double, double> sizes(const std::string& text) {
   return {both, both};
 }
 
-void rename(const Editing& editing, const std::string& name) {
+void rename(Editing& editing, const std::string& name) {
   std::vector<Node> nodes;
-  for (const LightSource& light : selectedLights(editing.document)) {
-    nodes.push_back(editing.document.scene.nodes[light.index]);
+  for (const LightSource& light : selectedLights(editing.document())) {
+    nodes.push_back(editing.document().scene.nodes[light.index]);
     nodes.back().name = nodes.size() == 1 ? name : name + " " + std::to_string(nodes.size());
   }
-  editing.history.run(
-      std::make_unique<EditNodes>("Rename lights", editing.document, std::move(nodes)));
+  setNodes(editing, "Rename lights", std::move(nodes));
 }
 
-void resize(const Editing& editing, const std::string& text) {
+void resize(Editing& editing, const std::string& text) {
   const auto [width, height] = sizes(text);
-  const auto lights = selectedLights(editing.document);
+  const auto lights = selectedLights(editing.document());
   const auto any = [&](LightProperty p) {
-    return commonValue(editing.document.scene, lights, p, LightUnit::lumens).count > 0;
+    return commonValue(editing.document().scene, lights, p, LightUnit::lumens).count > 0;
   };
-  const bool isOwnStep = !editing.history.inTransaction();
-  if (isOwnStep) editing.history.begin("Change size of lights");
-  try {
-    editLights(editing, LightOperation::set, LightProperty::width, width, LightUnit::lumens);
-    if (any(LightProperty::height))
-      editLights(editing, LightOperation::set, LightProperty::height, height, LightUnit::lumens);
-  } catch (const InputError&) {
-    if (isOwnStep) editing.history.cancel();
-    throw;
-  }
-  if (isOwnStep) editing.history.commit();
+  Transaction edit = editing.begin("Change size of lights");
+  editLights(editing, LightOperation::set, LightProperty::width, width, LightUnit::lumens);
+  if (any(LightProperty::height))
+    editLights(editing, LightOperation::set, LightProperty::height, height, LightUnit::lumens);
+  edit.commit();
 }
 
 }  // namespace
@@ -100,9 +93,9 @@ const char* columnName(LightColumn column) {
   }
 }
 
-void editLightTableCells(const Editing& editing, LightColumn column, const std::string& text,
+void editLightTableCells(Editing& editing, LightColumn column, const std::string& text,
                          LightUnit shown) {
-  const auto lights = selectedLights(editing.document);
+  const auto lights = selectedLights(editing.document());
   if (lights.empty()) throw InputError("lights", "no light is selected", "select one or more");
   switch (column) {
     case LightColumn::name:
@@ -118,8 +111,9 @@ void editLightTableCells(const Editing& editing, LightColumn column, const std::
     }
     case LightColumn::strength: {
       const Typed value = typed(text);
-      LightUnit unit = commonValue(editing.document.scene, lights, LightProperty::intensity, shown)
-                           .unitOr(shown);
+      LightUnit unit =
+          commonValue(editing.document().scene, lights, LightProperty::intensity, shown)
+              .unitOr(shown);
       if (!value.rest.empty()) {
         const auto named = unitNamed(value.rest);
         if (!named) throw InputError(value.rest, "is no unit of light", "give lm, cd, nt, W or lx");

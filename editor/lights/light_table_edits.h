@@ -15,7 +15,7 @@ const char* columnName(LightColumn column);
 // Applies the cell text to the selected lights, as one undo step: "lamp", "800 lm", "2700 K", "1.2
 // x 0.6", "kitchen". A strength without a unit is in `shown`. If several lights are selected, their
 // names get numbers. Throws InputError if the text is not a valid value.
-void editLightTableCells(const Editing& editing, LightColumn column, const std::string& text,
+void editLightTableCells(Editing& editing, LightColumn column, const std::string& text,
                          LightUnit shown);
 
 }  // namespace lamplighter

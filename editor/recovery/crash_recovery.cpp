@@ -29,12 +29,13 @@ std::string CrashRecovery::tried(Write write) {
   }
 }
 
-std::string CrashRecovery::committed(const Document& document, const std::string& label) {
-  return tried([&](Journal& j) { j.record(document, label); });
+std::string CrashRecovery::committed(const Document& document, const DocumentChange& change,
+                                     const std::string& label) {
+  return tried([&](Journal& j) { j.record(document, change, label); });
 }
 
-std::string CrashRecovery::saving() {
-  return tried([](Journal& j) { j.saving(); });
+std::string CrashRecovery::saving(const Document& document) {
+  return tried([&](Journal& j) { j.saving(document); });
 }
 
 std::string CrashRecovery::saved(const Document& document) {

@@ -27,10 +27,11 @@ class CrashRecovery {
 
   void opened(const Document& document);
   // Call after a committed edit. Returns why the edit is not in the journal, or an empty text.
-  std::string committed(const Document& document, const std::string& label);
+  std::string committed(const Document& document, const DocumentChange& change,
+                        const std::string& label);
   // Call before and after a save. A failure of the journal does not stop the save. Returns the
   // reason, or an empty text.
-  std::string saving();
+  std::string saving(const Document& document);
   std::string saved(const Document& document);
   void adopt(Recovered recovered);
   void close();

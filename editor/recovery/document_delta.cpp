@@ -1,6 +1,7 @@
 #include "editor/recovery/document_delta.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <unordered_map>
 
 #include "renderer/base/error.h"
@@ -56,31 +57,39 @@ std::vector<T> assetsOf(const std::vector<T>& base, const Json& list, Read read)
   return out;
 }
 
-Json nodesDelta(const std::vector<Node>& from, const std::vector<Node>& to, Blobs& blobs) {
-  std::unordered_map<NodeId, const Node*> was;
-  for (const Node& n : from) was[n.id] = &n;
-  Json set = Json::array(), order = Json::array(), gone = Json::array();
-  std::unordered_map<NodeId, bool> stays;
-  for (const Node& n : to) {
-    stays[n.id] = true;
-    const auto it = was.find(n.id);
-    if (it == was.end() || !(*it->second == n)) set.push_back(toJson(n, blobs));
-    order.push_back(n.id);
-  }
-  std::vector<NodeId> expected;  // the order after deletions, with new nodes at the end
-  for (const Node& n : from)
-    if (stays.contains(n.id))
-      expected.push_back(n.id);
+template <typename T>
+Json meshesOrTextures(const std::vector<T>& base, const std::vector<T>& values, Blobs& blobs) {
+  return assets(base, values, [&](const T& value) {
+    if constexpr (std::is_same_v<T, Texture>)
+      return toJson(value, blobs);
     else
-      gone.push_back(n.id);
-  for (const Node& n : to)
-    if (!was.contains(n.id)) expected.push_back(n.id);
-  const bool isExpected = std::equal(to.begin(), to.end(), expected.begin(), expected.end(),
-                                     [](const Node& n, NodeId id) { return n.id == id; });
+      return toJson(*value, blobs);
+  });
+}
+
+Json nodesDelta(const DocumentChange& change, Blobs& blobs) {
+  Json set = Json::array(), gone = Json::array();
+  std::vector<NodeId> added;
+  for (const auto& [id, node] : change.nodes) {
+    if (!node.before) added.push_back(id);
+    if (node.after)
+      set.push_back(toJson(*node.after, blobs));
+    else
+      gone.push_back(id);
+  }
   Json out = Json::object();
+  if (change.order.after) {
+    // What applyNodes() gives without an order: new nodes at the end.
+    std::vector<NodeId> expected = *change.order.before;
+    std::erase_if(expected, [&](NodeId id) {
+      const auto node = change.nodes.find(id);
+      return node != change.nodes.end() && !node->second.after;
+    });
+    expected.insert(expected.end(), added.begin(), added.end());
+    if (expected != *change.order.after) out["order"] = *change.order.after;
+  }
   if (!set.empty()) out["set"] = std::move(set);
   if (!gone.empty()) out["gone"] = std::move(gone);
-  if (!isExpected) out["order"] = std::move(order);
   return out;
 }
 
@@ -137,42 +146,48 @@ void checkIndices(const Scene& s) {
 
 }  // namespace
 
-Json deltaBetween(const Scene& base, const Document& before, const Document& after, Blobs& blobs,
-                  bool whole) {
+Json wholeDocument(const Scene& base, const Document& document, Blobs& blobs) {
   // Structured bindings: a new member does not compile until it is handled here.
   const auto& [name, nodes, meshes, materials, textures, cameras, nextId, sky, skyLight,
-               lightGroups, bookmarks, skyIsDefault, source] = after.scene;
-  const Scene& was = before.scene;
+               lightGroups, bookmarks, skyIsDefault, source] = document.scene;
+  return {{"allNodes", listOf(nodes, blobs)},
+          {"meshes", meshesOrTextures(base.meshes, meshes, blobs)},
+          {"textures", meshesOrTextures(base.textures, textures, blobs)},
+          {"allMaterials", listOf(materials, blobs)},
+          {"cameras", listOf(cameras, blobs)},
+          {"name", name},
+          {"nextId", nextId},
+          {"sky", toJson(sky, blobs)},
+          {"skyIsDefault", skyIsDefault},
+          {"skyLight", toJson(skyLight, blobs)},
+          {"lightGroups", listOf(lightGroups, blobs)},
+          {"bookmarks", listOf(bookmarks, blobs)},
+          {"render", toJson(document.render, blobs)}};
+}
+
+Json deltaOf(const Scene& base, const DocumentChange& change, const Document& after, Blobs& blobs) {
+  const auto& [nodes, order, meshes, materials, textures, sky, skyIsDefault, skyLight, lightGroups,
+               bookmarks, render] = change;
+  const Scene& scene = after.scene;
   Json out = Json::object();
-  if (whole)
-    out["allNodes"] = listOf(nodes, blobs);
-  else if (Json delta = nodesDelta(was.nodes, nodes, blobs); !delta.empty())
-    out["nodes"] = std::move(delta);
-  if (whole || meshes != was.meshes)
-    out["meshes"] = assets(base.meshes, meshes, [&](const auto& m) { return toJson(*m, blobs); });
-  if (whole || textures != was.textures)
-    out["textures"] =
-        assets(base.textures, textures, [&](const Texture& t) { return toJson(t, blobs); });
-  if (whole) {
-    out["allMaterials"] = listOf(materials, blobs);
-  } else if (materials != was.materials) {
+  out["nextId"] = scene.nextId;
+  if (Json delta = nodesDelta(change, blobs); !delta.empty()) out["nodes"] = std::move(delta);
+  if (!meshes.empty()) out["meshes"] = meshesOrTextures(base.meshes, scene.meshes, blobs);
+  if (!textures.empty()) out["textures"] = meshesOrTextures(base.textures, scene.textures, blobs);
+  if (!materials.empty()) {
     Json changed = Json::array();
-    for (size_t i = 0; i < materials.size(); ++i)
-      if (i >= was.materials.size() || !(was.materials[i] == materials[i]))
-        changed.push_back({i, toJson(materials[i], blobs)});
-    out["materials"] = {{"count", materials.size()}, {"set", std::move(changed)}};
+    for (const auto& [index, material] : materials)
+      if (material.after) changed.push_back({index, toJson(*material.after, blobs)});
+    out["materials"] = {{"count", scene.materials.size()}, {"set", std::move(changed)}};
   }
-  if (whole || cameras != was.cameras) out["cameras"] = listOf(cameras, blobs);
-  if (whole || name != was.name) out["name"] = name;
-  if (whole || nextId != was.nextId) out["nextId"] = nextId;
-  if (whole || !(sky == was.sky) || skyIsDefault != was.skyIsDefault) {
-    out["sky"] = toJson(sky, blobs);
-    out["skyIsDefault"] = skyIsDefault;
+  if (sky.after || skyIsDefault.after) {
+    out["sky"] = toJson(scene.sky, blobs);
+    out["skyIsDefault"] = scene.skyIsDefault;
   }
-  if (whole || !(skyLight == was.skyLight)) out["skyLight"] = toJson(skyLight, blobs);
-  if (whole || lightGroups != was.lightGroups) out["lightGroups"] = listOf(lightGroups, blobs);
-  if (whole || bookmarks != was.bookmarks) out["bookmarks"] = listOf(bookmarks, blobs);
-  if (whole || !(after.render == before.render)) out["render"] = toJson(after.render, blobs);
+  if (skyLight.after) out["skyLight"] = toJson(*skyLight.after, blobs);
+  if (lightGroups.after) out["lightGroups"] = listOf(*lightGroups.after, blobs);
+  if (bookmarks.after) out["bookmarks"] = listOf(*bookmarks.after, blobs);
+  if (render.after) out["render"] = toJson(*render.after, blobs);
   return out;
 }
 

@@ -34,7 +34,6 @@ void Journal::begin(const Document& document) {
   files_ = filesOf(document.scene);
   // A level without a file has no meshes or textures that the journal can refer to.
   base_ = files_.empty() ? Scene() : document.scene;
-  last_ = document;
   savedHash_ = sceneHash(document.scene);
   isReplaced_ = false;
 }
@@ -49,7 +48,6 @@ void Journal::adopt(Recovered recovered) {
   isReplaced_ = false;
   savedHash_ = recovered.savedHash;
   edits_ = recovered.edits;
-  last_ = recovered.document;
   restart(recovered.document, hasLevel_);
 }
 
@@ -83,7 +81,7 @@ void Journal::restart(const Document& document, bool hasLevel) {
                        {"saved", hashText(savedHash_)},
                        {"edits", edits_}};
   Blobs blobs(folder_);
-  const Json whole = entry(document, "", clock_(), deltaBetween(base_, {}, document, blobs, true));
+  const Json whole = entry(document, "", clock_(), wholeDocument(base_, document, blobs));
   AppendFile anew(folder_ / "journal.new");
   anew.append(lineOf(header) + lineOf(whole));
   fs::rename(folder_ / "journal.new", folder_ / "journal.jsonl", error);
@@ -93,16 +91,20 @@ void Journal::restart(const Document& document, bool hasLevel) {
                      "free some space, or save your work now");
   syncFolder(folder_);
   file_ = std::move(anew);
-  last_ = document;
 }
 
-void Journal::record(const Document& document, const std::string& label) {
-  if (folder_.empty()) start(last_);
-  if (!file_.isOpen()) restart(last_, hasLevel_);
+void Journal::record(const Document& document, const DocumentChange& change,
+                     const std::string& label) {
+  if (!file_.isOpen()) {
+    Document before = document;
+    change.revert(before);
+    if (folder_.empty())
+      start(before);
+    else
+      restart(before, hasLevel_);
+  }
   Blobs blobs(folder_);
-  file_.append(
-      lineOf(entry(document, label, clock_(), deltaBetween(base_, last_, document, blobs))));
-  last_ = document;
+  file_.append(lineOf(entry(document, label, clock_(), deltaOf(base_, change, document, blobs))));
   ++edits_;
 }
 
@@ -112,10 +114,10 @@ void Journal::writeLevel() {
   hasLevel_ = true;
 }
 
-void Journal::saving() {
+void Journal::saving(const Document& document) {
   if (!folder_.empty() && !hasLevel_) {
     writeLevel();
-    if (file_.isOpen()) restart(last_, hasLevel_);
+    if (file_.isOpen()) restart(document, hasLevel_);
   }
   isReplaced_ = true;
 }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "editor/document/document.h"
+#include "editor/edits/document_change.h"
 #include "editor/recovery/append_file.h"
 #include "editor/recovery/blobs.h"
 #include "renderer/scene/gltf/scene_files.h"
@@ -37,11 +38,11 @@ class Journal {
   void begin(const Document& document);
   // Continues the level of a killed process.
   void adopt(Recovered recovered);
-  // Call after a committed edit. The edit is on the disk when this returns. If it cannot be
-  // written, throws InputError, and the next call writes what is missing.
-  void record(const Document& document, const std::string& label);
+  // Call after a committed edit, with what it changed. The edit is on the disk when this returns.
+  // If it cannot be written, throws InputError; the next change must then include this one.
+  void record(const Document& document, const DocumentChange& change, const std::string& label);
   // Call before and after the level's file is replaced.
-  void saving();
+  void saving(const Document& document);
   void saved(const Document& document);
   // Ends a session that has nothing to lose.
   void close();
@@ -74,7 +75,6 @@ class Journal {
   std::vector<FileStamp> files_;
   bool hasLevel_ = false;    // level.glb exists
   bool isReplaced_ = false;  // the opened file has changed since
-  Document last_;            // the document of the last line
   uint64_t savedHash_ = 0;
   int edits_ = 0;
 };

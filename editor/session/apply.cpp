@@ -28,7 +28,8 @@ void applyPreferences(Session& s, std::vector<std::string>& problems) {
 void applyPreset(Session& s) {
   const std::string wanted = s.home().preferences.settings().preset;
   for (const Preset& preset : presets()) {
-    if (preset.name == wanted) s.document().render = withPreset(s.document().render, preset);
+    if (preset.name == wanted)
+      s.editing().setInitialRender(withPreset(s.document().render, preset));
   }
 }
 

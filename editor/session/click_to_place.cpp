@@ -12,21 +12,18 @@ void placeUnderPointer(Session& s, bool goesOn) {
     return;
   }
   const std::string action = s.placed();
-  s.history().begin("Place");
+  s.editing().commit();
+  Transaction edit = s.editing().begin("Place");
   const size_t before = s.document().scene.nodes.size();
   const bool isAdded = s.runAction(action) && s.document().scene.nodes.size() > before;
-  if (!isAdded) {
-    s.history().cancel();
-    s.startPlacing("");
-    return;
-  }
-  Node node = *s.document().scene.find(s.document().active());
+  const Node* added = s.document().scene.find(s.document().active());
+  if (!isAdded || added == nullptr) return s.startPlacing("");
+  Node node = *added;
   if (const auto local = placedOn(s.document().scene, node.id, *place)) {
     node.local = *local;
-    const std::string label = "Place " + node.name;
-    s.history().run(std::make_unique<EditNodes>(label, s.document(), std::vector{node}));
+    setNodes(s.editing(), "Place " + node.name, {node});
   }
-  s.history().commit();
+  edit.commit();
   s.setStatus("Placed " + node.name);
   if (!goesOn) s.startPlacing("");
 }

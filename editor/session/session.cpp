@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <unordered_set>
 
 #include "editor/edits/edits.h"
 #include "editor/session/register_actions.h"
@@ -22,14 +21,10 @@ Session::~Session() = default;
 
 void Session::open(Scene scene, std::filesystem::path path,
                    const std::vector<std::string>& warnings) {
-  tools_->gizmo.forget();
-  tools_->lightHandles.forget();
+  cancelDrag();
   placing_.clear();
   ++level_;
-  document_.scene = std::move(scene);
-  document_.selection.clear();
-  document_.path = std::move(path);
-  history_.clear();
+  editing_.open({std::move(scene), document_.render, {}, std::move(path)});
   savedHash_ = sceneHash(document_.scene);
   tools_->pointerKnown = false;
   points_.forget();
@@ -43,7 +38,7 @@ void Session::open(Scene scene, std::filesystem::path path,
       std::find_if(nodes.begin(), nodes.end(), [](const Node& n) { return n.camera != kNone; });
   view_ = camera != nodes.end() ? viewOfCamera(document_.scene, *camera, view_.width, view_.height)
                                 : viewOfBounds(world.bounds, view_.width, view_.height);
-  // Orbiting turns about what is in the middle of the picture.
+  // The camera orbits around the surface in the middle of the picture.
   const RayCaster rays(world);
   const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()}, Surfaces::seen);
   tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
@@ -51,7 +46,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   setStatus("Opened " + name);
   std::vector<std::string> told = warnings;
   for (std::string& warning : told) {
-    // Its name will do: where it lies was just chosen, and takes the room of what is wrong.
+    // The file name is enough: the path is long, and the user has just chosen it.
     if (!whole.empty() && warning.starts_with(whole)) warning.replace(0, whole.size(), name);
     setStatus(warning, NoticeKind::warning);
   }
@@ -91,54 +86,56 @@ bool Session::runAction(std::string_view text) {
   }
 }
 
-namespace {
-
-// The node with one thing changed.
 template <typename Change>
-std::unique_ptr<EditNodes> nodeEdit(const Document& document, NodeId id, const std::string& what,
-                                    Change change) {
-  const Node* now = document.scene.find(id);
+void Session::editNode(NodeId id, const std::string& verb, Change change) {
+  const Node* now = document_.scene.find(id);
   if (now == nullptr) throw InputError("object", "it is not there any more", "select another");
   Node node = *now;
   change(node);
-  return std::make_unique<EditNodes>(what + " " + node.name, document, std::vector<Node>{node});
+  setNodes(editing_, verb + " " + node.name, {node});
 }
 
-}  // namespace
-
 void Session::setNodeTransform(NodeId id, const Transform& local) {
-  history_.run(nodeEdit(document_, id, "Transform", [&](Node& n) { n.local = local; }));
+  editNode(id, "Transform", [&](Node& n) { n.local = local; });
 }
 
 void Session::setAreaLight(NodeId id, const AreaLight& light) {
-  history_.run(nodeEdit(document_, id, "Change", [&](Node& n) { n.area = light; }));
+  editNode(id, "Change", [&](Node& n) { n.area = light; });
 }
 
 void Session::setPunctualLight(NodeId id, const PunctualLight& light) {
-  history_.run(nodeEdit(document_, id, "Change", [&](Node& n) { n.punctual = light; }));
+  editNode(id, "Change", [&](Node& n) { n.punctual = light; });
 }
 
 void Session::setMaterial(int index, const Material& material) {
-  history_.run(std::make_unique<EditMaterial>(document_, index, material));
+  Transaction edit = editing_.begin("Change material " + material.name);
+  edit.material(index) = material;
+  edit.commit();
 }
 
 void Session::setName(NodeId id, const std::string& name) {
-  history_.run(nodeEdit(document_, id, "Rename", [&](Node& n) { n.name = name; }));
+  editNode(id, "Rename", [&](Node& n) { n.name = name; });
 }
 
 void Session::setVisible(NodeId id, bool visible) {
-  history_.run(
-      nodeEdit(document_, id, visible ? "Show" : "Hide", [&](Node& n) { n.visible = visible; }));
+  editNode(id, visible ? "Show" : "Hide", [&](Node& n) { n.visible = visible; });
 }
 
 void Session::setMeshKind(NodeId id, MeshKind kind) {
-  history_.run(nodeEdit(document_, id, "Light", [&](Node& n) { n.meshKind = kind; }));
+  editNode(id, "Light", [&](Node& n) { n.meshKind = kind; });
 }
 
-void Session::setSky(const Sky& sky) { history_.run(std::make_unique<EditSky>(document_, sky)); }
+void Session::setSky(const Sky& sky) {
+  if (sky == document_.scene.sky) return;
+  Transaction edit = editing_.begin("Change the sky");
+  edit.sky() = sky;
+  edit.commit();
+}
 
 void Session::setRender(const RenderSettings& settings) {
-  history_.run(std::make_unique<EditRender>(document_, settings));
+  Transaction edit = editing_.begin("Change render settings");
+  edit.render() = settings;
+  edit.commit();
 }
 
 void Session::toggleReference() {
@@ -152,47 +149,28 @@ void Session::toggleReference() {
   setRender(settings);
 }
 
-void Session::select(std::vector<NodeId> ids) {
-  // Of an id given twice the last one counts.
-  std::unordered_set<NodeId> taken;
-  std::vector<NodeId>& selection = document_.selection;
-  selection.clear();
-  for (auto id = ids.rbegin(); id != ids.rend(); ++id)
-    if (taken.insert(*id).second) selection.push_back(*id);
-  std::reverse(selection.begin(), selection.end());
-  pruneSelection();
-}
-
 void Session::undo() {
-  if (dragging()) return cancelDrag();  // what is under way is the last change
-  const std::string label = history_.undoLabel();
-  history_.undo();
-  pruneSelection();
+  if (dragging()) return cancelDrag();  // the drag is the last change
+  const std::string label = history().undoLabel();
+  editing_.undo();
   if (!label.empty()) setStatus("Undid: " + label);
 }
 
 void Session::redo() {
   finishDrag();
-  const std::string label = history_.redoLabel();
-  history_.redo();
-  pruneSelection();
+  const std::string label = history().redoLabel();
+  editing_.redo();
   if (!label.empty()) setStatus("Did again: " + label);
 }
 
 void Session::goToStep(size_t position) {
   finishDrag();
-  history_.goTo(position);
-  pruneSelection();
+  editing_.goTo(position);
 }
 
-void Session::pruneSelection() {
-  std::erase_if(document_.selection,
-                [&](NodeId id) { return document_.scene.find(id) == nullptr; });
-}
-
-// What is to be shown now, with the work light; and what changed in it since the last call.
+// The scene to be shown, with the work light, and what changed in it since the last call.
 const Scene& Session::litScene(SceneChanges& changes) {
-  changes = history_.takeChanges();
+  changes = editing_.takeChanges();
   const Scene& scene = workLight_.with(document_.scene, view_, lighting_.workLight, changes);
   sceneRevision_ += !changes.none();
   return scene;
@@ -226,12 +204,13 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
     points_.update(pointSubject(), !same, !changes.none());
     watchFrame(changes, begin);
   } catch (const InputError& e) {
-    history_.showAll();  // part of it may have arrived: the next frame begins anew
+    editing_
+        .showAll();  // the renderer may have got a part of it: the next frame starts from scratch
     renderError_ = e.what();
     setStatus(renderError_, NoticeKind::error);
     if (!output_.radiance)
       output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
-    output_.settled = output_.refined = true;  // trying the same again changes nothing
+    output_.settled = output_.refined = true;  // the same frame would fail again
   }
   ++frame_;
   return output_;

@@ -1,4 +1,4 @@
-// What a session does so that no work is lost.
+// The journal of a session, autosave and recovery.
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
 
@@ -6,8 +6,10 @@ namespace lamplighter {
 
 void Session::keepJournal(const std::filesystem::path& root, int process, Journal::Clock clock) {
   crashRecovery_.start(root, process, std::move(clock), document_);
-  history_.setListener([this](const std::string& label) {
-    if (std::string why = crashRecovery_.committed(document_, label); !why.empty()) setStatus(why);
+  editing_.setListener([this](const DocumentChange& change, const std::string& label) {
+    const std::string why = crashRecovery_.committed(document_, change, label);
+    if (!why.empty()) setStatus(why);
+    return why.empty();
   });
 }
 
@@ -15,22 +17,19 @@ void Session::recoverWork(size_t number) {
   if (modified())
     throw InputError("recovery.recover", "this level has changes", "save them or undo them first");
   Recovered recovered = recover(crashRecovery_.found().at(number).folder);
-  const Document document = recovered.document;
-  open(recovered.base, document.path, {});
-  document_.scene = document.scene;
-  document_.render = document.render;
-  history_.showAll();
+  open(recovered.base, recovered.document.path, {});
+  editing_.open(recovered.document);
   savedHash_ = recovered.savedHash;
   status_ = recovered.warning.empty()
                 ? "Recovered " + std::to_string(recovered.edits) + " edits of " +
-                      (document.path.empty() ? "a new level" : document.path.filename().string())
+                      (document_.path.empty() ? "a new level" : document_.path.filename().string())
                 : recovered.warning;
   crashRecovery_.adopt(std::move(recovered));
 }
 
 void Session::autosave() {
   if (crashRecovery_.journal() == nullptr) return;
-  history_.commit();
+  editing_.commit();
   const auto work = crashRecovery_.journal()->autosave(document_);
   if (!work) return;
   work->write();

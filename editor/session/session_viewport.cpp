@@ -1,4 +1,4 @@
-// What a session does with the pointer in the viewport, and what its tools draw there.
+// A session in the viewport: pointer input, picking, and the overlay.
 #include <algorithm>
 
 #include "editor/debug_views/vpl_overlay.h"
@@ -29,12 +29,12 @@ bool Session::dragging() const {
   return tools_->gizmo.dragging() || tools_->lightHandles.dragging();
 }
 void Session::finishDrag() {
-  tools_->gizmo.finish(history_);
-  tools_->lightHandles.finish(history_);
+  tools_->gizmo.finish();
+  tools_->lightHandles.finish();
 }
 void Session::cancelDrag() {
-  tools_->gizmo.cancel(history_);
-  tools_->lightHandles.cancel(history_);
+  tools_->gizmo.cancel();
+  tools_->lightHandles.cancel();
 }
 SnapTo Session::snapTo() const { return tools_->gizmo.snapTo; }
 void Session::setSnapTo(SnapTo target) { tools_->gizmo.snapTo = target; }
@@ -68,7 +68,7 @@ void Session::viewport(const ViewportInput& input) {
     tools_->pointer = input.pointer;
     tools_->pointerKnown = true;
   }
-  // A drag goes first, since the right button takes it back; then the camera.
+  // A drag comes before the camera, because the right button cancels it.
   const auto surface = [&](SnapTo target) -> std::optional<vec3> {
     if (target == SnapTo::vertex) return vertexUnderPointer(document_.selection);
     const auto place = surfaceUnderPointer(document_.selection);
@@ -81,14 +81,14 @@ void Session::viewport(const ViewportInput& input) {
     return place ? std::optional(place->position) : std::nullopt;
   };
   const auto dragHandles = [&] {
-    return tools_->lightHandles.update(view_, input, document_, history_, snapping(), aimedAt);
+    return tools_->lightHandles.update(view_, input, editing_, snapping(), aimedAt);
   };
   if (tools_->lightHandles.dragging()) {
     dragHandles();
     return;
   }
   if (tools_->gizmo.dragging()) {
-    tools_->gizmo.update(view_, input, document_, history_, surface);
+    tools_->gizmo.update(view_, input, editing_, surface);
     return;
   }
   if (split_.drag(input, view_.width)) return;
@@ -96,7 +96,7 @@ void Session::viewport(const ViewportInput& input) {
   if (placing() && input.pressed[0] && input.hovered)
     return placeUnderPointer(*this, input.modifiers.shift);
   if (points_.pointer(pointSubject(), input)) return;
-  if (tools_->gizmo.update(view_, input, document_, history_)) return;
+  if (tools_->gizmo.update(view_, input, editing_)) return;
   if (dragHandles()) return;
   if (!input.pressed[0] || !input.hovered || renderer_->rays() == nullptr) return;
   if (display_.showsVpls()) {

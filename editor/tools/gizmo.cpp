@@ -190,7 +190,7 @@ void Gizmo::begin(const View& view, const Axes& axes, Handle handle, const vec2&
   const auto pull = pullOf(view, axes, handle);
   const auto grip = gripOf(view, axes, handle, pointer);
   if (!grip && !pull) return;
-  Drag d{handle, axes, pointer, grip.value_or(vec3(0.0f)), pull, {}, {}};
+  Drag d{handle, axes, pointer, grip.value_or(vec3(0.0f)), pull, {}, {}, {}};
   for (const NodeId id : topmost(document.scene, document.selection)) {
     const Node& n = *document.scene.find(id);
     if (isLocked(document.scene, id)) continue;
@@ -296,12 +296,12 @@ std::optional<std::vector<Node>> Gizmo::dragged(const View& view, const vec2& po
   return d.nodes;
 }
 
-bool Gizmo::update(const View& view, const ViewportInput& in, Document& document, History& history,
+bool Gizmo::update(const View& view, const ViewportInput& in, Editing& editing,
                    const SurfaceSnap& surface) {
-  if (drag_ && !history.inTransaction()) drag_.reset();  // other code has ended the step
+  if (drag_ && !drag_->edit.isOpen()) drag_.reset();  // other code has ended the step
   if (drag_) {
     if (in.keys.contains(Key::escape) || in.pressed[1]) {
-      cancel(history);
+      cancel();
       return true;
     }
     static constexpr const char* kLabels[] = {"Select", "Move", "Rotate", "Scale"};
@@ -319,29 +319,25 @@ bool Gizmo::update(const View& view, const ViewportInput& in, Document& document
     }
     // If the pointer has no valid position, for example beyond the horizon, keep the last state.
     if (nodes) {
-      history.run(std::make_unique<EditNodes>(
-          std::string(kLabels[static_cast<int>(mode)]) + " " + name, document, std::move(*nodes)));
+      setNodes(editing, std::string(kLabels[static_cast<int>(mode)]) + " " + name,
+               std::move(*nodes));
     }
-    if (in.released[0] || !in.down[0]) finish(history);
+    if (in.released[0] || !in.down[0]) finish();
     return true;
   }
+  const Document& document = editing.document();
   const auto axes = axesOf(view, document);
   hovered_ = axes && in.hovered ? handleAt(view, *axes, in.pointer) : Handle::none;
   if (hovered_ == Handle::none || !in.pressed[0]) return false;
   begin(view, *axes, hovered_, in.pointer, document);
-  if (drag_) history.begin("");
-  return drag_.has_value();
+  if (!drag_) return false;
+  editing.commit();
+  drag_->edit = editing.begin("");  // named by the first move
+  return true;
 }
 
-void Gizmo::finish(History& history) {
-  if (!drag_) return;
-  history.commit();
-  drag_.reset();
-}
-
-void Gizmo::cancel(History& history) {
-  if (!drag_) return;
-  history.cancel();
+void Gizmo::finish() {
+  if (drag_) drag_->edit.commit();
   drag_.reset();
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "editor/document/document.h"
-#include "editor/edits/history.h"
+#include "editor/edits/editing.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/viewport_input.h"
 #include "renderer/scene/camera.h"
@@ -28,16 +28,14 @@ class Gizmo {
   SnapTo snapTo = SnapTo::grid;
 
   // Handles hover, start, update and end of a drag. Returns true if the gizmo uses the pointer. A
-  // drag is one transaction of `history`; Esc or the right button cancels it. With Shift a move
+  // drag is one transaction; Esc or the right button cancels it. With Shift a move
   // follows the surface. With snapping it follows `snapTo`.
-  bool update(const View& view, const ViewportInput& input, Document& document, History& history,
+  bool update(const View& view, const ViewportInput& input, Editing& editing,
               const SurfaceSnap& surface = {});
   bool dragging() const { return drag_.has_value(); }
-  // Call when something interrupts the drag. It is committed as it is, or cancelled, or its
-  // document is gone.
-  void finish(History& history);
-  void cancel(History& history);
-  void forget() { drag_.reset(); }
+  // Call when something interrupts the drag: commits it as it is, or cancels it.
+  void finish();
+  void cancel() { drag_.reset(); }
   void draw(Overlay& overlay, const View& view, const Document& document) const;
 
  private:
@@ -57,6 +55,7 @@ class Gizmo {
     std::optional<vec2> pull;   // a ring seen edge-on: pixels per radian, along the ring
     std::vector<Node> nodes;    // topmost selected nodes, before the drag
     std::vector<mat4> parents;  // their parents' world matrices
+    Transaction edit;
   };
 
   std::optional<Axes> axesOf(const View& view, const Document& document) const;

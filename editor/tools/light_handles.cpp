@@ -137,23 +137,24 @@ std::vector<LightHandles::Handle> LightHandles::handlesOf(const View& view,
   return out;
 }
 
-bool LightHandles::update(const View& view, const ViewportInput& in, Document& document,
-                          History& history, bool snap, const AimTarget& target) {
-  if (drag_ && !history.inTransaction()) drag_.reset();  // other code has ended the step
+bool LightHandles::update(const View& view, const ViewportInput& in, Editing& editing, bool snap,
+                          const AimTarget& target) {
+  if (drag_ && !drag_->edit.isOpen()) drag_.reset();  // other code has ended the step
   if (drag_) {
     if (in.keys.contains(Key::escape) || in.pressed[1]) {
-      cancel(history);
+      cancel();
       return true;
     }
     if (const auto node = dragged(view, in, snap != in.modifiers.ctrl, target)) {
       const std::string verb = drag_->kind == Kind::aim ? "Aim " : "Resize ";
-      history.run(std::make_unique<EditNodes>(verb + node->name, document, std::vector{*node}));
+      setNodes(editing, verb + node->name, {*node});
     }
-    if (in.released[0] || !in.down[0]) finish(history);
+    if (in.released[0] || !in.down[0]) finish();
     return true;
   }
   hovered_ = Kind::none;
   if (!in.hovered) return false;
+  const Document& document = editing.document();
   float nearest = kHandleGrab;
   for (const Handle& handle : handlesOf(view, document)) {
     const auto point = projectPoint(view, handle.place);
@@ -165,8 +166,8 @@ bool LightHandles::update(const View& view, const ViewportInput& in, Document& d
   const Node& node = *document.scene.find(document.active());
   const mat4 parent =
       node.parent == kNoNode ? mat4(1.0f) : worldMatrix(document.scene, node.parent);
-  drag_ = Drag{hovered_, node, parent * toMatrix(node.local), parent};
-  history.begin("");
+  editing.commit();
+  drag_ = Drag{hovered_, node, parent * toMatrix(node.local), parent, editing.begin("")};
   return true;
 }
 
@@ -248,15 +249,8 @@ std::optional<Node> LightHandles::widened(const vec3& at, bool snapping) const {
   return node;
 }
 
-void LightHandles::finish(History& history) {
-  if (!drag_) return;
-  history.commit();
-  drag_.reset();
-}
-
-void LightHandles::cancel(History& history) {
-  if (!drag_) return;
-  history.cancel();
+void LightHandles::finish() {
+  if (drag_) drag_->edit.commit();
   drag_.reset();
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "editor/document/document.h"
-#include "editor/edits/history.h"
+#include "editor/edits/editing.h"
 #include "editor/tools/overlay.h"
 #include "editor/tools/viewport_input.h"
 #include "renderer/scene/camera.h"
@@ -25,12 +25,11 @@ class LightHandles {
   // Handles hover, start, update and end of a drag, as Gizmo::update() does. Returns true if a
   // handle uses the pointer. An edge keeps the opposite edge in place; with Shift both move. Sizes
   // snap to 5 cm and cones to 5° if either `snap` or Ctrl is on, but not both.
-  bool update(const View& view, const ViewportInput& input, Document& document, History& history,
-              bool snap, const AimTarget& target);
+  bool update(const View& view, const ViewportInput& input, Editing& editing, bool snap,
+              const AimTarget& target);
   bool dragging() const { return drag_.has_value(); }
-  void finish(History& history);
-  void cancel(History& history);
-  void forget() { drag_.reset(); }
+  void finish();
+  void cancel() { drag_.reset(); }
   void draw(Overlay& overlay, const View& view, const Document& document) const;
 
   struct Handle {
@@ -45,6 +44,7 @@ class LightHandles {
     Kind kind;
     Node node;  // before the drag
     mat4 world, parent;
+    Transaction edit;
   };
   std::optional<Node> dragged(const View& view, const ViewportInput& input, bool snapping,
                               const AimTarget& target) const;

@@ -1,9 +1,11 @@
 #include "renderer/scene/scene_changes.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/light_picture.h"
+#include "renderer/scene/scene_change_parts.h"
 
 namespace lamplighter {
 
@@ -29,23 +31,10 @@ bool meshEmits(const Scene& scene, Node node) {
 }
 
 bool sameStructure(const Scene& a, const Scene& b) {
-  if (a.nodes.size() != b.nodes.size() || a.meshes != b.meshes || a.textures != b.textures ||
-      a.materials.size() != b.materials.size()) {
-    return false;
-  }
-  for (size_t i = 0; i < a.nodes.size(); ++i) {
-    const Node &m = a.nodes[i], &n = b.nodes[i];
-    if (m.id != n.id || m.parent != n.parent || m.mesh != n.mesh || m.visible != n.visible ||
-        m.meshKind != n.meshKind || m.area.has_value() != n.area.has_value() ||
-        m.punctual.has_value() != n.punctual.has_value()) {
-      return false;
-    }
-    // A different shape has a different number of triangles.
-    if (m.area && m.area->shape != n.area->shape) return false;
-    // A different picture is a different texture.
-    if (m.area && shownPicture(*m.area) != shownPicture(*n.area)) return false;
-  }
-  return true;
+  return a.meshes == b.meshes && a.textures == b.textures &&
+         a.materials.size() == b.materials.size() &&
+         std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+                    [](const Node& m, const Node& n) { return sameStructure(m, n); });
 }
 
 }  // namespace
@@ -59,18 +48,51 @@ void SceneChanges::merge(const SceneChanges& other) {
   mergeSorted(materials, other.materials);
 }
 
+bool sameStructure(const Node& m, const Node& n) {
+  return m.id == n.id && m.parent == n.parent && m.mesh == n.mesh && m.visible == n.visible &&
+         m.meshKind == n.meshKind && m.area.has_value() == n.area.has_value() &&
+         m.punctual.has_value() == n.punctual.has_value() &&
+         // A different shape has a different number of triangles; a different picture is a
+         // different texture.
+         (!m.area ||
+          (m.area->shape == n.area->shape && shownPicture(*m.area) == shownPicture(*n.area)));
+}
+
+void addMaterialChange(SceneChanges& changes, int index, const Material& before,
+                       const Material& after, const Scene& sceneAfter) {
+  if (looksEqual(before, after)) return;
+  changes.materials.push_back(index);
+  // Clear and masked surfaces change the occluders; emission changes the lights.
+  if (before.isClear() != after.isClear()) changes.structure = true;
+  // An object that is switched off has a material of its own.
+  if (before.emits() != after.emits() && anyLightDark(sceneAfter)) changes.structure = true;
+}
+
+void addNodeChange(SceneChanges& changes, const Node& m, const Node& n) {
+  // The size of an area light changes its surface, like a move.
+  const bool resized = n.area && m.area->size != n.area->size;
+  if (resized || !(m.local == n.local)) changes.moved.push_back(n.id);
+  if ((n.area && !(*m.area == *n.area)) || (n.punctual && !(*m.punctual == *n.punctual)))
+    changes.lights.push_back(n.id);
+}
+
+void addMovedChildren(SceneChanges& changes, const Scene& after) {
+  std::unordered_set<NodeId> moved(changes.moved.begin(), changes.moved.end());
+  if (!moved.empty()) {
+    for (const Node& n : after.nodes) {  // parents come first
+      if (n.parent != kNoNode && moved.contains(n.parent) && moved.insert(n.id).second)
+        changes.moved.push_back(n.id);
+    }
+  }
+  mergeSorted(changes.moved, {});
+  mergeSorted(changes.lights, {});
+}
+
 SceneChanges compare(const Scene& before, const Scene& after) {
   SceneChanges changes;
   changes.sky = before.sky != after.sky;
-  for (size_t i = 0; i < std::min(before.materials.size(), after.materials.size()); ++i) {
-    if (looksEqual(before.materials[i], after.materials[i])) continue;
-    changes.materials.push_back(static_cast<int>(i));
-    // Clear and masked surfaces change the occluders; emission changes the lights.
-    if (before.materials[i].isClear() != after.materials[i].isClear()) changes.structure = true;
-    // An object that is switched off has a material of its own.
-    if (before.materials[i].emits() != after.materials[i].emits() && anyLightDark(after))
-      changes.structure = true;
-  }
+  for (size_t i = 0; i < std::min(before.materials.size(), after.materials.size()); ++i)
+    addMaterialChange(changes, static_cast<int>(i), before.materials[i], after.materials[i], after);
   if (!sameStructure(before, after) || lightLinks(before) != lightLinks(after)) {
     changes.structure = true;
     return changes;  // all nodes are updated in any case
@@ -79,27 +101,13 @@ SceneChanges compare(const Scene& before, const Scene& after) {
   const ShiningLights shone = shiningLights(before), shining = shiningLights(after);
   changes.sky |= shone.sky != shining.sky;
   for (size_t i = 0; i < after.nodes.size(); ++i) {
-    if (shone.nodes[i] == shining.nodes[i]) continue;
     const Node& n = after.nodes[i];
+    addNodeChange(changes, before.nodes[i], n);
+    if (shone.nodes[i] == shining.nodes[i]) continue;
     if (n.area || n.punctual) changes.lights.push_back(n.id);
     if (n.mesh != kNone) changes.structure |= meshEmits(after, n);
   }
-
-  // A node has moved if its own transform or that of any parent differs; parents come first.
-  std::vector<NodeId> moved;
-  for (size_t i = 0; i < after.nodes.size(); ++i) {
-    const Node &m = before.nodes[i], &n = after.nodes[i];
-    const bool parentMoved =
-        n.parent != kNoNode && std::find(moved.begin(), moved.end(), n.parent) != moved.end();
-    // The size of an area light changes its surface, like a move.
-    const bool resized = n.area && m.area->size != n.area->size;
-    if (parentMoved || resized || !(m.local == n.local)) moved.push_back(n.id);
-    if ((n.area && !(*m.area == *n.area)) || (n.punctual && !(*m.punctual == *n.punctual)))
-      changes.lights.push_back(n.id);
-  }
-  changes.moved = std::move(moved);
-  std::sort(changes.moved.begin(), changes.moved.end());
-  mergeSorted(changes.lights, {});
+  addMovedChildren(changes, after);
   return changes;
 }
 

@@ -1,6 +1,7 @@
 // A session on a floor with a box and a light, driven by pointer and keys as the ui drives it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -43,10 +44,17 @@ class SessionFixture : public testing::Test {
     RenderSettings r = session_.document().render;
     r.values.set("vpls", 16);
     r.values.set("map_resolution", 16);
-    session_.document().render = r;
+    session_.editing().setInitialRender(r);
     session_.renderFrame();
     input_ = {};
     input_.hovered = true;
+  }
+
+  // Changes the level by something that is not an edit: there is nothing to undo afterwards.
+  void change(const std::function<void(Scene&)>& f) {
+    Document document = session_.document();
+    f(document.scene);
+    session_.editing().open(std::move(document));
   }
 
   // Towards −Z, pitched by an angle in radians.

@@ -41,7 +41,7 @@ std::string RandomEdits::chooseNode() {
 std::string RandomEdits::drag() {
   const NodeId id = session_.document().active();
   if (id == kNoNode) return chooseNode();
-  session_.history().begin("Drag");
+  session_.editing().hold("Drag");
   const uint32_t moves = 1 + below(5);
   for (uint32_t i = 0; i < moves; ++i) {
     Transform t = session_.document().scene.find(id)->local;
@@ -49,9 +49,9 @@ std::string RandomEdits::drag() {
     session_.setNodeTransform(id, t);
   }
   if (below(5) == 0)
-    session_.history().cancel();
+    session_.editing().cancel();
   else
-    session_.history().commit();
+    session_.editing().commit();
   return "drag";
 }
 
@@ -87,7 +87,7 @@ std::string RandomEdits::panel() {
 }
 
 std::string RandomEdits::copy(const std::string& action) {
-  session_.history().begin("Copy");
+  session_.editing().hold("Copy");
   act(action);
   const std::vector<NodeId> copies = session_.document().selection;
   for (const NodeId id : copies) {
@@ -95,7 +95,7 @@ std::string RandomEdits::copy(const std::string& action) {
     t.translation += vec3(between(0.01f, 0.5f), between(0.01f, 0.2f), between(0.01f, 0.5f));
     session_.setNodeTransform(id, t);
   }
-  session_.history().commit();
+  session_.editing().commit();
   return action + ", moved";
 }
 

@@ -30,8 +30,10 @@ class DrivenWindow {
   explicit DrivenWindow(int width = 960, int height = 600, float scale = 1.0f)
       : platform_(width, height, false, scale) {
     app_.setTimeStep(1.0f / 60.0f);
-    session().document().render.values.set("vpls", 8);
-    session().document().render.values.set("map_resolution", 16);
+    RenderSettings render = session().document().render;
+    render.values.set("vpls", 8);
+    render.values.set("map_resolution", 16);
+    session().editing().setInitialRender(std::move(render));
   }
   Application& app() { return app_; }
   Session& session() { return app_.session(); }

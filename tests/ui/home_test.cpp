@@ -32,8 +32,10 @@ class Home : public testing::Test {
     test::addRectangleLight(scene, vec3(0, 2, 0), vec2(1.0f), vec3(5.0f));
     app_.setReplaying(true);
     app_.setTimeStep(1.0f / 60.0f);
-    session().document().render.values.set("vpls", 8);
-    session().document().render.values.set("map_resolution", 16);
+    RenderSettings render = session().document().render;
+    render.values.set("vpls", 8);
+    render.values.set("map_resolution", 16);
+    session().editing().setInitialRender(std::move(render));
     frames(2);
     session().open(std::move(scene), folder_ / "levels/attic.gltf", {});
     frames(2);

@@ -19,8 +19,10 @@ class MeterWorkerTest : public testing::Test {
     light_ = test::addRectangleLight(scene, vec3(0, 3, 0), vec2(1.0f), vec3(5.0f));
     session_.resizeViewport(48, 32);
     session_.open(std::move(scene), "test.gltf", {});
-    session_.document().render.values.set("vpls", 8);
-    session_.document().render.values.set("map_resolution", 16);
+    RenderSettings render = session_.document().render;
+    render.values.set("vpls", 8);
+    render.values.set("map_resolution", 16);
+    session_.editing().setInitialRender(std::move(render));
     session_.watch().meter.setOn(true);
     session_.renderFrame();
   }

@@ -263,8 +263,8 @@ void Application::drawPanels(PanelContext ui) {
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
 
   // If a field disappears while it is edited, its transaction stays open; commit it.
-  if (session_->history().inTransaction() && !ImGui::IsAnyItemActive() && !session_->dragging())
-    session_->history().commit();
+  if (session_->editing().inTransaction() && !ImGui::IsAnyItemActive() && !session_->dragging())
+    session_->editing().commit();
 }
 
 void Application::drawDialogs(PanelContext ui) {
@@ -385,7 +385,7 @@ void Application::followExposure() {
   const GiOutput& output = session_->output();
   if (framesToExposure_ == 0 || (--framesToExposure_ > 0 && !output.settled)) return;
   const float& ev = session_->document().render.exposureEv;
-  const bool isOurs = !lastExposure_ || (ev == *lastExposure_ && !session_->history().canUndo());
+  const bool isOurs = !lastExposure_ || (ev == *lastExposure_ && !session_->editing().canUndo());
   if (isOurs) exposeAutomatically();
   const bool goesOn = isOurs && output.stats.vplsPending > 0;
   framesToExposure_ = goesOn ? kFramesToExposure : 0;
@@ -393,8 +393,10 @@ void Application::followExposure() {
 }
 
 void Application::exposeAutomatically() {
-  if (session_->output().radiance)
-    session_->document().render.exposureEv = autoExposureEv(session_->output().radiance->pixels());
+  if (!session_->output().radiance) return;
+  RenderSettings render = session_->document().render;
+  render.exposureEv = autoExposureEv(session_->output().radiance->pixels());
+  session_->editing().setInitialRender(std::move(render));
 }
 
 void Application::answerRequests() {

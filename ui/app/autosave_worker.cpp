@@ -22,7 +22,7 @@ void AutosaveWorker::frame(Session& session, double seconds) {
   Journal* journal = session.crashRecovery().journal();
   if (journal == nullptr) return;
   // Not during a drag, because it may be cancelled.
-  if (session.history().inTransaction()) return;
+  if (session.editing().inTransaction()) return;
   if (work_ && written_) {
     finish();
     if (journal->folder() != work_->folder) {

@@ -93,8 +93,9 @@ void Replay::start(Application& app) {
   if (options_.frameClock) app.useFrameClock();
   Session& session = app.session();
   session.home().writeFolder = writeFolder_.path();
-  session.document().render = header().render;
-  if (!options_.method.empty()) session.document().render.method = options_.method;
+  RenderSettings render = header().render;
+  if (!options_.method.empty()) render.method = options_.method;
+  session.editing().setInitialRender(std::move(render));
   keepJournal(session);
   for (int i = 0; i < 2; ++i) app.frame();  // these frames compute the sizes of the layout
   const fs::path scene = player_.recording().scenePath();

@@ -178,14 +178,14 @@ void addActions(const PanelContext& ui, Items& items, Requests& requests) {
     offer(light.moreChoices, std::string("light.place ") + kind.name, kind.icon, kind.label);
   }
   const History& history = ui.session.history();
-  Item& undo =
-      add("undo", icon::kUndo, "Undo",
-          history.canUndo() ? "Undo: " + history.undoLabel() : "Nothing to undo", "edit.undo", 1);
-  undo.enabled = history.canUndo();
+  const bool canUndo = ui.session.editing().canUndo(), canRedo = ui.session.editing().canRedo();
+  Item& undo = add("undo", icon::kUndo, "Undo",
+                   canUndo ? "Undo: " + history.undoLabel() : "Nothing to undo", "edit.undo", 1);
+  undo.enabled = canUndo;
   undo.beginsGroup = true;
-  add("redo", icon::kRedo, "Redo",
-      history.canRedo() ? "Redo: " + history.redoLabel() : "Nothing to redo", "edit.redo", 1)
-      .enabled = history.canRedo();
+  add("redo", icon::kRedo, "Redo", canRedo ? "Redo: " + history.redoLabel() : "Nothing to redo",
+      "edit.redo", 1)
+      .enabled = canRedo;
   // Tools that inspect the picture. They run their actions directly.
   for (const Named& seeing : {Named{"tool.explain", icon::kExplain, "Why dark?"},
                               Named{"view.probe", icon::kProbeLight, "Probe"},

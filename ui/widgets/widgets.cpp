@@ -99,8 +99,8 @@ std::string withIcon(const char* icon, const std::string& label) {
 }
 
 void trackEdit(const PanelContext& ui, const std::string& label) {
-  if (ImGui::IsItemActivated()) ui.session.history().begin(label);
-  if (ImGui::IsItemDeactivated()) ui.session.history().commit();
+  if (ImGui::IsItemActivated()) ui.session.editing().hold(label);
+  if (ImGui::IsItemDeactivated()) ui.session.editing().commit();
 }
 
 bool dragField(const PanelContext& ui, const std::string& widget, float& value, float speed,

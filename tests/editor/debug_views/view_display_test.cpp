@@ -189,7 +189,7 @@ TEST_F(ViewDisplayTest, AToneMapperIsASettingOfTheDisplay) {
   EXPECT_FALSE(session_.runAction("view.tone_mapper"));
   EXPECT_EQ(session_.display().toneMapper(), ToneMapper::linear);
   EXPECT_EQ(hash(), before);
-  EXPECT_FALSE(session_.history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
   // The histogram is of what is shown.
   ASSERT_TRUE(session_.runAction("view.histogram"));
   EXPECT_TRUE(session_.display().showsHistogram());

@@ -54,7 +54,7 @@ TEST_F(HistorySteps, ForgetsTheOldestBeyondTheBudget) {
   move(1.0f);
   const size_t one = history().bytes();
   ASSERT_GT(one, sizeof(Node));
-  session_.history().setBudget(10 * one);
+  session_.editing().setBudget(10 * one);
   for (int i = 2; i <= 50; ++i) move(static_cast<float>(i));
   EXPECT_LE(history().bytes(), 10 * one);
   EXPECT_EQ(history().position(), 50u);
@@ -63,13 +63,13 @@ TEST_F(HistorySteps, ForgetsTheOldestBeyondTheBudget) {
   EXPECT_THROW(session_.goToStep(39), InputError);
   session_.goToStep(40);
   EXPECT_EQ(local(box_).translation.x, 40.0f);
-  EXPECT_FALSE(history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
   session_.goToStep(50);
   EXPECT_EQ(local(box_).translation.x, 50.0f);
 }
 
 TEST_F(HistorySteps, TheNewestStepIsNeverForgotten) {
-  session_.history().setBudget(1);
+  session_.editing().setBudget(1);
   move(1.0f);
   move(2.0f);
   EXPECT_EQ(history().first(), 1u);
@@ -87,7 +87,7 @@ TEST_F(HistorySteps, WhatIsDroppedFromRedoFreesItsMemory) {
   move(3.5f);
   EXPECT_EQ(history().bytes(), one);
   EXPECT_EQ(history().last(), 1u);
-  session_.history().clear();
+  session_.editing().open(session_.document());
   EXPECT_EQ(history().bytes(), 0u);
 }
 

@@ -66,7 +66,7 @@ TEST_F(Tree, WhatCannotHangThereStaysAsItIs) {
   session_.select({inner_});
   EXPECT_TRUE(session_.runAction("object.reparent group"));
   EXPECT_EQ(hash(), before);
-  EXPECT_FALSE(session_.history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
 }
 
 TEST_F(Tree, TheLivePictureFollows) {
@@ -79,7 +79,7 @@ TEST_F(Tree, TheLivePictureFollows) {
   fresh.resizeViewport(320, 200);
   fresh.open(scene(), "again.gltf", {});
   fresh.setView(session_.view());
-  fresh.document().render = session_.document().render;
+  fresh.editing().setInitialRender(session_.document().render);
   while (!fresh.renderFrame().settled) {
   }
   EXPECT_EQ(live.pixels, fresh.output().radiance->pixels().pixels);

@@ -53,8 +53,7 @@ TEST_F(PointToolsTest, ExplainAtAnswersWithoutAStepAndSelectsBlockers) {
   EXPECT_FALSE(session_.runAction("explain.light 0.5"));
 
   // Between box and light.
-  session_.document().scene.find(plate_)->local.translation = vec3(-1.1f, 2.0f, 0.75f);
-  session_.history().showAll();
+  change([&](Scene& s) { s.find(plate_)->local.translation = vec3(-1.1f, 2.0f, 0.75f); });
   settle();
   ASSERT_NE(answer(), nullptr);
   EXPECT_EQ(answer()->lights.front().state, LightArrival::shadowed);
@@ -62,8 +61,8 @@ TEST_F(PointToolsTest, ExplainAtAnswersWithoutAStepAndSelectsBlockers) {
   EXPECT_EQ(session_.document().active(), plate_);
   EXPECT_TRUE(session_.runAction("explain.close"));
   EXPECT_EQ(answer(), nullptr);
-  EXPECT_FALSE(session_.history().canUndo());
-  session_.document().scene.find(plate_)->local.translation = vec3(3, 1, 0);
+  EXPECT_FALSE(session_.editing().canUndo());
+  change([&](Scene& s) { s.find(plate_)->local.translation = vec3(3, 1, 0); });
   session_.select({});
   EXPECT_EQ(hash(), before);
 }
@@ -185,7 +184,7 @@ TEST_F(PointToolsTest, TwoClicksMeasure) {
   ASSERT_TRUE(run("measure.at", open_));
   ASSERT_TRUE(run("measure.at", other));
   EXPECT_EQ(session_.status(), m.text());
-  EXPECT_FALSE(session_.history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ class LightTableTest : public test::SessionFixture {
 };
 
 TEST_F(LightTableTest, EveryLightIsARow) {
-  session_.document().scene.find(point_)->visible = false;
+  change([&](Scene& s) { s.find(point_)->visible = false; });
   const auto all = rows();
   ASSERT_EQ(names(all), (Names{"ceiling", "bulb", "ember", "Sky"}));
   EXPECT_EQ(all[0].source.measure.kind, LightKind::rectangle);

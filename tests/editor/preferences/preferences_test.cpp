@@ -128,7 +128,7 @@ TEST_F(SettingsActions, ChangeWhatTheSessionGoesBy) {
   ASSERT_TRUE(session_.runAction("settings.reset"));
   EXPECT_EQ(session_.lighting().unit, LightUnit::lumens);
   EXPECT_TRUE(session_.home().preferences.values.values().empty());
-  EXPECT_FALSE(session_.history().canUndo()) << "settings are no part of the level";
+  EXPECT_FALSE(session_.editing().canUndo()) << "settings are no part of the level";
 }
 
 TEST_F(SettingsActions, RefuseWhatIsNoValue) {

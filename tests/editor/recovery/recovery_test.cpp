@@ -88,16 +88,32 @@ TEST_F(Recovery, GivesBackEveryCommittedEdit) {
   EXPECT_EQ(r.labels[4], "Undo: " + r.labels[3]);
 }
 
+TEST_F(Recovery, KeepsTheTreeAndItsOrder) {
+  act("light.add disk");
+  act("edit.rename lamp");
+  act("light.add sphere");
+  act("object.reparent floor");
+  act("select.name floor");
+  act("object.reparent lamp");
+  act("edit.duplicate");
+  act("edit.undo");
+  act("select.name lamp");
+  act("edit.cut");
+  act("edit.undo");
+  act("edit.paste");
+  EXPECT_EQ(killAndRecover().edits, 10);
+}
+
 TEST_F(Recovery, ADragIsOneEditOnceItIsDone) {
   const NodeId id = session_->document().scene.nodes.back().id;
   Transform t = session_->document().scene.nodes.back().local;
-  session_->history().begin("Drag");
+  session_->editing().hold("Drag");
   for (int i = 0; i < 5; ++i) {
     t.translation.x += 1.0f;
     session_->setNodeTransform(id, t);
   }
   EXPECT_TRUE(!fs::exists(root_));
-  session_->history().commit();
+  session_->editing().commit();
   EXPECT_EQ(killAndRecover().edits, 1);
 }
 

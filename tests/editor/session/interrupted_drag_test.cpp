@@ -27,7 +27,7 @@ TEST_F(InterruptedDrag, UndoTakesTheDragBackAndEndsIt) {
   dragTo(input_.pointer + vec2(20, 0));
   release();
   EXPECT_EQ(hash(), before_) << "the drag has ended; moving on drags nothing";
-  EXPECT_FALSE(session_.history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
 }
 
 TEST_F(InterruptedDrag, EscapeAsAnActionTakesItBackAndKeepsTheSelection) {
@@ -74,7 +74,7 @@ TEST_F(InterruptedDrag, OpeningAnotherLevelForgetsIt) {
   dragTo(input_.pointer + vec2(20, 0));
   release();
   EXPECT_EQ(hash(), opened);
-  EXPECT_FALSE(session_.history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
 }
 
 TEST_F(InterruptedDrag, SwitchingSnapDoesNotEndIt) {

@@ -38,8 +38,10 @@ TEST(RelightHall, TheScriptAndTheRecordingMakeTheSameDocument) {
   Session session(std::make_unique<FrameRenderer>(makeCpuBackend()));
   session.resizeViewport(160, 100);
   session.open(loadGltf(file).scene, file, {});
+  RenderSettings render = session.document().render;
   for (const auto& [name, value] : header["settings"].items())
-    session.document().render.values.set(name, value.get<int>());
+    render.values.set(name, value.get<int>());
+  session.editing().setInitialRender(std::move(render));
   session.renderFrame();
 
   std::ifstream script(kTests / "scripts/relight_modern_hall.txt");

@@ -58,7 +58,9 @@ class RenderFailure : public testing::Test {
     light_ = test::addRectangleLight(scene, vec3(0, 4, 0), vec2(1.0f), vec3(10.0f));
     session_.resizeViewport(32, 24);
     session_.open(std::move(scene), "test.gltf", {});
-    session_.document().render.values.set("vpls", 8);
+    RenderSettings render;
+    render.values.set("vpls", 8);
+    session_.editing().setInitialRender(std::move(render));
   }
   std::vector<vec3> settle() {
     for (int i = 0; i < 1000 && !session_.renderFrame().settled; ++i) {
@@ -94,7 +96,7 @@ TEST_F(RenderFailure, WhatChangedMeanwhileShowsAfterwards) {
   Session fresh(std::make_unique<FrameRenderer>(makeCpuBackend()));
   fresh.resizeViewport(32, 24);
   fresh.open(session_.document().scene, "test.gltf", {});
-  fresh.document().render = session_.document().render;
+  fresh.editing().setInitialRender(session_.document().render);
   fresh.setView(session_.view());
   while (!fresh.renderFrame().settled) {
   }
@@ -110,7 +112,7 @@ TEST_F(RenderFailure, OfTheVeryFirstFrameGivesABlackPicture) {
 TEST_F(RenderFailure, RenderSettingsAreNoReasonToSave) {
   EXPECT_FALSE(session_.modified());
   ASSERT_TRUE(session_.runAction("render.exposure 2"));
-  EXPECT_TRUE(session_.history().canUndo());
+  EXPECT_TRUE(session_.editing().canUndo());
   EXPECT_FALSE(session_.modified());
   session_.select({light_});
   ASSERT_TRUE(session_.runAction("object.move 1 1 1"));

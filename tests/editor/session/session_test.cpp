@@ -34,7 +34,7 @@ class SessionTest : public testing::Test {
     RenderSettings r = session_.document().render;
     r.values.set("vpls", 16);
     r.values.set("map_resolution", 16);
-    session_.document().render = r;
+    session_.editing().setInitialRender(r);
     session_.renderFrame();
   }
 
@@ -86,13 +86,14 @@ TEST_F(SessionTest, AClickSelectsWhatIsSeenThere) {
   EXPECT_EQ(session_.document().selection, std::vector<NodeId>{floor_});
   click(vec2(2, 2));  // the void
   EXPECT_TRUE(session_.document().selection.empty());
-  EXPECT_FALSE(session_.history().canUndo()) << "selecting is no change";
+  EXPECT_FALSE(session_.editing().canUndo()) << "selecting is no change";
 }
 
 TEST_F(SessionTest, APunctualLightIsPickedByItsMark) {
-  const NodeId id = test::addNode(session_.document().scene, "lamp", kNoNode, vec3(2, 1.5f, 1));
-  session_.document().scene.find(id)->punctual = PunctualLight{};
-  session_.history().clear();
+  Document document = session_.document();
+  const NodeId id = test::addNode(document.scene, "lamp", kNoNode, vec3(2, 1.5f, 1));
+  document.scene.find(id)->punctual = PunctualLight{};
+  session_.editing().open(std::move(document));
   session_.renderFrame();
   click(pixelOf(vec3(2, 1.5f, 1)) + vec2(5, 0));
   EXPECT_EQ(session_.document().active(), id);
@@ -129,7 +130,7 @@ TEST_F(SessionTest, EscapeTakesADragBack) {
         pixelOf(vec3(reach + 2, 0.5f, 0))},
        0, {}, {Key::escape});
   EXPECT_EQ(local(box_).translation, vec3(0, 0.5f, 0));
-  EXPECT_FALSE(session_.history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
 }
 
 TEST_F(SessionTest, TheRingTurnsAboutItsAxisAndNothingElse) {
@@ -156,9 +157,9 @@ TEST_F(SessionTest, TheScaleHandleScalesOneAxis) {
 }
 
 TEST_F(SessionTest, AGroupMovesTogetherAndChildrenOnce) {
-  Scene& scene = session_.document().scene;
-  const NodeId child = test::addNode(scene, "child", box_, vec3(1, 0, 0));
-  session_.history().clear();
+  Document document = session_.document();
+  const NodeId child = test::addNode(document.scene, "child", box_, vec3(1, 0, 0));
+  session_.editing().open(std::move(document));
   session_.renderFrame();
   session_.select({child, light_, box_});
   session_.setTool(ToolMode::move);
@@ -249,7 +250,7 @@ TEST_F(SessionTest, WhatDoesNotFitChangesNothingAndSaysSo) {
     EXPECT_FALSE(session_.status().empty());
   }
   EXPECT_EQ(documentHash(session_.document()), before);
-  EXPECT_FALSE(session_.history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
 }
 
 TEST_F(SessionTest, SpaceShowsTheReferenceAndGoesBack) {

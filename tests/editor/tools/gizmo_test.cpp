@@ -88,7 +88,7 @@ TEST_F(GizmoTest, ARingSeenFromTheSideTurnsWithThePointer) {
   session_.select({box_});
   session_.setTool(ToolMode::rotate);
   press(pixelOf(vec3(0, 0.5f, 0)) + vec2(3, 0));
-  ASSERT_TRUE(session_.history().inTransaction()) << "the ring is there to be taken";
+  ASSERT_TRUE(session_.editing().inTransaction()) << "the ring is there to be taken";
   float last = 0.0f;
   for (int i = 1; i <= 6; ++i) {
     dragTo(input_.pointer + vec2(12, 0));
@@ -108,7 +108,7 @@ TEST_F(GizmoTest, BeyondTheHorizonItStaysWhereItWas) {
   // The square of the plane of X and Z lies towards both axes.
   const float s = 0.39f * along(vec3(0, 0.5f, 0), 92.0f);
   press(pixelOf(vec3(s, 0.5f, s)));
-  ASSERT_TRUE(session_.history().inTransaction());
+  ASSERT_TRUE(session_.editing().inTransaction());
   float furthest = 0.0f;
   const float start = input_.pointer.y;
   for (float y = start; y > 1.0f; y -= 4.0f) {
@@ -132,7 +132,7 @@ TEST_F(GizmoTest, PastTheVanishingPointAnAxisDoesNotJumpBehindTheEye) {
   session_.setView(view);
   const vec3 o = placeOf(box_);
   press(pixelOf(o + vec3(0, 0, along(o, 60.0f))));
-  ASSERT_TRUE(session_.history().inTransaction());
+  ASSERT_TRUE(session_.editing().inTransaction());
   const vec2 from = input_.pointer;
   const vec2 vanishing = pixelOf(vec3(0, 0.5f, -1e5f));
   for (int i = 1; i <= 40; ++i) {
@@ -164,7 +164,7 @@ TEST_F(GizmoTest, TheRightButtonTakesADragBack) {
   input_.pressed[1] = input_.down[1] = true;
   frame();
   EXPECT_EQ(hash(), before);
-  EXPECT_FALSE(session_.history().canUndo());
+  EXPECT_FALSE(session_.editing().canUndo());
 }
 
 TEST_F(GizmoTest, TurningSnapsToFifteenDegrees) {

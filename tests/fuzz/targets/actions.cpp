@@ -42,8 +42,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Session& s = session();
   s.resizeViewport(32, 20);
   s.open(kLoaded.scene, "level.gltf", {});
-  s.document().render = {};
-  s.history().setBudget(kHistoryBudget);
+  s.editing().setInitialRender({});
+  s.editing().setBudget(kHistoryBudget);
   const uint64_t before = documentHash(s.document());
   std::istringstream lines{std::string(fuzz::textOf(data, size))};
   int count = 0;
@@ -54,9 +54,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   s.requestQuit(false);
   // With less memory than that, as history.memory has it, the first steps may be forgotten.
   if (s.history().first() > 0) return 0;
-  s.history().goTo(0);
+  s.editing().goTo(0);
   // An exposure that was found from the picture is nobody's edit.
-  s.document().render.exposureEv = 0.0f;
-  if (documentHash(s.document()) != before) fuzz::broken("undo of all is as it was");
+  Document undone = s.document();
+  undone.render.exposureEv = 0.0f;
+  if (documentHash(undone) != before) fuzz::broken("undo of all is as it was");
   return 0;
 }

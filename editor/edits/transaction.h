@@ -1,0 +1,68 @@
+// An edit in progress: the only access to a mutable document. If it is not committed, its
+// destructor puts back what was there before, also when an exception passes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "editor/edits/document_change.h"
+
+namespace lamplighter {
+
+class Editing;
+
+// Each accessor records the value before the change, so that it can be undone; call it for every
+// change instead of keeping its result. References are valid until nodes are added or removed.
+class Transaction {
+ public:
+  Transaction() = default;  // not open
+  Transaction(Transaction&& other) noexcept
+      : editing_(std::exchange(other.editing_, nullptr)), id_(other.id_) {}
+  Transaction& operator=(Transaction&& other) noexcept;
+  ~Transaction() { cancel(); }
+
+  Node& node(NodeId id);  // throws InputError if it does not exist
+  Material& material(int index);
+  Sky& sky();  // from now on the sky is the user's, and not the default of a scene without lights
+  LightState& skyLight();
+  std::vector<LightGroup>& lightGroups();
+  std::vector<CameraBookmark>& bookmarks();
+  RenderSettings& render();
+
+  // Replaces existing nodes. Ignores others.
+  void setNodes(std::vector<Node> nodes);
+  // Adds nodes at the end, parents before children, with ids of Editing::newNodeId().
+  void addNodes(std::vector<Node> nodes);
+  // Removes nodes and all that are below them.
+  void removeNodes(const std::vector<NodeId>& ids);
+  // Moves nodes and all that are below them to the end of the list.
+  void moveToEnd(const std::vector<NodeId>& ids);
+  // Assets, at the ends of their lists.
+  void add(std::shared_ptr<const Mesh> mesh);
+  void add(Material material);
+  void add(Texture texture);
+
+  // False if it was committed or cancelled, or if something else ended it: an undo, for example.
+  bool isOpen() const;
+  void commit();  // if it is open
+  void cancel();  // if it is open: undoes its changes
+
+ private:
+  friend class Editing;
+  Transaction(Editing& editing, uint64_t id) : editing_(&editing), id_(id) {}
+  Document& document();
+  // Records the current value, if it was not, and returns it to be edited.
+  template <typename T>
+  T& recorded(Change<T> DocumentChange::*part, T& value);
+  // The same for an item of a list. The index behind the last adds one.
+  template <typename T>
+  T& recorded(Items<T> DocumentChange::*part, std::vector<T>& list, size_t index);
+
+  Editing* editing_ = nullptr;
+  uint64_t id_ = 0;
+};
+
+}  // namespace lamplighter
