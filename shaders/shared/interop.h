@@ -15,9 +15,14 @@
   using glm::cross;               \
   using glm::dot;                 \
   using glm::floor;               \
+  using glm::greaterThan;         \
+  using glm::isnan;               \
+  using glm::log2;                \
+  using glm::mat3;                \
   using glm::mat4;                \
   using glm::max;                 \
   using glm::min;                 \
+  using glm::mix;                 \
   using glm::pow;                 \
   using glm::sqrt;                \
   using glm::uvec4;               \
