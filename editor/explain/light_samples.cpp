@@ -20,7 +20,7 @@ LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene
   LightSamples out;
   if (!inspection.lights.empty()) {
     out.clampDistance = settings.real(parameters::clampDistance());
-    for (const InspectedLight& light : inspection.lights)
+    for (const LightSample& light : inspection.lights)
       if (light.isLive) out.samples.push_back({light.vpl, light.id});
     return out;
   }

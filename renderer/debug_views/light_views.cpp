@@ -70,11 +70,12 @@ class LightAge {
     // The default of the light sums, so that one near indirect VPL does not dominate.
     constexpr float kClampDistance = 0.5f;  // [m]
     float all = 0.0f, aged = 0.0f;
-    for (const InspectedLight& light : in_.lights) {
+    for (const LightSample& light : in_.lights) {
       if (in_.visibility != nullptr && light.isLive &&
-          in_.visibility->state(s.hit->object, painter_.leaf(pixel), light.slot) == Occlusion::full)
+          in_.visibility->state(s.hit->object, painter_.leaf(pixel), light.vpl.slot) ==
+              Occlusion::full)
         continue;
-      const float given = luminance(vec3(light.vpl.intensity)) *
+      const float given = luminance(light.vpl.intensity) *
                           shared::vplGeometry(light.vpl, s.surface.position, s.normal,
                                               s.geometricNormal, kClampDistance);
       all += given;

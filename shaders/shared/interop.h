@@ -1,6 +1,6 @@
 // Lets GLSL and C++ include the files of this folder. In C++ they are inside namespace
 // lamplighter::shared with GLM's types, which have the std430 layout as long as structs contain
-// only vec4 and mat4.
+// only vec4, mat4, and vec3 with a scalar after it.
 #ifndef LAMPLIGHTER_SHARED_INTEROP_H
 #define LAMPLIGHTER_SHARED_INTEROP_H
 

@@ -101,7 +101,7 @@ class CpuBackend final : public Backend {
   void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
     shifted_.forEachSums([](cpu::IrradianceAccumulator& sums) { sums.forgetMaps(); });
     for (Picture* p : {&still_, &shifted_}) p->speculars.mapsChange();
-    const auto slotOf = [](const shared::Vpl& vpl) { return static_cast<int>(vpl.intensity.w); };
+    const auto slotOf = [](const shared::Vpl& vpl) { return vpl.slot; };
     const auto tellOfOld = [&](cpu::IrradianceAccumulator& sums) {
       for (const shared::Vpl& vpl : vpls)
         if (const auto map = maps_.map(slotOf(vpl)); !map.empty())
@@ -150,7 +150,7 @@ class CpuBackend final : public Backend {
     std::vector<cpu::LightRecord> lights;
     lights.reserve(vpls.size());
     for (const shared::Vpl& vpl : vpls) {
-      const int slot = static_cast<int>(vpl.intensity.w);
+      const int slot = vpl.slot;
       const int mapSlot = patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot);
       lights.push_back(cpu::makeLightRecord(vpl, mapOf(mapSlot), maps_.resolution(mapSlot)));
       lights.back().mapSlot = mapSlot;

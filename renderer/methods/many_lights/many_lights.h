@@ -25,7 +25,7 @@ class ManyLights final : public GiMethod {
   GiOutput render(const FrameInputs& in) override;
   void reset() override { *this = ManyLights(); }
   Inspection inspect() const override {
-    return {visibility_.get(), lightMaps_.get(), lights_.inspect(), prt_.get()};
+    return {visibility_.get(), lightMaps_.get(), lights_.table().samplesInOrder(), prt_.get()};
   }
 
  private:
@@ -37,8 +37,7 @@ class ManyLights final : public GiMethod {
   void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
-  void takePart(const FrameInputs& in, const Options& options, std::vector<shared::Vpl>& vpls,
-                bool isNew);
+  LightSampleTable takePart(const FrameInputs& in, const Options& options, bool isNew);
   int refreshLights(const FrameInputs& in, const Options& options);
   void updateVisibility(const FrameInputs& in, Options& options, GiStats& stats);
   void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
@@ -46,7 +45,6 @@ class ManyLights final : public GiMethod {
   static LightMaps::Options lightMapOptions(const FrameInputs& in, const Options& options);
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
-  std::vector<shared::Vpl> shownBySlot() const;
   void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out);
   std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
                                              const std::shared_ptr<RadianceImage>& picture,
