@@ -21,7 +21,7 @@ void ViewDisplay::choose(const Inspection& inspection, int index) {
 int ViewDisplay::chosen(const Inspection& inspection) const {
   const auto& lights = inspection.lights;
   if (lights.empty()) return kNone;
-  const auto found = std::find_if(lights.begin(), lights.end(), [&](const InspectedLight& light) {
+  const auto found = std::find_if(lights.begin(), lights.end(), [&](const LightSample& light) {
     return chosen_ && light.id == *chosen_;
   });
   return found == lights.end() ? 0 : static_cast<int>(found - lights.begin());
@@ -39,7 +39,7 @@ LightPart ViewDisplay::part() const {
 NodeId ViewDisplay::chosenLight(const Inspection& inspection) const {
   const bool isThere =
       light_ && std::any_of(inspection.lights.begin(), inspection.lights.end(),
-                            [&](const InspectedLight& l) { return l.id.light == *light_; });
+                            [&](const LightSample& l) { return l.id.light == *light_; });
   return isThere ? *light_ : nodeOfSample(inspection, chosen(inspection));
 }
 
@@ -98,7 +98,7 @@ std::string ViewDisplay::vplText(const Scene& scene, const Inspection& inspectio
   if (index == kNone ||
       (!showsVpls_ && view_ != DebugView::occlusion && view_ != DebugView::shadowMap))
     return "";
-  const InspectedLight& light = inspection.lights[static_cast<size_t>(index)];
+  const LightSample& light = inspection.lights[static_cast<size_t>(index)];
   const Node* node = scene.find(light.id.light);
   const vec3 intensity(light.vpl.intensity);
   std::string text = fmt::format("VPL {} of {}", index, inspection.lights.size());

@@ -91,19 +91,19 @@ void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
   if (inspection.points) drawPoints(overlay, view, inspection.points(), rays);
   // Direct and indirect samples are scaled separately; otherwise all bounces would be black.
   float most[2] = {0.0f, 0.0f};
-  for (const InspectedLight& light : inspection.lights) {
+  for (const LightSample& light : inspection.lights) {
     float& m = most[light.id.bounce == 0 ? 0 : 1];
-    m = std::max(m, brightest(vec3(light.vpl.intensity)));
+    m = std::max(m, brightest(light.vpl.intensity));
   }
   for (size_t i = 0; i < inspection.lights.size(); ++i) {
-    const InspectedLight& light = inspection.lights[i];
+    const LightSample& light = inspection.lights[i];
     const vec3 position = placeOf(light.vpl, rays), normal(light.vpl.normal);
     const auto at = projectPoint(view, position);
     if (!at) continue;
     const bool isDirect = light.id.bounce == 0;
     const bool isChosen = static_cast<int>(i) == chosen;
     const float alpha = isChosen || isSeen(view, rays, position) ? 1.0f : 0.22f;
-    const vec3 colour = colourOf(vec3(light.vpl.intensity), most[isDirect ? 0 : 1]);
+    const vec3 colour = colourOf(light.vpl.intensity, most[isDirect ? 0 : 1]);
 
     // A dark line below the bright one makes it visible on any picture.
     const vec3 tip = position + kNormal * metresPerPixel(view, position) * normal;

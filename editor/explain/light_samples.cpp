@@ -19,7 +19,7 @@ LightSamples lightSamples(const Inspection& inspection, const RenderScene& scene
   LightSamples out;
   if (!inspection.lights.empty()) {
     out.clampDistance = manyLightsParameters().read(settings).clampDistance;
-    for (const InspectedLight& light : inspection.lights)
+    for (const LightSample& light : inspection.lights)
       if (light.isLive) out.samples.push_back({light.vpl, light.id});
     return out;
   }

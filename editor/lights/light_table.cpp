@@ -137,7 +137,7 @@ std::vector<NodeId> rowsBetween(const std::vector<LightRow>& rows, NodeId from, 
 std::map<NodeId, LightFigures> lightFigures(const Inspection& in, double lightSeconds) {
   std::map<NodeId, LightFigures> out;
   std::vector<LightFigures*> bySlot;
-  for (const InspectedLight& light : in.lights) {
+  for (const LightSample& light : in.lights) {
     LightFigures& f = out[light.id.light];
     if (light.isStale) {
       ++f.mapsPending;
@@ -146,8 +146,8 @@ std::map<NodeId, LightFigures> lightFigures(const Inspection& in, double lightSe
     if (!light.isLive) continue;
     ++f.samples;
     ++f.work;  // the sample itself, even without information on patches
-    if (light.slot < 0) continue;
-    const auto slot = static_cast<size_t>(light.slot);
+    if (light.vpl.slot < 0) continue;
+    const auto slot = static_cast<size_t>(light.vpl.slot);
     if (bySlot.size() <= slot) bySlot.resize(slot + 1, nullptr);
     bySlot[slot] = &f;
   }

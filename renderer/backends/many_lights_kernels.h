@@ -55,7 +55,7 @@ class ManyLightsKernels : public MethodKernels {
   }
   void reserveShadowMaps(int slots, int resolution) { reserveShadowMaps(slots, resolution, slots); }
 
-  // Renders the octahedral hemisphere shadow map of each VPL for the slot in its intensity.w
+  // Renders the octahedral hemisphere shadow map of each VPL for its slot
   // (directional: an orthographic map of the scene). The slot keeps only the map of this size.
   // Slots must be distinct. The caller makes sure that no more maps exist afterwards than were
   // reserved.

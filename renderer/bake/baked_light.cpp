@@ -87,7 +87,7 @@ vec3 BakedLight::ofSamples(const ReceivingPlace& at) const {
       ray.tFar = glm::length(way);
       ray.direction = way / ray.tFar;
     }
-    if (!rays_.occluded(ray)) sum += geometry * vec3(vpl.intensity);
+    if (!rays_.occluded(ray)) sum += geometry * vpl.intensity;
   }
   return sum;
 }

@@ -36,6 +36,14 @@ template <typename V>
 HWY_INLINE SimdVec3<V> operator-(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
+template <typename V>
+HWY_INLINE SimdVec3<V> operator+(const SimdVec3<V>& a, const SimdVec3<V>& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+template <typename V>
+HWY_INLINE SimdVec3<V> scaled(const SimdVec3<V>& v, V factor) {
+  return {hn::Mul(v.x, factor), hn::Mul(v.y, factor), hn::Mul(v.z, factor)};
+}
 // Bit-equal to glm; so is the next function.
 template <typename V>
 HWY_INLINE SimdVec3<V> cross(const SimdVec3<V>& a, const SimdVec3<V>& b) {
@@ -53,12 +61,14 @@ HWY_INLINE V dotFused(const SimdVec3<V>& a, const SimdVec3<V>& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
 
-// One bit per lane.
-HWY_INLINE uint32_t bitsOf(hn::Mask<FloatTag> lanes) {
+// One bit per lane, of at most 8.
+template <typename Tag>
+HWY_INLINE uint32_t bitsOf(Tag tag, hn::Mask<Tag> lanes) {
   uint8_t bits[8];
-  hn::StoreMaskBits(FloatTag(), lanes, bits);
+  hn::StoreMaskBits(tag, lanes, bits);
   return bits[0];
 }
+HWY_INLINE uint32_t bitsOf(hn::Mask<FloatTag> lanes) { return bitsOf(kTag, lanes); }
 HWY_INLINE uint32_t bitsOf(hn::Mask<hn::FixedTag<uint8_t, 32>> lanes) {
   uint32_t bits = 0;
   uint8_t bytes[8];

@@ -64,11 +64,11 @@ class LightAge {
     std::span<const uint8_t> states;
     if (in_.patches) states = in_.patches->states(s.hit->object, painter_.leaf(pixel));
     float all = 0.0f, aged = 0.0f;
-    for (const InspectedLight& light : in_.lights) {
+    for (const LightSample& light : in_.lights) {
       if (in_.patches && light.isLive &&
-          static_cast<Occlusion>(states[static_cast<size_t>(light.slot)]) == Occlusion::full)
+          static_cast<Occlusion>(states[static_cast<size_t>(light.vpl.slot)]) == Occlusion::full)
         continue;
-      const float given = luminance(vec3(light.vpl.intensity)) *
+      const float given = luminance(light.vpl.intensity) *
                           shared::vplGeometry(light.vpl, s.surface.position, s.normal,
                                               s.geometricNormal, kClampDistance);
       all += given;

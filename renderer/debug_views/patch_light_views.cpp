@@ -55,8 +55,8 @@ ViewPicture paintCounts(const Painter& p, const std::vector<int>& counts, size_t
 
 ViewPicture lightsPerPatch(const ViewSubject& in) {
   std::vector<size_t> slots;
-  for (const InspectedLight& light : in.inspection.lights)
-    if (light.isLive) slots.push_back(static_cast<size_t>(light.slot));
+  for (const LightSample& light : in.inspection.lights)
+    if (light.isLive) slots.push_back(static_cast<size_t>(light.vpl.slot));
   Painter p(in);
   p.findPatches();
   const std::vector<int> counts = ofPatches(p, [&](uint32_t object, int leaf) {
@@ -70,16 +70,16 @@ ViewPicture lightsPerPatch(const ViewSubject& in) {
 
 ViewPicture pendingPatches(const ViewSubject& in) {
   const PatchView& patches = *in.inspection.patches;
-  std::vector<const InspectedLight*> waiting;
-  for (const InspectedLight& light : in.inspection.lights)
+  std::vector<const LightSample*> waiting;
+  for (const LightSample& light : in.inspection.lights)
     if (light.isStale) waiting.push_back(&light);
   Painter p(in);
   p.findPatches();
   // A light that is not shown yet may reach everything.
   const std::vector<int> counts = ofPatches(p, [&](uint32_t object, int leaf) {
     return static_cast<int>(
-        std::count_if(waiting.begin(), waiting.end(), [&](const InspectedLight* light) {
-          return !light->isLive || patches.state(object, leaf, light->slot) != Occlusion::full;
+        std::count_if(waiting.begin(), waiting.end(), [&](const LightSample* light) {
+          return !light->isLive || patches.state(object, leaf, light->vpl.slot) != Occlusion::full;
         }));
   });
   return paintCounts(p, counts, in.inspection.lights.size(), "Light samples waited for",
@@ -87,8 +87,8 @@ ViewPicture pendingPatches(const ViewSubject& in) {
 }
 
 ViewPicture lightOcclusion(const ViewSubject& in) {
-  std::vector<const InspectedLight*> samples;
-  for (const InspectedLight& light : in.inspection.lights)
+  std::vector<const LightSample*> samples;
+  for (const LightSample& light : in.inspection.lights)
     if (light.isLive && light.id.bounce == 0 && light.id.light == in.chosenNode)
       samples.push_back(&light);
   Painter p(in);
@@ -97,12 +97,12 @@ ViewPicture lightOcclusion(const ViewSubject& in) {
   const auto shareAt = [&](const Seen& s, int leaf) {
     const auto states = in.inspection.patches->states(s.hit->object, leaf);
     int facing = 0, open = 0;
-    for (const InspectedLight* light : samples) {
+    for (const LightSample* light : samples) {
       if (shared::vplGeometry(light->vpl, s.surface.position, s.normal, s.geometricNormal, 0.0f) ==
           0.0f)
         continue;
       ++facing;
-      const auto state = static_cast<Occlusion>(states[static_cast<size_t>(light->slot)]);
+      const auto state = static_cast<Occlusion>(states[static_cast<size_t>(light->vpl.slot)]);
       open += state == Occlusion::none ? 2 : state == Occlusion::partial ? 1 : 0;
     }
     return facing == 0 ? -1.0f : 0.5f * static_cast<float>(open) / static_cast<float>(facing);

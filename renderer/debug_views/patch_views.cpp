@@ -45,7 +45,7 @@ ViewPicture patchLevels(const ViewSubject& in) {
 
 ViewPicture occlusion(const ViewSubject& in) {
   const auto& lights = in.inspection.lights;
-  const InspectedLight& light =
+  const LightSample& light =
       lights[std::clamp<size_t>(static_cast<size_t>(in.chosenLight), 0, lights.size() - 1)];
   Painter p(in);
   p.findPatches();
@@ -56,7 +56,7 @@ ViewPicture occlusion(const ViewSubject& in) {
                                           s.geometricNormal, 0.0f) == 0.0f;
     static constexpr std::array kStates = {colours::kNone, colours::kPartial, colours::kFull};
     const auto state =
-        static_cast<size_t>(in.inspection.patches->state(s.hit->object, p.leaf(i), light.slot));
+        static_cast<size_t>(in.inspection.patches->state(s.hit->object, p.leaf(i), light.vpl.slot));
     return outlined(p, s, i, shaded(away ? colours::kAway : kStates[state], s));
   });
   out.legend.title = "Between the light sample and the patch";
@@ -69,8 +69,8 @@ ViewPicture occlusion(const ViewSubject& in) {
 
 ViewPicture partialLights(const ViewSubject& in) {
   std::vector<size_t> slots;
-  for (const InspectedLight& light : in.inspection.lights)
-    if (light.isLive) slots.push_back(static_cast<size_t>(light.slot));
+  for (const LightSample& light : in.inspection.lights)
+    if (light.isLive) slots.push_back(static_cast<size_t>(light.vpl.slot));
   Painter p(in);
   p.findPatches();
   std::vector<int> counts(p.pixels(), 0);

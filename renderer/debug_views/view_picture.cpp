@@ -78,8 +78,8 @@ void takeFromBackend(DebugView view, Backend& backend, RadianceImage& radiance, 
   const auto& lights = in.inspection.lights;
   if (view != DebugView::shadowMap || lights.empty()) return;
   const auto chosen = static_cast<size_t>(std::max(in.chosenLight, 0));
-  const InspectedLight& light = lights[std::min(chosen, lights.size() - 1)];
-  if (light.isLive && light.slot >= 0) in.shadowMap = kernels->readShadowMap(light.slot);
+  const LightSample& light = lights[std::min(chosen, lights.size() - 1)];
+  if (light.isLive && light.vpl.slot >= 0) in.shadowMap = kernels->readShadowMap(light.vpl.slot);
 }
 
 ViewPicture drawView(DebugView view, const ViewSubject& in) {

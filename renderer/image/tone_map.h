@@ -6,10 +6,17 @@
 #include <string_view>
 
 #include "renderer/image/image.h"
+#include "shaders/shared/tone_curves.h"
 
 namespace lamplighter {
 
-enum class ToneMapper { linear, reinhard, filmic, hable, agx };
+enum class ToneMapper {
+  linear = shared::kToneLinear,
+  reinhard = shared::kToneReinhard,
+  filmic = shared::kToneFilmic,
+  hable = shared::kToneHable,
+  agx = shared::kToneAgx
+};
 
 struct ToneMapperInfo {
   ToneMapper mapper;
@@ -23,11 +30,9 @@ const ToneMapperInfo& infoOf(ToneMapper mapper);
 // Throws InputError if the name is unknown.
 const ToneMapperInfo& findToneMapper(std::string_view name);
 
-// colour × 2^exposureEv, then the curve, then sRGB encoding. Must match
-// shaders/passes/tone_map.glsl.
+// colour × 2^exposureEv, then the curve, then sRGB encoding (shaders/shared/tone_curves.h).
 Image8 toneMap(const Image& radiance, float exposureEv, ToneMapper mapper = ToneMapper::filmic);
-// sRGB encoding of a linear value; values ≥ 1 give 1.
-float encodeSrgb(float v);
+using shared::encodeSrgb;
 // The inverse of encodeSrgb().
 inline float decodeSrgb(float s) {
   return s <= 0.04045f ? s / 12.92f : std::pow((s + 0.055f) / 1.055f, 2.4f);

@@ -227,7 +227,7 @@ TexelLight::TexelLight(const shared::Vpl& vpl, float sign)
       axis(vpl.normal),
       tangent(vpl.tangent),
       bitangent(glm::cross(axis, tangent)),
-      intensity(sign * vec3(vpl.intensity)),
+      intensity(sign * vpl.intensity),
       coneScale(vpl.normal.w),
       side(vpl.tangent.w) {}
 

@@ -33,7 +33,7 @@ size_t wordsOf(size_t slots) { return (slots + 63) / 64; }
 // Compares everything that affects a contribution.
 bool sameContribution(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
-         vec3(a.intensity) == vec3(b.intensity);
+         a.intensity == b.intensity;
 }
 
 // Whether the chart is shaded flat: no smooth normals, normal texture or bumps.

@@ -102,16 +102,19 @@ struct LightProxies::Numbers {
   }
 };
 
-void LightProxies::update(std::span<const shared::Vpl> shown, size_t slots,
-                          const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
+void LightProxies::update(const LightSampleTable& table, const std::vector<uint8_t>& isWanted,
                           const Groups& groups) {
+  std::vector<shared::Vpl> shown = table.summedInOrder();
+  std::vector<uint8_t> hasMap;
+  for (const LightSample& sample : table.samples) hasMap.push_back(sample.hasMap ? 1 : 0);
+  const size_t slots = table.slots();
   const bool seeOthers = groups.sceneChanged && groups.share > 0.0f;
   if (!seeOthers && slots == slots_ && hasMap == hasMap_ && isWanted == isWanted_ &&
       groups.share == groupShare_ && sameBits(shown, shown_))
     return;
-  shown_.assign(shown.begin(), shown.end());
+  shown_ = std::move(shown);
   slots_ = slots;
-  hasMap_ = hasMap;
+  hasMap_ = std::move(hasMap);
   isWanted_ = isWanted;
   groupShare_ = groups.share;
   lights_.clear();
@@ -138,16 +141,17 @@ void LightProxies::add(Numbers& numbers, uint64_t key, const shared::Vpl& at, co
     mapSlots_.resize(number + 1, 0);
     isGroup_.resize(number + 1, 0);
   }
-  mapSlots_[number] = static_cast<int>(at.intensity.w);
+  mapSlots_[number] = at.slot;
   isGroup_[number] = isGroup ? 1 : 0;
   shared::Vpl& vpl = lights_.emplace_back(at);
-  vpl.intensity = vec4(intensity, static_cast<float>(slots_ + number));
+  vpl.intensity = intensity;
+  vpl.slot = static_cast<int>(slots_ + number);
 }
 
 void LightProxies::addSingleProxies(Numbers& numbers) {
   std::vector<const shared::Vpl*> without, with;
   for (const shared::Vpl& vpl : shown_) {
-    const auto slot = static_cast<size_t>(vpl.intensity.w);
+    const auto slot = static_cast<size_t>(vpl.slot);
     if (hasMap_[slot] != 0)
       with.push_back(&vpl);
     else if (isWanted_[slot] != 0)
@@ -165,10 +169,10 @@ void LightProxies::addSingleProxies(Numbers& numbers) {
   });
   for (size_t i = 0; i < without.size(); ++i) {
     if (nearest[i] == nullptr) continue;
-    const auto slot = static_cast<size_t>(without[i]->intensity.w);
-    add(numbers, kIsOfOne | slot, *nearest[i], vec3(without[i]->intensity), false);
+    const auto slot = static_cast<size_t>(without[i]->slot);
+    add(numbers, kIsOfOne | slot, *nearest[i], without[i]->intensity, false);
     lights_.back().footprint = without[i]->footprint;
-    proxy_[slot] = static_cast<int>(lights_.back().intensity.w);
+    proxy_[slot] = lights_.back().slot;
   }
 }
 
@@ -178,7 +182,7 @@ void LightProxies::addGroupProxies(Numbers& numbers, const Groups& groups) {
   std::vector<const shared::Vpl*> lights;  // candidates for groups
   for (const shared::Vpl& v : shown_) {
     if (v.position.w == shared::kVplDirectional || 2.0f * brightness(v) > most) continue;
-    if (hasMap_[static_cast<size_t>(v.intensity.w)] != 0) lights.push_back(&v);
+    if (hasMap_[static_cast<size_t>(v.slot)] != 0) lights.push_back(&v);
   }
   std::vector<std::pair<uint64_t, uint32_t>> cells(lights.size());
   for (int grid = 0; grid < kGrids; ++grid) {
@@ -191,7 +195,7 @@ void LightProxies::addGroupProxies(Numbers& numbers, const Groups& groups) {
         const shared::Vpl& v = *lights[cells[last].second];
         bright += brightness(v);
         middle += brightness(v) * vec3(v.position);
-        intensity += vec3(v.intensity);
+        intensity += v.intensity;
         footprint += v.footprint.x;
       }
       if (last - first < 2 || !(bright > 0.0f) || bright > most) continue;
@@ -216,11 +220,10 @@ void LightProxies::addGroupProxies(Numbers& numbers, const Groups& groups) {
         areAlike = &v == at || groups.sees(over(v), over(*at));
       }
       if (!areAlike) continue;
-      for (size_t i = first; i < last; ++i)
-        members_.push_back(static_cast<int>(lights[cells[i].second]->intensity.w));
+      for (size_t i = first; i < last; ++i) members_.push_back(lights[cells[i].second]->slot);
       add(numbers, cells[first].first, *at, intensity, true);
       lights_.back().footprint.x = footprint;
-      group.slot = static_cast<int>(lights_.back().intensity.w);
+      group.slot = lights_.back().slot;
       groups_.push_back(group);
     }
   }

@@ -18,7 +18,7 @@
 
 #include "renderer/base/math.h"
 #include "renderer/light_maps/shadow_mode.h"
-#include "shaders/shared/vpl.h"
+#include "renderer/sampling/light_sample_table.h"
 
 namespace lamplighter {
 
@@ -36,10 +36,9 @@ class LightProxies {
   struct Lobes {
     float alpha = 0.0f;  // lower bound of the squared roughness
   };
-  // `shown`: the VPLs, with their slots in intensity.w. hasMap, isWanted: by slot, whether it has a
-  // map and whether the view needs one.
-  void update(std::span<const shared::Vpl> shown, size_t slots, const std::vector<uint8_t>& hasMap,
-              const std::vector<uint8_t>& isWanted, const Groups& groups);
+  // For the lights to sum. isWanted: by slot, whether the view needs its map.
+  void update(const LightSampleTable& lights, const std::vector<uint8_t>& isWanted,
+              const Groups& groups);
 
   size_t slots() const { return slots_ + room_; }  // of VPLs and proxies
   // The order depends only on what is shown.

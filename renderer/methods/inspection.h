@@ -12,24 +12,13 @@
 #include <vector>
 
 #include "renderer/image/legend.h"
-#include "renderer/sampling/vpl_set.h"
+#include "renderer/sampling/light_sample_table.h"
 #include "renderer/visibility/occlusion/occlusion.h"
 
 namespace lamplighter {
 
 enum class Capability : uint8_t { lights, patches, texels, transfer, points, links };
 const char* nameOf(Capability capability);  // in the plural: "light samples"
-
-// A light sample that is shown, or that waits to be shown.
-struct InspectedLight {
-  shared::Vpl vpl{};
-  VplId id;
-  int slot = -1;          // of its shadow map; also its index in PatchView::states()
-  bool isLive = false;    // shown; otherwise `vpl` is its future state
-  bool isStale = false;   // it waits for an update
-  int framesWaiting = 0;  // since it waits
-  bool isSample = true;   // SceneVpl::isSample
-};
 
 // Patches: pieces of surface for which the method knows which light samples reach them.
 // Neighbouring leaves with the same knowledge form one patch. All functions may be called in
@@ -95,7 +84,7 @@ struct InspectedLink {
 // Valid until the method's next render() or reset(). Capabilities that a method does not have are
 // null or empty.
 struct Inspection {
-  std::vector<InspectedLight> lights;  // in an order that does not change with edits
+  std::vector<LightSample> lights;  // in an order that does not change with edits
   std::shared_ptr<const PatchView> patches;
   std::shared_ptr<const TexelView> texels;
   std::function<TransferState(uint32_t object)> transfer;

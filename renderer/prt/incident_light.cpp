@@ -38,7 +38,7 @@ std::optional<IncidentLight> incidentLight(const shared::Vpl& vpl, const vec3& p
       weight = cone * cone / d2;
     }
   }
-  out.irradiance = glm::min(weight * vec3(vpl.intensity), kMostIrradiance);
+  out.irradiance = glm::min(weight * vpl.intensity, kMostIrradiance);
   if (!(std::max({out.irradiance.r, out.irradiance.g, out.irradiance.b}) > 0.0f))
     return std::nullopt;
   return out;

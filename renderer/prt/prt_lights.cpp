@@ -24,18 +24,15 @@ constexpr float kNear = 1.0f;
 // Compares all but the slot of the map.
 bool isSame(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
-         vec3(a.intensity) == vec3(b.intensity) && a.footprint.y == b.footprint.y;
+         a.intensity == b.intensity && a.footprint.y == b.footprint.y;
 }
 
 // By slot: the light is one of the few that make hard shadows.
 std::vector<bool> findHard(std::span<const shared::Vpl> bySlot) {
   std::vector<LightStrength> strengths;
   for (size_t slot = 0; slot < bySlot.size(); ++slot) {
-    const shared::Vpl& vpl = bySlot[slot];
-    if (!isLight(vpl)) continue;
-    strengths.push_back(
-        {static_cast<LightStrength::Kind>(static_cast<int>(vpl.position.w)), vec3(vpl.normal),
-         std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b}), static_cast<int>(slot)});
+    if (isLight(bySlot[slot]))
+      strengths.push_back(strengthOf(bySlot[slot], static_cast<int>(slot)));
   }
   std::vector<bool> isHard(bySlot.size(), false);
   for (const int slot : hardLights(strengths)) isHard[static_cast<size_t>(slot)] = true;

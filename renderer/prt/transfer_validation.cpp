@@ -108,7 +108,7 @@ LightErrors checkLight(const std::vector<ValidationPoint>& checks, const OwnSpac
       if (incident) ++traced;
       if (incident && !rays.occluded({place, 0.0f, incident->direction,
                                       incident->distance - 2.0f * rayEpsilon(place)}))
-        out[c].exact = geometry * luminance(vec3(vpl.intensity));
+        out[c].exact = geometry * luminance(vpl.intensity);
     }
     out[c].error = byTransfer - out[c].exact;
     isAny = isAny || out[c].exact != 0.0f || out[c].error != 0.0f;

@@ -206,7 +206,7 @@ uint32_t PointVisibility::leftOut(uint32_t link, size_t block) const {
 }
 
 void PointVisibility::fill(Row& row, const RayCaster& rays, float* out) const {
-  const Floats brightness = wide(luminance(vec3(row.vpl.intensity)));
+  const Floats brightness = wide(luminance(row.vpl.intensity));
   const auto link = static_cast<uint32_t>(row.vpl.footprint.y);
   for (size_t b = 0; b < kBlocks; ++b) {
     const size_t first = b * kLanes;

@@ -33,7 +33,7 @@ SceneVpl SampleStreams::makeVpl(const VplId& id, float kind, const vec3& positio
                                 const vec3& normal, const vec3& intensity) const {
   SceneVpl made;
   made.vpl = {vec4(position, kind), vec4(normal, 0.0f), vec4(turnedTangent(id, normal), 1.0f),
-              vec4(intensity, -1.0f)};
+              intensity, -1};
   made.id = id;
   return made;
 }

@@ -177,7 +177,7 @@ std::vector<SceneVpl> chooseByImportance(std::span<const SceneVpl> candidates,
   for (const size_t i : order) {
     SceneVpl& c = chosen.emplace_back(candidates[i]);
     const float probability = std::min(1.0f, share[i] * factor);
-    c.vpl.intensity = vec4(vec3(c.vpl.intensity) / probability, c.vpl.intensity.w);
+    c.vpl.intensity /= probability;
   }
   return chosen;
 }

@@ -32,7 +32,7 @@ struct VplId {
 };
 
 struct SceneVpl {
-  shared::Vpl vpl;  // intensity.w is −1: the sampler does not assign slots
+  shared::Vpl vpl;  // its slot is −1: the sampler does not assign slots
   VplId id;
   // False for VPLs of a punctual light: each one carries all light in its directions.
   bool isSample = true;

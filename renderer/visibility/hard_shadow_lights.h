@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/base/math.h"
+#include "renderer/scene/vpl.h"
 
 namespace lamplighter {
 
@@ -16,6 +17,10 @@ struct LightStrength {
   float brightest = 0.0f;  // largest channel of the intensity
   int slot = -1;           // < 0: casts no shadow
 };
+inline LightStrength strengthOf(const shared::Vpl& vpl, int slot) {
+  return {static_cast<LightStrength::Kind>(static_cast<int>(vpl.position.w)), vec3(vpl.normal),
+          brightness(vpl), slot};
+}
 
 // Returns the slots of hard-shadow lights. A parallel light is one if it has more than kHardShare
 // of all parallel light; a punctual one if it has more than kHardShare of all other light.

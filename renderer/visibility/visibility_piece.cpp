@@ -75,7 +75,8 @@ void VisibilityDatabase::Update::Piece::findSides() {
     apices[i] = PyramidApex(lightOf(*unknown_[i]));
     lights[i] = &apices[i];
   }
-  const BackFacingLights sides(LightPacket({lights.data(), unknownCount_}), region_);
+  const BackFacingLights sides(lanesOf(LightPacket({lights.data(), unknownCount_}), region_),
+                               region_);
   for (size_t i = 0; i < unknownCount_; ++i) {
     Task& task = *unknown_[i];
     if ((sides.dark >> i & 1) != 0) {

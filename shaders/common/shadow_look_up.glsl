@@ -20,7 +20,7 @@ bool occluded(Vpl vpl, vec3 x, vec3 normal, vec4 clampAndBias) {
 #endif
   vec2 texel = shadowTexel(s, resolution);
   vec2 centre = shadowTexelCentre(texel, resolution);
-  float depth = texelFetch(uMaps, ivec3(texel, int(vpl.intensity.w)), 0).r;
+  float depth = texelFetch(uMaps, ivec3(texel, vpl.slot), 0).r;
 #ifdef DIRECTIONAL
   return directionalOccluded(vpl, depth, q, n, centre, bias, resolution);
 #else

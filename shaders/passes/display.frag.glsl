@@ -1,5 +1,5 @@
 // The tone-mapped picture, pixel by pixel.
-#include "passes/tone_map.glsl"
+#include "shared/tone_curves.h"
 
 layout(binding = 0) uniform sampler2D uRadiance;
 layout(location = 0) uniform float uScale;  // 2^exposure

@@ -30,7 +30,7 @@ void main() {
 #ifdef LINKS
     if (isLeftOut(leftOutBy, vpl.footprint.y)) continue;
 #endif
-    if (vpl.intensity.w >= 0.0 && occluded(vpl, p.position, p.geometric, uClampAndBias)) continue;
+    if (vpl.slot >= 0 && occluded(vpl, p.position, p.geometric, uClampAndBias)) continue;
     sum += vpl.intensity.rgb *
            vplSpecular(vpl, lobe, p.position, p.shading, p.toEye, g, uClampAndBias.x);
   }

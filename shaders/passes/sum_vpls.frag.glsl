@@ -124,7 +124,7 @@ vec3 withAll(Point x, vec3 sum) {
 #ifdef LINKS
     if (isLeftOut(x.leftOutBy, vpl.footprint.y)) g = 0.0;
 #endif
-    if (g > 0.0 && !(vpl.intensity.w >= 0.0 && occluded(vpl, x.position, x.geometric, uClampAndBias))) {
+    if (g > 0.0 && !(vpl.slot >= 0 && occluded(vpl, x.position, x.geometric, uClampAndBias))) {
       sum += g * vpl.intensity.rgb;
     }
   }

@@ -1,6 +1,6 @@
 // Lets GLSL and C++ include the files of this folder. In C++ they are inside namespace
 // lamplighter::shared with GLM's types, which have the std430 layout as long as structs contain
-// only vec4 and mat4.
+// only vec4, mat4, and vec3 with a scalar after it.
 #ifndef LAMPLIGHTER_SHARED_INTEROP_H
 #define LAMPLIGHTER_SHARED_INTEROP_H
 
@@ -15,9 +15,14 @@
   using glm::cross;               \
   using glm::dot;                 \
   using glm::floor;               \
+  using glm::greaterThan;         \
+  using glm::isnan;               \
+  using glm::log2;                \
+  using glm::mat3;                \
   using glm::mat4;                \
   using glm::max;                 \
   using glm::min;                 \
+  using glm::mix;                 \
   using glm::pow;                 \
   using glm::sqrt;                \
   using glm::uvec4;               \

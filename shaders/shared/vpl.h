@@ -21,9 +21,9 @@ struct Vpl {
   // lights (and its map covers) only points within ±S along tangent and bitangent, so that a sun
   // can consist of several squares
   vec4 tangent;
-  // rgb: on-axis intensity [W/sr], directional: irradiance [W/m²]; w: slot of its shadow map, < 0:
-  // casts no shadow
-  vec4 intensity;
+  vec3 intensity;  // rgb: on-axis intensity [W/sr], directional: irradiance [W/m²]
+  // of its shadow map; < 0: casts no shadow. In shaders: the layer of its map.
+  int slot;
   // x: the extent that it represents, for speculars. Cosine: area of surface [m²]; directional:
   // solid angle [sr]; 0: only its point or direction. Maps and irradiance do not depend on it.
   // y: the link of its light, whose objects it does not light (renderer/scene/light_linking.h); 0:

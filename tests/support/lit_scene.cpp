@@ -17,7 +17,7 @@ Image LitScene::sum(std::vector<shared::Vpl> vpls, const View& view, int resolut
                     float clampDistance, float bias) {
   kernels->reserveShadowMaps(static_cast<int>(vpls.size()), resolution);
   for (size_t i = 0; i < vpls.size(); ++i) {
-    vpls[i].intensity.w = shadows ? static_cast<float>(i) : -1.0f;
+    vpls[i].slot = shadows ? static_cast<int>(i) : -1;
   }
   if (shadows) kernels->renderShadowMaps(vpls);
   backend->renderGBuffer(view, vec2(0.0f));

@@ -59,7 +59,8 @@ std::vector<shared::Vpl> randomVpls(int count, uint32_t seed) {
     const vec3 axis = random.direction();
     shared::Vpl vpl = makeVpl(at, axis, shared::kVplCosine, random.in(0.0f, 3.0f));
     const vec3 color = random.point(vec3(0.2f), vec3(1.0f));
-    vpl.intensity = vec4(color, static_cast<float>(i));
+    vpl.intensity = color;
+    vpl.slot = static_cast<int>(i);
     vpls.push_back(vpl);
   }
   return vpls;

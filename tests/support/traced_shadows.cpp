@@ -20,7 +20,7 @@ bool isShadowed(const RayCaster& rays, const vec3& from, const shared::Vpl& vpl)
 
 std::vector<shared::Vpl> shownLights(const Inspection& inspection) {
   std::vector<shared::Vpl> vpls;
-  for (const InspectedLight& light : inspection.lights)
+  for (const LightSample& light : inspection.lights)
     if (light.isLive) vpls.push_back(light.vpl);
   return vpls;
 }
@@ -56,13 +56,13 @@ Image withTracedShadows(const RenderScene& scene, const RayCaster& rays,
       if (g == 0.0f) continue;
       const auto state = states.empty()
                              ? Occlusion::partial
-                             : static_cast<Occlusion>(states[static_cast<size_t>(vpl.intensity.w)]);
+                             : static_cast<Occlusion>(states[static_cast<size_t>(vpl.slot)]);
       if (state == Occlusion::full) continue;
       if (state == Occlusion::partial && isShadowed(rays, start, vpl)) continue;
-      e += g * vec3(vpl.intensity);
+      e += g * vpl.intensity;
       if (isGlossy)
-        reflected += vec3(vpl.intensity) *
-                     shared::vplSpecular(vpl, lobe, s.position, ns, toEye, g, clampDistance);
+        reflected +=
+            vpl.intensity * shared::vplSpecular(vpl, lobe, s.position, ns, toEye, g, clampDistance);
     }
     const float share = shared::diffuseShare(gloss.metallic, gloss.roughness, least, nv);
     return (front || s.emitsBothSides ? s.emission : vec3(0.0f)) + share * s.albedo / kPi * e +

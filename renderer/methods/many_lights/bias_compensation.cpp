@@ -34,7 +34,7 @@ BiasCompensation::BiasCompensation(const RenderScene& scene, const RayCaster& ra
     if (!v.isOfSun()) continue;
     const auto isIt = [&](const Sun& sun) { return sun.set == v.id.set(); };
     if (std::none_of(suns_.begin(), suns_.end(), isIt))
-      suns_.push_back({v.id.set(), vec3(v.vpl.normal), vec3(v.vpl.intensity),
+      suns_.push_back({v.id.set(), vec3(v.vpl.normal), v.vpl.intensity,
                        static_cast<uint32_t>(v.vpl.footprint.y)});
   }
   choices_.resize(static_cast<size_t>(std::max(options.bounces, 0)));
@@ -201,7 +201,7 @@ vec3 BiasCompensation::irradiance(const Place& at, const Choice& choice, vec2 u)
     const float share = it->upTo - (it == tried.begin() ? 0.0f : (it - 1)->upTo);
     const Choice::Entry& e = *it->entry;
     if (share > 0.0f && sees(at, e.vpl))
-      sum += it->geometry * e.weight * vec3(e.vpl.intensity) * (total / share);
+      sum += it->geometry * e.weight * e.vpl.intensity * (total / share);
   }
   return sum * (1.0f / (kVplsTried * kRaysAPoint));
 }

@@ -15,12 +15,12 @@ constexpr float kMostGain = 2.0f;
 
 }  // namespace
 
-void LiveBiasCompensation::goOn(const FrameInputs& in, const std::vector<InspectedLight>& lights,
+void LiveBiasCompensation::goOn(const FrameInputs& in, const LightSampleTable& lights,
                                 BiasCompensation::Options options) {
   const View& view = in.view;
   std::vector<SceneVpl> vpls;
-  for (const InspectedLight& light : lights)
-    if (light.isLive) vpls.push_back({light.vpl, light.id, light.isSample});
+  for (const int slot : lights.order)
+    if (lights[slot].isLive) vpls.push_back(lights[slot]);
   const BiasCompensation biasCompensation(in.scene, in.services.rays(), vpls, options);
   pixels_.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
   const int end = std::min(view.height, rows_ + std::max(1, kPixelsAFrame / view.width));

@@ -10,6 +10,7 @@
 #include "renderer/backends/image_pool.h"
 #include "renderer/methods/gi_method.h"
 #include "renderer/methods/many_lights/bias_compensation.h"
+#include "renderer/sampling/light_sample_table.h"
 
 namespace lamplighter {
 
@@ -22,7 +23,7 @@ class LiveBiasCompensation {
 
   bool isWhole(const View& view) const { return rows_ == view.height; }
   // Processes the next rows of pixels, as many as fit into a frame.
-  void goOn(const FrameInputs& in, const std::vector<InspectedLight>& lights,
+  void goOn(const FrameInputs& in, const LightSampleTable& lights,
             BiasCompensation::Options options);
 
   // The settled picture with the missing light. Requires isWhole().

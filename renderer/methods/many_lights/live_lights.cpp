@@ -12,9 +12,9 @@ namespace {
 // share, until its turn comes: it is invisible, and an immediate correction would affect all VPLs.
 constexpr float kSmallShare = 0.05f;
 
-bool isNearly(const vec4& a, const vec4& b) {
-  const vec3 difference = glm::abs(vec3(a) - vec3(b));
-  const vec3 most = kSmallShare * glm::max(vec3(a), vec3(b));
+bool isNearly(const vec3& a, const vec3& b) {
+  const vec3 difference = glm::abs(a - b);
+  const vec3 most = kSmallShare * glm::max(a, b);
   return glm::all(glm::lessThanEqual(difference, most));
 }
 
@@ -28,9 +28,7 @@ bool samePlace(const shared::Vpl& a, const shared::Vpl& b) {
 
 }  // namespace
 
-void LiveLights::takeBrightness(Entry& e) {
-  e.current.intensity = vec4(vec3(e.wanted.vpl.intensity), e.current.intensity.w);
-}
+void LiveLights::takeBrightness(Entry& e) { e.current.intensity = e.wanted.vpl.intensity; }
 
 bool LiveLights::Entry::moves() const {
   return !isWanted || !isLive || !samePlace(current, wanted.vpl);
@@ -51,6 +49,7 @@ void LiveLights::fitSlots(size_t wanted) {
 }
 
 void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths) {
+  tableIsCurrent_ = false;
   fitSlots(wanted.size());
   std::map<VplId, size_t> before;
   for (size_t i = 0; i < entries_.size(); ++i) before.emplace(entries_[i].wanted.id, i);
@@ -98,7 +97,7 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
       takeBrightness(e);
       changed_ = true;
     }
-    e.isOff = stays && vec3(e.current.intensity) != vec3(e.wanted.vpl.intensity);
+    e.isOff = stays && e.current.intensity != e.wanted.vpl.intensity;
   }
   keepReplaced(before, next);
   changed_ = changed_ || next.size() - wanted.size() != before.size();
@@ -143,6 +142,7 @@ void LiveLights::giveSlots() {
 
 int LiveLights::markStale(std::span<const MoverFinder::Mover> movers,
                           const std::function<bool(const shared::Vpl&)>& spared) {
+  tableIsCurrent_ = false;
   int count = 0;
   for (Entry& e : entries_) {
     if (!e.isLive) continue;
@@ -160,21 +160,8 @@ int LiveLights::markStale(std::span<const MoverFinder::Mover> movers,
   return count;
 }
 
-std::vector<bool> LiveLights::upToDate() const {
-  std::vector<bool> bySlot(static_cast<size_t>(slots_), false);
-  for (const Entry& e : entries_)
-    if (!e.moves() && !e.mapIsStale) bySlot[static_cast<size_t>(e.slot)] = true;
-  return bySlot;
-}
-
-std::vector<bool> LiveLights::haveBounced(int times) const {
-  std::vector<bool> bySlot(static_cast<size_t>(slots_), false);
-  for (const Entry& e : entries_)
-    if (static_cast<int>(e.wanted.id.bounce) >= times) bySlot[static_cast<size_t>(e.slot)] = true;
-  return bySlot;
-}
-
 void LiveLights::loseMaps() {
+  tableIsCurrent_ = false;
   std::erase_if(entries_, [](const Entry& e) { return !e.isWanted; });
   for (Entry& e : entries_) {
     e.isLive = e.mapIsStale = e.isOff = false;
@@ -256,6 +243,7 @@ int LiveLights::refresh(ManyLightsKernels& kernels, const RefreshBudget& budget,
 
 int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
                         const RefreshWork& stale) {
+  tableIsCurrent_ = false;
   const std::vector<Group> groups = pendingGroups(moved, stale);
   std::vector<RefreshCandidate> candidates;
   for (const Group& group : groups) candidates.push_back(group.candidate);
@@ -276,7 +264,7 @@ int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
         continue;
       }
       e.current = e.wanted.vpl;
-      e.current.intensity.w = static_cast<float>(e.slot);
+      e.current.slot = e.slot;
       e.isLive = true;
       e.mapIsStale = e.hasMap = false;
       e.staleShare = 0.0f;
@@ -306,6 +294,7 @@ std::vector<uint32_t> LiveLights::spreadTurns() const {
 
 int LiveLights::updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked,
                            const MapLimits& limits) {
+  tableIsCurrent_ = false;
   ++calls_;
   // A stale VPL waits for its refresh, but keeps its map.
   std::vector<Entry*> wants;
@@ -357,7 +346,7 @@ int LiveLights::updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t
       dropped.push_back(slot);
   }
   for (const int slot : dropped) holds_[static_cast<size_t>(slot)] = 0;
-  for (const shared::Vpl& vpl : maps) holds_[static_cast<size_t>(vpl.intensity.w)] = 1;
+  for (const shared::Vpl& vpl : maps) holds_[static_cast<size_t>(vpl.slot)] = 1;
   for (Entry& e : entries_) {
     const bool hasMap = e.hasMap;
     e.hasMap = holds_[static_cast<size_t>(e.slot)] != 0 && (e.hasMap || e.lacksMap);
@@ -395,14 +384,8 @@ int LiveLights::sharpenMaps(ManyLightsKernels& kernels, const std::vector<uint8_
   return static_cast<int>(maps.size());
 }
 
-std::vector<uint8_t> LiveLights::hasMap() const {
-  std::vector<uint8_t> bySlot(static_cast<size_t>(slots_), 0);
-  for (const Entry& e : entries_)
-    if (e.hasMap) bySlot[static_cast<size_t>(e.slot)] = 1;
-  return bySlot;
-}
-
 void LiveLights::showOnlyMapped(bool onlyMapped) {
+  tableIsCurrent_ = false;
   changed_ = changed_ || onlyMapped != onlyMapped_;
   onlyMapped_ = onlyMapped;
 }
@@ -412,7 +395,30 @@ int LiveLights::withoutMap() const {
       std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return e.hasNoRoom; }));
 }
 
-std::vector<shared::Vpl> LiveLights::shown() const {
+const LightSampleTable& LiveLights::table() const {
+  if (tableIsCurrent_) return table_;
+  const auto slots = static_cast<size_t>(slots_);
+  table_.samples.assign(slots, {});
+  table_.summed.assign(slots, {});
+  table_.order.clear();
+  for (const Entry& e : entries_) {
+    LightSample& sample = table_.samples[static_cast<size_t>(e.slot)];
+    static_cast<SceneVpl&>(sample) = e.wanted;
+    if (e.isLive) sample.vpl = e.current;
+    sample.vpl.slot = e.slot;
+    sample.isLive = e.isLive;
+    sample.isUpToDate = !e.moves() && !e.mapIsStale;
+    sample.isStale = e.isPending();
+    sample.hasMap = e.hasMap;
+    sample.framesWaiting = e.framesWaiting;
+    table_.order.push_back(e.slot);
+  }
+  sumShown(table_);
+  tableIsCurrent_ = true;
+  return table_;
+}
+
+void LiveLights::sumShown(LightSampleTable& table) const {
   struct Set {
     float share = 0.0f;
     float missing = 0.0f;  // brightness of samples that will still come
@@ -430,24 +436,13 @@ std::vector<shared::Vpl> LiveLights::shown() const {
       set.lacks = set.lacks || e.hasNoRoom;
     }
   }
-  std::vector<shared::Vpl> vpls;
   for (const Entry& e : entries_) {
     if (!isShown(e)) continue;
-    shared::Vpl& vpl = vpls.emplace_back(e.current);
+    shared::Vpl& vpl = table.summed[static_cast<size_t>(e.slot)] = e.current;
     const Set& set = sets[e.wanted.id.set()];
     if ((set.missing <= kSmallShare && !set.lacks) || !(set.share > 0.0f)) continue;
-    vpl.intensity = vec4(vec3(vpl.intensity) / set.share, vpl.intensity.w);
+    vpl.intensity /= set.share;
   }
-  return vpls;
-}
-
-std::vector<InspectedLight> LiveLights::inspect() const {
-  std::vector<InspectedLight> lights;
-  lights.reserve(entries_.size());
-  for (const Entry& e : entries_)
-    lights.push_back({e.isLive ? e.current : e.wanted.vpl, e.wanted.id, e.slot, e.isLive,
-                      e.isPending(), e.framesWaiting, e.wanted.isSample});
-  return lights;
 }
 
 int LiveLights::pending() const {

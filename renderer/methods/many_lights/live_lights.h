@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "renderer/backends/many_lights_kernels.h"
-#include "renderer/methods/inspection.h"
-#include "renderer/sampling/vpl_set.h"
+#include "renderer/sampling/light_sample_table.h"
 #include "renderer/shadow_maps/refresh_scheduler.h"
 
 namespace lamplighter {
@@ -64,25 +63,14 @@ class LiveLights {
   int refresh(ManyLightsKernels& kernels, const RefreshBudget& budget,
               const RefreshWork& moved = {}, const RefreshWork& stale = {});
 
-  // By slot: there is a map of the light as it is shown.
-  std::vector<uint8_t> hasMap() const;
   int mapsHeld() const { return static_cast<int>(std::count(holds_.begin(), holds_.end(), 1)); }
   // The number of marked VPLs without a map because of the memory limit.
   int withoutMap() const;
 
-  // All VPLs, in the order of the wanted ones.
-  std::vector<InspectedLight> inspect() const;
-
-  // By slot: the light is shown as it is wanted, with its map.
-  std::vector<bool> upToDate() const;
-  // By slot: the light has bounced at least `times` times.
-  std::vector<bool> haveBounced(int times) const;
-
-  // The VPLs to sum, in the order of the wanted ones, so that the sum does not depend on history.
-  // While more than a twentieth of a set is missing, the present VPLs carry the flux of the whole
-  // set, so that the brightness neither jumps nor accumulates when a light is added or the number
-  // of samples changes.
-  std::vector<shared::Vpl> shown() const;
+  // All VPLs. While more than a twentieth of a set is missing, the sum of the present VPLs carries
+  // the flux of the whole set, so that the brightness neither jumps nor accumulates when a light is
+  // added or the number of samples changes. Built at most once between two changes.
+  const LightSampleTable& table() const;
 
   int pending() const;
   int live() const;  // number of samples shown; a sun counts as one
@@ -121,6 +109,7 @@ class LiveLights {
   void pairUp(std::vector<Group>& groups) const;
   void keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const;
   void giveSlots();
+  void sumShown(LightSampleTable& table) const;
   static void takeBrightness(Entry& entry);
   void fitSlots(size_t wanted);
   std::vector<uint32_t> spreadTurns() const;
@@ -135,6 +124,8 @@ class LiveLights {
   int slots_ = 0;
   bool changed_ = true;
   bool onlyMapped_ = true;
+  mutable LightSampleTable table_;
+  mutable bool tableIsCurrent_ = false;
   // By slot: the kernels have a map in it (of any light); the call in which it was last marked.
   std::vector<uint8_t> holds_;
   std::vector<uint64_t> lastMarked_;

@@ -280,7 +280,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
   stats.mapsRendered =
       lights_.updateMaps(*kernels_, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
   if (visibility_)
-    lightProxies_.update(lights_.shown(), slots, lights_.hasMap(), wanted_,
+    lightProxies_.update(lights_.table(), wanted_,
                          groupsOf(in, options.groupShare, lights_.slots()));
 }
 
@@ -302,7 +302,6 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   if (!isMiddle || !gbufferIsCurrent_) in.backend.renderGBuffer(in.view, jitter);
   gbufferIsCurrent_ = isMiddle;
   stages.end("g-buffer");
-  std::vector<shared::Vpl> vpls = lights_.shown();
   const shared::ShadingParams params{
       vec4(options.clampDistance, options.shadowBias, 0.0f,
            static_cast<float>(options.lightsPerPass)),
@@ -310,10 +309,9 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
       speculars(options.speculars, options.leastRoughness)};
   const ManyLightsCounts before = kernels_->lightCounts();
   const bool isWhole = in.part == LightPart::all;
-  if (isWhole)
-    partLights_.forget();
-  else
-    takePart(in, options, vpls, isMiddle);
+  if (isWhole) partLights_.forget();
+  std::vector<shared::Vpl> vpls =
+      isWhole ? lights_.table().summedInOrder() : takePart(in, options, isMiddle).summedInOrder();
   if (visibility_) {
     const LightProxies& lightProxies = isWhole ? lightProxies_ : partLights_.lightProxies();
     vpls.insert(vpls.end(), lightProxies.lights().begin(), lightProxies.lights().end());
@@ -338,14 +336,16 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   return image;
 }
 
-// Selects the VPLs of the shown part; `isNew`: they may differ from those of the last call.
-void ManyLights::takePart(const FrameInputs& in, const Options& options,
-                          std::vector<shared::Vpl>& vpls, bool isNew) {
-  vpls = PartLights::lightsOf(in.part, vpls, lights_.inspect());
-  if (!visibility_ || !isNew) return;
-  partLights_.update(in.scene, *visibility_, vpls, static_cast<size_t>(lights_.slots()),
-                     {options.useLightMaps(), lightMapOptions(options)}, lights_.hasMap(), wanted_,
-                     groupsOf(in, options.groupShare, lights_.slots()));
+// The lights of the shown part; `isNew`: they may differ from those of the last call.
+LightSampleTable ManyLights::takePart(const FrameInputs& in, const Options& options, bool isNew) {
+  LightSampleTable lights = lights_.table();
+  const bool isDirect = in.part == LightPart::direct;
+  lights.sumOnly([&](const LightSample& l) { return (l.id.bounce == 0) == isDirect; });
+  if (visibility_ && isNew)
+    partLights_.update(in.scene, *visibility_, lights,
+                       {options.useLightMaps(), lightMapOptions(options)}, wanted_,
+                       groupsOf(in, options.groupShare, lights_.slots()));
+  return lights;
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
@@ -369,7 +369,7 @@ std::shared_ptr<RadianceImage> ManyLights::fillCorners(
     const auto reflecting =
         prt_ && in.part == LightPart::all ? prt_->reflecting() : std::vector<uint8_t>();
     corners_.goOn(
-        in, lights_.inspect(),
+        in, lights_.table(),
         {options.directShare < 1.0f && in.part != LightPart::direct ? options.bounces : 0,
          (options.directShare > 0.0f || options.bounces == 0) && in.part != LightPart::indirect,
          options.clampDistance, kCornerPaths, static_cast<uint32_t>(options.seed), 0, in.lightOnly,
@@ -395,7 +395,7 @@ void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages
 
 Inspection ManyLights::inspect() const {
   Inspection out;
-  out.lights = lights_.inspect();
+  out.lights = lights_.table().samplesInOrder();
   if (visibility_) out.patches = std::make_shared<DatabasePatches>(*visibility_);
   if (visibility_ && lightMaps_)
     out.texels = std::make_shared<LightMapTexels>(*visibility_, *lightMaps_);

@@ -38,8 +38,7 @@ class ManyLights final : public GiMethod {
   void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
-  void takePart(const FrameInputs& in, const Options& options, std::vector<shared::Vpl>& vpls,
-                bool isNew);
+  LightSampleTable takePart(const FrameInputs& in, const Options& options, bool isNew);
   int refreshLights(const Options& options);
   void updateVisibility(const FrameInputs& in, Options& options, GiStats& stats);
   void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
@@ -47,7 +46,6 @@ class ManyLights final : public GiMethod {
   LightMaps::Options lightMapOptions(const Options& options) const;
   void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
-  std::vector<shared::Vpl> shownBySlot() const;
   void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out);
   std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
                                              const std::shared_ptr<RadianceImage>& picture,

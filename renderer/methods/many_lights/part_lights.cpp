@@ -2,33 +2,14 @@
 
 namespace lamplighter {
 
-std::vector<shared::Vpl> PartLights::lightsOf(LightPart part, std::span<const shared::Vpl> shown,
-                                              std::span<const InspectedLight> all) {
-  std::vector<uint8_t> isDirect;
-  for (const InspectedLight& light : all) {
-    const auto slot = static_cast<size_t>(light.slot);
-    if (light.slot < 0) continue;
-    if (isDirect.size() <= slot) isDirect.resize(slot + 1, 0);
-    isDirect[slot] = light.id.bounce == 0 ? 1 : 0;
-  }
-  std::vector<shared::Vpl> lights;
-  for (const shared::Vpl& vpl : shown)
-    if ((isDirect[static_cast<size_t>(vpl.intensity.w)] != 0) == (part == LightPart::direct))
-      lights.push_back(vpl);
-  return lights;
-}
-
 void PartLights::update(const RenderScene& scene, const VisibilityDatabase& visibility,
-                        std::span<const shared::Vpl> lights, size_t slots, const Maps& maps,
-                        const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
-                        const LightProxies::Groups& groups) {
-  lightProxies_.update(lights, slots, hasMap, isWanted, groups);
+                        const LightSampleTable& lights, const Maps& maps,
+                        const std::vector<uint8_t>& isWanted, const LightProxies::Groups& groups) {
+  lightProxies_.update(lights, isWanted, groups);
   maps_.reset();
   if (!maps.used) return;
-  std::vector<shared::Vpl> bySlot(slots);
-  for (const shared::Vpl& vpl : lights) bySlot[static_cast<size_t>(vpl.intensity.w)] = vpl;
   maps_ = std::make_unique<LightMaps>();
-  maps_->update(scene, visibility, bySlot, maps.options);
+  maps_->update(scene, visibility, lights.summed, maps.options);
 }
 
 std::shared_ptr<RadianceImage> without(RadianceImage& unlit, RadianceImage& picture) {

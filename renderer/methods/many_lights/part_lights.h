@@ -3,33 +3,25 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "renderer/backends/radiance_image.h"
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/light_maps/light_proxies.h"
-#include "renderer/methods/inspection.h"
-#include "renderer/methods/light_part.h"
 
 namespace lamplighter {
 
 class PartLights {
  public:
-  // Of the shown lights, those of the part. `all` gives the light of each slot.
-  static std::vector<shared::Vpl> lightsOf(LightPart part, std::span<const shared::Vpl> shown,
-                                           std::span<const InspectedLight> all);
-
   struct Maps {
     bool used = false;  // otherwise all light is summed per pixel
     LightMaps::Options options;
   };
-  // Recomputes everything: these views are used while little changes. By slot: `hasMap` and
-  // `isWanted` as for LightProxies.
+  // Recomputes everything: these views are used while little changes. `lights`: those of the part
+  // are summed. `isWanted`: as for LightProxies.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
-              std::span<const shared::Vpl> lights, size_t slots, const Maps& maps,
-              const std::vector<uint8_t>& hasMap, const std::vector<uint8_t>& isWanted,
-              const LightProxies::Groups& groups);
+              const LightSampleTable& lights, const Maps& maps,
+              const std::vector<uint8_t>& isWanted, const LightProxies::Groups& groups);
   void forget() { *this = PartLights(); }
 
   const LightMaps* maps() const { return maps_.get(); }

@@ -147,8 +147,8 @@ void Refinement::addPart(const FrameInputs& in, ManyLightsKernels& kernels, cons
   std::vector<shared::Vpl> part;
   for (size_t i = batch.summed; i < end; ++i) {
     shared::Vpl vpl = batch.vpls[i].vpl;
-    vpl.intensity = vec4(vec3(vpl.intensity) / share,
-                         static_cast<float>(static_cast<size_t>(firstSlot) + part.size()));
+    vpl.intensity /= share;
+    vpl.slot = firstSlot + static_cast<int>(part.size());
     part.push_back(vpl);
   }
   kernels.renderShadowMaps(part, size);

@@ -19,8 +19,8 @@ void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
 
 void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiStats& stats) {
   if (!visibility_) return;
-  const std::vector<shared::Vpl> shown = shownBySlot();
-  visibilityNeeds_ = visibility_->leastBytes(shown.size());
+  const LightSampleTable& lights = lights_.table();
+  visibilityNeeds_ = visibility_->leastBytes(lights.slots());
   neededFor_ = lights_.slots();
   if (visibilityNeeds_ > options.visibilityBytes()) {
     visibility_.reset();
@@ -28,12 +28,11 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiSta
     return;
   }
   const uint64_t before = visibility_->tests();
-  visibility_->setLights(in.scene, shown);
+  visibility_->setLights(in.scene, lights.summed);
   // Lights whose maps still show a mover at its old position wait.
-  const std::vector<bool> upToDate = lights_.upToDate();
   std::vector<int> slots;
-  for (size_t slot = 0; slot < upToDate.size(); ++slot)
-    if (upToDate[slot]) slots.push_back(static_cast<int>(slot));
+  for (int slot = 0; slot < lights_.slots(); ++slot)
+    if (lights[slot].isUpToDate) slots.push_back(slot);
   visibility_->refresh(in.scene, slots);
   stats.visibilityTests = visibility_->tests() - before;
 }
@@ -50,8 +49,8 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
     if (!lightMaps_) lightMaps_ = std::make_unique<LightMaps>();
     const uint64_t before = lightMaps_->texelsWritten();
     const bool isAtRest = in.changes.none() && lights_.pending() == 0;
-    lightMaps_->update(in.scene, *visibility_, shownBySlot(), lightMapOptions(options), &in.view,
-                       isAtRest);
+    lightMaps_->update(in.scene, *visibility_, lights_.table().summed, lightMapOptions(options),
+                       &in.view, isAtRest);
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
     stats.lightMapTexel = lightMaps_->texel();
   }
@@ -70,10 +69,14 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStat
     changes.rebuilt = true;
   }
   const uint64_t before = prt_->rays();
-  const std::vector<shared::Vpl> bySlot = shownBySlot();
+  const LightSampleTable& lights = lights_.table();
+  const auto isLast = [&](const LightSample& l) {
+    return static_cast<int>(l.id.bounce) >= options.bounces;
+  };
   const bool changed =
       prt_->update(in.scene, changes, in.services.rays(), *visibility_,
-                   {bySlot, lights_.upToDate(), lights_.haveBounced(options.bounces)},
+                   {lights.summed, lights.where([](const LightSample& l) { return l.isUpToDate; }),
+                    lights.where(isLast)},
                    options.transfer(), !in.services.budget().inBackground);
   stats.raysTraced += prt_->rays() - before;
   const Transfers::Progress progress = prt_->progress();
@@ -85,12 +88,6 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStat
   stats.transferLightsLeft = left.lights;
   stats.transferObjectsWithoutRoom = left.withoutRoom;
   return changed;
-}
-
-std::vector<shared::Vpl> ManyLights::shownBySlot() const {
-  std::vector<shared::Vpl> bySlot(static_cast<size_t>(lights_.slots()));
-  for (const shared::Vpl& vpl : lights_.shown()) bySlot[static_cast<size_t>(vpl.intensity.w)] = vpl;
-  return bySlot;
 }
 
 }  // namespace lamplighter

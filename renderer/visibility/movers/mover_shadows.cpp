@@ -9,7 +9,7 @@
 namespace lamplighter {
 namespace {
 
-using Mask = PyramidBatch::Mask;
+using Mask = LightMask;
 
 // For how many further steps a result should stay valid on a straight path. With a larger value few
 // boxes have enough depth.
@@ -39,7 +39,7 @@ MoverShadows::MoverShadows(const Occluders& occluders, std::span<const uint32_t>
   lights_.reserve(lights.size());
   cones_.reserve(lights.size() * movers.size());
   for (const shared::Vpl& vpl : lights) {
-    lights_.push_back({PyramidApex(vpl), vpl.position.w == shared::kVplDirectional});
+    lights_.emplace_back(vpl);
     for (const uint32_t mover : movers)
       cones_.push_back(ShadowVolume(vpl, occluders.caster(mover)).cone());
   }
@@ -133,7 +133,7 @@ void MoverShadows::ask(const Asked& asked, size_t mover, Answer& answer) const {
 MoverShadows::Answer MoverShadows::of(const PatchRegion& region,
                                       std::span<const Question> lights) const {
   std::array<const PyramidApex*, kLights> apices;
-  for (size_t i = 0; i < lights.size(); ++i) apices[i] = &lights_[lights[i].slot].apex;
+  for (size_t i = 0; i < lights.size(); ++i) apices[i] = &lights_[lights[i].slot];
   PyramidBatch pyramids(LightPacket({apices.data(), lights.size()}), region);
   pyramids.weighBy(way_);
   Answer answer;
@@ -141,8 +141,7 @@ MoverShadows::Answer MoverShadows::of(const PatchRegion& region,
   for (size_t m = 0; m < movers_.size(); ++m) ask({region, lights, pyramids}, m, answer);
   // Subtracts the rounding error of sums of such positions.
   for (size_t i = 0; i < lights.size(); ++i)
-    answer.slack[i] -=
-        std::max({rounding_, region.rounding, lights_[lights[i].slot].apex.rounding});
+    answer.slack[i] -= std::max({rounding_, region.rounding, lights_[lights[i].slot].rounding});
   return answer;
 }
 

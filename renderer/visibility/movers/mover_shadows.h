@@ -24,7 +24,7 @@ class MoverShadows {
     Hint hint = kNoHint;
   };
   struct Answer {
-    PyramidBatch::Mask met = 0;       // bit i: the light of question i
+    LightMask met = 0;                // bit i: the light of question i
     std::array<Hint, kLights> hints;  // for the lights that are met
     // The result stays valid while no box of the movers moves or grows by this much, in the metric
     // of the path [m]; 0: unknown.
@@ -44,10 +44,6 @@ class MoverShadows {
   Answer of(const PatchRegion& region, std::span<const Question> lights) const;
 
  private:
-  struct Light {
-    PyramidApex apex;
-    bool isParallel = false;
-  };
   struct Mover {
     Caster caster;
     BoxBatches groups;
@@ -61,8 +57,8 @@ class MoverShadows {
 
   struct Asked;
   void ask(const Asked& asked, size_t mover, Answer& answer) const;
-  PyramidBatch::Mask askWhereHinted(const Asked& asked, size_t mover, PyramidBatch::Mask open,
-                                    PyramidBatch::Depths& depths, Answer& answer) const;
+  LightMask askWhereHinted(const Asked& asked, size_t mover, LightMask open,
+                           PyramidBatch::Depths& depths, Answer& answer) const;
   Hint hintOf(size_t mover, int box) const;
 
   std::vector<Mover> movers_;
@@ -70,7 +66,7 @@ class MoverShadows {
   MotionMetric way_;
   float enough_;  // desired slack of results, if it is cheap to reach [m]
   size_t turn_;
-  std::vector<Light> lights_;
+  std::vector<PyramidApex> lights_;
   std::vector<ShadowVolume::Cone> cones_;  // of shadow volumes, by light and mover
   size_t boxesAHint_ = 1;                  // as few as the range of a hint allows
   float rounding_ = 0.0f;                  // rounding error of the movers' positions [m]

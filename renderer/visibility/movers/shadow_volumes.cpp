@@ -3,18 +3,9 @@
 #include <bit>
 #include <limits>
 
-#include "renderer/base/simd.h"
+#include "renderer/visibility/occlusion/cone_lanes.h"
 
 namespace lamplighter {
-namespace {
-
-Floats8 lanesOf(const ShadowVolumeX8::Lanes& lanes) { return hn::Load(kTag, lanes.data()); }
-SimdVec3<Floats8> lanesOf(const std::array<ShadowVolumeX8::Lanes, 3>& v) {
-  return {lanesOf(v[0]), lanesOf(v[1]), lanesOf(v[2])};
-}
-
-}  // namespace
-
 ShadowVolumeX8::ShadowVolumeX8() { nearest_.fill(std::numeric_limits<float>::infinity()); }
 
 void ShadowVolumeX8::set(size_t lane, const ShadowVolume::Cone& cone) {
@@ -29,23 +20,10 @@ void ShadowVolumeX8::set(size_t lane, const ShadowVolume::Cone& cone) {
   radius_[lane] = cone.radius;
 }
 
-// Same order of operations as ShadowVolume::mayFallOn().
 uint32_t ShadowVolumeX8::mayFallOn(const vec3& centre, float radius) const {
-  const Floats8 zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
-  const SimdVec3<Floats8> v = wide(centre) - lanesOf(apex_), axis = lanesOf(axis_);
-  const Floats8 distance2 = dotUnfused(v, v), gap = hn::Sub(lanesOf(nearest_), wide(radius));
-  const auto isNear = hn::And(hn::Gt(gap, zero), hn::Lt(distance2, hn::Mul(gap, gap)));
-  const Floats8 along = dotUnfused(v, axis), along2 = hn::Mul(along, along);
-  const Floats8 across2 = hn::Max(hn::Sub(distance2, along2), zero);
-  const Floats8 cosine2 = hn::Mul(cosine, cosine);
-  const auto isBehind = hn::And(
-      hn::Lt(along, zero), hn::Le(hn::Mul(hn::Mul(across2, sine), sine), hn::Mul(along2, cosine2)));
-  const Floats8 reach = hn::Add(wide(radius), hn::Mul(along, sine));
-  const auto isIn =
-      hn::And(hn::Ge(reach, zero), hn::Le(hn::Mul(across2, cosine2), hn::Mul(reach, reach)));
-  const auto isAround = hn::Le(distance2, wide(radius * radius));
-  return bitsOf(
-      hn::AndNot(isNear, hn::Or(hn::And(isBehind, isAround), hn::AndNot(isBehind, isIn))));
+  const ConeLanes<FloatTag> lanes{load(apex_), load(axis_), load(nearest_), load(sine_),
+                                  load(cosine_)};
+  return conesMayFallOn(lanes, centre, radius);
 }
 
 // Shrinks the sphere of the caster: if the smaller shadow reaches the target, so does that of a
@@ -53,10 +31,10 @@ uint32_t ShadowVolumeX8::mayFallOn(const vec3& centre, float radius) const {
 // reduction of the radius divided by the distance; the cosine grows by less than the tangent times
 // that.
 void ShadowVolumeX8::slack(const vec3& centre, float radius, Lanes& out) const {
-  const Floats8 zero = hn::Zero(kTag), sine = lanesOf(sine_), cosine = lanesOf(cosine_);
-  const Floats8 nearest = lanesOf(nearest_), before = lanesOf(before_), size = lanesOf(radius_);
-  const SimdVec3<Floats8> v = wide(centre) - lanesOf(apex_);
-  const Floats8 distance2 = dotFused(v, v), along = dotFused(v, lanesOf(axis_));
+  const Floats8 zero = hn::Zero(kTag), sine = load(sine_), cosine = load(cosine_);
+  const Floats8 nearest = load(nearest_), before = load(before_), size = load(radius_);
+  const SimdVec3<Floats8> v = wide(centre) - load(apex_);
+  const Floats8 distance2 = dotFused(v, v), along = dotFused(v, load(axis_));
   const Floats8 across = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, distance2), zero));
   const Floats8 inside = hn::NegMulAdd(across, cosine, hn::MulAdd(along, sine, wide(radius)));
   const Floats8 sideways = hn::Div(hn::Mul(inside, hn::Mul(hn::Add(nearest, size), cosine)),

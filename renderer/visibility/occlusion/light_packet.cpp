@@ -5,7 +5,11 @@
 namespace lamplighter {
 
 PyramidApex::PyramidApex(const shared::Vpl& vpl)
-    : position(vpl.position), normal(vpl.normal), rounding(rayEpsilon(position)) {}
+    : position(vpl.position),
+      normal(vpl.normal),
+      isParallel(vpl.position.w == shared::kVplDirectional) {
+  if (!isParallel) rounding = rayEpsilon(position);
+}
 
 LightPacket::LightPacket(std::span<const PyramidApex* const> lights) : count(lights.size()) {
   for (size_t i = 0; i < kLights; ++i) {

@@ -10,9 +10,6 @@ namespace {
 // Smallest area of polygons that are tested as full occluders, such as walls [m²].
 constexpr float kLargePolygon = 1.0f;
 
-// Polygons nearer to the eye than this may be clipped by the near plane, at 1 cm [m].
-constexpr float kNotClipped = 0.05f;
-
 }  // namespace
 
 void Occluders::place(const RenderScene& s, uint32_t index, const MeshTopology& topology,
@@ -112,13 +109,6 @@ bool Occluders::stillMeets(const RenderScene& s, const OcclusionPyramid& pyramid
   return pyramid.mayBeShadowedBy(caster);
 }
 
-bool Occluders::hides(const OcclusionPyramid& pyramid, const OcclusionPyramid::Axis& axis,
-                      uint32_t object) const {
-  return !objects_[object].polygonTree.visit(
-      [&](const Bounds& b) { return axis.mayMeet(b); },
-      [&](uint32_t p) { return !pyramid.isCutBy(objects_[object].polygons[p]); });
-}
-
 Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyramid& pyramid,
                                       std::span<const uint32_t> objects, Blocker& first) const {
   if (pyramid.isDark()) return Occlusion::full;
@@ -135,32 +125,6 @@ Occlusion Occluders::occlusionWithout(const RenderScene& s, const OcclusionPyram
   return hiddenWithout(pyramid, objects) ? Occlusion::full : Occlusion::partial;
 }
 
-bool Occluders::hiddenWithout(const OcclusionPyramid& pyramid,
-                              std::span<const uint32_t> objects) const {
-  const OcclusionPyramid::Axis axis(pyramid);
-  return !polygonTree_.visit([&](const Bounds& b) { return axis.mayMeet(b); },
-                             [&](uint32_t i) {
-                               const bool counts =
-                                   std::find(objects.begin(), objects.end(), i) == objects.end();
-                               return !(counts && hides(pyramid, axis, i));
-                             });
-}
-
-bool Occluders::hiddenFromEye(const RenderScene& s, const OcclusionPyramid& pyramid,
-                              const vec3& eye) const {
-  if (pyramid.isDark() || pyramid.isDegenerate()) return false;
-  const OcclusionPyramid::Axis axis(pyramid);
-  const auto enter = [&](const Bounds& b) { return axis.mayMeet(b); };
-  return !polygonTree_.visit(enter, [&](uint32_t i) {
-    return objects_[i].polygonTree.visit(enter, [&](uint32_t p) {
-      const OccluderPolygon& polygon = objects_[i].polygons[p];
-      const float before = glm::dot(polygon.normal, eye - polygon.corners[0]);
-      const bool isDrawn = before > kNotClipped || (before < -kNotClipped && !s.backIsUnseen(i));
-      return !(isDrawn && pyramid.isCutBy(polygon));
-    });
-  });
-}
-
 Occlusion Occluders::occlusionBy(const RenderScene& s, const OcclusionPyramid& pyramid,
                                  std::span<const uint32_t> objects, Blocker& first) const {
   if (pyramid.isDark()) return Occlusion::full;
@@ -168,7 +132,7 @@ Occlusion Occluders::occlusionBy(const RenderScene& s, const OcclusionPyramid& p
   bool isMet = stillMeets(s, pyramid, first);
   for (const uint32_t i : objects) {
     if (!isMet) isMet = meets(s, pyramid, i, first);
-    if (mayHide(i) && hides(pyramid, OcclusionPyramid::Axis(pyramid), i)) return Occlusion::full;
+    if (mayHide(i) && isHiddenBy(pyramid, i)) return Occlusion::full;
   }
   return isMet ? Occlusion::partial : Occlusion::none;
 }

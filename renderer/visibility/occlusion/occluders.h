@@ -12,7 +12,8 @@
 
 namespace lamplighter {
 
-class FullOccluderX8;
+template <typename Tag>
+class FullOccluder;
 
 // The item of an object that a pyramid met. It probably meets the next pyramid too (of a child
 // patch or of a light nearby), so that pyramid tests it first.
@@ -78,8 +79,16 @@ class Occluders {
     BoundsTree polygonTree;
   };
   class Search;
-  LightPacket::Mask hiddenWithout(const FullOccluderX8& batch, LightPacket::Mask of,
-                                  std::span<const uint32_t> objects) const;
+  // Those of the lights `of` for which one polygon of the object, or of another object than these,
+  // hides the whole patch (full_occluders.cpp).
+  template <typename Tag>
+  LightMask hiddenBy(const FullOccluder<Tag>& test, LightMask of, uint32_t object) const;
+  template <typename Tag>
+  LightMask hiddenWithout(const FullOccluder<Tag>& test, LightMask of,
+                          std::span<const uint32_t> objects) const;
+  LightMask hiddenWithout(const LightPacket& lights, const PatchRegion& region, LightMask of,
+                          std::span<const uint32_t> objects) const;
+  bool isHiddenBy(const OcclusionPyramid& pyramid, uint32_t object) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
              uint32_t item, vec3& at) const;
   bool meets(const RenderScene& scene, const OcclusionPyramid& pyramid, uint32_t object,
@@ -88,8 +97,6 @@ class Occluders {
   bool isItself(const OcclusionPyramid& pyramid, uint32_t object, uint32_t item) const;
   bool stillMeets(const RenderScene& scene, const OcclusionPyramid& pyramid,
                   Blocker& blocker) const;
-  bool hides(const OcclusionPyramid& pyramid, const OcclusionPyramid::Axis& axis,
-             uint32_t object) const;
 
   std::vector<Object> objects_;
   BoundsTree tree_;         // over the bounds of the objects

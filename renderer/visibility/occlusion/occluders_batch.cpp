@@ -8,13 +8,12 @@
 
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/visibility/occlusion/bit_iteration.h"
-#include "renderer/visibility/occlusion/full_occluder_x8.h"
 #include "renderer/visibility/occlusion/occluders.h"
 #include "renderer/visibility/occlusion/pyramid_batch.h"
 
 namespace lamplighter {
 
-using Mask = LightPacket::Mask;
+using Mask = LightMask;
 
 namespace {
 
@@ -212,28 +211,11 @@ Occluders::States Occluders::occlusionsWithout(const RenderScene& s, const Light
     std::copy_n(search.first().begin(), first.size(), first.begin());
   }
   if (met == 0) return states;
-  const Mask hidden = hiddenWithout(FullOccluderX8(lanes, lights.region), met, objects);
+  const Mask hidden = hiddenWithout(lanes, lights.region, met, objects);
   forEachBit(met, [&](size_t i) {
     states[i] = (hidden >> i & 1) != 0 ? Occlusion::full : Occlusion::partial;
   });
   return states;
-}
-
-Mask Occluders::hiddenWithout(const FullOccluderX8& batch, Mask of,
-                              std::span<const uint32_t> objects) const {
-  Mask open = of;
-  const auto enter = [&](const Bounds& b) { return (open & batch.mayMeet(b)) != 0; };
-  polygonTree_.visit(enter, [&](uint32_t object) {
-    if (std::find(objects.begin(), objects.end(), object) != objects.end()) return true;
-    objects_[object].polygonTree.visit(enter, [&](uint32_t p) {
-      const OccluderPolygon& polygon = objects_[object].polygons[p];
-      if (const Mask some = open & batch.mayMeet(polygon.box); some != 0)
-        open &= ~batch.cut(polygon, some);
-      return open != 0;
-    });
-    return open != 0;
-  });
-  return of & ~open;
 }
 
 }  // namespace lamplighter

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "renderer/patches/patch_set.h"
+#include "renderer/visibility/occlusion/light_packet.h"
 #include "renderer/visibility/occlusion/occlusion.h"
 #include "renderer/visibility/occlusion/pyramid_planes.h"
 #include "renderer/visibility/occlusion/shadow_volume.h"
@@ -59,9 +60,9 @@ class OcclusionPyramid {
   OcclusionPyramid(const shared::Vpl& vpl, PatchRegion&& region) = delete;
 
   // No point of the patch is in front of the light, or the light is behind all visible points.
-  bool isDark() const { return dark_; }
+  bool isDark() const { return isDark_; }
   // The light is so close to the patch or its plane that the test is not reliable.
-  bool isDegenerate() const { return degenerate_; }
+  bool isDegenerate() const { return isDegenerate_; }
 
   // Whether the shadow of the caster may fall on the patch. A cheap test before those below; it
   // also decides together with them, because they cover slightly more than the exact pyramid.
@@ -74,51 +75,33 @@ class OcclusionPyramid {
     return region_.object == static_cast<int>(object) && region_.chart == chart;
   }
 
+  const PyramidApex& light() const { return light_; }
+  const PatchRegion& region() const { return region_; }
+
   // Whether the patch is a box around triangles, not a rectangle.
   bool isOfBox() const { return region_.isBox(); }
 
   // Conservative intersection tests; exact for triangles except for a margin for rounding errors.
-  bool mayMeet(const Bounds& box) const;
-  bool mayMeetSphere(const vec3& centre, float radius) const;
+  bool mayMeet(const Bounds& box) const { return planes_.mayMeet(box); }
+  bool mayMeetSphere(const vec3& centre, float radius) const {
+    return planes_.reach(centre, -radius);
+  }
   // `at`: receives a point of the intersection, if there is one.
   bool meets(const vec3& a, const vec3& b, const vec3& c, vec3* at = nullptr) const {
     return planes_.meet(a, b, c, at);
   }
   // Whether the point is inside by more than the rounding error.
-  bool holds(const vec3& point) const { return !mayBeOutside(point, margin_); }
-  // Whether the polygon cuts the pyramid completely between light and patch.
-  bool isCutBy(const OccluderPolygon& polygon) const;
-
-  // The segment from the centre of the patch to the light. A polygon that cuts the whole pyramid
-  // must meet it, and it meets far fewer boxes than the pyramid does.
-  class Axis {
-   public:
-    explicit Axis(const OcclusionPyramid& pyramid);
-    bool mayMeet(const Bounds& box) const {
-      const vec3 a = (box.min - high_) * inverse_, b = (box.max - low_) * inverse_;
-      const vec3 enter = glm::min(a, b), leave = glm::max(a, b);
-      const float first = std::max({enter.x, enter.y, enter.z, 0.0f});
-      return first <= std::min({leave.x, leave.y, leave.z, last_});
-    }
-
-   private:
-    vec3 low_, high_;  // start point minus and plus the margin
-    vec3 inverse_;     // reciprocal of the length on each axis
-    float last_;       // parameter of its end, in lengths
-  };
+  bool holds(const vec3& point) const { return planes_.reach(point, margin_); }
 
  private:
-  bool mayBeOutside(const vec3& point, float margin) const;
-
-  void addSides(const vec3& middle, const vec3& up);
-  void add(const vec3& normal, const vec3& on, float margin);
+  void add(const vec3& normal, float offset);
+  void addPatchSides(const vec3& up);
 
   const shared::Vpl& vpl_;
   const PatchRegion& region_;
-  bool parallel_ = false, dark_ = false, degenerate_ = false;
-  vec3 apex_{0.0f};      // unused for a parallel light
-  vec3 towards_{0.0f};   // axis of the light; parallel light: unit, towards the light
-  float margin_ = 0.0f;  // rounding error of positions here [m]
+  PyramidApex light_;
+  bool isDark_, isDegenerate_;
+  float margin_;  // rounding error of positions here [m]
   PyramidPlanes planes_;
   int count_ = 0;
 };

@@ -4,36 +4,18 @@
 #include <bit>
 #include <limits>
 
-#include "renderer/base/simd.h"
-#include "renderer/visibility/occlusion/packet_math.h"
+#include "renderer/visibility/occlusion/plane_lanes.h"
 
 namespace lamplighter {
 namespace {
 
-using namespace lanes;
+using Vec = Floats8;
 
 template <typename Plane>
-SimdVec3<Vec> normalOf(const Plane& p) {
-  return {load(p.x), load(p.y), load(p.z)};
+HWY_INLINE PlaneLanes<Vec> planeOf(const Plane& p) {
+  return {{load(p.x), load(p.y), load(p.z)}, load(p.offset)};
 }
 
-// Depth of boxes inside planes, with the same order of operations as OcclusionPyramid::mayMeet().
-Vec depthOf(const SimdVec3<Vec>& normal, Vec offset, const SimdVec3<Vec>& centre,
-            const SimdVec3<Vec>& half) {
-  auto farthest = hn::MulAdd(normal.x, centre.x, offset);
-  farthest = hn::MulAdd(normal.y, centre.y, farthest);
-  farthest = hn::MulAdd(normal.z, centre.z, farthest);
-  farthest = hn::MulAdd(hn::Abs(normal.x), half.x, farthest);
-  farthest = hn::MulAdd(hn::Abs(normal.y), half.y, farthest);
-  return hn::MulAdd(hn::Abs(normal.z), half.z, farthest);
-}
-
-// Distance of points from planes, with the same order of operations as OcclusionPyramid::meets().
-HWY_INLINE Vec distanceOf(const SimdVec3<Vec>& normal, Vec offset, const SimdVec3<Vec>& point) {
-  auto distance = hn::MulAdd(normal.x, point.x, offset);
-  distance = hn::MulAdd(normal.y, point.y, distance);
-  return hn::MulAdd(normal.z, point.z, distance);
-}
 uint32_t outside(Vec depths) { return bitsOf(hn::Lt(depths, hn::Zero(kTag))); }
 
 uint32_t inside(Vec depths) { return 0xff & ~outside(depths); }
@@ -65,101 +47,84 @@ BoxBatches::BoxBatches(std::span<const Bounds> boxes) : size_(boxes.size()) {
 
 PyramidBatch::PyramidBatch(const LightPacket& lights, const PatchRegion& region)
     : all_(lights.all()) {
-  const SimdVec3<Vec> apex = load(lights.position), towards = load(lights.normal);
-  const auto margin = hn::Max(load(lights.rounding), set(region.rounding));
-  hn::Store(margin, kTag, margin_.data());
-  const auto store = [&](Plane& plane, const SimdVec3<Vec>& normal, Vec offset) {
-    hn::Store(normal.x, kTag, plane.x.data());
-    hn::Store(normal.y, kTag, plane.y.data());
-    hn::Store(normal.z, kTag, plane.z.data());
-    hn::Store(offset, kTag, plane.offset.data());
+  const LightLanes<FloatTag> lanes = lanesOf(lights, region);
+  hn::Store(lanes.margin, kTag, margin_.data());
+  const auto store = [](Plane& to, const PlaneLanes<Vec>& plane) {
+    hn::Store(plane.normal.x, kTag, to.x.data());
+    hn::Store(plane.normal.y, kTag, to.y.data());
+    hn::Store(plane.normal.z, kTag, to.z.data());
+    hn::Store(plane.offset, kTag, to.offset.data());
   };
-  store(planes_[0], towards, hn::Sub(hn::Neg(margin), dot(towards, apex)));
-
-  const vec3 middle = region.middle();
-  const SimdVec3<Vec> centre = set(middle), normal = set(region.normal);
-  const auto height = dot(apex - centre, normal);
-  const auto above = hn::Gt(height, hn::Zero(kTag));
-  const auto turn = [&](Vec v) { return hn::IfThenElse(above, v, hn::Neg(v)); };
-  const SimdVec3<Vec> up{turn(normal.x), turn(normal.y), turn(normal.z)};
-  const auto thickness = set(region.thickness);
-  const auto slab = hn::Add(thickness, margin);
-  const auto slack = region.chart != kNone ? slab : hn::Mul(set(-3.0f), slab);
-  store(planes_[1], up, hn::Sub(slack, dot(up, centre)));
-
+  store(planes_[0], lightPlane(lanes));
+  const PlaneLanes<Vec> patch = patchPlane(lanes, region);
+  store(planes_[1], patch);
+  const SimdVec3<Vec> middle = wide(region.middle());
   for (size_t i = 0; i < 4; ++i) {
-    const auto at = [&](const auto& v) { return set(vec3(v[0][i], v[1][i], v[2][i])); };
+    const auto at = [&](const auto& v) { return wide(vec3(v[0][i], v[1][i], v[2][i])); };
     const SimdVec3<Vec> from = at(region.from);
-    const SidePlanes<Vec> side =
-        sidePlanes(kTag, from, at(region.sides), from - apex, centre, up, thickness, margin, false);
-    store(planes_[2 + i], side.normal, side.offset);
+    store(planes_[2 + i], sidePlanes(kTag, from, at(region.sides), from - lanes.apex, middle,
+                                     patch.normal, wide(region.thickness), lanes.margin, false));
   }
 }
 
 // A shape that moves by a vector d approaches a plane with normal n by n·d. This is at most the
 // larger of |n·axis| and |n×axis| / across, times the length of d in the metric.
 void PyramidBatch::weighBy(const MotionMetric& way) {
-  const SimdVec3<Vec> axis = set(way.axis);
-  const auto one = set(1.0f), across = set(1.0f / way.across);
+  const SimdVec3<Vec> axis = wide(way.axis);
+  const auto one = wide(1.0f), across = wide(1.0f / way.across);
   for (Plane& p : planes_) {
-    const SimdVec3<Vec> normal = normalOf(p);
-    const auto along = dot(normal, axis), squared = dot(normal, normal);
+    const SimdVec3<Vec> normal{load(p.x), load(p.y), load(p.z)};
+    const auto along = dotUnfused(normal, axis), squared = dotUnfused(normal, normal);
     const auto sideways = hn::Sqrt(hn::Max(hn::NegMulAdd(along, along, squared), hn::Zero(kTag)));
     // A plane that is left out has the normal zero; nothing is outside it.
-    const auto most = hn::Max(hn::Max(hn::Abs(along), hn::Mul(sideways, across)), set(1e-20f));
+    const auto most = hn::Max(hn::Max(hn::Abs(along), hn::Mul(sideways, across)), wide(1e-20f));
     hn::Store(hn::Max(hn::Div(one, most), one), kTag, p.weight.data());
   }
 }
 
-PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius,
-                                               Depths& depths) const {
-  auto least = set(std::numeric_limits<float>::max());
+LightMask PyramidBatch::mayMeetSphere(const vec3& centre, float radius, Depths& depths) const {
+  auto least = wide(std::numeric_limits<float>::max());
   for (const Plane& p : planes_) {
-    const auto depth = hn::Add(distanceOf(normalOf(p), load(p.offset), set(centre)), set(radius));
+    const auto depth = hn::Add(distanceOf(planeOf(p), wide(centre)), wide(radius));
     least = hn::Min(hn::Mul(depth, load(p.weight)), least);
   }
   hn::StoreU(least, kTag, depths.data());
   return all_ & inside(least);
 }
 
-PyramidBatch::Mask PyramidBatch::mayMeet(const Bounds& box) const {
-  const SimdVec3<Vec> centre = set(box.centre()), half = set(0.5f * box.extent());
-  auto least = set(std::numeric_limits<float>::max());
-  for (const Plane& p : planes_)
-    least = hn::Min(depthOf(normalOf(p), load(p.offset), centre, half), least);
+LightMask PyramidBatch::mayMeet(const Bounds& box) const {
+  const SimdVec3<Vec> centre = wide(box.centre()), half = wide(0.5f * box.extent());
+  auto least = wide(std::numeric_limits<float>::max());
+  for (const Plane& p : planes_) least = hn::Min(depthOf(planeOf(p), centre, half), least);
   return all_ & inside(least);
 }
 
-PyramidBatch::Mask PyramidBatch::mayMeetSphere(const vec3& centre, float radius) const {
-  auto least = set(std::numeric_limits<float>::max());
-  for (const Plane& p : planes_)
-    least = hn::Min(distanceOf(normalOf(p), load(p.offset), set(centre)), least);
-  return all_ & ~outside(hn::Add(least, set(radius)));
+LightMask PyramidBatch::mayMeetSphere(const vec3& centre, float radius) const {
+  auto least = wide(std::numeric_limits<float>::max());
+  for (const Plane& p : planes_) least = hn::Min(distanceOf(planeOf(p), wide(centre)), least);
+  return all_ & ~outside(hn::Add(least, wide(radius)));
 }
 
-PyramidBatch::Mask PyramidBatch::hold(const vec3& point) const {
-  const SimdVec3<Vec> p = set(point);
-  auto least = set(std::numeric_limits<float>::max());
-  for (const Plane& plane : planes_)
-    least = hn::Min(distanceOf(normalOf(plane), load(plane.offset), p), least);
+LightMask PyramidBatch::hold(const vec3& point) const {
+  const SimdVec3<Vec> p = wide(point);
+  auto least = wide(std::numeric_limits<float>::max());
+  for (const Plane& plane : planes_) least = hn::Min(distanceOf(planeOf(plane), p), least);
   return all_ & bitsOf(hn::Ge(least, load(margin_)));
 }
 
 PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const {
-  const SimdVec3<Vec> a = set(triangle[0]), b = set(triangle[1]), c = set(triangle[2]);
-  auto leastA = set(std::numeric_limits<float>::max()), leastB = leastA, leastC = leastA;
+  const SimdVec3<Vec> a = wide(triangle[0]), b = wide(triangle[1]), c = wide(triangle[2]);
+  auto leastA = wide(std::numeric_limits<float>::max()), leastB = leastA, leastC = leastA;
   auto leastOfMost = leastA;  // minimum over planes of the largest distance of a corner
   for (const Plane& p : planes_) {
-    const SimdVec3<Vec> normal = normalOf(p);
-    const auto offset = load(p.offset);
-    const auto da = distanceOf(normal, offset, a), db = distanceOf(normal, offset, b),
-               dc = distanceOf(normal, offset, c);
+    const PlaneLanes<Vec> plane = planeOf(p);
+    const auto da = distanceOf(plane, a), db = distanceOf(plane, b), dc = distanceOf(plane, c);
     leastA = hn::Min(da, leastA);
     leastB = hn::Min(db, leastB);
     leastC = hn::Min(dc, leastC);
     leastOfMost = hn::Min(hn::Max(hn::Max(da, db), dc), leastOfMost);
   }
-  const Mask open = all_ & ~outside(leastOfMost);
+  const LightMask open = all_ & ~outside(leastOfMost);
   Met met;
   met.byCorner = {open & ~outside(leastA), open & ~outside(leastB), open & ~outside(leastC)};
   met.unsure = open & ~met.met();
@@ -169,26 +134,24 @@ PyramidBatch::Met PyramidBatch::meets(const std::array<vec3, 3>& triangle) const
 // A triangle that is not outside either of two planes may still be beyond their common edge: all of
 // it is outside a third plane through that edge. This is so if for some positive factor the sum of
 // one distance and the factor times the other is negative at each corner.
-PyramidBatch::Mask PyramidBatch::surelyMiss(const std::array<vec3, 3>& triangle,
-                                            float rounding) const {
-  const auto margin = hn::Mul(set(2.0f), hn::Max(load(margin_), set(rounding)));
+LightMask PyramidBatch::surelyMiss(const std::array<vec3, 3>& triangle, float rounding) const {
+  const auto margin = hn::Mul(wide(2.0f), hn::Max(load(margin_), wide(rounding)));
   std::array<std::array<Vec, 3>, kPlanes> depths;
   for (size_t p = 1; p < kPlanes; ++p) {
-    const Plane& plane = planes_[p];
-    const auto offset = hn::Add(load(plane.offset), margin);
-    for (size_t i = 0; i < 3; ++i)
-      depths[p][i] = distanceOf(normalOf(plane), offset, set(triangle[i]));
+    PlaneLanes<Vec> plane = planeOf(planes_[p]);
+    plane.offset = hn::Add(plane.offset, margin);
+    for (size_t i = 0; i < 3; ++i) depths[p][i] = distanceOf(plane, wide(triangle[i]));
   }
   const auto zero = hn::Zero(kTag);
   const auto isPastEdge = [&](const std::array<Vec, 3>& a, const std::array<Vec, 3>& b) {
-    auto least = zero, most = set(std::numeric_limits<float>::max());  // bounds of the factor
+    auto least = zero, most = wide(std::numeric_limits<float>::max());  // bounds of the factor
     for (size_t i = 0; i < 3; ++i) {
       const auto factor = hn::Div(hn::Neg(a[i]), b[i]);
       const auto isLower = hn::Lt(b[i], zero);
       least = hn::Max(hn::IfThenElseZero(isLower, factor), least);
       most = hn::Min(hn::IfThenElse(isLower, most, factor), most);
     }
-    return hn::Lt(hn::Mul(least, set(1.001f)), most);
+    return hn::Lt(hn::Mul(least, wide(1.001f)), most);
   };
   // Edges between the patch's plane and a side, and between two sides.
   auto past = isPastEdge(depths[5], depths[2]);
@@ -210,8 +173,8 @@ PyramidPlanes PyramidBatch::planesOf(size_t light) const {
   return planes;
 }
 
-PyramidBatch::Mask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indices& which,
-                                             Depths& depths) const {
+LightMask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indices& which,
+                                    Depths& depths) const {
   static_assert(sizeof(BoxBatch) == 6 * kLights * sizeof(float));
   const float* all = boxes.boxes()[0].centre[0].data();
   const hn::FixedTag<int32_t, kLights> ints;
@@ -222,10 +185,9 @@ PyramidBatch::Mask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indi
   const auto at = hn::Add(hn::Add(hn::ShiftLeft<2>(eights), hn::ShiftLeft<1>(eights)), lane);
   const auto take = [&](size_t i) { return hn::GatherIndex(kTag, all + i * kLights, at); };
   const SimdVec3<Vec> centre{take(0), take(1), take(2)}, half{take(3), take(4), take(5)};
-  auto least = set(std::numeric_limits<float>::max());
+  auto least = wide(std::numeric_limits<float>::max());
   for (const Plane& p : planes_)
-    least =
-        hn::Min(hn::Mul(depthOf(normalOf(p), load(p.offset), centre, half), load(p.weight)), least);
+    least = hn::Min(hn::Mul(depthOf(planeOf(p), centre, half), load(p.weight)), least);
   hn::StoreU(least, kTag, depths.data());
   return all_ & inside(least);
 }
@@ -233,16 +195,17 @@ PyramidBatch::Mask PyramidBatch::mayMeetEach(const BoxBatches& boxes, const Indi
 PyramidBatch::Found PyramidBatch::find(size_t light, const BoxBatches& boxes, float enough) const {
   const auto depthsIn = [&](const BoxBatch& batch) {
     const SimdVec3<Vec> centre = load(batch.centre), half = load(batch.half);
-    auto least = set(std::numeric_limits<float>::max());
+    auto least = wide(std::numeric_limits<float>::max());
     for (const Plane& p : planes_) {
-      const SimdVec3<Vec> normal = set(vec3(p.x[light], p.y[light], p.z[light]));
-      const auto depth = depthOf(normal, set(p.offset[light]), centre, half);
-      least = hn::Min(hn::Mul(depth, set(p.weight[light])), least);
+      const PlaneLanes<Vec> plane{wide(vec3(p.x[light], p.y[light], p.z[light])),
+                                  wide(p.offset[light])};
+      const auto depth = depthOf(plane, centre, half);
+      least = hn::Min(hn::Mul(depth, wide(p.weight[light])), least);
     }
     return least;
   };
   Found found{kNone, -std::numeric_limits<float>::max()};
-  auto outside = set(found.depth);
+  auto outside = wide(found.depth);
   for (size_t a = 0; a < boxes.around().size(); ++a) {
     const auto around = depthsIn(boxes.around()[a]);
     const auto isOutside = hn::Lt(around, hn::Zero(kTag));

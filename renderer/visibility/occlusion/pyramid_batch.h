@@ -37,7 +37,6 @@ class PyramidBatch {
  public:
   static constexpr size_t kLights = LightPacket::kLights;
   static_assert(kLights == BoxBatch::kBoxes);
-  using Mask = LightPacket::Mask;
   // How far the tested shape may move, in the metric, and still intersect: it is inside all planes
   // by at least this much. Negative: how far it may move and still not intersect, because it is
   // outside one plane by this much. By light [m].
@@ -48,27 +47,27 @@ class PyramidBatch {
   // Sets the metric; call this before asking for depths.
   void weighBy(const MotionMetric& way);
 
-  Mask all() const { return all_; }
-  Mask mayMeetSphere(const vec3& centre, float radius, Depths& depths) const;
-  Mask mayMeet(const Bounds& box) const;
-  Mask mayMeetSphere(const vec3& centre, float radius) const;
+  LightMask all() const { return all_; }
+  LightMask mayMeetSphere(const vec3& centre, float radius, Depths& depths) const;
+  LightMask mayMeet(const Bounds& box) const;
+  LightMask mayMeetSphere(const vec3& centre, float radius) const;
   // The pyramids that contain the point by more than the rounding error.
-  Mask hold(const vec3& point) const;
+  LightMask hold(const vec3& point) const;
   // byCorner: pyramids that contain a corner of the triangle; unsure: pyramids for which only
   // clipping the triangle decides, see planesOf().
   struct Met {
-    std::array<Mask, 3> byCorner{};
-    Mask unsure = 0;
-    Mask met() const { return byCorner[0] | byCorner[1] | byCorner[2]; }
+    std::array<LightMask, 3> byCorner{};
+    LightMask unsure = 0;
+    LightMask met() const { return byCorner[0] | byCorner[1] | byCorner[2]; }
   };
   Met meets(const std::array<vec3, 3>& triangle) const;
   // Some of the pyramids for which clipping the triangle certainly leaves nothing, by more than the
   // rounding error. `rounding`: of the triangle's corners [m].
-  Mask surelyMiss(const std::array<vec3, 3>& triangle, float rounding) const;
+  LightMask surelyMiss(const std::array<vec3, 3>& triangle, float rounding) const;
   PyramidPlanes planesOf(size_t light) const;
   // Tests one box per light; the indices of lights that are not tested may be any valid ones.
   using Indices = std::array<int32_t, kLights>;
-  Mask mayMeetEach(const BoxBatches& boxes, const Indices& which, Depths& depths) const;
+  LightMask mayMeetEach(const BoxBatches& boxes, const Indices& which, Depths& depths) const;
   // Tests several boxes against the pyramid of one light. Finds the box with the largest depth, or
   // the first whose depth is at least `enough`.
   struct Found {
@@ -85,7 +84,7 @@ class PyramidBatch {
   };
   alignas(32) std::array<Plane, kPlanes> planes_;
   alignas(32) LightPacket::Floats margin_;  // rounding error of positions here [m]
-  Mask all_;
+  LightMask all_;
 };
 
 }  // namespace lamplighter

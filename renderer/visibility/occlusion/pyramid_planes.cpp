@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "renderer/base/simd.h"
+#include "renderer/visibility/occlusion/plane_lanes.h"
 
 namespace lamplighter {
 namespace {
@@ -11,18 +11,28 @@ namespace {
 // Clipping by one plane adds at most one corner.
 constexpr size_t kMostCorners = 3 + PyramidPlanes::kMost;
 
+static_assert(PyramidPlanes::kMost == hn::MaxLanes(kTag));
+PlaneLanes<Floats8> load(const PyramidPlanes& p) {
+  return {{hn::LoadU(kTag, p.x.data()), hn::LoadU(kTag, p.y.data()), hn::LoadU(kTag, p.z.data())},
+          hn::LoadU(kTag, p.offset.data())};
+}
+
 }  // namespace
+
+bool PyramidPlanes::mayMeet(const Bounds& box) const {
+  const Floats8 depth = depthOf(load(*this), wide(box.centre()), wide(0.5f * box.extent()));
+  return hn::AllFalse(kTag, hn::Lt(depth, hn::Zero(kTag)));
+}
+
+bool PyramidPlanes::reach(const vec3& point, float depth) const {
+  return hn::AllFalse(kTag, hn::Lt(distanceOf(load(*this), wide(point)), wide(depth)));
+}
 
 bool PyramidPlanes::meet(const vec3& a, const vec3& b, const vec3& c, vec3* at) const {
   // Most triangles are completely outside one plane, or have a corner inside all planes.
-  static_assert(kMost == hn::MaxLanes(kTag));
-  const auto nx = hn::LoadU(kTag, x.data()), ny = hn::LoadU(kTag, y.data()),
-             nz = hn::LoadU(kTag, z.data()), beyond = hn::LoadU(kTag, offset.data());
+  const PlaneLanes<Floats8> planes = load(*this);
   const auto outsideOf = [&](const vec3& p) {
-    auto distance = hn::MulAdd(nx, hn::Set(kTag, p.x), beyond);
-    distance = hn::MulAdd(ny, hn::Set(kTag, p.y), distance);
-    distance = hn::MulAdd(nz, hn::Set(kTag, p.z), distance);
-    return hn::Lt(distance, hn::Zero(kTag));
+    return hn::Lt(distanceOf(planes, wide(p)), hn::Zero(kTag));
   };
   const std::array<vec3, 3> points{a, b, c};
   const std::array outside{outsideOf(a), outsideOf(b), outsideOf(c)};

@@ -15,6 +15,10 @@ struct PyramidPlanes {
 
   PyramidPlanes() { offset.fill(1.0f); }
 
+  // Whether part of the box may be inside all planes.
+  bool mayMeet(const Bounds& box) const;
+  // Whether the point is inside all planes by at least this much; negative: outside by at most. [m]
+  bool reach(const vec3& point, float depth) const;
   // Whether part of the triangle is inside all planes. `at`: receives such a point.
   bool meet(const vec3& a, const vec3& b, const vec3& c, vec3* at = nullptr) const;
 };

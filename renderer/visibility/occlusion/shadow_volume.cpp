@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "renderer/raycast/ray_caster.h"
+#include "renderer/visibility/occlusion/cone_lanes.h"
 
 namespace lamplighter {
 
@@ -22,40 +23,47 @@ ShadowVolume::ShadowVolume(const shared::Vpl& vpl, const Caster& caster) {
   // The margin covers the offsets of rays at both ends and rounding errors.
   const vec3 centre = box.centre();
   const float margin = 16.0f * (rayEpsilon(box.min) + rayEpsilon(box.max));
-  radius_ = 1.001f * caster.radius + margin;
+  const float radius = 1.001f * caster.radius + margin;
+  cone_.radius = radius;
   if (vpl.position.w == shared::kVplDirectional) {
-    kind_ = Kind::cylinder;
-    apex_ = centre;
-    axis_ = -vec3(vpl.normal);
-    nearest_ = -radius_;
+    isParallel_ = true;
+    cone_.apex = centre;
+    cone_.axis = -vec3(vpl.normal);
+    cone_.nearest = -radius;
     return;
   }
-  apex_ = vec3(vpl.position);
-  const vec3 v = centre - apex_;
-  before_ = glm::dot(v, vec3(vpl.normal)) + radius_;
-  if (before_ < 0.0f) return;  // behind the light
+  cone_.apex = vec3(vpl.position);
+  const vec3 v = centre - cone_.apex;
+  const float before = glm::dot(v, vec3(vpl.normal)) + radius;
+  if (before < 0.0f) return;  // behind the light
   const float distance = glm::length(v);
-  if (distance <= 1.01f * radius_) {
-    kind_ = Kind::everywhere;
-    nearest_ = distance - 1.01f * radius_;
+  if (distance <= 1.01f * radius) {
+    cone_.nearest = -std::numeric_limits<float>::infinity();
+    cone_.before = std::min(1.01f * radius - distance, before);
     return;
   }
-  kind_ = Kind::cone;
-  axis_ = v / distance;
-  nearest_ = distance - radius_;
-  sine_ = radius_ / distance;
-  cosine_ = std::sqrt(1.0f - sine_ * sine_);
+  cone_.axis = v / distance;
+  cone_.nearest = distance - radius;
+  cone_.before = before;
+  const float sine = radius / distance;
+  cone_.cosine = std::sqrt(1.0f - sine * sine);
   // The rounding error grows with the distance from the light.
-  sine_ = std::min(1.0f, 1.0001f * sine_ + 1e-6f);
+  cone_.sine = std::min(1.0f, 1.0001f * sine + 1e-6f);
 }
 
-ShadowVolume::Cone ShadowVolume::cone() const {
-  constexpr float kFar = std::numeric_limits<float>::infinity();
-  if (kind_ == Kind::cone) return {apex_, axis_, nearest_, sine_, cosine_, before_, radius_};
-  // Everywhere: minus infinity; empty: farther than anything.
-  const bool isNone = kind_ == Kind::none;
-  const float over = isNone ? 0.0f : std::min(-nearest_, before_);
-  return {apex_, vec3(0.0f), isNone ? kFar : -kFar, 0.0f, 0.0f, over, radius_};
+bool ShadowVolume::mayFallOn(const vec3& centre, float radius) const {
+  if (!isParallel_) {
+    const OneLight tag;
+    const ConeLanes<OneLight> lanes{setLanes(tag, cone_.apex), setLanes(tag, cone_.axis),
+                                    setLanes(tag, cone_.nearest), setLanes(tag, cone_.sine),
+                                    setLanes(tag, cone_.cosine)};
+    return conesMayFallOn(lanes, centre, radius) != 0;
+  }
+  const vec3 v = centre - cone_.apex;
+  const float along = glm::dot(v, cone_.axis);
+  if (along + radius < cone_.nearest) return false;
+  const float reach = cone_.radius + radius;
+  return glm::dot(v, v) - along * along <= reach * reach;
 }
 
 }  // namespace lamplighter

@@ -3,6 +3,8 @@
 // occluder, pyramids start at the patch.
 #pragma once
 
+#include <limits>
+
 #include "renderer/base/math.h"
 #include "shaders/shared/vpl.h"
 
@@ -26,60 +28,32 @@ class ShadowVolume {
   // An empty box casts no shadow.
   ShadowVolume(const shared::Vpl& vpl, const Caster& caster);
 
-  bool isEmpty() const { return kind_ == Kind::none; }
-  // The data of mayFallOn() and of the slack for a non-parallel light [m].
+  bool isEmpty() const {
+    return !isParallel_ && cone_.nearest == std::numeric_limits<float>::infinity();
+  }
+  // For a light that is not parallel: the cone around the caster from the light, all of space if
+  // the caster surrounds the light. For a parallel light: the cylinder around the caster.
   struct Cone {
-    vec3 apex, axis;
-    float nearest, sine, cosine;  // distance from the apex; -infinity: the caster surrounds the
-                                  // light
-    float before;                 // how far the caster extends in front of the light's plane, and
-                                  // how far it surrounds the light
-    float radius;                 // of the caster
+    vec3 apex{0.0f};  // the light; cylinder: centre of the caster
+    vec3 axis{0.0f};  // unit, away from the light; zero: all of space
+    // Near side of the caster: distance from the apex; cylinder: along the axis. Infinity: empty;
+    // -infinity: all of space. [m]
+    float nearest = std::numeric_limits<float>::infinity();
+    float sine = 0.0f, cosine = 0.0f;  // of half the opening angle
+    float before = 0.0f;               // how far the caster extends in front of the light's plane;
+                                       // all of space: at most how far it surrounds the light [m]
+    float radius = 0.0f;               // of the caster [m]
   };
-  Cone cone() const;
+  const Cone& cone() const { return cone_; }
   // Whether the shadow may fall on part of a sphere: the sphere is not nearer than the near side of
   // the caster, and its distance from the cone or cylinder is at most its radius. Conservative and
   // monotonic: if true, it is also true for a larger sphere that contains this one, and for a
   // larger caster.
-  bool mayFallOn(const vec3& centre, float radius) const {
-    switch (kind_) {
-      case Kind::none:
-        return false;
-      case Kind::everywhere:
-        return true;
-      case Kind::cone: {
-        const vec3 v = centre - apex_;
-        const float distance2 = glm::dot(v, v), gap = nearest_ - radius;
-        if (gap > 0.0f && distance2 < gap * gap) return false;
-        const float along = glm::dot(v, axis_);
-        const float across2 = std::max(distance2 - along * along, 0.0f);
-        const float cosine2 = cosine_ * cosine_;
-        // Behind the light, where the apex is the nearest point of the cone.
-        if (along < 0.0f && across2 * sine_ * sine_ <= along * along * cosine2)
-          return distance2 <= radius * radius;
-        const float reach = radius + along * sine_;
-        return reach >= 0.0f && across2 * cosine2 <= reach * reach;
-      }
-      case Kind::cylinder: {
-        const vec3 v = centre - apex_;
-        const float along = glm::dot(v, axis_);
-        if (along + radius < nearest_) return false;
-        const float reach = radius_ + radius;
-        return glm::dot(v, v) - along * along <= reach * reach;
-      }
-    }
-    return true;
-  }
+  bool mayFallOn(const vec3& centre, float radius) const;
 
  private:
-  enum class Kind : uint8_t { none, everywhere, cone, cylinder };
-  Kind kind_ = Kind::none;
-  vec3 apex_{0.0f}, axis_{0.0f};  // a cylinder's apex is the centre of the caster
-  float nearest_ = 0.0f;          // near side of the caster: distance from the apex; cylinder:
-                                  // along the axis [m]
-  float sine_ = 0.0f, cosine_ = 1.0f;
-  float radius_ = 0.0f;
-  float before_ = 0.0f;  // how far the caster extends in front of the light's plane [m]
+  bool isParallel_ = false;
+  Cone cone_;
 };
 
 }  // namespace lamplighter

@@ -96,7 +96,7 @@ TEST(Annotate, MarksOfParallelLightLieWhereItLands) {
   view.width = view.height = 200;
   view.eye = vec3(0, 3, 8);
   view.orientation = glm::angleAxis(-0.3f, vec3(1, 0, 0));
-  InspectedLight sun;
+  LightSample sun;
   sun.isLive = true;
   // Its square lies about a point below the floor.
   sun.vpl = test::makeVpl(vec3(1, -2, 0), vec3(0, 1, 0), shared::kVplDirectional);

@@ -92,7 +92,7 @@ TEST_F(LightTableTest, FiguresComeFromTheMethod) {
     EXPECT_EQ(r.figures.mapsPending, 0) << r.name;
   }
   int live = 0;
-  for (const InspectedLight& l : inspection.lights) live += l.isLive;
+  for (const LightSample& l : inspection.lights) live += l.isLive;
   EXPECT_EQ(samples, live);
   EXPECT_GT(live, 0);
   EXPECT_NEAR(share, 1.0, 1e-6);

@@ -90,7 +90,7 @@ TEST(SharedSamples, BordersOfShadowsStaySmooth) {
   const auto picture = [&](bool isShared) {
     test::LitScene lit(scene);
     shared::Vpl vpl = test::makeVpl(vec3(0.3f, 5.0f, 0.1f), vec3(0, -1, 0));
-    vpl.intensity = vec4(vec3(50.0f), 0.0f);
+    vpl.intensity = vec3(50.0f);
     const std::vector vpls{vpl};
     lit.kernels->reserveShadowMaps(1, 512);
     lit.kernels->renderShadowMaps(vpls);

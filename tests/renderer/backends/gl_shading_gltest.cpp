@@ -132,7 +132,7 @@ TEST_F(GlShading, SkyIsSeenWhereNothingIs) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(0.5f), test::addMaterial(scene, vec3(0.5f))));
   std::vector<shared::Vpl> lamp{test::makeVpl(vec3(0, 3, 0), vec3(0, -1, 0))};
-  lamp[0].intensity.w = -1.0f;
+  lamp[0].slot = -1;
   for (Sky sky : {test::gradientSky(), test::cloudySky(), test::sunnySky()}) {
     sky.rotation = sky.kind == SkyKind::image ? 0.8f : 0.0f;
     scene.sky = sky;

@@ -31,9 +31,9 @@ Difference compare(const std::vector<float>& raster, const std::vector<float>& t
 }
 
 std::vector<float> mapOf(LitScene& lit, const shared::Vpl& vpl, int resolution) {
-  lit.kernels->reserveShadowMaps(static_cast<int>(vpl.intensity.w) + 1, resolution);
+  lit.kernels->reserveShadowMaps(vpl.slot + 1, resolution);
   lit.kernels->renderShadowMaps(std::span(&vpl, 1));
-  return lit.kernels->readShadowMap(static_cast<int>(vpl.intensity.w));
+  return lit.kernels->readShadowMap(vpl.slot);
 }
 
 // Where the maps differ a silhouette passes within a texel: a rasteriser snaps corners to a grid.
@@ -72,7 +72,7 @@ TEST_F(GlShadowMap, HasNoHolesAtTheCreases) {
   for (const int resolution : {17, 31, 32, 63, 75, 100, 129}) {
     for (shared::Vpl vpl : test::randomVpls(300, 11)) {
       vpl.position = vec4(0.2f * vec3(vpl.position) + vec3(0, 1.1f, 0), vpl.position.w);
-      vpl.intensity.w = 0.0f;
+      vpl.slot = 0;
       const std::vector<float> r = mapOf(raster, vpl, resolution);
       const Difference d = compare(r, mapOf(traced, vpl, resolution));
       ASSERT_EQ(d.covered, d.texels);
@@ -135,7 +135,7 @@ TEST_F(GlShadowMap, MapsMaySpanSeveralArrays) {
   shared::Vpl vpl = test::randomVpls(1, 1)[0];
   lit.kernels->reserveShadowMaps(5000, 16, 2100);
   std::vector<shared::Vpl> vpls(2100, vpl);
-  for (size_t i = 0; i < vpls.size(); ++i) vpls[i].intensity.w = static_cast<float>(4999 - i);
+  for (size_t i = 0; i < vpls.size(); ++i) vpls[i].slot = static_cast<int>(4999 - i);
   for (size_t first = 0; first < vpls.size(); first += 300)
     lit.kernels->renderShadowMaps(std::span(vpls).subspan(first, 300));
   const std::vector<float> map = lit.kernels->readShadowMap(4999);
@@ -146,7 +146,7 @@ TEST_F(GlShadowMap, MapsMaySpanSeveralArrays) {
   EXPECT_EQ(lit.kernels->lightCounts().mapsHeld, 2100u);
   EXPECT_LE(lit.kernels->lightCounts().mapBytes, 2100u * 16 * 16 * sizeof(float));
 
-  vpl.intensity.w = 7.0f;
+  vpl.slot = 7;
   EXPECT_THROW(lit.kernels->renderShadowMaps(std::span(&vpl, 1)), std::length_error);
   const std::vector<int> dropped = {4999, 2951};
   lit.kernels->dropShadowMaps(dropped);
@@ -161,7 +161,7 @@ TEST_F(GlShadowMap, MapsMaySpanSeveralArrays) {
 TEST_F(GlShadowMap, ASlotHasAMapOfEitherSize) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   std::vector<shared::Vpl> vpls(3, test::randomVpls(1, 1)[0]);
-  for (size_t i = 0; i < vpls.size(); ++i) vpls[i].intensity.w = static_cast<float>(i);
+  for (size_t i = 0; i < vpls.size(); ++i) vpls[i].slot = static_cast<int>(i);
   ManyLightsKernels& kernels = *lit.kernels;
   const auto textures = [&] { return kernels.lightCounts().mapBytes / sizeof(float); };
   kernels.reserveShadowMaps(3, {16, 3}, {64, 2});

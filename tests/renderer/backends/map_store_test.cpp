@@ -43,7 +43,7 @@ class Room {
       sun.tangent.w = (0.3f + 0.3f * static_cast<float>(i)) * world.bounds.radius();
       lights.push_back(sun);
     }
-    for (size_t i = 0; i < lights.size(); ++i) lights[i].intensity.w = static_cast<float>(i);
+    for (size_t i = 0; i < lights.size(); ++i) lights[i].slot = static_cast<int>(i);
   }
 
   RenderSceneChanges moveSomething() {
@@ -103,15 +103,14 @@ TEST_P(KeptMaps, AreThoseMadeFromNothing) {
     for (const shared::Vpl& light : room.lights)
       if (room.number() % 3 != 0) some.push_back(light);
     std::vector<std::vector<float>> before;
-    for (const shared::Vpl& light : some)
-      before.push_back(copyOf(kept.map(static_cast<int>(light.intensity.w))));
+    for (const shared::Vpl& light : some) before.push_back(copyOf(kept.map(light.slot)));
     rays += render(kept, room, some, changes);
     cpu::MapStore anew;
     anew.reserve(slots, {resolution, slots}, {});
     std::vector<cpu::ShadowMapDiff> ofNew;
     raysAnew += render(anew, room, some, ofNew);
     for (size_t i = 0; i < some.size(); ++i) {
-      const int slot = static_cast<int>(some[i].intensity.w);
+      const int slot = some[i].slot;
       const std::vector<float> map = copyOf(kept.map(slot));
       ASSERT_EQ(map, copyOf(anew.map(slot))) << "slot " << slot << ", step " << step;
       ASSERT_EQ(map == before[i], changes[i].extent == cpu::ShadowMapDiff::Extent::nothing);
@@ -198,7 +197,7 @@ TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
         render(anew, room, some, ofNew, size);
         const int resolution = size == MapSize::coarse ? 16 : 64;
         for (size_t i = 0; i < some.size(); ++i) {
-          const int slot = static_cast<int>(some[i].intensity.w);
+          const int slot = some[i].slot;
           MapSize& was = sizes[static_cast<size_t>(slot)];
           ASSERT_EQ(kept.resolution(slot), resolution);
           ASSERT_EQ(copyOf(kept.map(slot)), copyOf(anew.map(slot))) << "step " << step;

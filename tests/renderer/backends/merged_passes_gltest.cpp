@@ -123,7 +123,7 @@ TEST(MergedLists, HoldEachLightOnceInPassesThatAreFull) {
   std::vector<shared::Vpl> vpls;
   for (const SceneVpl& v : generateVpls(render, rays, LightSet(render), {90, 0.5f, 1, 1}).vpls) {
     vpls.push_back(v.vpl);
-    vpls.back().intensity.w = static_cast<float>(vpls.size() - 1);
+    vpls.back().slot = static_cast<int>(vpls.size() - 1);
   }
   VisibilityDatabase database;
   RenderSceneChanges all;

@@ -31,7 +31,7 @@ Scene blocks() {
 }
 
 shared::Vpl colored(shared::Vpl vpl, const vec3& intensity) {
-  vpl.intensity = vec4(intensity, vpl.intensity.w);
+  vpl.intensity = intensity;
   return vpl;
 }
 
@@ -73,7 +73,7 @@ vec3 expectedRadiance(const LitScene& lit, ManyLightsKernels& kernels, const Vie
     const bool occluded =
         directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias, kResolution)
                     : shared::hemisphereOccluded(stored, q, n, centre, kBias, kResolution);
-    if (!occluded) e += g * vec3(vpl.intensity);
+    if (!occluded) e += g * vpl.intensity;
   }
   return s.albedo / kPi * e;
 }

@@ -101,7 +101,7 @@ TEST_F(Views, OcclusionShowsWhatStandsBeforeTheChosenLight) {
 TEST_F(Views, OcclusionIsOfTheChosenLight) {
   settle();
   const auto lights = renderer_.inspect().lights;
-  const auto bounce = std::find_if(lights.begin(), lights.end(), [](const InspectedLight& l) {
+  const auto bounce = std::find_if(lights.begin(), lights.end(), [](const LightSample& l) {
     return l.id.bounce > 0 && l.vpl.normal.y > 0.5f;  // faces away from what lies lower
   });
   ASSERT_NE(bounce, lights.end());
@@ -147,8 +147,8 @@ TEST_F(Views, PartialLightsAreCounted) {
     const uint32_t object = objectOf(node);
     const int leaf = inspection.patches->leafAt(object, 0, at);
     int partial = 0;
-    for (const InspectedLight& light : inspection.lights)
-      partial += inspection.patches->state(object, leaf, light.slot) == Occlusion::partial;
+    for (const LightSample& light : inspection.lights)
+      partial += inspection.patches->state(object, leaf, light.vpl.slot) == Occlusion::partial;
     return partial;
   };
   const int half = count(half_, kHalf), open = count(open_, kOpen);

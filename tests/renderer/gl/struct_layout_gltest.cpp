@@ -75,7 +75,7 @@ TEST_F(StructLayout, OfVpl) {
   using shared::Vpl;
   expectLayout("shared/vpl.h", "Vpl", sizeof(Vpl),
                {MEMBER(Vpl, position), MEMBER(Vpl, normal), MEMBER(Vpl, tangent),
-                MEMBER(Vpl, intensity), MEMBER(Vpl, footprint)});
+                MEMBER(Vpl, intensity), MEMBER(Vpl, slot), MEMBER(Vpl, footprint)});
 }
 
 TEST_F(StructLayout, OfShadingParams) {

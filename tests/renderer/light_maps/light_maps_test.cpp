@@ -147,7 +147,7 @@ TEST(Accumulate, AllAtOnceAreTheSameBitsAsOneByOne) {
   std::vector<shared::Vpl> vpls = test::randomVpls(200, 4);
   for (size_t i = 0; i < vpls.size(); ++i) {
     const float scale = i % 7 == 0 ? 5000.0f : i % 3 == 0 ? 40.0f : 0.3f;
-    vpls[i].intensity = vec4(scale * vec3(vpls[i].intensity), vpls[i].intensity.w);
+    vpls[i].intensity = scale * vpls[i].intensity;
   }
   const Line line = lineOf64();
   const TexelPlaces places = line.places();
@@ -195,7 +195,7 @@ TEST(LightMaps, HoldTheSumOfTheirLights) {
           EXPECT_NE(kept.visibility.state(object, leaf, static_cast<int>(slot)), Occlusion::full);
           ++heldLights;
           e += shared::vplGeometry(kept.lights[slot], at, chart.normal, chart.normal, kClamp) *
-               vec3(kept.lights[slot].intensity);
+               kept.lights[slot].intensity;
         }
         const vec3 found = kept.maps.irradiance(patches, object, leaf, at);
         EXPECT_LT(glm::length(found - e), 1e-4f * glm::length(e) + 1e-5f);

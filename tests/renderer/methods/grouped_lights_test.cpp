@@ -88,17 +88,30 @@ std::vector<shared::Vpl> row(int count, const vec3& step) {
   for (int i = 0; i < count; ++i) {
     vpls.push_back(
         test::makeVpl(vec3(0.01f, 0.01f, 0.01f) + static_cast<float>(i) * step, vec3(0, -1, 0)));
-    vpls.back().intensity = vec4(vec3(1.0f), static_cast<float>(i));
+    vpls.back().intensity = vec3(1.0f);
+    vpls.back().slot = static_cast<int>(i);
   }
   return vpls;
+}
+
+LightSampleTable tableOf(std::span<const shared::Vpl> vpls, const std::vector<uint8_t>& hasMap) {
+  LightSampleTable table;
+  table.samples.resize(vpls.size());
+  table.summed.assign(vpls.begin(), vpls.end());
+  for (size_t slot = 0; slot < vpls.size(); ++slot) {
+    table.samples[slot].vpl = vpls[slot];
+    table.samples[slot].hasMap = hasMap[slot] != 0;
+    table.order.push_back(static_cast<int>(slot));
+  }
+  return table;
 }
 
 TEST(LightProxies, OneWithoutMapLooksUpThatOfItsNeighbour) {
   const auto vpls = row(4, vec3(1, 0, 0));
   LightProxies lightProxies;
-  lightProxies.update(vpls, 4, {1, 0, 1, 0}, {1, 0, 1, 1}, {.share = 0.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 0, 1, 0}), {1, 0, 1, 1}, {.share = 0.0f, .sees = {}});
   ASSERT_EQ(lightProxies.lights().size(), 1u);  // nothing looks up that of light 1
-  const int slot = static_cast<int>(lightProxies.lights()[0].intensity.w);
+  const int slot = lightProxies.lights()[0].slot;
   EXPECT_EQ(lightProxies.mapSlot(slot), 2);
   EXPECT_EQ(lightProxies.mapSlot(3), 3);
   EXPECT_FALSE(lightProxies.isGroup(slot));
@@ -116,10 +129,10 @@ TEST(LightProxies, OneWithoutMapLooksUpThatOfItsNeighbour) {
 TEST(LightProxies, AGroupIsLookedUpOnceWhereItIsFar) {
   const auto vpls = row(4, vec3(0.01f, 0, 0));
   LightProxies lightProxies;
-  lightProxies.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
   ASSERT_GE(lightProxies.groups(), 1u);
   const shared::Vpl group = lightProxies.lights()[0];
-  const auto slot = static_cast<size_t>(group.intensity.w);
+  const auto slot = static_cast<size_t>(group.slot);
   EXPECT_EQ(group.intensity.r, 4.0f);
   EXPECT_TRUE(lightProxies.isGroup(static_cast<int>(slot)));
   const auto usesAt = [&](float y, ShadowMode second) {
@@ -138,7 +151,7 @@ TEST(LightProxies, AGroupIsLookedUpOnceWhereItIsFar) {
     EXPECT_EQ(uses[slot], ShadowMode::skip);
     EXPECT_EQ(uses[0], ShadowMode::subtractShadow);
   }
-  lightProxies.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1},
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1},
                       {.share = 0.3f, .sees = {}});  // too bright
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
@@ -148,7 +161,7 @@ TEST(LightProxies, AGroupIsOneLightForWideLobes) {
   auto vpls = row(4, vec3(0.1f, 0, 0));
   for (shared::Vpl& vpl : vpls) vpl.footprint.x = 0.25f;
   LightProxies lightProxies;
-  lightProxies.update(vpls, 4, {1, 1, 1, 1}, {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
   const auto groupUse = [&](float alpha, ShadowMode use) {
     std::vector<ShadowMode> uses(lightProxies.slots(), ShadowMode::skip);
     std::fill_n(uses.begin(), 4, use);
@@ -156,7 +169,7 @@ TEST(LightProxies, AGroupIsOneLightForWideLobes) {
     lightProxies.apply(vec3(0, -5, 0), 0.5f, &lobes, uses);
     const shared::Vpl& coarsest = lightProxies.lights()[0];
     EXPECT_EQ(coarsest.footprint.x, 1.0f);
-    return uses[static_cast<size_t>(coarsest.intensity.w)];
+    return uses[static_cast<size_t>(coarsest.slot)];
   };
   for (const ShadowMode use : {ShadowMode::add, ShadowMode::addShadowed}) {
     EXPECT_EQ(groupUse(0.3f, use), use);
@@ -190,13 +203,13 @@ TEST(LightProxies, WhatDoesNotSeeEachOtherIsNoGroup) {
   const auto wallAt = [](float x) {
     return [x](const vec3& a, const vec3& b) { return (a.x < x) == (b.x < x); };
   };
-  lightProxies.update(vpls, 4, all, all, {.share = 1.0f, .sees = wallAt(0.025f)});
+  lightProxies.update(tableOf(vpls, all), all, {.share = 1.0f, .sees = wallAt(0.025f)});
   EXPECT_EQ(lightProxies.groups(), 0u);
   // It is gone, and back.
-  lightProxies.update(vpls, 4, all, all,
+  lightProxies.update(tableOf(vpls, all), all,
                       {.share = 1.0f, .sees = wallAt(9.0f), .sceneChanged = true});
   EXPECT_GE(lightProxies.groups(), 1u);
-  lightProxies.update(vpls, 4, all, all,
+  lightProxies.update(tableOf(vpls, all), all,
                       {.share = 1.0f, .sees = wallAt(0.025f), .sceneChanged = true});
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
@@ -207,10 +220,10 @@ TEST(LightProxies, AFewBrightLightsAreNoMeasure) {
   const std::vector<uint8_t> all(8, 1);
   vpls[7].position += vec4(50.0f, 0, 0, 0);
   LightProxies lightProxies;
-  lightProxies.update(vpls, 8, all, all, {.share = 0.2f, .sees = {}});
+  lightProxies.update(tableOf(vpls, all), all, {.share = 0.2f, .sees = {}});
   EXPECT_EQ(lightProxies.groups(), 0u);
-  vpls[7].intensity = vec4(vec3(1e4f), vpls[7].intensity.w);
-  lightProxies.update(vpls, 8, all, all, {.share = 0.15f, .sees = {}});
+  vpls[7].intensity = vec3(1e4f);
+  lightProxies.update(tableOf(vpls, all), all, {.share = 0.15f, .sees = {}});
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
 

@@ -28,8 +28,8 @@ class RecordingKernels : public ManyLightsKernels {
   }
   void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
     for (const shared::Vpl& v : vpls) {
-      maps[static_cast<int>(v.intensity.w)] = v;
-      sizes[static_cast<int>(v.intensity.w)] = size;
+      maps[v.slot] = v;
+      sizes[v.slot] = size;
     }
     rendered += static_cast<int>(vpls.size());
   }
@@ -47,7 +47,8 @@ std::vector<SceneVpl> samples(NodeId light, uint32_t count, float flux, float x)
   for (uint32_t i = 0; i < count; ++i) {
     SceneVpl v;
     v.vpl = test::makeVpl(vec3(x, static_cast<float>(i), 0), vec3(0, -1, 0));
-    v.vpl.intensity = vec4(vec3(flux / static_cast<float>(count)), -1.0f);
+    v.vpl.intensity = vec3(flux / static_cast<float>(count));
+    v.vpl.slot = -1;
     v.id = {light, 0, 0, i};
     vpls.push_back(v);
   }
@@ -60,8 +61,8 @@ class LiveLightsTest : public testing::Test {
   float checkedSum() {
     float sum = 0.0f;
     std::map<int, int> uses;
-    for (const shared::Vpl& v : lights.shown()) {
-      const int slot = static_cast<int>(v.intensity.w);
+    for (const shared::Vpl& v : lights.table().summedInOrder()) {
+      const int slot = v.slot;
       EXPECT_GE(slot, 0);
       EXPECT_LT(slot, lights.slots());
       EXPECT_EQ(++uses[slot], 1);
@@ -106,7 +107,7 @@ TEST_F(LiveLightsTest, AMoveShowsOldAndNewVplsEachWhole) {
   lights.want(samples(1, 100, 5.0f, 7.0f));
   EXPECT_EQ(lights.pending(), 100);
   lights.refresh(kernels, {40});
-  const auto shown = lights.shown();
+  const auto shown = lights.table().summedInOrder();
   ASSERT_EQ(shown.size(), 100u);
   EXPECT_EQ(std::count_if(shown.begin(), shown.end(),
                           [](const shared::Vpl& v) { return v.position.x == 7.0f; }),
@@ -132,7 +133,7 @@ TEST_F(LiveLightsTest, BrightnessAloneNeedsNoMap) {
 TEST_F(LiveLightsTest, MapsBecomeFineTheBrightestFirst) {
   std::vector<SceneVpl> wanted = samples(1, 20, 5.0f, 0.0f);
   for (size_t i = 0; i < wanted.size(); ++i)
-    wanted[i].vpl.intensity *= vec4(vec3(1.0f + static_cast<float>(i)), 1.0f);
+    wanted[i].vpl.intensity *= 1.0f + static_cast<float>(i);
   lights.want(wanted);
   while (lights.pending() > 0) lights.refresh(kernels, {20});
   std::vector<uint8_t> marked(static_cast<size_t>(lights.slots()), 1);
@@ -191,7 +192,7 @@ TEST_F(LiveLightsTest, LightsComeAndGo) {
   EXPECT_EQ(lights.pending(), 0);
   EXPECT_NEAR(checkedSum(), 3.0f, 1e-3f);
   lights.want({});
-  EXPECT_TRUE(lights.shown().empty());
+  EXPECT_TRUE(lights.table().summedInOrder().empty());
 }
 
 TEST_F(LiveLightsTest, OnlyMapsThatSeeTheMoverAreRefreshed) {
@@ -211,7 +212,8 @@ std::vector<SceneVpl> bounced(float x, uint32_t lengthOfFirst = 2) {
     for (uint32_t bounce = 1; bounce <= (path == 0 ? lengthOfFirst : 2); ++bounce) {
       SceneVpl v;
       v.vpl = test::makeVpl(vec3(x, path, bounce), vec3(0, -1, 0));
-      v.vpl.intensity = vec4(vec3(5.0f / 40.0f), -1.0f);
+      v.vpl.intensity = vec3(5.0f / 40.0f);
+      v.vpl.slot = -1;
       v.id = {1, 0, bounce, path};
       vpls.push_back(v);
     }
@@ -236,7 +238,8 @@ TEST_F(LiveLightsTest, APathIsReplacedWhole) {
     ASSERT_LT(frame, 20);
     EXPECT_LE(lights.refresh(kernels, {5}), 4);
     std::map<float, std::map<float, int>> places;  // by path: where its VPLs are
-    for (const shared::Vpl& v : lights.shown()) ++places[v.position.y][v.position.x];
+    for (const shared::Vpl& v : lights.table().summedInOrder())
+      ++places[v.position.y][v.position.x];
     EXPECT_EQ(places.size(), 20u);
     for (const auto& [path, at] : places) {
       EXPECT_EQ(at.size(), 1u);
@@ -265,7 +268,7 @@ TEST_F(LiveLightsTest, APathGetsShorterAndLongerInOneFrame) {
   }
   // One whose light is gone goes at once.
   lights.want({}, {});
-  EXPECT_TRUE(lights.shown().empty());
+  EXPECT_TRUE(lights.table().summedInOrder().empty());
 }
 
 // Back before its turn, it needs nothing.
@@ -284,7 +287,7 @@ TEST_F(LiveLightsTest, LostMapsAreNotShown) {
   lights.want(samples(1, 10, 5.0f, 0.0f));
   settle(100, 5.0f);
   lights.loseMaps();
-  EXPECT_TRUE(lights.shown().empty());
+  EXPECT_TRUE(lights.table().summedInOrder().empty());
   EXPECT_EQ(settle(4, 5.0f), 3);
 }
 

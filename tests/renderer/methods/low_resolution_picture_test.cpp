@@ -105,7 +105,7 @@ struct Wall {
   Image picture(float block) const {
     test::LitScene lit(scene);
     shared::Vpl vpl = test::makeVpl(vec3(-1.5f, 1.9f, 0), vec3(0.2f, -1, 0));
-    vpl.intensity = vec4(vec3(5.0f), 0.0f);
+    vpl.intensity = vec3(5.0f);
     lit.kernels->reserveShadowMaps(1, 256);
     lit.kernels->renderShadowMaps({&vpl, 1});
     lit.backend->renderGBuffer(view, vec2(0.0f));
@@ -140,7 +140,7 @@ TEST(LowResolution, ReachesTheLastRowAndColumn) {
   test::addMesh(scene, test::squareMesh(80.0f, test::addMaterial(scene, vec3(0.8f))));
   test::LitScene lit(scene);
   shared::Vpl vpl = test::makeVpl(vec3(0, 50, 0), vec3(0, -1, 0));
-  vpl.intensity = vec4(vec3(5.0f), 0.0f);
+  vpl.intensity = vec3(5.0f);
   lit.kernels->reserveShadowMaps(1, 64);
   lit.kernels->renderShadowMaps({&vpl, 1});
   for (const glm::ivec2 size : {glm::ivec2(64, 64), glm::ivec2(128, 32), glm::ivec2(96, 256),
@@ -210,7 +210,7 @@ TEST(LowResolution, SpheresBeforeTheSkyAreSummedPixelByPixel) {
   test::LitScene lit(scene);
   const View view = test::lookAt(vec3(0, 0, 3), vec3(0), 64, 64, 0.6f);
   shared::Vpl vpl = test::makeVpl(vec3(0, 2, 4), vec3(0, -0.5f, -1));
-  vpl.intensity = vec4(vec3(5.0f), 0.0f);
+  vpl.intensity = vec3(5.0f);
   const auto picture = [&](float block) {
     lit.kernels->reserveShadowMaps(1, 64);
     lit.kernels->renderShadowMaps({&vpl, 1});

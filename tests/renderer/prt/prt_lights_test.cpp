@@ -70,7 +70,7 @@ class World {
 Vpl brightVpl(const vec3& position, const vec3& normal, float intensity,
               float kind = shared::kVplCosine) {
   Vpl vpl = test::makeVpl(position, normal, kind);
-  vpl.intensity = vec4(intensity * vec3(1.0f, 0.8f, 0.5f), 0.0f);
+  vpl.intensity = intensity * vec3(1.0f, 0.8f, 0.5f);
   return vpl;
 }
 

@@ -32,7 +32,7 @@ class Spheres : public testing::TestWithParam<float> {
     rays_ = std::make_unique<RayCaster>(render_);
     for (int i = 0; i < 12; ++i) {
       shared::Vpl vpl = test::makeVpl(vec3(i, 9, i % 5), vec3(0, -1, 0));
-      vpl.intensity = vec4(vec3(30.0f), 0.0f);
+      vpl.intensity = vec3(30.0f);
       vpls_.push_back(vpl);
     }
     visibility_.setScene(render_, all);

@@ -127,7 +127,7 @@ TEST_F(CheckedSphere, KnowsWhatIsWrong) {
   const RayCaster rays(render_);
   const auto checks = placed();
   shared::Vpl vpl = test::makeVpl(vec3(1, 22, 3), vec3(0, -1, 0));
-  vpl.intensity = vec4(400.0f);
+  vpl.intensity = vec3(400.0f);
   std::vector<uint8_t> hidden(places_.size(), 0);
   uint64_t traced = 0;
   LightErrors out = checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, traced);

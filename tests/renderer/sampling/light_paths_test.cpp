@@ -65,7 +65,7 @@ void expectSame(const std::vector<SceneVpl>& a, const std::vector<SceneVpl>& b) 
 vec3 bouncedSum(const std::vector<SceneVpl>& vpls) {
   vec3 sum(0.0f);
   for (const SceneVpl& v : vpls)
-    if (v.id.bounce > 0) sum += vec3(v.vpl.intensity);
+    if (v.id.bounce > 0) sum += v.vpl.intensity;
   return sum;
 }
 

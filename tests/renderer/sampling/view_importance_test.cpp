@@ -112,7 +112,8 @@ std::vector<SceneVpl> candidatesOf(uint32_t paths) {
   std::vector<SceneVpl> candidates(paths);
   for (uint32_t i = 0; i < paths; ++i) {
     candidates[i].id = {1, 0, 1, i};
-    candidates[i].vpl.intensity = vec4(vec3(1.0f / static_cast<float>(paths)), -1.0f);
+    candidates[i].vpl.intensity = vec3(1.0f / static_cast<float>(paths));
+    candidates[i].vpl.slot = -1;
   }
   return candidates;
 }

@@ -24,7 +24,7 @@ std::vector<SceneVpl> vplsOf(const Scene& scene, const VplCounts& counts) {
 // Sum of intensities by light and bounce.
 std::map<std::pair<NodeId, uint32_t>, vec3> sums(const std::vector<SceneVpl>& vpls) {
   std::map<std::pair<NodeId, uint32_t>, vec3> result;
-  for (const SceneVpl& v : vpls) result[{v.id.light, v.id.bounce}] += vec3(v.vpl.intensity);
+  for (const SceneVpl& v : vpls) result[{v.id.light, v.id.bounce}] += v.vpl.intensity;
   return result;
 }
 
@@ -81,7 +81,7 @@ TEST(VplSet, TooFewSamplesKeepTheFlux) {
   const auto vpls = vplsOf(scene, {2, 0.5f, 0, 1});
   ASSERT_EQ(vpls.size(), 2u);
   vec3 sum(0.0f);
-  for (const SceneVpl& v : vpls) sum += vec3(v.vpl.intensity);
+  for (const SceneVpl& v : vpls) sum += v.vpl.intensity;
   expectNear(sum, vec3(3 * (0.01f + 0.04f + 0.09f + 0.16f + 0.25f)));
 }
 
@@ -92,7 +92,7 @@ TEST(VplSet, ADoubleSidedEmitterShinesFromBothSides) {
   test::addMesh(scene, test::squareMesh(2.0f, glowing));
   vec3 up(0.0f), down(0.0f);
   for (const SceneVpl& v : vplsOf(scene, {64, 0.5f, 0, 1})) {
-    (v.vpl.normal.y > 0.0f ? up : down) += vec3(v.vpl.intensity);
+    (v.vpl.normal.y > 0.0f ? up : down) += v.vpl.intensity;
     EXPECT_GT(v.vpl.position.y * v.vpl.normal.y, 0.0f);  // just off the surface, on its side
   }
   expectNear(up, vec3(2 * 4));
@@ -156,7 +156,7 @@ TEST(VplSet, PunctualLightsAndSky) {
   for (const SceneVpl& v : vpls) {
     if (v.id.light == point) {
       EXPECT_EQ(v.vpl.position.w, shared::kVplUniform);
-      expectNear(vec3(v.vpl.intensity), vec3(1, 2, 3));
+      expectNear(v.vpl.intensity, vec3(1, 2, 3));
     } else if (v.id.light == spot) {
       // 1 within the inner cone, 0 at the outer.
       EXPECT_NEAR(std::cos(0.3f) * v.vpl.normal.w + v.vpl.tangent.w, 1.0f, 1e-4f);
@@ -164,13 +164,13 @@ TEST(VplSet, PunctualLightsAndSky) {
       EXPECT_NEAR(v.vpl.normal.z, -1.0f, 1e-6f);
     } else if (v.id.light == sun) {
       EXPECT_EQ(v.vpl.position.w, shared::kVplDirectional);
-      EXPECT_NEAR(v.vpl.normal.z, 1.0f, 1e-6f);    // towards the light
-      expectNear(vec3(v.vpl.intensity), vec3(7));  // each square in full
+      EXPECT_NEAR(v.vpl.normal.z, 1.0f, 1e-6f);  // towards the light
+      expectNear(v.vpl.intensity, vec3(7));      // each square in full
       ++ofSun;
     } else {
       ASSERT_EQ(v.id.light, kSky);
       ++ofSky;
-      skySum += vec3(v.vpl.intensity);
+      skySum += v.vpl.intensity;
     }
   }
   EXPECT_GT(ofSky, 3);
@@ -285,7 +285,7 @@ TEST(VplSet, SkysOfAllKindsGiveAllTheirLight) {
       EXPECT_EQ(v.vpl.position.w, shared::kVplDirectional);
       ASSERT_EQ(v.id.light, kSky);
       // Squares of a sun give its light to a place each.
-      if (v.id.emitter == 0 || suns.insert(v.id.emitter).second) sum += vec3(v.vpl.intensity);
+      if (v.id.emitter == 0 || suns.insert(v.id.emitter).second) sum += v.vpl.intensity;
       EXPECT_EQ(v.isSample, v.id.emitter == 0);
     }
     EXPECT_EQ(suns.size(), SkySampler(sky).sunCount());

@@ -87,15 +87,15 @@ vec3 expectedRadiance(const LitScene& lit, ManyLightsKernels& kernels, const Vie
     const vec2 at = directional ? shared::directionalEncode(vpl, q) : shared::octahedralEncode(q);
     const vec2 texel = shared::shadowTexel(at, kResolution);
     const vec2 centre = shared::shadowTexelCentre(texel, kResolution);
-    const float stored = kernels.readShadowMap(
-        static_cast<int>(vpl.intensity.w))[static_cast<size_t>(texel.y * kResolution + texel.x)];
+    const float stored =
+        kernels.readShadowMap(vpl.slot)[static_cast<size_t>(texel.y * kResolution + texel.x)];
     const bool occluded =
         directional ? shared::directionalOccluded(vpl, stored, q, n, centre, kBias, kResolution)
                     : shared::hemisphereOccluded(stored, q, n, centre, kBias, kResolution);
     if (occluded) continue;
-    e += g * vec3(vpl.intensity);
-    speculars += vec3(vpl.intensity) *
-                 shared::vplSpecular(vpl, lobe, s.position, s.normal, toEye, g, kClamp);
+    e += g * vpl.intensity;
+    speculars +=
+        vpl.intensity * shared::vplSpecular(vpl, lobe, s.position, s.normal, toEye, g, kClamp);
   }
   if (!shared::isGlossy(gloss.metallic, gloss.roughness)) return s.albedo / kPi * e;
   const float share = shared::diffuseShare(gloss.metallic, gloss.roughness, kLeast, nv);

@@ -46,7 +46,7 @@ TEST_F(GlSpeculars, LookAsOnCpu) {
   const View view = test::lookAt(vec3(3, 3.5f, 3), vec3(0, 0.5f, 0), 97, 64, 1.0f);
   std::vector<shared::Vpl> vpls = test::randomVpls(40, 7);
   for (size_t i = 0; i < vpls.size(); ++i) {
-    vpls[i].intensity.w = static_cast<float>(i);
+    vpls[i].slot = static_cast<int>(i);
     vpls[i].footprint.x = vpls[i].position.w == shared::kVplUniform ? 0.0f : 0.05f;
   }
   const shared::ShadingParams params{vec4(0.3f, 0.002f, 64, 7), vec4(1, 0, 0, 0),

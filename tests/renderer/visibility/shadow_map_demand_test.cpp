@@ -25,7 +25,7 @@ struct Room {
                 .scene;
     update(world, scene, SceneChanges::all());
     std::vector<shared::Vpl> lights = test::lightsOf(world, 60);
-    for (size_t i = 0; i < lights.size(); ++i) lights[i].intensity.w = static_cast<float>(i);
+    for (size_t i = 0; i < lights.size(); ++i) lights[i].slot = static_cast<int>(i);
     RenderSceneChanges all;
     all.rebuilt = true;
     visibility.setScene(world, all);

@@ -41,7 +41,7 @@ struct LitRoom {
     constexpr size_t kTexels = size_t{kResolution} * kResolution;
     maps.resize(kTexels * vpls.size());
     for (size_t i = 0; i < vpls.size(); ++i) {
-      vpls[i].vpl.intensity.w = static_cast<float>(i);
+      vpls[i].vpl.slot = static_cast<int>(i);
       cpu::traceShadowMap(rays, vpls[i].vpl, kResolution, 0, kResolution,
                           {&maps[i * kTexels], kTexels});
       lights.push_back(cpu::makeLightRecord(vpls[i].vpl, &maps[i * kTexels], kResolution));

@@ -78,7 +78,7 @@ class Renderer {
 bool sameLights(const std::vector<shared::Vpl>& a, const std::vector<shared::Vpl>& b) {
   return std::ranges::equal(a, b, [](const shared::Vpl& x, const shared::Vpl& y) {
     return x.position == y.position && x.normal == y.normal && x.tangent == y.tangent &&
-           vec3(x.intensity) == vec3(y.intensity);  // w: shadow map slot
+           x.intensity == y.intensity;
   });
 }
 

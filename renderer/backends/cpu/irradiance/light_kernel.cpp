@@ -230,12 +230,12 @@ LightRecord makeLightRecord(const shared::Vpl& vpl, const float* map, int resolu
                                                        : LightRecord::Kind::directional;
   light.map = map;
   light.resolution = map == nullptr ? 1 : resolution;
-  light.slot = static_cast<int>(vpl.intensity.w);
+  light.slot = vpl.slot;
   light.position = vec3(vpl.position);
   light.normal = vec3(vpl.normal);
   light.tangent = vec3(vpl.tangent);
   light.bitangent = glm::cross(light.normal, light.tangent);
-  light.intensity = vec3(vpl.intensity);
+  light.intensity = vpl.intensity;
   light.coneScale = light.radius = vpl.normal.w;
   light.coneOffset = light.side = vpl.tangent.w;
   light.link = static_cast<uint32_t>(vpl.footprint.y);

@@ -91,7 +91,7 @@ class CpuManyLights final : public ManyLightsKernels {
   void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
     shifted_.forEachSums([](IrradianceAccumulator& sums) { sums.forgetMaps(); });
     for (Light* light : {&still_, &shifted_}) light->speculars.mapsChange();
-    const auto slotOf = [](const shared::Vpl& vpl) { return static_cast<int>(vpl.intensity.w); };
+    const auto slotOf = [](const shared::Vpl& vpl) { return vpl.slot; };
     const auto tellOfOld = [&](IrradianceAccumulator& sums) {
       for (const shared::Vpl& vpl : vpls)
         if (const auto map = maps_.map(slotOf(vpl)); !map.empty())
@@ -122,7 +122,7 @@ class CpuManyLights final : public ManyLightsKernels {
     std::vector<LightRecord> lights;
     lights.reserve(vpls.size());
     for (const shared::Vpl& vpl : vpls) {
-      const int slot = static_cast<int>(vpl.intensity.w);
+      const int slot = vpl.slot;
       const int mapSlot = patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot);
       lights.push_back(makeLightRecord(vpl, mapOf(mapSlot), maps_.resolution(mapSlot)));
       lights.back().mapSlot = mapSlot;

@@ -107,7 +107,7 @@ uint64_t MapStore::render(const RenderScene& scene, const RayCaster& rays,
   movedSince_.clear();
   std::vector<bool> isNew;
   const auto mapOf = [&](const shared::Vpl& light) -> Map& {
-    return maps_[static_cast<size_t>(light.intensity.w)];
+    return maps_[static_cast<size_t>(light.slot)];
   };
   for (const shared::Vpl& light : lights) {
     Map& map = mapOf(light);

@@ -22,7 +22,7 @@ class MapStore {
   void castersChange();
   void castersMove(const RenderScene& scene, const RenderSceneChanges& changes);
 
-  // Renders the map of each light for the slot in its intensity.w. `changes`, one per light,
+  // Renders the map of each light for its slot. `changes`, one per light,
   // receives the part of the map that changed; all of it, if the slot had no map of this size or
   // the light moved. Throws InputError if memory is short. Returns the number of rays.
   uint64_t render(const RenderScene& scene, const RayCaster& rays,

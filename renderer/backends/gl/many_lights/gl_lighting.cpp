@@ -13,7 +13,7 @@ namespace {
 // The location of the map that a VPL uses.
 GlShadowMaps::Place placeOf(const shared::Vpl& vpl, const GlShadowMaps& maps,
                             const PatchLights* patches) {
-  const int slot = static_cast<int>(vpl.intensity.w);
+  const int slot = vpl.slot;
   return maps.place(patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot));
 }
 
@@ -111,7 +111,7 @@ void GlLighting::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSha
   // Slots become layers of their arrays.
   for (const Batch& batch : sum.batches) {
     for (shared::Vpl& vpl : std::span(sum.vpls).subspan(batch.first, batch.count)) {
-      vpl.intensity.w = static_cast<float>(placeOf(vpl, maps, patches).layer);
+      vpl.slot = placeOf(vpl, maps, patches).layer;
     }
   }
 

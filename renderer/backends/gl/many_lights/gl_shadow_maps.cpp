@@ -172,7 +172,7 @@ void GlShadowMaps::render(const GlScene& scene, std::span<const shared::Vpl> vpl
   Pool& pool = poolOf(size);
   int places = 0;
   for (const shared::Vpl& vpl : vpls) {
-    Slot& slot = slots_[static_cast<size_t>(vpl.intensity.w)];
+    Slot& slot = slots_[static_cast<size_t>(vpl.slot)];
     givePlace(slot, size);
     places = std::max(places, slot.place + 1);
   }
@@ -192,7 +192,7 @@ void GlShadowMaps::render(const GlScene& scene, std::span<const shared::Vpl> vpl
 }
 
 void GlShadowMaps::renderMap(const GlScene& scene, const shared::Vpl& vpl, int indexInBuffer) {
-  const int slot = static_cast<int>(vpl.intensity.w);
+  const int slot = vpl.slot;
   const Place at = place(slot);
   glNamedFramebufferTextureLayer(framebuffer_.name(), GL_DEPTH_ATTACHMENT, array(at.array), 0,
                                  at.layer);

@@ -73,13 +73,13 @@ void GlSpeculars::sum(const GlScene& scene, const GlGBuffer& gbuffer, const GlSh
   sorted.reserve(vpls.size());
   for (const shared::Vpl& vpl : vpls) {
     Placed placed{vpl};
-    const int slot = static_cast<int>(vpl.intensity.w);
+    const int slot = vpl.slot;
     if (slot >= 0) {
       if (patches != nullptr && patches->isGroup(slot)) continue;
       const auto [array, layer] = maps.place(patches == nullptr ? slot : patches->mapSlot(slot));
       if (layer == kNone) continue;
       placed.array = array;
-      placed.vpl.intensity.w = static_cast<float>(layer);
+      placed.vpl.slot = layer;
     }
     sorted.push_back(placed);
   }

@@ -29,11 +29,8 @@ Bounds boxOf(const Patch& patch) {
 std::vector<int> hardSlots(std::span<const shared::Vpl> vpls, size_t slots) {
   std::vector<LightStrength> strengths;
   for (const shared::Vpl& vpl : vpls) {
-    const int slot = static_cast<int>(vpl.intensity.w);
-    const bool hasUse = slot >= 0 && static_cast<size_t>(slot) < slots;
-    strengths.push_back(
-        {static_cast<LightStrength::Kind>(static_cast<int>(vpl.position.w)), vec3(vpl.normal),
-         std::max({vpl.intensity.r, vpl.intensity.g, vpl.intensity.b}), hasUse ? slot : -1});
+    const bool hasUse = vpl.slot >= 0 && static_cast<size_t>(vpl.slot) < slots;
+    strengths.push_back(strengthOf(vpl, hasUse ? vpl.slot : -1));
   }
   return hardLights(strengths);
 }
@@ -71,8 +68,7 @@ void LightLists::make(const PatchLights& patches, std::span<const SeenObject> ob
     block.longest.assign(groups.size(), 0);
     block.longestPlain.assign(groups.size(), 0);
     const auto useOf = [&](const shared::Vpl& vpl) {
-      const int slot = static_cast<int>(vpl.intensity.w);
-      return slot < 0 ? ShadowMode::add : uses[static_cast<size_t>(slot)];
+      return vpl.slot < 0 ? ShadowMode::add : uses[static_cast<size_t>(vpl.slot)];
     };
     const auto addPlace = [&](int leaf, bool mapped) {
       const size_t place =

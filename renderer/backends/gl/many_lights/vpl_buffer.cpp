@@ -14,7 +14,7 @@ VplBuffer::VplBuffer() : buffer_(Buffer::make()), texels_(Texture::make(GL_TEXTU
   glNamedBufferStorage(buffer_.name(), capacity_ * static_cast<GLsizeiptr>(sizeof(shared::Vpl)),
                        nullptr, GL_DYNAMIC_STORAGE_BIT);
   static_assert(sizeof(shared::Vpl) == 5 * sizeof(glm::vec4));
-  glTextureBuffer(texels_.name(), GL_RGBA32F, buffer_.name());
+  glTextureBuffer(texels_.name(), GL_RGBA32I, buffer_.name());
 }
 
 std::string VplBuffer::define() const { return "VPLS_A_PASS " + std::to_string(capacity_); }

@@ -139,7 +139,7 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
     for (size_t i = 0; i < slots.size(); ++i)
       which[i] = static_cast<int32_t>((i * 5) % each.size());
     PyramidBatch::Depths ofEach;
-    const PyramidBatch::Mask metEach = batch.mayMeetEach(boxes, which, ofEach);
+    const LightMask metEach = batch.mayMeetEach(boxes, which, ofEach);
     for (size_t i = 0; i < slots.size(); ++i) {
       const OcclusionPyramid alone(lights_[slots[i]], region);
       const auto is = [&](uint32_t mask, size_t bit, bool expected) {

@@ -90,7 +90,7 @@ TEST_P(OccluderHints, OfOtherLightsChangeNoAnswer) {
       std::vector<const PyramidApex*> pointers;
       for (size_t i = first; i < last; ++i) apices.emplace_back(lights_[i]);
       for (const PyramidApex& a : apices) pointers.push_back(&a);
-      const BackFacingLights sides(LightPacket(pointers), region);
+      const BackFacingLights sides(lanesOf(LightPacket(pointers), region), region);
       std::vector<const shared::Vpl*> open;
       for (size_t i = first; i < last; ++i) {
         const OcclusionPyramid pyramid(lights_[i], region);

@@ -42,7 +42,7 @@ TEST(PyramidBatch, MeetsTrianglesAsEachPyramidDoesAlone) {
           glm::mix(region.centre + vec3(next(), next(), next()) - 0.5f,
                    scene.bounds.min + vec3(next(), next(), next()) * scene.bounds.extent(), size);
     const PyramidBatch::Met answer = batch.meets(t);
-    const PyramidBatch::Mask sure = batch.surelyMiss(t, 1e-4f), held = batch.hold(t[0]);
+    const LightMask sure = batch.surelyMiss(t, 1e-4f), held = batch.hold(t[0]);
     for (size_t i = 0; i < some.size(); ++i, ++asked) {
       const OcclusionPyramid alone(*some[i], region);
       const bool expected = alone.meets(t[0], t[1], t[2]);

@@ -1,9 +1,9 @@
-// The planes of an occlusion pyramid through its light and the edges of its patch.
-// occlusion_pyramid.cpp computes four edges of one light at once, pyramid_batch.cpp one edge of
-// eight lights: the same operations with bit-equal results.
+// Planes of occlusion pyramids in the lanes of vectors: four or all planes of one light
+// (pyramid_planes.h), or one plane of eight lights (pyramid_batch.h). Both do the same operations
+// in the same order, with bit-equal results.
 #pragma once
 
-#include "renderer/base/simd.h"
+#include "renderer/visibility/occlusion/light_lanes.h"
 
 namespace lamplighter {
 
@@ -12,10 +12,50 @@ namespace lamplighter {
 inline constexpr float kSumsRounding = 0.125f;
 
 template <typename V>
-struct SidePlanes {
+struct PlaneLanes {
   SimdVec3<V> normal;  // unit, inwards; zero: the plane is left out
   V offset;            // inside: dot(normal, x) + offset >= 0
 };
+
+// Distances of points from planes; positive: inside.
+template <typename V>
+HWY_INLINE V distanceOf(const PlaneLanes<V>& plane, const SimdVec3<V>& point) {
+  auto distance = hn::MulAdd(plane.normal.x, point.x, plane.offset);
+  distance = hn::MulAdd(plane.normal.y, point.y, distance);
+  return hn::MulAdd(plane.normal.z, point.z, distance);
+}
+
+// Distances of the innermost points of boxes.
+template <typename V>
+HWY_INLINE V depthOf(const PlaneLanes<V>& plane, const SimdVec3<V>& centre,
+                     const SimdVec3<V>& half) {
+  auto depth = distanceOf(plane, centre);
+  depth = hn::MulAdd(hn::Abs(plane.normal.x), half.x, depth);
+  depth = hn::MulAdd(hn::Abs(plane.normal.y), half.y, depth);
+  return hn::MulAdd(hn::Abs(plane.normal.z), half.z, depth);
+}
+
+// The half-space in front of a light that is not parallel: no other gets light. Geometry in the
+// light's plane, mainly the surface of the light, does not count as between.
+template <typename Tag>
+HWY_INLINE PlaneLanes<hn::Vec<Tag>> lightPlane(const LightLanes<Tag>& lights) {
+  return {lights.towards, hn::Sub(hn::Neg(lights.margin), dotUnfused(lights.towards, lights.apex))};
+}
+
+// The side of a rectangle where the light is. Geometry in its plane, mainly the patch itself, does
+// not count as between, but on a rough patch there may be geometry between its bumps.
+template <typename Tag>
+HWY_INLINE PlaneLanes<hn::Vec<Tag>> patchPlane(const LightLanes<Tag>& lights,
+                                               const PatchRegion& region) {
+  const Tag tag;
+  const auto normal = setLanes(tag, region.normal), middle = setLanes(tag, region.middle());
+  const auto isAbove = hn::Gt(dotUnfused(wayFrom(region.middle(), lights), normal), hn::Zero(tag));
+  const auto turned = [&](auto v) { return hn::IfThenElse(isAbove, v, hn::Neg(v)); };
+  const SimdVec3<hn::Vec<Tag>> up{turned(normal.x), turned(normal.y), turned(normal.z)};
+  const auto slab = hn::Add(setLanes(tag, region.thickness), lights.margin);
+  const auto slack = region.chart != kNone ? slab : hn::Mul(setLanes(tag, -3.0f), slab);
+  return {up, hn::Sub(slack, dotUnfused(up, middle))};
+}
 
 // `from`: a corner of the patch; `side`: from it to the next corner; `way`: from the light to the
 // corner, or towards the light if that is parallel; `up`: normal of the patch on the side of the
@@ -26,8 +66,8 @@ struct SidePlanes {
 // the light by the offset there, near the patch by the offset there where the plane leans inwards.
 // The planes include this slack at the patch and no more. Geometry hardly above the patch does not
 // count as between; otherwise a wall at the edge of the patch would block all lights.
-template <typename Tag, typename V = hwy::HWY_NAMESPACE::Vec<Tag>>
-HWY_INLINE SidePlanes<V> sidePlanes(Tag tag, const SimdVec3<V>& from, const SimdVec3<V>& side,
+template <typename Tag, typename V = hn::Vec<Tag>>
+HWY_INLINE PlaneLanes<V> sidePlanes(Tag tag, const SimdVec3<V>& from, const SimdVec3<V>& side,
                                     const SimdVec3<V>& way, const SimdVec3<V>& middle,
                                     const SimdVec3<V>& up, V thickness, V margin, bool parallel) {
   const auto all = [&](float v) { return hn::Set(tag, v); };
