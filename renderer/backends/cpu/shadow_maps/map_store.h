@@ -16,7 +16,7 @@ namespace lamplighter::cpu {
 
 class MapStore {
  public:
-  // Like Backend::reserveShadowMaps(). Returns whether all maps were lost.
+  // Like ManyLightsKernels::reserveShadowMaps(). Returns whether all maps were lost.
   bool reserve(int slots, const MapRoom& coarse, const MapRoom& fine);
   // Call before render() when shadow casters changed or moved.
   void castersChange();
