@@ -56,8 +56,10 @@ std::vector<shared::Vpl> lights() {
   vpls[3].footprint.x = 0.05f;
   const vec3 intensities[] = {vec3(3, 2, 1), vec3(0.2f, 0.5f, 0.1f), vec3(5, 1, 9),
                               vec3(0.3f, 0.2f, 0.4f)};
-  for (size_t i = 0; i < vpls.size(); ++i)
-    vpls[i].intensity = vec4(intensities[i], static_cast<float>(i));
+  for (size_t i = 0; i < vpls.size(); ++i) {
+    vpls[i].intensity = intensities[i];
+    vpls[i].slot = static_cast<int>(i);
+  }
   return vpls;
 }
 
