@@ -13,6 +13,7 @@
 #include "renderer/methods/many_lights/options.h"
 #include "renderer/methods/many_lights/part_lights.h"
 #include "renderer/methods/many_lights/refinement.h"
+#include "renderer/methods/many_lights/statistics.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/sampling/light_paths.h"
 #include "renderer/sampling/point_visibility.h"
@@ -34,20 +35,21 @@ class ManyLights final : public GiMethod {
   using Options = ManyLightsOptions;
 
   void takeScene(const FrameInputs& in, const Options& options);
-  void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
+  void updateLights(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
   void takePart(const FrameInputs& in, const Options& options, std::vector<shared::Vpl>& vpls,
                 bool isNew);
   int refreshLights(const FrameInputs& in, const Options& options);
-  void updateVisibility(const FrameInputs& in, Options& options, GiStats& stats);
-  void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
-  void sharpenMaps(const FrameInputs& in, const Options& options, GiStats& stats);
+  void updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats);
+  void updateMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
+  void sharpenMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   static LightMaps::Options lightMapOptions(const FrameInputs& in, const Options& options);
-  void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
-  bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
+  void updateLightMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
+  bool updatePrt(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   std::vector<shared::Vpl> shownBySlot() const;
-  void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out);
+  void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out,
+              ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
                                              const std::shared_ptr<RadianceImage>& picture,
                                              bool isSmooth, Stages& stages);

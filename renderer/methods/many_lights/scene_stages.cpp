@@ -17,7 +17,7 @@ void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
   visibility_->setScene(in.scene, changes);
 }
 
-void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiStats& stats) {
+void ManyLights::updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats) {
   if (!visibility_) return;
   const std::vector<shared::Vpl> shown = shownBySlot();
   visibilityNeeds_ = visibility_->leastBytes(shown.size());
@@ -43,7 +43,8 @@ LightMaps::Options ManyLights::lightMapOptions(const FrameInputs& in, const Opti
           in.backend.info().mostLightMapTexels};
 }
 
-void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
+void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options,
+                                 ManyLightsStats& stats) {
   if (!options.useLightMaps()) {
     lightMaps_.reset();
   } else {
@@ -54,11 +55,12 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
                        &in.view, isAtRest);
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
     stats.lightMapTexel = lightMaps_->texel();
+    stats.lightMapsWithoutRoom = stats.lightMapTexel == 0.0f;
   }
 }
 
 // Returns whether the picture changes.
-bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStats& stats) {
+bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, ManyLightsStats& stats) {
   if (!options.prt || !in.backend.info().takesTransfer) {
     prt_.reset();
     return false;
