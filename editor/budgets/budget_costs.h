@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "editor/document/document.h"
 #include "editor/timeline/timeline.h"
 
 namespace lamplighter {
@@ -15,10 +14,10 @@ struct BudgetCost {
   std::string buys;      // the benefit, as one sentence
 };
 
-// The cost of a budget. Time is the mean over the recorded frames that used the budget. Memory
-// comes from `now`, the statistics of the last frame. Returns nothing if the parameter is not a
-// budget.
-std::optional<BudgetCost> costOf(const std::string& parameter, const Timeline& timeline,
-                                 const GiStats& now, const Settings& settings);
+// The cost of a budget of the method, from the statistics that name it. Time is the mean over the
+// recorded frames that used the budget. Memory comes from `now`, the statistics of the last frame.
+// Returns nothing if the parameter is not a budget.
+std::optional<BudgetCost> costOf(const ParameterSpec& parameter, const MethodInfo& method,
+                                 const Timeline& timeline, const GiStats& now);
 
 }  // namespace lamplighter

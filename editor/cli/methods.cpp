@@ -37,6 +37,11 @@ std::vector<std::string> shownBy(const MethodInfo& m) {
   return out;
 }
 
+const char* kindOf(const StatisticSpec& s) {
+  static constexpr const char* kNames[] = {"state", "work", "pending"};
+  return kNames[static_cast<size_t>(s.kind)];
+}
+
 void printMethodsJson() {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const MethodInfo& m : lamplighter::methods()) {
@@ -59,14 +64,21 @@ void printMethodsJson() {
       }
       j["parameters"].push_back(q);
     }
+    j["statistics"] = nlohmann::ordered_json::array();
+    for (const StatisticSpec& s : m.statistics)
+      j["statistics"].push_back({{"name", s.name},
+                                 {"label", s.label},
+                                 {"unit", s.unit},
+                                 {"kind", kindOf(s)},
+                                 {"meaning", s.meaning}});
     all.push_back(j);
   }
   std::cout << all.dump(2) << '\n';
 }
 
 void printMethodsMarkdown() {
-  std::cout << "# Parameters\n\nWritten by `lamplighter methods --markdown`; set with `--set "
-               "name=value`.\n";
+  std::cout << "# Parameters and statistics\n\nWritten by `lamplighter methods --markdown`. "
+               "Parameters are set with `--set name=value`.\n";
   for (const MethodInfo& m : lamplighter::methods()) {
     std::cout << fmt::format("\n## {}: {}\n\n{}\n\n- Needs: {}.\n", m.name, m.label, m.citation,
                              join(needsOf(m)));
@@ -81,6 +93,10 @@ void printMethodsMarkdown() {
                                kindOf(p), p.unit, Settings::format(p.defaultValue), rangeOf(p),
                                p.help);
     }
+    std::cout << "\nStatistics, as in the JSON of `render --stats`: those of the last frame, and "
+                 "the work of all frames.\n\n| name | kind | unit | |\n| --- | --- | --- | --- |\n";
+    for (const StatisticSpec& s : m.statistics)
+      std::cout << fmt::format("| `{}` | {} | {} | {} |\n", s.name, kindOf(s), s.unit, s.meaning);
   }
 }
 

@@ -33,7 +33,7 @@ namespace {
 
 struct Totals {
   int frames = 0;
-  uint64_t raysOfMethod = 0, visibilityTests = 0;
+  std::vector<Statistic> statistics;
   std::map<std::string, double> stageSeconds;
   double loadSeconds = 0.0, renderSeconds = 0.0;
 };
@@ -42,6 +42,16 @@ uint64_t peakMemoryBytes() {
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
+}
+
+// Each by its name: work of all frames, states of the last one.
+void writeStatistics(const std::vector<Statistic>& statistics, nlohmann::ordered_json& j) {
+  for (const auto& [spec, value] : statistics) {
+    if (spec->isWhole)
+      j[spec->name] = static_cast<uint64_t>(value);
+    else
+      j[spec->name] = value;
+  }
 }
 
 std::string statsText(const RenderOptions& o, const View& view, const GiOutput& out,
@@ -63,33 +73,13 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
                   {"render", t.renderSeconds},
                   {"total", t.loadSeconds + t.renderSeconds}};
   j["stages"] = t.stageSeconds;  // seconds
-  j["vpls"] = out.stats.vpls;
-  if (out.stats.mergedPasses > 0)
-    j["merged_passes"] = {{"drawn", out.stats.mergedPasses}, {"saved", out.stats.passesSaved}};
-  if (out.stats.interpolatedShare > 0.0f) j["interpolated_share"] = out.stats.interpolatedShare;
-  if (out.stats.transferObjects + out.stats.transferObjectsWithoutRoom > 0)
-    j["transfer"] = {{"objects", out.stats.transferObjects},
-                     {"objects_left_to_pixels", out.stats.transferObjectsLeft},
-                     {"lights_left_to_pixels", out.stats.transferLightsLeft},
-                     {"objects_without_room", out.stats.transferObjectsWithoutRoom}};
-  if (out.stats.lightMapTexel > 0.0f) j["light_map_texel"] = out.stats.lightMapTexel;  // m
-  if (out.stats.vplsToRefine > 0) j["vpls_refined"] = out.stats.vplsRefined;
-  j["samples_per_pixel"] = out.stats.samplesPerPixel;
+  writeStatistics(t.statistics, j);
   j["shadow_maps"] = lights.shadowMaps;
   j["light_pixels"] = lights.lightPixels;
   j["map_look_ups"] = lights.lookUps;
-  j["visibility_tests"] = t.visibilityTests;
-  j["rays"] = counts.rays + t.raysOfMethod;
+  j["rays"] = j["rays"].get<uint64_t>() + counts.rays;
   // of the backend: shadow maps, G-buffer, copies of the scene
   j["memory_bytes"] = counts.memoryBytes;
-  // By purpose. memory_bytes already contains the shadow maps and all other memory of the backend.
-  nlohmann::ordered_json& memory = j["memory"];
-  memory["shadow maps"] = lights.mapBytes;
-  memory["shadow maps held"] = lights.mapsHeld;
-  memory["shadow maps without room"] = out.stats.mapsWithoutRoom;
-  memory["rest of the backend"] = counts.memoryBytes - lights.mapBytes;
-  for (const auto& [what, bytes] : out.stats.memoryBytes) memory[what] = bytes;
-  if (out.stats.visibilityNeeds > 0) memory["visibility without room"] = out.stats.visibilityNeeds;
   j["peak_memory_bytes"] = peakMemoryBytes();  // of the whole process
   return j.dump(2) + "\n";
 }
@@ -202,16 +192,11 @@ int render(const RenderOptions& o, const Frontend& frontend) {
     if (totals.frames == 0) requireView(renderer, debugView, o);
     changes = SceneChanges();
     ++totals.frames;
-    totals.raysOfMethod += out.stats.raysTraced;
-    totals.visibilityTests += out.stats.visibilityTests;
+    accumulate(totals.statistics, out.stats.declared);
     for (const auto& [stage, seconds] : out.stats.stageSeconds)
       totals.stageSeconds[stage] += seconds;
-    std::string line =
-        fmt::format("{}: frame {}, {} light samples pending, {} samples a pixel", o.method,
-                    totals.frames, out.stats.vplsPending, out.stats.samplesPerPixel);
-    if (out.stats.vplsToRefine > 0)
-      line += fmt::format(", refined to {} of {} light samples", out.stats.vplsRefined,
-                          out.stats.vplsToRefine);
+    std::string line = fmt::format("{}: frame {}", o.method, totals.frames);
+    for (const StatusText& text : statusTexts(out.stats.declared)) line += ", " + text.text;
     progress.show(line);
   } while (!out.settled || !out.refined);
   const Image& image = out.radiance->pixels();

@@ -12,6 +12,10 @@ using Json = nlohmann::ordered_json;
 
 double microseconds(double seconds) { return 1e6 * seconds; }
 
+uint64_t countOf(const FrameTiming& frame, const StatisticSpec& counter) {
+  return static_cast<uint64_t>(frame.stats.find(counter.name).value_or(0.0));
+}
+
 // A complete event ("X") of the Trace Event Format.
 Json span(const std::string& name, double begin, double seconds) {
   return {{"name", name},
@@ -26,6 +30,7 @@ Json span(const std::string& name, double begin, double seconds) {
 
 std::string chromeTrace(const Timeline& timeline) {
   Json events = Json::array();
+  const auto counters = timeline.counters();
   const double origin = timeline.frames().empty() ? 0.0 : timeline.frames().front().begin;
   for (const FrameTiming& f : timeline.frames()) {
     Json frame = span("frame", f.begin - origin, f.seconds());
@@ -37,12 +42,12 @@ std::string chromeTrace(const Timeline& timeline) {
       events.push_back(span(Timeline::stages()[i], at, f.stageSeconds[i]));
       at += f.stageSeconds[i];
     }
-    for (const Counter& counter : counters())
-      events.push_back({{"name", counter.name},
+    for (const StatisticSpec* counter : counters)
+      events.push_back({{"name", counter->name},
                         {"ph", "C"},
                         {"pid", 1},
                         {"ts", microseconds(f.begin - origin)},
-                        {"args", {{"count", counter.of(f.stats)}}}});
+                        {"args", {{"count", countOf(f, *counter)}}}});
   }
   return Json{{"displayTimeUnit", "ms"}, {"traceEvents", events}}.dump() + '\n';
 }
@@ -55,13 +60,14 @@ std::string timelineCsv(const Timeline& timeline) {
     return name;
   };
   for (const std::string& stage : Timeline::stages()) text += "," + column(stage) + "_ms";
-  for (const Counter& counter : counters()) text += fmt::format(",{}", counter.name);
+  const auto counters = timeline.counters();
+  for (const StatisticSpec* counter : counters) text += "," + counter->name;
   text += '\n';
   const double origin = timeline.frames().empty() ? 0.0 : timeline.frames().front().begin;
   for (const FrameTiming& f : timeline.frames()) {
     text += fmt::format("{},{:.6f},{:.4f}", f.frame, f.begin - origin, 1e3 * f.seconds());
     for (const double seconds : f.stageSeconds) text += fmt::format(",{:.4f}", 1e3 * seconds);
-    for (const Counter& counter : counters()) text += fmt::format(",{}", counter.of(f.stats));
+    for (const StatisticSpec* counter : counters) text += fmt::format(",{}", countOf(f, *counter));
     text += '\n';
   }
   return text;

@@ -29,7 +29,6 @@ void Timeline::add(uint32_t frame, double begin, double end, const GiStats& stat
     rest -= seconds;
   }
   timing.stageSeconds.back() = std::max(rest, 0.0);
-  timing.stats.stageSeconds.clear();
   frames_.push_back(std::move(timing));
   while (frames_.size() > kFramesKept || end - frames_.front().end > kSecondsKept)
     frames_.pop_front();
@@ -46,21 +45,15 @@ double Timeline::meanOf(size_t stage) const {
   return count == 0 ? 0.0 : sum / count;
 }
 
-const std::vector<Counter>& counters() {
-  static const auto of = [](auto value) { return static_cast<uint64_t>(value); };
-  static const std::vector<Counter> all{
-      {"vpls", "Light samples", [](const GiStats& s) { return of(s.vpls); }},
-      {"vpls_refreshed", "Refreshed", [](const GiStats& s) { return of(s.vplsRefreshed); }},
-      {"vpls_pending", "Pending", [](const GiStats& s) { return of(s.vplsPending); }},
-      {"maps_rendered", "Maps rendered", [](const GiStats& s) { return of(s.mapsRendered); }},
-      {"maps_held", "Maps held", [](const GiStats& s) { return of(s.mapsHeld); }},
-      {"visibility_tests", "Visibility tests",
-       [](const GiStats& s) { return of(s.visibilityTests); }},
-      {"light_map_texels", "Light-map texels",
-       [](const GiStats& s) { return of(s.lightMapTexels); }},
-      {"paths_walked", "Paths walked", [](const GiStats& s) { return of(s.pathsWalked); }},
-      {"rays", "Rays", [](const GiStats& s) { return of(s.raysTraced); }},
-  };
+std::vector<const StatisticSpec*> Timeline::counters() const {
+  std::vector<const StatisticSpec*> all;
+  for (const FrameTiming& f : frames_) {
+    for (const Statistic& statistic : f.stats.declared) {
+      const auto isSame = [&](const StatisticSpec* s) { return s->name == statistic.spec->name; };
+      if (statistic.spec->inTimeline && std::none_of(all.begin(), all.end(), isSame))
+        all.push_back(statistic.spec);
+    }
+  }
   return all;
 }
 

@@ -29,20 +29,15 @@ class Timeline {
   const std::deque<FrameTiming>& frames() const { return frames_; }
   // In the order of a frame. The last one, "other", is the remaining time.
   static const std::vector<std::string>& stages();
+  // The counters of all kept frames, in declared order. A frame without one of them did none of its
+  // work.
+  std::vector<const StatisticSpec*> counters() const;
   // Mean seconds of a stage over the kept frames in which it took time.
   double meanOf(size_t stage) const;
 
  private:
   std::deque<FrameTiming> frames_;
 };
-
-struct Counter {
-  const char* name;  // name in files: "maps_rendered"
-  const char* label;
-  uint64_t (*of)(const GiStats& stats);
-};
-// The counters of each frame.
-const std::vector<Counter>& counters();
 
 // The frames as Chrome trace events, for chrome://tracing and Perfetto. Stages follow one another
 // from the start of the frame. A stage that runs twice is one event.

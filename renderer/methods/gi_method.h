@@ -4,11 +4,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "renderer/backends/backend.h"
 #include "renderer/base/parameters.h"
+#include "renderer/base/statistics.h"
 #include "renderer/methods/inspection.h"
 #include "renderer/methods/light_part.h"
 #include "renderer/scene/camera.h"
@@ -36,45 +39,22 @@ struct FrameInputs {
   LightPart part = LightPart::all;  // the light in the picture; a picture of a part is not refined
 };
 
+// What every method says of a frame. A method derives a struct with statistics of its own and
+// declares them in a table (renderer/base/statistics.h).
 struct GiStats {
-  int vpls = 0;                // shown
-  int vplsPending = 0;         // not yet as the scene requires
-  int mapsPending = 0;         // of these, VPLs whose map must be rendered
-  int mapsToSharpen = 0;       // coarse maps that become fine when nothing is pending
-  int oldestFrames = 0;        // frames that the oldest pending VPL has waited
   int framesUntilSettled = 0;  // estimate at this frame's rate, without further changes
-  int vplsRefreshed = 0;       // this frame
-  int mapsRendered = 0;        // in this frame, except fine maps
-  int mapsSharpened = 0;       // in this frame: fine maps rendered
-  int mapsHeld = 0;            // of shown VPLs
-  int mapsWithoutRoom = 0;     // needed maps that do not fit; their VPLs use proxies
-  // bytes, if the visibility database does not fit and is not used; else 0
-  uint64_t visibilityNeeds = 0;
-  int mapsSpared = 0;  // in this frame: a mover was hidden from the light, so its map stays valid
-  // Paths of indirect light in this frame: traced again; of these, the ones that hit something else
-  // now; the ones that were kept. And paths that wait.
-  int pathsWalked = 0, pathsReplaced = 0, pathsKept = 0, pathsPending = 0;
-  uint64_t raysTraced = 0;       // in this frame, by the method
-  uint64_t visibilityTests = 0;  // in this frame: occlusion pyramids against the scene
-  uint64_t lightMapTexels = 0;   // in this frame: texels × lights added or subtracted
-  float lightMapTexel = 0.0f;    // texel spacing that memory allows [m]; 0: no light maps
-  // Of the last sum, with merged passes: the number drawn, and the number saved.
-  int mergedPasses = 0, passesSaved = 0;
-  // share of pixels that the low-resolution pass interpolated in the last sum
-  float interpolatedShare = 0.0f;
-  int transfersPending = 0;    // transfers of objects that are being computed
-  float transferShare = 1.0f;  // progress of the first of them
-  // Objects with transfer; of these, objects whose pixels sum all direct light, because the error
-  // of transfer would be too large; lights that pixels sum for this reason, counted once per other
-  // object. Then: objects without transfer because memory is short.
-  int transferObjects = 0, transferObjectsLeft = 0, transferLightsLeft = 0;
-  int transferObjectsWithoutRoom = 0;
+  // Items that were brought up to date in this frame, at most the parameter `updates`; items that
+  // wait for it; items by which the settled picture was refined, at most refineUpdates.
+  int updates = 0, pending = 0, refineUpdates = 0;
   int samplesPerPixel = 0;
-  // Refinement of a settled picture: the number of VPLs in the mean, the target number, and the
-  // VPLs added in this frame.
-  int vplsRefined = 0, vplsToRefine = 0, mapsRefined = 0;
-  std::map<std::string, double> stageSeconds;   // by stage name
-  std::map<std::string, uint64_t> memoryBytes;  // memory of the method, by purpose
+  uint64_t raysTraced = 0;                     // in this frame, by the method
+  std::map<std::string, double> stageSeconds;  // by stage name
+  std::vector<Statistic> declared;             // in the order of MethodInfo::statistics
+
+  // The value of a declared statistic. Throws std::out_of_range if the method has none of that
+  // name.
+  double of(std::string_view name) const;
+  std::optional<double> find(std::string_view name) const;
 };
 
 struct GiOutput {
@@ -130,6 +110,7 @@ struct MethodInfo {
   std::string label;     // in the panel
   std::string citation;  // of the paper
   std::vector<ParameterSpec> parameters;
+  std::vector<StatisticSpec> statistics;
   // The method on this backend, which must meet its needs and outlive it.
   std::function<std::unique_ptr<GiMethod>(Backend&)> make;
   MethodNeeds needs = {};

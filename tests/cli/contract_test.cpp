@@ -8,6 +8,7 @@
 
 #include "renderer/image/image_io.h"
 #include "renderer/image/tone_map.h"
+#include "renderer/registry/registry.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {
@@ -303,6 +304,8 @@ TEST_F(CommandLine, StatisticsNameWhatTheContractNames) {
         "memory_bytes", "peak_memory_bytes", "frames", "width", "height"}) {
     EXPECT_GT(j[key].get<double>(), 0.0) << key;
   }
+  for (const StatisticSpec& spec : findMethod("many_lights").statistics)
+    EXPECT_TRUE(j.contains(spec.name)) << spec.name;
   for (const char* stage : {"shadow maps", "light sums", "g-buffer"})
     EXPECT_GT(j["stages"][stage].get<double>(), 0.0) << stage;
   EXPECT_GT(j["seconds"]["total"].get<double>(), 0.0);

@@ -37,7 +37,7 @@ void beginPanel(const char* id, const Rect& rect, bool scrolls = true) {
 // Reports the refinement work of a frame as if it were refreshes. Its cost per item differs, so its
 // rate is controlled separately.
 GiStats refinementOf(GiStats stats) {
-  stats.vplsRefreshed = stats.mapsRefined;
+  stats.updates = stats.refineUpdates;
   return stats;
 }
 
@@ -209,7 +209,7 @@ void Application::runAction(const std::string& text) {
 std::optional<int> Application::updatesWithinTime() {
   const auto budget = frameBudgetParameters().read(session_->document().render.values);
   if (timeStep_ > 0.0f || budget.frameTime == 0.0f) return std::nullopt;
-  return std::min(budget.updates, frameTime_.vplsWithin(1e-3 * budget.frameTime));
+  return std::min(budget.updates, frameTime_.updatesWithin(1e-3 * budget.frameTime));
 }
 
 // At rest, the same time is used to refine the picture, but not if work is limited by counts.
@@ -217,7 +217,7 @@ int Application::refineUpdates() {
   if (timeStep_ > 0.0f) return 0;
   const auto budget = frameBudgetParameters().read(session_->document().render.values);
   if (budget.frameTime == 0.0f) return budget.updates;
-  return std::min(budget.updates, refineTime_.vplsWithin(1e-3 * budget.frameTime));
+  return std::min(budget.updates, refineTime_.updatesWithin(1e-3 * budget.frameTime));
 }
 
 // Call after the frame was rendered, so that the text describes the current picture.
@@ -387,7 +387,7 @@ void Application::followExposure() {
   const float& ev = session_->document().render.exposureEv;
   const bool isOurs = !lastExposure_ || (ev == *lastExposure_ && !session_->editing().canUndo());
   if (isOurs) exposeAutomatically();
-  const bool goesOn = isOurs && output.stats.vplsPending > 0;
+  const bool goesOn = isOurs && output.stats.pending > 0;
   framesToExposure_ = goesOn ? kFramesToExposure : 0;
   lastExposure_ = goesOn ? std::optional(ev) : std::nullopt;
 }

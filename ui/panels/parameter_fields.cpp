@@ -80,9 +80,8 @@ bool resetMenu(const PanelContext& ui, const ParameterSpec& spec, bool isSet) {
 }
 
 // Below the slider of a budget: its cost in the last seconds. The tooltip shows its benefit.
-void costLine(const PanelContext& ui, const ParameterSpec& spec, const Settings& settings) {
-  const auto cost =
-      costOf(spec.name, ui.session.watch().timeline, ui.session.output().stats, settings);
+void costLine(const PanelContext& ui, const MethodInfo& method, const ParameterSpec& spec) {
+  const auto cost = costOf(spec, method, ui.session.watch().timeline, ui.session.output().stats);
   if (!cost) return;
   const float start = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
   const float width = ImGui::CalcTextSize(cost->measured.c_str()).x;
@@ -96,7 +95,7 @@ void costLine(const PanelContext& ui, const ParameterSpec& spec, const Settings&
   tooltip(ui, "Mean of the frames of the last seconds that drew upon this budget. " + cost->buys);
 }
 
-void parameterRow(const PanelContext& ui, const ParameterSpec& spec) {
+void parameterRow(const PanelContext& ui, const MethodInfo& method, const ParameterSpec& spec) {
   labelledRow(ui, spec.label.c_str(), spec.help.c_str());
   const auto value = parameterField(ui, spec, ui.session.document().render.values);
   tooltip(ui, spec.help + " Ctrl+click to type a value, right-click to reset it.");
@@ -108,7 +107,7 @@ void parameterRow(const PanelContext& ui, const ParameterSpec& spec) {
     render.values.reset(spec.name);
     ui.session.setRender(render);
   }
-  if (spec.group == ParameterGroup::budgets) costLine(ui, spec, render.values);
+  costLine(ui, method, spec);
 }
 
 }  // namespace
@@ -121,7 +120,7 @@ void parameterSection(const PanelContext& ui, const MethodInfo& method, Paramete
   const bool openAtFirst = group == ParameterGroup::lightSamples;
   if (!section(ui, labelOf(group), openAtFirst)) return;
   for (const ParameterSpec& spec : all)
-    if (isInGroup(spec)) parameterRow(ui, spec);
+    if (isInGroup(spec)) parameterRow(ui, method, spec);
 }
 
 }  // namespace lamplighter

@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <string_view>
 #include <vector>
 
 // For text with an ellipsis, which imgui.h of 1.86 does not declare.
@@ -15,16 +13,13 @@ namespace lamplighter {
 namespace {
 
 struct Part {
-  const char* widget;
+  std::string widget;
   std::string text;
   unsigned colour;
   std::string help;
 };
 using Parts = std::vector<Part>;
 
-// The order in which parts are hidden if space is short. Other parts always stay.
-constexpr std::array kGiveWay = {"backend", "passes",  "interpolated", "transfers", "latency",
-                                 "samples", "pending", "error",        "vpls",      "time"};
 constexpr float kGap = 18.0f;  // gap between two parts, in design pixels
 
 float widthOf(const PanelContext& ui, const Parts& parts) {
@@ -33,12 +28,22 @@ float widthOf(const PanelContext& ui, const Parts& parts) {
   return width;
 }
 
-// Hides parts until the rest fits, the least important first.
+// Hides parts until the rest fits, the least important first. The parts that are not named here
+// always stay.
 void fit(const PanelContext& ui, Parts& parts, float room) {
-  for (const std::string_view name : kGiveWay) {
+  std::vector<std::string> order{"backend", "latency"};
+  const std::vector<StatusText> statistics = statusTexts(ui.session.output().stats.declared);
+  for (auto s = statistics.rbegin(); s != statistics.rend(); ++s) order.push_back(s->name);
+  order.insert(order.end(), {"error", "time"});
+  for (const std::string& name : order) {
     if (widthOf(ui, parts) <= room) return;
     std::erase_if(parts, [&](const Part& p) { return p.widget == name; });
   }
+}
+
+unsigned colourOf(const StatusText& text) {
+  if (!text.isPending) return theme::kText;
+  return text.isZero ? theme::kTextDim : theme::kAccent;
 }
 
 void draw(const PanelContext& ui, const Part& p) {
@@ -89,10 +94,7 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
   const GiStats& stats = output.stats;
   if (output.settled && !output.refined) {
     parts.push_back(
-        {"settled",
-         withIcon(icon::kSettled, "refining, " + grouped(stats.vplsRefined) + " of " +
-                                      grouped(stats.vplsToRefine) + " VPLs"),
-         theme::kGood,
+        {"settled", withIcon(icon::kSettled, "refining"), theme::kGood,
          "The picture is what the scene asks for. While nothing changes it becomes better: the "
          "mean of more and more light samples."});
   } else if (output.settled) {
@@ -110,39 +112,8 @@ Parts partsOf(const PanelContext& ui, const StatusInfo& info) {
   }
   parts.push_back({"time", frameTime(info.frameSeconds), theme::kText,
                    "Time a frame, averaged over the last ones."});
-  if (stats.vpls > 0) {
-    parts.push_back({"vpls", grouped(stats.vpls) + " VPLs", theme::kText,
-                     "Light samples (virtual point lights) that light the picture."});
-    std::string pending = grouped(stats.vplsPending) + " pending";
-    if (stats.vplsPending > 0) pending += ", oldest " + frames(stats.oldestFrames);
-    parts.push_back(
-        {"pending", pending, stats.vplsPending > 0 ? theme::kAccent : theme::kTextDim,
-         "Light samples that wait to be brought up to date, and for how long the oldest has."});
-  }
-  if (stats.transfersPending > 0)
-    parts.push_back({"transfers",
-                     grouped(stats.transfersPending) +
-                         (stats.transfersPending == 1 ? " transfer, " : " transfers, ") +
-                         std::to_string(static_cast<int>(100.0f * stats.transferShare)) + "%",
-                     theme::kAccent,
-                     "Complex meshes whose light transfer is being computed, and how far that of "
-                     "the first is."});
-  if (stats.mergedPasses > 0)
-    parts.push_back(
-        {"passes",
-         grouped(stats.mergedPasses) + (stats.mergedPasses == 1 ? " pass, " : " passes, ") +
-             grouped(stats.passesSaved) + " saved",
-         theme::kText,
-         "Draws for light samples that need their shadow maps, and how many more they would be "
-         "object by object."});
-  if (stats.interpolatedShare > 0.0f)
-    parts.push_back(
-        {"interpolated",
-         std::to_string(static_cast<int>(100.0f * stats.interpolatedShare)) + "% interpolated",
-         theme::kText, "Pixels whose light is taken from the samples about them."});
-  if (stats.samplesPerPixel > 1)
-    parts.push_back({"samples", grouped(stats.samplesPerPixel) + " samples a pixel", theme::kText,
-                     "Paths traced for each pixel so far."});
+  for (const StatusText& text : statusTexts(stats.declared))
+    parts.push_back({text.name, text.text, colourOf(text), text.meaning});
   const FrameWatch& watch = ui.session.watch();
   if (const std::string error = watch.meter.text(); !error.empty())
     parts.push_back(

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "renderer/methods/common_parameters.h"
+#include "renderer/registry/registry.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/theme.h"
 
@@ -185,15 +186,19 @@ void drawCounters(const PanelContext& ui) {
   ImGui::TableNextColumn();
   right("most in one");
   ImGui::PopStyleColor();
-  for (const Counter& counter : counters()) {
-    uint64_t most = counter.of(now);
-    for (const FrameTiming& f : frames) most = std::max(most, counter.of(f.stats));
+  for (const StatisticSpec& spec : findMethod(ui.session.document().render.method).statistics) {
+    if (!spec.inTimeline) continue;
+    const double count = now.find(spec.name).value_or(0.0);
+    double most = count;
+    for (const FrameTiming& f : frames)
+      most = std::max(most, f.stats.find(spec.name).value_or(0.0));
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(counter.label);
+    ImGui::TextUnformatted(spec.label.c_str());
+    tooltip(ui, spec.meaning);
     ImGui::TableNextColumn();
-    right(grouped(static_cast<long long>(counter.of(now))));
+    right(valueText(spec, count));
     ImGui::TableNextColumn();
-    right(grouped(static_cast<long long>(most)));
+    right(valueText(spec, most));
   }
   ImGui::EndTable();
 }

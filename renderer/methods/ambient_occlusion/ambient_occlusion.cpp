@@ -8,6 +8,7 @@
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/methods/ambient_occlusion/accessibility.h"
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/common_statistics.h"
 
 namespace lamplighter {
 namespace {
@@ -37,6 +38,25 @@ const ParameterTable<Parameters>& parameterTable() {
   return table;
 }
 
+struct AmbientOcclusionStats : GiStats {
+  int samples = 0;  // per pixel, in this frame
+};
+
+const StatisticTable<AmbientOcclusionStats>& statisticTable() {
+  static const StatisticTable<AmbientOcclusionStats> table{
+      {&AmbientOcclusionStats::samples,
+       {.name = "samples_added",
+        .label = "Samples added",
+        .unit = "samples a pixel",
+        .meaning = "Rays that were traced for each pixel.",
+        .kind = StatisticKind::work,
+        .inTimeline = true,
+        .budget = "samples_per_frame",
+        .stages = {"paths"}}},
+      commonStatistics()};
+  return table;
+}
+
 constexpr char kView[] = "accessibility";
 
 // Adds some rays per pixel each frame until there are enough; restarts when anything changes.
@@ -54,22 +74,26 @@ class AmbientOcclusion final : public GiMethod {
       sum_.assign(static_cast<size_t>(view_.width) * static_cast<size_t>(view_.height), 0.0f);
       samples_ = 0;
     }
-    GiOutput out;
+    AmbientOcclusionStats stats;
     const int until = std::min(parameters.samplesPerPixel, samples_ + parameters.samplesPerFrame);
     const bool isMore = until > samples_;
     if (!isSame) in.backend.renderGBuffer(in.view, vec2(0.0f));
-    if (isMore) out.stats.raysTraced = addSamples(in, until);
+    stats.samples = until - samples_;
+    if (isMore) stats.raysTraced = addSamples(in, until);
     if (isMore || in.lightOnly != lightOnly_ || in.part != part_) picture_ = compose(in);
     lightOnly_ = in.lightOnly;
     part_ = in.part;
 
-    out.radiance = picture_;
-    out.settled = samples_ == parameters.samplesPerPixel;
-    out.stats.samplesPerPixel = samples_;
-    out.stats.framesUntilSettled =
+    stats.samplesPerPixel = samples_;
+    stats.framesUntilSettled =
         (parameters.samplesPerPixel - samples_ + parameters.samplesPerFrame - 1) /
         parameters.samplesPerFrame;
-    if (in.stopwatch) out.stats.stageSeconds["paths"] = in.stopwatch() - begin;
+    if (in.stopwatch) stats.stageSeconds["paths"] = in.stopwatch() - begin;
+
+    GiOutput out;
+    out.radiance = picture_;
+    out.settled = samples_ == parameters.samplesPerPixel;
+    out.stats = published(stats, statisticTable());
     return out;
   }
 
@@ -150,6 +174,7 @@ MethodInfo ambientOcclusionInfo() {
           "S. Zhukov, A. Iones, G. Kronin: An ambient light illumination model. Eurographics "
           "Rendering Workshop 1998.",
           parameterTable().specs(),
+          statisticTable().specs(),
           [](Backend&) { return std::make_unique<AmbientOcclusion>(); },
           {{Service::rays}},
           {},

@@ -90,7 +90,8 @@ class ManyLights::Stages {
 
 GiOutput ManyLights::render(const FrameInputs& in) {
   GiOutput out;
-  Stages stages(in, out.stats);
+  ManyLightsStats stats;
+  Stages stages(in, stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0);
   const bool wantsVisibility = options.useVisibility();
   if (in.changes.rebuilt || lights_.slots() != neededFor_) visibilityNeeds_ = 0;
@@ -98,30 +99,30 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
   // 1. Find which VPLs the scene requires, and which shown ones are out of date.
   takeScene(in, options);
-  updateLights(in, options, out.stats);
+  updateLights(in, options, stats);
   stages.end("light samples");
 
   // 2. Refresh some of them completely: position, intensity, where their maps are needed,
-  out.stats.vplsRefreshed = refreshLights(options);
-  updateVisibility(in, options, out.stats);
+  stats.updates = refreshLights(options);
+  updateVisibility(in, options, stats);
   stages.end("visibility");
 
   // 3. their maps, if the view needs them, and their unshadowed light.
-  updateMaps(in, options, out.stats);
+  updateMaps(in, options, stats);
   stages.end("shadow maps");
-  sharpenMaps(options, out.stats);
+  sharpenMaps(options, stats);
   stages.end("finer maps");
-  updateLightMaps(in, options, out.stats);
+  updateLightMaps(in, options, stats);
   stages.end("light maps");
-  const bool prtChanged = updatePrt(in, options, out.stats);
+  const bool prtChanged = updatePrt(in, options, stats);
   if (visibility_) visibility_->clearChanged();
   stages.end("transfer");
 
   // 4. Render the picture, if anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
   const bool shadingChanged = options.lightSums() != options_.lightSums() ||
-                              out.stats.lightMapTexel != lightMapTexel_ ||
-                              in.lightOnly != lightOnly_ || in.part != part_;
+                              stats.lightMapTexel != lightMapTexel_ || in.lightOnly != lightOnly_ ||
+                              in.part != part_;
   if (viewChanged) gbufferIsCurrent_ = false;
   if (view_ != in.view || shadingChanged || options.cornerLight != options_.cornerLight)
     corners_.forget();
@@ -138,7 +139,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const bool refinesOtherwise =
       options.refinement() != options_.refinement() || options.antialias != options_.antialias;
   options_ = options;
-  lightMapTexel_ = out.stats.lightMapTexel;
+  lightMapTexel_ = stats.lightMapTexel;
   lightOnly_ = in.lightOnly;
   part_ = in.part;
   started_ = true;
@@ -151,8 +152,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     corners_.outdate();
   }
   samplesWanted_ = options.antialias;
-  const bool isReady = pending == 0 && out.stats.mapsToSharpen == 0 && paths_.isAtRest() &&
-                       choiceIsCurrent_ && out.stats.transfersPending == 0 && !isHasty_ &&
+  const bool isReady = pending == 0 && stats.mapsToSharpen == 0 && paths_.isAtRest() &&
+                       choiceIsCurrent_ && stats.transfersPending == 0 && !isHasty_ &&
                        !(lightMaps_ && lightMaps_->couldBeFiner());
   if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
@@ -166,41 +167,41 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   // 6. Then refine, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
   const bool mayRefine = in.part == LightPart::all;
-  if (out.settled && !shadedNow && mayRefine) refine(in, options, stages, out);
+  if (out.settled && !shadedNow && mayRefine) refine(in, options, stages, out, stats);
   out.refined = out.settled && (options.refine == 0 || refinement_.done() || !mayRefine);
 
-  out.stats.vpls = lights_.live();
-  out.stats.vplsPending = pending;
-  out.stats.mapsPending = pending;
-  out.stats.oldestFrames = lights_.oldestFrames();
+  stats.vpls = lights_.live();
+  stats.pending = pending;
+  stats.oldestFrames = lights_.oldestFrames();
   // An estimate: frames that refresh as many VPLs as this one, then frames for finer maps, and one
   // per antialiasing sample.
-  const int aFrame = std::max({1, out.stats.vplsRefreshed, out.stats.mapsRendered});
+  const int aFrame = std::max({1, stats.updates, stats.mapsRendered});
   const int exchange = paths_.isAtRest() ? 0 : LightPaths::kRestingFrames;
   const int sharper = mapsAFrame(kernels_->traits(), options, mapRooms_.scale());
-  out.stats.framesUntilSettled = std::max((pending + aFrame - 1) / aFrame, exchange) +
-                                 (out.stats.mapsToSharpen + sharper - 1) / sharper + samples -
-                                 samples_;
+  stats.framesUntilSettled = std::max((pending + aFrame - 1) / aFrame, exchange) +
+                             (stats.mapsToSharpen + sharper - 1) / sharper + samples - samples_;
   // Work that cannot be estimated, such as replaced paths, takes at least one frame.
-  if (!out.settled) out.stats.framesUntilSettled = std::max(out.stats.framesUntilSettled, 1);
-  out.stats.mergedPasses = mergedPasses_;
-  out.stats.passesSaved = passesSaved_;
-  out.stats.interpolatedShare = interpolatedShare_;
-  out.stats.samplesPerPixel = std::max(samples_, 1);
-  out.stats.mapsHeld = lights_.mapsHeld();
-  out.stats.mapsWithoutRoom = lights_.withoutMap();
-  out.stats.memoryBytes["shadow maps"] = kernels_->lightCounts().mapBytes;
-  if (visibility_) out.stats.memoryBytes["visibility"] = visibility_->bytes();
-  if (wantsVisibility && !visibility_) out.stats.visibilityNeeds = visibilityNeeds_;
+  if (!out.settled) stats.framesUntilSettled = std::max(stats.framesUntilSettled, 1);
+  stats.mergedPasses = mergedPasses_;
+  stats.passesSaved = passesSaved_;
+  stats.interpolatedShare = interpolatedShare_;
+  stats.samplesPerPixel = std::max(samples_, 1);
+  stats.mapsHeld = lights_.mapsHeld();
+  stats.mapsWithoutRoom = lights_.withoutMap();
+  stats.mapBytes = kernels_->lightCounts().mapBytes;
+  if (visibility_) stats.visibilityBytes = visibility_->bytes();
+  if (wantsVisibility && !visibility_) stats.visibilityBytesNeeded = visibilityNeeds_;
   if (lightMaps_) {
     const LightMaps* part = partLights_.maps();
-    out.stats.memoryBytes["light maps"] = lightMaps_->bytes() + (part ? part->bytes() : 0);
+    stats.lightMapBytes = lightMaps_->bytes() + (part ? part->bytes() : 0);
   }
-  if (prt_) out.stats.memoryBytes["transfer"] = prt_->bytes();
+  if (prt_) stats.transferBytes = prt_->bytes();
+  out.stats = published(stats, manyLightsStatistics());
   return out;
 }
 
-void ManyLights::updateLights(const FrameInputs& in, const Options& options, GiStats& stats) {
+void ManyLights::updateLights(const FrameInputs& in, const Options& options,
+                              ManyLightsStats& stats) {
   const bool sceneChanged = !started_ || !in.changes.none();
   const RayCaster& rays = in.services.rays();
   std::span<const MoverFinder::Mover> movers;
@@ -262,7 +263,7 @@ int ManyLights::refreshLights(const Options& options) {
 }
 
 // Finds again which maps the view needs, if anything changed that affects this.
-void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
+void ManyLights::updateMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats) {
   const auto slots = static_cast<size_t>(lights_.slots());
   if (!visibility_) {
     wanted_.assign(slots, 1);
@@ -275,21 +276,25 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, GiSta
       hasGlossy(in.scene))
     std::fill(wanted_.begin(), wanted_.end(), uint8_t{1});
   // A path is refreshed as a whole, even if it has more VPLs than the budget.
-  const int maps = std::max(mapsAFrame(kernels_->traits(), options, 1), stats.vplsRefreshed);
+  const int maps = std::max(mapsAFrame(kernels_->traits(), options, 1), stats.updates);
   const int refining = Refinement::slots(options.refinement());
   stats.mapsRendered =
       lights_.updateMaps(*kernels_, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
+  if (kernels_->traits().tracesShadowMaps) {
+    const auto side = static_cast<uint64_t>(options.mapResolution);
+    stats.mapRays = side * side * static_cast<uint64_t>(stats.mapsRendered);
+  }
   if (visibility_)
     lightProxies_.update(lights_.table(), wanted_,
                          groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 // Only when all other work is done: the frame after an edit is busy enough.
-void ManyLights::sharpenMaps(const Options& options, GiStats& stats) {
+void ManyLights::sharpenMaps(const Options& options, ManyLightsStats& stats) {
   const int scale = mapRooms_.scale();
   if (scale == 1) return;
-  const bool isDone = lights_.pending() == 0 && stats.vplsRefreshed == 0 &&
-                      stats.mapsRendered == 0 && paths_.isAtRest() && choiceIsCurrent_;
+  const bool isDone = lights_.pending() == 0 && stats.updates == 0 && stats.mapsRendered == 0 &&
+                      paths_.isAtRest() && choiceIsCurrent_;
   if (isDone)
     stats.mapsSharpened =
         lights_.sharpenMaps(*kernels_, wanted_, mapsAFrame(kernels_->traits(), options, scale));
@@ -349,16 +354,16 @@ LightSampleTable ManyLights::takePart(const FrameInputs& in, const Options& opti
 }
 
 void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
-                        GiOutput& out) {
+                        GiOutput& out, ManyLightsStats& stats) {
   if (options.refine == 0) return;
   gbufferIsCurrent_ = false;
   const MapSize size = mapRooms_.scale() > 1 ? MapSize::fine : MapSize::coarse;
-  out.stats.mapsRefined =
+  stats.refineUpdates =
       refinement_.goOn(in, *kernels_, options.refinement(), *out.radiance, lights_.live(),
                        lights_.slots(), size, in.services.budget().refineUpdates);
   if (refinement_.image()) out.radiance = refinement_.image();
-  out.stats.vplsRefined = refinement_.vpls();
-  out.stats.vplsToRefine = options.refine;
+  stats.vplsRefined = refinement_.vpls();
+  stats.vplsToRefine = options.refine;
   stages.end("refinement");
 }
 
@@ -420,6 +425,7 @@ MethodInfo manyLightsInfo() {
           "Many lights",
           "Barczak, Interactive Illumination Using Large Sets of Point Lights, 2006, chapter 4",
           manyLightsParameters().specs(),
+          manyLightsStatistics().specs(),
           [](Backend& backend) {
             return std::make_unique<ManyLights>(backend.kernels<ManyLightsKernels>("many_lights"));
           },

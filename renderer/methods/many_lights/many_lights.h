@@ -14,6 +14,7 @@
 #include "renderer/methods/many_lights/options.h"
 #include "renderer/methods/many_lights/part_lights.h"
 #include "renderer/methods/many_lights/refinement.h"
+#include "renderer/methods/many_lights/statistics.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/sampling/light_paths.h"
 #include "renderer/sampling/point_visibility.h"
@@ -35,18 +36,19 @@ class ManyLights final : public GiMethod {
   using Options = ManyLightsOptions;
 
   void takeScene(const FrameInputs& in, const Options& options);
-  void updateLights(const FrameInputs& in, const Options& options, GiStats& stats);
+  void updateLights(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
                                        Stages& stages);
   LightSampleTable takePart(const FrameInputs& in, const Options& options, bool isNew);
   int refreshLights(const Options& options);
-  void updateVisibility(const FrameInputs& in, Options& options, GiStats& stats);
-  void updateMaps(const FrameInputs& in, const Options& options, GiStats& stats);
-  void sharpenMaps(const Options& options, GiStats& stats);
+  void updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats);
+  void updateMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
+  void sharpenMaps(const Options& options, ManyLightsStats& stats);
   LightMaps::Options lightMapOptions(const Options& options) const;
-  void updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats);
-  bool updatePrt(const FrameInputs& in, const Options& options, GiStats& stats);
-  void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out);
+  void updateLightMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
+  bool updatePrt(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
+  void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out,
+              ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
                                              const std::shared_ptr<RadianceImage>& picture,
                                              bool isSmooth, Stages& stages);

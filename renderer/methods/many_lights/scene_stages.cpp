@@ -17,7 +17,7 @@ void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
   visibility_->setScene(in.scene, changes);
 }
 
-void ManyLights::updateVisibility(const FrameInputs& in, Options& options, GiStats& stats) {
+void ManyLights::updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats) {
   if (!visibility_) return;
   const LightSampleTable& lights = lights_.table();
   visibilityNeeds_ = visibility_->leastBytes(lights.slots());
@@ -42,7 +42,8 @@ LightMaps::Options ManyLights::lightMapOptions(const Options& options) const {
           kernels_->traits().mostLightMapTexels};
 }
 
-void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, GiStats& stats) {
+void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options,
+                                 ManyLightsStats& stats) {
   if (!options.useLightMaps()) {
     lightMaps_.reset();
   } else {
@@ -53,11 +54,12 @@ void ManyLights::updateLightMaps(const FrameInputs& in, const Options& options, 
                        &in.view, isAtRest);
     stats.lightMapTexels = lightMaps_->texelsWritten() - before;
     stats.lightMapTexel = lightMaps_->texel();
+    stats.lightMapsWithoutRoom = stats.lightMapTexel == 0.0f;
   }
 }
 
 // Returns whether the picture changes.
-bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, GiStats& stats) {
+bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, ManyLightsStats& stats) {
   if (!options.prt) {
     prt_.reset();
     return false;

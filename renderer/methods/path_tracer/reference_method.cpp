@@ -6,11 +6,30 @@
 #include <tbb/blocked_range2d.h>
 #include <tbb/parallel_for.h>
 
+#include "renderer/methods/common_statistics.h"
 #include "renderer/methods/path_tracer/parameters.h"
 
 namespace lamplighter {
 
 namespace {
+
+struct PathTracerStats : GiStats {
+  int paths = 0;  // per pixel, in this frame
+};
+
+const StatisticTable<PathTracerStats>& pathTracerStatistics() {
+  static const StatisticTable<PathTracerStats> table{
+      {&PathTracerStats::paths,
+       {.name = "paths_per_pixel",
+        .label = "Paths a pixel",
+        .unit = "paths a pixel",
+        .meaning = "Paths that were traced for each pixel.",
+        .kind = StatisticKind::work,
+        .budget = "samples_per_frame",
+        .stages = {"paths"}}},
+      commonStatistics()};
+  return table;
+}
 
 // Adds some paths per pixel each frame until there are enough; restarts when anything changes.
 class ReferenceMethod final : public GiMethod {
@@ -33,19 +52,22 @@ class ReferenceMethod final : public GiMethod {
       samples_ = 0;
     }
 
-    GiOutput out;
+    PathTracerStats stats;
     const int next = std::min(wanted, samples_ + parameters.samplesPerFrame);
     if (next > samples_) {
-      out.stats.raysTraced = addSamples(in, next);
+      stats.paths = next - samples_;
+      stats.raysTraced = addSamples(in, next);
       picture_ = std::make_shared<HostImage>(mean());
     }
 
+    GiOutput out;
     out.radiance = picture_;
     out.settled = samples_ >= wanted;
-    out.stats.samplesPerPixel = samples_;
+    stats.samplesPerPixel = samples_;
     const int aFrame = std::max(1, parameters.samplesPerFrame);
-    out.stats.framesUntilSettled = (std::max(0, wanted - samples_) + aFrame - 1) / aFrame;
-    if (in.stopwatch) out.stats.stageSeconds["paths"] = in.stopwatch() - begin;
+    stats.framesUntilSettled = (std::max(0, wanted - samples_) + aFrame - 1) / aFrame;
+    if (in.stopwatch) stats.stageSeconds["paths"] = in.stopwatch() - begin;
+    out.stats = published(stats, pathTracerStatistics());
     return out;
   }
 
@@ -103,6 +125,7 @@ MethodInfo referenceInfo() {
           "Veach and L. Guibas: "
           "Optimally combining sampling techniques for Monte Carlo rendering. SIGGRAPH 1995.",
           pathTracerParameters().specs(),
+          pathTracerStatistics().specs(),
           [](Backend&) { return std::make_unique<ReferenceMethod>(); },
           {{Service::rays}}};
 }

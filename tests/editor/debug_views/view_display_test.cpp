@@ -147,7 +147,7 @@ TEST_F(ViewDisplayTest, WaitingSamplesAreMarked) {
   up.translation.y += 0.1f;
   session_.setNodeTransform(box_, up);
   session_.renderFrame();
-  ASSERT_GT(session_.output().stats.vplsPending, 3);
+  ASSERT_GT(session_.output().stats.of("vpls_pending"), 3);
   EXPECT_GT(session_.overlay().shapes.size(), settled + 2);
 }
 

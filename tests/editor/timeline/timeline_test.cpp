@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/base/error.h"
+#include "renderer/methods/many_lights/statistics.h"
 #include "tests/editor/session_fixture.h"
 
 namespace lamplighter {
@@ -20,11 +21,11 @@ size_t indexOf(const std::string& stage) {
 }
 
 GiStats statsOf(double maps, double sums) {
-  GiStats stats;
+  ManyLightsStats stats;
   stats.stageSeconds = {{"shadow maps", maps}, {"light sums", sums}};
   stats.mapsRendered = 12;
   stats.vpls = 300;
-  return stats;
+  return published(stats, manyLightsStatistics());
 }
 
 TEST(Timeline, DividesAFrameIntoStagesAndTheRest) {
@@ -101,7 +102,19 @@ TEST(Timeline, ATraceHasTheStagesWithinTheirFrame) {
   }
   EXPECT_EQ(frames, 2);
   EXPECT_EQ(stages, 6);
-  EXPECT_EQ(counters, 2 * static_cast<int>(lamplighter::counters().size()));
+  EXPECT_EQ(counters, 2 * static_cast<int>(timeline.counters().size()));
+}
+
+TEST(Timeline, HasTheCountersOfTheMethodsOfItsFrames) {
+  Timeline timeline;
+  EXPECT_TRUE(timeline.counters().empty());
+  timeline.add(1, 2.0, 2.1, statsOf(0.01, 0.02));
+  timeline.add(2, 2.1, 2.2, published(GiStats(), commonStatistics()));
+  std::vector<std::string> names;
+  for (const StatisticSpec* counter : timeline.counters()) names.push_back(counter->name);
+  EXPECT_EQ(names, (std::vector<std::string>{"vpls", "vpls_refreshed", "vpls_pending",
+                                             "maps_rendered", "maps_held", "visibility_tests",
+                                             "light_map_texels", "paths_walked", "rays"}));
 }
 
 TEST(Timeline, ATableHasARowAFrame) {

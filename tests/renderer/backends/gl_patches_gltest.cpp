@@ -169,7 +169,7 @@ TEST_F(GlPatches, LightMapsMayLoseTheirRoom) {
     Settings settings = settingsOf("light_maps", 60);
     settings.set("light_map_memory", mebibytes);
     const GiOutput out = test::renderSettled(kept, scene, changes, view, settings);
-    EXPECT_EQ(out.stats.lightMapTexel > 0.0f, mebibytes > 1);
+    EXPECT_EQ(out.stats.of("light_map_texel") > 0.0f, mebibytes > 1);
     EXPECT_TRUE(test::sameBits(out.radiance->pixels(), rendered(makeGlBackend(), scene, settings)))
         << mebibytes;
     changes = {};

@@ -60,17 +60,17 @@ TEST_F(MergedGlPasses, GiveTheSamePictureByFewerDraws) {
     for (const char* technique : {"visibility", "light_maps"}) {
       const GiOutput listed =
           rendered(makeGlBackend(), scene, settingsOf(technique, 150, 6, false));
-      EXPECT_EQ(listed.stats.mergedPasses, 0);
+      EXPECT_EQ(listed.stats.of("merged_passes"), 0);
       for (const int most : {1, 6, 1024}) {
         SCOPED_TRACE(std::string(name) + " " + technique + " " + std::to_string(most));
         const GiOutput merged =
             rendered(makeGlBackend(), scene, settingsOf(technique, 150, most, true));
         EXPECT_LT(compareImages(merged.radiance->pixels(), listed.radiance->pixels()).relRmse,
                   kRounding);
-        EXPECT_GT(merged.stats.mergedPasses, 0);
+        EXPECT_GT(merged.stats.of("merged_passes"), 0);
         // One draw takes all lights of an object at once: then there is little to merge.
         if (most <= 6) {
-          EXPECT_GT(merged.stats.passesSaved, merged.stats.mergedPasses);
+          EXPECT_GT(merged.stats.of("passes_saved"), merged.stats.of("merged_passes"));
         }
       }
     }
@@ -103,14 +103,16 @@ TEST_F(MergedGlPasses, MayBeSwitchedAndLeaveNoTrace) {
     changes = {};
     const GiOutput fresh = rendered(makeGlBackend(), scene, settings);
     EXPECT_TRUE(test::sameBits(switched.radiance->pixels(), fresh.radiance->pixels())) << merge;
-    EXPECT_EQ(switched.stats.mergedPasses, fresh.stats.mergedPasses);
-    EXPECT_EQ(switched.stats.mergedPasses > 0, merge);
+    EXPECT_EQ(switched.stats.of("merged_passes"), fresh.stats.of("merged_passes"));
+    EXPECT_EQ(switched.stats.of("merged_passes") > 0, merge);
   }
   // What has no lists has nothing to merge.
-  EXPECT_EQ(rendered(renderer, scene, {}, settingsOf("naive", 100, 6, true)).stats.mergedPasses, 0);
   EXPECT_EQ(
-      rendered(makeCpuBackend(), scene, settingsOf("light_maps", 100, 6, true)).stats.mergedPasses,
+      rendered(renderer, scene, {}, settingsOf("naive", 100, 6, true)).stats.of("merged_passes"),
       0);
+  EXPECT_EQ(rendered(makeCpuBackend(), scene, settingsOf("light_maps", 100, 6, true))
+                .stats.of("merged_passes"),
+            0);
 }
 
 // The lists themselves: the same entries as before, in the order of their passes, none of which

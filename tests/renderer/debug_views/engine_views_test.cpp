@@ -180,8 +180,8 @@ TEST_F(EngineViews, TheEdgeMaskShowsWhatWasInterpolated) {
     ++all;
   }
   ASSERT_EQ(all, size_t{640} * 300);
-  EXPECT_NEAR(static_cast<float>(between) / static_cast<float>(all), out_.stats.interpolatedShare,
-              0.02f);
+  EXPECT_NEAR(static_cast<float>(between) / static_cast<float>(all),
+              out_.stats.of("interpolated_share"), 0.02f);
   EXPECT_GT(between, 1000u);
   settings_.set("block", std::string("1"));
   settle();

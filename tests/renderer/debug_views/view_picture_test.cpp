@@ -202,7 +202,7 @@ TEST_F(Views, AgeIsOfTheLightThatWaits) {
   for (int frame = 0; frame < 3; ++frame) {
     const GiOutput out = renderer_.render({scene_, changes, view_, "many_lights", settings_});
     changes = {};
-    waiting = out.stats.oldestFrames;
+    waiting = static_cast<int>(out.stats.of("oldest_frames"));
   }
   EXPECT_EQ(waiting, 3);
   const ViewPicture picture = draw(DebugView::mapAge);

@@ -139,9 +139,9 @@ TEST(LightMapMemory, ThePictureStaysNearlyTheSame) {
     return test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
   };
   const GiOutput plenty = render(512), little = render(1);
-  EXPECT_GT(plenty.stats.memoryBytes.at("light maps"), uint64_t{2} << 20);
-  EXPECT_LE(little.stats.memoryBytes.at("light maps"), uint64_t{1} << 20);
-  EXPECT_GT(little.stats.lightMapTexel, plenty.stats.lightMapTexel);
+  EXPECT_GT(plenty.stats.of("light_map_bytes"), uint64_t{2} << 20);
+  EXPECT_LE(little.stats.of("light_map_bytes"), uint64_t{1} << 20);
+  EXPECT_GT(little.stats.of("light_map_texel"), plenty.stats.of("light_map_texel"));
   const double error = compareImages(little.radiance->pixels(), plenty.radiance->pixels()).relRmse;
   RecordProperty("relRmse", std::to_string(error));
   EXPECT_LT(error, 0.01);
@@ -165,9 +165,9 @@ TEST(LightMapMemory, ThePictureFollowsWhatIsLeft) {
     const GiOutput out = test::renderSettled(kept, scene, changes, view, settings);
     FrameRenderer anew(makeCpuBackend());
     const GiOutput fresh = test::renderSettled(anew, scene, SceneChanges::all(), view, settings);
-    EXPECT_EQ(out.stats.lightMapTexel, fresh.stats.lightMapTexel);
+    EXPECT_EQ(out.stats.of("light_map_texel"), fresh.stats.of("light_map_texel"));
     EXPECT_TRUE(test::sameBits(out.radiance->pixels(), fresh.radiance->pixels())) << mebibytes;
-    texels.push_back(out.stats.lightMapTexel);
+    texels.push_back(static_cast<float>(out.stats.of("light_map_texel")));
     changes = {};
   }
   EXPECT_EQ(texels[0], 0.02f);

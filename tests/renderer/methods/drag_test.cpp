@@ -60,9 +60,10 @@ TEST_P(Drag, FollowsWithoutAJumpAndSettlesAsAFreshStart) {
         isLight ? vec3(-0.05f, 0, 0.03f) : vec3(0, 0, -0.06f);
     const GiOutput out = frame(compare(before, room.scene));
     EXPECT_FALSE(out.settled);
-    EXPECT_GT(out.stats.pathsKept, (out.stats.pathsKept + out.stats.pathsReplaced) / 2);
+    EXPECT_GT(out.stats.of("paths_kept"),
+              (out.stats.of("paths_kept") + out.stats.of("paths_replaced")) / 2);
     if (maxPaths > 0) {
-      EXPECT_LE(out.stats.pathsWalked, maxPaths);
+      EXPECT_LE(out.stats.of("paths_walked"), maxPaths);
     }
   }
   GiOutput out;

@@ -59,8 +59,9 @@ TEST_F(FineMapsGl, OnTheWayItIsAsByTheCpuBackend) {
       GiOutput out = renderer.render({scene, SceneChanges::all(), view, "many_lights", settings});
       while (!out.settled) {
         out = renderer.render({scene, {}, view, "many_lights", settings});
-        if (out.stats.vplsPending == 0 && out.stats.mapsToSharpen < out.stats.mapsHeld)
-          pictures[out.stats.mapsToSharpen] = out.radiance->pixels();
+        if (out.stats.of("vpls_pending") == 0 &&
+            out.stats.of("maps_to_sharpen") < out.stats.of("maps_held"))
+          pictures[static_cast<int>(out.stats.of("maps_to_sharpen"))] = out.radiance->pixels();
       }
       return pictures;
     };

@@ -74,21 +74,21 @@ TEST_F(FineMaps, ASettledPictureIsThatOfFineMaps) {
 // As many a frame as the budget has for, and none before all else is done.
 TEST_F(FineMaps, ComeLastAndByTheBudget) {
   GiOutput out = step(SceneChanges::all());
-  while (out.stats.vplsPending > 0) {
+  while (out.stats.of("vpls_pending") > 0) {
     EXPECT_EQ(fine(), 0u);
     EXPECT_FALSE(out.settled);
     out = step();
   }
-  int left = out.stats.mapsToSharpen;
-  EXPECT_EQ(left, out.stats.mapsHeld);
+  int left = static_cast<int>(out.stats.of("maps_to_sharpen"));
+  EXPECT_EQ(left, out.stats.of("maps_held"));
   while (left > 0) {
     EXPECT_FALSE(out.settled);
     const int told = out.stats.framesUntilSettled;
     EXPECT_EQ(told, (left + 9) / 10);
     out = step();
-    EXPECT_EQ(out.stats.mapsSharpened, std::min(left, 10));
-    EXPECT_EQ(out.stats.mapsToSharpen, left - out.stats.mapsSharpened);
-    left = out.stats.mapsToSharpen;
+    EXPECT_EQ(out.stats.of("maps_sharpened"), std::min(left, 10));
+    EXPECT_EQ(out.stats.of("maps_to_sharpen"), left - out.stats.of("maps_sharpened"));
+    left = static_cast<int>(out.stats.of("maps_to_sharpen"));
   }
   EXPECT_TRUE(out.settled);
   const uint64_t rendered = test::lightCounts(renderer.backend()).shadowMaps;
@@ -99,8 +99,8 @@ TEST_F(FineMaps, ComeLastAndByTheBudget) {
   // Rays are counted one by one.
   settings.set("max_rays", 3 * kCoarse * kScale * kCoarse * kScale);
   out = step(move("mover", vec3(0.2f, 0.0f, 0.0f)));
-  while (out.stats.mapsSharpened == 0) out = step();
-  EXPECT_EQ(out.stats.mapsSharpened, std::min(3, 3 + out.stats.mapsToSharpen));
+  while (out.stats.of("maps_sharpened") == 0) out = step();
+  EXPECT_EQ(out.stats.of("maps_sharpened"), std::min(3.0, 3 + out.stats.of("maps_to_sharpen")));
 }
 
 // What an object's move touches is coarse in the next frame, the rest stays fine; what a light's
@@ -110,9 +110,9 @@ TEST_F(FineMaps, WhatAnEditTouchesIsCoarse) {
   const uint64_t held = test::lightCounts(renderer.backend()).mapsHeld;
   ASSERT_EQ(fine(), held);
   GiOutput out = step(move("mover", vec3(0.1f, 0.0f, 0.0f)));
-  EXPECT_GT(out.stats.mapsRendered, 0);
-  EXPECT_EQ(out.stats.mapsSharpened, 0);
-  EXPECT_EQ(held - fine(), static_cast<uint64_t>(out.stats.mapsRendered));
+  EXPECT_GT(out.stats.of("maps_rendered"), 0);
+  EXPECT_EQ(out.stats.of("maps_sharpened"), 0);
+  EXPECT_EQ(held - fine(), static_cast<uint64_t>(out.stats.of("maps_rendered")));
   settle();
   const uint64_t now = test::lightCounts(renderer.backend()).mapsHeld;
   EXPECT_EQ(fine(), now);

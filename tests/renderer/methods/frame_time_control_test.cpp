@@ -13,7 +13,7 @@ struct Machine {
   GiStats frame(int allowed) const {
     const int vpls = std::min(allowed, pending);
     GiStats stats;
-    stats.vplsRefreshed = vpls;
+    stats.updates = vpls;
     stats.stageSeconds = {{"shadow maps", 0.5 * perVpl * vpls},
                           {"light sums", 0.5 * perVpl * vpls + 0.6 * rest},
                           {"g-buffer", 0.4 * rest}};
@@ -22,13 +22,13 @@ struct Machine {
 };
 
 int after(FrameTimeControl& control, const Machine& machine, double seconds, int frames) {
-  for (int i = 0; i < frames; ++i) control.measured(machine.frame(control.vplsWithin(seconds)));
-  return control.vplsWithin(seconds);
+  for (int i = 0; i < frames; ++i) control.measured(machine.frame(control.updatesWithin(seconds)));
+  return control.updatesWithin(seconds);
 }
 
 TEST(FrameTimeControl, FillsTheFrame) {
   FrameTimeControl control;
-  EXPECT_EQ(control.vplsWithin(0.05), 16);
+  EXPECT_EQ(control.updatesWithin(0.05), 16);
   EXPECT_NEAR(after(control, {0.0005, 0.02, 1000}, 0.05, 40), 60, 1);
   EXPECT_NEAR(after(control, {0.0005, 0.02, 1000}, 0.1, 40), 160, 2);
   // The rest alone takes longer: it goes on all the same.
@@ -51,8 +51,8 @@ TEST(FrameTimeControl, FramesWithLittleToDoTakeNoPart) {
 TEST(FrameTimeControl, ASlowFrameDoesNotBringItToAStop) {
   FrameTimeControl control;
   after(control, {0.0005, 0.02, 1000}, 0.05, 40);
-  control.measured(Machine{0.0005, 10.0, 1000}.frame(control.vplsWithin(0.05)));
-  EXPECT_GE(control.vplsWithin(0.05), 16);
+  control.measured(Machine{0.0005, 10.0, 1000}.frame(control.updatesWithin(0.05)));
+  EXPECT_GE(control.updatesWithin(0.05), 16);
   EXPECT_NEAR(after(control, {0.0005, 0.02, 1000}, 0.05, 20), 60, 2);
 }
 

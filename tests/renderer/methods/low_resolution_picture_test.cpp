@@ -72,10 +72,10 @@ TEST_P(LowResolutionPicture, IsTheOneOfAllPixels) {
     };
     const GiOutput all = picture("1"), blocks = picture("4");
     const Metrics m = compareImages(blocks.radiance->pixels(), all.radiance->pixels());
-    const float share = blocks.stats.interpolatedShare;
+    const double share = blocks.stats.of("interpolated_share");
     RecordProperty("relRmse", std::to_string(m.relRmse));
     RecordProperty("interpolated", std::to_string(share));
-    EXPECT_EQ(all.stats.interpolatedShare, 0.0f);
+    EXPECT_EQ(all.stats.of("interpolated_share"), 0.0f);
     EXPECT_LT(m.relRmse, GetParam().mostError);
     EXPECT_NEAR(m.bias, 1.0, 0.002);
     EXPECT_GT(share, GetParam().leastInterpolated);

@@ -87,20 +87,20 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
     return renderer.render({room.scene, changes, room.view, "many_lights", settings});
   };
   GiOutput out = step(SceneChanges::all());
-  EXPECT_EQ(out.stats.vplsRefreshed, 30);
-  EXPECT_EQ(out.stats.vpls, 30);
-  EXPECT_EQ(out.stats.vplsPending, 70);
+  EXPECT_EQ(out.stats.of("vpls_refreshed"), 30);
+  EXPECT_EQ(out.stats.of("vpls"), 30);
+  EXPECT_EQ(out.stats.of("vpls_pending"), 70);
   EXPECT_FALSE(out.settled);
-  EXPECT_EQ(step({}).stats.vplsPending, 40);
-  EXPECT_EQ(step({}).stats.vplsPending, 10);
+  EXPECT_EQ(step({}).stats.of("vpls_pending"), 40);
+  EXPECT_EQ(step({}).stats.of("vpls_pending"), 10);
   out = step({});
   EXPECT_TRUE(out.settled);
-  EXPECT_EQ(out.stats.vplsRefreshed, 10);
+  EXPECT_EQ(out.stats.of("vpls_refreshed"), 10);
   // Of some it is known everywhere in the view whether anything stands between.
   const uint64_t maps = test::lightCounts(renderer.backend()).shadowMaps;
   EXPECT_GT(maps, 80u);
   EXPECT_LE(maps, 100u);
-  EXPECT_EQ(static_cast<uint64_t>(out.stats.mapsHeld), maps);
+  EXPECT_EQ(static_cast<uint64_t>(out.stats.of("maps_held")), maps);
 
   // Nothing to do: no work at all, the same picture.
   const uint64_t sums = test::lightCounts(renderer.backend()).lightPixels;
@@ -181,7 +181,7 @@ TEST(ManyLights, SettledAfterManyMovesEqualsAFreshStart) {
     FrameRenderer fresh(makeCpuBackend());
     const GiOutput opened =
         renderSettled(fresh, room.scene, SceneChanges::all(), room.view, settings);
-    EXPECT_EQ(moved.stats.vpls, opened.stats.vpls);
+    EXPECT_EQ(moved.stats.of("vpls"), opened.stats.of("vpls"));
     EXPECT_TRUE(sameBits(moved.radiance->pixels(), opened.radiance->pixels()));
   }
 }

@@ -61,12 +61,13 @@ TEST(MapMemory, TheBoundHoldsInEveryFrameAndThePictureIsRight) {
     ASSERT_TRUE(out.settled);
     EXPECT_LE(most, 4 * kMebibyte);
     EXPECT_GT(most, 3 * kMebibyte);
-    EXPECT_GT(out.stats.mapsWithoutRoom, 0);
+    EXPECT_GT(out.stats.of("maps_without_room"), 0);
     const double error = compareImages(out.radiance->pixels(), right).relRmse;
     EXPECT_GT(error, 0.0);
     EXPECT_LT(error, 0.05);
-    std::cout << technique << ": " << out.stats.mapsHeld << " maps, " << out.stats.mapsWithoutRoom
-              << " without room, relRMSE " << 100.0 * error << "%\n";
+    std::cout << technique << ": " << out.stats.of("maps_held") << " maps, "
+              << out.stats.of("maps_without_room") << " without room, relRMSE " << 100.0 * error
+              << "%\n";
   }
 }
 
@@ -97,26 +98,26 @@ TEST(MapMemory, OnlyMapsThatTheViewLooksUpAreMade) {
   const Settings settings = settingsOf("light_maps", 400, 256);
   const GiOutput first =
       test::renderSettled(renderer, rooms.scene, SceneChanges::all(), rooms.view, settings);
-  EXPECT_GT(first.stats.mapsHeld, first.stats.vpls / 5);
+  EXPECT_GT(first.stats.of("maps_held"), first.stats.of("vpls") / 5);
   // Of the other room's those few that lie on its floor, from where it is not known whether the
   // bottom of a wall hides the bottom of another.
   const auto lights = renderer.inspect().lights;
   const auto here = std::count_if(lights.begin(), lights.end(),
                                   [](const auto& l) { return l.vpl.position.x < 0.0f; });
-  EXPECT_LE(first.stats.mapsHeld, 11 * here / 10);
+  EXPECT_LE(first.stats.of("maps_held"), 11 * here / 10);
   FrameRenderer all(makeCpuBackend());
   const GiOutput naive = test::renderSettled(all, rooms.scene, SceneChanges::all(), rooms.view,
                                              settingsOf("naive", 400, 256));
-  EXPECT_EQ(naive.stats.mapsHeld, naive.stats.vpls);
+  EXPECT_EQ(naive.stats.of("maps_held"), naive.stats.of("vpls"));
   EXPECT_LT(compareImages(first.radiance->pixels(), naive.radiance->pixels()).relRmse, 0.03);
 
   rooms.look(3.0f, -3.0f);
   const GiOutput gone = test::renderSettled(renderer, rooms.scene, {}, rooms.view, settings);
-  EXPECT_GT(gone.stats.mapsHeld, first.stats.mapsHeld);  // there is room for both
+  EXPECT_GT(gone.stats.of("maps_held"), first.stats.of("maps_held"));  // there is room for both
   FrameRenderer fresh(makeCpuBackend());
   const GiOutput opened =
       test::renderSettled(fresh, rooms.scene, SceneChanges::all(), rooms.view, settings);
-  EXPECT_LT(opened.stats.mapsHeld, gone.stats.mapsHeld);
+  EXPECT_LT(opened.stats.of("maps_held"), gone.stats.of("maps_held"));
   EXPECT_TRUE(test::sameBits(gone.radiance->pixels(), opened.radiance->pixels()));
 }
 
@@ -141,13 +142,13 @@ TEST(MapMemory, MapsComeAndGoWithoutAFlash) {
       out = renderer.render({rooms.scene, changes, rooms.view, "many_lights", settings});
       EXPECT_LE(test::lightCounts(renderer.backend()).mapBytes, 3 * kMebibyte);
       if (visit > 0) {
-        EXPECT_LE(out.stats.mapsRendered, 10);
+        EXPECT_LE(out.stats.of("maps_rendered"), 10);
       }
       frames.push_back(out.radiance->pixels());
     }
     ASSERT_TRUE(out.settled);
     stoodIn += static_cast<int>(frames.size()) - 1;
-    EXPECT_EQ(out.stats.mapsWithoutRoom, 0);
+    EXPECT_EQ(out.stats.of("maps_without_room"), 0);
     // In the first frame of a visit none of this room's lights may have a map at all.
     for (size_t i = 1; i < frames.size(); ++i)
       EXPECT_LT(compareImages(frames[i], frames.back()).relRmse, 0.1) << visit << ", frame " << i;

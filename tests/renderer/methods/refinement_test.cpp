@@ -64,7 +64,7 @@ TEST_F(Refined, ConvergesToThePathTracer) {
   for (const int vpls : {1024, 4096, 16384}) {
     settings.set("refine", vpls);
     const GiOutput out = rest(vpls == 1024 ? SceneChanges::all() : SceneChanges(), true);
-    EXPECT_GE(out.stats.vplsRefined, vpls);
+    EXPECT_GE(out.stats.of("vpls_refined"), vpls);
     const Metrics m = compareImages(out.radiance->pixels(), reference);
     RecordProperty("relRmse" + std::to_string(vpls), std::to_string(m.relRmse));
     RecordProperty("bias" + std::to_string(vpls), std::to_string(m.bias));
@@ -94,7 +94,7 @@ TEST_F(Refined, AnEditDropsBackAndLeavesNoTrace) {
     const Scene old = scene;
     scene.find(box)->local.translation.x += 0.1f;
     GiOutput out = step(compare(old, scene));
-    EXPECT_EQ(out.stats.vplsRefined, 0);
+    EXPECT_EQ(out.stats.of("vpls_refined"), 0);
     EXPECT_FALSE(out.settled);
     EXPECT_FALSE(out.refined);
     while (!out.settled) out = step();
@@ -169,7 +169,7 @@ TEST_F(Refined, KeepsTheBudget) {
     out = step();
     EXPECT_LE(test::lightCounts(renderer->backend()).shadowMaps - maps, 10u);
     EXPECT_EQ(test::lightCounts(renderer->backend()).shadowMaps - maps,
-              static_cast<uint64_t>(out.stats.mapsRefined));
+              static_cast<uint64_t>(out.stats.refineUpdates));
   }
   // And then nothing more is done.
   const auto picture = out.radiance;
@@ -188,7 +188,7 @@ TEST_F(Refined, IsOffUnlessTheCallerLetsIt) {
   out = step({}, false);
   EXPECT_EQ(out.radiance, picture);
   EXPECT_EQ(test::lightCounts(renderer->backend()).shadowMaps, maps);
-  EXPECT_EQ(out.stats.vplsToRefine, 0);
+  EXPECT_EQ(out.stats.of("vpls_to_refine"), 0);
 }
 
 TEST_F(Refined, ScenesWithoutLightAreRefinedAtOnce) {

@@ -183,7 +183,7 @@ TEST(TransferPicture, IsTheSameAfterTheBackgroundAndFromTheCache) {
       out = renderer.render({room.scene, changes, room.view, "many_lights", settings, false, true});
       changes = SceneChanges();
     } while (!out.settled);
-    EXPECT_EQ(out.stats.transfersPending, 0);
+    EXPECT_EQ(out.stats.of("transfers_pending"), 0);
     EXPECT_TRUE(test::sameBits(out.radiance->pixels(), waited)) << isCached;
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
   }
@@ -204,10 +204,10 @@ TEST(TransferPicture, ItsRaysAreOfTheBudget) {
     room.scene.nodes[1].local.translation.x += 0.5f;  // the plate
     return renderer
         .render({room.scene, compare(before, room.scene), room.view, "many_lights", settings})
-        .stats.vplsRefreshed;
+        .stats.of("vpls_refreshed");
   };
   EXPECT_EQ(refreshedOf(false), kMaps);
-  const int with = refreshedOf(true);
+  const double with = refreshedOf(true);
   EXPECT_LT(with, kMaps);
   EXPECT_GT(with, kMaps / 2);
 }

@@ -123,8 +123,8 @@ TEST(VisibilityMemory, ThePictureStaysTheSame) {
     return test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
   };
   const GiOutput plenty = render(512), little = render(1);
-  EXPECT_GT(plenty.stats.memoryBytes.at("visibility"), kMebibyte);
-  EXPECT_LE(little.stats.memoryBytes.at("visibility"), kMebibyte);
+  EXPECT_GT(plenty.stats.of("visibility_bytes"), kMebibyte);
+  EXPECT_LE(little.stats.of("visibility_bytes"), kMebibyte);
   const double error = compareImages(little.radiance->pixels(), plenty.radiance->pixels()).relRmse;
   EXPECT_LT(error, 0.005);
   std::cout << "relRMSE " << 100.0 * error << "%\n";
@@ -149,12 +149,12 @@ TEST(VisibilityMemory, WhereNothingFitsThePictureIsThatOfNaive) {
   FrameRenderer renderer(makeCpuBackend());
   const GiOutput without =
       test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
-  EXPECT_GT(without.stats.visibilityNeeds, kMebibyte);
-  EXPECT_EQ(without.stats.memoryBytes.count("visibility"), 0u);
+  EXPECT_GT(without.stats.of("visibility_bytes_needed"), kMebibyte);
+  EXPECT_EQ(without.stats.of("visibility_bytes"), 0u);
   settings.set("visibility_memory", 512);
   const GiOutput with = test::renderSettled(renderer, scene, {}, view, settings);
-  EXPECT_EQ(with.stats.visibilityNeeds, 0u);
-  EXPECT_GT(with.stats.memoryBytes.at("visibility"), kMebibyte);
+  EXPECT_EQ(with.stats.of("visibility_bytes_needed"), 0u);
+  EXPECT_GT(with.stats.of("visibility_bytes"), kMebibyte);
   settings.set("technique", std::string("naive"));
   FrameRenderer other(makeCpuBackend());
   const GiOutput naive = test::renderSettled(other, scene, SceneChanges::all(), view, settings);

@@ -64,7 +64,7 @@ void drag(benchmark::State& state, const Case& c) {
   const double milliseconds = frameBudgetParameters().read(settings).frameTime;
   const auto frame = [&](const SceneChanges& changes) {
     Settings now = settings;
-    const int fit = c.byTime ? control.vplsWithin(1e-3 * milliseconds) : 100;
+    const int fit = c.byTime ? control.updatesWithin(1e-3 * milliseconds) : 100;
     now.set("updates", std::min(frameBudgetParameters().read(settings).updates, fit));
     GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
     control.measured(out.stats);
@@ -79,14 +79,14 @@ void drag(benchmark::State& state, const Case& c) {
     dragged->local.translation.x += (steps++ / 20) % 2 == 0 ? 0.05f : -0.05f;
     return frame(compare(before, scene));
   };
-  int refreshed = 0, kept = 0, replaced = 0, pending = 0;
+  double refreshed = 0.0, kept = 0.0, replaced = 0.0, pending = 0.0;
   std::map<std::string, double> stages;
   for (auto _ : state) {
     const GiOutput out = step();
-    refreshed += out.stats.vplsRefreshed;
-    kept += out.stats.pathsKept;
-    replaced += out.stats.pathsReplaced;
-    pending += out.stats.vplsPending;
+    refreshed += out.stats.of("vpls_refreshed");
+    kept += out.stats.of("paths_kept");
+    replaced += out.stats.of("paths_replaced");
+    pending += out.stats.of("vpls_pending");
     for (const auto& [name, time] : out.stats.stageSeconds) stages[name] += time;
   }
   std::vector<Image> after;

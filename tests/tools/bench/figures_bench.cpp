@@ -89,12 +89,12 @@ void againstVpls(benchmark::State& state, const std::string& path, const MakeBac
   Moving level(path, make, vpls, vpls);
   level.settle();
   double sums = 0.0, all = 0.0;
-  int maps = 0;
+  double maps = 0.0;
   for (auto _ : state) {
     const GiStats stats = level.moveCamera();
     for (const auto& [stage, time] : stats.stageSeconds) all += time;
     sums += stats.stageSeconds.at("light sums");
-    maps = stats.mapsHeld;
+    maps = stats.of("maps_held");
   }
   state.counters["sums_percent"] = 100.0 * sums / all;
   state.counters["maps"] = maps;

@@ -44,8 +44,8 @@ void editLatency(benchmark::State& state, const std::string& scenePath, const st
   const auto frame = [&](const SceneChanges& changes) {
     Settings now = settings;
     const double budget = 1e-3 * frameBudgetParameters().read(settings).frameTime;
-    now.set("updates",
-            std::min(frameBudgetParameters().read(settings).updates, control.vplsWithin(budget)));
+    now.set("updates", std::min(frameBudgetParameters().read(settings).updates,
+                                control.updatesWithin(budget)));
     const double begin = seconds();
     const GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
     renderer.backend().finish();

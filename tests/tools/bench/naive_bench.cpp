@@ -55,10 +55,10 @@ void cameraMoves(benchmark::State& state, const std::string& name, const MakeBac
   const auto frame = [&](const SceneChanges& changes) {
     return renderer.render({level.scene, changes, level.view, "many_lights", settings});
   };
-  int shown = frame(SceneChanges::all()).stats.vpls;
+  double shown = frame(SceneChanges::all()).stats.of("vpls");
   for (auto _ : state) {
     level.view.eye.x += 0.001f;
-    shown = frame({}).stats.vpls;
+    shown = frame({}).stats.of("vpls");
     renderer.backend().finish();
   }
   state.counters["vpls"] = shown;
@@ -77,12 +77,12 @@ void objectMoves(benchmark::State& state, const std::string& name, const MakeBac
   frame(SceneChanges::all());
   SceneChanges moved;
   moved.moved = {level.mover};
-  int maps = 0;
+  double maps = 0.0;
   float step = 0.01f;
   for (auto _ : state) {
     level.scene.find(level.mover)->local.translation.x += step;
     step = -step;
-    maps = frame(moved).stats.mapsRendered;
+    maps = frame(moved).stats.of("maps_rendered");
     renderer.backend().finish();
   }
   state.counters["maps"] = maps;

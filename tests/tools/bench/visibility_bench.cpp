@@ -222,10 +222,11 @@ void frames(benchmark::State& state, const Case& c, const std::string& technique
     view.eye.x += 0.001f;
     frame({});
   }
-  if (stats.interpolatedShare > 0.0f) state.counters["interpolated"] = stats.interpolatedShare;
+  if (stats.of("interpolated_share") > 0.0f)
+    state.counters["interpolated"] = stats.of("interpolated_share");
   if (!merge) return;
-  state.counters["passes"] = stats.mergedPasses;
-  state.counters["saved"] = stats.passesSaved;
+  state.counters["passes"] = stats.of("merged_passes");
+  state.counters["saved"] = stats.of("passes_saved");
 }
 
 template <typename F, typename... More>

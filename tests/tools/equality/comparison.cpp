@@ -57,7 +57,7 @@ class Renderer {
       out = frames_.render({scene_, changes_, view, "many_lights", settings});
       changes_ = SceneChanges();
     } while (!out.settled);
-    if (out.stats.mapsWithoutRoom > 0 || out.stats.visibilityNeeds > 0)
+    if (out.stats.of("maps_without_room") > 0 || out.stats.of("visibility_bytes_needed") > 0)
       throw std::runtime_error("too little memory for the technique that is asked for");
     return {out.radiance->pixels(), test::shownLights(frames_.inspect())};
   }

@@ -1,0 +1,18 @@
+// Statistics that every method has, and how a method returns its own.
+#pragma once
+
+#include "renderer/methods/gi_method.h"
+
+namespace lamplighter {
+
+const StatisticTable<GiStats>& commonStatistics();
+
+// The statistics of a frame as GiOutput has them.
+template <std::derived_from<GiStats> Stats>
+GiStats published(const Stats& stats, const StatisticTable<Stats>& table) {
+  GiStats out = stats;
+  out.declared = table.of(stats);
+  return out;
+}
+
+}  // namespace lamplighter
