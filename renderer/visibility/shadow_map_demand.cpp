@@ -69,7 +69,7 @@ std::vector<uint8_t> shadowMapDemand(const VisibilityDatabase& visibility, const
   const PotentiallyVisiblePatches seen(view);
   const size_t slots = visibility.slots();
   const shared::Vpl eye{vec4(view.eye, shared::kVplUniform), vec4(view.forward(), 0.0f),
-                        vec4(view.right(), 1.0f), vec4(0.0f)};
+                        vec4(view.right(), 1.0f), vec3(0.0f), 0};
   tbb::enumerable_thread_specific<std::vector<uint8_t>> found(
       [&] { return std::vector<uint8_t>(slots, 0); });
   // The jobs are roots and not objects, because a level may be a single object.

@@ -29,8 +29,7 @@ shared::Vpl makeVpl(const vec3& position, const vec3& normal, float kind, float 
   const vec3 n = glm::normalize(normal);
   const Frame frame(n);
   const vec3 tangent = std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent;
-  return {vec4(position, kind), vec4(n, 0.0f), vec4(glm::normalize(tangent), 1.0f),
-          vec4(1.0f, 1.0f, 1.0f, 0.0f)};
+  return {vec4(position, kind), vec4(n, 0.0f), vec4(glm::normalize(tangent), 1.0f), vec3(1.0f), 0};
 }
 
 GiOutput renderSettled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
