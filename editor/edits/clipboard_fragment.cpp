@@ -144,9 +144,9 @@ PastedNodes pasteInto(Editing& editing, const ClipboardFragment& fragment, bool 
 }
 
 void add(Transaction& edit, PastedNodes pasted) {
-  for (auto& mesh : pasted.meshes) edit.addMesh(std::move(mesh));
-  for (Material& material : pasted.materials) edit.addMaterial(std::move(material));
-  for (Texture& texture : pasted.textures) edit.addTexture(std::move(texture));
+  for (auto& mesh : pasted.meshes) edit.add(std::move(mesh));
+  for (Material& material : pasted.materials) edit.add(std::move(material));
+  for (Texture& texture : pasted.textures) edit.add(std::move(texture));
   edit.addNodes(std::move(pasted.nodes));
 }
 

@@ -38,111 +38,102 @@ Transaction& Transaction::operator=(Transaction&& other) noexcept {
   return *this;
 }
 
-template <typename Record>
-Document& Transaction::recorded(Record record) {
-  Document& document = editing_->document_;
-  editing_->recordInAll([&](DocumentChange& change) { record(change, document); });
-  return document;
+Document& Transaction::document() { return editing_->document_; }
+
+template <typename T>
+T& Transaction::recorded(Change<T> DocumentChange::*part, T& value) {
+  editing_->recordInAll([&](DocumentChange& c) { DocumentChange::record(c.*part, value); });
+  return value;
+}
+
+template <typename T>
+T& Transaction::recorded(ItemChanges<T> DocumentChange::*part, std::vector<T>& list, size_t index) {
+  editing_->recordInAll(
+      [&](DocumentChange& c) { DocumentChange::recordItem(c.*part, list, index); });
+  if (index == list.size()) list.emplace_back();
+  return list.at(index);
 }
 
 Node& Transaction::node(NodeId id) {
-  Node* node = editing_->document_.scene.find(id);
+  Scene& scene = document().scene;
+  Node* node = scene.find(id);
   if (node == nullptr) throw InputError("object", "it is not there any more", "select another");
-  recorded([&](DocumentChange& c, const Document& d) { c.recordNode(d.scene, id); });
+  editing_->recordInAll([&](DocumentChange& c) { c.recordNode(scene, id); });
   return *node;
 }
 
 Material& Transaction::material(int index) {
-  const auto i = static_cast<size_t>(index);
-  return recorded([&](DocumentChange& c, const Document& d) {
-           c.recordItem(c.materials, d.scene.materials, i);
-         })
-      .scene.materials.at(i);
+  return recorded(&DocumentChange::materials, document().scene.materials,
+                  static_cast<size_t>(index));
 }
 
 Sky& Transaction::sky() {
-  Scene& scene = recorded([](DocumentChange& c, const Document& d) {
-                   c.record(c.sky, d.scene.sky);
-                   c.record(c.skyIsDefault, d.scene.skyIsDefault);
-                 }).scene;
-  scene.skyIsDefault = false;
-  return scene.sky;
+  recorded(&DocumentChange::skyIsDefault, document().scene.skyIsDefault) = false;
+  return recorded(&DocumentChange::sky, document().scene.sky);
 }
 
 LightState& Transaction::skyLight() {
-  return recorded(
-             [](DocumentChange& c, const Document& d) { c.record(c.skyLight, d.scene.skyLight); })
-      .scene.skyLight;
+  return recorded(&DocumentChange::skyLight, document().scene.skyLight);
 }
 
 std::vector<LightGroup>& Transaction::lightGroups() {
-  return recorded([](DocumentChange& c, const Document& d) {
-           c.record(c.lightGroups, d.scene.lightGroups);
-         })
-      .scene.lightGroups;
+  return recorded(&DocumentChange::lightGroups, document().scene.lightGroups);
 }
 
 std::vector<CameraBookmark>& Transaction::bookmarks() {
-  return recorded(
-             [](DocumentChange& c, const Document& d) { c.record(c.bookmarks, d.scene.bookmarks); })
-      .scene.bookmarks;
+  return recorded(&DocumentChange::bookmarks, document().scene.bookmarks);
 }
 
 RenderSettings& Transaction::render() {
-  return recorded([](DocumentChange& c, const Document& d) { c.record(c.render, d.render); })
-      .render;
+  return recorded(&DocumentChange::render, document().render);
 }
 
 void Transaction::setNodes(std::vector<Node> nodes) {
   for (Node& n : nodes) {
-    if (editing_->document_.scene.find(n.id) != nullptr) node(n.id) = std::move(n);
+    if (document().scene.find(n.id) != nullptr) node(n.id) = std::move(n);
   }
 }
 
 void Transaction::addNodes(std::vector<Node> nodes) {
-  Scene& scene = recorded([&](DocumentChange& c, const Document& d) {
-                   c.recordOrder(d.scene);
-                   for (const Node& n : nodes) c.nodes.try_emplace(n.id);
-                 }).scene;
+  Scene& scene = document().scene;
+  editing_->recordInAll([&](DocumentChange& c) {
+    c.recordOrder(scene);
+    for (const Node& n : nodes) c.recordNode(scene, n.id);
+  });
   std::move(nodes.begin(), nodes.end(), std::back_inserter(scene.nodes));
 }
 
 void Transaction::removeNodes(const std::vector<NodeId>& ids) {
-  const std::vector<bool> isRemoved = withDescendants(editing_->document_.scene, ids);
-  Scene& scene = recorded([&](DocumentChange& c, const Document& d) {
-                   c.recordOrder(d.scene);
-                   for (size_t i = 0; i < isRemoved.size(); ++i)
-                     if (isRemoved[i]) c.recordNode(d.scene, d.scene.nodes[i].id);
-                 }).scene;
+  Scene& scene = document().scene;
+  const std::vector<bool> isRemoved = withDescendants(scene, ids);
+  editing_->recordInAll([&](DocumentChange& c) {
+    c.recordOrder(scene);
+    for (size_t i = 0; i < isRemoved.size(); ++i)
+      if (isRemoved[i]) c.recordNode(scene, scene.nodes[i].id);
+  });
   takeOut(scene.nodes, isRemoved);
 }
 
 void Transaction::moveToEnd(const std::vector<NodeId>& ids) {
-  Scene& scene =
-      recorded([](DocumentChange& c, const Document& d) { c.recordOrder(d.scene); }).scene;
+  Scene& scene = document().scene;
+  editing_->recordInAll([&](DocumentChange& c) { c.recordOrder(scene); });
   std::vector<Node> moved = takeOut(scene.nodes, withDescendants(scene, ids));
   std::move(moved.begin(), moved.end(), std::back_inserter(scene.nodes));
 }
 
-void Transaction::addMesh(std::shared_ptr<const Mesh> mesh) {
-  auto& meshes = recorded([](DocumentChange& c, const Document& d) {
-                   c.recordItem(c.meshes, d.scene.meshes, d.scene.meshes.size());
-                 }).scene.meshes;
-  meshes.push_back(std::move(mesh));
+void Transaction::add(std::shared_ptr<const Mesh> mesh) {
+  auto& meshes = document().scene.meshes;
+  recorded(&DocumentChange::meshes, meshes, meshes.size()) = std::move(mesh);
 }
 
-void Transaction::addMaterial(Material material) {
-  auto& materials = recorded([](DocumentChange& c, const Document& d) {
-                      c.recordItem(c.materials, d.scene.materials, d.scene.materials.size());
-                    }).scene.materials;
-  materials.push_back(std::move(material));
+void Transaction::add(Material material) {
+  auto& materials = document().scene.materials;
+  recorded(&DocumentChange::materials, materials, materials.size()) = std::move(material);
 }
 
-void Transaction::addTexture(Texture texture) {
-  auto& textures = recorded([](DocumentChange& c, const Document& d) {
-                     c.recordItem(c.textures, d.scene.textures, d.scene.textures.size());
-                   }).scene.textures;
-  textures.push_back(std::move(texture));
+void Transaction::add(Texture texture) {
+  auto& textures = document().scene.textures;
+  recorded(&DocumentChange::textures, textures, textures.size()) = std::move(texture);
 }
 
 }  // namespace lamplighter

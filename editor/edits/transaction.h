@@ -8,12 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "editor/document/document.h"
+#include "editor/edits/document_change.h"
 
 namespace lamplighter {
 
 class Editing;
-struct DocumentChange;
 
 // Each accessor records the value before the change, so that it can be undone; call it for every
 // change instead of keeping its result. References are valid until nodes are added or removed.
@@ -41,9 +40,10 @@ class Transaction {
   void removeNodes(const std::vector<NodeId>& ids);
   // Moves nodes and all that are below them to the end of the list.
   void moveToEnd(const std::vector<NodeId>& ids);
-  void addMesh(std::shared_ptr<const Mesh> mesh);
-  void addMaterial(Material material);
-  void addTexture(Texture texture);
+  // Assets, at the ends of their lists.
+  void add(std::shared_ptr<const Mesh> mesh);
+  void add(Material material);
+  void add(Texture texture);
 
   // False if it was committed or cancelled, or if something else ended it: an undo, for example.
   bool isOpen() const;
@@ -53,8 +53,13 @@ class Transaction {
  private:
   friend class Editing;
   Transaction(Editing& editing, uint64_t id) : editing_(&editing), id_(id) {}
-  template <typename Record>
-  Document& recorded(Record record);
+  Document& document();
+  // Records the current value, if it was not, and returns it to be edited.
+  template <typename T>
+  T& recorded(Change<T> DocumentChange::*part, T& value);
+  // The same for an item of a list. The index behind the last adds one.
+  template <typename T>
+  T& recorded(ItemChanges<T> DocumentChange::*part, std::vector<T>& list, size_t index);
 
   Editing* editing_ = nullptr;
   uint64_t id_ = 0;
