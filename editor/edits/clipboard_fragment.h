@@ -1,5 +1,5 @@
-// A part of a scene by itself, with what it is made of: what the clipboard holds, so that it can be
-// pasted into another level. Meshes and pixels stay shared.
+// A part of a scene with its meshes, materials and textures: the content of the clipboard, which
+// can be pasted into another level. Meshes and pixels are shared.
 #pragma once
 
 #include <map>
@@ -13,9 +13,9 @@ namespace lamplighter {
 
 struct ClipboardFragment {
   std::vector<Node> nodes;  // parents before children; those on top keep the id of their parent
-  // Where those on top are in the world, for levels where their parent is not.
+  // World transforms of the topmost nodes, for levels without their parents.
   std::map<NodeId, Transform> places;
-  // By the indices that they have in the scene it was taken from.
+  // By their indices in the original scene.
   std::map<int, std::shared_ptr<const Mesh>> meshes;
   std::map<int, Material> materials;
   std::map<int, Texture> textures;
@@ -23,7 +23,7 @@ struct ClipboardFragment {
   bool empty() const { return nodes.empty(); }
 };
 
-// The nodes with all that hangs below them.
+// The nodes with all that are below them.
 ClipboardFragment clip(const Scene& scene, const std::vector<NodeId>& ids);
 
 // What a paste adds: nodes with new ids, and the assets that the scene does not have yet.

@@ -1,4 +1,4 @@
-// How much memory the steps that can be undone may keep, as a parameter.
+// The memory limit of the undo history, as a parameter.
 #pragma once
 
 #include "editor/edits/history.h"

@@ -1,5 +1,5 @@
-// What many selected objects have in common, and edits of all of them at once: each one step, or
-// part of the open transaction.
+// Common values of the selected objects, and edits of all of them: each is one step, or joins the
+// open transaction.
 #pragma once
 
 #include <functional>
@@ -11,8 +11,8 @@
 
 namespace lamplighter {
 
-// A number that a node has, as the inspector shows it. Rotation about X, then Y, then Z, in
-// degrees; rotating one axis keeps the others.
+// A number of a node, as the inspector shows it. Rotations are about X, then Y, then Z, in degrees;
+// setting one axis keeps the others.
 struct ObjectProperty {
   const char* name;  // "position.x"
   float (*of)(const Node&);

@@ -1,4 +1,4 @@
-// Where an object comes to lie when it is put on a surface.
+// The position and rotation of an object that is placed on a surface.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@ struct SurfacePoint {
   vec3 normal{0.0f, 1.0f, 0.0f};  // unit, towards the viewer
 };
 
-// How far the node's own origin must stand off along the surface's unit normal n so that it and all
-// below it only just touch: meshes with their lowest point, lights a little above. Metres.
+// Distance of the node's origin from a surface with unit normal n [m], such that the node and all
+// below it just touch the surface: meshes with their lowest point, lights with a small gap.
 float standOff(const Scene& scene, NodeId id, const vec3& n);
 
-// The node's local transform when it is put there: objects stand as they are turned, lights face
-// away from the surface. None when its parent squeezes space flat.
+// The node's local transform on the surface: objects keep their rotation, lights face away from the
+// surface. None if the parent's transform has no volume.
 std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePoint& at);
 
 // The least rotation that takes one unit direction to another.

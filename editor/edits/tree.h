@@ -1,4 +1,4 @@
-// The tree of nodes as it is edited: what is locked, and hanging nodes below others.
+// Edits of the tree of nodes: parents and locks.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,10 @@
 
 namespace lamplighter {
 
-// Whether the node or one above it is locked: it is neither picked nor moved in the viewport.
+// Whether the node or a node above it is locked, so that it cannot be picked or moved in the
+// viewport.
 bool isLocked(const Scene& scene, NodeId id);
-// Whether it is `above` itself or hangs below it.
+// Whether the node is `above` or below it.
 bool isWithin(const Scene& scene, NodeId id, NodeId above);
 
 // Moves nodes, with all that are below them, below another node (kNoNode: to the top), as its last

@@ -1,5 +1,5 @@
-// What is kept about the frames of a session: what they cost, how soon edits are seen, and how far
-// the picture is from the truth.
+// Measurements of the frames of a session: their cost, the latency of edits, and the error of the
+// picture.
 #pragma once
 
 #include "editor/error_meter/error_meter.h"
@@ -12,7 +12,7 @@ struct FrameWatch {
   ErrorMeter meter;
   EditLatency latency;
   Timeline timeline;
-  RenderSettings shown;  // by which the last frame was rendered
+  RenderSettings shown;  // of the last frame
 };
 
 }  // namespace lamplighter

@@ -1,4 +1,4 @@
-// What a session keeps about working with lights that is no part of the document.
+// State of a session for working with lights that is not part of the document.
 #pragma once
 
 #include "editor/lights/light_table.h"
@@ -7,10 +7,10 @@ namespace lamplighter {
 
 class Session;
 
-// Keeps figures from frame to frame, since going through every patch takes a while on large levels.
+// Keeps the figures of lights between frames, because visiting every patch is slow on large levels.
 class LightTable {
  public:
-  // Figures are looked up anew every so many frames, and when the picture settles.
+  // Figures are updated after so many frames, and when the picture has settled.
   static constexpr uint32_t kFrames = 20;
   std::vector<LightRow> rows(const Session& session, LightUnit unit);
 
@@ -18,16 +18,16 @@ class LightTable {
   bool known_ = false, wasSettled_ = false;
   uint32_t frame_ = 0;
   uint64_t scene_ = 0;         // revision
-  double lightSeconds_ = 0.0;  // smoothed, of frames that had something to do
+  double lightSeconds_ = 0.0;  // smoothed time of frames that were not settled
   std::map<NodeId, LightFigures> figures_;
   std::map<NodeId, double> shares_;
 };
 
 struct LightingState {
-  LightUnit unit = LightUnit::lumens;  // in which strength is shown and typed
+  LightUnit unit = LightUnit::lumens;  // in which intensities are shown and typed
   bool showsTable = false;
   LightTable table;
-  // A lamp at the eye for dark scenes, in no document and no file [cd]; 0: off.
+  // Intensity of a light at the eye for dark scenes, not part of the document [cd]; 0: off.
   float workLight = 0.0f;
 };
 

@@ -38,7 +38,7 @@ void Session::open(Scene scene, std::filesystem::path path,
       std::find_if(nodes.begin(), nodes.end(), [](const Node& n) { return n.camera != kNone; });
   view_ = camera != nodes.end() ? viewOfCamera(document_.scene, *camera, view_.width, view_.height)
                                 : viewOfBounds(world.bounds, view_.width, view_.height);
-  // Orbiting turns about what is in the middle of the picture.
+  // The camera orbits around the surface in the middle of the picture.
   const RayCaster rays(world);
   const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()}, Surfaces::seen);
   tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
@@ -46,7 +46,7 @@ void Session::open(Scene scene, std::filesystem::path path,
   setStatus("Opened " + name);
   std::vector<std::string> told = warnings;
   for (std::string& warning : told) {
-    // Its name will do: where it lies was just chosen, and takes the room of what is wrong.
+    // The file name is enough: the path is long, and the user has just chosen it.
     if (!whole.empty() && warning.starts_with(whole)) warning.replace(0, whole.size(), name);
     setStatus(warning, NoticeKind::warning);
   }
@@ -150,7 +150,7 @@ void Session::toggleReference() {
 }
 
 void Session::undo() {
-  if (dragging()) return cancelDrag();  // what is under way is the last change
+  if (dragging()) return cancelDrag();  // the drag is the last change
   const std::string label = history().undoLabel();
   editing_.undo();
   if (!label.empty()) setStatus("Undid: " + label);
@@ -168,7 +168,7 @@ void Session::goToStep(size_t position) {
   editing_.goTo(position);
 }
 
-// What is to be shown now, with the work light; and what changed in it since the last call.
+// The scene to be shown, with the work light, and what changed in it since the last call.
 const Scene& Session::litScene(SceneChanges& changes) {
   changes = editing_.takeChanges();
   const Scene& scene = workLight_.with(document_.scene, view_, lighting_.workLight, changes);
@@ -204,12 +204,13 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
     points_.update(pointSubject(), !same, !changes.none());
     watchFrame(changes, begin);
   } catch (const InputError& e) {
-    editing_.showAll();  // part of it may have arrived: the next frame begins anew
+    editing_
+        .showAll();  // the renderer may have got a part of it: the next frame starts from scratch
     renderError_ = e.what();
     setStatus(renderError_, NoticeKind::error);
     if (!output_.radiance)
       output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
-    output_.settled = output_.refined = true;  // trying the same again changes nothing
+    output_.settled = output_.refined = true;  // the same frame would fail again
   }
   ++frame_;
   return output_;

@@ -1,6 +1,6 @@
-// One editing session: the document, its history, the camera, the tools and the frame renderer; all
-// that the ui shows and drives, without a window. The ui calls, once a frame and in this order:
-// runAction()/edits from panels, viewport(), renderFrame(), overlay().
+// One editing session: the document and its history, the camera, the tools and the frame renderer,
+// without a window. Once per frame the ui calls, in this order: runAction() and the edits of
+// panels, viewport(), renderFrame(), overlay().
 #pragma once
 
 #include <filesystem>
@@ -39,13 +39,14 @@ class Session {
   explicit Session(std::unique_ptr<FrameRenderer> renderer);
   ~Session();
 
-  // Replaces the document by a loaded scene (an empty history; the view of its first camera, or one
-  // that shows it all). The status says what the loader warned of.
+  // Replaces the document by a loaded scene and clears the history. The view becomes that of the
+  // first camera or, without one, shows the whole scene. The status shows the loader's warnings.
   void open(Scene scene, std::filesystem::path path, const std::vector<std::string>& warnings);
-  // Saves as glTF; throws InputError with the document untouched when that fails, and when it would
-  // overwrite what others have changed since it was opened or saved, unless that is `forced`.
+  // Saves as glTF. Throws InputError, and leaves the document unchanged, if that fails, or if it
+  // would overwrite a file that another program has changed, unless `forced`.
   void save(const std::filesystem::path& path, bool forced = false);
-  // The files that others have changed, of those that saving there would overwrite or refer to.
+  // Of the files that saving to `path` would overwrite or refer to: those that another program has
+  // changed since they were read or written.
   std::vector<std::filesystem::path> changedOnDisk(const std::filesystem::path& path) const;
   bool modified() const;  // since opened or saved; render settings are not saved and do not count
 
@@ -57,13 +58,13 @@ class Session {
   const ActionRegistry& actions() const { return actions_; }
   FrameRenderer& renderer() { return *renderer_; }
 
-  // Runs an action given as text (ActionRegistry::parse). Throws InputError for a name or arguments
-  // that do not fit, with the document untouched. A disabled action does nothing.
+  // Runs an action given as text (ActionRegistry::parse). Throws InputError, and leaves the
+  // document unchanged, for an unknown name or invalid arguments. A disabled action does nothing.
   void perform(std::string_view text);
-  // The same, but a failure goes to the status line and is returned as false.
+  // The same, but shows an error in the status line and returns false.
   bool runAction(std::string_view text);
 
-  // Edits that panels make. Each is an undoable step, or joins the open transaction.
+  // Edits by panels. Each is one undo step, or joins the open transaction.
   void setNodeTransform(NodeId id, const Transform& local);
   void setAreaLight(NodeId id, const AreaLight& light);
   void setPunctualLight(NodeId id, const PunctualLight& light);
@@ -76,7 +77,7 @@ class Session {
   void select(std::vector<NodeId> ids) { editing_.select(std::move(ids)); }
   void undo();
   void redo();
-  void goToStep(size_t position);  // undoes or redoes until so many are done; throws InputError
+  void goToStep(size_t position);  // as Editing::goTo()
 
   // The camera and the tools.
   const View& view() const { return view_; }
@@ -88,69 +89,69 @@ class Session {
   void setSnapping(bool on);
   SnapTo snapTo() const;
   void setSnapTo(SnapTo target);
-  // What the next click in the viewport adds and puts on the surface there: an action that adds and
-  // selects something ("light.add disk"). "": a click selects, as ever.
+  // An action that adds and selects something ("light.add disk"). The next click in the viewport
+  // runs it and places the new object on the surface there. "": a click selects.
   bool placing() const { return !placing_.empty(); }
   const std::string& placed() const { return placing_; }
   void startPlacing(std::string action) { placing_ = std::move(action); }
-  // A drag of the gizmo is under way. It can be ended as a step, or taken back.
+  // Whether the gizmo or a light handle is being dragged. The drag can be committed or cancelled.
   bool dragging() const;
   void finishDrag();
   void cancelDrag();
-  // The right mouse button flies: letters steer then and are no shortcuts.
+  // Whether the right mouse button is flying the camera. Letter keys then steer.
   bool flying() const;
-  float cameraSpeed() const;  // of flight [m/s]
-  void frameSelection();      // everything when nothing is selected
+  float cameraSpeed() const;  // when flying [m/s]
+  void frameSelection();      // the whole scene if nothing is selected
   void frameAll();
   void viewport(const ViewportInput& input);  // camera, pick, gizmo
 
-  // Renders one frame of what changed and keeps it. `output().settled` says when it is done. When
-  // it cannot be rendered (no memory for that many maps, say) the last picture stays, renderError()
-  // and the status say why, and nothing of the work is lost.
-  // `updates` stands in for the setting of that name: what fits into the time of a frame. Frames by
-  // time do not wait for what is prepared in the background; all others do. By `refineUpdates`
-  // light samples a picture at rest may be refined; 0: it stays as it is.
+  // Renders one frame with the latest changes. `output().settled` is true once nothing remains to
+  // be done. If rendering fails, for example for lack of memory for light maps, the last picture
+  // stays, and renderError() and the status give the reason.
+  // `updates` replaces the parameter of that name: the amount of work that fits into the time of a
+  // frame. Such frames do not wait for background work; others do. `refineUpdates`: the number of
+  // light samples by which a settled picture may be refined; 0: none.
   const GiOutput& renderFrame(std::optional<int> updates = {}, int refineUpdates = 0);
-  // Instead of renderFrame(), for a frame that nobody looks at: what tools look up is up to date.
+  // Instead of renderFrame(), for a frame that is not shown: updates only the scene that tools use.
   void skipFrame();
   const std::string& renderError() const { return renderError_; }  // "": it was rendered
   const GiOutput& output() const { return output_; }
-  // Which view of the frame is shown.
+  // Which debug view is shown.
   ViewDisplay& display() { return display_; }
   const ViewDisplay& display() const { return display_; }
   Inspection inspect() const { return renderer_->inspect(); }
-  // What the viewport shows, without what is drawn over it.
+  // The picture in the viewport, without the overlay.
   Image8 picture() const;
   uint32_t frame() const { return frame_; }
   const RenderScene& renderScene() const { return renderer_->scene(); }  // of the last frame
-  uint64_t sceneRevision() const { return sceneRevision_; }  // another after each change of it
+  uint64_t sceneRevision() const { return sceneRevision_; }  // increases with each change of it
   LightingState& lighting() { return lighting_; }
   const LightingState& lighting() const { return lighting_; }
 
-  // What tells of a clicked point, and what it looks at.
+  // The tools that inspect a clicked point, and their input.
   PointTools& points() { return points_; }
   const PointTools& points() const { return points_; }
   PointTools::Subject pointSubject() const;
-  std::optional<vec2> pointer() const;  // where it was last over the viewport
+  std::optional<vec2> pointer() const;  // last position over the viewport
 
-  // What frames cost and how soon and how well they show edits; another picture beside the first.
+  // Measurements of frames, and the second picture of the split view.
   FrameWatch& watch() { return watch_; }
   const FrameWatch& watch() const { return watch_; }
   SplitView& split() { return split_; }
   const SplitView& split() const { return split_; }
-  // By which frames are timed; without one they are counted only.
+  // Measures the time of frames. Without a clock they are only counted.
   void setClock(Stopwatch clock) { clock_ = std::move(clock); }
 
-  // What tools draw over the picture: gizmo, selection outline, lights' shapes.
+  // What is drawn over the picture: gizmo, selection outline, shapes of lights.
   Overlay overlay() const;
 
   const std::string& status() const { return status_; }
   void setStatus(std::string text, NoticeKind kind = NoticeKind::info);
-  // Settings, keys, notices: what is the user's and not the level's.
+  // Settings, keys and messages, which belong to the user and not to the level.
   UserState& home() { return *home_; }
   const UserState& home() const { return *home_; }
   void setKeys(KeyMap keys) { actions_.setKeys(std::move(keys)); }
-  // What edit.copy has put by; opening another level leaves it.
+  // The objects that edit.copy copied. They stay when another level is opened.
   const ClipboardFragment& clipboard() const { return clipboard_; }
   void setClipboard(ClipboardFragment fragment) {
     clipboard_ = std::move(fragment);
@@ -158,10 +159,10 @@ class Session {
   }
   bool clipboardIsOfThisLevel() const { return clipboardLevel_ == level_; }
 
-  // The reference, and from it back to the method that was shown before.
+  // Switches between the reference and the method that was shown before.
   void toggleReference();
 
-  // Every committed edit is kept on the disk in `root` from now on (editor/recovery).
+  // From now on every committed edit is written to a journal in `root` (editor/recovery).
   void keepJournal(const std::filesystem::path& root, int process, Journal::Clock clock);
   CrashRecovery& crashRecovery() { return crashRecovery_; }
   const CrashRecovery& crashRecovery() const { return crashRecovery_; }
@@ -172,7 +173,7 @@ class Session {
   bool quitRequested() const { return quit_; }
   void requestQuit(bool quit = true) { quit_ = quit; }
 
-  // What actions ask of the application, handed out once.
+  // Requests of actions to the application. Each is returned once.
   void requestOpen(std::filesystem::path path) { openRequest_ = std::move(path); }
   std::optional<std::filesystem::path> takeOpenRequest() {
     return std::exchange(openRequest_, std::nullopt);
@@ -182,14 +183,13 @@ class Session {
     return std::exchange(screenshotRequest_, std::nullopt);
   }
 
-  // Where an action may write a file: there, or where input is replayed in a folder of the
-  // replay's.
+  // Where an action may write a file: `wanted` itself or, in a replay, the replay's own folder.
   std::filesystem::path writablePath(const std::filesystem::path& wanted) const;
 
   void requestShaders() { shadersRequested_ = true; }
   bool takeShadersRequest() { return std::exchange(shadersRequested_, false); }
 
-  // Where a thing would be put: the surface under the pointer, or ahead of the camera.
+  // Where an object would be placed: on the surface under the pointer, or ahead of the camera.
   using Place = SurfacePoint;
   // The nearest surface under the last pointer position that is not part of `ignored`.
   std::optional<Place> surfaceUnderPointer(const std::vector<NodeId>& ignored) const;
@@ -213,16 +213,16 @@ class Session {
   std::string status_, renderError_, placing_;
   uint32_t frame_ = 0;
   uint64_t sceneRevision_ = 0;
-  SceneChanges unshown_;  // of frames that were skipped
+  SceneChanges unshown_;  // of skipped frames
   LightingState lighting_;
   WorkLight workLight_;
   uint64_t savedHash_ = 0;
-  std::vector<FileStamp> disk_;  // the level's files as opened or saved
+  std::vector<FileStamp> disk_;  // the level's files when they were opened or saved
   bool quit_ = false, shadersRequested_ = false;
   std::string methodBeforeReference_ = "many_lights";
   ClipboardFragment clipboard_;
   CrashRecovery crashRecovery_;
-  int level_ = 0, clipboardLevel_ = 0;  // counts what was opened
+  int level_ = 0, clipboardLevel_ = 0;  // number of the opened level
   std::optional<std::filesystem::path> openRequest_, screenshotRequest_;
 
   template <typename Change>

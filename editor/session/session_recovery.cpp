@@ -1,4 +1,4 @@
-// What a session does so that no work is lost.
+// The journal of a session, autosave and recovery.
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
 

@@ -1,4 +1,4 @@
-// Saving, and what others have done to the level's files meanwhile.
+// Saving, and detection of changes of the level's files by other programs.
 #include <algorithm>
 
 #include "editor/session/session.h"
@@ -25,7 +25,7 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
 std::vector<fs::path> Session::changedOnDisk(const fs::path& path) const {
   std::vector<fs::path> changed;
   for (size_t i = 0; i < disk_.size(); ++i) {
-    // Saved to another place, only files beside it are referred to.
+    // A file in another folder refers only to the files beside it.
     const bool counts =
         i == 0 ? isSameFile(path, disk_[i].path)
                : path.extension() != ".glb" &&
@@ -39,7 +39,7 @@ void Session::save(const fs::path& wanted, bool forced) {
   finishDrag();
   editing_.commit();
   const fs::path path = writablePath(wanted);
-  // A replay writes into a folder of its own; the level stays what it was opened from.
+  // A replay writes into its own folder, and the document keeps its path.
   const bool isElsewhere = path != wanted;
   const std::vector<fs::path> changed = isElsewhere ? std::vector<fs::path>() : changedOnDisk(path);
   if (!changed.empty() && !forced)
@@ -59,7 +59,7 @@ void Session::save(const fs::path& wanted, bool forced) {
   setStatus(problem.empty() ? "Saved " + wanted.filename().string() : "Saved. " + problem);
 }
 
-// What the level consists of on disk from now on.
+// Stores the files that the level now consists of.
 void Session::takeWritten(const fs::path& path, const std::vector<fs::path>& written,
                           bool keepsOthers) {
   std::vector<FileStamp> now{stampOf(path)};
@@ -69,7 +69,7 @@ void Session::takeWritten(const fs::path& path, const std::vector<fs::path>& wri
     if (!isKnown) now.push_back(stampOf(file));
   };
   for (const fs::path& file : written) add(file);
-  // What was beside it stays in use, unless all was written anew.
+  // Files beside it remain in use, unless all were written.
   for (size_t i = 1; i < disk_.size() && keepsOthers; ++i) add(disk_[i].path);
   disk_ = std::move(now);
 }

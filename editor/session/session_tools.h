@@ -11,7 +11,7 @@ struct Session::Tools {
   CameraController camera;
   Gizmo gizmo;
   LightHandles lightHandles;
-  vec2 pointer{0.0f};  // where it was last over the viewport
+  vec2 pointer{0.0f};  // last position over the viewport
   bool pointerKnown = false;
 };
 

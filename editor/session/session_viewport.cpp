@@ -1,4 +1,4 @@
-// What a session does with the pointer in the viewport, and what its tools draw there.
+// A session in the viewport: pointer input, picking, and the overlay.
 #include <algorithm>
 
 #include "editor/debug_views/vpl_overlay.h"
@@ -68,7 +68,7 @@ void Session::viewport(const ViewportInput& input) {
     tools_->pointer = input.pointer;
     tools_->pointerKnown = true;
   }
-  // A drag goes first, since the right button takes it back; then the camera.
+  // A drag comes before the camera, because the right button cancels it.
   const auto surface = [&](SnapTo target) -> std::optional<vec3> {
     if (target == SnapTo::vertex) return vertexUnderPointer(document_.selection);
     const auto place = surfaceUnderPointer(document_.selection);

@@ -1,11 +1,11 @@
-// What a session does once a frame is rendered: measures it, and puts another picture beside it.
+// A session after a frame was rendered: measurements and the second picture of the split view.
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
 #include "renderer/image/tone_map.h"
 
 namespace lamplighter {
 
-// Measured and compared once the frame is done; the second picture is no part of its time.
+// The time of the second picture is not part of the frame.
 void Session::watchFrame(const SceneChanges& changes, double begin) {
   const double end = clock_ ? clock_() : 0.0;
   watch_.timeline.add(frame_, begin, end, output_.stats);
@@ -15,7 +15,7 @@ void Session::watchFrame(const SceneChanges& changes, double begin) {
   watch_.shown = std::move(shown);
   watch_.latency.frame({edited && !changes.everything, history().undoLabel(), output_.settled,
                         view_, output_.radiance, begin, end});
-  // The reference has neither a work light nor parts of the light.
+  // The reference has no work light, and always shows all parts of the light.
   if (display_.part() == LightPart::all && !lighting_.workLight)
     watch_.meter.frame(document_, view_, display_.lightOnly(), changes, output_);
   else

@@ -1,5 +1,5 @@
-// What a session keeps of its user and of what happened, none of it part of the document: settings,
-// keys, notices, which panels are open.
+// State of a session that belongs to the user and not to the document: settings, keys, messages,
+// open panels.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 
 namespace lamplighter {
 
-// What is shown below the view; the light table is in LightingState.
+// The panel below the view. The light table is in LightingState.
 enum class BottomPanel : uint8_t { none, assets, log };
 
 struct UserState {
   Preferences preferences;
-  KeyList fileKeys;  // of keys.json
+  KeyList fileKeys;  // from keys.json
   Notices notices;
   AssetLibrary assets;
-  std::vector<AssetFile> assetFiles;   // of the folder in the preferences, as it was listed
-  std::filesystem::path assetsListed;  // that folder, once it was
+  std::vector<AssetFile> assetFiles;   // in the folder of the preferences
+  std::filesystem::path assetsListed;  // the folder of this list
   BottomPanel bottom = BottomPanel::none;
   bool showsSettings = false;
-  std::set<std::string> ran;  // names of the actions that did something, for reports
-  // Replays write here what actions save: never beside the level that was recorded. Empty:
-  // anywhere.
+  std::set<std::string> ran;  // names of the actions that ran, for reports
+  // Where actions save files in a replay, instead of beside the recorded level. Empty: no
+  // restriction.
   std::filesystem::path writeFolder;
 };
 
