@@ -21,7 +21,7 @@ struct Change {
 // Changes of a list by index. Items are only added and removed at its end. An item that one of the
 // states does not have has no value there.
 template <typename T>
-using Items = std::map<size_t, Change<T>>;
+using ItemChanges = std::map<size_t, Change<T>>;
 
 // A change is recorded in two stages. First, record…() keeps the current value of each part that is
 // about to be edited, once. Then complete() adds the values after, and drops the parts that are
@@ -29,9 +29,9 @@ using Items = std::map<size_t, Change<T>>;
 struct DocumentChange {
   std::map<NodeId, Change<Node>> nodes;  // a new or removed node has one value only
   Change<std::vector<NodeId>> order;     // of Scene::nodes, if nodes were added, removed or moved
-  Items<std::shared_ptr<const Mesh>> meshes;
-  Items<Material> materials;
-  Items<Texture> textures;
+  ItemChanges<std::shared_ptr<const Mesh>> meshes;
+  ItemChanges<Material> materials;
+  ItemChanges<Texture> textures;
   // No values: not changed.
   Change<Sky> sky;
   Change<bool> skyIsDefault;
@@ -47,7 +47,7 @@ struct DocumentChange {
     if (!change.before) change.before = now;
   }
   template <typename T>
-  static void recordItem(Items<T>& changes, const std::vector<T>& list, size_t index) {
+  static void recordItem(ItemChanges<T>& changes, const std::vector<T>& list, size_t index) {
     const auto [item, isNew] = changes.try_emplace(index);
     if (isNew && index < list.size()) item->second.before = list[index];
   }

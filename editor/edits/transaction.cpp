@@ -47,7 +47,7 @@ T& Transaction::recorded(Change<T> DocumentChange::*part, T& value) {
 }
 
 template <typename T>
-T& Transaction::recorded(Items<T> DocumentChange::*part, std::vector<T>& list, size_t index) {
+T& Transaction::recorded(ItemChanges<T> DocumentChange::*part, std::vector<T>& list, size_t index) {
   editing_->recordInAll(
       [&](DocumentChange& c) { DocumentChange::recordItem(c.*part, list, index); });
   if (index == list.size()) list.emplace_back();

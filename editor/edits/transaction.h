@@ -59,7 +59,7 @@ class Transaction {
   T& recorded(Change<T> DocumentChange::*part, T& value);
   // The same for an item of a list. The index behind the last adds one.
   template <typename T>
-  T& recorded(Items<T> DocumentChange::*part, std::vector<T>& list, size_t index);
+  T& recorded(ItemChanges<T> DocumentChange::*part, std::vector<T>& list, size_t index);
 
   Editing* editing_ = nullptr;
   uint64_t id_ = 0;

@@ -1,5 +1,5 @@
 // The differences between two states of a scene by type, so that each part of the renderer updates
-// only what is necessary. They come from a comparison, so undo causes the same updates as the edit.
+// only what is necessary. They depend on the two states alone: undo updates the same as the edit.
 #pragma once
 
 #include <vector>
