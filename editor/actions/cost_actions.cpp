@@ -26,7 +26,8 @@ void addCostActions(ActionRegistry& r) {
   r.add({"error.meter",
          "Error meter",
          "",
-         "Traces the reference beside the live picture and shows how far that is from it.",
+         "Traces a reference in the background and shows the error of the live picture. It uses "
+         "processor time while it is on.",
          "",
          [](Session& s, const Arguments&) { s.watch().meter.setOn(!s.watch().meter.on()); },
          {},
@@ -79,7 +80,7 @@ void addCostActions(ActionRegistry& r) {
   r.add({"timeline.clear",
          "Clear the timeline",
          "",
-         "Forgets the frames that were timed.",
+         "Deletes the recorded frame times.",
          "",
          [](Session& s, const Arguments&) { s.watch().timeline.clear(); },
          {},

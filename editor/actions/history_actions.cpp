@@ -15,8 +15,7 @@ const ParameterSpec& undoMemory() {
     s.name = "undo_memory";
     s.label = "Undo memory";
     s.unit = "MiB";
-    s.help =
-        "What the steps that can be undone may keep in memory; beyond it the oldest are forgotten.";
+    s.help = "Memory for undo steps. When it is full, the oldest steps are deleted.";
     s.defaultValue = 256;
     s.minimum = 1;
     s.maximum = 65536;

@@ -54,7 +54,8 @@ void addLightActions(ActionRegistry& r) {
   r.add({"light.add",
          "Add light",
          "rectangle|disk|sphere|tube|spot|point|sun",
-         "Puts a new light ahead of the camera, facing down, as bright as the place asks for.",
+         "Adds a light in front of the camera, facing down, with an intensity that suits its "
+         "distance and the exposure.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.add rectangle|disk|sphere|tube|spot|point|sun");

@@ -119,14 +119,14 @@ void addLightsActions(ActionRegistry& r) {
            s.select(std::move(ids));
          },
          {}});
-  r.add({"lights.brighter", "Twice as bright", "", "Doubles the intensity of the selected lights.",
+  r.add({"lights.brighter", "Double intensity", "", "Doubles the intensity of the selected lights.",
          "",
          [](Session& s, const Arguments&) {
            editLights(s.editing(), LightOperation::multiply, LightProperty::intensity, 2.0,
                       LightUnit::nits);
          },
          anySelected});
-  r.add({"lights.darker", "Half as bright", "", "Halves the intensity of the selected lights.", "",
+  r.add({"lights.darker", "Halve intensity", "", "Halves the intensity of the selected lights.", "",
          [](Session& s, const Arguments&) {
            editLights(s.editing(), LightOperation::multiply, LightProperty::intensity, 0.5,
                       LightUnit::nits);

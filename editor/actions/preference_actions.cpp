@@ -57,7 +57,7 @@ void addPreferenceActions(ActionRegistry& r) {
   r.add({"settings.reset",
          "Reset settings",
          "[NAME]",
-         "Puts a setting, or all of them, back to its default.",
+         "Resets one setting, or all of them, to the default.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 0, 1, "settings.reset [NAME]");
@@ -95,10 +95,11 @@ void addPreferenceActions(ActionRegistry& r) {
     r.add({name, label, "", help, shortcut, [](Session&, const Arguments&) {}, {}, true});
   };
   addFocus("panel.next", "Next panel",
-           "Gives the keyboard to the next panel; arrows lead through it.", "F6, Ctrl+Tab");
-  addFocus("panel.previous", "Previous panel", "Gives the keyboard to the panel before.",
+           "Moves the keyboard focus to the next panel. Arrow keys move within it.",
+           "F6, Ctrl+Tab");
+  addFocus("panel.previous", "Previous panel", "Moves the keyboard focus to the previous panel.",
            "Shift+F6, Ctrl+Shift+Tab");
-  addFocus("app.menu", "Menu bar", "Gives the keyboard to the menus.", "F10");
+  addFocus("app.menu", "Menu bar", "Moves the keyboard focus to the menu bar.", "F10");
   addPanel(r, "panel.assets", "Assets", "Props of a folder to place, below the view.", "B",
            BottomPanel::assets);
   addPanel(r, "panel.log", "Log", "All that happened since the program started, below the view.",

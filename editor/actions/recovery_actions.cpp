@@ -22,14 +22,18 @@ size_t numberFrom(const Session& s, const Arguments& a, const std::string& usage
 
 void addRecoveryActions(ActionRegistry& r) {
   const auto hasFound = [](const Session& s) { return !s.crashRecovery().found().empty(); };
-  r.add({"recovery.recover", "Recover", "[NUMBER]",
-         "Takes up the work that a killed process has left; the newest is number 1.", "",
-         [](Session& s, const Arguments& a) {
-           s.recoverWork(numberFrom(s, a, "recovery.recover [NUMBER]"));
-         },
-         hasFound});
+  r.add(
+      {"recovery.recover", "Recover", "[NUMBER]",
+       "Opens the autosaved level of a session that did not exit normally. The newest is number 1.",
+       "",
+       [](Session& s, const Arguments& a) {
+         s.recoverWork(numberFrom(s, a, "recovery.recover [NUMBER]"));
+       },
+       hasFound});
   r.add({"recovery.discard", "Discard recoverable work", "[NUMBER]",
-         "Deletes the work that a killed process has left; the newest is number 1.", "",
+         "Deletes the autosaved level of a session that did not exit normally. The newest is "
+         "number 1.",
+         "",
          [](Session& s, const Arguments& a) {
            s.discardWork(numberFrom(s, a, "recovery.discard [NUMBER]"));
          },

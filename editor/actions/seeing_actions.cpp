@@ -32,17 +32,18 @@ void addExplain(ActionRegistry& r) {
   r.add({"explain.at",
          "Why is it dark at",
          "X Y",
-         "Tells what each light gives the surface at a viewport pixel, and what stands between.",
+         "Lists the contribution of each light at a viewport pixel, and its occluders.",
          "",
          [](Session& s, const Arguments& a) { explainAt(s, pixelOf(a, "explain.at X Y")); },
          {}});
-  r.add({"explain.pointer",
-         "Why is it dark here?",
-         "",
-         "Tells what each light gives the surface under the pointer, and what stands between.",
-         "Y",
-         [](Session& s, const Arguments&) { explainAt(s, pointerOf(s)); },
-         {}});
+  r.add(
+      {"explain.pointer",
+       "Why is it dark here?",
+       "",
+       "Lists the contribution of each light at the surface under the pointer, and its occluders.",
+       "Y",
+       [](Session& s, const Arguments&) { explainAt(s, pointerOf(s)); },
+       {}});
   r.add({"explain.light",
          "Show light's rays",
          "ROW",
@@ -64,7 +65,7 @@ void addExplain(ActionRegistry& r) {
          },
          {}});
   r.add({"explain.close", "Close the explanation", "",
-         "Closes the panel that tells why it is dark.", "",
+         "Closes the list of light contributions and occluders.", "",
          [](Session& s, const Arguments&) { s.points().explainer().close(); },
          [](const Session& s) { return s.points().explainer().answer() != nullptr; }});
 }
@@ -110,7 +111,7 @@ void addMeasure(ActionRegistry& r) {
   r.add({"measure.start",
          "Measure from here on",
          "",
-         "Takes up the tool with which two clicks measure a distance, from nothing.",
+         "Starts the measuring tool: two clicks on surfaces measure a distance.",
          "",
          [](Session& s, const Arguments&) {
            s.points().setTool(PointTool::measure);
@@ -120,7 +121,7 @@ void addMeasure(ActionRegistry& r) {
   r.add({"measure.at",
          "Measure at",
          "X Y",
-         "Takes the surface at a viewport pixel as the next end of the measured distance.",
+         "Sets the next end point of the measured distance at a viewport pixel.",
          "",
          [](Session& s, const Arguments& a) {
            s.points().measureAt(s.pointSubject(), pixelOf(a, "measure.at X Y"));
@@ -128,7 +129,7 @@ void addMeasure(ActionRegistry& r) {
          },
          {}});
   r.add({"measure.clear", "Clear the measurement", "",
-         "Takes the measured distance off the picture.", "",
+         "Removes the measured distance from the viewport.", "",
          [](Session& s, const Arguments&) { s.points().measurement().clear(); },
          [](const Session& s) { return s.points().measurement().hasBegun(); }});
 }
@@ -137,8 +138,8 @@ void addMeasure(ActionRegistry& r) {
 
 void addSeeingActions(ActionRegistry& r) {
   addTool(r, "tool.explain", "Why is it dark?",
-          "A click tells what each light gives there, and what stands between.", "Shift+Y",
-          PointTool::explain);
+          "A click lists the contribution of each light at that point, and its occluders.",
+          "Shift+Y", PointTool::explain);
   addTool(r, "tool.measure", "Measure", "Two clicks on surfaces show the distance between them.",
           "M", PointTool::measure);
   addExplain(r);

@@ -114,21 +114,22 @@ void addSplitActions(ActionRegistry& r) {
        {},
        true,
        [](const Session& s) { return isOn(s) && s.split().shown() == SplitView::Shown::heat; }});
-  r.add({"split.heat_scale",
-         "Heat map's range",
-         "SHARE",
-         "Sets the difference at which the heat map's colours end, as a share of the mean of B.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "split.heat_scale SHARE");
-           const float share = numberOf(a[0]);
-           if (share < 0.001f || share > 100.0f)
-             throw InputError(a[0], "is no such share", "give one from 0.001 to 100");
-           s.split().setHeatScale(share);
-         },
-         {},
-         true,
-         {}});
+  r.add(
+      {"split.heat_scale",
+       "Heat map's range",
+       "SHARE",
+       "Sets the difference at the end of the heat map's colour scale, relative to the mean of B.",
+       "",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 1, 1, "split.heat_scale SHARE");
+         const float share = numberOf(a[0]);
+         if (share < 0.001f || share > 100.0f)
+           throw InputError(a[0], "is no such share", "give one from 0.001 to 100");
+         s.split().setHeatScale(share);
+       },
+       {},
+       true,
+       {}});
 }
 
 }  // namespace lamplighter

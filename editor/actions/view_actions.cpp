@@ -67,7 +67,7 @@ void addViewActions(ActionRegistry& r) {
   r.add({"view.choose_vpl",
          "Choose light sample",
          "INDEX",
-         "Chooses the light sample that the view Occlusion is about, from 0.",
+         "Chooses the light sample of the view Occlusion, by its index from 0.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "view.choose_vpl INDEX");
@@ -79,19 +79,18 @@ void addViewActions(ActionRegistry& r) {
          {},
          true,
          {}});
-  r.add(
-      {"view.choose_light",
-       "Choose light",
-       "NAME",
-       "Chooses the light that the view Occlusion of a light is about; selecting one does so too.",
-       "",
-       [](Session& s, const Arguments& a) {
-         requireArguments(a, 1, 1, "view.choose_light NAME");
-         s.display().chooseLight(nodeNamed(s.document(), a[0]).id);
-       },
-       {},
-       true,
-       {}});
+  r.add({"view.choose_light",
+         "Choose light",
+         "NAME",
+         "Chooses the light of the view Occlusion of a light. Selecting a light does so too.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "view.choose_light NAME");
+           s.display().chooseLight(nodeNamed(s.document(), a[0]).id);
+         },
+         {},
+         true,
+         {}});
   r.add({"view.false_colour_unit",
          "False colour of",
          "lux|nits",
@@ -135,7 +134,8 @@ void addViewActions(ActionRegistry& r) {
   r.add({"view.tone_mapper",
          "Tone mapper",
          mappers,
-         "How radiance is brought to the display; nothing of the work.",
+         "How radiance is mapped to the display. It does not change the lighting, and is not part "
+         "of the level.",
          "",
          [mappers](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "view.tone_mapper " + mappers);
@@ -147,7 +147,7 @@ void addViewActions(ActionRegistry& r) {
   r.add({"view.histogram",
          "Histogram",
          "",
-         "Shows how often each brightness is in the picture, with exposure and tone mapper.",
+         "Shows the luminance histogram of the picture, with exposure and tone mapper.",
          "N",
          [](Session& s, const Arguments&) {
            s.display().showHistogram(!s.display().showsHistogram());

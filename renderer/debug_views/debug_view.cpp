@@ -11,49 +11,51 @@ namespace {
 constexpr std::array kViews = {
     DebugViewInfo{DebugView::lit, "lit", "Lit", "Alt+1", "The picture as it is."},
     DebugViewInfo{DebugView::lightOnly, "light_only", "Light only", "Alt+2",
-                  "The light that arrives, as if every surface were white."},
+                  "Incident light: the picture with a white albedo on every surface."},
     DebugViewInfo{DebugView::direct, "direct", "Direct light", "",
-                  "Light that comes straight from lights, and what shines itself."},
-    DebugViewInfo{DebugView::indirect, "indirect", "Indirect light", "",
-                  "Light that bounced on its way; with direct light it is the lit picture."},
+                  "Direct illumination only, and the emission of surfaces."},
+    DebugViewInfo{
+        DebugView::indirect, "indirect", "Indirect light", "",
+        "Indirect illumination only. The sum with the view Direct light is the lit picture."},
     DebugViewInfo{DebugView::falseColour, "false_colour", "False colour", "",
-                  "Illuminance in lux or luminance in nits by colours, as the legend says."},
+                  "Illuminance in lux or luminance in nits in false colour, with a legend."},
     DebugViewInfo{DebugView::albedo, "albedo", "Albedo", "Alt+3",
-                  "What share of the light surfaces reflect, textures included."},
+                  "The albedo of surfaces, textures included."},
     DebugViewInfo{DebugView::normals, "normals", "Normals", "Alt+4",
                   "Shading normals: x, y, z from -1 to 1 as red, green, blue from 0 to 1."},
     DebugViewInfo{DebugView::flat, "flat", "Flat", "Alt+5",
-                  "Surfaces under a lamp at the camera, whatever the level's lights are."},
+                  "Surfaces lit by a lamp at the camera instead of the level's lights."},
     DebugViewInfo{DebugView::patches, "patches", "Patches", "",
-                  "The pieces of surface for which it is known which lights reach them; grey ones "
-                  "are boxes around what is not planar."},
-    DebugViewInfo{DebugView::patchLevels, "patch_levels", "Patch levels", "",
-                  "How often the patches are halved there: more where many lights are partial."},
+                  "The surface patches for which the visibility of each light is stored. Grey ones "
+                  "are bounding boxes of non-planar geometry."},
+    DebugViewInfo{
+        DebugView::patchLevels, "patch_levels", "Patch levels", "",
+        "The subdivision level of patches: higher where many lights are partially occluded."},
     DebugViewInfo{DebugView::occlusion, "occlusion", "Occlusion", "",
-                  "What the geometry says of one light sample on every patch: nothing, something "
-                  "or everything stands between."},
-    DebugViewInfo{DebugView::lightOcclusion, "light_occlusion", "Occlusion of a light", "",
-                  "What share of the chosen light's samples nothing can stand before, on every "
-                  "patch."},
+                  "The visibility of one light sample from every patch: visible, partially "
+                  "occluded or occluded."},
+    DebugViewInfo{
+        DebugView::lightOcclusion, "light_occlusion", "Occlusion of a light", "",
+        "For every patch, the fraction of the chosen light's samples that are surely unoccluded."},
     DebugViewInfo{DebugView::partialLights, "partial_lights", "Partial lights", "",
-                  "For how many light samples each patch must look up shadow maps."},
+                  "The number of light samples that need a shadow map lookup, for every patch."},
     DebugViewInfo{DebugView::lightsPerPatch, "lights_per_patch", "Lights per patch", "",
-                  "How many light samples reach some of each patch."},
+                  "The number of light samples that reach a part of each patch."},
     DebugViewInfo{DebugView::lightMaps, "light_maps", "Light maps", "",
-                  "The light maps alone: light without shadows, lines through the texels."},
+                  "The light maps alone: unshadowed light, with a grid of their texels."},
     DebugViewInfo{DebugView::lightMapDensity, "light_map_density", "Light-map density", "",
-                  "How far apart the texels of light maps are."},
-    DebugViewInfo{DebugView::mapAge, "map_age", "Map age", "",
-                  "For how many frames the light that reaches a place has waited to be brought up "
-                  "to date, on "
-                  "average."},
-    DebugViewInfo{DebugView::pendingPatches, "pending_patches", "Pending patches", "",
-                  "For how many light samples that reach it each patch waits."},
+                  "The distance between texels of light maps, on the surface."},
+    DebugViewInfo{
+        DebugView::mapAge, "map_age", "Map age", "",
+        "The mean number of frames since the light samples that reach a point were updated."},
+    DebugViewInfo{
+        DebugView::pendingPatches, "pending_patches", "Pending patches", "",
+        "For every patch, the number of light samples that reach it and are not updated yet."},
     DebugViewInfo{DebugView::shadowMap, "shadow_map", "Shadow map", "",
-                  "The chosen light sample's shadow map, by the distance of what it holds."},
+                  "The shadow map of the chosen light sample, coloured by distance."},
     DebugViewInfo{DebugView::edgeMask, "edge_mask", "Edge mask", "",
-                  "Where the low-resolution pass may interpolate, and where surfaces make it sum "
-                  "pixel by pixel."},
+                  "Where the low-resolution pass interpolates, and where geometric edges need a "
+                  "sum at every pixel."},
     DebugViewInfo{DebugView::prtObjects, "prt_objects", "Transfer objects", "",
                   "Which objects are lit by precomputed transfer."},
 };

@@ -72,7 +72,7 @@ void exposureField(const PanelContext& ui, Requests& requests) {
   ImGui::SameLine(0, gap);
   if (ImGui::Button("Auto", {button, 0})) requests.actions.emplace_back("render.auto_exposure");
   ui.name("auto");
-  tooltip(ui, "The exposure that suits the picture.");
+  tooltip(ui, "Sets the exposure so that the log-average luminance of the picture is middle grey.");
 }
 
 void mapperCombo(const PanelContext& ui, Requests& requests) {

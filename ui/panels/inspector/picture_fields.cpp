@@ -63,9 +63,9 @@ void pictureFields(const PanelContext& ui, const Node& node, InspectorState& sta
   ImGui::SameLine(0, ui.px(5));
   if (ImGui::Button("\u00d7##picture", {width, 0})) ui.session.runAction("light.picture none");
   ui.name("picture/remove");
-  tooltip(ui, "Take the picture away.");
+  tooltip(ui, "Removes the picture.");
   if (shownPicture(*node.area) == nullptr) {
-    note("Shown by rectangles and disks alone.");
+    note("Only rectangles and disks can show a picture.");
     return;
   }
   labelledRow(ui, "");

@@ -66,7 +66,7 @@ void profileFields(const PanelContext& ui, const Node& node, InspectorState& sta
   ImGui::SameLine(0, ui.px(5));
   if (ImGui::Button("\u00d7##profile", {width, 0})) ui.session.runAction("light.ies none");
   ui.name("profile/remove");
-  tooltip(ui, "Take the profile away.");
+  tooltip(ui, "Removes the profile.");
   polarPlot(ui, *profile);
   const float measured = profile->peak * profile->solidAngle;
   if (ImGui::Button("As measured", {-FLT_MIN, 0})) {
@@ -76,7 +76,7 @@ void profileFields(const PanelContext& ui, const Node& node, InspectorState& sta
     ui.session.setPunctualLight(node.id, light);
   }
   ui.name("profile/measured");
-  tooltip(ui, "Gives the light the candela of the file.");
+  tooltip(ui, "Sets the light's intensity to the candela values of the file.");
   note(std::string(profile->isTypeB ? "Type B" : "Type C") + " \u00b7 " +
        short3(static_cast<double>(profile->peak)) + " cd \u00b7 " +
        short3(static_cast<double>(measured)) + " lm as measured");

@@ -26,7 +26,7 @@ constexpr std::array kColumns = {
     ColumnInfo{LightColumn::kind, "kind", "Kind", 66, false, ""},
     ColumnInfo{LightColumn::on, "on", "On", 20, false, "Whether it is switched on."},
     ColumnInfo{LightColumn::solo, "solo", "Solo", 30, false,
-               "While any light is solo, those that are not give no light."},
+               "While any light is solo, only lights that are solo emit."},
     ColumnInfo{LightColumn::colour, "colour", "Colour", 46, false, ""},
     ColumnInfo{LightColumn::temperature, "temperature", "Temp.", 56, true,
                "The black body of nearest colour."},
