@@ -122,7 +122,7 @@ void addCameraActions(ActionRegistry& r) {
   Action camera{"camera.go",
                 "Camera of the level",
                 "NAME",
-                "Looks through one of the level's cameras.",
+                "Sets the view to one of the level's cameras.",
                 "",
                 [](Session& s, const Arguments& a) {
                   requireArguments(a, 1, 1, "camera.go NAME");

@@ -107,8 +107,8 @@ void addEditActions(ActionRegistry& r) {
          },
          {}});
   r.add({"select.none", "Deselect", "",
-         "Takes back a drag under way, leaves placing or puts down a tool that clicks ask; else "
-         "selects nothing.",
+         "Cancels a drag, ends placing or ends a tool that uses clicks; otherwise clears the "
+         "selection.",
          "Escape",
          [](Session& s, const Arguments&) {
            if (s.dragging())

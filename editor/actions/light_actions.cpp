@@ -65,8 +65,8 @@ void addLightActions(ActionRegistry& r) {
   r.add({"light.ies",
          "Set profile",
          "FILE",
-         "Gives the active point or spot light the profile of an IES file; none takes it away. It "
-         "keeps its lumens.",
+         "Assigns an IES file to the active point or spot light; none removes it. The luminous "
+         "flux stays the same.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.ies FILE");
@@ -80,8 +80,8 @@ void addLightActions(ActionRegistry& r) {
   r.add({"light.picture",
          "Set picture",
          "FILE",
-         "Gives the active rectangle or disk light a picture to shine through, a PNG or JPEG file; "
-         "none takes it away. It keeps its lumens.",
+         "Assigns a PNG or JPEG picture to the active rectangle or disk light: its pixels scale "
+         "the radiance. none removes it. The luminous flux stays the same.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.picture FILE");

@@ -118,14 +118,14 @@ void addLightStateActions(ActionRegistry& r) {
          },
          {}});
   addGroupSwitch(r, "lights.mute_group", "Mute group",
-                 "Mutes a group of lights, or ends that: its lights give no light.",
+                 "Mutes a group of lights, or unmutes it. Lights of a muted group do not emit.",
                  &LightGroup::muted);
   addGroupSwitch(r, "lights.solo_group", "Solo group",
                  "Only the lights of this group and of other solo groups emit.", &LightGroup::solo);
   r.add({"panel.lights",
          "Light table",
          "",
-         "A table of all lights, below the view.",
+         "Shows a table of all lights, below the view.",
          "L",
          [](Session& s, const Arguments&) {
            s.lighting().showsTable = !s.lighting().showsTable;

@@ -82,7 +82,7 @@ void addPreferenceActions(ActionRegistry& r) {
   r.add({"view.ui_scale",
          "UI scale",
          "0.75|1|1.25|1.5|2|3",
-         "How large the user interface is, times what the screen asks for; from 0.5 to 4.",
+         "Sets the size of the user interface, relative to the scale of the screen, from 0.5 to 4.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "view.ui_scale FACTOR");
@@ -100,9 +100,9 @@ void addPreferenceActions(ActionRegistry& r) {
   addFocus("panel.previous", "Previous panel", "Moves the keyboard focus to the previous panel.",
            "Shift+F6, Ctrl+Shift+Tab");
   addFocus("app.menu", "Menu bar", "Moves the keyboard focus to the menu bar.", "F10");
-  addPanel(r, "panel.assets", "Assets", "Props of a folder to place, below the view.", "B",
+  addPanel(r, "panel.assets", "Assets", "Shows the asset browser, below the view.", "B",
            BottomPanel::assets);
-  addPanel(r, "panel.log", "Log", "All that happened since the program started, below the view.",
+  addPanel(r, "panel.log", "Log", "Shows all messages since the program started, below the view.",
            "Shift+N", BottomPanel::log);
 }
 

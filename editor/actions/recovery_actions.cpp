@@ -39,8 +39,9 @@ void addRecoveryActions(ActionRegistry& r) {
          },
          hasFound});
   r.add({"recovery.autosave", "Autosave now", "",
-         "Writes the level to a side file in the user's state folder, never over its own file.", "",
-         [](Session& s, const Arguments&) { s.autosave(); },
+         "Writes the level to a recovery file in the user's state folder. The level's own file "
+         "does not change.",
+         "", [](Session& s, const Arguments&) { s.autosave(); },
          [](const Session& s) { return s.crashRecovery().isOn(); }});
 }
 

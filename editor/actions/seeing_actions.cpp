@@ -54,16 +54,17 @@ void addExplain(ActionRegistry& r) {
            s.points().explainer().choose(rowOf(a[0]));
          },
          {}});
-  r.add({"explain.blocker",
-         "Select what stands before a light",
-         "ROW [INDEX]",
-         "Selects what stands between the explained point and a light; rows and indices from 0.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 2, "explain.blocker ROW [INDEX]");
-           s.select({s.points().explainer().blocker(rowOf(a[0]), a.size() > 1 ? rowOf(a[1]) : 0)});
-         },
-         {}});
+  r.add(
+      {"explain.blocker",
+       "Select what stands before a light",
+       "ROW [INDEX]",
+       "Selects an occluder between the explained point and a light. Rows and indices start at 0.",
+       "",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 1, 2, "explain.blocker ROW [INDEX]");
+         s.select({s.points().explainer().blocker(rowOf(a[0]), a.size() > 1 ? rowOf(a[1]) : 0)});
+       },
+       {}});
   r.add({"explain.close", "Close the explanation", "",
          "Closes the list of light contributions and occluders.", "",
          [](Session& s, const Arguments&) { s.points().explainer().close(); },
@@ -89,7 +90,7 @@ void addProbe(ActionRegistry& r) {
   r.add({"probe.at",
          "Probe at",
          "X Y",
-         "Reads illuminance and luminance at a viewport pixel into the status line.",
+         "Shows illuminance and luminance at a viewport pixel in the status line.",
          "",
          [](Session& s, const Arguments& a) {
            const vec2 pixel = pixelOf(a, "probe.at X Y");

@@ -61,7 +61,9 @@ void bars(const PanelContext& ui, const Histogram& h, float height) {
 }
 
 void exposureField(const PanelContext& ui, Requests& requests) {
-  labelledRow(ui, "Exposure", "Doubles the picture's brightness a step.");
+  labelledRow(ui, "Exposure",
+              "Exposure in EV: each step of 1 doubles the brightness of the picture. The lighting "
+              "does not change.");
   const float button = ui.px(56), gap = ui.px(5);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
   float ev = ui.session.document().render.exposureEv;

@@ -95,8 +95,9 @@ void linkFields(const PanelContext& ui, NodeId light, InspectorState& state) {
   std::vector<Node> there;  // copies, because an edit may replace the document's nodes
   for (const NodeId id : leftOut)
     if (const Node* n = scene.find(id)) there.push_back(*n);
-  labelledRow(ui, "Leaves out",
-              "Objects that get none of this light, with all below them. They cast shadows in it.");
+  labelledRow(
+      ui, "Leaves out",
+      "Objects, with their children, that are excluded from this light. They still cast shadows.");
   ImGui::BeginGroup();
   for (const Node& n : there) entry(ui, light, n);
   chooser(ui, light, leftOut, state);

@@ -48,8 +48,9 @@ void preview(const PanelContext& ui, const LightPicture& picture, bool isDisk) {
 
 void pictureFields(const PanelContext& ui, const Node& node, InspectorState& state) {
   const auto picture = node.area->picture;
-  labelledRow(ui, "Picture",
-              "Shines through a picture, a PNG or JPEG file: a screen, a window, a sign.");
+  labelledRow(
+      ui, "Picture",
+      "A PNG or JPEG picture whose pixels scale the radiance: for a screen, a window or a sign.");
   if (!picture) {
     if (ImGui::Button("Choose\u2026##picture", {-FLT_MIN, 0})) state.choosesPicture = true;
     ui.name("picture/choose");

@@ -52,7 +52,8 @@ void polarPlot(const PanelContext& ui, const IesProfile& profile) {
 
 void profileFields(const PanelContext& ui, const Node& node, InspectorState& state) {
   const auto profile = node.punctual->profile;
-  labelledRow(ui, "Profile", "How the luminaire spreads its light: an IES file (LM-63).");
+  labelledRow(ui, "Profile",
+              "Angular distribution of the luminaire's intensity: an IES file (LM-63).");
   if (!profile) {
     if (ImGui::Button("Choose\u2026##profile", {-FLT_MIN, 0})) state.choosesProfile = true;
     ui.name("profile/choose");

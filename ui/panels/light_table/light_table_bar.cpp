@@ -226,7 +226,8 @@ class Bar {
       if (value) ImGui::PopStyleColor();
     };
     flag("M", "lights.mute_group", "/mute", g.muted, "Mute: its lights give no light.");
-    flag("S", "lights.solo_group", "/solo", g.solo, "Solo: no lights shine but those solo.");
+    flag("S", "lights.solo_group", "/solo", g.solo,
+         "Solo: only lights and groups that are solo emit.");
     ImGui::PopID();
   }
 

@@ -35,7 +35,7 @@ constexpr std::array kColumns = {
     ColumnInfo{LightColumn::size, "size", "Size", 78, true, "In metres, before the scale."},
     ColumnInfo{LightColumn::group, "group", "Group", 60, false, ""},
     ColumnInfo{LightColumn::share, "share", "Share", 40, true,
-               "Of the flux of all lights that shine."},
+               "Share of the flux of all lights that are on."},
     ColumnInfo{LightColumn::samples, "samples", "VPLs", 36, true,
                "Light samples that are shown, bounced ones included."},
     ColumnInfo{LightColumn::patches, "patches", "Patches", 52, true,
