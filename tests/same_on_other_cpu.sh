@@ -23,8 +23,8 @@ picture() {  # picture NAME ARGUMENT... : of `lamplighter render`
   fi
 }
 
-# Rays: where the same triangle is hit, the same bits; of rays at an edge or a corner one in a hundred
-# may meet another of the triangles there, of others one in ten thousand.
+# Rays: where the same triangle is hit, the same bits. Of rays at an edge or a corner one in a thousand
+# may hit another of the triangles there, of others one in ten thousand.
 rays() {  # rays SCENE COUNT
   "$ray_hits" "$1" "$2" > "$work/here" || { bad=1; return; }
   "${other[@]}" "$ray_hits" "$1" "$2" > "$work/there" || { bad=1; return; }
@@ -37,7 +37,7 @@ rays() {  # rays SCENE COUNT
     END {
       printf "rays of %s: another triangle: %d of %d at random, %d of %d at edges, %d of %d at corners; other bits: %d\n",
         name, ties["a"], n["a"], ties["e"], n["e"], ties["c"], n["c"], bits
-      exit bits > 0 || ties["a"] * 10000 > n["a"] || (ties["e"] + ties["c"]) * 100 > n["e"] + n["c"]
+      exit bits > 0 || ties["a"] * 10000 > n["a"] || (ties["e"] + ties["c"]) * 1000 > n["e"] + n["c"]
     }' || bad=1
 }
 

@@ -53,8 +53,9 @@ void addAssetActions(ActionRegistry& r) {
   r.add({"asset.place",
          "Place an asset",
          "FILE",
-         "Puts all of a glTF file into the level, on the surface in the middle of the view. Copies "
-         "share their meshes. With place.start, on the surface that is clicked.",
+         "Adds the objects of a glTF file to the level, on the surface in the middle of the view "
+         "or, with place.start, on the clicked surface. Copies share their meshes and need little "
+         "memory.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "asset.place FILE");

@@ -107,12 +107,10 @@ void addBookmarkActions(ActionRegistry& r) {
       r.addKey(std::string(name) + " " + number, keys + number);
     }
   };
-  add("bookmark.store", "Store bookmark", "Puts the view by under a number, saved with the level.",
+  add("bookmark.store", "Store bookmark", "Stores the camera view under a number, in the level.",
       store, "Ctrl+", slots);
-  add("bookmark.go", "Go to bookmark", "Looks from where bookmark.store put the view by.", go, "",
-      bookmarks);
-  add("bookmark.clear", "Clear bookmark", "Forgets a view that was put by.", clear, nullptr,
-      bookmarks);
+  add("bookmark.go", "Go to bookmark", "Sets the camera to a stored view.", go, "", bookmarks);
+  add("bookmark.clear", "Clear bookmark", "Deletes a stored view.", clear, nullptr, bookmarks);
 }
 
 }  // namespace
@@ -122,7 +120,7 @@ void addCameraActions(ActionRegistry& r) {
   Action camera{"camera.go",
                 "Camera of the level",
                 "NAME",
-                "Looks through one of the level's cameras.",
+                "Sets the view to one of the level's cameras.",
                 "",
                 [](Session& s, const Arguments& a) {
                   requireArguments(a, 1, 1, "camera.go NAME");

@@ -26,7 +26,8 @@ void addCostActions(ActionRegistry& r) {
   r.add({"error.meter",
          "Error meter",
          "",
-         "Traces the reference beside the live picture and shows how far that is from it.",
+         "Traces a reference in the background and shows the error of the live picture. It uses "
+         "processor time while it is on.",
          "",
          [](Session& s, const Arguments&) { s.watch().meter.setOn(!s.watch().meter.on()); },
          {},
@@ -35,8 +36,8 @@ void addCostActions(ActionRegistry& r) {
   r.add({"error.measure",
          "Measure the error",
          "PATHS",
-         "Traces as many paths a block of pixels for each half of the reference, waits for them, "
-         "and tells how far the picture is from it.",
+         "Traces this number of paths per block of pixels for each half of the reference, waits "
+         "until they are done, and shows the error of the picture.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "error.measure PATHS");
@@ -48,8 +49,8 @@ void addCostActions(ActionRegistry& r) {
   r.add({"error.block",
          "Compare by blocks",
          "1|2|4|8",
-         "Pixels a side of the blocks in which the error meter compares: larger ones are known "
-         "sooner, smaller ones show finer errors.",
+         "Width in pixels of the blocks that the error meter compares. Larger blocks have less "
+         "noise after the same time; smaller blocks show finer errors.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "error.block 1|2|4|8");
@@ -64,8 +65,8 @@ void addCostActions(ActionRegistry& r) {
   r.add({"timeline.export",
          "Export the timeline",
          "FILE",
-         "Writes what the last seconds' frames were spent on: as a Chrome trace where the name "
-         "ends in .json, as a table where in .csv.",
+         "Writes the timings of the last seconds' frames: a Chrome trace for a name ending in "
+         ".json, a table for .csv.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "timeline.export FILE");
@@ -79,7 +80,7 @@ void addCostActions(ActionRegistry& r) {
   r.add({"timeline.clear",
          "Clear the timeline",
          "",
-         "Forgets the frames that were timed.",
+         "Deletes the recorded frame times.",
          "",
          [](Session& s, const Arguments&) { s.watch().timeline.clear(); },
          {},

@@ -97,22 +97,22 @@ std::vector<ActionChoice> recent(const Session& s) {
 }  // namespace
 
 void addDropActions(ActionRegistry& r) {
-  r.add(
-      {"file.drop",
-       "Take a file in",
-       "FILE [FILE]…",
-       "What dropping files on the window does: opens a level, takes .hdr or .exr as the sky, and "
-       ".ies as the profile of the selected lights or of a new one under the pointer.",
-       "",
-       [](Session& s, const Arguments& a) {
-         requireArguments(a, 1, 1000, "file.drop FILE [FILE]…");
-         drop(s, a);
-       },
-       {}});
+  r.add({"file.drop",
+         "Take a file in",
+         "FILE [FILE]…",
+         "Handles files that are dropped on the window: opens a level, sets a .hdr or .exr picture "
+         "as the sky, and assigns an .ies profile to the selected lights or to a new light under "
+         "the pointer.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1000, "file.drop FILE [FILE]…");
+           drop(s, a);
+         },
+         {}});
   Action again{"file.open_recent",
                "Open recent",
                "N",
-               "Opens one of the levels that were open before, 1 the last.",
+               "Opens a recent level. 1 is the most recent.",
                "",
                [](Session& s, const Arguments& a) {
                  requireArguments(a, 1, 1, "file.open_recent N");

@@ -54,31 +54,32 @@ void duplicate(Session& s) {
 }  // namespace
 
 void addEditActions(ActionRegistry& r) {
-  r.add({"edit.undo", "Undo", "", "Takes the last change back.", "Ctrl+Z",
+  r.add({"edit.undo", "Undo", "", "Undoes the last change.", "Ctrl+Z",
          [](Session& s, const Arguments&) { s.undo(); },
          [](const Session& s) { return s.dragging() || s.editing().canUndo(); }, true});
-  r.add({"edit.redo", "Redo", "", "Makes the change again that was taken back.",
-         "Ctrl+Y, Ctrl+Shift+Z", [](Session& s, const Arguments&) { s.redo(); },
+  r.add({"edit.redo", "Redo", "", "Redoes the change that was undone last.", "Ctrl+Y, Ctrl+Shift+Z",
+         [](Session& s, const Arguments&) { s.redo(); },
          [](const Session& s) { return s.editing().canRedo(); }});
-  r.add({"edit.delete", "Delete", "", "Deletes what is selected.", "Delete",
+  r.add({"edit.delete", "Delete", "", "Deletes the selection.", "Delete",
          [](Session& s, const Arguments&) { remove(s, "Delete"); }, hasSelection});
-  r.add({"edit.copy", "Copy", "", "Puts what is selected by, to be pasted.", "Ctrl+C",
+  r.add({"edit.copy", "Copy", "", "Copies the selection to the clipboard.", "Ctrl+C",
          [](Session& s, const Arguments&) { copy(s); }, hasSelection});
-  r.add({"edit.cut", "Cut", "", "Deletes what is selected and puts it by.", "Ctrl+X",
+  r.add({"edit.cut", "Cut", "", "Copies the selection to the clipboard and deletes it.", "Ctrl+X",
          [](Session& s, const Arguments&) {
            copy(s);
            remove(s, "Cut");
          },
          hasSelection});
-  r.add({"edit.paste", "Paste", "", "Adds what was copied, in this level or another, where it was.",
+  r.add({"edit.paste", "Paste", "",
+         "Adds the objects of the clipboard at their original position, in this level or another.",
          "Ctrl+V", [](Session& s, const Arguments&) { paste(s); },
          [](const Session& s) { return !s.clipboard().empty(); }});
-  r.add({"edit.duplicate", "Duplicate", "", "Copies what is selected to the same place.", "Ctrl+D",
-         [](Session& s, const Arguments&) { duplicate(s); }, hasSelection});
+  r.add({"edit.duplicate", "Duplicate", "", "Adds a copy of the selection at the same position.",
+         "Ctrl+D", [](Session& s, const Arguments&) { duplicate(s); }, hasSelection});
   r.add({"edit.rename",
          "Rename",
          "NAME",
-         "Gives the active object another name.",
+         "Renames the active object.",
          "F2",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "edit.rename NAME");
@@ -111,8 +112,8 @@ void addEditActions(ActionRegistry& r) {
          },
          {}});
   r.add({"select.none", "Deselect", "",
-         "Takes back a drag under way, leaves placing or puts down a tool that clicks ask; else "
-         "selects nothing.",
+         "Cancels a drag, ends placing or ends a tool that uses clicks; otherwise clears the "
+         "selection.",
          "Escape",
          [](Session& s, const Arguments&) {
            if (s.dragging())

@@ -19,8 +19,8 @@ void addFileActions(ActionRegistry& r) {
   r.add({"file.save",
          "Save",
          "[force]",
-         "Saves the level where it came from; force overwrites what other programs have changed "
-         "there since.",
+         "Saves the level to its file. With force, also if another program has changed the file "
+         "since.",
          "Ctrl+S",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 0, 1, "file.save [force]");
@@ -62,7 +62,7 @@ void addFileActions(ActionRegistry& r) {
   r.add({"script.wait",
          "Wait until settled",
          "",
-         "Renders until another frame would change nothing; for scripts.",
+         "Renders frames until the picture no longer changes. For scripts.",
          "",
          [](Session& s, const Arguments&) {
            constexpr int kPatience = 100000;  // frames
@@ -74,7 +74,7 @@ void addFileActions(ActionRegistry& r) {
   r.add({"app.quit",
          "Quit",
          "",
-         "Ends the program.",
+         "Quits the program.",
          "Ctrl+Q",
          [](Session& s, const Arguments&) { s.requestQuit(); },
          {}});

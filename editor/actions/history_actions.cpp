@@ -13,8 +13,7 @@ void addHistoryActions(ActionRegistry& r) {
   r.add({"history.go",
          "Go to step",
          "STEP",
-         "Undoes or redoes until this step of the history is the newest that is done; 0 is the "
-         "level as it was opened.",
+         "Undoes or redoes up to a step of the history. 0 is the level as it was opened.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "history.go STEP");
@@ -27,8 +26,8 @@ void addHistoryActions(ActionRegistry& r) {
   r.add({"history.memory",
          "Undo memory",
          "MIB",
-         "Sets how many MiB the steps that can be undone may keep, 256 at first; beyond it the "
-         "oldest are forgotten.",
+         "Sets the memory limit for undo steps in MiB, by default 256. When it is reached, the "
+         "oldest steps are deleted.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "history.memory MIB");
@@ -40,7 +39,7 @@ void addHistoryActions(ActionRegistry& r) {
   r.add({"panel.history",
          "History",
          "",
-         "Lists the steps that were made, over the view; a click on one goes there.",
+         "Shows the list of undo steps over the view. A click undoes or redoes up to that step.",
          "U",
          [](Session& s, const Arguments&) { s.display().showHistory(!s.display().showsHistory()); },
          {},

@@ -54,7 +54,8 @@ void addLightActions(ActionRegistry& r) {
   r.add({"light.add",
          "Add light",
          "rectangle|disk|sphere|tube|spot|point|sun",
-         "Puts a new light ahead of the camera, facing down, as bright as the place asks for.",
+         "Adds a light in front of the camera, facing down, with an intensity that suits its "
+         "distance and the exposure.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.add rectangle|disk|sphere|tube|spot|point|sun");
@@ -64,8 +65,8 @@ void addLightActions(ActionRegistry& r) {
   r.add({"light.ies",
          "Set profile",
          "FILE",
-         "Gives the active point or spot light the profile of an IES file; none takes it away. It "
-         "keeps its lumens.",
+         "Assigns an IES file to the active point or spot light; none removes it. The luminous "
+         "flux stays the same.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.ies FILE");
@@ -79,8 +80,8 @@ void addLightActions(ActionRegistry& r) {
   r.add({"light.picture",
          "Set picture",
          "FILE",
-         "Gives the active rectangle or disk light a picture to shine through, a PNG or JPEG file; "
-         "none takes it away. It keeps its lumens.",
+         "Assigns a PNG or JPEG picture to the active rectangle or disk light: its pixels scale "
+         "the radiance. none removes it. The luminous flux stays the same.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.picture FILE");

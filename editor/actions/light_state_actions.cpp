@@ -69,8 +69,7 @@ void addLightStateActions(ActionRegistry& r) {
                               [on](LightState& state) { state.on = on; });
             });
   addSwitch(r, "lights.solo", "Solo lights",
-            "While any light is solo, those that are not give no light.",
-            [](Session& s, bool solo) {
+            "While any light is solo, only lights that are solo emit.", [](Session& s, bool solo) {
               editLightStates(s.editing(), solo ? "Solo" : "End solo of",
                               [solo](LightState& state) { state.solo = solo; });
             });
@@ -79,26 +78,27 @@ void addLightStateActions(ActionRegistry& r) {
               editSkyState(s.editing(), on ? "Switch on the sky" : "Switch off the sky",
                            [on](LightState& state) { state.on = on; });
             });
-  addSwitch(r, "sky.solo", "Solo sky", "While the sky is solo, no light shines but it.",
+  addSwitch(r, "sky.solo", "Solo sky",
+            "While the sky is solo, only the sky and lights that are solo emit.",
             [](Session& s, bool solo) {
               editSkyState(s.editing(), solo ? "Solo the sky" : "End solo of the sky",
                            [solo](LightState& state) { state.solo = solo; });
             });
   r.add({"lights.all_on", "Switch all lights on", "",
-         "Switches all lights on and ends all solo and mute.", "",
+         "Switches all lights on and clears every solo and mute.", "",
          [](Session& s, const Arguments&) { shineAll(s.editing()); },
          [](const Session& s) { return anyLightDark(s.document().scene); }});
   r.add({"lights.group",
          "Group lights",
          "NAME",
-         "Puts the selected lights into a group, which is made if there is none of that name.",
+         "Adds the selected lights to a group. The group is created if it does not exist.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "lights.group NAME");
            groupLights(s.editing(), a[0]);
          },
          {}});
-  r.add({"lights.ungroup", "Ungroup lights", "", "Takes the selected lights out of their groups.",
+  r.add({"lights.ungroup", "Ungroup lights", "", "Removes the selected lights from their groups.",
          "", [](Session& s, const Arguments&) { groupLights(s.editing(), ""); },
          [](const Session& s) { return !selectedLights(s.document()).empty(); }});
   r.add({"lights.select_group",
@@ -118,15 +118,14 @@ void addLightStateActions(ActionRegistry& r) {
          },
          {}});
   addGroupSwitch(r, "lights.mute_group", "Mute group",
-                 "Mutes a group of lights, or ends that: its lights give no light.",
+                 "Mutes a group of lights, or unmutes it. Lights of a muted group do not emit.",
                  &LightGroup::muted);
   addGroupSwitch(r, "lights.solo_group", "Solo group",
-                 "Lets no lights shine but those of this group and of others that are solo.",
-                 &LightGroup::solo);
+                 "Only the lights of this group and of other solo groups emit.", &LightGroup::solo);
   r.add({"panel.lights",
          "Light table",
          "",
-         "A table of all lights, below the view.",
+         "Shows a table of all lights, below the view.",
          "L",
          [](Session& s, const Arguments&) {
            s.lighting().showsTable = !s.lighting().showsTable;
@@ -138,7 +137,7 @@ void addLightStateActions(ActionRegistry& r) {
   r.add({"view.work_light",
          "Work light",
          "",
-         "A lamp at the camera, for dark levels. It is no part of the level and never saved.",
+         "A lamp at the camera, for dark levels. It is not part of the level and is not saved.",
          "Shift+L",
          [](Session& s, const Arguments&) { toggleWorkLight(s); },
          {},

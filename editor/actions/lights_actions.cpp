@@ -59,7 +59,7 @@ void addLightsActions(ActionRegistry& r) {
            {}});
   };
   add("lights.set", "Set of lights", "PROPERTY VALUE [UNIT]",
-      "Gives all selected lights the same intensity, temperature (K), width or height (m), "
+      "Sets a property of all selected lights: intensity, temperature (K), width or height (m), "
       "inner_cone or outer_cone (degrees).",
       LightOperation::set);
   add("lights.multiply", "Multiply of lights", "PROPERTY FACTOR",
@@ -69,7 +69,7 @@ void addLightsActions(ActionRegistry& r) {
   r.add({"lights.colour",
          "Colour of lights",
          "R G B",
-         "Gives all selected lights a linear colour; they stay as bright as they are.",
+         "Sets the linear colour of all selected lights. Their luminous flux stays the same.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 3, 3, "lights.colour R G B");
@@ -77,7 +77,7 @@ void addLightsActions(ActionRegistry& r) {
          },
          {}});
   r.add({"lights.edit", "Edit cells of lights", "name|strength|temperature|size|group VALUE",
-         "What is typed in a cell of the light table, for all selected lights: a name, 800 lm, "
+         "Sets a column of the light table for all selected lights, from text: a name, 800 lm, "
          "2700 K, 1.2 x 0.6, a group.",
          "",
          [](Session& s, const Arguments& a) {
@@ -95,8 +95,8 @@ void addLightsActions(ActionRegistry& r) {
   r.add({"lights.unit",
          "Unit of light",
          "lm|cd|nits|W",
-         "What the strength of lights is shown and typed in; lights that have no such unit keep "
-         "their own.",
+         "Sets the unit in which the strength of lights is shown and typed. Lights for which it is "
+         "not defined keep their own unit.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "lights.unit lm|cd|nits|W");
@@ -119,14 +119,14 @@ void addLightsActions(ActionRegistry& r) {
            s.select(std::move(ids));
          },
          {}});
-  r.add({"lights.brighter", "Twice as bright", "", "Doubles the intensity of the selected lights.",
+  r.add({"lights.brighter", "Double intensity", "", "Doubles the intensity of the selected lights.",
          "",
          [](Session& s, const Arguments&) {
            editLights(s.editing(), LightOperation::multiply, LightProperty::intensity, 2.0,
                       LightUnit::nits);
          },
          anySelected});
-  r.add({"lights.darker", "Half as bright", "", "Halves the intensity of the selected lights.", "",
+  r.add({"lights.darker", "Halve intensity", "", "Halves the intensity of the selected lights.", "",
          [](Session& s, const Arguments&) {
            editLights(s.editing(), LightOperation::multiply, LightProperty::intensity, 0.5,
                       LightUnit::nits);

@@ -35,16 +35,14 @@ void addLinkActions(ActionRegistry& r) {
     return !leftOutBySelection(s.document()).empty();
   };
   r.add({"light.exclude", "Leave objects out", kObjects,
-         "The selected lights give the selected objects, or those named, and all below them no "
-         "light.",
-         "",
+         "Excludes the selected or named objects and their children from the selected lights.", "",
          [](Session& s, const Arguments& a) {
            leaveOut(s.editing(), lightsOfSelection(s), objectsOf(s, a, {}), true);
          },
          hasLights});
   r.add({"light.include", "Light objects again", kObjects,
-         "The selected lights light the selected objects, or those named, again; with neither, all "
-         "that they left out.",
+         "Ends the exclusion of the selected or named objects from the selected lights. With "
+         "neither, of all objects.",
          "",
          [](Session& s, const Arguments& a) {
            leaveOut(s.editing(), lightsOfSelection(s),
@@ -52,20 +50,22 @@ void addLinkActions(ActionRegistry& r) {
          },
          hasLeftOut});
   r.add({"light.select_excluded", "Select what is left out", "",
-         "Selects the objects that the selected lights leave out.", "",
+         "Selects the objects that are excluded from the selected lights.", "",
          [](Session& s, const Arguments&) { s.select(leftOutBySelection(s.document())); },
          hasLeftOut});
   r.add({"sky.exclude",
          "Leave objects out of the sky",
          kObjects,
-         "The sky gives the selected objects, or those named, and all below them no light.",
+         "Excludes the selected or named objects and their children from the light of the sky.",
          "",
          [](Session& s, const Arguments& a) {
            leaveOut(s.editing(), {kNoNode}, objectsOf(s, a, {}), true);
          },
          {}});
   r.add({"sky.include", "Light objects by the sky again", kObjects,
-         "The sky lights the selected objects, or those named, again; with neither, all.", "",
+         "Ends the exclusion of the selected or named objects from the light of the sky. With "
+         "neither, of all objects.",
+         "",
          [](Session& s, const Arguments& a) {
            leaveOut(s.editing(), {kNoNode}, objectsOf(s, a, s.document().scene.skyLight.leftOut),
                     false);

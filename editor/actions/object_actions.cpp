@@ -59,7 +59,7 @@ void addObjectActions(ActionRegistry& r) {
   r.add({"object.move",
          "Move to",
          "X Y Z",
-         "Puts the active object at a place, in metres, in its parent's space.",
+         "Sets the position of the active object, in metres, in its parent's space.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 3, 3, "object.move X Y Z");
@@ -71,7 +71,7 @@ void addObjectActions(ActionRegistry& r) {
   r.add({"object.rotate",
          "Rotate to",
          "X Y Z",
-         "Turns the active object to angles about X, Y and Z, in degrees.",
+         "Sets the rotation of the active object about X, Y and Z, in degrees.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 3, 3, "object.rotate X Y Z");
@@ -92,7 +92,7 @@ void addObjectActions(ActionRegistry& r) {
            s.setNodeTransform(n.id, n.local);
          },
          {}});
-  r.add({"object.hide", "Hide or show", "", "Hides what is selected, or shows it again.", "H",
+  r.add({"object.hide", "Hide or show", "", "Hides the selection, or shows it again.", "H",
          [](Session& s, const Arguments&) {
            const bool visible = !activeNode(s.document()).visible;
            Transaction edit = s.editing().begin(visible ? "Show" : "Hide");

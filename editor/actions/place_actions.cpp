@@ -88,46 +88,49 @@ void align(Session& s) {
 }  // namespace
 
 void addPlaceActions(ActionRegistry& r) {
-  r.add(
-      {"place.start",
-       "Click to place",
-       "ACTION [ARGUMENT]…",
-       "The next click in the viewport runs an action that adds something, such as light.add disk, "
-       "and puts that on the surface there, facing out; with Shift the click after it as well.",
-       "",
-       [](Session& s, const Arguments& a) {
-         requireArguments(a, 1, 100, "place.start ACTION [ARGUMENT]…");
-         if (s.actions().find(a[0]) == nullptr)
-           throw InputError(a[0], "there is no such action", "give one such as light.add disk");
-         std::string text;
-         for (const std::string& word : a) {
-           const bool isPlain = word.find_first_of(" \"\\") == word.npos;
-           text += (text.empty() ? "" : " ") + (isPlain ? word : quoted(word));
-         }
-         s.startPlacing(text);
-         s.setStatus("Click where it is to be; Esc leaves it", NoticeKind::hint);
-       },
-       {}});
+  r.add({"place.start",
+         "Click to place",
+         "ACTION [ARGUMENT]…",
+         "The next click in the viewport runs an action that adds an object, such as light.add "
+         "disk, and puts the object on the clicked surface, facing away from it. With Shift, the "
+         "tool stays active.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 100, "place.start ACTION [ARGUMENT]…");
+           if (s.actions().find(a[0]) == nullptr)
+             throw InputError(a[0], "there is no such action", "give one such as light.add disk");
+           std::string text;
+           for (const std::string& word : a) {
+             const bool isPlain = word.find_first_of(" \"\\") == word.npos;
+             text += (text.empty() ? "" : " ") + (isPlain ? word : quoted(word));
+           }
+           s.startPlacing(text);
+           s.setStatus("Click where it is to be; Esc leaves it", NoticeKind::hint);
+         },
+         {}});
   const std::string kinds = r.find("light.add")->usage;
   r.add({"light.place",
          "Click to place a light",
          kinds,
-         "The next click in the viewport puts a new light on the surface there, facing out; with "
-         "Shift the click after it as well.",
+         "The next click in the viewport adds a light on the clicked surface, facing away from it. "
+         "With Shift, the tool stays active.",
          "",
          [kinds](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "light.place " + kinds);
            s.runAction("place.start light.add " + a[0]);
          },
          {}});
-  r.add({"place.stop", "Place nothing", "", "The next click selects again.", "",
+  r.add({"place.stop", "Place nothing", "", "Ends placing: clicks select again.", "",
          [](Session& s, const Arguments&) { s.startPlacing(""); },
          [](const Session& s) { return s.placing(); }});
   r.add({"object.align", "Align to the surface", "",
-         "Turns the active object upright on the surface under the pointer, a light away from it.",
+         "Aligns the active object to the normal of the surface under the pointer. A light faces "
+         "away from the surface.",
          "Ctrl+Shift+T", [](Session& s, const Arguments&) { align(s); }, hasSelection});
   r.add({"edit.duplicate_line", "Duplicate along a line", "COPIES X Y Z",
-         "Adds copies of the selection, each so many metres from the one before.", "",
+         "Adds copies of the selection along a line. X, Y and Z are the offset from one copy to "
+         "the next, in metres.",
+         "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 4, 4, "edit.duplicate_line COPIES X Y Z");
            const vec3 step = vectorOf(a, 1);
@@ -135,19 +138,18 @@ void addPlaceActions(ActionRegistry& r) {
                            "Duplicate along a line");
          },
          hasSelection});
-  r.add(
-      {"edit.duplicate_grid", "Duplicate in a grid", "COLUMNS ROWS LAYERS X Y Z",
-       "Fills a grid with copies of the selection: columns along X, rows along Z, layers along Y, "
-       "so many metres apart.",
-       "",
-       [](Session& s, const Arguments& a) {
-         requireArguments(a, 6, 6, "edit.duplicate_grid COLUMNS ROWS LAYERS X Y Z");
-         const vec3 step = vectorOf(a, 3);
-         duplicateInGrid(s, {countOf(a[0]), countOf(a[2]), countOf(a[1])},
-                         mat3(vec3(step.x, 0, 0), vec3(0, step.y, 0), vec3(0, 0, step.z)),
-                         "Duplicate in a grid");
-       },
-       hasSelection});
+  r.add({"edit.duplicate_grid", "Duplicate in a grid", "COLUMNS ROWS LAYERS X Y Z",
+         "Adds copies of the selection in a grid: columns along X, rows along Z, layers along Y. "
+         "X, Y and Z are the spacing in metres.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 6, 6, "edit.duplicate_grid COLUMNS ROWS LAYERS X Y Z");
+           const vec3 step = vectorOf(a, 3);
+           duplicateInGrid(s, {countOf(a[0]), countOf(a[2]), countOf(a[1])},
+                           mat3(vec3(step.x, 0, 0), vec3(0, step.y, 0), vec3(0, 0, step.z)),
+                           "Duplicate in a grid");
+         },
+         hasSelection});
   const auto addSnap = [&](const char* name, const char* label, const char* help, SnapTo target) {
     r.add({name,
            label,
@@ -159,11 +161,11 @@ void addPlaceActions(ActionRegistry& r) {
            true,
            [target](const Session& s) { return s.snapTo() == target; }});
   };
-  addSnap("tool.snap_grid", "Snap to steps", "Snapping moves by steps of 25 cm.", SnapTo::grid);
+  addSnap("tool.snap_grid", "Snap to steps", "Snaps positions to a grid of 25 cm.", SnapTo::grid);
   addSnap("tool.snap_surface", "Snap to surfaces",
-          "Snapping moves onto the surface under the pointer.", SnapTo::surface);
+          "Snaps positions to the surface under the pointer.", SnapTo::surface);
   addSnap("tool.snap_vertex", "Snap to vertices",
-          "Snapping moves onto the corner under the pointer.", SnapTo::vertex);
+          "Snaps positions to the vertex under the pointer.", SnapTo::vertex);
 }
 
 }  // namespace lamplighter

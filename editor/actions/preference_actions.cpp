@@ -57,7 +57,7 @@ void addPreferenceActions(ActionRegistry& r) {
   r.add({"settings.reset",
          "Reset settings",
          "[NAME]",
-         "Puts a setting, or all of them, back to its default.",
+         "Resets one setting, or all of them, to the default.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 0, 1, "settings.reset [NAME]");
@@ -82,7 +82,7 @@ void addPreferenceActions(ActionRegistry& r) {
   r.add({"view.ui_scale",
          "UI scale",
          "0.75|1|1.25|1.5|2|3",
-         "How large the user interface is, times what the screen asks for; from 0.5 to 4.",
+         "Sets the size of the user interface, relative to the scale of the screen, from 0.5 to 4.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "view.ui_scale FACTOR");
@@ -95,13 +95,14 @@ void addPreferenceActions(ActionRegistry& r) {
     r.add({name, label, "", help, shortcut, [](Session&, const Arguments&) {}, {}, true});
   };
   addFocus("panel.next", "Next panel",
-           "Gives the keyboard to the next panel; arrows lead through it.", "F6, Ctrl+Tab");
-  addFocus("panel.previous", "Previous panel", "Gives the keyboard to the panel before.",
+           "Moves the keyboard focus to the next panel. Arrow keys move within it.",
+           "F6, Ctrl+Tab");
+  addFocus("panel.previous", "Previous panel", "Moves the keyboard focus to the previous panel.",
            "Shift+F6, Ctrl+Shift+Tab");
-  addFocus("app.menu", "Menu bar", "Gives the keyboard to the menus.", "F10");
-  addPanel(r, "panel.assets", "Assets", "Props of a folder to place, below the view.", "B",
+  addFocus("app.menu", "Menu bar", "Moves the keyboard focus to the menu bar.", "F10");
+  addPanel(r, "panel.assets", "Assets", "Shows the asset browser, below the view.", "B",
            BottomPanel::assets);
-  addPanel(r, "panel.log", "Log", "All that happened since the program started, below the view.",
+  addPanel(r, "panel.log", "Log", "Shows all messages since the program started, below the view.",
            "Shift+N", BottomPanel::log);
 }
 

@@ -22,21 +22,26 @@ size_t numberFrom(const Session& s, const Arguments& a, const std::string& usage
 
 void addRecoveryActions(ActionRegistry& r) {
   const auto hasFound = [](const Session& s) { return !s.crashRecovery().found().empty(); };
-  r.add({"recovery.recover", "Recover", "[NUMBER]",
-         "Takes up the work that a killed process has left; the newest is number 1.", "",
-         [](Session& s, const Arguments& a) {
-           s.recoverWork(numberFrom(s, a, "recovery.recover [NUMBER]"));
-         },
-         hasFound});
+  r.add(
+      {"recovery.recover", "Recover", "[NUMBER]",
+       "Opens the autosaved level of a session that did not exit normally. The newest is number 1.",
+       "",
+       [](Session& s, const Arguments& a) {
+         s.recoverWork(numberFrom(s, a, "recovery.recover [NUMBER]"));
+       },
+       hasFound});
   r.add({"recovery.discard", "Discard recoverable work", "[NUMBER]",
-         "Deletes the work that a killed process has left; the newest is number 1.", "",
+         "Deletes the autosaved level of a session that did not exit normally. The newest is "
+         "number 1.",
+         "",
          [](Session& s, const Arguments& a) {
            s.discardWork(numberFrom(s, a, "recovery.discard [NUMBER]"));
          },
          hasFound});
   r.add({"recovery.autosave", "Autosave now", "",
-         "Writes the level to a side file in the user's state folder, never over its own file.", "",
-         [](Session& s, const Arguments&) { s.autosave(); },
+         "Writes the level to a recovery file in the user's state folder. The level's own file "
+         "does not change.",
+         "", [](Session& s, const Arguments&) { s.autosave(); },
          [](const Session& s) { return s.crashRecovery().isOn(); }});
 }
 

@@ -25,14 +25,15 @@ void addRenderActions(ActionRegistry& r) {
   r.add({"render.reference",
          "Reference",
          "",
-         "Shows the path-traced reference, or the method before it again.",
+         "Switches between the path-traced reference and the previous method. The reference needs "
+         "many frames to converge.",
          "Space",
          [](Session& s, const Arguments&) { s.toggleReference(); },
          {}});
   r.add({"render.reload_shaders",
          "Reload shaders",
          "",
-         "Reads and compiles the shaders of the gl backend anew.",
+         "Reloads and compiles the shaders of the gl backend.",
          "F5",
          [](Session& s, const Arguments&) { s.requestShaders(); },
          {}});
@@ -69,7 +70,7 @@ void addRenderActions(ActionRegistry& r) {
          },
          {}});
   r.add({"render.auto_exposure", "Automatic exposure", "",
-         "Sets the exposure that suits the picture.", "",
+         "Sets the exposure so that the log-average luminance of the picture is middle grey.", "",
          [](Session& s, const Arguments&) {
            RenderSettings settings = s.document().render;
            settings.exposureEv = autoExposureEv(s.output().radiance->pixels());

@@ -32,17 +32,18 @@ void addExplain(ActionRegistry& r) {
   r.add({"explain.at",
          "Why is it dark at",
          "X Y",
-         "Tells what each light gives the surface at a viewport pixel, and what stands between.",
+         "Lists the contribution of each light at a viewport pixel, and its occluders.",
          "",
          [](Session& s, const Arguments& a) { explainAt(s, pixelOf(a, "explain.at X Y")); },
          {}});
-  r.add({"explain.pointer",
-         "Why is it dark here?",
-         "",
-         "Tells what each light gives the surface under the pointer, and what stands between.",
-         "Y",
-         [](Session& s, const Arguments&) { explainAt(s, pointerOf(s)); },
-         {}});
+  r.add(
+      {"explain.pointer",
+       "Why is it dark here?",
+       "",
+       "Lists the contribution of each light at the surface under the pointer, and its occluders.",
+       "Y",
+       [](Session& s, const Arguments&) { explainAt(s, pointerOf(s)); },
+       {}});
   r.add({"explain.light",
          "Show light's rays",
          "ROW",
@@ -53,18 +54,19 @@ void addExplain(ActionRegistry& r) {
            s.points().explainer().choose(rowOf(a[0]));
          },
          {}});
-  r.add({"explain.blocker",
-         "Select what stands before a light",
-         "ROW [INDEX]",
-         "Selects what stands between the explained point and a light; rows and indices from 0.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 2, "explain.blocker ROW [INDEX]");
-           s.select({s.points().explainer().blocker(rowOf(a[0]), a.size() > 1 ? rowOf(a[1]) : 0)});
-         },
-         {}});
+  r.add(
+      {"explain.blocker",
+       "Select what stands before a light",
+       "ROW [INDEX]",
+       "Selects an occluder between the explained point and a light. Rows and indices start at 0.",
+       "",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 1, 2, "explain.blocker ROW [INDEX]");
+         s.select({s.points().explainer().blocker(rowOf(a[0]), a.size() > 1 ? rowOf(a[1]) : 0)});
+       },
+       {}});
   r.add({"explain.close", "Close the explanation", "",
-         "Closes the panel that tells why it is dark.", "",
+         "Closes the list of light contributions and occluders.", "",
          [](Session& s, const Arguments&) { s.points().explainer().close(); },
          [](const Session& s) { return s.points().explainer().answer() != nullptr; }});
 }
@@ -88,7 +90,7 @@ void addProbe(ActionRegistry& r) {
   r.add({"probe.at",
          "Probe at",
          "X Y",
-         "Reads illuminance and luminance at a viewport pixel into the status line.",
+         "Shows illuminance and luminance at a viewport pixel in the status line.",
          "",
          [](Session& s, const Arguments& a) {
            const vec2 pixel = pixelOf(a, "probe.at X Y");
@@ -110,7 +112,7 @@ void addMeasure(ActionRegistry& r) {
   r.add({"measure.start",
          "Measure from here on",
          "",
-         "Takes up the tool with which two clicks measure a distance, from nothing.",
+         "Starts the measuring tool: two clicks on surfaces measure a distance.",
          "",
          [](Session& s, const Arguments&) {
            s.points().setTool(PointTool::measure);
@@ -120,7 +122,7 @@ void addMeasure(ActionRegistry& r) {
   r.add({"measure.at",
          "Measure at",
          "X Y",
-         "Takes the surface at a viewport pixel as the next end of the measured distance.",
+         "Sets the next end point of the measured distance at a viewport pixel.",
          "",
          [](Session& s, const Arguments& a) {
            s.points().measureAt(s.pointSubject(), pixelOf(a, "measure.at X Y"));
@@ -128,7 +130,7 @@ void addMeasure(ActionRegistry& r) {
          },
          {}});
   r.add({"measure.clear", "Clear the measurement", "",
-         "Takes the measured distance off the picture.", "",
+         "Removes the measured distance from the viewport.", "",
          [](Session& s, const Arguments&) { s.points().measurement().clear(); },
          [](const Session& s) { return s.points().measurement().hasBegun(); }});
 }
@@ -137,8 +139,8 @@ void addMeasure(ActionRegistry& r) {
 
 void addSeeingActions(ActionRegistry& r) {
   addTool(r, "tool.explain", "Why is it dark?",
-          "A click tells what each light gives there, and what stands between.", "Shift+Y",
-          PointTool::explain);
+          "A click lists the contribution of each light at that point, and its occluders.",
+          "Shift+Y", PointTool::explain);
   addTool(r, "tool.measure", "Measure", "Two clicks on surfaces show the distance between them.",
           "M", PointTool::measure);
   addExplain(r);

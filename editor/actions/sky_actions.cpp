@@ -39,7 +39,8 @@ void addSkyActions(ActionRegistry& r) {
   r.add({"sky.image",
          "Sky picture",
          "FILE",
-         "Takes an equirectangular picture as the sky, turned and scaled as the one before.",
+         "Sets an equirectangular picture as the sky. It keeps the rotation and brightness of the "
+         "previous picture.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "sky.image FILE");
@@ -48,7 +49,8 @@ void addSkyActions(ActionRegistry& r) {
          },
          {}});
   r.add({"sky.rotate", "Turn sky", "DEGREES",
-         "Turns the sky's picture about the vertical, counter-clockwise from above.", "",
+         "Rotates the sky's picture about the vertical axis, counter-clockwise seen from above.",
+         "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "sky.rotate DEGREES");
            Sky sky = pictureOf(s, "sky.rotate");
@@ -56,7 +58,8 @@ void addSkyActions(ActionRegistry& r) {
            s.setSky(sky);
          },
          isPicture});
-  r.add({"sky.scale", "Scale sky", "FACTOR", "Sets what the sky's picture is multiplied by.", "",
+  r.add({"sky.scale", "Scale sky", "FACTOR",
+         "Sets the factor for the radiance of the sky's picture.", "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "sky.scale FACTOR");
            Sky sky = pictureOf(s, "sky.scale");

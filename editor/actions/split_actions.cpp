@@ -23,9 +23,9 @@ void addSplitActions(ActionRegistry& r) {
   r.add({"split.on",
          "Split view",
          "[A B]",
-         "Shows two pictures of the view, A left and B right of a divider: each is live or a "
-         "method's name, and may have parameters of its own (many_lights,vpls=1000). The live "
-         "picture and the reference where none are named.",
+         "Shows two pictures of the view, A left and B right of a divider. Each is live or the "
+         "name of a method, with optional parameters (many_lights,vpls=1000). Default: the live "
+         "picture and the reference. Both pictures are rendered, which costs time.",
          "Shift+Space",
          [](Session& s, const Arguments& a) {
            if (a.empty()) {
@@ -53,7 +53,7 @@ void addSplitActions(ActionRegistry& r) {
   r.add({"split.position",
          "Move the divider",
          "SHARE",
-         "Puts the divider of the split view at a share of the view's width, from 0 to 1.",
+         "Sets the position of the split view's divider, from 0 (left) to 1 (right).",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "split.position SHARE");
@@ -69,7 +69,7 @@ void addSplitActions(ActionRegistry& r) {
   r.add({"split.toggle",
          "Show the other side",
          "",
-         "Shows one side of the split view whole, then the other.",
+         "Shows one side of the split view in the whole view, then the other.",
          "",
          [](Session& s, const Arguments&) { s.split().toggleWhole(); },
          isOn,
@@ -78,7 +78,8 @@ void addSplitActions(ActionRegistry& r) {
   r.add({"split.show",
          "Compare",
          "off|both|first|second|heat",
-         "What is shown: the picture alone, both sides, one of them, or how far they are apart.",
+         "Sets what the split view shows: the live picture, both sides, one side, or their "
+         "difference.",
          "",
          [](Session& s, const Arguments& a) {
            using Shown = SplitView::Shown;
@@ -98,37 +99,37 @@ void addSplitActions(ActionRegistry& r) {
          {},
          true,
          {}});
-  r.add(
-      {"split.heat",
-       "Heat map",
-       "",
-       "Shows in false colour how far the two sides of the split view are apart: the live picture "
-       "and the reference where it was off.",
-       "",
-       [](Session& s, const Arguments&) {
-         if (s.split().on() && s.split().shown() == SplitView::Shown::heat)
-           return s.split().setShown(SplitView::Shown::both);
-         makeSureOfSplit(s);
-         s.split().setShown(SplitView::Shown::heat);
-       },
-       {},
-       true,
-       [](const Session& s) { return isOn(s) && s.split().shown() == SplitView::Shown::heat; }});
-  r.add({"split.heat_scale",
-         "Heat map's range",
-         "SHARE",
-         "Sets the difference at which the heat map's colours end, as a share of the mean of B.",
+  r.add({"split.heat",
+         "Heat map",
          "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "split.heat_scale SHARE");
-           const float share = numberOf(a[0]);
-           if (share < 0.001f || share > 100.0f)
-             throw InputError(a[0], "is no such share", "give one from 0.001 to 100");
-           s.split().setHeatScale(share);
+         "Shows the difference of the two sides of the split view in false colour. If the split "
+         "view is off, it compares the live picture with the reference.",
+         "",
+         [](Session& s, const Arguments&) {
+           if (s.split().on() && s.split().shown() == SplitView::Shown::heat)
+             return s.split().setShown(SplitView::Shown::both);
+           makeSureOfSplit(s);
+           s.split().setShown(SplitView::Shown::heat);
          },
          {},
          true,
-         {}});
+         [](const Session& s) { return isOn(s) && s.split().shown() == SplitView::Shown::heat; }});
+  r.add(
+      {"split.heat_scale",
+       "Heat map's range",
+       "SHARE",
+       "Sets the difference at the end of the heat map's colour scale, relative to the mean of B.",
+       "",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 1, 1, "split.heat_scale SHARE");
+         const float share = numberOf(a[0]);
+         if (share < 0.001f || share > 100.0f)
+           throw InputError(a[0], "is no such share", "give one from 0.001 to 100");
+         s.split().setHeatScale(share);
+       },
+       {},
+       true,
+       {}});
 }
 
 }  // namespace lamplighter

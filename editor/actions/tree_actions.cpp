@@ -31,8 +31,8 @@ float shareOf(const std::string& text) {
 
 void addTreeActions(ActionRegistry& r) {
   r.add({"object.reparent", "Hang below", "PARENT|none",
-         "Hangs the selection below the object of that name, or at the top of the tree; it stays "
-         "where it is.",
+         "Makes the selection a child of the named object, or a root of the tree. Its world "
+         "transform stays the same.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "object.reparent PARENT|none");
@@ -41,14 +41,14 @@ void addTreeActions(ActionRegistry& r) {
                     a[0] == "none" ? kNoNode : nodeNamed(s.document(), a[0]).id);
          },
          hasSelection});
-  r.add({"object.lock", "Lock or unlock", "",
-         "Locks what is selected, so that it is neither picked nor moved in the view, or unlocks "
-         "it.",
-         "Shift+H",
-         [](Session& s, const Arguments&) {
-           setLocked(s.editing(), s.document().selection, !activeNode(s.document()).locked);
-         },
-         hasSelection});
+  r.add(
+      {"object.lock", "Lock or unlock", "",
+       "Locks the selection, so that it cannot be picked or moved in the viewport, or unlocks it.",
+       "Shift+H",
+       [](Session& s, const Arguments&) {
+         setLocked(s.editing(), s.document().selection, !activeNode(s.document()).locked);
+       },
+       hasSelection});
   r.add({"object.unlock_all", "Unlock all", "", "Unlocks every object.", "",
          [](Session& s, const Arguments&) { setLocked(s.editing(), lockedNodes(s), false); },
          [](const Session& s) { return !lockedNodes(s).empty(); }});
@@ -66,7 +66,9 @@ void addTreeActions(ActionRegistry& r) {
          },
          hasSelection});
   r.add({"objects.lit_as", "Light objects as", "automatic|simple|complex",
-         "How all selected meshes are lit: by light maps, or pixel by pixel.", "",
+         "Sets how all selected meshes are lit: by light maps, or per pixel. Per pixel costs time "
+         "in each frame, light maps cost memory.",
+         "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "objects.lit_as automatic|simple|complex");
            const MeshKind kind = a[0] == "simple"    ? MeshKind::simple
@@ -81,7 +83,7 @@ void addTreeActions(ActionRegistry& r) {
          },
          hasSelection});
   r.add({"materials.roughness", "Roughness of objects", "VALUE",
-         "Gives all materials of the selected objects the same roughness, from 0 to 1.", "",
+         "Sets the roughness of all materials of the selected objects, from 0 to 1.", "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "materials.roughness VALUE");
            const float value = shareOf(a[0]);
@@ -90,7 +92,7 @@ void addTreeActions(ActionRegistry& r) {
          },
          hasSelection});
   r.add({"materials.metallic", "Metallic of objects", "VALUE",
-         "Makes all materials of the selected objects as metallic, from 0 to 1.", "",
+         "Sets the metallic value of all materials of the selected objects, from 0 to 1.", "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "materials.metallic VALUE");
            const float value = shareOf(a[0]);
@@ -98,7 +100,7 @@ void addTreeActions(ActionRegistry& r) {
          },
          hasSelection});
   r.add({"materials.colour", "Colour of objects", "R G B",
-         "Gives all materials of the selected objects the same linear base colour.", "",
+         "Sets the linear base colour of all materials of the selected objects.", "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 3, 3, "materials.colour R G B");
            const vec3 colour = glm::clamp(vectorOf(a, 0), 0.0f, 1.0f);

@@ -18,14 +18,14 @@ void addViewActions(ActionRegistry& r) {
            [mode](Session& s, const Arguments&) { s.setTool(mode); },
            {}});
   };
-  tool("tool.select", "Select", "Click selects.", "Q", ToolMode::select);
-  tool("tool.move", "Move", "Handles that move the selection.", "W", ToolMode::move);
-  tool("tool.rotate", "Rotate", "Handles that turn the selection.", "E", ToolMode::rotate);
-  tool("tool.scale", "Scale", "Handles that scale the selection.", "R", ToolMode::scale);
+  tool("tool.select", "Select", "Clicks select objects.", "Q", ToolMode::select);
+  tool("tool.move", "Move", "Shows handles that move the selection.", "W", ToolMode::move);
+  tool("tool.rotate", "Rotate", "Shows handles that rotate the selection.", "E", ToolMode::rotate);
+  tool("tool.scale", "Scale", "Shows handles that scale the selection.", "R", ToolMode::scale);
   r.add({"tool.snap",
          "Snap",
          "",
-         "Switches snapping on or off; Ctrl does so while dragging.",
+         "Switches snapping on or off. Ctrl inverts it during a drag.",
          "S",
          [](Session& s, const Arguments&) { s.setSnapping(!s.snapping()); },
          {},
@@ -33,14 +33,15 @@ void addViewActions(ActionRegistry& r) {
   r.add({"view.frame_selection",
          "Frame selection",
          "",
-         "Looks at what is selected, or at everything.",
+         "Moves the camera so that the selection is visible, or the whole level if nothing is "
+         "selected.",
          "F",
          [](Session& s, const Arguments&) { s.frameSelection(); },
          {}});
   r.add({"view.frame_all",
          "Frame all",
          "",
-         "Looks at the whole level.",
+         "Moves the camera so that the whole level is visible.",
          "Home",
          [](Session& s, const Arguments&) { s.frameAll(); },
          {}});
@@ -60,7 +61,8 @@ void addViewActions(ActionRegistry& r) {
   r.add({"view.vpls",
          "Light samples",
          "",
-         "Marks each light sample; a click on one chooses it for the view Occlusion.",
+         "Marks the position of each light sample. A click on a mark chooses it for the view "
+         "Occlusion.",
          "V",
          [](Session& s, const Arguments&) { s.display().showVpls(!s.display().showsVpls()); },
          {},
@@ -69,7 +71,7 @@ void addViewActions(ActionRegistry& r) {
   r.add({"view.choose_vpl",
          "Choose light sample",
          "INDEX",
-         "Chooses the light sample that the view Occlusion is about, from 0.",
+         "Chooses the light sample of the view Occlusion, by its index from 0.",
          "",
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "view.choose_vpl INDEX");
@@ -81,19 +83,18 @@ void addViewActions(ActionRegistry& r) {
          {},
          true,
          {}});
-  r.add(
-      {"view.choose_light",
-       "Choose light",
-       "NAME",
-       "Chooses the light that the view Occlusion of a light is about; selecting one does so too.",
-       "",
-       [](Session& s, const Arguments& a) {
-         requireArguments(a, 1, 1, "view.choose_light NAME");
-         s.display().chooseLight(nodeNamed(s.document(), a[0]).id);
-       },
-       {},
-       true,
-       {}});
+  r.add({"view.choose_light",
+         "Choose light",
+         "NAME",
+         "Chooses the light of the view Occlusion of a light. Selecting a light does so too.",
+         "",
+         [](Session& s, const Arguments& a) {
+           requireArguments(a, 1, 1, "view.choose_light NAME");
+           s.display().chooseLight(nodeNamed(s.document(), a[0]).id);
+         },
+         {},
+         true,
+         {}});
   r.add({"view.false_colour_unit",
          "False colour of",
          "lux|nits",
@@ -110,34 +111,34 @@ void addViewActions(ActionRegistry& r) {
          {},
          true,
          {}});
-  r.add(
-      {"view.false_colour_range",
-       "Automatic range of false colour",
-       "[LOW HIGH]",
-       "Sets what the ends of the colours stand for, in the unit shown; without numbers what suits "
-       "the picture.",
-       "",
-       [](Session& s, const Arguments& a) {
-         if (a.size() == 1) requireArguments(a, 2, 2, "view.false_colour_range LOW HIGH");
-         requireArguments(a, 0, 2, "view.false_colour_range LOW HIGH");
-         FalseColour f = s.display().falseColour();
-         f.low = a.empty() ? 0.0f : numberOf(a[0]);
-         f.high = a.empty() ? 0.0f : numberOf(a[1]);
-         if (!a.empty() && !(f.low > 0.0f && f.high > f.low))
-           throw InputError("view.false_colour_range", "its ends are " + a[0] + " and " + a[1],
-                            "give two numbers over 0, the smaller first");
-         s.display().setFalseColour(f);
-       },
-       {},
-       true,
-       {}});
+  r.add({"view.false_colour_range",
+         "Automatic range of false colour",
+         "[LOW HIGH]",
+         "Sets the values at both ends of the colour scale, in the unit shown. Without numbers, "
+         "the range of the picture.",
+         "",
+         [](Session& s, const Arguments& a) {
+           if (a.size() == 1) requireArguments(a, 2, 2, "view.false_colour_range LOW HIGH");
+           requireArguments(a, 0, 2, "view.false_colour_range LOW HIGH");
+           FalseColour f = s.display().falseColour();
+           f.low = a.empty() ? 0.0f : numberOf(a[0]);
+           f.high = a.empty() ? 0.0f : numberOf(a[1]);
+           if (!a.empty() && !(f.low > 0.0f && f.high > f.low))
+             throw InputError("view.false_colour_range", "its ends are " + a[0] + " and " + a[1],
+                              "give two numbers over 0, the smaller first");
+           s.display().setFalseColour(f);
+         },
+         {},
+         true,
+         {}});
   std::string mappers;
   for (const ToneMapperInfo& m : toneMappers())
     mappers += (mappers.empty() ? "" : "|") + std::string(m.name);
   r.add({"view.tone_mapper",
          "Tone mapper",
          mappers,
-         "How radiance is brought to the display; nothing of the work.",
+         "How radiance is mapped to the display. It does not change the lighting, and is not part "
+         "of the level.",
          "",
          [mappers](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "view.tone_mapper " + mappers);
@@ -149,7 +150,7 @@ void addViewActions(ActionRegistry& r) {
   r.add({"view.histogram",
          "Histogram",
          "",
-         "Shows how often each brightness is in the picture, with exposure and tone mapper.",
+         "Shows the luminance histogram of the picture, with exposure and tone mapper.",
          "N",
          [](Session& s, const Arguments&) {
            s.display().showHistogram(!s.display().showsHistogram());

@@ -200,7 +200,7 @@ void replayFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
       ->type_name("FOLDER");
   sub.add_flag("--check", o->check,
                "Compare with the baselines; exit code 1 when something differs");
-  sub.add_flag("--update-baselines", o->updateBaselines, "Write the baselines anew");
+  sub.add_flag("--update-baselines", o->updateBaselines, "Overwrite the baselines");
   sub.add_flag("--frame-clock", o->frameClock,
                "Times count frames, so that pictures of the window are the same each time; frames "
                "between checkpoints are not rendered");

@@ -44,11 +44,15 @@ Preset made(std::string name, std::string label, std::string help,
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all{
-      made("draft", "Draft", "Few light samples and coarse shadows: edits are seen at once.",
+      made("draft", "Draft",
+           "Few light samples and coarse shadows: fastest response to edits, lowest accuracy.",
            [](const Row& row) { return row.draft; }),
-      made("work", "Work", "The defaults: quick enough to drag lights, good enough to judge them.",
+      made("work", "Work",
+           "The defaults: fast enough to drag lights, accurate enough to judge them.",
            [](const Row& row) { return row.spec.defaultValue; }),
-      made("final", "Final", "Many light samples, fine shadows, smooth edges, refined at rest.",
+      made("final", "Final",
+           "Many light samples, fine shadows, antialiasing and refinement at rest: highest "
+           "accuracy, slowest response to edits.",
            [](const Row& row) { return row.final; }),
   };
   return all;

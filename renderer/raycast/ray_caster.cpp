@@ -4,12 +4,13 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include <embree3/rtcore.h>
 
 #include "renderer/base/simd.h"
-#include "renderer/raycast/triangle_hit.h"
+#include "renderer/raycast/placed_hits.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -22,83 +23,6 @@ void onError(void* first, RTCError code, const char* message) {
   if (text.empty())
     text = "Embree error " + std::to_string(static_cast<int>(code)) + ": " +
            (message != nullptr ? message : "");
-}
-
-const uint32_t* cornersOf(const RenderScene& scene, uint32_t object, uint32_t triangle) {
-  return &scene.indices[scene.objects[object].firstIndex + 3 * triangle];
-}
-
-// Computes the hit from the triangle that Embree found; nothing else of Embree's result is used.
-Hit placed(const RenderScene& scene, const Ray& ray, uint32_t object, uint32_t triangle) {
-  const uint32_t* i = cornersOf(scene, object, triangle);
-  const TriangleHit at =
-      triangleHit(ray.origin, ray.direction, ray.tNear, ray.tFar, scene.positions[i[0]],
-                  scene.positions[i[1]], scene.positions[i[2]]);
-  return {at.t, object, triangle, at.u, at.v};
-}
-
-// Calls take(lane, corners) with the three vertex indices of the triangle that each lane hit. A
-// lane without a hit gets those of the previous lane, or null.
-template <typename Take>
-void forEachLane(const RenderScene& scene, const RTCRayHit8& r, const Take& take) {
-  const uint32_t* corners = nullptr;
-  uint32_t object = RTC_INVALID_GEOMETRY_ID, triangle = 0;
-  for (size_t lane = 0; lane < 8; ++lane) {
-    if (r.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID &&
-        (r.hit.primID[lane] != triangle || r.hit.geomID[lane] != object)) {
-      object = r.hit.geomID[lane];
-      triangle = r.hit.primID[lane];
-      corners = cornersOf(scene, object, triangle);
-    }
-    take(lane, corners);
-  }
-}
-
-// Eight points or directions, one per lane.
-struct Lanes3 {
-  alignas(32) float x[8], y[8], z[8];
-  void set(size_t lane, const vec3& v) {
-    x[lane] = v.x;
-    y[lane] = v.y;
-    z[lane] = v.z;
-  }
-};
-SimdVec3<Floats8> load(const float* x, const float* y, const float* z) {
-  constexpr FloatTag tag;
-  return {hn::Load(tag, x), hn::Load(tag, y), hn::Load(tag, z)};
-}
-SimdVec3<Floats8> load(const Lanes3& v) { return load(v.x, v.y, v.z); }
-
-// placed() for eight lanes; the values of lanes without a hit are undefined.
-struct PlacedLanes {
-  alignas(32) float t[8], u[8], v[8];
-};
-void placeLanes(const RenderScene& scene, const RTCRayHit8& r, const float* tFar,
-                PlacedLanes& out) {
-  constexpr FloatTag tag;
-  Lanes3 corner[3];
-  forEachLane(scene, r, [&](size_t lane, const uint32_t* corners) {
-    for (int i = 0; i < 3; ++i)
-      corner[i].set(lane, corners != nullptr ? scene.positions[corners[i]] : vec3(0.0f));
-  });
-  const auto direction = load(r.ray.dir_x, r.ray.dir_y, r.ray.dir_z);
-  const auto a = load(corner[0]), ab = load(corner[1]) - a, ac = load(corner[2]) - a;
-  const auto oa = a - load(r.ray.org_x, r.ray.org_y, r.ray.org_z);
-  // Bit-equal to triangleHit().
-  const auto normal = cross(ab, ac), side = cross(oa, direction);
-  const auto along = dotUnfused(direction, normal);
-  const auto zero = hn::Zero(tag), one = hn::Set(tag, 1.0f);
-  const auto nearest = hn::Load(tag, r.ray.tnear);
-  const auto inPlane = hn::Eq(along, zero);
-  const auto inverse = hn::Div(one, along);
-  const auto u = hn::Min(hn::Max(hn::Mul(dotUnfused(side, ac), inverse), zero), one);
-  const auto v =
-      hn::Min(hn::Max(hn::Mul(hn::Neg(dotUnfused(side, ab)), inverse), zero), hn::Sub(one, u));
-  const auto t =
-      hn::Min(hn::Max(hn::Mul(dotUnfused(oa, normal), inverse), nearest), hn::Load(tag, tFar));
-  hn::Store(hn::IfThenZeroElse(inPlane, u), tag, out.u);
-  hn::Store(hn::IfThenZeroElse(inPlane, v), tag, out.v);
-  hn::Store(hn::IfThenElse(inPlane, nearest, t), tag, out.t);
 }
 
 // Rejects hits in holes of the alpha mask. N is 1 or 8; valid lanes are −1.
@@ -118,6 +42,11 @@ void alphaFilter(const RTCFilterFunctionNArguments* a) {
     if (alpha < scene.materials[scene.objects[object].material].alphaCutoff) a->valid[i] = 0;
   }
 }
+
+// Whether Embree may hit another triangle at the same edge too, due to rounding. A shared edge
+// needs a bound of a few 2⁻²⁴; this one includes edges that meet without common vertices. About one
+// hit in a thousand is this close to an edge.
+bool isAtEdge(float u, float v) { return std::min({u, v, 1.0f - u - v}) < 0x1p-13f; }
 
 RTCRay toEmbree(const Ray& r) {
   RTCRay e{};
@@ -335,6 +264,8 @@ struct RayCaster::Impl {
     RTCIntersectContext embree;
     const Impl* impl;
     bool isOfStill, seenOnly;
+    const Ray* ray = nullptr;  // for keepLeast()
+    Hit* least = nullptr;      // for keepLeast()
   };
   Query query(Surfaces which, bool ofStill, bool isCoherent = false) const {
     Query q{{}, this, ofStill, which == Surfaces::seen};
@@ -343,6 +274,10 @@ struct RayCaster::Impl {
     if (q.seenOnly || (ofStill && !movers.empty() && !isQuicklyBuilt())) q.embree.filter = passOver;
     return q;
   }
+
+  // Of all triangles that the ray hits at Embree's distance `t` within rounding, returns the hit
+  // with the least computed distance, then the least object and triangle.
+  Hit leastHitAt(const Ray& ray, Surfaces which, float t) const;
 
   // Traces eight rays in both scenes; `tFar` gets their tFar, which Embree overwrites in `r`.
   void cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRayHit8& r, float* tFar) const;
@@ -365,6 +300,19 @@ struct RayCaster::Impl {
       if (along > 0.0f) a->valid[i] = 0;
     }
   }
+
+  // Filter of leastHitAt(), N is 1: keeps the least hit and rejects every hit, so that Embree
+  // continues the traversal.
+  static void keepLeast(const RTCFilterFunctionNArguments* a) {
+    passOver(a);
+    if (a->valid[0] != -1) return;
+    a->valid[0] = 0;
+    const auto& q = *reinterpret_cast<const Query*>(a->context);
+    const Hit hit =
+        placed(q.impl->scene, *q.ray, RTCHitN_geomID(a->hit, 1, 0), RTCHitN_primID(a->hit, 1, 0));
+    const auto key = [](const Hit& h) { return std::tuple(h.t, h.object, h.triangle); };
+    if (key(hit) < key(*q.least)) *q.least = hit;
+  }
 };
 
 RayCaster::RayCaster(const RenderScene& scene) : impl_(std::make_unique<Impl>(scene)) {
@@ -385,6 +333,9 @@ Hit RayCaster::intersect(const Ray& ray, Surfaces which) const {
     rtcIntersect1(impl_->moving, &moving.embree, &r);
   }
   if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  if (isAtEdge(r.hit.u, r.hit.v)) {
+    if (const Hit least = impl_->leastHitAt(ray, which, r.ray.tfar)) return least;
+  }
   return placed(impl_->scene, ray, r.hit.geomID, r.hit.primID);
 }
 
@@ -397,6 +348,25 @@ bool RayCaster::occluded(const Ray& ray) const {
     rtcOccluded1(impl_->moving, &moving.embree, &r);
   }
   return r.tfar < 0.0f;
+}
+
+Hit RayCaster::Impl::leastHitAt(const Ray& ray, Surfaces which, float t) const {
+  // Relative. Above the error of Embree's approximate reciprocal, which is a few 2⁻²⁴.
+  constexpr float kRounding = 0x1p-19f;
+  Hit least;
+  for (const bool ofStill : {true, false}) {
+    if (!ofStill && movers.empty()) break;
+    RTCRayHit r{toEmbree(ray), {}};
+    r.ray.tnear = std::max(ray.tNear, t * (1.0f - kRounding));
+    r.ray.tfar = std::min(ray.tFar, t * (1.0f + kRounding));
+    r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    Query q = query(which, ofStill);
+    q.embree.filter = keepLeast;
+    q.ray = &ray;
+    q.least = &least;
+    rtcIntersect1(ofStill ? still : moving, &q.embree, &r);
+  }
+  return least;
 }
 
 void RayCaster::Impl::cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRayHit8& r,
@@ -433,9 +403,11 @@ void RayCaster::intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
   PlacedLanes at;
   placeLanes(impl_->scene, r, tFar, at);
   for (size_t i = 0; i < 8; ++i) {
-    hits[i] = r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
-                  ? Hit()
-                  : Hit{at.t[i], r.hit.geomID[i], r.hit.primID[i], at.u[i], at.v[i]};
+    hits[i] = Hit();
+    if (r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    if (isAtEdge(r.hit.u[i], r.hit.v[i]))
+      hits[i] = impl_->leastHitAt(rays[i], which, r.ray.tfar[i]);
+    if (!hits[i]) hits[i] = {at.t[i], r.hit.geomID[i], r.hit.primID[i], at.u[i], at.v[i]};
   }
 }
 

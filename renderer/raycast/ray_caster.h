@@ -1,9 +1,10 @@
 // The only wrapper of Embree: traces world-space rays against a RenderScene. Alpha masks are
 // tested; clear (transmissive) materials are excluded. Results are bit-equal at any number of
 // threads and on every x86-64-v3 processor, because the instruction set is fixed and distances and
-// barycentrics are computed from the triangle (triangle_hit.h). Exception: if two triangles are hit
-// at the same distance, for example at a shared edge, Embree chooses one, and the choice may differ
-// between processors.
+// barycentrics are computed from the triangle (triangle_hit.h). Of triangles that are equally near
+// within rounding at an edge, intersect() and intersect8() take the one with the least distance,
+// then with the least object and triangle. Exception: where surfaces coincide, Embree chooses one,
+// and the choice may differ between processors.
 #pragma once
 
 #include <memory>
@@ -49,8 +50,8 @@ class RayCaster {
   // directions).
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                   Surfaces which = Surfaces::all) const;
-  // Only Embree's own distances, infinity for a miss. They do not depend on the order in which
-  // triangles at a shared edge are met, but their last bits depend on the processor.
+  // Only Embree's own distances, infinity for a miss. Their last bits depend on the processor, but
+  // not on the order in which triangles are met, not even where surfaces coincide.
   void distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const;
 
  private:

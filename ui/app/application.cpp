@@ -435,7 +435,7 @@ void Application::answerRequests() {
       reloadShaders(renderer.backend(), gl::defaultShaderFolder());
       renderer.restart();
       session_->setStatus(renderer.backend().info().name == "gl"
-                              ? "Shaders compiled anew"
+                              ? "Shaders reloaded"
                               : "The cpu backend has no shaders");
     } catch (const gl::ShaderError& e) {
       session_->setStatus(e.what());  // the valid values stay in use

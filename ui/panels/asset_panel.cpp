@@ -125,7 +125,7 @@ void assetPanel(PanelContext ui, AssetPanelState& state, Thumbnails* thumbnails,
     note("Choose a folder of glTF files; each is placed by a click on it and one into the view.");
   else if (files.empty())
     note(state.search.empty() ? "There is no .gltf or .glb file in this folder."
-                              : "No file is called so.");
+                              : "No file with this name.");
   grid(ui, files, thumbnails, requests);
   ImGui::EndChild();
 }

@@ -121,7 +121,7 @@ std::string CommandPalette::draw(PanelContext ui) {
     ImGui::PopStyleColor();
     ImGui::PopID();
   }
-  if (found.empty()) note("No action is called so.");
+  if (found.empty()) note("No action with this name.");
   ImGui::EndChild();
   ImGui::Separator();
   const Action* shown = last >= 0 ? found[static_cast<size_t>(chosen_)] : nullptr;

@@ -45,7 +45,8 @@ std::optional<std::string> sideCombo(const PanelContext& ui, const char* label,
 void errorRow(const PanelContext& ui, Requests& requests) {
   const ErrorMeter& meter = ui.session.watch().meter;
   labelledRow(ui, "Error meter",
-              "Traces the reference beside the picture, on what the processor has left.");
+              "Traces the reference in the background and shows the error of the picture. Uses the "
+              "processor time that the editor leaves.");
   bool on = meter.on();
   if (ImGui::Checkbox("##meter", &on)) requests.actions.emplace_back("error.meter");
   ui.name("meter");
@@ -63,13 +64,15 @@ void shownRow(const PanelContext& ui, Requests& requests) {
     std::optional<Shown> shown;  // none: off
   };
   static const std::array kChoices = {
-      Choice{"Off", "off", "The picture alone.", {}},
+      Choice{"Off", "off", "Only the picture.", {}},
       Choice{"A | B", "both", "Side by side, with a divider to drag.", Shown::both},
       Choice{"A", "first", "A alone; Space shows the other.", Shown::first},
       Choice{"B", "second", "B alone; Space shows the other.", Shown::second},
       Choice{"Heat", "heat", "How far A is from B, in false colour.", Shown::heat},
   };
-  labelledRow(ui, "Compare", "The picture with another of the same view.");
+  labelledRow(ui, "Compare",
+              "Compares the picture with a second one of the same view, which costs the time to "
+              "render it.");
   const float gap = ui.px(3);
   const float width = std::floor((ImGui::GetContentRegionAvail().x - 4 * gap) / 5);
   for (const Choice& choice : kChoices) {
@@ -105,7 +108,7 @@ void compareSection(const PanelContext& ui, Requests& requests) {
     requests.actions.push_back("split.on " + first.value_or(a) + " " + second.value_or(b));
     if (showsHeat) requests.actions.emplace_back("split.show heat");
   }
-  labelledRow(ui, "Heat map to", "The difference at which the heat map's colours end.");
+  labelledRow(ui, "Heat map to", "Difference at the end of the heat map's colour scale.");
   float percent = 100.0f * split.heatScale();
   if (valueSlider("##heat", percent, 1.0f, 200.0f, "%.3g %% of the mean",
                   ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic)) {

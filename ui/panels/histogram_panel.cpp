@@ -61,7 +61,9 @@ void bars(const PanelContext& ui, const Histogram& h, float height) {
 }
 
 void exposureField(const PanelContext& ui, Requests& requests) {
-  labelledRow(ui, "Exposure", "Doubles the picture's brightness a step.");
+  labelledRow(ui, "Exposure",
+              "Exposure in EV: each step of 1 doubles the brightness of the picture. The lighting "
+              "does not change.");
   const float button = ui.px(56), gap = ui.px(5);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
   float ev = ui.session.document().render.exposureEv;
@@ -72,7 +74,7 @@ void exposureField(const PanelContext& ui, Requests& requests) {
   ImGui::SameLine(0, gap);
   if (ImGui::Button("Auto", {button, 0})) requests.actions.emplace_back("render.auto_exposure");
   ui.name("auto");
-  tooltip(ui, "The exposure that suits the picture.");
+  tooltip(ui, "Sets the exposure so that the log-average luminance of the picture is middle grey.");
 }
 
 void mapperCombo(const PanelContext& ui, Requests& requests) {

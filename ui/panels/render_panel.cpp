@@ -31,7 +31,7 @@ void methodCombo(const PanelContext& ui, const MethodInfo& current) {
 
 // Preset buttons side by side. The active preset is highlighted.
 void presetRow(const PanelContext& ui, Requests& requests) {
-  labelledRow(ui, "Preset", "Budgets and qualities at once; each is one step to undo.");
+  labelledRow(ui, "Preset", "Sets all budgets and quality parameters at once, as one undo step.");
   const float gap = ui.px(4);
   const float width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) /
                                  static_cast<float>(presets().size()));
@@ -62,7 +62,9 @@ void renderPanel(PanelContext ui, TimelineState& state, Requests& requests) {
   methodCombo(ui, *found);
   presetRow(ui, requests);
 
-  labelledRow(ui, "Exposure", "Doubles the picture's brightness a step.");
+  labelledRow(ui, "Exposure",
+              "Exposure in EV: each step of 1 doubles the brightness of the picture. The lighting "
+              "does not change.");
   RenderSettings render = ui.session.document().render;
   const bool exposed = valueSlider("##exposure", render.exposureEv, -16.0f, 16.0f, "%+.2f EV");
   ui.name("exposure");

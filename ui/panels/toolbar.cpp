@@ -159,9 +159,8 @@ void addActions(const PanelContext& ui, Items& items, Requests& requests) {
   struct Named {
     const char *name, *icon, *label;
   };
-  Item& light =
-      add("add_light", icon::kLight, "Add light",
-          "Puts a new light ahead of the camera, or with a click where it is to be.", "", 2);
+  Item& light = add("add_light", icon::kLight, "Add light",
+                    "Adds a light in front of the camera, or at the next click.", "", 2);
   light.beginsGroup = true;
   light.moreLabel = "Click to place";
   const auto offer = [&](std::vector<Item::Choice>& to, const std::string& action, const char* icon,

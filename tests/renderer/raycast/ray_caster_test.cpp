@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,34 @@ TEST(RayCaster, EightAtATimeAreTheSameAsOneByOne) {
         EXPECT_EQ(h[i].v, one.v);
       }
     }
+  }
+}
+
+// The diagonal of a square, and the common edge of two squares.
+TEST(RayCaster, OfTrianglesAtASharedEdgeTheFirstIsHit) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(4.0f));
+  test::addMesh(scene, test::squareMesh(4.0f), vec3(4, 0, 0));
+  const RenderScene world = worldOf(scene);
+  const RayCaster rays(world);
+  const auto corner = [&](size_t i) { return world.positions[world.indices[i]]; };
+  // The vertices of the first triangle that are also in the second.
+  std::vector<vec3> shared;
+  for (size_t i = 0; i < 3; ++i)
+    for (size_t j = 3; j < 6; ++j)
+      if (corner(i) == corner(j)) shared.push_back(corner(i));
+  ASSERT_EQ(shared.size(), 2u);
+  for (int i = 1; i < 64; ++i) {
+    const vec3 p = glm::mix(shared[0], shared[1], static_cast<float>(i) / 64.0f);
+    std::array<Ray, 8> eight;
+    eight.fill(down(p.x, p.z));
+    std::array<Hit, 8> hits;
+    rays.intersect8(eight, hits);
+    for (const Hit& hit : {rays.intersect(eight[0]), hits[0], hits[7]}) {
+      EXPECT_EQ(hit.object, 0u);
+      EXPECT_EQ(hit.triangle, 0u);
+    }
+    EXPECT_EQ(rays.intersect(down(2.0f, static_cast<float>(i - 32) / 16.0f)).object, 0u);
   }
 }
 

@@ -107,7 +107,7 @@ void FileDialog::drawFolder(const PanelContext& ui) {
                                      folder_) != p.favouriteFolders.end();
   if (ImGui::Button(isFavourite ? "Unpin" : "Pin")) p.toggleFavourite(folder_);
   ui.name("favourite");
-  tooltip(ui, "Keeps this folder among the places on the left, or takes it from there");
+  tooltip(ui, "Adds this folder to the list on the left, or removes it");
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   const std::string folder = folder_.string();
@@ -156,7 +156,7 @@ bool FileDialog::drawEntries(const PanelContext& ui, const std::vector<FileEntry
   scrolls_ = false;
   if (!error_.empty()) note(error_);
   if (error_.empty() && shown.empty())
-    note(filters_ ? "Nothing here is called so." : "Nothing here but files of other kinds.");
+    note(filters_ ? "No file with this name." : "No files of this kind here.");
   return false;
 }
 

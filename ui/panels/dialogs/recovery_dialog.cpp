@@ -56,7 +56,7 @@ std::string RecoveryDialog::draw(PanelContext ui) {
       ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false))
     later_ = true;
   ui.name("later");
-  tooltip(ui, "Keeps it; the next start asks again.");
+  tooltip(ui, "Keeps the recovery file. The next start asks again.");
   ImGui::SameLine(0, ui.px(7));
   if (ImGui::Button("Discard", {width, 0})) action = "recovery.discard";
   ui.name("discard");

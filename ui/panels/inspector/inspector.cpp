@@ -49,9 +49,9 @@ void meshKindField(const PanelContext& ui, const Node& node) {
                                         {MeshKind::simple, "simple", "Simple: light maps"},
                                         {MeshKind::complex, "complex", "Complex: each pixel"}};
   labelledRow(ui, "Lit as",
-              "Planar parts get light maps, and what may shadow them is found exactly. Complex "
-              "meshes, curved or of many small triangles, are lit pixel by pixel. Automatic "
-              "decides for each part of the mesh.");
+              "Simple: planar parts get light maps and exact visibility, which costs memory. "
+              "Complex: curved meshes or many small triangles are lit per pixel, which costs time "
+              "in each frame. Automatic decides for each part of the mesh.");
   const auto current = static_cast<size_t>(node.meshKind);
   const bool open = ImGui::BeginCombo("##mesh_kind", kChoices[current].label);
   ui.name("mesh_kind");
@@ -118,7 +118,7 @@ void transformFields(PanelContext ui, const Node& node, InspectorState& state) {
     state.rotation = local.rotation;
     ui.session.setNodeTransform(node.id, local);
   }
-  labelledRow(ui, "Scale");
+  labelledRow(ui, "Scale", "Along the axes of the object.");
   if (dragVector(ui, "scale", "Scale " + node.name, local.scale, 0.01f, "%.3f"))
     ui.session.setNodeTransform(node.id, local);
 }

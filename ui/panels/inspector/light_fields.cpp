@@ -12,7 +12,7 @@ namespace {
 constexpr std::array kShapeNames = {"Rectangle", "Disk", "Sphere", "Tube"};
 
 bool shapeCombo(const PanelContext& ui, AreaLight& light) {
-  labelledRow(ui, "Shape");
+  labelledRow(ui, "Shape", "Shape of the emitting surface.");
   const auto current = static_cast<size_t>(light.shape);
   bool changed = false;
   const bool open = ImGui::BeginCombo("##shape", kShapeNames[current]);
@@ -102,7 +102,7 @@ bool strengthField(const PanelContext& ui, const std::string& step, const LightM
 bool emissionFields(const PanelContext& ui, const std::string& step, const LightMeasure& measure,
                     vec3& emission) {
   ColouredStrength coloured = split(emission);
-  labelledRow(ui, "Colour");
+  labelledRow(ui, "Colour", "Linear colour of the light. Its strength stays the same.");
   bool changed = colourField(ui, "colour", step, coloured.colour);
   if (changed) emission = join(coloured);
   changed |= temperatureField(ui, step, emission);
@@ -113,7 +113,9 @@ bool emissionFields(const PanelContext& ui, const std::string& step, const Light
 // Whether the light is on, by its own state and by the states of groups and other lights.
 void stateFields(const PanelContext& ui, const Node& node) {
   LightState state = node.light;
-  labelledRow(ui, "Shines", "Off gives no light. While any light is solo, only those that are do.");
+  labelledRow(ui, "Shines",
+              "A light that is off does not emit. While any light is solo, only lights that are "
+              "solo emit.");
   bool changed = ImGui::Checkbox("On", &state.on);
   ui.name("on");
   ImGui::SameLine(0, ui.px(14));
@@ -180,10 +182,10 @@ void punctualLightFields(PanelContext ui, const Node& node, InspectorState& stat
   bool changed = emissionFields(ui, step, measure, light.intensity);
   if (light.kind == PunctualKind::spot) {
     float inner = glm::degrees(light.innerCone), outer = glm::degrees(light.outerCone);
-    labelledRow(ui, "Inner cone", "Half the angle within which the light is full.");
+    labelledRow(ui, "Inner cone", "Half angle of the cone of full intensity.");
     bool cone = dragField(ui, "cone.inner", inner, 0.2f, "%.1f\u00b0", 0.0f, 89.0f);
     trackEdit(ui, step);
-    labelledRow(ui, "Outer cone", "Half the angle at which the light ends.");
+    labelledRow(ui, "Outer cone", "Half angle at which the intensity reaches zero.");
     cone |= dragField(ui, "cone.outer", outer, 0.2f, "%.1f\u00b0", 0.1f, 90.0f);
     trackEdit(ui, step);
     if (cone) {

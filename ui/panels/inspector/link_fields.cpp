@@ -29,7 +29,7 @@ void entry(const PanelContext& ui, NodeId light, const Node& n) {
   ImGui::SameLine(0, ui.px(5));
   const bool taken = ImGui::Button("\u00d7", {width, 0});
   ui.name("links/" + nameOf(n) + "/remove");
-  tooltip(ui, "Light it again.");
+  tooltip(ui, "Ends the exclusion: the light illuminates this object again.");
   ImGui::PopID();
   if (taken) leaveOut(ui.session.editing(), {light}, {n.id}, false);
 }
@@ -50,8 +50,8 @@ void chooser(const PanelContext& ui, NodeId light, const std::vector<NodeId>& le
   }
   ui.name("links/add");
   tooltip(ui,
-          "An object that gets none of this light. It casts shadows in it as ever. Or select the "
-          "objects and then, with Ctrl, the light.");
+          "Excludes an object from this light. The object still casts its shadow. You can also "
+          "select objects and then, with Ctrl, the light.");
   ImGui::SetNextWindowSize({ui.px(240), ui.px(280)});
   if (!ImGui::BeginPopup("##leave_out")) return;
   ImGui::SetNextItemWidth(-FLT_MIN);
@@ -95,8 +95,9 @@ void linkFields(const PanelContext& ui, NodeId light, InspectorState& state) {
   std::vector<Node> there;  // copies, because an edit may replace the document's nodes
   for (const NodeId id : leftOut)
     if (const Node* n = scene.find(id)) there.push_back(*n);
-  labelledRow(ui, "Leaves out",
-              "Objects that get none of this light, with all below them. They cast shadows in it.");
+  labelledRow(
+      ui, "Leaves out",
+      "Objects, with their children, that are excluded from this light. They still cast shadows.");
   ImGui::BeginGroup();
   for (const Node& n : there) entry(ui, light, n);
   chooser(ui, light, leftOut, state);
@@ -112,7 +113,7 @@ void selectedLinkFields(const PanelContext& ui) {
   if (ImGui::Button("Leave objects out", {width, 0})) ui.session.runAction("light.exclude");
   ImGui::EndDisabled();
   ui.name("links/exclude");
-  tooltip(ui, "The selected lights give the selected objects no light.");
+  tooltip(ui, "Excludes the selected objects from the selected lights.");
   ImGui::SameLine(0, ui.px(5));
   ImGui::BeginDisabled(leftOut == 0);
   if (ImGui::Button("Light them again", {width, 0})) ui.session.runAction("light.include");

@@ -24,9 +24,9 @@ std::string nameOf(const Scene& scene, int material) {
 void emissionFields(const PanelContext& ui, int index, Material& material) {
   const std::string step = "Change emission of " + material.name;
   ColouredStrength emission = split(material.emissive);
-  labelledRow(ui, "Emits", "Colour of the light that the surface gives off.");
+  labelledRow(ui, "Emits", "Colour of the emitted light.");
   bool changed = colourField(ui, "emissive.colour", step, emission.colour);
-  labelledRow(ui, "Radiance", "How much light leaves the surface, in nits (cd/m\u00b2).");
+  labelledRow(ui, "Radiance", "Emitted luminance in nits (cd/m\u00b2).");
   changed |= dragField(ui, "emissive.strength", emission.strength,
                        std::max(0.01f, emission.strength * 0.01f), "%.4g nt", 0.0f, 1e6f);
   trackEdit(ui, step);
@@ -46,7 +46,9 @@ void materialFields(PanelContext ui, const Node& node, InspectorState& state) {
   }
   state.slot = std::clamp(state.slot, 0, static_cast<int>(materials.size()) - 1);
   const int index = materials[static_cast<size_t>(state.slot)];
-  labelledRow(ui, "Material");
+  labelledRow(ui, "Material",
+              "The material of the mesh that is shown below. Changes apply to every object with "
+              "this material.");
   if (materials.size() == 1) {
     ImGui::TextUnformatted(nameOf(scene, index).c_str());
   } else {
@@ -66,13 +68,13 @@ void materialFields(PanelContext ui, const Node& node, InspectorState& state) {
 
   Material material = scene.materials[static_cast<size_t>(index)];
   vec3 base(material.baseColor);
-  labelledRow(ui, "Base colour", "What share of the light the surface reflects.");
+  labelledRow(ui, "Base colour", "Albedo of the surface.");
   if (colourField(ui, "base", "Change base colour of " + material.name, base)) {
     material.baseColor = vec4(base, material.baseColor.a);
     ui.session.setMaterial(index, material);
   }
   emissionFields(ui, index, material);
-  labelledRow(ui, "Both sides", "Give off light from the back as well.");
+  labelledRow(ui, "Both sides", "The back face emits light and is visible, too.");
   bool doubleSided = material.doubleSided;
   if (ImGui::Checkbox("##double", &doubleSided)) {
     material.doubleSided = doubleSided;

@@ -74,7 +74,7 @@ void objectFields(const PanelContext& ui) {
   vectorRow(ui, "Position", "position", 0.01f, "%.3f", "In metres, relative to each one's parent.");
   vectorRow(ui, "Rotation", "rotation", 0.5f, "%.1f\u00b0", "In degrees, about X, then Y, then Z.");
   vectorRow(ui, "Scale", "scale", 0.01f, "%.3f", "");
-  labelledRow(ui, "In the view", "Locked objects are neither picked nor moved in the view.");
+  labelledRow(ui, "In the view", "Locked objects cannot be picked or moved in the viewport.");
   bool value = false;
   if (mixedCheckbox(
           ui, "Shown", "visible", [](const Node& n) { return n.visible; }, value))
@@ -104,12 +104,14 @@ void lightFields(const PanelContext& ui, const std::vector<LightSource>& lights)
     ImGui::PopItemFlag();
     ui.name(action);
   };
-  labelledRow(ui, "Shine", "Off gives no light. While any light is solo, only those that are do.");
+  labelledRow(ui, "Shine",
+              "A light that is off does not emit. While any light is solo, only lights that are "
+              "solo emit.");
   flag("On", "lights.on", on);
   ImGui::SameLine(0, ui.px(14));
   flag("Solo", "lights.solo", solo);
 
-  labelledRow(ui, "Colour");
+  labelledRow(ui, "Colour", "Linear colour of all selected lights. Their strength stays the same.");
   vec3 colour = split(emissionOf(scene, lights.back())).colour;
   if (colourField(ui, "lights.colour", "Change colour of lights", colour) &&
       luminance(colour) > 0.0f)
@@ -144,7 +146,7 @@ void materialFields(const PanelContext& ui, const std::vector<int>& materials) {
   const auto materialAt = [&](int i) -> const Material& {
     return ui.session.document().scene.materials[static_cast<size_t>(i)];
   };
-  labelledRow(ui, "Base colour", "What share of the light the surfaces reflect.");
+  labelledRow(ui, "Base colour", "Albedo of the surfaces.");
   vec3 base(materialAt(materials.back()).baseColor);
   if (colourField(ui, "materials.colour", "Change colour of objects", base))
     editMaterials(ui.session.editing(), "Change colour",
@@ -182,7 +184,9 @@ void meshKindField(const PanelContext& ui) {
     any = true;
   }
   if (!any) return;
-  labelledRow(ui, "Lit as");
+  labelledRow(ui, "Lit as",
+              "Simple: light maps, which cost memory. Complex: per pixel, which costs time in each "
+              "frame. Automatic decides for each part of a mesh.");
   const bool open =
       ImGui::BeginCombo("##lit_as", isMixed ? "mixed" : kLabels[static_cast<size_t>(*common)]);
   ui.name("lit_as");

@@ -48,8 +48,9 @@ void preview(const PanelContext& ui, const LightPicture& picture, bool isDisk) {
 
 void pictureFields(const PanelContext& ui, const Node& node, InspectorState& state) {
   const auto picture = node.area->picture;
-  labelledRow(ui, "Picture",
-              "Shines through a picture, a PNG or JPEG file: a screen, a window, a sign.");
+  labelledRow(
+      ui, "Picture",
+      "A PNG or JPEG picture whose pixels scale the radiance: for a screen, a window or a sign.");
   if (!picture) {
     if (ImGui::Button("Choose\u2026##picture", {-FLT_MIN, 0})) state.choosesPicture = true;
     ui.name("picture/choose");
@@ -63,9 +64,9 @@ void pictureFields(const PanelContext& ui, const Node& node, InspectorState& sta
   ImGui::SameLine(0, ui.px(5));
   if (ImGui::Button("\u00d7##picture", {width, 0})) ui.session.runAction("light.picture none");
   ui.name("picture/remove");
-  tooltip(ui, "Take the picture away.");
+  tooltip(ui, "Removes the picture.");
   if (shownPicture(*node.area) == nullptr) {
-    note("Shown by rectangles and disks alone.");
+    note("Only rectangles and disks can show a picture.");
     return;
   }
   labelledRow(ui, "");

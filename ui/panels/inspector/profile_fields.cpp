@@ -52,7 +52,8 @@ void polarPlot(const PanelContext& ui, const IesProfile& profile) {
 
 void profileFields(const PanelContext& ui, const Node& node, InspectorState& state) {
   const auto profile = node.punctual->profile;
-  labelledRow(ui, "Profile", "How the luminaire spreads its light: an IES file (LM-63).");
+  labelledRow(ui, "Profile",
+              "Angular distribution of the luminaire's intensity: an IES file (LM-63).");
   if (!profile) {
     if (ImGui::Button("Choose\u2026##profile", {-FLT_MIN, 0})) state.choosesProfile = true;
     ui.name("profile/choose");
@@ -66,7 +67,7 @@ void profileFields(const PanelContext& ui, const Node& node, InspectorState& sta
   ImGui::SameLine(0, ui.px(5));
   if (ImGui::Button("\u00d7##profile", {width, 0})) ui.session.runAction("light.ies none");
   ui.name("profile/remove");
-  tooltip(ui, "Take the profile away.");
+  tooltip(ui, "Removes the profile.");
   polarPlot(ui, *profile);
   const float measured = profile->peak * profile->solidAngle;
   if (ImGui::Button("As measured", {-FLT_MIN, 0})) {
@@ -76,7 +77,7 @@ void profileFields(const PanelContext& ui, const Node& node, InspectorState& sta
     ui.session.setPunctualLight(node.id, light);
   }
   ui.name("profile/measured");
-  tooltip(ui, "Gives the light the candela of the file.");
+  tooltip(ui, "Sets the light's intensity to the candela values of the file.");
   note(std::string(profile->isTypeB ? "Type B" : "Type C") + " \u00b7 " +
        short3(static_cast<double>(profile->peak)) + " cd \u00b7 " +
        short3(static_cast<double>(measured)) + " lm as measured");

@@ -39,7 +39,9 @@ void kindField(const PanelContext& ui, const Sky& sky, InspectorState& state) {
   const char* kWidgets[] = {"none", "constant", "gradient", "image"};
   const int current =
       sky.isBlack() && sky.kind == SkyKind::constant ? 0 : static_cast<int>(sky.kind) + 1;
-  labelledRow(ui, "Kind", "What is around the scene and lights it from all sides.");
+  labelledRow(ui, "Kind",
+              "The environment, which lights the scene from all directions. It takes a part of the "
+              "light samples.");
   const bool open = ImGui::BeginCombo("##kind", kNames[current]);
   ui.name("kind");
   if (!open) return;
@@ -60,7 +62,7 @@ bool pictureFields(const PanelContext& ui, Sky& sky, InspectorState& state) {
   if (ImGui::Button((sky.image->name + "##file").c_str(), {-FLT_MIN, 0})) state.choosesSky = true;
   ui.name("file");
   float degrees = glm::degrees(sky.rotation);
-  labelledRow(ui, "Rotation", "About the vertical, counter-clockwise from above.");
+  labelledRow(ui, "Rotation", "About the vertical axis, counter-clockwise seen from above.");
   bool changed = dragField(ui, "rotation", degrees, 0.5f, "%.1f\u00b0", -360.0f, 360.0f);
   trackEdit(ui, "Turn the sky");
   if (changed) sky.rotation = glm::radians(degrees);
@@ -79,7 +81,9 @@ bool pictureFields(const PanelContext& ui, Sky& sky, InspectorState& state) {
 
 void stateField(const PanelContext& ui) {
   LightState state = ui.session.document().scene.skyLight;
-  labelledRow(ui, "Shines", "Off gives no light. While any light is solo, only those that are do.");
+  labelledRow(ui, "Shines",
+              "A light that is off does not emit. While any light is solo, only lights that are "
+              "solo emit.");
   if (ImGui::Checkbox("On", &state.on))
     ui.session.runAction(state.on ? "sky.on true" : "sky.on false");
   ui.name("on");

@@ -201,7 +201,7 @@ class Bar {
     gap();
     const bool set = button("set_group", "Put in", "Puts the selected lights into this group.");
     gap();
-    if (button("ungroup", "Take out", "Takes the selected lights out of their groups."))
+    if (button("ungroup", "Take out", "Removes the selected lights from their groups."))
       requests_.actions.push_back("lights.ungroup");
     if ((typed || set) && !state_.group.empty()) {
       requests_.actions.push_back("lights.group " + quotedName(state_.group));
@@ -226,7 +226,8 @@ class Bar {
       if (value) ImGui::PopStyleColor();
     };
     flag("M", "lights.mute_group", "/mute", g.muted, "Mute: its lights give no light.");
-    flag("S", "lights.solo_group", "/solo", g.solo, "Solo: no lights shine but those solo.");
+    flag("S", "lights.solo_group", "/solo", g.solo,
+         "Solo: only lights and groups that are solo emit.");
     ImGui::PopID();
   }
 
