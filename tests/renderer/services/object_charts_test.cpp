@@ -72,7 +72,8 @@ TEST_F(ObjectChartsTest, OnlyWhatChangesTheLayoutMakesAnother) {
   EXPECT_EQ(charts.computed(), 2u);
   EXPECT_GT(objects[0].atlas->size.x, objects[1].atlas->size.x) << "texels are of one size";
   charts.find(render_, 8.0f);
-  EXPECT_EQ(charts.computed(), 4u);
+  EXPECT_EQ(charts.computed(), 3u) << "at half the density the larger box has the layout that the "
+                                      "smaller one had";
 }
 
 TEST_F(ObjectChartsTest, AreaLightsAndFlattenedObjectsHaveNone) {

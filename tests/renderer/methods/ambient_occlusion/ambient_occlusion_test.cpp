@@ -84,7 +84,7 @@ TEST(AmbientOcclusion, BesideAWallItIsOneLessTheFormFactorOfTheWall) {
   constexpr float kHeight = 2.0f;
   Scene scene = floorOf(400.0f);
   test::addMesh(scene, test::boxMesh(vec3(400.0f, kHeight, 0.5f)), vec3(0, 0.5f * kHeight, -0.25f));
-  for (const float d : {0.002f, 0.5f, 1.0f, 3.0f}) {
+  for (const float d : {0.02f, 0.5f, 1.0f, 3.0f}) {
     const float wall = 0.5f * (1.0f - d / std::sqrt(d * d + kHeight * kHeight));
     EXPECT_NEAR(accessibilityAt(scene, vec3(0, 0, d), settingsOf(kEverywhere, "none", 1024)),
                 1.0f - wall, 4e-3f)
