@@ -3,10 +3,10 @@
 
 #include <tiny_gltf.h>
 
-#include "renderer/scene/flat_normals.h"
+#include "renderer/scene/gltf/flat_normals.h"
 #include "renderer/scene/gltf/gltf_accessors.h"
 #include "renderer/scene/gltf/gltf_content.h"
-#include "renderer/scene/unused_vertices.h"
+#include "renderer/scene/gltf/unused_vertices.h"
 
 namespace lamplighter {
 

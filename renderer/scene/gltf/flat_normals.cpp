@@ -1,4 +1,4 @@
-#include "renderer/scene/flat_normals.h"
+#include "renderer/scene/gltf/flat_normals.h"
 
 namespace lamplighter {
 

@@ -1,4 +1,4 @@
-#include "renderer/scene/unused_vertices.h"
+#include "renderer/scene/gltf/unused_vertices.h"
 
 #include <gtest/gtest.h>
 
