@@ -24,12 +24,12 @@ ElementLayout layoutOf(int type, int componentType) {
 }
 
 // Elements as they lie in a buffer, checked by checkStructure() to be there.
-struct View {
+struct AccessorView {
   const uint8_t* data = nullptr;  // null: zeros
   size_t stride = 0;
 };
 
-View viewOf(const GltfDocument& document, int bufferView, size_t offset, size_t elementBytes) {
+AccessorView viewOf(const GltfDocument& document, int bufferView, size_t offset, size_t elementBytes) {
   if (bufferView < 0) return {};
   const tinygltf::BufferView& view = document.model->bufferViews[static_cast<size_t>(bufferView)];
   return {document.buffers[static_cast<size_t>(view.buffer)]->data() + view.byteOffset + offset,
@@ -50,7 +50,7 @@ float toFloat(T value, bool normalized) {
 
 // The first `n` components of `count` elements to `out`, where they are `components` apart.
 template <typename T>
-void convert(const View& view, size_t n, size_t count, bool normalized, size_t components,
+void convert(const AccessorView& view, size_t n, size_t count, bool normalized, size_t components,
              float* out) {
   const size_t bytes = n * sizeof(float);
   if (std::is_same_v<T, float> && n == components && view.stride == bytes) {
@@ -66,7 +66,7 @@ void convert(const View& view, size_t n, size_t count, bool normalized, size_t c
   }
 }
 
-void convertAny(const tinygltf::Accessor& accessor, const View& view, size_t n, size_t count,
+void convertAny(const tinygltf::Accessor& accessor, const AccessorView& view, size_t n, size_t count,
                 size_t components, float* out) {
   const auto as = [&]<typename T>(T) {
     convert<T>(view, n, count, accessor.normalized, components, out);
@@ -87,7 +87,7 @@ void convertAny(const tinygltf::Accessor& accessor, const View& view, size_t n, 
   }
 }
 
-std::vector<uint32_t> unsignedIntegers(const View& view, int componentType, size_t count) {
+std::vector<uint32_t> unsignedIntegers(const AccessorView& view, int componentType, size_t count) {
   std::vector<uint32_t> out(count);
   const auto as = [&]<typename T>(T value) {
     for (size_t i = 0; i < count; ++i) {
@@ -114,7 +114,7 @@ void forEachSparse(const GltfDocument& document, size_t index, Replace replace) 
   // Sparse data is packed, whatever its view says.
   const auto packed = [&](const auto& part, int type, int componentType) {
     const size_t bytes = layoutOf(type, componentType).bytes;
-    View view = viewOf(document, part.bufferView, static_cast<size_t>(part.byteOffset), bytes);
+    AccessorView view = viewOf(document, part.bufferView, static_cast<size_t>(part.byteOffset), bytes);
     view.stride = bytes;
     return view;
   };
@@ -123,7 +123,7 @@ void forEachSparse(const GltfDocument& document, size_t index, Replace replace) 
   const std::vector<uint32_t> elements =
       unsignedIntegers(packed(sparse.indices, TINYGLTF_TYPE_SCALAR, sparse.indices.componentType),
                        sparse.indices.componentType, count);
-  View value = packed(sparse.values, accessor.type, accessor.componentType);
+  AccessorView value = packed(sparse.values, accessor.type, accessor.componentType);
   for (const uint32_t element : elements) {
     if (element >= accessor.count) {
       document.fail({"accessors", index},
@@ -147,11 +147,11 @@ std::vector<Vec> readVectors(const GltfDocument& document, size_t index) {
   if (kComponents == 4) lacking[kComponents - 1] = 1.0f;
   std::vector<Vec> out(accessor.count, n < kComponents ? lacking : Vec(0.0f));
   if (out.empty()) return out;
-  const View view = viewOf(document, accessor.bufferView, accessor.byteOffset, layout.bytes);
+  const AccessorView view = viewOf(document, accessor.bufferView, accessor.byteOffset, layout.bytes);
   if (view.data != nullptr) {
     convertAny(accessor, view, n, accessor.count, kComponents, &out[0][0]);
   }
-  forEachSparse(document, index, [&](size_t element, const View& value) {
+  forEachSparse(document, index, [&](size_t element, const AccessorView& value) {
     convertAny(accessor, value, n, 1, kComponents, &out[element][0]);
   });
   return out;
@@ -193,7 +193,7 @@ std::vector<uint32_t> readIndices(const GltfDocument& document, size_t index) {
   const size_t bytes = layoutOf(accessor.type, type).bytes;
   std::vector<uint32_t> out = unsignedIntegers(
       viewOf(document, accessor.bufferView, accessor.byteOffset, bytes), type, accessor.count);
-  forEachSparse(document, index, [&](size_t element, const View& value) {
+  forEachSparse(document, index, [&](size_t element, const AccessorView& value) {
     out[element] = unsignedIntegers(value, type, 1)[0];
   });
   return out;
