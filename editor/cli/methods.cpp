@@ -16,10 +16,36 @@ std::string kindOf(const ParameterSpec& p) {
   return kNames[p.defaultValue.index()];
 }
 
+std::string join(const std::vector<std::string>& parts) {
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : ", ") + part;
+  return out;
+}
+
+std::vector<std::string> needsOf(const MethodInfo& m) {
+  std::vector<std::string> out;
+  for (const Service service : m.needs.services) out.emplace_back(nameOf(service));
+  for (const KernelNeed& kernels : m.needs.kernels) out.push_back("kernels " + kernels.name);
+  if (m.needs.openGl) out.emplace_back("OpenGL");
+  return out;
+}
+
+std::vector<std::string> shownBy(const MethodInfo& m) {
+  std::vector<std::string> out;
+  for (const ShownCapability& shown : m.shows)
+    out.push_back(nameOf(shown.capability) + (shown.when.empty() ? "" : " " + shown.when));
+  return out;
+}
+
 void printMethodsJson() {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const MethodInfo& m : lamplighter::methods()) {
     nlohmann::ordered_json j{{"name", m.name}, {"label", m.label}, {"citation", m.citation}};
+    j["needs"] = needsOf(m);
+    j["shows"] = shownBy(m);
+    j["views"] = nlohmann::ordered_json::array();
+    for (const MethodView& v : m.views)
+      j["views"].push_back({{"name", v.name}, {"label", v.label}, {"help", v.help}});
     j["parameters"] = nlohmann::ordered_json::array();
     for (const ParameterSpec& p : m.parameters) {
       nlohmann::ordered_json q{{"name", p.name}, {"label", p.label}, {"type", kindOf(p)},
@@ -42,11 +68,14 @@ void printMethodsMarkdown() {
   std::cout << "# Parameters\n\nWritten by `lamplighter methods --markdown`; set with `--set "
                "name=value`.\n";
   for (const MethodInfo& m : lamplighter::methods()) {
+    std::cout << fmt::format("\n## {}: {}\n\n{}\n\n- Needs: {}.\n", m.name, m.label, m.citation,
+                             join(needsOf(m)));
+    if (!m.shows.empty()) std::cout << fmt::format("- Shows: {}.\n", join(shownBy(m)));
+    for (const MethodView& v : m.views)
+      std::cout << fmt::format("- View `{}`: {}\n", v.name, v.help);
     std::cout << fmt::format(
-        "\n## {}: {}\n\n{}\n\n| name | group | type | unit | default | range | |\n| --- | --- | "
-        "--- "
-        "| --- | --- | --- | --- |\n",
-        m.name, m.label, m.citation);
+        "\n| name | group | type | unit | default | range | |\n| --- | --- | "
+        "--- | --- | --- | --- | --- |\n");
     for (const ParameterSpec& p : m.parameters) {
       std::cout << fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", p.name, labelOf(p.group),
                                kindOf(p), p.unit, Settings::format(p.defaultValue), rangeOf(p),
@@ -57,7 +86,11 @@ void printMethodsMarkdown() {
 
 void printMethodsText() {
   for (const MethodInfo& m : lamplighter::methods()) {
-    std::cout << fmt::format("{}: {}\n  {}\n", m.name, m.label, m.citation);
+    std::cout << fmt::format("{}: {}\n  {}\n  needs {}\n", m.name, m.label, m.citation,
+                             join(needsOf(m)));
+    if (!m.shows.empty()) std::cout << fmt::format("  shows {}\n", join(shownBy(m)));
+    for (const MethodView& v : m.views)
+      std::cout << fmt::format("  --view {}  {}\n", v.name, v.help);
     for (const ParameterSpec& p : m.parameters) {
       std::cout << fmt::format("  --set {}={}  ({}{}{}) {}\n", p.name,
                                Settings::format(p.defaultValue), rangeOf(p),

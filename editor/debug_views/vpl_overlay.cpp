@@ -59,10 +59,36 @@ OverlayShape polygon(const vec2& centre, float radius, int corners, const vec3& 
   return shape;
 }
 
+void drawPoints(Overlay& overlay, const View& view, std::span<const InspectedPoint> points,
+                const RayCaster& rays) {
+  constexpr vec3 kPoint{0.55f, 0.8f, 1.0f};
+  for (const InspectedPoint& point : points) {
+    const auto at = projectPoint(view, point.position);
+    if (!at) continue;
+    const float alpha = isSeen(view, rays, point.position) ? 1.0f : 0.22f;
+    const vec3& colour = point.isStale ? kWaiting : kPoint;
+    overlay.shapes.push_back(polygon(*at, kRadius, 3, colour, alpha));
+    if (point.normal == vec3(0.0f)) continue;
+    const vec3 tip = point.position + kNormal * metresPerPixel(view, point.position) * point.normal;
+    addLine(overlay, view, point.position, tip, vec4(colour, alpha), 1.5f);
+  }
+}
+
+void drawLinks(Overlay& overlay, const View& view, std::span<const InspectedLink> links) {
+  constexpr vec3 kLink{0.9f, 0.9f, 0.6f};
+  float most = 0.0f;
+  for (const InspectedLink& link : links) most = std::max(most, link.weight);
+  for (const InspectedLink& link : links)
+    if (link.weight > 0.0f)
+      addLine(overlay, view, link.from, link.to, vec4(kLink, 0.7f * link.weight / most), 1.0f);
+}
+
 }  // namespace
 
 void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
               const RayCaster& rays, int chosen) {
+  if (inspection.links) drawLinks(overlay, view, inspection.links());
+  if (inspection.points) drawPoints(overlay, view, inspection.points(), rays);
   // Direct and indirect samples are scaled separately; otherwise all bounces would be black.
   float most[2] = {0.0f, 0.0f};
   for (const InspectedLight& light : inspection.lights) {

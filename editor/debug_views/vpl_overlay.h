@@ -1,5 +1,5 @@
-// Draws the light samples over the picture: their positions, their directions, and which of them
-// wait for an update.
+// Draws over the picture where the method computes light: its light samples with their directions
+// and which of them wait for an update, its other points, and its links.
 #pragma once
 
 #include "editor/tools/overlay.h"
@@ -12,6 +12,7 @@ namespace lamplighter {
 // Discs mark samples on lights, diamonds bounces, and squares the points that parallel light hits.
 // Each mark has the colour of its light and shows the normal. A ring marks the samples that wait
 // for an update, a larger ring the chosen one (kNone: none). Marks behind surfaces are faint.
+// Points of the method are triangles, links are lines that are fainter the less they carry.
 void drawVpls(Overlay& overlay, const View& view, const Inspection& inspection,
               const RayCaster& rays, int chosen);
 

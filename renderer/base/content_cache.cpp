@@ -37,7 +37,8 @@ uint64_t checksumOf(std::span<const uint8_t> bytes) {
 Header headerOf(const ContentCache::Kind& kind, const ContentKey& key, size_t size) {
   Header header;
   header.version = kind.version;
-  std::strncpy(header.extension, kind.extension, sizeof header.extension);
+  std::memcpy(header.extension, kind.extension,
+              std::min(std::strlen(kind.extension), sizeof header.extension));
   std::copy(key.begin(), key.end(), header.key);
   header.size = size;
   return header;

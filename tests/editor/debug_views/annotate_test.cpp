@@ -8,6 +8,7 @@
 #include "editor/debug_views/vpl_overlay.h"
 #include "renderer/base/error.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/render.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -113,6 +114,32 @@ TEST(Annotate, MarksOfParallelLightLieWhereItLands) {
   ASSERT_EQ(mark->points.size(), 4u);
   EXPECT_NEAR(mark->points[0].y, mark->points[3].y, 1e-3f);  // a square, no diamond
   EXPECT_EQ(mark->colour.a, 1.0f);                           // and nothing hides it
+}
+
+TEST(Annotate, PointsAndLinksOfAMethodAreMarked) {
+  Scene scene;
+  test::addMesh(scene, test::squareMesh(10.0f, test::addMaterial(scene, vec3(0.5f))));
+  const test::LitScene lit(scene);
+  const View view = test::lookAt(vec3(0, 3, 8), vec3(0), 200, 200);
+  Inspection inspection;
+  inspection.points = [] {
+    return std::vector<InspectedPoint>{{vec3(1, 0, 0), vec3(0, 1, 0)}, {vec3(0, -2, 0)}};
+  };
+  Overlay overlay;
+  drawVpls(overlay, view, inspection, *lit.rays, kNone);
+  ASSERT_EQ(overlay.shapes.size(), 3u) << "two triangles and a normal";
+  EXPECT_EQ(overlay.shapes[0].points.size(), 3u);
+  EXPECT_EQ(overlay.shapes[0].colour.a, 1.0f);
+  EXPECT_LT(overlay.shapes[2].colour.a, 0.5f) << "below the floor";
+  overlay.shapes.clear();
+  inspection.points = nullptr;
+  inspection.links = [] {
+    return std::vector<InspectedLink>{
+        {vec3(0), vec3(1, 0, 0), 2.0f}, {vec3(0), vec3(1), 1.0f}, {vec3(0), vec3(2), 0.0f}};
+  };
+  drawVpls(overlay, view, inspection, *lit.rays, kNone);
+  ASSERT_EQ(overlay.shapes.size(), 2u) << "what carries nothing is not drawn";
+  EXPECT_FLOAT_EQ(overlay.shapes[0].colour.a, 2.0f * overlay.shapes[1].colour.a);
 }
 
 }  // namespace
