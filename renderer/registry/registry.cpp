@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "renderer/base/error.h"
+#include "renderer/methods/ambient_occlusion/ambient_occlusion.h"
 #include "renderer/methods/many_lights/many_lights.h"
 #include "renderer/methods/path_tracer/reference_method.h"
 
@@ -11,7 +12,7 @@ namespace lamplighter {
 namespace {
 
 std::deque<MethodInfo>& list() {
-  static std::deque<MethodInfo> all{manyLightsInfo(), referenceInfo()};
+  static std::deque<MethodInfo> all{manyLightsInfo(), ambientOcclusionInfo(), referenceInfo()};
   return all;
 }
 

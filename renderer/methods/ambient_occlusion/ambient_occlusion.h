@@ -1,0 +1,10 @@
+// Ambient occlusion as a method: the level under an even sky that only near surfaces block.
+#pragma once
+
+#include "renderer/methods/gi_method.h"
+
+namespace lamplighter {
+
+MethodInfo ambientOcclusionInfo();
+
+}  // namespace lamplighter
