@@ -137,8 +137,9 @@ TEST(RequireWritable, FindsOutBeforeAnyWorkAndLeavesNothing) {
   EXPECT_NE(errorOf([&] { requireWritable(folder / ".png", {".png"}); }), "");
   EXPECT_NE(errorOf([&] { requireWritable(folder / "folder.png", {".png"}); }), "");
   EXPECT_NE(errorOf([&] { requireWritable(folder / "none" / "a.png", {".png"}); }), "");
-  EXPECT_NE(errorOf([&] { requireWritable(folder / (std::string(300, 'a') + ".png"), {".png"}); }),
-            "");
+  EXPECT_NE(
+      errorOf([&] { requireWritable(folder / std::string(300, 'a').append(".png"), {".png"}); }),
+      "");
   EXPECT_NE(errorOf([] { requireWritable("/proc/a.png", {".png"}); }), "");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
   fs::remove_all(folder);
