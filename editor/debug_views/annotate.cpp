@@ -35,11 +35,11 @@ void cover(Image8& image, const vec2& low, const vec2& high, const vec4& colour,
   }
 }
 
-struct Bounds {
+struct PixelBounds {
   vec2 low, high;
 };
-Bounds boundsOf(std::span<const vec2> points) {
-  Bounds b{points[0], points[0]};
+PixelBounds boundsOf(std::span<const vec2> points) {
+  PixelBounds b{points[0], points[0]};
   for (const vec2& p : points) b = {glm::min(b.low, p), glm::max(b.high, p)};
   return b;
 }
@@ -54,7 +54,7 @@ void fillConvex(Image8& image, std::span<const vec2> corners, const vec4& colour
   }
   if (area == 0.0f) return;
   const float outwards = area > 0.0f ? 1.0f : -1.0f;
-  const Bounds bounds = boundsOf(corners);
+  const PixelBounds bounds = boundsOf(corners);
   cover(image, bounds.low, bounds.high, colour, [&](const vec2& p) {
     float farthest = -1e30f;
     for (size_t i = 0; i < corners.size(); ++i) {
@@ -72,7 +72,7 @@ void strokeLine(Image8& image, std::span<const vec2> points, bool closed, const 
                 float thickness) {
   if (points.size() < 2) return;
   const size_t lines = closed ? points.size() : points.size() - 1;
-  const Bounds bounds = boundsOf(points);
+  const PixelBounds bounds = boundsOf(points);
   const float half = 0.5f * thickness;
   cover(image, bounds.low - half, bounds.high + half, colour, [&](const vec2& p) {
     float nearest = 1e30f;
