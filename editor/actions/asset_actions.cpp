@@ -15,6 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path assetFolderOf(const Session& s) {
+  const fs::path& chosen = s.home().preferences.assetFolder;
+  return chosen.empty() ? s.document().path.parent_path() : chosen;
+}
+
 // Searches relative to the asset folder, then to the level's folder, then to the working directory.
 fs::path foundAsset(const Session& s, const std::string& name) {
   std::error_code error;
@@ -49,7 +54,10 @@ void addAssetActions(ActionRegistry& r) {
                        folder.filename().string());
          },
          {},
-         true});
+         true})
+      .asks = {.kind = ActionAsk::Kind::folder,
+               .title = "Choose a folder of assets",
+               .suggested = [](const Session& s) { return assetFolderOf(s).string(); }};
   r.add({"asset.place",
          "Place an asset",
          "FILE",
@@ -61,7 +69,10 @@ void addAssetActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "asset.place FILE");
            placeAsset(s, foundAsset(s, a[0]));
          },
-         {}});
+         {}})
+      .asks = {.title = "Place an asset",
+               .extensions = kSceneExtensions,
+               .suggested = [](const Session& s) { return (assetFolderOf(s) / "").string(); }};
 }
 
 }  // namespace lamplighter

@@ -76,7 +76,13 @@ void addCostActions(ActionRegistry& r) {
          },
          {},
          true,
-         {}});
+         {}})
+      .asks = {.kind = ActionAsk::Kind::saveFile,
+               .title = "Export the timeline",
+               .extensions = kTimelineExtensions,
+               .suggested = [](const Session& s) {
+                 return (s.document().path.parent_path() / "timeline.json").string();
+               }};
   r.add({"timeline.clear",
          "Clear the timeline",
          "",

@@ -11,7 +11,6 @@
 #include "editor/session/session.h"
 #include "editor/session/user_state.h"
 #include "renderer/base/error.h"
-#include "renderer/base/text.h"
 #include "renderer/scene/ies/ies_profile.h"
 
 namespace lamplighter {
@@ -20,7 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string endingOf(const fs::path& path) { return lowerCase(path.extension().string()); }
+// Other pictures could be meant for a light.
+constexpr std::string_view kDroppedSkies[] = {".hdr", ".exr"};
+constexpr std::string_view kDropped[] = {".gltf", ".glb", ".hdr", ".exr", ".ies"};
 
 // Searches relative to the working directory, then to the level's folder.
 fs::path foundBesideLevel(const Session& s, const std::string& name) {
@@ -68,14 +69,13 @@ void dropProfile(Session& s, const fs::path& file) {
 void drop(Session& s, const Arguments& files) {
   for (const std::string& file : files) {
     const fs::path path(file);
-    const std::string ending = endingOf(path);
-    if (ending == ".gltf" || ending == ".glb") {
+    if (hasExtension(path, kSceneExtensions)) {
       s.requestOpen(path);
       return;  // the other files would be placed in the level that is being closed
     }
-    if (ending == ".ies") {
+    if (hasExtension(path, kProfileExtensions)) {
       dropProfile(s, path);
-    } else if (ending == ".hdr" || ending == ".exr") {
+    } else if (hasExtension(path, kDroppedSkies)) {
       const Sky& before = s.document().scene.sky;
       s.setSky(Sky::picture(findSkyImage(file, s.document().path.parent_path()), before.rotation,
                             before.scale));
@@ -108,7 +108,8 @@ void addDropActions(ActionRegistry& r) {
            requireArguments(a, 1, 1000, "file.drop FILE [FILE]…");
            drop(s, a);
          },
-         {}});
+         {}})
+      .asks = {.title = "Take a file in", .extensions = kDropped};
   Action again{"file.open_recent",
                "Open recent",
                "N",

@@ -85,7 +85,10 @@ void addEditActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "edit.rename NAME");
            s.setName(activeNode(s.document()).id, a[0]);
          },
-         {}});
+         {}})
+      .asks = {.kind = ActionAsk::Kind::name, .title = "Rename", .suggested = [](const Session& s) {
+                 return activeNode(s.document()).name;
+               }};
   r.add({"select.name",
          "Select by name",
          "NAME [NAME]…",

@@ -1,13 +1,36 @@
 #include "editor/actions/arguments.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 
 namespace lamplighter {
 
+namespace {
+
+bool hasFile(const Session& s) { return !s.document().path.empty(); }
+
+// Whether the argument at `index` is there. It can only be `force`.
+bool isForced(const Arguments& a, size_t index) {
+  if (a.size() <= index) return false;
+  if (a[index] != "force") throw InputError(a[index], "is no way to save", "give force or nothing");
+  return true;
+}
+
+ActionAsk askForFileToSave() {
+  return {.kind = ActionAsk::Kind::saveFile,
+          .title = "Save as",
+          .extensions = kSceneExtensions,
+          .suggested = [](const Session& s) {
+            return hasFile(s) ? s.document().path.string() : "untitled.gltf";
+          }};
+}
+
+}  // namespace
+
 void addFileActions(ActionRegistry& r) {
   r.add({"file.open",
-         "Open…",
+         "Open",
          "FILE",
          "Opens a glTF level.",
          "Ctrl+O",
@@ -15,32 +38,44 @@ void addFileActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "file.open FILE");
            s.requestOpen(a[0]);
          },
-         {}});
-  r.add({"file.save",
-         "Save",
-         "[force]",
-         "Saves the level to its file. With force, also if another program has changed the file "
-         "since.",
-         "Ctrl+S",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 0, 1, "file.save [force]");
-           if (!a.empty() && a[0] != "force")
-             throw InputError(a[0], "is no way to save", "give force or nothing");
-           if (s.document().path.empty())
-             throw InputError("file.save", "the level has no file yet", "use file.save_as FILE");
-           s.save(s.document().path, !a.empty());
-         },
-         {}});
-  r.add({"file.save_as",
-         "Save as…",
-         "FILE",
-         "Saves the level to another .gltf or .glb file.",
-         "Ctrl+Shift+S",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "file.save_as FILE");
-           s.save(a[0]);
-         },
-         {}});
+         {}})
+      .asks = {.title = "Open a scene", .extensions = kSceneExtensions};
+  Action& save = r.add(
+      {"file.save",
+       "Save",
+       "[force]",
+       "Saves the level to its file. With force, also if another program has changed the file "
+       "since.",
+       "Ctrl+S",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 0, 1, "file.save [force]");
+         if (!hasFile(s))
+           throw InputError("file.save", "the level has no file yet", "use file.save_as FILE");
+         s.save(s.document().path, isForced(a, 0));
+       },
+       {}});
+  save.asks = askForFileToSave();
+  save.asks->when = [](const Session& s) { return !hasFile(s); };
+  save.asks->answeredBy = "file.save_as";
+  save.saves = [](const Session& s, const Arguments& a) {
+    return a.empty() ? s.document().path : "";
+  };
+  Action& saveAs = r.add(
+      {"file.save_as",
+       "Save as",
+       "FILE [force]",
+       "Saves the level to another .gltf or .glb file. With force, also if another program has "
+       "changed the file since.",
+       "Ctrl+Shift+S",
+       [](Session& s, const Arguments& a) {
+         requireArguments(a, 1, 2, "file.save_as FILE [force]");
+         s.save(a[0], isForced(a, 1));
+       },
+       {}});
+  saveAs.asks = askForFileToSave();
+  saveAs.saves = [](const Session&, const Arguments& a) {
+    return a.size() == 1 ? std::filesystem::path(a[0]) : "";
+  };
   r.add({"app.screenshot",
          "Screenshot",
          "[FILE]",
@@ -56,7 +91,7 @@ void addFileActions(ActionRegistry& r) {
          "",
          "Lists all actions by name, to be chosen and run.",
          "Ctrl+P",
-         [](Session&, const Arguments&) {},  // the window opens the dialog
+         [](Session& s, const Arguments&) { s.home().opensPalette = true; },
          {},
          true});
   r.add({"script.wait",

@@ -76,7 +76,8 @@ void addLightActions(ActionRegistry& r) {
            const auto profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
            s.setPunctualLight(n.id, withProfile(s.document().scene, n, profile));
          },
-         {}});
+         {}})
+      .asks = {.title = "Open a profile of a light", .extensions = kProfileExtensions};
   r.add({"light.picture",
          "Set picture",
          "FILE",
@@ -96,7 +97,8 @@ void addLightActions(ActionRegistry& r) {
            if (was > 0.0f && is > 0.0f) light.radiance *= was / is;
            s.setAreaLight(n.id, light);
          },
-         {}});
+         {}})
+      .asks = {.title = "Open a picture of a light", .extensions = kLightPictureExtensions};
   r.add({"light.radiance",
          "Set radiance",
          "R G B",

@@ -97,7 +97,10 @@ void addLightStateActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "lights.group NAME");
            groupLights(s.editing(), a[0]);
          },
-         {}});
+         {}})
+      .asks = {.kind = ActionAsk::Kind::name,
+               .title = "Group lights",
+               .suggested = [](const Session& s) { return activeNode(s.document()).light.group; }};
   r.add({"lights.ungroup", "Ungroup lights", "", "Removes the selected lights from their groups.",
          "", [](Session& s, const Arguments&) { groupLights(s.editing(), ""); },
          [](const Session& s) { return !selectedLights(s.document()).empty(); }});

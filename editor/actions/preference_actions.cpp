@@ -91,15 +91,22 @@ void addPreferenceActions(ActionRegistry& r) {
          {},
          true});
   const auto addFocus = [&](const char* name, const char* label, const char* help,
-                            const char* shortcut) {
-    r.add({name, label, "", help, shortcut, [](Session&, const Arguments&) {}, {}, true});
+                            const char* shortcut, int step) {
+    r.add({name,
+           label,
+           "",
+           help,
+           shortcut,
+           [step](Session& s, const Arguments&) { s.home().focusStep = step; },
+           {},
+           true});
   };
   addFocus("panel.next", "Next panel",
-           "Moves the keyboard focus to the next panel. Arrow keys move within it.",
-           "F6, Ctrl+Tab");
+           "Moves the keyboard focus to the next panel. Arrow keys move within it.", "F6, Ctrl+Tab",
+           1);
   addFocus("panel.previous", "Previous panel", "Moves the keyboard focus to the previous panel.",
-           "Shift+F6, Ctrl+Shift+Tab");
-  addFocus("app.menu", "Menu bar", "Moves the keyboard focus to the menu bar.", "F10");
+           "Shift+F6, Ctrl+Shift+Tab", -1);
+  addFocus("app.menu", "Menu bar", "Moves the keyboard focus to the menu bar.", "F10", 0);
   addPanel(r, "panel.assets", "Assets", "Shows the asset browser, below the view.", "B",
            BottomPanel::assets);
   addPanel(r, "panel.log", "Log", "Shows all messages since the program started, below the view.",

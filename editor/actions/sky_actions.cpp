@@ -47,7 +47,8 @@ void addSkyActions(ActionRegistry& r) {
            const Sky& before = s.document().scene.sky;
            s.setSky(Sky::picture(findSkyImage(a[0], folderOf(s)), before.rotation, before.scale));
          },
-         {}});
+         {}})
+      .asks = {.title = "Open a picture of the sky", .extensions = kSkyExtensions};
   r.add({"sky.rotate", "Turn sky", "DEGREES",
          "Rotates the sky's picture about the vertical axis, counter-clockwise seen from above.",
          "",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "editor/document/file_kinds.h"
 #include "renderer/base/error.h"
 #include "renderer/base/text.h"
 
@@ -35,8 +36,7 @@ std::vector<AssetFile> listAssets(const fs::path& folder) {
       if (isHidden || it.depth() + 1 >= kDeepest) it.disable_recursion_pending();
       continue;
     }
-    const std::string ending = lowerCase(path.extension().string());
-    if (isHidden || (ending != ".gltf" && ending != ".glb")) continue;
+    if (isHidden || !hasExtension(path, kSceneExtensions)) continue;
     fs::path name = path.lexically_relative(folder);
     files.push_back({path, name.replace_extension().generic_string()});
   }

@@ -35,10 +35,10 @@ std::vector<std::string> split(std::string_view text) {
 
 }  // namespace
 
-void ActionRegistry::add(Action action) {
+Action& ActionRegistry::add(Action action) {
   const std::string name = action.name;
   addKey(name, action.shortcut);
-  actions_.emplace(name, std::move(action));
+  return actions_.emplace(name, std::move(action)).first->second;
 }
 
 void ActionRegistry::addKey(const std::string& text, const std::string& shortcut) {

@@ -1,12 +1,16 @@
 // All actions, by name and as text. Menus, keys, recordings, scripts and tests call them.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "editor/document/file_kinds.h"
 #include "editor/input/event.h"
 #include "editor/keys/chord.h"
 
@@ -17,6 +21,20 @@ class Session;
 // An argument that is valid now, and its label in menus.
 struct ActionChoice {
   std::string argument, label;
+};
+
+// What the user is asked for when an action is called without arguments. The answer is its
+// argument.
+struct ActionAsk {
+  enum class Kind : uint8_t { openFile, saveFile, folder, name };
+  Kind kind = Kind::openFile;
+  std::string title;           // of the dialog
+  Extensions extensions = {};  // of files; a file to save gets the first if it has none of them
+  // The path or name that the dialog starts with; null: the level's path. Throws InputError if no
+  // answer would be valid now.
+  std::function<std::string(const Session&)> suggested = {};
+  std::function<bool(const Session&)> when = {};  // null: always
+  std::string answeredBy = {};  // the action that takes the answer; "": the one that asks
 };
 
 struct Action {
@@ -34,6 +52,18 @@ struct Action {
   // Why the action would show nothing now; "": it has an effect. It can run nevertheless, but menus
   // show it grey. Null: it always has an effect.
   std::function<std::string(const Session&)> problem;
+  std::optional<ActionAsk> asks;
+  // The level's file that the action overwrites with these arguments; "" if it writes none, or is
+  // told to overwrite changes of other programs. The ui asks whether to overwrite such changes, and
+  // then adds the argument `force`.
+  std::function<std::filesystem::path(const Session&, const std::vector<std::string>& arguments)>
+      saves;
+
+  bool needsArguments() const { return !usage.empty() && usage.front() != '['; }
+  // Whether a call without arguments now asks the user.
+  bool asksIn(const Session& session) const {
+    return asks && (!enabled || enabled(session)) && (!asks->when || asks->when(session));
+  }
 };
 
 // Keys by action text: "tool.move", "bookmark.go 3".
@@ -41,7 +71,7 @@ using KeyMap = std::map<std::string, std::vector<Chord>>;
 
 class ActionRegistry {
  public:
-  void add(Action action);
+  Action& add(Action action);
   // Binds a key to an action with these arguments, in addition to the shortcut of the action
   // itself.
   void addKey(const std::string& text, const std::string& shortcut);

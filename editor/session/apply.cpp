@@ -19,7 +19,8 @@ constexpr std::pair<LightUnit, const char*> kUnitNames[] = {{LightUnit::lumens, 
 
 void applyPreferences(Session& s, std::vector<std::string>& problems) {
   const UserSettings settings = s.home().preferences.settings();
-  s.setKeys(resolveKeys(s.actions(), keysOfPreset(settings.keys), s.home().fileKeys, problems));
+  s.actions().setKeys(
+      resolveKeys(s.actions(), keysOfPreset(settings.keys), s.home().fileKeys, problems));
   for (const auto& [unit, name] : kUnitNames)
     if (settings.lightUnit == name) s.lighting().unit = unit;
   s.display().setToneMapper(findToneMapper(settings.toneMapper).mapper);

@@ -55,6 +55,7 @@ class Session {
   const History& history() const { return editing_.history(); }
   Editing& editing() { return editing_; }
   const Editing& editing() const { return editing_; }
+  ActionRegistry& actions() { return actions_; }
   const ActionRegistry& actions() const { return actions_; }
   FrameRenderer& renderer() { return *renderer_; }
 
@@ -150,7 +151,6 @@ class Session {
   // Settings, keys and messages, which belong to the user and not to the level.
   UserState& home() { return *home_; }
   const UserState& home() const { return *home_; }
-  void setKeys(KeyMap keys) { actions_.setKeys(std::move(keys)); }
   // The objects that edit.copy copied. They stay when another level is opened.
   const ClipboardFragment& clipboard() const { return clipboard_; }
   void setClipboard(ClipboardFragment fragment) {

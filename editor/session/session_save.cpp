@@ -24,6 +24,7 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
 
 std::vector<fs::path> Session::changedOnDisk(const fs::path& path) const {
   std::vector<fs::path> changed;
+  if (writablePath(path) != path) return changed;  // a replay writes into its own folder
   for (size_t i = 0; i < disk_.size(); ++i) {
     // A file in another folder refers only to the files beside it.
     const bool counts =
@@ -39,9 +40,9 @@ void Session::save(const fs::path& wanted, bool forced) {
   finishDrag();
   editing_.commit();
   const fs::path path = writablePath(wanted);
-  // A replay writes into its own folder, and the document keeps its path.
+  // In a replay, the document keeps its path.
   const bool isElsewhere = path != wanted;
-  const std::vector<fs::path> changed = isElsewhere ? std::vector<fs::path>() : changedOnDisk(path);
+  const std::vector<fs::path> changed = changedOnDisk(wanted);
   if (!changed.empty() && !forced)
     throw InputError(changed.front().string(),
                      "another program has changed or removed it since it was opened",

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -27,7 +28,10 @@ struct UserState {
   std::filesystem::path assetsListed;  // the folder of this list
   BottomPanel bottom = BottomPanel::none;
   bool showsSettings = false;
-  std::set<std::string> ran;  // names of the actions that ran, for reports
+  // Requests of actions to the window, which resets them.
+  bool opensPalette = false;
+  std::optional<int> focusStep;  // moves the keyboard focus to another panel; 0: to the menus
+  std::set<std::string> ran;     // names of the actions that ran, for reports
   // Where actions save files in a replay, instead of beside the recorded level. Empty: no
   // restriction.
   std::filesystem::path writeFolder;

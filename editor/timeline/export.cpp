@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "editor/document/file_kinds.h"
 #include "editor/document/write_file.h"
 #include "editor/timeline/timeline.h"
 #include "renderer/base/error.h"
@@ -74,13 +75,13 @@ std::string timelineCsv(const Timeline& timeline) {
 }
 
 void exportTimeline(const Timeline& timeline, const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  if (ending != ".json" && ending != ".csv")
+  if (!hasExtension(path, kTimelineExtensions))
     throw InputError(path.string(), "is neither a Chrome trace nor a table",
                      "give a name that ends in .json or .csv");
   if (timeline.frames().empty())
     throw InputError("timeline", "no frame was timed yet", "render some first");
-  writeFile(path, ending == ".json" ? chromeTrace(timeline) : timelineCsv(timeline));
+  const bool isTable = lowerCase(path.extension().string()) == ".csv";
+  writeFile(path, isTable ? timelineCsv(timeline) : chromeTrace(timeline));
 }
 
 }  // namespace lamplighter

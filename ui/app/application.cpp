@@ -6,7 +6,6 @@
 #include <imgui.h>
 #include <spdlog/spdlog.h>
 
-#include "editor/actions/arguments.h"
 #include "editor/session/user_state.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/base/error.h"
@@ -182,26 +181,43 @@ bool Application::dialogOpen() const {
   return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
+// Runs an action, or opens the dialog that asks for its argument.
 void Application::runAction(const std::string& text) {
-  // Actions that need a file open a file dialog if no file is given.
-  if (text == "file.open") {
-    requests_.openDialog = true;
-  } else if (text == "file.save_as" || (text == "file.save" && session_->document().path.empty())) {
-    requests_.saveDialog = true;
-  } else if (text == "file.save" && !replaying_) {
-    openSave(session_->document().path);
-  } else if (text == "sky.image") {
-    inspectorState_.choosesSky = true;
-  } else if (text == "app.palette") {
-    palette_.open();
-    session_->runAction(text);
-  } else if (text == "edit.rename") {
-    inspectorState_.focusName = true;
-  } else if (focusByKey(text)) {
-    session_->runAction(text);
-  } else if (!session_->runAction(text) && replaying_) {
-    throw InputError(text + ": " + session_->status());
+  bool saves = false;
+  try {
+    const auto [action, arguments] = session_->actions().parse(text);
+    if (arguments.empty() && action.asksIn(*session_)) return ask(action);
+    saves = action.saves != nullptr;
+    if (saves && asksToOverwrite(text, action.saves(*session_, arguments))) return;
+    session_->perform(text);
+    if (saves) closeIfSaved();
+  } catch (const InputError& e) {
+    if (replaying_) throw InputError(text + ": " + e.what());
+    if (!saves) return session_->setStatus(e.what(), NoticeKind::error);
+    pending_ = Pending::none;
+    showError(e.what());
   }
+}
+
+void Application::ask(const Action& action) {
+  const ActionAsk& asks = *action.asks;
+  const std::string& answered = asks.answeredBy.empty() ? action.name : asks.answeredBy;
+  const std::string start =
+      asks.suggested ? asks.suggested(*session_) : session_->document().path.string();
+  if (asks.kind == ActionAsk::Kind::name)
+    nameDialog_.open(answered, asks, start);
+  else
+    fileDialog_.open(answered, asks, start);
+}
+
+// Opens the overwrite question if another program has changed a file that an action would write.
+bool Application::asksToOverwrite(const std::string& text, const std::filesystem::path& file) {
+  if (file.empty()) return false;
+  const std::vector<std::filesystem::path> changed = session_->changedOnDisk(file);
+  if (changed.empty()) return false;
+  overwriting_ = text + " force";
+  overwriteQuestion_.ask(changed.front().filename().string());
+  return true;
 }
 
 // With a fixed time step, as in recordings, the work per frame is limited by counts instead of
@@ -243,7 +259,7 @@ void Application::drawPanels(PanelContext ui) {
   outliner(ui, outlinerState_);
   ImGui::End();
   beginPanel("##inspector", layout_.inspector);
-  inspector(ui, inspectorState_);
+  inspector(ui, inspectorState_, requests_);
   ImGui::End();
   beginPanel("##render", layout_.render);
   renderPanel(ui, timelineState_, requests_);
@@ -274,23 +290,9 @@ void Application::drawDialogs(PanelContext ui) {
   } else {
     progressBox_.draw(ui, nullptr);
   }
-  if (const auto path = fileDialog_.draw(ui)) {
-    if (fileDialog_.kind() == FileDialog::Kind::open)
-      session_->requestOpen(*path);
-    else if (fileDialog_.kind() == FileDialog::Kind::picture)
-      runAction("sky.image " + quoted(path->string()));
-    else if (fileDialog_.kind() == FileDialog::Kind::lightPicture)
-      runAction("light.picture " + quoted(path->string()));
-    else if (fileDialog_.kind() == FileDialog::Kind::profile)
-      runAction("light.ies " + quoted(path->string()));
-    else if (fileDialog_.kind() == FileDialog::Kind::timeline)
-      runAction("timeline.export " + quoted(path->string()));
-    else if (fileDialog_.kind() == FileDialog::Kind::folder)
-      runAction("asset.folder " + quoted(path->string()));
-    else
-      openSave(*path);
-  }
-  if (const std::string action = palette_.draw(ui); !action.empty()) runAction(action);
+  if (std::exchange(session_->home().opensPalette, false)) palette_.open();
+  for (const std::string& action : {fileDialog_.draw(ui), nameDialog_.draw(ui), palette_.draw(ui)})
+    if (!action.empty()) runAction(action);
   if (!loader_.running()) {
     const std::string action = recoveryDialog_.draw(ui);
     if (!action.empty() && !session_->runAction(action)) showError(session_->status());
@@ -307,10 +309,7 @@ void Application::drawDialogs(PanelContext ui) {
       closeIfSaved();
       break;
     case SaveQuestion::Answer::save:
-      if (session_->document().path.empty())
-        requests_.saveDialog = true;
-      else
-        openSave(session_->document().path);
+      runAction("file.save");
       break;
   }
   switch (overwriteQuestion_.draw(ui)) {
@@ -320,29 +319,13 @@ void Application::drawDialogs(PanelContext ui) {
       pending_ = Pending::none;
       break;
     case OverwriteQuestion::Answer::saveAs:
-      requests_.saveDialog = true;
+      runAction("file.save_as");
       break;
     case OverwriteQuestion::Answer::overwrite:
-      openSave(savesTo_, true);
+      runAction(overwriting_);
       break;
   }
   messageBox_.draw(ui);
-}
-
-void Application::openSave(const std::filesystem::path& path, bool forced) {
-  try {
-    const std::vector<std::filesystem::path> changed = session_->changedOnDisk(path);
-    if (!changed.empty() && !forced) {
-      savesTo_ = path;
-      overwriteQuestion_.ask(changed.front().filename().string());
-      return;
-    }
-    session_->save(path, forced);
-    closeIfSaved();
-  } catch (const InputError& e) {
-    pending_ = Pending::none;
-    showError(e.what());
-  }
 }
 
 // Continues the operation that waited until the changes were saved or discarded.
@@ -400,25 +383,8 @@ void Application::exposeAutomatically() {
 }
 
 void Application::answerRequests() {
-  const Requests requests = std::exchange(requests_, {});
-  if (requests.openDialog) fileDialog_.open(FileDialog::Kind::open, session_->document().path);
-  if (!requests.palette.empty()) palette_.open(requests.palette);
-  if (requests.timelineDialog)
-    fileDialog_.open(FileDialog::Kind::timeline, session_->document().path);
-  if (requests.folderDialog) {
-    const std::filesystem::path& last = session_->home().preferences.assetFolder;
-    fileDialog_.open(FileDialog::Kind::folder,
-                     last.empty() ? session_->document().path.parent_path() : last);
-  }
-  if (requests.saveDialog) fileDialog_.open(FileDialog::Kind::save, session_->document().path);
-
-  if (std::exchange(inspectorState_.choosesProfile, false))
-    fileDialog_.open(FileDialog::Kind::profile, session_->document().path);
-  if (std::exchange(inspectorState_.choosesPicture, false))
-    fileDialog_.open(FileDialog::Kind::lightPicture, session_->document().path);
-  if (std::exchange(inspectorState_.choosesSky, false))
-    fileDialog_.open(FileDialog::Kind::picture, session_->document().path);
-
+  const std::string palette = std::exchange(requests_.palette, "");
+  if (!palette.empty()) palette_.open(palette);
   if (const auto path = session_->takeScreenshotRequest()) {
     try {
       const Image8 image = platform_.screenshot();

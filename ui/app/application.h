@@ -93,7 +93,8 @@ class Application {
   void logLatency();
   void takeLoaded();
   void answerRequests();
-  void openSave(const std::filesystem::path& path, bool forced = false);
+  void ask(const Action& action);
+  bool asksToOverwrite(const std::string& text, const std::filesystem::path& file);
   void closeIfSaved();
   void updateTitle();
   bool dialogOpen() const;
@@ -101,7 +102,6 @@ class Application {
   float uiScale() const;  // pixels per design pixel
   void exchangePreferences();
   void drawBottom(const PanelContext& ui);
-  bool focusByKey(const std::string& action);
   void focusPanel(int step);
   void focusAsAsked();
   void flushPreferences();
@@ -125,10 +125,11 @@ class Application {
   TimelineState timelineState_;
   Requests requests_;
   FileDialog fileDialog_;
+  NameDialog nameDialog_;
   MessageBox messageBox_;
   SaveQuestion saveQuestion_;
   OverwriteQuestion overwriteQuestion_;
-  std::filesystem::path savesTo_;  // after the overwrite question is answered
+  std::string overwriting_;  // the action that runs if the overwrite question is confirmed
   ProgressBox progressBox_;
   CommandPalette palette_;
   RecoveryDialog recoveryDialog_;
@@ -161,7 +162,6 @@ class Application {
   std::optional<float> lastExposure_;  // [EV]; of a level whose lighting is not rendered yet
   size_t latenciesLogged_ = 0;
   int quietFrames_ = 0;
-  std::optional<int> focusStep_;       // moves the focus to another panel; 0: to the menus
   size_t titlePosition_ = ~size_t{0};  // position of the history when the title was set
   std::string title_;
 };

@@ -113,21 +113,9 @@ void Application::focusPanel(int step) {
   }
 }
 
-bool Application::focusByKey(const std::string& action) {
-  if (action == "panel.next")
-    focusStep_ = 1;
-  else if (action == "panel.previous")
-    focusStep_ = -1;
-  else if (action == "app.menu")
-    focusStep_ = 0;
-  else
-    return false;
-  return true;
-}
-
 // Call within a frame: the first item of the panel is found while the panel is drawn.
 void Application::focusAsAsked() {
-  const std::optional<int> step = std::exchange(focusStep_, std::nullopt);
+  const std::optional<int> step = std::exchange(session_->home().focusStep, std::nullopt);
   if (!step) return;
   if (*step != 0) return focusPanel(*step);
   if (ImGuiWindow* bar = ImGui::FindWindowByName("##MainMenuBar")) focus(bar, ImGuiNavLayer_Menu);

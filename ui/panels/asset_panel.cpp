@@ -61,7 +61,8 @@ void bar(const PanelContext& ui, AssetPanelState& state, Requests& requests) {
   ImGui::InputTextWithHint("##search", "Search", &state.search);
   ui.name("search");
   ImGui::SameLine();
-  if (ImGui::Button(withIcon(icon::kFolder, "Folder\u2026").c_str())) requests.folderDialog = true;
+  if (ImGui::Button(withIcon(icon::kFolder, "Folder\u2026").c_str()))
+    requests.actions.emplace_back("asset.folder");
   ui.name("folder");
   tooltip(ui, "Choose the folder whose .gltf and .glb files are shown");
   ImGui::SameLine();

@@ -41,10 +41,6 @@ const Action* namedAction(const ActionRegistry& registry, const std::string& tex
   return space == std::string::npos ? nullptr : registry.find(text.substr(0, space));
 }
 
-bool needsArguments(const Action& action) {
-  return !action.usage.empty() && action.usage.front() != '[';
-}
-
 }  // namespace
 
 std::vector<const Action*> matchingActions(const ActionRegistry& registry,
@@ -104,7 +100,8 @@ std::string CommandPalette::draw(PanelContext ui) {
     ImGui::PushID(i);
     const bool enabled = (!action.enabled || action.enabled(ui.session)) &&
                          (!action.problem || action.problem(ui.session).empty());
-    const std::string label = action.label + (needsArguments(action) ? "\u2026" : "");
+    const std::string label =
+        action.label + (action.needsArguments() || action.asksIn(ui.session) ? "\u2026" : "");
     if (ImGui::Selectable("##item", i == chosen_)) run = i;
     ui.name(action.name);
     if (i == chosen_ && (down || up)) ImGui::SetScrollHereY();
@@ -133,7 +130,7 @@ std::string CommandPalette::draw(PanelContext ui) {
     const Action& action = *found[static_cast<size_t>(run)];
     const bool isNamed = namedAction(ui.session.actions(), text_) == &action;
     const bool hasArguments = isNamed && wordsOf(text_).size() > 1;
-    if (needsArguments(action) && !hasArguments) {
+    if (action.needsArguments() && !action.asks && !hasArguments) {
       open(action.name + " ");  // the user types the arguments
       ImGui::CloseCurrentPopup();
     } else {

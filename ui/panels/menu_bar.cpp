@@ -121,17 +121,11 @@ std::vector<ActionChoice> choicesNow(const Session& session, const Action& actio
   return out;
 }
 
-// Whether the action can run without arguments.
-bool standsAlone(const Action& action) {
-  return action.usage.empty() || action.usage.front() == '[';
-}
-
-// Whether the user types the arguments in the palette. For some actions the application asks;
-// choices are a submenu.
+// Whether the user types the arguments in the palette. Other actions ask for them with a dialog, or
+// have a submenu of choices.
 bool isTyped(const Action& action) {
-  const bool asks =
-      action.name == "file.open" || action.name == "file.save_as" || action.name == "edit.rename";
-  return !standsAlone(action) && !asks && !action.choices && choicesOf(action.usage).empty();
+  return action.needsArguments() && !action.asks && !action.choices &&
+         choicesOf(action.usage).empty();
 }
 
 void menuItem(const PanelContext& ui, const Action& action, Requests& requests) {
@@ -156,7 +150,8 @@ void menuItem(const PanelContext& ui, const Action& action, Requests& requests) 
     return;
   }
   const bool checked = action.checked && action.checked(ui.session);
-  const std::string label = action.label + (isTyped(action) ? "\u2026" : "");
+  const bool asks = isTyped(action) || action.asksIn(ui.session);
+  const std::string label = action.label + (asks ? "\u2026" : "");
   const std::string problem = action.problem ? action.problem(ui.session) : "";
   if (!problem.empty()) ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
   const bool isChosen = ImGui::MenuItem(label.c_str(), shortcut, checked, enabled);

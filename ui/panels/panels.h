@@ -13,10 +13,6 @@ namespace lamplighter {
 
 // Requests of panels to the application, which handles them after the frame.
 struct Requests {
-  bool openDialog = false;
-  bool saveDialog = false;
-  bool timelineDialog = false;
-  bool folderDialog = false;         // for the asset folder
   std::vector<std::string> actions;  // action texts to run
   std::string palette;               // opens the command palette with this text
 };
@@ -36,27 +32,22 @@ struct InspectorState {
   std::string name;    // typed text
   vec3 degrees{0.0f};  // of the rotation below, as displayed
   quat rotation{1, 0, 0, 0};
-  int slot = 0;                 // index into the mesh's material slots
-  bool focusName = false;       // the name field takes the keyboard focus
-  bool choosesSky = false;      // request a file dialog for the sky's picture
-  bool choosesProfile = false;  // request a file dialog for the light's profile
-  bool choosesPicture = false;  // request a file dialog for the light's picture
-  std::string linkSearch;       // filters the objects of light linking
+  int slot = 0;            // index into the mesh's material slots
+  std::string linkSearch;  // filters the objects of light linking
 };
-void inspector(PanelContext ui, InspectorState& state);
+void inspector(PanelContext ui, InspectorState& state, Requests& requests);
 // Parts of the inspector.
 void transformFields(PanelContext ui, const Node& node, InspectorState& state);
 void materialFields(PanelContext ui, const Node& node, InspectorState& state);
-void areaLightFields(PanelContext ui, const Node& node, InspectorState& state);
-void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state);
-void profileFields(const PanelContext& ui, const Node& node,
-                   InspectorState& state);  // for IES files
-void pictureFields(const PanelContext& ui, const Node& node, InspectorState& state);
+void areaLightFields(PanelContext ui, const Node& node, Requests& requests);
+void punctualLightFields(PanelContext ui, const Node& node, Requests& requests);
+void profileFields(const PanelContext& ui, const Node& node, Requests& requests);  // for IES files
+void pictureFields(const PanelContext& ui, const Node& node, Requests& requests);
 // The objects that a light, or the sky (kNoNode), excludes by light linking; and the same for all
 // selected lights.
 void linkFields(const PanelContext& ui, NodeId light, InspectorState& state);
 void selectedLinkFields(const PanelContext& ui);
-void skyFields(PanelContext ui, InspectorState& state);
+void skyFields(PanelContext ui, InspectorState& state, Requests& requests);
 // Replaces the other parts while several objects are selected: shows their common values.
 void multiInspector(PanelContext ui, InspectorState& state);
 
@@ -122,6 +113,18 @@ class OverwriteQuestion {
 
  private:
   std::string changed_;  // the changed file; empty: the dialog is closed
+};
+
+// Asks for the name that an action needs.
+class NameDialog {
+ public:
+  void open(const std::string& action, const ActionAsk& asks, std::string name);
+  // The text of the action with the confirmed name, once; "": none yet.
+  std::string draw(PanelContext ui);
+
+ private:
+  std::string action_, title_, name_;
+  bool opening_ = false;
 };
 
 // A line of text in the middle of the window.

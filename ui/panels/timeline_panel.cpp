@@ -209,7 +209,7 @@ void timelineSection(const PanelContext& ui, TimelineState& state, Requests& req
   if (!section(ui, "Timeline", false)) return;
   drawGraph(ui, state);
   drawLegend(ui);
-  if (ImGui::Button("Export\u2026")) requests.timelineDialog = true;
+  if (ImGui::Button("Export\u2026")) requests.actions.emplace_back("timeline.export");
   ui.name("export");
   tooltip(ui,
           "Writes the frames of the last seconds: .json for chrome://tracing and Perfetto, .csv "

@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <span>
+#include <utility>
 
+#include <imgui_stdlib.h>
+
+#include "editor/actions/arguments.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/keyboard.h"
 
@@ -100,6 +104,37 @@ OverwriteQuestion::Answer OverwriteQuestion::draw(PanelContext ui) {
   if (chosen == kNone) return Answer::none;
   changed_.clear();
   return kAnswers[chosen];
+}
+
+void NameDialog::open(const std::string& action, const ActionAsk& asks, std::string name) {
+  action_ = action;
+  title_ = asks.title + "###name";
+  name_ = std::move(name);
+  opening_ = true;
+}
+
+std::string NameDialog::draw(PanelContext ui) {
+  ui.prefix = "dialog/";
+  if (opening_) ImGui::OpenPopup(title_.c_str());
+  if (!beginModal(ui, title_.c_str(), 360)) return "";
+  if (std::exchange(opening_, false)) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  bool done = ImGui::InputText(
+      "##name", &name_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  ui.name("name");
+  const float width = ui.px(96), gap = ui.px(7);
+  ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2 * width - gap);
+  const bool cancelled = ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape);
+  ui.name("cancel");
+  ImGui::SameLine(0, gap);
+  ImGui::BeginDisabled(name_.empty());
+  done |= ImGui::Button("OK", {width, 0});
+  ui.name("ok");
+  ImGui::EndDisabled();
+  done = done && !name_.empty();
+  if (done || cancelled) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+  return done ? action_ + " " + quoted(name_) : "";
 }
 
 void centredNotice(float scale, const char* text) {

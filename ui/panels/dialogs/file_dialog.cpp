@@ -7,6 +7,7 @@
 #include <imgui_internal.h>
 #include <imgui_stdlib.h>
 
+#include "editor/actions/arguments.h"
 #include "editor/session/user_state.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/keyboard.h"
@@ -17,66 +18,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const char* titleOf(FileDialog::Kind kind) {
-  switch (kind) {
-    case FileDialog::Kind::open:
-      return "Open a scene###file";
-    case FileDialog::Kind::save:
-      return "Save as###file";
-    case FileDialog::Kind::picture:
-      return "Open a picture of the sky###file";
-    case FileDialog::Kind::profile:
-      return "Open a profile of a light###file";
-    case FileDialog::Kind::lightPicture:
-      return "Open a picture of a light###file";
-    case FileDialog::Kind::timeline:
-      return "Export the timeline###file";
-    case FileDialog::Kind::folder:
-      break;
-  }
-  return "Choose a folder of assets###file";
-}
-
 constexpr size_t kMostPlaces = 9;  // one key for each
 
 }  // namespace
 
-FileKind FileDialog::fileKind() const {
-  switch (kind_) {
-    case Kind::open:
-    case Kind::save:
-      return FileKind::scene;
-    case Kind::picture:
-    case Kind::lightPicture:
-      return FileKind::picture;
-    case Kind::profile:
-      return FileKind::profile;
-    case Kind::timeline:
-      return FileKind::timeline;
-    case Kind::folder:
-      break;
-  }
-  return FileKind::folder;
-}
-
-void FileDialog::open(Kind kind, const fs::path& start) {
-  kind_ = kind;
+void FileDialog::open(const std::string& action, const ActionAsk& asks, const fs::path& start) {
+  action_ = action;
+  asks_ = asks;
   opening_ = true;
   std::error_code error;
-  fs::path folder = start;
-  if (kind != Kind::folder) folder = start.parent_path();
-  folder = fs::absolute(start.empty() ? fs::current_path(error) : folder, error);
-  if (!fs::is_directory(folder, error)) folder = fs::current_path(error);
-  go(folder);
-  file_ = kind == Kind::save ? start.filename().string() : "";
-  if (kind == Kind::save && file_.empty()) file_ = "untitled.gltf";
-  if (kind == Kind::timeline) file_ = "timeline.json";
+  const fs::path folder = fs::absolute(choosesFolder() ? start : start.parent_path(), error);
+  go(fs::is_directory(folder, error) ? folder : fs::current_path(error));
+  file_ = writes() ? start.filename().string() : "";
 }
 
 void FileDialog::go(const fs::path& folder) {
   folder_ = folder.lexically_normal();
   if (!folder_.has_filename() && folder_.has_relative_path()) folder_ = folder_.parent_path();
-  entries_ = listFolder(folder_, fileKind(), error_);
+  entries_ = listFolder(folder_, asks_.extensions, error_);
   filters_ = false;
   chosen_ = -1;
   if (!writes()) file_.clear();
@@ -167,7 +126,7 @@ bool FileDialog::drawLine(const PanelContext& ui) {
   takesFocus_ = false;
   const std::string before = file_;
   const std::string hint =
-      std::string("A name, a part of one, or a path (") + endingsOf(fileKind()) + ")";
+      "A name, a part of one, or a path (" + endingsText(asks_.extensions) + ")";
   const bool entered = ImGui::InputTextWithHint("##file", hint.c_str(), &file_,
                                                 ImGuiInputTextFlags_EnterReturnsTrue);
   ui.name("file");
@@ -221,20 +180,19 @@ bool FileDialog::pressKeys(const PanelContext& ui, const std::vector<FileEntry>&
     go(typed);
     return false;
   }
-  return !file_.empty() || kind_ == Kind::folder;
+  return !file_.empty() || choosesFolder();
 }
 
-std::optional<fs::path> FileDialog::result() {
+std::string FileDialog::answer() const {
   fs::path path = file_.empty() ? folder_ : folder_ / file_;
-  if (kind_ == Kind::save && !fits(FileKind::scene, path)) path += ".gltf";
-  if (kind_ == Kind::timeline && !fits(FileKind::timeline, path)) path += ".json";
-  return path.lexically_normal();
+  if (writes() && !hasExtension(path, asks_.extensions)) path += asks_.extensions.front();
+  return action_ + " " + quoted(path.lexically_normal().string());
 }
 
-std::optional<fs::path> FileDialog::draw(PanelContext ui) {
+std::string FileDialog::draw(PanelContext ui) {
   ui.prefix = "dialog/";
-  const char* title = titleOf(kind_);
-  if (opening_) ImGui::OpenPopup(title);
+  const std::string title = asks_.title + "###file";
+  if (opening_) ImGui::OpenPopup(title.c_str());
   opening_ = false;
   const ImVec2 window = ImGui::GetMainViewport()->Size;
   ImGui::SetNextWindowSize(
@@ -242,9 +200,9 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
   // Arrow keys choose an entry, independent of the focus.
-  if (!beginBorderedModal(title, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoNavInputs))
-    return std::nullopt;
+  if (!beginBorderedModal(title.c_str(), ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                             ImGuiWindowFlags_NoNavInputs))
+    return "";
 
   drawFolder(ui);
   const std::vector<FileEntry> shown = filters_ ? filtered(entries_, file_) : entries_;
@@ -267,18 +225,15 @@ std::optional<fs::path> FileDialog::draw(PanelContext ui) {
   if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
   ui.name("cancel");
   ImGui::SameLine(0, ui.px(7));
-  ImGui::BeginDisabled(file_.empty() && kind_ != Kind::folder);
-  if (ImGui::Button(writes() ? "Save" : kind_ == Kind::folder ? "Choose" : "Open", {width, 0}))
+  ImGui::BeginDisabled(file_.empty() && !choosesFolder());
+  if (ImGui::Button(writes() ? "Save" : choosesFolder() ? "Choose" : "Open", {width, 0}))
     done = true;
   ui.name("ok");
   ImGui::EndDisabled();
-  std::optional<fs::path> chosen;
-  if (done && (!file_.empty() || kind_ == Kind::folder)) {
-    chosen = result();
-    ImGui::CloseCurrentPopup();
-  }
+  done = done && (!file_.empty() || choosesFolder());
+  if (done) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
-  return chosen;
+  return done ? answer() : "";
 }
 
 }  // namespace lamplighter

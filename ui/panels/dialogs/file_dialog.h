@@ -4,10 +4,10 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "editor/keys/action.h"
 #include "ui/panels/dialogs/file_list.h"
 #include "ui/widgets/widgets.h"
 
@@ -15,15 +15,14 @@ namespace lamplighter {
 
 class FileDialog {
  public:
-  enum class Kind { open, save, picture, profile, lightPicture, timeline, folder };
-  void open(Kind kind, const std::filesystem::path& start);
-  // The chosen file or folder, once.
-  std::optional<std::filesystem::path> draw(PanelContext ui);
-  Kind kind() const { return kind_; }
+  // Opens the dialog for what an action asks, in the folder of `start`.
+  void open(const std::string& action, const ActionAsk& asks, const std::filesystem::path& start);
+  // The text of the action with the chosen file or folder, once; "": none yet.
+  std::string draw(PanelContext ui);
 
  private:
-  FileKind fileKind() const;
-  bool writes() const { return kind_ == Kind::save || kind_ == Kind::timeline; }
+  bool writes() const { return asks_.kind == ActionAsk::Kind::saveFile; }
+  bool choosesFolder() const { return asks_.kind == ActionAsk::Kind::folder; }
   void go(const std::filesystem::path& folder);
   std::vector<std::filesystem::path> places(const Session& session) const;
   void drawFolder(const PanelContext& ui);
@@ -31,9 +30,10 @@ class FileDialog {
   bool drawEntries(const PanelContext& ui, const std::vector<FileEntry>& shown);
   bool drawLine(const PanelContext& ui);
   bool pressKeys(const PanelContext& ui, const std::vector<FileEntry>& shown, bool entered);
-  std::optional<std::filesystem::path> result();
+  std::string answer() const;
 
-  Kind kind_ = Kind::open;
+  std::string action_;
+  ActionAsk asks_;
   bool opening_ = false, takesFocus_ = false, scrolls_ = false;
   std::filesystem::path folder_;
   std::string file_;      // the text line

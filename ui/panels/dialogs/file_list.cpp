@@ -1,55 +1,21 @@
 #include "ui/panels/dialogs/file_list.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "renderer/base/text.h"
 
 namespace lamplighter {
-namespace {
-
 namespace fs = std::filesystem;
 
-std::vector<std::string> endings(FileKind kind) {
-  switch (kind) {
-    case FileKind::scene:
-      return {".gltf", ".glb"};
-    case FileKind::picture:
-      return {".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp"};
-    case FileKind::profile:
-      return {".ies"};
-    case FileKind::timeline:
-      return {".json", ".csv"};
-    case FileKind::folder:
-      break;
-  }
-  return {};
+std::string endingsText(Extensions extensions) {
+  std::string text;
+  for (const std::string_view extension : extensions)
+    text.append(text.empty() ? "" : ", ").append(extension);
+  return text.empty() ? "folders" : text;
 }
 
-}  // namespace
-
-bool fits(FileKind kind, const fs::path& path) {
-  const std::vector<std::string> all = endings(kind);
-  return std::find(all.begin(), all.end(), lowerCase(path.extension().string())) != all.end();
-}
-
-const char* endingsOf(FileKind kind) {
-  switch (kind) {
-    case FileKind::scene:
-      return ".gltf, .glb";
-    case FileKind::picture:
-      return ".exr, .hdr, .png, .jpg, .webp";
-    case FileKind::profile:
-      return ".ies";
-    case FileKind::timeline:
-      return ".json, .csv";
-    case FileKind::folder:
-      break;
-  }
-  return "folders";
-}
-
-std::vector<FileEntry> listFolder(const fs::path& folder, FileKind kind, std::string& error) {
+std::vector<FileEntry> listFolder(const fs::path& folder, Extensions extensions,
+                                  std::string& error) {
   std::vector<FileEntry> entries;
   std::error_code wrong;
   for (fs::directory_iterator it(folder, wrong), end; !wrong && it != end; it.increment(wrong)) {
@@ -58,7 +24,7 @@ std::vector<FileEntry> listFolder(const fs::path& folder, FileKind kind, std::st
     if (name.empty() || name.front() == '.') continue;
     if (it->is_directory(ignored))
       entries.push_back({name, true});
-    else if (fits(kind, it->path()))
+    else if (hasExtension(it->path(), extensions))
       entries.push_back({name, false});
   }
   error = wrong ? folder.string() + ": " + wrong.message() : "";

@@ -5,22 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "editor/document/file_kinds.h"
+
 namespace lamplighter {
 
-enum class FileKind { scene, picture, profile, timeline, folder };
-
-// Whether the file extension belongs to the kind. No file is of the kind folder.
-bool fits(FileKind kind, const std::filesystem::path& path);
-// Extensions as displayed: ".gltf, .glb".
-const char* endingsOf(FileKind kind);
+// Extensions as displayed: ".gltf, .glb"; "folders" if there are none.
+std::string endingsText(Extensions extensions);
 
 struct FileEntry {
   std::string name;
   bool folder = false;
 };
-// Folders first, then the files of the kind, sorted by name, without hidden ones. `error`: why the
-// folder cannot be read; "" on success.
-std::vector<FileEntry> listFolder(const std::filesystem::path& folder, FileKind kind,
+// Folders first, then the files with one of the extensions, sorted by name, without hidden ones.
+// `error`: why the folder cannot be read; "" on success.
+std::vector<FileEntry> listFolder(const std::filesystem::path& folder, Extensions extensions,
                                   std::string& error);
 // The entries whose names contain the text, ignoring case.
 std::vector<FileEntry> filtered(const std::vector<FileEntry>& entries, const std::string& text);

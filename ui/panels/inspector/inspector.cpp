@@ -29,7 +29,6 @@ const char* kindOf(const Node& node) {
 
 void nameField(const PanelContext& ui, const Node& node, InspectorState& state) {
   labelledRow(ui, kindOf(node));
-  if (std::exchange(state.focusName, false)) ImGui::SetKeyboardFocusHere();
   ImGui::InputText("##name", &state.name);
   ui.name("name");
   // The typed text becomes the name only at the end of the edit, so that it is one undo step.
@@ -67,20 +66,20 @@ void meshKindField(const PanelContext& ui, const Node& node) {
 
 }  // namespace
 
-void inspector(PanelContext ui, InspectorState& state) {
+void inspector(PanelContext ui, InspectorState& state, Requests& requests) {
   ui.prefix = "inspector/";
   const Document& document = ui.session.document();
   const Node* found = document.scene.find(document.active());
   if (!found) {
     note("Nothing is selected. Click an object in the view or in the list.");
     ImGui::Spacing();
-    if (section(ui, "Sky")) skyFields(ui, state);
+    if (section(ui, "Sky")) skyFields(ui, state, requests);
     return;
   }
   // A copy: an edit below may replace the document's node.
   const Node node = *found;
   if (state.node != node.id) {
-    state = {.focusName = state.focusName};
+    state = {};
     state.node = node.id;
     state.name = node.name;
     state.rotation = quat(0, 0, 0, 0);  // not a rotation: forces the angles to be computed again
@@ -89,8 +88,8 @@ void inspector(PanelContext ui, InspectorState& state) {
   ImGui::PushID(static_cast<int>(node.id));
   nameField(ui, node, state);
   if (section(ui, "Transform")) transformFields(ui, node, state);
-  if (node.area && section(ui, "Area light")) areaLightFields(ui, node, state);
-  if (node.punctual && section(ui, "Light")) punctualLightFields(ui, node, state);
+  if (node.area && section(ui, "Area light")) areaLightFields(ui, node, requests);
+  if (node.punctual && section(ui, "Light")) punctualLightFields(ui, node, requests);
   if (emitsLight(document.scene, node) && section(ui, "Light linking"))
     linkFields(ui, node.id, state);
   if (node.mesh != kNone && section(ui, "Mesh")) meshKindField(ui, node);

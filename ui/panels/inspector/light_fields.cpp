@@ -132,7 +132,7 @@ void stateFields(const PanelContext& ui, const Node& node) {
 
 }  // namespace
 
-void areaLightFields(PanelContext ui, const Node& node, InspectorState& state) {
+void areaLightFields(PanelContext ui, const Node& node, Requests& requests) {
   AreaLight light = *node.area;
   const std::string step = "Change light " + node.name;
   stateFields(ui, node);
@@ -170,10 +170,10 @@ void areaLightFields(PanelContext ui, const Node& node, InspectorState& state) {
        short3(measure.area) + " m\u00b2");
   if (changed && light != *node.area) ui.session.setAreaLight(node.id, light);
   if (light.shape == AreaShape::rectangle || light.shape == AreaShape::disk || light.picture)
-    pictureFields(ui, node, state);
+    pictureFields(ui, node, requests);
 }
 
-void punctualLightFields(PanelContext ui, const Node& node, InspectorState& state) {
+void punctualLightFields(PanelContext ui, const Node& node, Requests& requests) {
   PunctualLight light = *node.punctual;
   const std::string step = "Change light " + node.name;
   stateFields(ui, node);
@@ -195,7 +195,7 @@ void punctualLightFields(PanelContext ui, const Node& node, InspectorState& stat
     changed |= cone;
   }
   if (changed && light != *node.punctual) ui.session.setPunctualLight(node.id, light);
-  if (light.kind != PunctualKind::directional) profileFields(ui, node, state);
+  if (light.kind != PunctualKind::directional) profileFields(ui, node, requests);
 }
 
 }  // namespace lamplighter

@@ -46,20 +46,21 @@ void preview(const PanelContext& ui, const LightPicture& picture, bool isDisk) {
 
 }  // namespace
 
-void pictureFields(const PanelContext& ui, const Node& node, InspectorState& state) {
+void pictureFields(const PanelContext& ui, const Node& node, Requests& requests) {
   const auto picture = node.area->picture;
   labelledRow(
       ui, "Picture",
       "A PNG or JPEG picture whose pixels scale the radiance: for a screen, a window or a sign.");
   if (!picture) {
-    if (ImGui::Button("Choose\u2026##picture", {-FLT_MIN, 0})) state.choosesPicture = true;
+    if (ImGui::Button("Choose\u2026##picture", {-FLT_MIN, 0}))
+      requests.actions.emplace_back("light.picture");
     ui.name("picture/choose");
     return;
   }
   const float width = ui.px(30);
   if (ImGui::Button((picture->file + "##picture").c_str(),
                     {ImGui::GetContentRegionAvail().x - width - ui.px(5), 0}))
-    state.choosesPicture = true;
+    requests.actions.emplace_back("light.picture");
   ui.name("picture/choose");
   ImGui::SameLine(0, ui.px(5));
   if (ImGui::Button("\u00d7##picture", {width, 0})) ui.session.runAction("light.picture none");

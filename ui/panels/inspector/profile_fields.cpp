@@ -50,19 +50,20 @@ void polarPlot(const PanelContext& ui, const IesProfile& profile) {
 
 }  // namespace
 
-void profileFields(const PanelContext& ui, const Node& node, InspectorState& state) {
+void profileFields(const PanelContext& ui, const Node& node, Requests& requests) {
   const auto profile = node.punctual->profile;
   labelledRow(ui, "Profile",
               "Angular distribution of the luminaire's intensity: an IES file (LM-63).");
   if (!profile) {
-    if (ImGui::Button("Choose\u2026##profile", {-FLT_MIN, 0})) state.choosesProfile = true;
+    if (ImGui::Button("Choose\u2026##profile", {-FLT_MIN, 0}))
+      requests.actions.emplace_back("light.ies");
     ui.name("profile/choose");
     return;
   }
   const float width = ui.px(30);
   if (ImGui::Button((profile->file + "##profile").c_str(),
                     {ImGui::GetContentRegionAvail().x - width - ui.px(5), 0}))
-    state.choosesProfile = true;
+    requests.actions.emplace_back("light.ies");
   ui.name("profile/choose");
   ImGui::SameLine(0, ui.px(5));
   if (ImGui::Button("\u00d7##profile", {width, 0})) ui.session.runAction("light.ies none");

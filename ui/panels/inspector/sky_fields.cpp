@@ -34,7 +34,7 @@ Sky asGradient(const Sky& sky) {
   return Sky::gradient(base * vec3(0.35f, 0.6f, 1.0f), base, base * vec3(0.22f, 0.2f, 0.18f));
 }
 
-void kindField(const PanelContext& ui, const Sky& sky, InspectorState& state) {
+void kindField(const PanelContext& ui, const Sky& sky, Requests& requests) {
   const char* kNames[] = {"None", "Colour", "Gradient", "Picture"};
   const char* kWidgets[] = {"none", "constant", "gradient", "image"};
   const int current =
@@ -52,14 +52,16 @@ void kindField(const PanelContext& ui, const Sky& sky, InspectorState& state) {
     if (i == 0) ui.session.setSky(Sky());
     if (i == 1) ui.session.setSky(asConstant(sky));
     if (i == 2) ui.session.setSky(asGradient(sky));
-    if (i == 3) state.choosesSky = true;  // becomes a picture sky when a file is chosen
+    if (i == 3)
+      requests.actions.emplace_back("sky.image");  // becomes a picture sky when a file is chosen
   }
   ImGui::EndCombo();
 }
 
-bool pictureFields(const PanelContext& ui, Sky& sky, InspectorState& state) {
+bool pictureFields(const PanelContext& ui, Sky& sky, Requests& requests) {
   labelledRow(ui, "File", "An equirectangular picture: EXR, HDR, or any other.");
-  if (ImGui::Button((sky.image->name + "##file").c_str(), {-FLT_MIN, 0})) state.choosesSky = true;
+  if (ImGui::Button((sky.image->name + "##file").c_str(), {-FLT_MIN, 0}))
+    requests.actions.emplace_back("sky.image");
   ui.name("file");
   float degrees = glm::degrees(sky.rotation);
   labelledRow(ui, "Rotation", "About the vertical axis, counter-clockwise seen from above.");
@@ -95,10 +97,10 @@ void stateField(const PanelContext& ui) {
 
 }  // namespace
 
-void skyFields(PanelContext ui, InspectorState& state) {
+void skyFields(PanelContext ui, InspectorState& state, Requests& requests) {
   ui.prefix = "sky/";
   Sky sky = ui.session.document().scene.sky;
-  kindField(ui, sky, state);
+  kindField(ui, sky, requests);
   if (!(sky == ui.session.document().scene.sky)) return;  // shown from the next frame on
   if (!sky.isBlack()) stateField(ui);
   bool changed = false;
@@ -114,7 +116,7 @@ void skyFields(PanelContext ui, InspectorState& state) {
       changed |= radianceFields(ui, "Ground", "ground", "Everywhere below it.", sky.ground);
       break;
     case SkyKind::image:
-      changed = pictureFields(ui, sky, state);
+      changed = pictureFields(ui, sky, requests);
       break;
   }
   if (changed) ui.session.setSky(sky);
