@@ -25,8 +25,9 @@ template <typename T>
 T parseNumber(const ParameterSpec& spec, std::string_view text, const char* kind) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  // In the type of the value: 0.01 is within a range from 0.01, although the nearest float is less.
   const bool inRange =
-      static_cast<double>(value) >= spec.minimum && static_cast<double>(value) <= spec.maximum;
+      value >= static_cast<T>(spec.minimum) && value <= static_cast<T>(spec.maximum);
   if (error != std::errc() || end != text.data() + text.size() || !inRange) {
     throw InputError(spec.name,
                      fmt::format("'{}' is no {} from {:g} to {:g}", shown(text), kind, spec.minimum,
