@@ -129,10 +129,9 @@ TEST_F(ActionDialogs, RenameNeedsASelectedObject) {
   EXPECT_EQ(session().document().scene.nodes.front().name, "ground");
 }
 
-TEST_F(ActionDialogs, TheInspectorAsksForThePictureOfALight) {
-  session().select({session().document().scene.nodes.back().id});
-  frames(3);
-  click("inspector/picture/choose");
+TEST_F(ActionDialogs, TheInspectorAsksForThePictureOfTheSky) {
+  click("sky/kind");
+  click("sky/kind/image");
   EXPECT_TRUE(shows("dialog/ok"));
 }
 

@@ -2,6 +2,7 @@
 #include <span>
 #include <utility>
 
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include "editor/actions/arguments.h"
@@ -134,7 +135,7 @@ std::string NameDialog::draw(PanelContext ui) {
   done = done && !name_.empty();
   if (done || cancelled) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
-  return done ? action_ + " " + quoted(name_) : "";
+  return done ? action_ + " " + lamplighter::quoted(name_) : "";
 }
 
 void centredNotice(float scale, const char* text) {
