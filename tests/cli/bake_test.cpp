@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 namespace lamplighter::test {
@@ -10,8 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kScene =
-    std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/scenes/cornell_style.gltf";
+const std::string kScene = (test::sourceFolder() / "assets/scenes/cornell_style.gltf").string();
 
 class BakeCommand : public testing::Test {
  protected:
@@ -62,8 +62,8 @@ TEST_F(BakeCommand, RefusesInOneLine) {
     EXPECT_EQ(r.code, 2) << bad[0];
     EXPECT_EQ(lines(r.err), 1) << r.err;
   }
-  const ProcessResult same = runLamplighter(
-      {"bake", kScene, "-o", std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/scenes"});
+  const ProcessResult same =
+      runLamplighter({"bake", kScene, "-o", (test::sourceFolder() / "assets/scenes").string()});
   EXPECT_EQ(same.code, 2);
   EXPECT_NE(same.err.find("folder of the scene itself"), std::string::npos) << same.err;
 }

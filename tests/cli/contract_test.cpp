@@ -9,6 +9,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/tone_map.h"
 #include "renderer/registry/registry.h"
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {
@@ -20,8 +21,7 @@ using test::lines;
 using test::ProcessResult;
 using test::runLamplighter;
 
-const std::string kScene =
-    std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/scenes/cornell_style.gltf";
+const std::string kScene = (test::sourceFolder() / "assets/scenes/cornell_style.gltf").string();
 
 class CommandLine : public testing::Test {
  protected:
@@ -127,7 +127,7 @@ TEST_F(CommandLine, AnErrorNamesTheHelpOfItsSubcommand) {
 }
 
 TEST_F(CommandLine, EveryFlagIsInTheDocs) {
-  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/reference/cli.md");
+  std::ifstream in(test::sourceFolder() / "docs/reference/cli.md");
   const std::string docs{std::istreambuf_iterator<char>(in), {}};
   for (const char* sub :
        {"info", "render", "methods", "actions", "settings", "compare", "tonemap", "replay"}) {
@@ -171,7 +171,7 @@ TEST_F(CommandLine, MethodsListEveryParameter) {
 }
 
 TEST_F(CommandLine, TheTableOfParametersIsUpToDate) {
-  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/reference/parameters.md");
+  std::ifstream in(test::sourceFolder() / "docs/reference/parameters.md");
   const std::string written{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(runLamplighter({"methods", "--markdown"}).out, written)
       << "run: lamplighter methods --markdown > docs/reference/parameters.md";
@@ -189,7 +189,7 @@ TEST_F(CommandLine, EveryActionSaysWhatItDoesAndTheTableIsUpToDate) {
     EXPECT_TRUE(ofKey.emplace(key, a["name"]).second)
         << key << " is " << ofKey[key] << " and " << a["name"];
   }
-  std::ifstream in(std::string(LAMPLIGHTER_SOURCE_DIR) + "/docs/reference/actions.md");
+  std::ifstream in(test::sourceFolder() / "docs/reference/actions.md");
   const std::string written{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(runLamplighter({"actions", "--markdown"}).out, written)
       << "run: lamplighter actions --markdown > docs/reference/actions.md";
@@ -197,13 +197,13 @@ TEST_F(CommandLine, EveryActionSaysWhatItDoesAndTheTableIsUpToDate) {
 
 // What the manual says is what the program says.
 TEST_F(CommandLine, ManualIsUpToDate) {
-  const std::pair<const char*, const char*> kinds[] = {{"--markdown", "/docs/reference/flags.md"},
-                                                       {"--man", "/docs/reference/lamplighter.1"}};
+  const std::pair<const char*, const char*> kinds[] = {{"--markdown", "docs/reference/flags.md"},
+                                                       {"--man", "docs/reference/lamplighter.1"}};
   for (const auto& [kind, path] : kinds) {
-    std::ifstream in(LAMPLIGHTER_SOURCE_DIR + std::string(path));
+    std::ifstream in(test::sourceFolder() / path);
     const std::string written{std::istreambuf_iterator<char>(in), {}};
     const std::string now = runLamplighter({"manual", kind}).out;
-    EXPECT_EQ(now, written) << "run: lamplighter manual " << kind << " > " << path + 1;
+    EXPECT_EQ(now, written) << "run: lamplighter manual " << kind << " > " << path;
     for (const char* command : {"info", "render", "bake", "replay", "script"})
       EXPECT_NE(now.find(command), std::string::npos) << command;
   }

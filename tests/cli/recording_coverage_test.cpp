@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "renderer/debug_views/debug_view.h"
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const fs::path kRecordings = fs::path(LAMPLIGHTER_SOURCE_DIR) / "tests/recordings";
+const fs::path kRecordings = test::sourceFolder() / "tests/recordings";
 
 std::set<std::string> allActions() {
   std::set<std::string> names;
@@ -57,7 +58,7 @@ TEST(RecordingCoverage, EveryActionIsInARecording) {
     for (const json& name : content["actions"]) covered.insert(name.get<std::string>());
   }
   ASSERT_FALSE(covered.empty()) << "there are no reports in " << folder;
-  if (!fs::exists(fs::path(LAMPLIGHTER_SHARED_DIR) / "scenes"))
+  if (!fs::exists(test::sharedFolder() / "scenes"))
     GTEST_SKIP() << "without ../shared/scenes not all recordings are played";
   const std::set<std::string> actions = allActions();
   const std::map<std::string, std::string> without = excused();

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 using test::ProcessResult;
 using test::runLamplighter;
 
-const fs::path kRecordings = fs::path(LAMPLIGHTER_SOURCE_DIR) / "tests/recordings";
+const fs::path kRecordings = test::sourceFolder() / "tests/recordings";
 
 std::string contents(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -33,7 +34,7 @@ class Replay : public testing::Test {
     fs::create_directories(folder_ / "recordings");
     // As deep below the copied scenes as in the repository, so that relative paths hold.
     fs::create_directories(folder_ / "assets");
-    fs::copy(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes", folder_ / "assets/scenes",
+    fs::copy(test::sourceFolder() / "assets/scenes", folder_ / "assets/scenes",
              fs::copy_options::recursive);
     std::string text = contents(kRecordings / "place_light.jsonl");
     replace(text, "../../assets", "../assets");

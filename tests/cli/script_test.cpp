@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {
@@ -30,10 +31,9 @@ class Script : public testing::Test {
   fs::path file(const std::string& name) const { return folder_ / name; }
   ProcessResult run(const std::string& text, const std::string& threads = "0") const {
     std::ofstream(file("script.txt")) << text;
-    return runLamplighter(
-        {"script", file("script.txt").string(),
-         std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/scenes/cornell_style.gltf", "--size",
-         "96x64", "--backend", "cpu", "--threads", threads});
+    return runLamplighter({"script", file("script.txt").string(),
+                           (test::sourceFolder() / "assets/scenes/cornell_style.gltf").string(),
+                           "--size", "96x64", "--backend", "cpu", "--threads", threads});
   }
 
   fs::path folder_;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {
@@ -33,7 +34,7 @@ TEST(UserSettings, AHostileFileDoesNotChangeAReplay) {
     std::ofstream(folder / "lamplighter/settings.json") << settings;
     std::ofstream(folder / "lamplighter/keys.json") << keys;
     const ProcessResult r = runLamplighter(
-        {"replay", std::string(LAMPLIGHTER_SOURCE_DIR) + "/tests/recordings/place_light.jsonl",
+        {"replay", (test::sourceFolder() / "tests/recordings/place_light.jsonl").string(),
          "--headless", "--check", "-o", (folder / "out").string()});
     EXPECT_EQ(r.code, 0) << r.out << r.err;
     EXPECT_EQ(contents(folder / "lamplighter/settings.json"), settings);
@@ -47,7 +48,7 @@ TEST(UserSettings, AHostileFileDoesNotChangeAReplay) {
 
 TEST(UserSettings, ThePageIsUpToDate) {
   EXPECT_EQ(runLamplighter({"settings", "--markdown"}).out,
-            contents(fs::path(LAMPLIGHTER_SOURCE_DIR) / "docs/reference/settings.md"))
+            contents(test::sourceFolder() / "docs/reference/settings.md"))
       << "run: lamplighter settings --markdown > docs/reference/settings.md";
 }
 

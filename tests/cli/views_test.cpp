@@ -6,6 +6,7 @@
 
 #include "renderer/debug_views/debug_view.h"
 #include "renderer/image/image_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 namespace lamplighter {
@@ -29,7 +30,7 @@ class RenderView : public testing::Test {
 
   ProcessResult render(const std::string& output, std::vector<std::string> more) const {
     std::vector<std::string> arguments{
-        "render",    std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/scenes/pillar_room.gltf",
+        "render",    (test::sourceFolder() / "assets/scenes/pillar_room.gltf").string(),
         "-o",        (folder_ / output).string(),
         "--size",    "64x40",
         "--vpls",    "20",

@@ -15,6 +15,7 @@
 #include "editor/session/register_actions.h"
 #include "tests/guide/page.h"
 #include "tests/guide/steps.h"
+#include "tests/support/folders.h"
 #include "tests/support/process.h"
 
 namespace lamplighter::test {
@@ -104,7 +105,7 @@ std::vector<std::string> split(const std::string& text) {
 bool isFile(const std::string& text) {
   static const std::regex kEnding(R"([\w./-]+\.(gltf|glb|json|jsonl|exr|png|txt|md))");
   return text.starts_with("/") || std::regex_match(text, kEnding) || text == ".gltf" ||
-         text == ".glb" || fs::exists(fs::path(LAMPLIGHTER_SOURCE_DIR) / text);
+         text == ".glb" || fs::exists(test::sourceFolder() / text);
 }
 
 bool isNumber(const std::string& text) {
@@ -127,7 +128,7 @@ std::string problemOf(const Page& page, const std::string& text) {
     return unknown.empty() ? "" : unknown + " is not known to lamplighter";
   }
   if (text.starts_with("./dev ")) {
-    std::ifstream in(fs::path(LAMPLIGHTER_SOURCE_DIR) / "dev");
+    std::ifstream in(test::sourceFolder() / "dev");
     const std::string dev{std::istreambuf_iterator<char>(in), {}};
     return dev.find("\n  " + text.substr(6) + ")") != std::string::npos ? ""
                                                                         : "is no command of dev";

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "renderer/base/error.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter::test {
 
@@ -122,7 +123,7 @@ Page readPage(const fs::path& path) {
   return reader.finish();
 }
 
-fs::path pagesFolder() { return fs::path(LAMPLIGHTER_SOURCE_DIR) / "docs/user"; }
+fs::path pagesFolder() { return test::sourceFolder() / "docs/user"; }
 
 std::vector<Page> allPages() {
   return {readPage(pagesFolder() / "tutorial.md"), readPage(pagesFolder() / "guide.md")};

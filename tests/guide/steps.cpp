@@ -5,6 +5,7 @@
 #include "editor/keys/chord.h"
 #include "renderer/base/error.h"
 #include "renderer/registry/registry.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter::test {
 
@@ -19,7 +20,7 @@ class Writer {
   explicit Writer(const Page& page) : page_(page) {
     recording_.path = page.name() + ".jsonl";
     RecordingHeader& header = recording_.header;
-    header.scene = (std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / page.scene).string();
+    header.scene = (test::sourceFolder() / page.scene).string();
     header.width = kWidth;
     header.height = kHeight;
     for (const auto& [name, value] : page.values) {

@@ -20,6 +20,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/safety/random_edits.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter::test {
 
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-fs::path levelFile() { return fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf"; }
+fs::path levelFile() { return test::sourceFolder() / "assets/scenes/default.gltf"; }
 
 std::unique_ptr<Session> editing(const fs::path& journal, const fs::path& level) {
   auto session = std::make_unique<Session>(std::make_unique<FrameRenderer>(makeCpuBackend()));

@@ -19,6 +19,7 @@
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/safety/random_edits.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter::test {
 namespace {
@@ -83,8 +84,8 @@ class Soak {
 void Soak::open() {
   static const char* const kLevels[] = {"assets/scenes/default.gltf",
                                         "../shared/scenes/cornell-box/cornell-box.glb"};
-  fs::path level = fs::path(LAMPLIGHTER_SOURCE_DIR) / kLevels[edits_->below(2)];
-  if (!fs::exists(level)) level = fs::path(LAMPLIGHTER_SOURCE_DIR) / kLevels[0];
+  fs::path level = test::sourceFolder() / kLevels[edits_->below(2)];
+  if (!fs::exists(level)) level = test::sourceFolder() / kLevels[0];
   session_->open(loadGltf(level).scene, level, {});
   RenderSettings render;
   render.values.set("vpls", 32);

@@ -6,6 +6,7 @@
 
 #include "renderer/scene/camera.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter::test {
 
@@ -13,9 +14,7 @@ struct AssetRoom {
   Scene scene;
   View view;
   AssetRoom(const std::string& name, int width, int height)
-      : scene(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                       (name + ".gltf"))
-                  .scene) {
+      : scene(loadGltf(test::sourceFolder() / "assets/scenes" / (name + ".gltf")).scene) {
     for (const Node& node : scene.nodes)
       if (node.camera != kNone) view = viewOfCamera(scene, node, width, height);
   }

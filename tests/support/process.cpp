@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/folders.h"
+
 extern char** environ;
 
 namespace lamplighter::test {
@@ -32,7 +34,7 @@ ProcessResult runLamplighter(const std::vector<std::string>& arguments, const st
   if (::mkdtemp(pattern.data()) == nullptr) return {};
   const fs::path folder = pattern, out = folder / "out", err = folder / "err";
 
-  std::vector<std::string> words{LAMPLIGHTER_BINARY};
+  std::vector<std::string> words{programFile().string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& w : words) argv.push_back(w.data());
@@ -53,8 +55,7 @@ ProcessResult runLamplighter(const std::vector<std::string>& arguments, const st
   posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT, 0600);
   ProcessResult result;
   pid_t pid = 0;
-  if (posix_spawn(&pid, LAMPLIGHTER_BINARY, &actions, nullptr, argv.data(), environment.data()) ==
-      0) {
+  if (posix_spawn(&pid, argv[0], &actions, nullptr, argv.data(), environment.data()) == 0) {
     int status = 0;
     ::waitpid(pid, &status, 0);
     if (WIFEXITED(status)) result.code = WEXITSTATUS(status);

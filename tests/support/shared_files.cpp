@@ -3,11 +3,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/folders.h"
+
 namespace lamplighter::test {
 
-std::filesystem::path sharedScenes() {
-  return std::filesystem::path(LAMPLIGHTER_SHARED_DIR) / "scenes";
-}
+std::filesystem::path sharedScenes() { return test::sharedFolder() / "scenes"; }
 
 std::vector<std::map<std::string, std::string>> readTable(const std::filesystem::path& path) {
   const auto cells = [](const std::string& line) {

@@ -8,7 +8,7 @@
 
 namespace lamplighter::test {
 
-// LAMPLIGHTER_SHARED_DIR/scenes; check with std::filesystem::exists().
+// sharedFolder()/scenes; check with std::filesystem::exists().
 std::filesystem::path sharedScenes();
 
 // Reads the rows of a tab-separated table, with columns named by its first line. Empty if the file

@@ -5,13 +5,14 @@
 #include "editor/session/user_state.h"
 #include "renderer/image/image_io.h"
 #include "tests/editor/session_fixture.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kProfile = std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/profiles/downlight.ies";
+const std::string kProfile = (test::sourceFolder() / "assets/profiles/downlight.ies").string();
 
 class Drop : public test::SessionFixture {
  protected:

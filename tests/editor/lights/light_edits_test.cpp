@@ -6,6 +6,7 @@
 #include "editor/lights/colour_temperature.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "tests/editor/session_fixture.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter {
 namespace {
@@ -180,7 +181,7 @@ TEST_F(LightEdits, NewLightsSuitThePlace) {
 }
 
 TEST_F(LightEdits, ProfilesComeFromFiles) {
-  const std::string folder = std::string(LAMPLIGHTER_SOURCE_DIR) + "/assets/profiles/";
+  const std::string folder = (test::sourceFolder() / "assets/profiles/").string();
   session_.select({point_});
   const double lumens = value(point_, LightProperty::intensity);
   expectOneStep("light.ies " + folder + "downlight.ies");

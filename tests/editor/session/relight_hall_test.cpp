@@ -9,6 +9,7 @@
 #include "editor/session/session.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kTests = fs::path(LAMPLIGHTER_SOURCE_DIR) / "tests";
+const fs::path kTests = test::sourceFolder() / "tests";
 
 // The header of the recording, and the hash of its last check.
 std::pair<nlohmann::json, std::string> recorded() {

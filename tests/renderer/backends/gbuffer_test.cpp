@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"
@@ -68,7 +69,7 @@ class RasterisedGBuffer : public testing::TestWithParam<Case> {};
 TEST_P(RasterisedGBuffer, ShowsWhatRaysMeet) {
   const std::string name = GetParam().scene;
   const fs::path path = name.find('/') == std::string::npos
-                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+                            ? test::sourceFolder() / "assets/scenes" / name
                             : test::sharedScenes() / name;
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
@@ -145,7 +146,7 @@ void expectOneTriangleEach(const cpu::GBuffer& g, int least) {
 
 // What is there already is not written: nothing of another view, nor of how surfaces were.
 TEST(RasterisedGBuffer, OverAnotherIsAsAnew) {
-  Scene scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/table_room.gltf").scene;
+  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/table_room.gltf").scene;
   constexpr int kWidth = 203, kHeight = 150;
   cpu::GBuffer kept;
   const auto look = [&](const View& view) {

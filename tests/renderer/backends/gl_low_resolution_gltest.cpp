@@ -8,6 +8,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -51,7 +52,7 @@ Image rendered(std::unique_ptr<Backend> backend, const Scene& scene, const View&
 }
 
 Scene loadAsset(const std::string& name) {
-  return loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name).scene;
+  return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
 }
 
 // A point light, whose shadows are hard.
@@ -81,7 +82,7 @@ class GlLowResolutionScenes : public test::GlTest, public testing::WithParamInte
 TEST_P(GlLowResolutionScenes, IsNearThePictureOfAllPixels) {
   const std::string name = GetParam().scene;
   const fs::path path = name.find('/') == std::string::npos
-                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+                            ? test::sourceFolder() / "assets/scenes" / name
                             : test::sharedScenes() / name;
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;

@@ -8,6 +8,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
@@ -51,7 +52,7 @@ Image rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Setti
 }
 
 Scene loadAsset(const std::string& name) {
-  return loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name).scene;
+  return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
 }
 
 struct Case {
@@ -65,7 +66,7 @@ class GlPatchesScenes : public test::GlTest, public testing::WithParamInterface<
 TEST_P(GlPatchesScenes, EachTechniqueIsThePictureOfNaiveAndOfTheCpuBackend) {
   const std::string name = GetParam().scene;
   const fs::path path = name.find('/') == std::string::npos
-                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+                            ? test::sourceFolder() / "assets/scenes" / name
                             : test::sharedScenes() / name;
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;

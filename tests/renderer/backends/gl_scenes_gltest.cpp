@@ -5,6 +5,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shared_files.h"
 
@@ -35,8 +36,7 @@ double differing(const Image& a, const Image& b, float absolute, float relative)
 
 TEST_P(GlScenes, LookTheSameOnBothBackends) {
   const Case& c = GetParam();
-  std::filesystem::path path =
-      std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / c.file;
+  std::filesystem::path path = test::sourceFolder() / "assets/scenes" / c.file;
   if (!std::filesystem::exists(path)) path = test::sharedScenes() / c.file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const Scene scene = loadGltf(path).scene;

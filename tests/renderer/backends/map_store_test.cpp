@@ -10,6 +10,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "shaders/shared/octahedral.h"
 #include "shaders/shared/vpl_shading.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/room_lights.h"
 #include "tests/support/scenes.h"
@@ -23,9 +24,7 @@ enum class Kind { drawn, traced };  // how maps are made, for the most part
 class Room {
  public:
   Room(Kind kind, uint32_t seed) : random_(seed) {
-    scene_ = loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                      "pillar_room.gltf")
-                 .scene;
+    scene_ = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
     // More triangles than are drawn one by one.
     for (int i = 0; kind == Kind::traced && i < 100; ++i)
       test::addMesh(

@@ -12,6 +12,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "shaders/shared/patches.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 
 namespace lamplighter {
@@ -22,7 +23,7 @@ namespace {
 constexpr double kRounding = 1e-6;
 
 Scene loadAsset(const std::string& name) {
-  return loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name).scene;
+  return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
 }
 
 Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, bool merge) {

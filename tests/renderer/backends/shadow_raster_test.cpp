@@ -8,6 +8,7 @@
 
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/room_lights.h"
 #include "tests/support/scenes.h"
@@ -47,9 +48,7 @@ TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
   for (const char* name : {"pillar_room", "area_light_room", "cornell_style", "table_room"}) {
     RenderScene scene;
     update(scene,
-           loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                    (std::string(name) + ".gltf"))
-               .scene,
+           loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(name) + ".gltf")).scene,
            SceneChanges::all());
     for (const int resolution : {8, 24, 64, 96, 256}) {
       const Compared c = compare(scene, test::lightsOf(scene, 8192 / resolution), resolution);
@@ -64,9 +63,7 @@ TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
 // Of suns: squares over parts of the room, from all round.
 TEST(ShadowRaster, HoldsWhatParallelRaysMeet) {
   RenderScene scene;
-  update(scene,
-         loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/table_room.gltf")
-             .scene,
+  update(scene, loadGltf(test::sourceFolder() / "assets/scenes/table_room.gltf").scene,
          SceneChanges::all());
   const float radius = scene.bounds.radius();
   std::vector<shared::Vpl> suns;

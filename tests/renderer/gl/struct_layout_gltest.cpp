@@ -8,6 +8,7 @@
 #include "shaders/shared/patches.h"
 #include "shaders/shared/vpl.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/folders.h"
 #include "tests/support/gltf_files.h"
 
 namespace lamplighter {
@@ -117,8 +118,8 @@ TEST_F(StructLayout, OfPatchTile) {
 // Whoever adds a struct to shaders/shared must add it here.
 TEST(SharedStructs, AreAllTestedHere) {
   int structs = 0;
-  for (const auto& file : std::filesystem::directory_iterator(
-           std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "shaders/shared")) {
+  for (const auto& file :
+       std::filesystem::directory_iterator(test::sourceFolder() / "shaders/shared")) {
     const std::string text = test::readText(file.path());
     for (size_t at = text.find("\nstruct "); at != std::string::npos;
          at = text.find("\nstruct ", at + 1)) {

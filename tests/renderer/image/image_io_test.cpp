@@ -7,6 +7,7 @@
 
 #include "renderer/base/error.h"
 #include "renderer/image/tone_map.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter {
 namespace {
@@ -53,7 +54,7 @@ TEST(ImageIo, AFolderThatIsNotThereIsOneClearLine) {
 
 TEST(ImageIo, WhatIsNoImageIsRefused) {
   EXPECT_THROW(readImage(temporary("absent.exr")), InputError);
-  EXPECT_THROW(readImage(fs::path(LAMPLIGHTER_SOURCE_DIR) / "README.md"), InputError);
+  EXPECT_THROW(readImage(test::sourceFolder() / "README.md"), InputError);
 }
 
 TEST(ImageIo, AFailedWriteLeavesTheOldFile) {

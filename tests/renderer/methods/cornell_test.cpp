@@ -6,13 +6,13 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 
 namespace lamplighter {
 namespace {
 
-const std::filesystem::path kReferences =
-    std::filesystem::path(LAMPLIGHTER_SHARED_DIR) / "references";
+const std::filesystem::path kReferences = test::sharedFolder() / "references";
 
 Metrics compareCornell(const std::string& name, int vpls, int bounces) {
   const Scene scene = loadGltf(kReferences / "scenes" / (name + ".gltf")).scene;

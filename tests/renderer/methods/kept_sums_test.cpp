@@ -10,6 +10,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/edit_sequence.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 
 namespace lamplighter {
@@ -33,9 +34,7 @@ Settings settingsOf(const std::string& technique, int vpls) {
 }
 
 struct Room {
-  Scene scene =
-      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
-          .scene;
+  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
   View view;
   explicit Room(bool isComplex = false) {
     for (Node& node : scene.nodes)

@@ -8,6 +8,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -56,7 +57,7 @@ class LowResolutionPicture : public testing::TestWithParam<Case> {};
 TEST_P(LowResolutionPicture, IsTheOneOfAllPixels) {
   const std::string name = GetParam().scene;
   const fs::path path = name.find('/') == std::string::npos
-                            ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
+                            ? test::sourceFolder() / "assets/scenes" / name
                             : test::sharedScenes() / name;
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
@@ -166,8 +167,7 @@ TEST(LowResolution, ReachesTheLastRowAndColumn) {
 class MovingCamera : public testing::TestWithParam<Case> {};
 
 TEST_P(MovingCamera, ShowsNearlyWhatItRestsOn) {
-  const Scene scene =
-      loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / GetParam().scene).scene;
+  const Scene scene = loadGltf(test::sourceFolder() / "assets/scenes" / GetParam().scene).scene;
   Settings settings = settingsOf(GetParam().vpls, "4");
   settings.set("importance", 1);  // samples are not chosen anew
   settings.set("settled_map_scale", 1);

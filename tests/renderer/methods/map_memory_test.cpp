@@ -9,6 +9,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -19,9 +20,7 @@ namespace {
 constexpr uint64_t kMebibyte = uint64_t{1} << 20;
 
 struct Room {
-  Scene scene =
-      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
-          .scene;
+  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
   View view;
   Room() {
     for (const Node& node : scene.nodes)

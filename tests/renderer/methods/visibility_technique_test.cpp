@@ -9,6 +9,7 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shared_files.h"
 #include "tests/support/traced_shadows.h"
@@ -32,9 +33,8 @@ Settings settingsOf(const std::string& technique, int vpls) {
 }
 
 fs::path pathOf(const std::string& name) {
-  return name.find('/') == std::string::npos
-             ? fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / name
-             : test::sharedScenes() / name;
+  return name.find('/') == std::string::npos ? test::sourceFolder() / "assets/scenes" / name
+                                             : test::sharedScenes() / name;
 }
 
 View viewOf(const Scene& scene, int divisor = 1) {
@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, VisibilityKnowledge,
                                          Case{"classroom/classroom.gltf", 50}));
 
 TEST(VisibilityTechnique, APictureAfterEditsIsTheOneMadeFromNothing) {
-  Scene scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf").scene;
+  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
   const View view = viewOf(scene);
   FrameRenderer renderer(makeCpuBackend());
   const Settings settings = settingsOf("visibility", 120);

@@ -10,6 +10,7 @@
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
+#include "tests/support/folders.h"
 #include "tests/support/random_boxes.h"
 
 namespace lamplighter {
@@ -64,17 +65,14 @@ TEST(LightClusters, StatesAreTheSameInRandomScenes) {
 TEST(LightClusters, StatesAreTheSameInRooms) {
   for (const char* room : {"pillar_room", "area_light_room", "table_room"}) {
     SCOPED_TRACE(room);
-    compareStates(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                           (std::string(room) + ".gltf"))
-                      .scene,
-                  400);
+    compareStates(
+        loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(room) + ".gltf")).scene,
+        400);
   }
 }
 
 TEST(LightClusters, HoldEachLightOnceAndFewAndNear) {
-  const Scene from =
-      loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
-          .scene;
+  const Scene from = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
   RenderScene scene;
   update(scene, from, SceneChanges::all());
   std::vector<shared::Vpl> lights = lightsOf(scene, 500);

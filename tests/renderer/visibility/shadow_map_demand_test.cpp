@@ -8,6 +8,7 @@
 
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/room_lights.h"
 
 namespace lamplighter {
@@ -20,9 +21,7 @@ struct Room {
   View view;
 
   explicit Room(const char* name) {
-    scene = loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                     (std::string(name) + ".gltf"))
-                .scene;
+    scene = loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(name) + ".gltf")).scene;
     update(world, scene, SceneChanges::all());
     std::vector<shared::Vpl> lights = test::lightsOf(world, 60);
     for (size_t i = 0; i < lights.size(); ++i) lights[i].slot = static_cast<int>(i);

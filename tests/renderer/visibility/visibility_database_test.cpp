@@ -12,6 +12,7 @@
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"
@@ -165,10 +166,9 @@ TEST(VisibilityDatabase, NoRaySaysOtherwiseOfARoughFloor) {
 class OwnScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(OwnScene, NoRaySaysOtherwise) {
-  expectNoMiss(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" /
-                        (std::string(GetParam()) + ".gltf"))
-                   .scene,
-               64, 3);
+  expectNoMiss(
+      loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(GetParam()) + ".gltf")).scene,
+      64, 3);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, OwnScene,
                          testing::Values("default", "area_light_room", "table_room", "pillar_room",

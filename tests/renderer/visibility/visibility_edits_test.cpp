@@ -8,6 +8,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/edit_sequence.h"
+#include "tests/support/folders.h"
 #include "tests/support/room_lights.h"
 
 namespace lamplighter {
@@ -19,10 +20,7 @@ RenderSceneChanges everything() {
   return all;
 }
 
-Scene defaultLevel() {
-  return loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf")
-      .scene;
-}
+Scene defaultLevel() { return loadGltf(test::sourceFolder() / "assets/scenes/default.gltf").scene; }
 
 // Entries of the first slots that differ.
 int differences(const VisibilityDatabase& a, const VisibilityDatabase& b,

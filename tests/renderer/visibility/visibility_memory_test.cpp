@@ -9,6 +9,7 @@
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
+#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
@@ -19,8 +20,7 @@ namespace {
 constexpr size_t kMebibyte = size_t{1} << 20;
 
 Scene pillarRoom() {
-  return loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
-      .scene;
+  return loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
 }
 
 struct Room {

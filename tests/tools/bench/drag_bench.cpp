@@ -9,6 +9,7 @@
 #include "editor/cli/options.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
+#include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/methods/frame_time_control.h"
@@ -41,11 +42,11 @@ std::string roomPath(const std::string& name) { return "assets/scenes/" + name +
 
 std::unique_ptr<Backend> backendOf(const std::string& name) {
   if (name == "cpu") return makeCpuBackend();
-  return makeGlBackend(fs::path(LAMPLIGHTER_SOURCE_DIR) / "shaders");
+  return makeGlBackend(dataFolder() / "shaders");
 }
 
 void drag(benchmark::State& state, const Case& c) {
-  const fs::path path = fs::path(LAMPLIGHTER_SOURCE_DIR) / c.scene;
+  const fs::path path = dataFolder() / c.scene;
   if (!fs::exists(path)) return state.SkipWithError("the scene is not there");
   Scene scene = loadGltf(path).scene;
   const View view = cli::chooseView(scene, "", c.width, c.height);

@@ -8,6 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/tools/bench/backend_benches.h"
@@ -25,8 +26,7 @@ double seconds() {
 class Moving {
  public:
   Moving(const std::string& path, const MakeBackend& make, int vpls, int updates)
-      : scene_(loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / path).scene),
-        renderer_(make(), seconds) {
+      : scene_(loadGltf(dataFolder() / path).scene), renderer_(make(), seconds) {
     for (const Node& node : scene_.nodes) {
       if (node.camera != kNone && !hasView_) {
         view_ = viewOfCamera(scene_, node, 640, 360);
@@ -81,7 +81,7 @@ class Moving {
 
 // Figure 5-3 with the default settings: the camera moves.
 void againstVpls(benchmark::State& state, const std::string& path, const MakeBackend& make) {
-  if (!fs::exists(fs::path(LAMPLIGHTER_SOURCE_DIR) / path)) {
+  if (!fs::exists(dataFolder() / path)) {
     state.SkipWithError("the scene is not there");
     return;
   }

@@ -8,6 +8,7 @@
 
 #include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
+#include "renderer/base/data_folder.h"
 #include "renderer/base/simd.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_set.h"
@@ -28,9 +29,7 @@ struct LitRoom {
   std::vector<cpu::LightRecord> lights;
 
   LitRoom() {
-    scene = loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) /
-                     "assets/scenes/area_light_room.gltf")
-                .scene;
+    scene = loadGltf(dataFolder() / "assets/scenes/area_light_room.gltf").scene;
     update(render, scene, SceneChanges::all());
     const RayCaster rays(render);
     for (const Node& node : scene.nodes)

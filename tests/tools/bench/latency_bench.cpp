@@ -11,6 +11,7 @@
 #include "editor/latency/edit_latency.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
+#include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/frame_time_control.h"
@@ -29,7 +30,7 @@ double seconds() {
 
 void editLatency(benchmark::State& state, const std::string& scenePath, const std::string& moved,
                  const std::string& backend) {
-  Scene scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / scenePath).scene;
+  Scene scene = loadGltf(dataFolder() / "assets/scenes" / scenePath).scene;
   View view;
   Node* node = nullptr;
   for (Node& n : scene.nodes) {

@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
@@ -25,7 +26,7 @@ double seconds() {
 }
 
 void lightMoved(benchmark::State& state) {
-  const fs::path folder = fs::path(LAMPLIGHTER_SHARED_DIR) / "references";
+  const fs::path folder = dataFolder() / "../shared" / "references";
   if (!fs::exists(folder)) {
     state.SkipWithError("there are no independent pictures");
     return;

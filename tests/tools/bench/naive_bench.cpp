@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include "renderer/backends/many_lights_kernels.h"
+#include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/tools/bench/backend_benches.h"
@@ -22,9 +23,7 @@ struct Level {
   NodeId mover = kNoNode;
 
   explicit Level(const std::string& name)
-      : scene(loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets" / "scenes" /
-                       (name + ".gltf"))
-                  .scene) {
+      : scene(loadGltf(dataFolder() / "assets" / "scenes" / (name + ".gltf")).scene) {
     for (const Node& node : scene.nodes) {
       if (node.camera != kNone) view = viewOfCamera(scene, node, kWidth, kHeight);
       if (node.name == "mover") mover = node.id;

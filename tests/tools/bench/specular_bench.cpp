@@ -4,6 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/tools/bench/backend_benches.h"
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 
 void frames(benchmark::State& state, const std::string& file, const MakeBackend& make,
             bool speculars) {
-  const fs::path path = fs::path(LAMPLIGHTER_SHARED_DIR) / "scenes" / file;
+  const fs::path path = dataFolder() / "../shared" / "scenes" / file;
   if (!fs::exists(path)) {
     state.SkipWithError("the scene is not there");
     return;

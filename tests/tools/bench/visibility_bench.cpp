@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 #include <glm/gtc/constants.hpp>
 
+#include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
 #include "renderer/light_maps/pass_merging.h"
 #include "renderer/sampling/vpl_set.h"
@@ -41,7 +42,7 @@ struct World {
   NodeId mover = kNoNode;
 
   explicit World(const Case& c) {
-    scene = loadGltf(fs::path(LAMPLIGHTER_SOURCE_DIR) / c.path).scene;
+    scene = loadGltf(dataFolder() / c.path).scene;
     if (std::string(c.mover).empty()) mover = addBall(scene);
     update(render, scene, SceneChanges::all());
     rays = std::make_unique<RayCaster>(render);
@@ -61,7 +62,7 @@ void fill(VisibilityDatabase& database, const World& w) {
 }
 
 bool skip(benchmark::State& state, const Case& c) {
-  if (fs::exists(fs::path(LAMPLIGHTER_SOURCE_DIR) / c.path)) return false;
+  if (fs::exists(dataFolder() / c.path)) return false;
   state.SkipWithError("the scene is not there");
   return true;
 }

@@ -17,6 +17,7 @@
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/surface.h"
+#include "tests/support/folders.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {
@@ -163,7 +164,7 @@ int run(const std::vector<std::string>& arguments) {
     else
       wanted.push_back(arguments[i]);
   }
-  std::vector<fs::path> scenes = {fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/default.gltf"};
+  std::vector<fs::path> scenes = {test::sourceFolder() / "assets/scenes/default.gltf"};
   for (const auto& row : test::readTable(test::sharedScenes() / "scenes.tsv"))
     if (row.at("file").find("dungeon-kit") == std::string::npos)
       scenes.push_back(test::sharedScenes() / row.at("file"));

@@ -16,6 +16,7 @@
 #include "renderer/methods/many_lights/parameters.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/render_scene.h"
+#include "tests/support/folders.h"
 #include "tests/support/shared_files.h"
 #include "tests/tools/equality/comparison.h"
 
@@ -224,8 +225,7 @@ struct Options {
 
 void run(const Options& options) {
   std::vector<fs::path> scenes;
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes"))
+  for (const auto& entry : fs::directory_iterator(test::sourceFolder() / "assets/scenes"))
     if (entry.path().extension() == ".gltf") scenes.push_back(entry.path());
   std::sort(scenes.begin(), scenes.end());
   for (const auto& row : test::readTable(test::sharedScenes() / "scenes.tsv"))

@@ -15,12 +15,12 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter {
 namespace {
 
-const std::filesystem::path kReferences =
-    std::filesystem::path(LAMPLIGHTER_SHARED_DIR) / "references";
+const std::filesystem::path kReferences = test::sharedFolder() / "references";
 
 Image pathTraced(const Scene& scene, const View& view, int bounces, int samples, int seed) {
   Settings settings;

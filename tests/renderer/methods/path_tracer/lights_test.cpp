@@ -13,6 +13,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 #include "tests/support/skies.h"
@@ -243,7 +244,7 @@ TEST(ReferenceLights, AMappedNormalLeaksNoLightFromBelow) {
 
 // The picture of references/scenes/patch.gltf against that of the closed form.
 TEST(ReferenceLights, ThePatchIsTheClosedFormAllOverThePicture) {
-  const auto folder = std::filesystem::path(LAMPLIGHTER_SHARED_DIR) / "references";
+  const auto folder = test::sharedFolder() / "references";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   const Scene scene = loadGltf(folder / "scenes" / "patch.gltf").scene;
   const Image expected = readImage(folder / "refs" / "patch_analytic.exr");

@@ -10,6 +10,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/movers/shadow_volumes.h"
 #include "renderer/visibility/visibility_database.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter {
 namespace {
@@ -17,9 +18,7 @@ namespace {
 class MoversOfARoom : public testing::Test {
  protected:
   void SetUp() override {
-    level_ =
-        loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
-            .scene;
+    level_ = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
     update(scene_, level_, SceneChanges::all());
     for (const SceneVpl& v :
          generateVpls(scene_, RayCaster(scene_), LightSet(scene_), {130, 0.5f, 1, 1}).vpls)

@@ -10,6 +10,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/occlusion/back_facing_lights.h"
 #include "renderer/visibility/occlusion/occluders.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter {
 namespace {
@@ -17,9 +18,7 @@ namespace {
 class OccluderHints : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    update(scene_,
-           loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes" / GetParam())
-               .scene,
+    update(scene_, loadGltf(test::sourceFolder() / "assets/scenes" / GetParam()).scene,
            SceneChanges::all());
     for (const SceneVpl& v :
          generateVpls(scene_, RayCaster(scene_), LightSet(scene_), {200, 0.3f, 3, 1}).vpls)

@@ -9,6 +9,7 @@
 
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/support/folders.h"
 
 namespace lamplighter {
 namespace {
@@ -21,9 +22,7 @@ TEST(PyramidBatch, MeetsTrianglesAsEachPyramidDoesAlone) {
   };
   size_t asked = 0, differ = 0, met = 0, unsure = 0, missed = 0, missedUnsure = 0;
   RenderScene scene;
-  update(scene,
-         loadGltf(std::filesystem::path(LAMPLIGHTER_SOURCE_DIR) / "assets/scenes/pillar_room.gltf")
-             .scene,
+  update(scene, loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene,
          SceneChanges::all());
   std::vector<shared::Vpl> lights;
   for (const SceneVpl& v :
