@@ -36,8 +36,9 @@ TEST_F(ActionAsks, EachHasATitleAndKnowsItsFiles) {
 
 TEST_F(ActionAsks, ActionsWithAFileOrFolderAsk) {
   for (const auto& [name, action] : session_.actions().all())
-    if (action.usage.starts_with("FILE") || action.usage.starts_with("FOLDER"))
+    if (action.usage.starts_with("FILE") || action.usage.starts_with("FOLDER")) {
       EXPECT_TRUE(action.asks) << name;
+    }
 }
 
 TEST_F(ActionAsks, SavingAsksOnlyWhileTheLevelHasNoFile) {
