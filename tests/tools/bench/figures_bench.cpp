@@ -105,7 +105,7 @@ void againstUpdates(benchmark::State& state, const MakeBackend& make) {
   Moving level("assets/scenes/pillar_room.gltf", make, 300, static_cast<int>(state.range(0)));
   level.settle();
   int refreshed = 0;
-  for (auto _ : state) refreshed += level.moveObject().vplsRefreshed;
+  for (auto _ : state) refreshed += level.moveObject().updates;
   state.counters["vpls_a_frame"] =
       static_cast<double>(refreshed) / static_cast<double>(state.iterations());
 }
