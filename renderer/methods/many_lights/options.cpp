@@ -26,6 +26,7 @@ ManyLightsOptions::ManyLightsOptions(const Settings& settings, bool refines)
   if (!useVisibility()) forgoVisibility();
   if (clampDistance <= 0.0f) cornerLight = false;
   if (!refines) refine = 0;
+  groupShare *= 0.01f;  // percent to a share of 1
   // Each interreflection within an object counts as a bounce, like a bounce of a VPL.
   prtBounces = std::min(bounces, prtBounces);
 }
