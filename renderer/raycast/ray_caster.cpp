@@ -62,6 +62,24 @@ RTCRay toEmbree(const Ray& r) {
   return e;
 }
 
+// Lanes whose tFar is negative get 0 in `valid`, others −1.
+void setRays(std::span<const Ray, 8> rays, RTCRayHit8& r, int (&valid)[8]) {
+  for (size_t i = 0; i < 8; ++i) {
+    const Ray& ray = rays[i];
+    valid[i] = ray.tFar < 0.0f ? 0 : -1;
+    r.ray.org_x[i] = ray.origin.x;
+    r.ray.org_y[i] = ray.origin.y;
+    r.ray.org_z[i] = ray.origin.z;
+    r.ray.tnear[i] = ray.tNear;
+    r.ray.dir_x[i] = ray.direction.x;
+    r.ray.dir_y[i] = ray.direction.y;
+    r.ray.dir_z[i] = ray.direction.z;
+    r.ray.tfar[i] = ray.tFar;
+    r.ray.mask[i] = 0xffffffffu;
+    r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
 // Of eight ray segments, keeps −1 in `valid` for those that touch the box (conservative).
 void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
   constexpr hn::FixedTag<float, 8> tag;
@@ -92,6 +110,9 @@ void keepTouching(const RTCRay8& r, const Bounds& box, int (&valid)[8]) {
   const auto all = hn::Load(ints, valid);
   hn::Store(hn::IfThenZeroElse(hn::RebindMask(ints, misses), all), ints, valid);
 }
+
+// Relative. Above the error of Embree's approximate reciprocal, which is a few 2⁻²⁴.
+constexpr float kRounding = 0x1p-19f;
 
 // Number of triangles for which the tree is built in about 10 ms, acceptable during an edit.
 constexpr size_t kQuicklyBuilt = 50000;
@@ -264,8 +285,8 @@ struct RayCaster::Impl {
     RTCIntersectContext embree;
     const Impl* impl;
     bool isOfStill, seenOnly;
-    const Ray* ray = nullptr;  // for keepLeast()
-    Hit* least = nullptr;      // for keepLeast()
+    const Ray* rays = nullptr;  // for keepLeast(), by lane
+    Hit* least = nullptr;       // for keepLeast(), by lane
   };
   Query query(Surfaces which, bool ofStill, bool isCoherent = false) const {
     Query q{{}, this, ofStill, which == Surfaces::seen};
@@ -278,6 +299,9 @@ struct RayCaster::Impl {
   // Of all triangles that the ray hits at Embree's distance `t` within rounding, returns the hit
   // with the least computed distance, then the least object and triangle.
   Hit leastHitAt(const Ray& ray, Surfaces which, float t) const;
+
+  // leastHitAt() for eight rays. Lanes of `t` that are infinite are left out.
+  void leastHitsAt(std::span<const Ray, 8> rays, std::span<const float, 8> t, Hit* least) const;
 
   // Traces eight rays in both scenes; `tFar` gets their tFar, which Embree overwrites in `r`.
   void cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRayHit8& r, float* tFar) const;
@@ -301,17 +325,19 @@ struct RayCaster::Impl {
     }
   }
 
-  // Filter of leastHitAt(), N is 1: keeps the least hit and rejects every hit, so that Embree
-  // continues the traversal.
+  // Filter of leastHitAt(), N is 1, and of leastHitsAt(), N is 8: keeps the least hit and rejects
+  // every hit, so that Embree continues the traversal.
   static void keepLeast(const RTCFilterFunctionNArguments* a) {
     passOver(a);
-    if (a->valid[0] != -1) return;
-    a->valid[0] = 0;
     const auto& q = *reinterpret_cast<const Query*>(a->context);
-    const Hit hit =
-        placed(q.impl->scene, *q.ray, RTCHitN_geomID(a->hit, 1, 0), RTCHitN_primID(a->hit, 1, 0));
     const auto key = [](const Hit& h) { return std::tuple(h.t, h.object, h.triangle); };
-    if (key(hit) < key(*q.least)) *q.least = hit;
+    for (unsigned int i = 0; i < a->N; ++i) {
+      if (a->valid[i] != -1) continue;
+      a->valid[i] = 0;
+      const Hit hit = placed(q.impl->scene, q.rays[i], RTCHitN_geomID(a->hit, a->N, i),
+                             RTCHitN_primID(a->hit, a->N, i));
+      if (key(hit) < key(q.least[i])) q.least[i] = hit;
+    }
   }
 };
 
@@ -351,8 +377,6 @@ bool RayCaster::occluded(const Ray& ray) const {
 }
 
 Hit RayCaster::Impl::leastHitAt(const Ray& ray, Surfaces which, float t) const {
-  // Relative. Above the error of Embree's approximate reciprocal, which is a few 2⁻²⁴.
-  constexpr float kRounding = 0x1p-19f;
   Hit least;
   for (const bool ofStill : {true, false}) {
     if (!ofStill && movers.empty()) break;
@@ -362,30 +386,40 @@ Hit RayCaster::Impl::leastHitAt(const Ray& ray, Surfaces which, float t) const {
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     Query q = query(which, ofStill);
     q.embree.filter = keepLeast;
-    q.ray = &ray;
+    q.rays = &ray;
     q.least = &least;
     rtcIntersect1(ofStill ? still : moving, &q.embree, &r);
   }
   return least;
 }
 
+void RayCaster::Impl::leastHitsAt(std::span<const Ray, 8> rays, std::span<const float, 8> t,
+                                  Hit* least) const {
+  alignas(32) RTCRayHit8 r{};
+  alignas(32) int valid[8];
+  setRays(rays, r, valid);
+  for (size_t i = 0; i < 8; ++i) {
+    if (std::isinf(t[i])) valid[i] = 0;
+    r.ray.tnear[i] = std::max(rays[i].tNear, t[i] * (1.0f - kRounding));
+    r.ray.tfar[i] = std::min(rays[i].tFar, t[i] * (1.0f + kRounding));
+  }
+  for (const bool ofStill : {true, false}) {
+    if (!ofStill) keepTouching(r.ray, movingBounds, valid);
+    if (std::none_of(valid, valid + 8, [](int lane) { return lane != 0; })) break;
+    Query q = query(Surfaces::all, ofStill, ofStill);
+    q.embree.filter = keepLeast;
+    q.rays = rays.data();
+    q.least = least;
+    rtcIntersect8(valid, ofStill ? still : moving, &q.embree, &r);
+    if (movers.empty()) break;
+  }
+}
+
 void RayCaster::Impl::cast8(std::span<const Ray, 8> rays, Surfaces which, RTCRayHit8& r,
                             float* tFar) const {
   alignas(32) int valid[8];
-  for (size_t i = 0; i < 8; ++i) {
-    const Ray& ray = rays[i];
-    valid[i] = ray.tFar < 0.0f ? 0 : -1;
-    r.ray.org_x[i] = ray.origin.x;
-    r.ray.org_y[i] = ray.origin.y;
-    r.ray.org_z[i] = ray.origin.z;
-    r.ray.tnear[i] = ray.tNear;
-    r.ray.dir_x[i] = ray.direction.x;
-    r.ray.dir_y[i] = ray.direction.y;
-    r.ray.dir_z[i] = ray.direction.z;
-    r.ray.tfar[i] = tFar[i] = ray.tFar;
-    r.ray.mask[i] = 0xffffffffu;
-    r.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-  }
+  setRays(rays, r, valid);
+  std::copy_n(r.ray.tfar, 8, tFar);
   Query ofStill = query(which, true, true);
   rtcIntersect8(valid, still, &ofStill.embree, &r);
   if (movers.empty()) return;
@@ -419,6 +453,9 @@ void RayCaster::distance8(std::span<const Ray, 8> rays, std::span<float, 8> dist
     distances[i] = r.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                        ? std::numeric_limits<float>::infinity()
                        : r.ray.tfar[i];
+  Hit least[8];
+  impl_->leastHitsAt(rays, distances, least);
+  for (size_t i = 0; i < 8; ++i) distances[i] = least[i].t;
 }
 
 bool mayTouch(const Ray& ray, const Bounds& box) {

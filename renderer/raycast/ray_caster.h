@@ -50,8 +50,8 @@ class RayCaster {
   // directions).
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                   Surfaces which = Surfaces::all) const;
-  // Only Embree's own distances, infinity for a miss. Their last bits depend on the processor, but
-  // not on the order in which triangles are met, not even where surfaces coincide.
+  // Only distances, infinity for a miss: the least one of all triangles that are equally near within
+  // rounding. So they do not depend on the tree, not even where surfaces coincide.
   void distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const;
 
  private:

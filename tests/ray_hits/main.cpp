@@ -1,12 +1,18 @@
 // What rays of a scene hit, a line each, for same_on_other_cpu.sh: rays at random, and rays aimed
 // at the middles of edges and at corners, where two or more triangles are equally far.
 //
-//   lamplighter_ray_hits SCENE RAYS > hits        lines "a|e|c OBJECT TRIANGLE t u v", bits as hex
+// The same rays in packets of eight, of which only the distance is asked, as shadow maps do.
+//
+//   lamplighter_ray_hits SCENE RAYS > hits   lines "a|e|c OBJECT TRIANGLE t u v" and "d t", bits as
+//   hex
+#include <array>
 #include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <random>
+#include <span>
+#include <vector>
 
 #include "renderer/raycast/ray_caster.h"
 #include "renderer/scene/gltf/gltf_io.h"
@@ -36,6 +42,7 @@ void castRays(const Scene& scene, uint32_t count) {
     return world.bounds.min +
            world.bounds.extent() * vec3(share(random), share(random), share(random));
   };
+  std::vector<Ray> packet;
   for (uint32_t i = 0; i < count; ++i) {
     const vec3 origin = inside();
     vec3 target = inside();
@@ -45,7 +52,13 @@ void castRays(const Scene& scene, uint32_t count) {
       const vec3 a = world.positions[corner[0]], b = world.positions[corner[1]];
       target = kind == 'e' ? 0.5f * (a + b) : a;
     }
-    print(kind, rays.intersect({origin, 0.0f, target - origin}));
+    packet.push_back({origin, 0.0f, target - origin});
+    print(kind, rays.intersect(packet.back()));
+    if (packet.size() < 8) continue;
+    std::array<float, 8> distances;
+    rays.distance8(std::span<const Ray, 8>(packet), distances);
+    for (const float t : distances) std::printf("d %08x\n", std::bit_cast<uint32_t>(t));
+    packet.clear();
   }
 }
 
