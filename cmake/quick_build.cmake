@@ -3,10 +3,27 @@
 option(LAMPLIGHTER_UNITY "Compile several sources as one" OFF)
 set(LAMPLIGHTER_UNITY_BATCH 8 CACHE STRING "How many at most")
 
+option(LAMPLIGHTER_PRECOMPILE "Precompile what most sources include" OFF)
+
+# The target `owner` precompiles the header; others with its flags share the result.
+function(lamplighter_precompile target owner header)
+  if(target STREQUAL owner)
+    # In <>, since CMake would write the absolute path of "", which ccache could not share.
+    target_precompile_headers(${target} PRIVATE <${header}>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+  # ccache asks gcc for this.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
+endfunction()
+
 # For a target whose sources are all known, after their properties are set. A batch ends with its
 # folder where it can, so that a new file changes few of them. CMake's UNITY_BUILD writes absolute
 # paths, which no two working trees have in common: ccache could not share what one has compiled.
 function(lamplighter_quick_build target)
+  if(LAMPLIGHTER_PRECOMPILE)
+    lamplighter_precompile(${target} renderer renderer/base/precompiled.h)
+  endif()
   if(NOT LAMPLIGHTER_UNITY)
     return()
   endif()
@@ -30,7 +47,8 @@ function(lamplighter_quick_build target)
     endif()
     set(last_folder ${folder})
     get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
-    if(source STREQUAL end OR definitions)
+    get_source_file_property(options ${source} COMPILE_OPTIONS)
+    if(source STREQUAL end OR definitions OR options)
       continue()
     endif()
     file(RELATIVE_PATH included ${PROJECT_SOURCE_DIR} ${source})
@@ -40,22 +58,12 @@ function(lamplighter_quick_build target)
   endforeach()
 endfunction()
 
-option(LAMPLIGHTER_PRECOMPILE "Precompile what most tests include" OFF)
-
 # Test programs: half of the time to compile one goes into parsing the same headers, most of the rest
 # into optimizing checks that run once. target: a test program, or test_support, which precompiles the
 # header that the programs use.
 function(lamplighter_quick_test target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-  if(NOT LAMPLIGHTER_PRECOMPILE)
-    return()
+  if(LAMPLIGHTER_PRECOMPILE)
+    lamplighter_precompile(${target} test_support tests/support/precompiled.h)
   endif()
-  if(target STREQUAL test_support)
-    # In <>, since CMake would write the absolute path of "", which ccache could not share.
-    target_precompile_headers(${target} PRIVATE <tests/support/precompiled.h>)
-  else()
-    target_precompile_headers(${target} REUSE_FROM test_support)
-  endif()
-  # ccache asks gcc for this.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
