@@ -1,4 +1,4 @@
-// Charts, and rectangles packed on a page.
+// Charts of meshes, and packing of rectangles on a page.
 #include "renderer/atlas/unwrap.h"
 
 #include <cmath>
@@ -27,7 +27,7 @@ size_t trianglesIn(const std::vector<MeshChart>& charts) {
   return count;
 }
 
-TEST(Skyline, PacksWithoutOverlapAndRefusesWhatDoesNotFit) {
+TEST(Skyline, PacksWithoutOverlapAndRejectsWhatDoesNotFit) {
   Skyline page(64);
   std::set<std::pair<int, int>> taken;
   int placed = 0;
@@ -45,17 +45,17 @@ TEST(Skyline, PacksWithoutOverlapAndRefusesWhatDoesNotFit) {
   EXPECT_EQ(placed, 40);
   EXPECT_FALSE(page.place({65, 1}));
   EXPECT_FALSE(page.place({64, 64}));
-  EXPECT_FALSE(page.place({64, 64})) << "a refusal changes nothing";
+  EXPECT_FALSE(page.place({64, 64})) << "a rejected rectangle must not change the page";
 }
 
-TEST(Unwrap, ABoxHasItsSixSides) {
+TEST(Unwrap, ABoxHasSixCharts) {
   const RenderScene render = rendered(test::boxMesh(vec3(1, 2, 3)));
   const std::vector<MeshChart> charts = unwrap(render.positions, render.indices, 16.0f);
   ASSERT_EQ(charts.size(), 6u);
   EXPECT_EQ(trianglesIn(charts), 12u);
   float area = 0.0f;
   for (const MeshChart& c : charts) area += c.extent().x * c.extent().y;
-  EXPECT_NEAR(area, 2.0f * (2 + 3 + 6), 1e-3f) << "boxes as small as the sides";
+  EXPECT_NEAR(area, 2.0f * (2 + 3 + 6), 1e-3f) << "each chart rectangle is as small as its side";
 }
 
 TEST(Unwrap, ASphereIsCutWhereItBends) {
@@ -74,10 +74,10 @@ TEST(Unwrap, ASphereIsCutWhereItBends) {
   }
 }
 
-// A strip that climbs round and round has all its triangles connected and nearly level, and lies
-// above itself.
-TEST(Unwrap, WhatLiesAboveItselfIsCut) {
-  constexpr int kSteps = 64;  // two turns
+// A spiral ramp of two turns. All its triangles are connected and nearly horizontal, but the second
+// turn lies above the first, so their projections overlap.
+TEST(Unwrap, ASurfaceThatOverlapsItselfInProjectionIsCut) {
+  constexpr int kSteps = 64;
   auto mesh = std::make_shared<Mesh>();
   Primitive& p = mesh->primitives.emplace_back();
   for (int i = 0; i <= kSteps; ++i) {

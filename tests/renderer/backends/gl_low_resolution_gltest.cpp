@@ -1,5 +1,6 @@
-// The low-resolution pass on the gl backend: near the picture of all pixels, the same bits for any
-// number of lights a pass, and no light beyond what is thinner than a block.
+// The low-resolution pass on the gl backend. It is close to the full-resolution picture, gives the
+// same bits for any number of lights per pass, and leaks no light past objects thinner than a
+// block.
 #include <filesystem>
 #include <ostream>
 
@@ -55,7 +56,7 @@ Scene loadAsset(const std::string& name) {
   return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
 }
 
-// A point light, whose shadows are hard.
+// A point light. Its shadows are hard.
 void addLamp(Scene& scene) {
   const NodeId id = test::addNode(scene, "lamp", kNoNode, vec3(0.4f, 2.0f, 0.3f));
   PunctualLight lamp;
@@ -63,8 +64,8 @@ void addLamp(Scene& scene) {
   scene.find(id)->punctual = lamp;
 }
 
-// Share of the pixels that have other bits.
-double shareOther(const Image& a, const Image& b) {
+// Share of the pixels whose bits differ.
+double differingShare(const Image& a, const Image& b) {
   size_t other = 0;
   for (size_t i = 0; i < a.pixels.size(); ++i) other += a.pixels[i] != b.pixels[i];
   return static_cast<double>(other) / static_cast<double>(a.pixels.size());
@@ -73,27 +74,28 @@ double shareOther(const Image& a, const Image& b) {
 struct Case {
   const char* scene;
   double mostRelRmse = 0.015;
-  double leastShare = 0.03;  // of pixels that are interpolated: else the test says nothing
+  double leastShare =
+      0.03;  // minimum share of interpolated pixels; with fewer the test proves nothing
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
 class GlLowResolutionScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
 
-TEST_P(GlLowResolutionScenes, IsNearThePictureOfAllPixels) {
+TEST_P(GlLowResolutionScenes, IsCloseToFullResolution) {
   const std::string name = GetParam().scene;
   const fs::path path = name.find('/') == std::string::npos
                             ? test::sourceFolder() / "assets/scenes" / name
                             : test::sharedScenes() / name;
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
-  const View view = viewOf(scene, 318, 211);  // no multiple of any block
+  const View view = viewOf(scene, 318, 211);  // not a multiple of any block size
   for (const std::string technique : {"visibility", "light_maps"}) {
     const Image all = rendered(makeGlBackend(), scene, view, settingsOf(1, technique));
     for (const int block : {2, 4, 8}) {
       SCOPED_TRACE(technique + " " + std::to_string(block));
       const Image low = rendered(makeGlBackend(), scene, view, settingsOf(block, technique));
       const Metrics m = compareImages(low, all);
-      const double share = shareOther(low, all);
+      const double share = differingShare(low, all);
       RecordProperty(technique + std::to_string(block),
                      std::to_string(m.relRmse) + ", interpolated " + std::to_string(share));
       EXPECT_LT(m.relRmse, GetParam().mostRelRmse);
@@ -110,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 using GlLowResolution = test::GlTest;
 
-TEST_F(GlLowResolution, AnyNumberOfLightsAPassGivesTheSameBits) {
+TEST_F(GlLowResolution, TheNumberOfLightsPerPassDoesNotChangeBits) {
   const Scene scene = loadAsset("pillar_room.gltf");
   const View view = viewOf(scene, 161, 97);
   const Image all = rendered(makeGlBackend(), scene, view, settingsOf(4, "light_maps", 60));
@@ -121,19 +123,20 @@ TEST_F(GlLowResolution, AnyNumberOfLightsAPassGivesTheSameBits) {
   }
 }
 
-TEST_F(GlLowResolution, MergedPassesAreThoseOfTheLists) {
+TEST_F(GlLowResolution, MergedPassesGiveThePictureOfLightLists) {
   const Scene scene = loadAsset("pillar_room.gltf");
   const View view = viewOf(scene, 161, 97);
   Settings settings = settingsOf(4, "light_maps", 60, 6);
   const Image listed = rendered(makeGlBackend(), scene, view, settings);
   settings.set("merge_passes", true);
-  // Float sums in another order; a cell at the limit of contrast may change sides.
+  // Floats are summed in another order. A cell close to the contrast threshold may be classified
+  // differently.
   EXPECT_LT(compareImages(rendered(makeGlBackend(), scene, view, settings), listed).relRmse, 1e-3);
 }
 
-// Both backends follow one definition. Their cells differ where a pixel sees past an edge on one of
-// them only, or at the limit of contrast.
-TEST_F(GlLowResolution, ItsCellsAreThoseOfTheCpuBackend) {
+// Both backends use the same definition of cells. Their cells differ only where a pixel sees past
+// an edge on one backend, or close to the contrast threshold.
+TEST_F(GlLowResolution, InterpolatesTheSameCellsAsTheCpuBackend) {
   for (const bool hasLamp : {false, true}) {
     SCOPED_TRACE(hasLamp);
     Scene scene = loadAsset(hasLamp ? "pillar_room.gltf" : "area_light_room.gltf");
@@ -148,7 +151,7 @@ TEST_F(GlLowResolution, ItsCellsAreThoseOfTheCpuBackend) {
       for (size_t p = 0; p < low.pixels.size(); ++p)
         interpolated[i].pixels[p] = vec3(low.pixels[p] != all.pixels[p] ? 1.0f : 0.0f);
     }
-    const double share = shareOther(interpolated[0], interpolated[1]);
+    const double share = differingShare(interpolated[0], interpolated[1]);
     RecordProperty(hasLamp ? "lamp" : "room", std::to_string(share));
     EXPECT_GT(test::meanOf(interpolated[0]).r, hasLamp ? 0.02f : 0.3f);
     EXPECT_LT(share, 0.01);
@@ -156,8 +159,8 @@ TEST_F(GlLowResolution, ItsCellsAreThoseOfTheCpuBackend) {
 }
 
 // Samples and cells at the right and lower edges, pictures without any cell, and textures that are
-// made anew.
-TEST_F(GlLowResolution, AnySizeWill) {
+// created again.
+TEST_F(GlLowResolution, WorksForAnyPictureSize) {
   const Scene scene = loadAsset("area_light_room.gltf");
   FrameRenderer renderer(makeGlBackend());
   for (const glm::ivec2 size :
@@ -179,15 +182,15 @@ TEST_F(GlLowResolution, AnySizeWill) {
   }
 }
 
-// While the camera moves samples are interpolated too. What is seen then does not depend on what
-// was seen before, and is near what the camera rests on, which is the picture from nothing.
-TEST_F(GlLowResolution, AMovingCameraShowsNearlyWhatItRestsOn) {
+// While the camera moves, samples are interpolated as well. The picture then does not depend on
+// earlier frames. It is close to the settled picture, which equals a fresh render.
+TEST_F(GlLowResolution, WhileTheCameraMovesThePictureIsCloseToTheSettledOne) {
   for (const std::string name : {"area_light_room", "table_room", "pillar_room"}) {
     SCOPED_TRACE(name);
     Scene scene = loadAsset(name + ".gltf");
     if (name == "pillar_room") addLamp(scene);
     Settings settings = settingsOf(4);
-    settings.set("importance", 1);  // samples are not chosen anew
+    settings.set("importance", 1);  // importance does not choose other light samples
     settings.set("settled_map_scale", 1);
     settings.set("corner_light", false);
     const View view = viewOf(scene, 318, 211);
@@ -214,7 +217,6 @@ TEST_F(GlLowResolution, AMovingCameraShowsNearlyWhatItRestsOn) {
   }
 }
 
-// Naive has none of it.
 TEST_F(GlLowResolution, NaiveSumsAllPixels) {
   const Scene scene = loadAsset("pillar_room.gltf");
   const View view = viewOf(scene, 96, 64);
@@ -222,9 +224,10 @@ TEST_F(GlLowResolution, NaiveSumsAllPixels) {
                              rendered(makeGlBackend(), scene, view, settingsOf(1, "naive", 40))));
 }
 
-// A wall between two rooms, seen end on and thinner than a block: its upper edge gets no direct
-// light, and the floor to both sides much and alike. Were cells asked for their corners alone, the
-// floor's light would get onto the wall; so too, with a dark room beyond, from room to room.
+// A wall between two rooms, seen from above and thinner than a block. Its upper edge gets no direct
+// light, while the floor on both sides is bright and even. If cells checked only their corners,
+// light of the floor would leak onto the wall. With a dark second room, light would leak from one
+// room to the other.
 TEST_F(GlLowResolution, NothingLeaksPastAThinWall) {
   for (const float other : {30.0f, 0.3f}) {
     Scene scene;
@@ -239,8 +242,9 @@ TEST_F(GlLowResolution, NothingLeaksPastAThinWall) {
       const Image all = rendered(makeGlBackend(), scene, view, settingsOf(1, technique, 80));
       for (const int block : {4, 8}) {
         const Image low = rendered(makeGlBackend(), scene, view, settingsOf(block, technique, 80));
-        EXPECT_GT(shareOther(low, all), 0.05);
-        // Of every pixel, not of the mean: a line of light would be few pixels.
+        EXPECT_GT(differingShare(low, all), 0.05);
+        // The largest error of any pixel: a line of leaked light covers too few pixels to change
+        // the mean.
         double worst = 0.0;
         for (size_t i = 0; i < all.pixels.size(); ++i) {
           const double d = std::abs(double{low.pixels[i].g} - double{all.pixels[i].g});

@@ -1,6 +1,6 @@
-// What the gl backend makes of patches and light maps: the techniques `visibility` and `light_maps`
-// give the picture of `naive` and of the cpu backend, whatever the number of lights a pass, and
-// edits leave no trace.
+// Patches and light maps on the gl backend. The techniques `visibility` and `light_maps` give the
+// picture of `naive` and of the cpu backend for any number of lights per pass, and the result does
+// not depend on earlier edits.
 #include <filesystem>
 #include <ostream>
 
@@ -63,7 +63,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
 class GlPatchesScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
 
-TEST_P(GlPatchesScenes, EachTechniqueIsThePictureOfNaiveAndOfTheCpuBackend) {
+TEST_P(GlPatchesScenes, EachTechniqueGivesThePictureOfNaiveAndOfTheCpuBackend) {
   const std::string name = GetParam().scene;
   const fs::path path = name.find('/') == std::string::npos
                             ? test::sourceFolder() / "assets/scenes" / name
@@ -83,7 +83,7 @@ TEST_P(GlPatchesScenes, EachTechniqueIsThePictureOfNaiveAndOfTheCpuBackend) {
     RecordProperty(technique + "FromNaive", std::to_string(fromNaive.relRmse));
     RecordProperty(technique + "FromCpu", std::to_string(fromCpu.relRmse));
     EXPECT_LT(fromNaive.relRmse, 0.01);
-    // Silhouettes of lamps differ by more in some levels, for naive just as much.
+    // Silhouettes of light sources differ more than that in some levels, with `naive` as well.
     EXPECT_LT(fromCpu.relRmse, std::max(0.01, 1.02 * backends));
     EXPECT_NEAR(fromNaive.bias, 1.0, 0.005);
   }
@@ -99,8 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 using GlPatches = test::GlTest;
 
-// Else each of the pictures compared here would be that of naive.
-TEST_F(GlPatches, AreFollowed) {
+// If the techniques gave the picture of `naive`, the comparisons in this file would prove nothing.
+TEST_F(GlPatches, TechniquesGiveDifferentBits) {
   const Scene scene = loadAsset("pillar_room.gltf");
   const Image naive = rendered(makeGlBackend(), scene, settingsOf("naive", 100));
   const Image visibility = rendered(makeGlBackend(), scene, settingsOf("visibility", 100));
@@ -110,7 +110,7 @@ TEST_F(GlPatches, AreFollowed) {
   EXPECT_FALSE(test::sameBits(lightMaps, visibility));
 }
 
-TEST_F(GlPatches, AnyNumberOfLightsAPassGivesTheSameBits) {
+TEST_F(GlPatches, TheNumberOfLightsPerPassDoesNotChangeBits) {
   const Scene scene = loadAsset("table_room.gltf");
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
@@ -124,7 +124,7 @@ TEST_F(GlPatches, AnyNumberOfLightsAPassGivesTheSameBits) {
   }
 }
 
-TEST_F(GlPatches, APictureAfterEditsIsTheOneMadeFromNothing) {
+TEST_F(GlPatches, AfterEditsThePictureEqualsAFreshRender) {
   for (const char* technique : {"visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
     Scene scene = loadAsset("pillar_room.gltf");
@@ -146,8 +146,7 @@ TEST_F(GlPatches, APictureAfterEditsIsTheOneMadeFromNothing) {
   }
 }
 
-// Switching between techniques leaves nothing of the one before.
-TEST_F(GlPatches, TechniquesMayBeSwitched) {
+TEST_F(GlPatches, SwitchingTechniquesEqualsAFreshRender) {
   const Scene scene = loadAsset("table_room.gltf");
   FrameRenderer renderer(makeGlBackend());
   rendered(renderer, scene, SceneChanges::all(), settingsOf("naive", 60));
@@ -159,8 +158,9 @@ TEST_F(GlPatches, TechniquesMayBeSwitched) {
   }
 }
 
-// Where light maps come to have no room pixels sum all light, until there is some again.
-TEST_F(GlPatches, LightMapsMayLoseTheirRoom) {
+// If the memory is too small for light maps, pixels sum all lights, until there is enough memory
+// again.
+TEST_F(GlPatches, WithoutMemoryForLightMapsPixelsSumAllLights) {
   Scene scene = test::randomBoxes(900, 5);
   test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
   const View view = viewOf(scene);
@@ -177,8 +177,9 @@ TEST_F(GlPatches, LightMapsMayLoseTheirRoom) {
   }
 }
 
-// Lights of more than one block and one texture array of maps, of two kinds.
-TEST_F(GlPatches, ThousandsOfLightsAreThoseOfTheCpuBackend) {
+// So many lights that they need several uniform blocks and several texture arrays of shadow maps;
+// two kinds of light.
+TEST_F(GlPatches, ThousandsOfLightsEqualTheCpuBackend) {
   Scene scene = loadAsset("pillar_room.gltf");
   scene.sky = vec3(0.3f, 0.4f, 0.5f);
   for (const char* technique : {"visibility", "light_maps"}) {
@@ -194,8 +195,9 @@ TEST_F(GlPatches, ThousandsOfLightsAreThoseOfTheCpuBackend) {
   }
 }
 
-// A light map holds the front of a surface; its back, seen and lit from behind, sums all lights.
-TEST_F(GlPatches, BothSidesOfASurfaceAreLitAsTheyShould) {
+// A light map stores the front of a surface. Pixels that show its back, lit from behind, sum all
+// lights.
+TEST_F(GlPatches, BothSidesOfASurfaceAreLitCorrectly) {
   Scene scene;
   const int material = test::addMaterial(scene, vec3(0.7f));
   scene.materials[static_cast<size_t>(material)].doubleSided = true;

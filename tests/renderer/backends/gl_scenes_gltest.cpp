@@ -1,4 +1,5 @@
-// Real levels on both backends: textures, masks, thousands of small triangles, large coordinates.
+// Real levels on both backends: textures, alpha masks, thousands of small triangles, large
+// coordinates.
 #include <filesystem>
 
 #include "renderer/backends/gl/gl_backend.h"
@@ -14,8 +15,8 @@ namespace {
 
 struct Case {
   const char* file;  // in assets/scenes, or in the shared scenes
-  // Bounds on the share of pixels whose radiance differs by more than 1% of itself and 5% of the
-  // picture's mean together; twice what was measured, or some pixels of the 13,824.
+  // Bounds on the share of pixels whose radiance differs by more than 1% of itself plus 5% of the
+  // picture's mean. They are twice the measured values, or a few of the 13,824 pixels.
   double lightShare;
 };
 
@@ -65,7 +66,7 @@ TEST_P(GlScenes, LookTheSameOnBothBackends) {
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("albedoShare", std::to_string(albedoShare));
   RecordProperty("lightShare", std::to_string(lightShare));
-  EXPECT_LT(albedoShare, 0.001);  // silhouettes; measured: 0.00015 at most
+  EXPECT_LT(albedoShare, 0.001);  // silhouettes; measured: at most 0.00015
   EXPECT_LT(lightShare, c.lightShare);
   EXPECT_NEAR(m.bias, 1.0, 0.005);
 }

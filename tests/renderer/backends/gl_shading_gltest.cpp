@@ -1,4 +1,4 @@
-// The gl backend's G-buffer, light sums and pictures against the cpu backend's.
+// G-buffer, light sums and pictures of the gl backend against the cpu backend.
 #include <fstream>
 
 #include "renderer/backends/gl/gl_backend.h"
@@ -34,8 +34,8 @@ View viewOfBoxes(int width = 160, int height = 120) {
   return lookAt(vec3(4.5f, 4.2f, 5.5f), vec3(-0.3f, 0.8f, -0.3f), width, height, 0.8f);
 }
 
-// Every kind of texture reference: wrapped, turned, on the second coordinates, normal-mapped with
-// and without tangents, emissive, masked, with vertex colours.
+// Every kind of texture reference: wrapped, rotated, with the second texture coordinates, normal
+// maps with and without tangents, emissive, alpha mask, vertex colours.
 Scene texturedScene() {
   Scene scene;
   for (const uint32_t seed : {1u, 2u, 3u}) {
@@ -87,7 +87,7 @@ Scene texturedScene() {
   return scene;
 }
 
-TEST_F(GlShading, GBufferIsThatOfRays) {
+TEST_F(GlShading, GBufferEqualsThatOfRays) {
   for (const Scene& scene : {test::randomBoxes(40, 7), texturedScene()}) {
     const bool textured = !scene.textures.empty();
     LitScene traced(scene), raster(scene, makeGlBackend());
@@ -96,10 +96,10 @@ TEST_F(GlShading, GBufferIsThatOfRays) {
       for (LitScene* lit : {&traced, &raster}) lit->backend->renderGBuffer(view, jitter);
       const double normals =
           differing(raster.backend->readNormals(), traced.backend->readNormals(), 2e-3f);
-      // Eight bits of a texture, weighted by a filter with eight bits.
+      // Textures have 8 bits per channel and the filter weights of the GPU have 8 bits.
       const double albedo = differing(raster.backend->readAlbedo(), traced.backend->readAlbedo(),
                                       textured ? 0.012f : 1e-4f);
-      // Silhouettes; measured: 0.00016 and 0.00005 at most.
+      // Silhouettes; measured: at most 0.00016 and 0.00005.
       EXPECT_LT(normals, 0.001);
       EXPECT_LT(albedo, 0.001);
       const Image n = raster.backend->readNormals();
@@ -110,9 +110,9 @@ TEST_F(GlShading, GBufferIsThatOfRays) {
   }
 }
 
-// The jitter moves the picture by as much and to the side that rays say: the plain comparison above
-// would hardly tell on flat walls.
-TEST_F(GlShading, JitterMovesEdgesAsRaysSay) {
+// The jitter moves the picture by the same offset as the rays of the cpu backend. On flat walls the
+// comparison above would hardly detect an error.
+TEST_F(GlShading, JitterMovesEdgesAsRaysDo) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(1.0f), test::addMaterial(scene, vec3(1.0f))));
   LitScene traced(scene), raster(scene, makeGlBackend());
@@ -127,8 +127,8 @@ TEST_F(GlShading, JitterMovesEdgesAsRaysSay) {
   EXPECT_GT(differing(pictures[1], pictures[2], 1e-3f), 0.005);
 }
 
-// The background by gradient and by picture, turned, with pixels shifted, as rays say.
-TEST_F(GlShading, SkyIsSeenWhereNothingIs) {
+// The background of a gradient and of rotated sky pictures, also with jitter, equals that of rays.
+TEST_F(GlShading, TheSkyIsSeenWhereNothingIsHit) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(0.5f), test::addMaterial(scene, vec3(0.5f))));
   std::vector<shared::Vpl> lamp{test::makeVpl(vec3(0, 3, 0), vec3(0, -1, 0))};
@@ -155,8 +155,8 @@ TEST_F(GlShading, SkyIsSeenWhereNothingIs) {
   }
 }
 
-// The maps are the same but for a few texels; a point on the border of a texel may fall to either
-// side, and a pixel on a silhouette to either surface.
+// The shadow maps agree except for a few texels. Due to rounding, a point on a texel border may use
+// either texel, and a pixel on a silhouette may show either surface.
 void expectSameLight(const Scene& scene, const std::vector<shared::Vpl>& vpls, double bound,
                      bool shadows = true) {
   LitScene traced(scene), raster(scene, makeGlBackend());
@@ -182,7 +182,7 @@ TEST_F(GlShading, LightWithShadowsIsTheSame) {
   expectSameLight(test::randomBoxes(40, 7), test::randomVpls(60, 5), 0.006);  // measured: 0.0043
 }
 
-// More than fit into one pass, and of every kind, mixed.
+// More VPLs than fit into one pass, of every kind.
 TEST_F(GlShading, ManyVplsOfEveryKindAreTheSame) {
   const Scene scene = test::randomBoxes(20, 9);
   RenderScene render;
@@ -207,7 +207,7 @@ TEST_F(GlShading, EmissionTexturesAndSkyAreTheSame) {
        {viewOfBoxes(), lookAt(vec3(3, -2, 2), vec3(0, 0.5f, 0), 160, 120, 0.8f)}) {
     const Image a = raster.sum({}, view, 16), b = traced.sum({}, view, 16);
     const double share = differing(a, b, 0.025f);
-    EXPECT_LT(share, 0.001);  // measured: none
+    EXPECT_LT(share, 0.001);
     int sky = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i) sky += a.pixels[i] == traced.render.sky.radiance;
     EXPECT_GT(sky, 500);
@@ -221,7 +221,7 @@ TEST_F(GlShading, MaterialAndSkyChangesShow) {
   after.materials[3].emissive = vec3(0.0f, 5.0f, 0.0f);
   after.materials[0].baseColorTexture = {};
   after.materials[1].alphaMode = AlphaMode::mask;
-  after.materials[1].baseColor.a = 0.2f;  // below the cutoff: all of it is a hole
+  after.materials[1].baseColor.a = 0.2f;  // below the cutoff: the whole object is a hole
   after.sky = vec3(3.0f);
   const RenderSceneChanges changes = update(lit.render, after, compare(before, after));
   ASSERT_FALSE(changes.rebuilt);
@@ -234,7 +234,7 @@ TEST_F(GlShading, MaterialAndSkyChangesShow) {
   EXPECT_FALSE(test::sameBits(now, old.sum(vpls, viewOfBoxes(), 32)));
 }
 
-TEST_F(GlShading, PicturesStayWhatTheyAreWhileHeld) {
+TEST_F(GlShading, AHeldPictureDoesNotChangeWithLaterFrames) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   const std::vector vpls = test::randomVpls(3, 1);
   lit.sum(vpls, viewOfBoxes(), 16);
@@ -242,7 +242,7 @@ TEST_F(GlShading, PicturesStayWhatTheyAreWhileHeld) {
   const std::shared_ptr<RadianceImage> second = lit.kernels->compose();
   ASSERT_NE(textureOf(*held), textureOf(*second));
   lit.sum({}, viewOfBoxes(), 16);
-  EXPECT_GT(test::meanOf(held->pixels()).r, 0.0f);  // read only now
+  EXPECT_GT(test::meanOf(held->pixels()).r, 0.0f);  // read back only now
   EXPECT_EQ(test::meanOf(lit.kernels->compose()->pixels()).r, 0.0f);
 }
 
@@ -264,7 +264,7 @@ TEST_F(GlShading, CountsItsWork) {
   EXPECT_EQ(lit.backend->info().device, context().renderer());
 }
 
-TEST_F(GlShading, BrokenShadersLeaveTheGoodOnesInUse) {
+TEST_F(GlShading, ABrokenShaderLeavesTheWorkingOneInUse) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   const Image before = lit.sum(test::randomVpls(4, 1), viewOfBoxes(), 16);
   const test::TemporaryFolder folder;
@@ -279,7 +279,7 @@ TEST_F(GlShading, BrokenShadersLeaveTheGoodOnesInUse) {
   EXPECT_TRUE(test::sameBits(before, lit.sum(test::randomVpls(4, 1), viewOfBoxes(), 16)));
 }
 
-// A whole picture of many_lights, direct and indirect.
+// A complete picture of many_lights with direct and indirect light.
 class GlManyLights : public test::GlTest {
  protected:
   static Image render(std::unique_ptr<Backend> backend) {
@@ -294,10 +294,10 @@ class GlManyLights : public test::GlTest {
   }
 };
 
-TEST_F(GlManyLights, IsThePictureOfTheCpuBackend) {
+TEST_F(GlManyLights, GivesThePictureOfTheCpuBackend) {
   Image gl = render(makeGlBackend());
   const Image cpu = render(makeCpuBackend());
-  // A face seen from its edge may be there for one and not for the other: silhouettes apart.
+  // A face seen edge-on may be visible on one backend only: these pixels are compared separately.
   int silhouettes = 0;
   for (size_t i = 0; i < gl.pixels.size(); ++i) {
     if (glm::length(gl.pixels[i] - cpu.pixels[i]) < 0.1f) continue;
@@ -314,7 +314,7 @@ TEST_F(GlManyLights, IsThePictureOfTheCpuBackend) {
 TEST_F(GlManyLights, HasTheSameBitsEachTime) {
   const Image first = render(makeGlBackend());
   EXPECT_TRUE(test::sameBits(first, render(makeGlBackend())));
-  // A context of its own, as the command line uses.
+  // A context of its own, as on the command line.
   EXPECT_TRUE(
       test::sameBits(first, render(makeGlBackend(std::make_unique<gl::HeadlessContext>(true)))));
   context().makeCurrent();

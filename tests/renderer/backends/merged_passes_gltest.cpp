@@ -1,5 +1,5 @@
-// Merged passes (paper 1, 4.3.5) of the gl backend: each pixel gets each of its lights once, by no
-// more draws than object by object.
+// Merged passes (paper 1, section 4.3.5) of the gl backend: each pixel gets each of its lights
+// once, with at most as many draw calls as object by object.
 #include <filesystem>
 #include <set>
 
@@ -18,8 +18,8 @@
 namespace lamplighter {
 namespace {
 
-// The same lights are added in another order, so the last bits of float sums differ: each addition
-// of a few hundred rounds by 2⁻²⁴ at most, and up and down alike.
+// The same lights are added in another order, so the last bits of float sums differ: each of a few
+// hundred additions rounds by at most 2⁻²⁴, up or down.
 constexpr double kRounding = 1e-6;
 
 Scene loadAsset(const std::string& name) {
@@ -55,7 +55,7 @@ GiOutput rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Se
 
 using MergedGlPasses = test::GlTest;
 
-TEST_F(MergedGlPasses, GiveTheSamePictureByFewerDraws) {
+TEST_F(MergedGlPasses, GiveTheSamePictureWithFewerDrawCalls) {
   for (const char* name : {"pillar_room.gltf", "table_room.gltf"}) {
     const Scene scene = loadAsset(name);
     for (const char* technique : {"visibility", "light_maps"}) {
@@ -69,7 +69,7 @@ TEST_F(MergedGlPasses, GiveTheSamePictureByFewerDraws) {
         EXPECT_LT(compareImages(merged.radiance->pixels(), listed.radiance->pixels()).relRmse,
                   kRounding);
         EXPECT_GT(merged.stats.of("merged_passes"), 0);
-        // One draw takes all lights of an object at once: then there is little to merge.
+        // If one draw call takes all lights of an object, there is little to merge.
         if (most <= 6) {
           EXPECT_GT(merged.stats.of("passes_saved"), merged.stats.of("merged_passes"));
         }
@@ -78,7 +78,7 @@ TEST_F(MergedGlPasses, GiveTheSamePictureByFewerDraws) {
   }
 }
 
-TEST_F(MergedGlPasses, TakeLightsOfSeveralKindsArraysAndBlocks) {
+TEST_F(MergedGlPasses, WorkForSeveralLightKindsTextureArraysAndBlocks) {
   Scene scene = loadAsset("pillar_room.gltf");
   scene.sky = vec3(0.3f, 0.4f, 0.5f);
   Image pictures[2];
@@ -90,7 +90,7 @@ TEST_F(MergedGlPasses, TakeLightsOfSeveralKindsArraysAndBlocks) {
   EXPECT_LT(compareImages(pictures[1], pictures[0]).relRmse, kRounding);
 }
 
-TEST_F(MergedGlPasses, MayBeSwitchedAndLeaveNoTrace) {
+TEST_F(MergedGlPasses, SwitchingThemEqualsAFreshRender) {
   Scene scene = loadAsset("pillar_room.gltf");
   FrameRenderer renderer(makeGlBackend());
   rendered(renderer, scene, SceneChanges::all(), settingsOf("light_maps", 100, 6, false));
@@ -107,7 +107,7 @@ TEST_F(MergedGlPasses, MayBeSwitchedAndLeaveNoTrace) {
     EXPECT_EQ(switched.stats.of("merged_passes"), fresh.stats.of("merged_passes"));
     EXPECT_EQ(switched.stats.of("merged_passes") > 0, merge);
   }
-  // What has no lists has nothing to merge.
+  // `naive` and the cpu backend have no light lists, so there is nothing to merge.
   EXPECT_EQ(
       rendered(renderer, scene, {}, settingsOf("naive", 100, 6, true)).stats.of("merged_passes"),
       0);
@@ -116,9 +116,9 @@ TEST_F(MergedGlPasses, MayBeSwitchedAndLeaveNoTrace) {
             0);
 }
 
-// The lists themselves: the same entries as before, in the order of their passes, none of which
-// takes more lights than it may.
-TEST(MergedLists, HoldEachLightOnceInPassesThatAreFull) {
+// The lists contain the same entries as before, sorted by pass, and no pass takes more lights than
+// allowed.
+TEST(MergedLists, ContainEachLightOnceInFullPasses) {
   const Scene scene = loadAsset("table_room.gltf");
   RenderScene render;
   update(render, scene, SceneChanges::all());
@@ -176,7 +176,7 @@ TEST(MergedLists, HoldEachLightOnceInPassesThatAreFull) {
         }
         std::sort(is.begin(), is.end());
         ASSERT_EQ(is, was);
-        // What needs no map is as it was.
+        // Entries of lights that need no shadow map are unchanged.
         for (size_t i = range.x; i < first; ++i) ASSERT_EQ(merged.entries()[i], plain.entries()[i]);
       }
       byObject += (static_cast<int>(needed.size()) + kMost - 1) / kMost;

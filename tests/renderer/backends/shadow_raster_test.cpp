@@ -1,4 +1,4 @@
-// Maps that are rasterised hold what rays meet.
+// Rasterised shadow maps equal traced ones.
 #include "renderer/backends/cpu/shadow_maps/shadow_raster.h"
 
 #include <cmath>
@@ -17,11 +17,11 @@ namespace lamplighter {
 namespace {
 
 struct Compared {
-  size_t texels = 0, others = 0;  // by more than rounding
+  size_t texels = 0, others = 0;  // `others`: texels that differ by more than rounding
   uint64_t rays = 0;
 };
 
-// Both in pieces of rows, as the backend has them.
+// Renders both maps in strips of rows, as the backend does.
 Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, int resolution) {
   const RayCaster rays(scene);
   cpu::ShadowRaster raster;
@@ -43,8 +43,8 @@ Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, in
   return all;
 }
 
-// A texel may fall to either side of an edge.
-TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
+// A texel centre close to an edge may fall to either side of it.
+TEST(ShadowRaster, EqualsTracedMapsInRooms) {
   for (const char* name : {"pillar_room", "area_light_room", "cornell_style", "table_room"}) {
     RenderScene scene;
     update(scene,
@@ -60,8 +60,8 @@ TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
   }
 }
 
-// Of suns: squares over parts of the room, from all round.
-TEST(ShadowRaster, HoldsWhatParallelRaysMeet) {
+// Parallel lights from many directions, each over a square part of the room.
+TEST(ShadowRaster, OfParallelLightsEqualsTracedMaps) {
   RenderScene scene;
   update(scene, loadGltf(test::sourceFolder() / "assets/scenes/table_room.gltf").scene,
          SceneChanges::all());
