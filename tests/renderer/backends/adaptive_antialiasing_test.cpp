@@ -69,17 +69,17 @@ TEST(SharedSamples, DoesNotDependOnEarlierFrames) {
     for (Node& node : room.scene.nodes)
       if (node.name == name) node.local.translation.x += 0.2f;
     const Image kept = settled(renderer, room, compare(before, room.scene), settings);
-    FrameRenderer anew(makeCpuBackend());
-    EXPECT_TRUE(test::sameBits(kept, settled(anew, room, SceneChanges::all(), settings))) << name;
+    FrameRenderer fresh(makeCpuBackend());
+    EXPECT_TRUE(test::sameBits(kept, settled(fresh, room, SceneChanges::all(), settings))) << name;
   }
   // Change the view, then restore it.
   const View view = room.view;
   room.view.eye.x += 0.1f;
   settled(renderer, room, {}, settings);
   room.view = view;
-  FrameRenderer anew(makeCpuBackend());
+  FrameRenderer fresh(makeCpuBackend());
   EXPECT_TRUE(test::sameBits(settled(renderer, room, {}, settings),
-                             settled(anew, room, SceneChanges::all(), settings)));
+                             settled(fresh, room, SceneChanges::all(), settings)));
 }
 
 // The border of a hard shadow on one plane is as smooth as without sharing, whether it lies between

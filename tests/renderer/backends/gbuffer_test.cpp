@@ -153,9 +153,9 @@ TEST(RasterisedGBuffer, ReusingABufferEqualsANewOne) {
   const auto look = [&](const View& view) {
     const World world(scene);
     cpu::renderGBuffer(world.render, *world.rays, view, vec2(0.0f), kept);
-    cpu::GBuffer anew;
-    cpu::renderGBuffer(world.render, *world.rays, view, vec2(0.0f), anew);
-    expectSame(kept, anew);
+    cpu::GBuffer fresh;
+    cpu::renderGBuffer(world.render, *world.rays, view, vec2(0.0f), fresh);
+    expectSame(kept, fresh);
     expectOneTriangleEach(kept, kWidth * kHeight / cpu::kLanes / 3);
   };
   View view = viewOfBounds(World(scene).render.bounds, kWidth, kHeight);

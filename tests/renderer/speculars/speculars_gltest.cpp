@@ -1,4 +1,4 @@
-// Speculars on the gl backend: the pictures of the cpu backend.
+// Speculars on the gl backend give the pictures of the cpu backend.
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
@@ -24,7 +24,7 @@ double differing(const Image& a, const Image& b, float absolute, float relative)
   return static_cast<double>(count) / static_cast<double>(a.pixels.size());
 }
 
-// Every second surface is glossy, one by a texture.
+// Every second surface is glossy, one of them by a texture.
 Scene glossyBoxes() {
   Scene scene = test::randomBoxes(12, 5);
   auto image = std::make_shared<Image8>(8, 8);

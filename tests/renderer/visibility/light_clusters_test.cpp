@@ -1,4 +1,4 @@
-// Clusters of lights spare work and change no entry.
+// Clusters of lights save tests and do not change any entry.
 #include "renderer/visibility/light_clusters.h"
 
 #include <filesystem>
@@ -32,7 +32,7 @@ void fill(VisibilityDatabase& database, const RenderScene& scene,
   database.setLights(scene, lights);
 }
 
-// vpls: of the scene; 0: 300 anywhere.
+// With `vpls` light samples of the scene; 0: with 300 random ones.
 void compareStates(const Scene& from, int vpls) {
   RenderScene scene;
   update(scene, from, SceneChanges::all());
@@ -71,7 +71,7 @@ TEST(LightClusters, StatesAreTheSameInRooms) {
   }
 }
 
-TEST(LightClusters, HoldEachLightOnceAndFewAndNear) {
+TEST(LightClusters, ContainEachLightOnceAndAreSmall) {
   const Scene from = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
   RenderScene scene;
   update(scene, from, SceneChanges::all());

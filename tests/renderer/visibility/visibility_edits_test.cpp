@@ -1,5 +1,5 @@
-// What is kept of visibility from edit to edit of a level, against what is found from nothing:
-// entry for entry, else a picture would hang on what was before.
+// Incremental updates of the visibility database against a new database: all entries must be equal,
+// otherwise the picture would depend on earlier edits.
 #include <algorithm>
 #include <limits>
 
@@ -22,7 +22,7 @@ RenderSceneChanges everything() {
 
 Scene defaultLevel() { return loadGltf(test::sourceFolder() / "assets/scenes/default.gltf").scene; }
 
-// Entries of the first slots that differ.
+// Counts the differing entries of the first `slots` slots.
 int differences(const VisibilityDatabase& a, const VisibilityDatabase& b,
                 size_t slots = std::numeric_limits<size_t>::max()) {
   int count = 0;
@@ -35,11 +35,11 @@ int differences(const VisibilityDatabase& a, const VisibilityDatabase& b,
   return count;
 }
 
-constexpr size_t kLittle = 150000;  // bytes
+constexpr size_t kLittleMemory = 150000;  // bytes
 
-// The lights stay where they are, so that all entries are only brought up to date. mostBytes: that
-// they may take.
-bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
+// Applies edits while the lights stay unchanged, and compares all entries with those of a new
+// database, under a memory limit of `mostBytes`.
+bool equalsFreshAfterEdits(const test::EditSequence& edits, size_t mostBytes) {
   Scene level = defaultLevel();
   RenderScene scene;
   update(scene, level, SceneChanges::all());
@@ -66,22 +66,24 @@ bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
 
 class EditsOfALevel : public testing::TestWithParam<uint32_t> {};
 
-TEST_P(EditsOfALevel, LeaveNoEntryOtherThanFromNothing) {
+TEST_P(EditsOfALevel, GiveTheEntriesOfANewDatabase) {
   const auto check = [](const test::EditSequence& edits) {
-    return staysTheSame(edits, std::numeric_limits<size_t>::max());
+    return equalsFreshAfterEdits(edits, std::numeric_limits<size_t>::max());
   };
   EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), check), test::EditSequence());
 }
 
-// What objects that come and go need changes how far all others may be divided.
-TEST_P(EditsOfALevel, LeaveNoEntryOtherThanFromNothingWithLittleMemory) {
-  const auto check = [](const test::EditSequence& edits) { return staysTheSame(edits, kLittle); };
+// Adding and removing objects changes how far all others may be divided.
+TEST_P(EditsOfALevel, GiveTheEntriesOfANewDatabaseWithLittleMemory) {
+  const auto check = [](const test::EditSequence& edits) {
+    return equalsFreshAfterEdits(edits, kLittleMemory);
+  };
   EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), check), test::EditSequence());
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, EditsOfALevel, testing::Range(1u, 11u));
 
-// Where slots are used again, a new light's entries may be what the slot had before.
-TEST(VisibilityOfLights, IsWhatItIsFromNothingAfterMoreAndFewer) {
+// A reused slot must not keep entries of its previous light.
+TEST(VisibilityOfLights, EqualsANewDatabaseAfterAddingAndRemovingLights) {
   const Scene level = defaultLevel();
   RenderScene scene;
   update(scene, level, SceneChanges::all());

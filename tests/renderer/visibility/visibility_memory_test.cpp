@@ -1,4 +1,5 @@
-// Entries within bounds: patches are divided less far, and nothing is said that is not so.
+// The memory limit of the visibility database: patches are divided less, and no entry becomes
+// wrong.
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ Scene pillarRoom() {
 
 struct Room {
   RenderScene scene;
-  std::vector<shared::Vpl> lights;  // about a thousand: paths end where they may
+  std::vector<shared::Vpl> lights;  // about a thousand, because paths end at random
   Room() {
     update(scene, pillarRoom(), SceneChanges::all());
     for (const SceneVpl& v :
@@ -43,7 +44,7 @@ RenderSceneChanges everything() {
   return all;
 }
 
-// Entries of leaves that differ; there those of `coarse` have to be partial.
+// Counts the differing entries of leaves. Those of `coarse` must be partial.
 size_t coarser(const VisibilityDatabase& coarse, const VisibilityDatabase& fine) {
   size_t count = 0;
   for (uint32_t object = 0; object < fine.objects(); ++object) {
@@ -80,8 +81,9 @@ TEST(VisibilityMemory, LessIsCoarserAndNeverWrong) {
   }
 }
 
-// With more lights a patch may be divided less far, with fewer further again; and with more memory.
-TEST(VisibilityMemory, FollowsTheLightsAndTheBound) {
+// With more lights patches are divided less, with fewer lights or more memory they are divided
+// further.
+TEST(VisibilityMemory, FollowsTheNumberOfLightsAndTheLimit) {
   const Room room;
   const auto fresh = [&](size_t most, size_t lights) {
     VisibilityDatabase database;
@@ -130,8 +132,9 @@ TEST(VisibilityMemory, ThePictureStaysTheSame) {
   std::cout << "relRMSE " << 100.0 * error << "%\n";
 }
 
-// Of so many patches that even the roots have no room: as naive, until there is room again.
-TEST(VisibilityMemory, WhereNothingFitsThePictureIsThatOfNaive) {
+// With so many patches that not even the roots fit: the picture is that of `naive` until the limit
+// is raised.
+TEST(VisibilityMemory, IfNothingFitsThePictureIsThatOfNaive) {
   Scene scene = pillarRoom();
   View view;
   for (const Node& node : scene.nodes)

@@ -1,4 +1,4 @@
-// What pyramids say of triangles eight at a time is what each says alone.
+// Eight occlusion pyramids at a time give the results of each pyramid alone.
 #include "renderer/visibility/occlusion/pyramid_batch.h"
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-TEST(PyramidBatch, MeetsTrianglesAsEachPyramidDoesAlone) {
+TEST(PyramidBatch, IntersectsTrianglesAsSinglePyramidsDo) {
   uint32_t random = 2;
   const auto next = [&] {
     random = random * 1664525u + 1013904223u;
@@ -34,7 +34,7 @@ TEST(PyramidBatch, MeetsTrianglesAsEachPyramidDoesAlone) {
     std::vector<const PyramidApex*> pointers;
     for (const PyramidApex& apex : apices) pointers.push_back(&apex);
     const PyramidBatch batch(LightPacket(pointers), region);
-    std::array<vec3, 3> t;  // some of them small, some that go through all of the room
+    std::array<vec3, 3> t;  // small triangles, and triangles as large as the room
     const float size = next();
     for (vec3& corner : t)
       corner =
