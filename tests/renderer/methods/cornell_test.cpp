@@ -42,7 +42,8 @@ TEST(ManyLightsCornell, DirectLightOf1024VplsIsWithinFivePercent) {
   }
 }
 
-// One bounce more: what is left is the noise of 512 bounced samples, the clamp, and the maps.
+// With one more bounce, the remaining errors are the noise of 512 indirect VPLs, the clamp and the
+// resolution of shadow maps.
 TEST(ManyLightsCornell, OneBounceKeepsTheBrightness) {
   if (!std::filesystem::exists(kReferences)) GTEST_SKIP() << "no " << kReferences;
   const Metrics m = compareCornell("cornell", 1024, 1);

@@ -1,7 +1,7 @@
-// Every kind of light as a source of VPLs: the picture of many_lights, refined, against the path
-// tracer's, on a floor with a box under the open sky. By means over blocks of 4 × 4 pixels, as
-// edges of pixels and of shadows, which maps have in texels, are no matter of how much light there
-// is.
+// Every kind of light as a source of VPLs: the refined picture of many_lights against the path
+// tracer, for a floor with a box under the open sky. Means over blocks of 4 × 4 pixels are
+// compared, because pixel edges and the shadow borders of map texels do not change how much light
+// there is.
 #include <array>
 #include <cmath>
 #include <ostream>
@@ -23,7 +23,8 @@ namespace {
 struct Kind {
   const char* name;
   void (*add)(Scene&);
-  double mostError = 0.03;  // the most are texels of the spot's only map
+  double mostError =
+      0.03;  // the largest errors come from the texels of the spot light's single map
 };
 void PrintTo(const Kind& k, std::ostream* out) { *out << k.name; }
 
@@ -34,7 +35,7 @@ NodeId punctual(Scene& scene, const PunctualLight& light, const vec3& at, float 
   return id;
 }
 
-// A square that glows down, by a texture that is bright in one corner alone.
+// A square that emits downwards, with a texture that is bright in one corner only.
 void addTextured(Scene& scene) {
   auto image = std::make_shared<Image8>(4, 4);
   for (int y = 0; y < 4; ++y) {
@@ -52,7 +53,7 @@ void addTextured(Scene& scene) {
   scene.find(id)->local.rotation = glm::angleAxis(kPi, vec3(0, 0, 1));
 }
 
-// The same as the picture of an area light, of which the bright corner is the far left one.
+// The same as a picture on an area light, whose bright corner is the far left one.
 void addPictured(Scene& scene) {
   Image8 image(4, 4);
   for (int y = 0; y < 4; ++y)
@@ -69,7 +70,7 @@ void addGlowingBall(Scene& scene) {
   test::addMesh(scene, test::sphereMesh(0.4f, 12, 0.0f, glow), vec3(1, 2.5f, 0.5f));
 }
 
-// A batwing: most of it aside, at 45°, more along X; by lobes in the live picture.
+// A batwing profile: most light at 45°, more along X. The live picture approximates it by lobes.
 void addProfiled(Scene& scene) {
   const auto profile = parseIes(
       "TILT=NONE\n1 1000 1 10 3 1 2 0 0 0 1 1 60\n"
@@ -118,7 +119,7 @@ const Kind kKinds[] = {
     {"image_sky_with_sun", [](Scene& s) { s.sky = test::sunnySky(); }},
 };
 
-Image inBlocks(const Image& image) {
+Image blockMeans(const Image& image) {
   constexpr int kSide = 4;
   Image out(image.width / kSide, image.height / kSide);
   for (int y = 0; y < image.height; ++y) {
@@ -154,7 +155,7 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   ASSERT_TRUE(out.settled && out.refined);
   const Image reference = test::renderReference(scene, view, 256, 1);
   const Image& picture = out.radiance->pixels();
-  const Metrics m = compareImages(inBlocks(picture), inBlocks(reference));
+  const Metrics m = compareImages(blockMeans(picture), blockMeans(reference));
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("bias", std::to_string(m.bias));
   EXPECT_LT(m.relRmse, GetParam().mostError);

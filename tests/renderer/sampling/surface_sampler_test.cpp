@@ -1,4 +1,4 @@
-// Points on surfaces: uniform by area, stratified, and functions of their arguments.
+// Points on surfaces: uniform by area, stratified, and determined by their arguments.
 #include "renderer/sampling/surface_sampler.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ RenderScene rendered(const Scene& scene) {
   return render;
 }
 
-// A ball with triangles of many sizes, a small box, and a pane.
+// A sphere with triangles of many sizes, a small box, and a transparent pane.
 Scene bodies() {
   Scene scene;
   const int grey = test::addMaterial(scene, vec3(0.5f)), glass = test::addMaterial(scene, vec3(1));
@@ -57,7 +57,7 @@ TEST(SurfaceSampler, TrianglesAreChosenByArea) {
       ++degrees;
     }
   }
-  EXPECT_LT(chi2, degrees + 4.0 * std::sqrt(2.0 * degrees)) << degrees;  // four sigma
+  EXPECT_LT(chi2, degrees + 4.0 * std::sqrt(2.0 * degrees)) << degrees;  // four standard deviations
   for (const int count : counts[2]) EXPECT_EQ(count, 0) << "rays pass through the pane";
 }
 
@@ -72,7 +72,7 @@ TEST(SurfaceSampler, BlocksOfIndicesAreStratified) {
   }
 }
 
-// In a triangle, too: the mean of the points is its middle.
+// Also within a triangle: the mean of the points is its centroid.
 TEST(SurfaceSampler, PointsAreUniformInATriangle) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(1.0f));
@@ -90,7 +90,7 @@ TEST(SurfaceSampler, PointsAreUniformInATriangle) {
   EXPECT_NEAR(mean.y / 2048.0f, 1.0f / 3.0f, 2e-3f);
 }
 
-TEST(SurfaceSampler, AfterChangesItIsTheOneFromNothing) {
+TEST(SurfaceSampler, AfterChangesItEqualsANewOne) {
   Scene scene = bodies();
   RenderScene render = rendered(scene);
   SurfaceSampler sampler(render);
