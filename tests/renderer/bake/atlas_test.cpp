@@ -1,4 +1,4 @@
-// The places of charts on pages, and the points of texels.
+// Placement of charts on pages, and the surface points of texels.
 #include "renderer/bake/atlas.h"
 
 #include <cmath>
@@ -27,7 +27,7 @@ Scene oneMesh(std::shared_ptr<const Mesh> mesh) {
   return scene;
 }
 
-TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelIsTwoCharts) {
+TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelBelongsToTwoCharts) {
   Scene scene;
   for (int i = 0; i < 12; ++i)
     test::addMesh(scene, test::boxMesh(vec3(1, 2, 1.5f)), vec3(3 * i, 0, 0));
@@ -50,7 +50,7 @@ TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelIsTwoCharts) {
   }
 }
 
-TEST(Atlas, WhatIsTooLargeForAPageIsMadeCoarser) {
+TEST(Atlas, ObjectsTooLargeForAPageGetCoarserTexels) {
   const Scene scene = oneMesh(test::squareMesh(100.0f));
   const LightMapAtlas atlas = makeAtlas(rendered(scene), {8.0f, 256});
   ASSERT_EQ(atlas.coarser.size(), 1u);
@@ -59,7 +59,7 @@ TEST(Atlas, WhatIsTooLargeForAPageIsMadeCoarser) {
   EXPECT_GT(atlas.charts[0].size.x, 128);
 }
 
-TEST(Atlas, AreaLightsAndPanesHaveNone) {
+TEST(Atlas, AreaLightsAndPanesHaveNoCharts) {
   Scene scene;
   const int glass = test::addMaterial(scene, vec3(1));
   scene.materials[static_cast<size_t>(glass)].transmission = 1.0f;
@@ -82,7 +82,7 @@ TEST(BakePoints, LieOnTheSurfaceUnderTheirTexels) {
     const vec2 off = texels - vec2(p.x, p.y);
     const bool isOn = std::abs(off.x - 0.5f) < 0.3f && std::abs(off.y - 0.5f) < 0.3f;
     on += isOn;
-    // In the gutter: the nearest of the square, which is no further than that.
+    // A texel in the gutter uses the nearest point of the square.
     if (!isOn) {
       EXPECT_LT(glm::length(off - 0.5f), 1.0f + kGutter * 1.5f);
     }

@@ -35,7 +35,7 @@ RenderScene worldOf(std::shared_ptr<const Mesh> mesh) {
   return worldOf(scene);
 }
 
-// A grid of n × n squares on the plane, lifted by a height at each place.
+// A grid of n × n squares in the XZ plane, displaced by `height`.
 std::shared_ptr<const Mesh> grid(int n, float (*height)(float, float)) {
   auto mesh = std::make_shared<Mesh>();
   Primitive& p = mesh->primitives.emplace_back();
@@ -65,22 +65,23 @@ TEST(Charts, ABoxHasSixConvexOnes) {
     EXPECT_EQ(c.triangles.size(), 2u);
     EXPECT_EQ(c.outline.size(), 4u);
     EXPECT_LT(c.thickness, 1e-5f);
-    // The frame lies along the sides: the rectangle is no larger than the face.
+    // The axes of the chart are parallel to the sides: the bounding rectangle is not larger than
+    // the face.
     EXPECT_NEAR((c.max.x - c.min.x) * (c.max.y - c.min.y), c.area, 1e-4f);
     area += c.area;
   }
   EXPECT_NEAR(area, 22.0f, 1e-3f);
 }
 
-// A floor of many triangles is one chart, whose outline has four corners.
-TEST(Charts, AFinelyDividedFloorIsOne) {
+// A finely divided floor is one chart whose outline has four corners.
+TEST(Charts, AFinelyDividedFloorIsOneChart) {
   const auto charts = findCharts(worldOf(grid(16, [](float, float) { return 0.0f; })), 0);
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_EQ(charts[0].triangles.size(), 512u);
   EXPECT_EQ(charts[0].outline.size(), 4u);
 }
 
-// Millimetres here and there: one chart, in whose plane all of it nearly is.
+// Bumps of millimetres: the floor is still one chart, planar within a tolerance.
 float bumps(float u, float v) { return 0.002f * std::sin(37.0f * u) * std::cos(31.0f * v); }
 
 TEST(Charts, AFloorWithSmallBumpsIsOneRoughChart) {
@@ -93,8 +94,8 @@ TEST(Charts, AFloorWithSmallBumpsIsOneRoughChart) {
   EXPECT_TRUE(charts[0].outline.empty());
 }
 
-// A floor with a step is not one plane; and a corner cut out of it has no convex outline.
-TEST(Charts, PlanesEndWhereTheSurfaceTurns) {
+// A floor with a step consists of several planes. A floor without one corner has no convex outline.
+TEST(Charts, ChartsEndWhereTheSurfaceBends) {
   const auto charts =
       findCharts(worldOf(grid(16, [](float u, float) { return u > 0.5f ? 1.0f : 0.0f; })), 0);
   EXPECT_EQ(charts.size(), 3u);
@@ -116,9 +117,9 @@ TEST(Charts, ACurvedSurfaceHasNone) {
   EXPECT_FALSE(patches.patches[0].isLeaf());
 }
 
-// What the rule says of a mesh can be changed: a box has six planar parts or none, and the facets
-// of a curved surface are parts too.
-TEST(Charts, AreWhatTheMeshIsSaidToBe) {
+// The kind of a mesh overrides the automatic choice: a box has six charts or none, and the facets
+// of a curved surface can become charts.
+TEST(Charts, FollowTheKindOfTheMesh) {
   Scene scene;
   const NodeId id = test::addMesh(scene, test::boxMesh(vec3(2, 1, 3)));
   EXPECT_EQ(findCharts(worldOf(scene), 0).size(), 6u);
@@ -134,8 +135,8 @@ TEST(Charts, AreWhatTheMeshIsSaidToBe) {
   EXPECT_GT(findCharts(worldOf(curved), 0).size(), 250u);
 }
 
-// Every point of every triangle has a leaf, and lies in it.
-TEST(PatchSet, LeavesHoldWhatTheyAreAskedFor) {
+// Every point of every triangle has a leaf and lies within it.
+TEST(PatchSet, LeavesContainThePointsLookedUp) {
   const RenderScene world = worldOf(test::randomBoxes(12, 4));
   std::set<int> seen;
   for (uint32_t object = 0; object < world.objects.size(); ++object) {
