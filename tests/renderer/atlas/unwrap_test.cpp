@@ -13,12 +13,10 @@
 namespace lamplighter {
 namespace {
 
-RenderScene rendered(std::shared_ptr<const Mesh> mesh) {
+RenderScene renderSceneOf(std::shared_ptr<const Mesh> mesh) {
   Scene scene;
   test::addMesh(scene, std::move(mesh));
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
+  return test::renderSceneOf(scene);
 }
 
 size_t trianglesIn(const std::vector<MeshChart>& charts) {
@@ -49,7 +47,7 @@ TEST(Skyline, PacksWithoutOverlapAndRejectsWhatDoesNotFit) {
 }
 
 TEST(Unwrap, ABoxHasSixCharts) {
-  const RenderScene render = rendered(test::boxMesh(vec3(1, 2, 3)));
+  const RenderScene render = renderSceneOf(test::boxMesh(vec3(1, 2, 3)));
   const std::vector<MeshChart> charts = unwrap(render.positions, render.indices, 16.0f);
   ASSERT_EQ(charts.size(), 6u);
   EXPECT_EQ(trianglesIn(charts), 12u);
@@ -59,7 +57,7 @@ TEST(Unwrap, ABoxHasSixCharts) {
 }
 
 TEST(Unwrap, ASphereIsCutWhereItBends) {
-  const RenderScene render = rendered(test::sphereMesh(1.0f, 24));
+  const RenderScene render = renderSceneOf(test::sphereMesh(1.0f, 24));
   const std::vector<MeshChart> charts = unwrap(render.positions, render.indices, 16.0f);
   EXPECT_EQ(trianglesIn(charts), render.objects[0].triangleCount());
   EXPECT_GE(charts.size(), 5u);
@@ -90,7 +88,7 @@ TEST(Unwrap, ASurfaceThatOverlapsItselfInProjectionIsCut) {
   }
   for (uint32_t i = 0; i < kSteps; ++i)
     for (const uint32_t k : {0u, 2u, 1u, 1u, 2u, 3u}) p.indices.push_back(2 * i + k);
-  const RenderScene render = rendered(mesh);
+  const RenderScene render = renderSceneOf(mesh);
   const std::vector<MeshChart> charts = unwrap(render.positions, render.indices, 16.0f);
   EXPECT_EQ(trianglesIn(charts), 2u * kSteps);
   EXPECT_GE(charts.size(), 2u);

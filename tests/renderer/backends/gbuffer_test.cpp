@@ -8,10 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
-#include "tests/support/shared_files.h"
 
 namespace lamplighter {
 namespace {
@@ -67,10 +66,7 @@ class RasterisedGBuffer : public testing::TestWithParam<Case> {};
 
 // Exceptions: rays along edges, and surfaces that coincide.
 TEST_P(RasterisedGBuffer, EqualsRayHits) {
-  const std::string name = GetParam().scene;
-  const fs::path path = name.find('/') == std::string::npos
-                            ? test::sourceFolder() / "assets/scenes" / name
-                            : test::sharedScenes() / name;
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
   const World world(scene);
@@ -147,7 +143,7 @@ void expectOneTriangleEach(const cpu::GBuffer& g, int least) {
 // Buffers are reused between frames. Parts that are not rewritten must not keep data of an earlier
 // view or of earlier materials.
 TEST(RasterisedGBuffer, ReusingABufferEqualsANewOne) {
-  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/table_room.gltf").scene;
+  Scene scene = test::loadAsset("table_room");
   constexpr int kWidth = 203, kHeight = 150;
   cpu::GBuffer kept;
   const auto look = [&](const View& view) {
@@ -158,9 +154,7 @@ TEST(RasterisedGBuffer, ReusingABufferEqualsANewOne) {
     expectSame(kept, fresh);
     expectOneTriangleEach(kept, kWidth * kHeight / cpu::kLanes / 3);
   };
-  View view = viewOfBounds(World(scene).render.bounds, kWidth, kHeight);
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) view = viewOfCamera(scene, node, kWidth, kHeight);
+  View view = test::viewOf(scene, kWidth, kHeight);
   look(view);
   view.eye += vec3(0.002f, 0.001f, 0.0f);
   look(view);

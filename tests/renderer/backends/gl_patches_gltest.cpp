@@ -8,12 +8,11 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
-#include "tests/support/shared_files.h"
 
 namespace lamplighter {
 namespace {
@@ -33,26 +32,15 @@ Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass = 
   return s;
 }
 
-View viewOf(const Scene& scene) {
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) return viewOfCamera(scene, node, kWidth, kHeight);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return viewOfBounds(render.bounds, kWidth, kHeight);
-}
-
 Image rendered(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
                const Settings& settings) {
-  return test::renderSettled(renderer, scene, changes, viewOf(scene), settings).radiance->pixels();
+  return test::settledPicture(renderer, scene, changes, test::viewOf(scene, kWidth, kHeight),
+                              settings);
 }
 
 Image rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Settings& settings) {
   FrameRenderer renderer(std::move(backend));
   return rendered(renderer, scene, SceneChanges::all(), settings);
-}
-
-Scene loadAsset(const std::string& name) {
-  return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
 }
 
 struct Case {
@@ -64,10 +52,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 class GlPatchesScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
 
 TEST_P(GlPatchesScenes, EachTechniqueGivesThePictureOfNaiveAndOfTheCpuBackend) {
-  const std::string name = GetParam().scene;
-  const fs::path path = name.find('/') == std::string::npos
-                            ? test::sourceFolder() / "assets/scenes" / name
-                            : test::sharedScenes() / name;
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
   const int vpls = GetParam().vpls;
@@ -101,7 +86,7 @@ using GlPatches = test::GlTest;
 
 // If the techniques gave the picture of `naive`, the comparisons in this file would prove nothing.
 TEST_F(GlPatches, TechniquesGiveDifferentBits) {
-  const Scene scene = loadAsset("pillar_room.gltf");
+  const Scene scene = test::loadAsset("pillar_room");
   const Image naive = rendered(makeGlBackend(), scene, settingsOf("naive", 100));
   const Image visibility = rendered(makeGlBackend(), scene, settingsOf("visibility", 100));
   const Image lightMaps = rendered(makeGlBackend(), scene, settingsOf("light_maps", 100));
@@ -111,7 +96,7 @@ TEST_F(GlPatches, TechniquesGiveDifferentBits) {
 }
 
 TEST_F(GlPatches, TheNumberOfLightsPerPassDoesNotChangeBits) {
-  const Scene scene = loadAsset("table_room.gltf");
+  const Scene scene = test::loadAsset("table_room");
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
     FrameRenderer renderer(makeGlBackend());
@@ -127,7 +112,7 @@ TEST_F(GlPatches, TheNumberOfLightsPerPassDoesNotChangeBits) {
 TEST_F(GlPatches, AfterEditsThePictureEqualsAFreshRender) {
   for (const char* technique : {"visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
-    Scene scene = loadAsset("pillar_room.gltf");
+    Scene scene = test::loadAsset("pillar_room");
     const Settings settings = settingsOf(technique, 120);
     FrameRenderer renderer(makeGlBackend());
     const Image first = rendered(renderer, scene, SceneChanges::all(), settings);
@@ -147,7 +132,7 @@ TEST_F(GlPatches, AfterEditsThePictureEqualsAFreshRender) {
 }
 
 TEST_F(GlPatches, SwitchingTechniquesEqualsAFreshRender) {
-  const Scene scene = loadAsset("table_room.gltf");
+  const Scene scene = test::loadAsset("table_room");
   FrameRenderer renderer(makeGlBackend());
   rendered(renderer, scene, SceneChanges::all(), settingsOf("naive", 60));
   for (const char* technique : {"light_maps", "visibility", "light_maps", "naive", "visibility"}) {
@@ -163,7 +148,7 @@ TEST_F(GlPatches, SwitchingTechniquesEqualsAFreshRender) {
 TEST_F(GlPatches, WithoutMemoryForLightMapsPixelsSumAllLights) {
   Scene scene = test::randomBoxes(900, 5);
   test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
-  const View view = viewOf(scene);
+  const View view = test::viewOf(scene, kWidth, kHeight);
   FrameRenderer kept(makeGlBackend());
   SceneChanges changes = SceneChanges::all();
   for (const int mebibytes : {512, 1, 512}) {
@@ -180,7 +165,7 @@ TEST_F(GlPatches, WithoutMemoryForLightMapsPixelsSumAllLights) {
 // So many lights that they need several uniform blocks and several texture arrays of shadow maps;
 // two kinds of light.
 TEST_F(GlPatches, ThousandsOfLightsEqualTheCpuBackend) {
-  Scene scene = loadAsset("pillar_room.gltf");
+  Scene scene = test::loadAsset("pillar_room");
   scene.sky = vec3(0.3f, 0.4f, 0.5f);
   for (const char* technique : {"visibility", "light_maps"}) {
     SCOPED_TRACE(technique);

@@ -7,7 +7,9 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/folders.h"
+#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {
@@ -24,25 +26,13 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.file; }
 
 class GlScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
 
-// Share of the pixels with a channel that differs by more than absolute + relative · |b|.
-double differing(const Image& a, const Image& b, float absolute, float relative) {
-  size_t count = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const vec3 d = glm::abs(a.pixels[i] - b.pixels[i]);
-    const vec3 limit = absolute + relative * glm::abs(b.pixels[i]);
-    count += !(d.r <= limit.r && d.g <= limit.g && d.b <= limit.b);
-  }
-  return static_cast<double>(count) / static_cast<double>(a.pixels.size());
-}
-
 TEST_P(GlScenes, LookTheSameOnBothBackends) {
   const Case& c = GetParam();
   std::filesystem::path path = test::sourceFolder() / "assets/scenes" / c.file;
   if (!std::filesystem::exists(path)) path = test::sharedScenes() / c.file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const Scene scene = loadGltf(path).scene;
-  RenderScene world;
-  update(world, scene, SceneChanges::all());
+  const RenderScene world = test::renderSceneOf(scene);
   View view = viewOfBounds(world.bounds, 144, 96);
   for (const Node& node : scene.nodes) {
     if (node.camera != kNone) view = viewOfCamera(scene, node, 144, 96);
@@ -60,9 +50,9 @@ TEST_P(GlScenes, LookTheSameOnBothBackends) {
   }
   const Metrics m = compareImages(radiance[0], radiance[1]);
   ASSERT_GT(m.meanB, 0.0);
-  const double albedoShare = differing(albedo[0], albedo[1], 0.01f, 0.01f);
+  const double albedoShare = test::differingShare(albedo[0], albedo[1], 0.01f, 0.01f);
   const double lightShare =
-      differing(radiance[0], radiance[1], 0.05f * static_cast<float>(m.meanB), 0.01f);
+      test::differingShare(radiance[0], radiance[1], 0.05f * static_cast<float>(m.meanB), 0.01f);
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("albedoShare", std::to_string(albedoShare));
   RecordProperty("lightShare", std::to_string(lightShare));

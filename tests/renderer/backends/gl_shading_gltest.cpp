@@ -6,6 +6,7 @@
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/gltf_files.h"
+#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
@@ -16,19 +17,9 @@ namespace lamplighter {
 namespace {
 
 using GlShading = test::GlTest;
+using test::differingShare;
 using test::LitScene;
 using test::lookAt;
-
-// Share of the pixels with a channel that differs by more than `tolerance`.
-double differing(const Image& a, const Image& b, float tolerance) {
-  if (a.width != b.width || a.height != b.height) return 1.0;
-  size_t count = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const vec3 d = glm::abs(a.pixels[i] - b.pixels[i]);
-    count += !(std::max({d.r, d.g, d.b}) <= tolerance);
-  }
-  return static_cast<double>(count) / static_cast<double>(a.pixels.size());
-}
 
 View viewOfBoxes(int width = 160, int height = 120) {
   return lookAt(vec3(4.5f, 4.2f, 5.5f), vec3(-0.3f, 0.8f, -0.3f), width, height, 0.8f);
@@ -95,10 +86,10 @@ TEST_F(GlShading, GBufferEqualsThatOfRays) {
     for (const vec2& jitter : {vec2(0.0f), vec2(0.31f, -0.42f)}) {
       for (LitScene* lit : {&traced, &raster}) lit->backend->renderGBuffer(view, jitter);
       const double normals =
-          differing(raster.backend->readNormals(), traced.backend->readNormals(), 2e-3f);
+          differingShare(raster.backend->readNormals(), traced.backend->readNormals(), 2e-3f);
       // Textures have 8 bits per channel and the filter weights of the GPU have 8 bits.
-      const double albedo = differing(raster.backend->readAlbedo(), traced.backend->readAlbedo(),
-                                      textured ? 0.012f : 1e-4f);
+      const double albedo = differingShare(raster.backend->readAlbedo(),
+                                           traced.backend->readAlbedo(), textured ? 0.012f : 1e-4f);
       // Silhouettes; measured: at most 0.00016 and 0.00005.
       EXPECT_LT(normals, 0.001);
       EXPECT_LT(albedo, 0.001);
@@ -121,10 +112,10 @@ TEST_F(GlShading, JitterMovesEdgesAsRaysDo) {
   for (const vec2& jitter : {vec2(-0.45f, -0.45f), vec2(0.45f, -0.45f), vec2(0.45f, 0.45f)}) {
     for (LitScene* lit : {&traced, &raster}) lit->backend->renderGBuffer(view, jitter);
     pictures.push_back(raster.backend->readNormals());
-    EXPECT_LE(differing(pictures.back(), traced.backend->readNormals(), 1e-3f), 2.5 / 8000);
+    EXPECT_LE(differingShare(pictures.back(), traced.backend->readNormals(), 1e-3f), 2.5 / 8000);
   }
-  EXPECT_GT(differing(pictures[0], pictures[1], 1e-3f), 0.005);
-  EXPECT_GT(differing(pictures[1], pictures[2], 1e-3f), 0.005);
+  EXPECT_GT(differingShare(pictures[0], pictures[1], 1e-3f), 0.005);
+  EXPECT_GT(differingShare(pictures[1], pictures[2], 1e-3f), 0.005);
 }
 
 // The background of a gradient and of rotated sky pictures, also with jitter, equals that of rays.
@@ -147,7 +138,7 @@ TEST_F(GlShading, TheSkyIsSeenWhereNothingIsHit) {
         }
         const Image a = traced.kernels->compose()->pixels(),
                     b = raster.kernels->compose()->pixels();
-        EXPECT_LE(differing(a, b, 2e-3f), 2.0 / 5400);
+        EXPECT_LE(differingShare(a, b, 2e-3f), 2.0 / 5400);
         const vec3 corner = sky.radianceFrom(view.rayDirection(0.5f + jitter.x, 0.5f + jitter.y));
         EXPECT_LT(glm::length(a.at(0, 0) - corner), 1e-4f);
       }
@@ -165,7 +156,7 @@ void expectSameLight(const Scene& scene, const std::vector<shared::Vpl>& vpls, d
   const Image b = traced.sum(vpls, view, 64, shadows, 0.1f);
   const float mean = (test::meanOf(b).r + test::meanOf(b).g + test::meanOf(b).b) / 3.0f;
   ASSERT_GT(mean, 0.0f);
-  const double share = differing(a, b, 0.01f * mean);
+  const double share = differingShare(a, b, 0.01f * mean);
   const Metrics m = compareImages(a, b);
   ::testing::Test::RecordProperty("differingPercent", std::to_string(100.0 * share));
   ::testing::Test::RecordProperty("relRmse", std::to_string(m.relRmse));
@@ -185,8 +176,7 @@ TEST_F(GlShading, LightWithShadowsIsTheSame) {
 // More VPLs than fit into one pass, of every kind.
 TEST_F(GlShading, ManyVplsOfEveryKindAreTheSame) {
   const Scene scene = test::randomBoxes(20, 9);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   std::vector<shared::Vpl> vpls = test::randomVpls(1500, 13);
   for (size_t i = 0; i < vpls.size(); i += 5) {
     vpls[i].position.w = shared::kVplUniform;
@@ -206,7 +196,7 @@ TEST_F(GlShading, EmissionTexturesAndSkyAreTheSame) {
   for (const View& view :
        {viewOfBoxes(), lookAt(vec3(3, -2, 2), vec3(0, 0.5f, 0), 160, 120, 0.8f)}) {
     const Image a = raster.sum({}, view, 16), b = traced.sum({}, view, 16);
-    const double share = differing(a, b, 0.025f);
+    const double share = differingShare(a, b, 0.025f);
     EXPECT_LT(share, 0.001);
     int sky = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i) sky += a.pixels[i] == traced.render.sky.radiance;

@@ -1,18 +1,16 @@
 // Shadow maps that are kept between edits, and which of their parts change.
 #include "renderer/backends/cpu/shadow_maps/map_store.h"
 
-#include <filesystem>
 #include <iostream>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "renderer/scene/gltf/gltf_io.h"
 #include "shaders/shared/octahedral.h"
 #include "shaders/shared/vpl_shading.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -27,7 +25,7 @@ enum class Kind {
 class Room {
  public:
   Room(Kind kind, uint32_t seed) : random_(seed) {
-    scene_ = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
+    scene_ = test::loadAsset("pillar_room");
     // More triangles than the store rasterises individually.
     for (int i = 0; kind == Kind::traced && i < 100; ++i)
       test::addMesh(

@@ -1,19 +1,17 @@
 // Merged passes (paper 1, section 4.3.5) of the gl backend: each pixel gets each of its lights
 // once, with at most as many draw calls as object by object.
-#include <filesystem>
 #include <set>
 
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/backends/gl/many_lights/light_lists.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/pass_merging.h"
-#include "renderer/sampling/emitters/lights.h"
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "shaders/shared/patches.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
@@ -21,10 +19,6 @@ namespace {
 // The same lights are added in another order, so the last bits of float sums differ: each of a few
 // hundred additions rounds by at most 2⁻²⁴, up or down.
 constexpr double kRounding = 1e-6;
-
-Scene loadAsset(const std::string& name) {
-  return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
-}
 
 Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, bool merge) {
   Settings s;
@@ -40,10 +34,7 @@ Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, b
 
 GiOutput rendered(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
                   const Settings& settings) {
-  View view;
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) view = viewOfCamera(scene, node, 160, 100);
-  return test::renderSettled(renderer, scene, changes, view, settings);
+  return test::renderSettled(renderer, scene, changes, test::viewOf(scene, 160, 100), settings);
 }
 
 GiOutput rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Settings& settings) {
@@ -56,8 +47,8 @@ GiOutput rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Se
 using MergedGlPasses = test::GlTest;
 
 TEST_F(MergedGlPasses, GiveTheSamePictureWithFewerDrawCalls) {
-  for (const char* name : {"pillar_room.gltf", "table_room.gltf"}) {
-    const Scene scene = loadAsset(name);
+  for (const char* name : {"pillar_room", "table_room"}) {
+    const Scene scene = test::loadAsset(name);
     for (const char* technique : {"visibility", "light_maps"}) {
       const GiOutput listed =
           rendered(makeGlBackend(), scene, settingsOf(technique, 150, 6, false));
@@ -79,7 +70,7 @@ TEST_F(MergedGlPasses, GiveTheSamePictureWithFewerDrawCalls) {
 }
 
 TEST_F(MergedGlPasses, WorkForSeveralLightKindsTextureArraysAndBlocks) {
-  Scene scene = loadAsset("pillar_room.gltf");
+  Scene scene = test::loadAsset("pillar_room");
   scene.sky = vec3(0.3f, 0.4f, 0.5f);
   Image pictures[2];
   for (const bool merge : {false, true}) {
@@ -91,7 +82,7 @@ TEST_F(MergedGlPasses, WorkForSeveralLightKindsTextureArraysAndBlocks) {
 }
 
 TEST_F(MergedGlPasses, SwitchingThemEqualsAFreshRender) {
-  Scene scene = loadAsset("pillar_room.gltf");
+  Scene scene = test::loadAsset("pillar_room");
   FrameRenderer renderer(makeGlBackend());
   rendered(renderer, scene, SceneChanges::all(), settingsOf("light_maps", 100, 6, false));
   const Scene before = scene;
@@ -119,19 +110,12 @@ TEST_F(MergedGlPasses, SwitchingThemEqualsAFreshRender) {
 // The lists contain the same entries as before, sorted by pass, and no pass takes more lights than
 // allowed.
 TEST(MergedLists, ContainEachLightOnceInFullPasses) {
-  const Scene scene = loadAsset("table_room.gltf");
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  const RayCaster rays(render);
-  std::vector<shared::Vpl> vpls;
-  for (const SceneVpl& v : generateVpls(render, rays, LightSet(render), {90, 0.5f, 1, 1}).vpls) {
-    vpls.push_back(v.vpl);
-    vpls.back().slot = static_cast<int>(vpls.size() - 1);
-  }
+  const Scene scene = test::loadAsset("table_room");
+  const RenderScene render = test::renderSceneOf(scene);
+  std::vector<shared::Vpl> vpls = test::lightsOf(render, {90, 0.5f, 1, 1});
+  for (size_t i = 0; i < vpls.size(); ++i) vpls[i].slot = static_cast<int>(i);
   VisibilityDatabase database;
-  RenderSceneChanges all;
-  all.rebuilt = true;
-  database.setScene(render, all);
+  database.setScene(render, test::everythingRebuilt());
   database.setLights(render, vpls);
   const PatchLights patches(database, nullptr, true);
   std::vector<gl::SeenObject> objects;

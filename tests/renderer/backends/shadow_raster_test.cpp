@@ -7,10 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
-#include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -46,10 +45,7 @@ Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, in
 // A texel centre close to an edge may fall to either side of it.
 TEST(ShadowRaster, EqualsTracedMapsInRooms) {
   for (const char* name : {"pillar_room", "area_light_room", "cornell_style", "table_room"}) {
-    RenderScene scene;
-    update(scene,
-           loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(name) + ".gltf")).scene,
-           SceneChanges::all());
+    const RenderScene scene = test::renderSceneOf(test::loadAsset(name));
     for (const int resolution : {8, 24, 64, 96, 256}) {
       const Compared c = compare(scene, test::lightsOf(scene, 8192 / resolution), resolution);
       std::cout << name << " " << resolution << ": " << c.others << " of " << c.texels
@@ -62,9 +58,7 @@ TEST(ShadowRaster, EqualsTracedMapsInRooms) {
 
 // Parallel lights from many directions, each over a square part of the room.
 TEST(ShadowRaster, OfParallelLightsEqualsTracedMaps) {
-  RenderScene scene;
-  update(scene, loadGltf(test::sourceFolder() / "assets/scenes/table_room.gltf").scene,
-         SceneChanges::all());
+  const RenderScene scene = test::renderSceneOf(test::loadAsset("table_room"));
   const float radius = scene.bounds.radius();
   std::vector<shared::Vpl> suns;
   for (int i = 0; i < 40; ++i) {

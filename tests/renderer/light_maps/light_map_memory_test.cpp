@@ -6,11 +6,11 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/sampling/vpl_set.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -33,10 +33,7 @@ struct Kept {
   void update(const Scene& from, const SceneChanges& changes, int count = 40,
               bool mayBeFiner = true) {
     visibility.setScene(scene, lamplighter::update(scene, from, changes));
-    std::vector<shared::Vpl> lights;
-    for (const SceneVpl& v :
-         generateVpls(scene, RayCaster(scene), LightSet(scene), {count, 0.5f, 1, 1}).vpls)
-      lights.push_back(v.vpl);
+    const std::vector<shared::Vpl> lights = test::lightsOf(scene, {count, 0.5f, 1, 1});
     visibility.setLights(scene, lights);
     visibility.refreshAll(scene);
     maps.update(scene, visibility, lights, options, nullptr, mayBeFiner);
@@ -153,8 +150,7 @@ TEST(LightMapMemory, ThePictureStaysNearlyTheSame) {
 // maps are used again.
 TEST(LightMapMemory, ThePictureFollowsTheMemoryLimit) {
   const Scene scene = litBoxes(900);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const View view = viewOfBounds(render.bounds, 192, 128);
   Settings settings;
   settings.set("vpls", 60);

@@ -10,11 +10,11 @@
 #include <tbb/global_control.h>
 
 #include "renderer/light_maps/accumulate.h"
-#include "renderer/sampling/vpl_set.h"
 #include "shaders/shared/vpl_shading.h"
 #include "tests/support/edit_sequence.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
+#include "tests/support/room_lights.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -22,13 +22,6 @@ namespace {
 
 constexpr float kClamp = 0.5f;
 constexpr LightMaps::Options kOptions{0.1f, kClamp};
-
-std::vector<shared::Vpl> vplsOf(const RenderScene& scene, const RayCaster& rays, int count) {
-  std::vector<shared::Vpl> vpls;
-  for (const SceneVpl& v : generateVpls(scene, rays, LightSet(scene), {count, 0.5f, 1, 1}).vpls)
-    vpls.push_back(v.vpl);
-  return vpls;
-}
 
 // A scene with its visibility database and light maps, updated incrementally.
 struct Kept {
@@ -41,7 +34,7 @@ struct Kept {
   void update(const Scene& from, const SceneChanges& changes, bool refreshes = true) {
     const RenderSceneChanges found = lamplighter::update(scene, from, changes);
     visibility.setScene(scene, found);
-    lights = vplsOf(scene, RayCaster(scene), 40);
+    lights = test::lightsOf(scene, {40, 0.5f, 1, 1});
     visibility.setLights(scene, lights);
     if (refreshes) visibility.refreshAll(scene);
     maps.update(scene, visibility, lights, kOptions);

@@ -134,12 +134,9 @@ TEST(PassMerging, ObjectsNeedTheMapsOfLightsThatMayBeHiddenFromThem) {
   test::addMesh(scene, test::squareMesh(4.0f, grey));                       // under the box
   test::addMesh(scene, test::squareMesh(4.0f, grey), vec3(40, 0, 0));       // far from it
   test::addMesh(scene, test::boxMesh(vec3(1.0f), grey), vec3(0, 1.5f, 0));  // between
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  RenderSceneChanges all;
-  all.rebuilt = true;
+  const RenderScene render = test::renderSceneOf(scene);
   VisibilityDatabase database;
-  database.setScene(render, all);
+  database.setScene(render, test::everythingRebuilt());
   const std::vector<shared::Vpl> lights{test::makeVpl(vec3(0, 4, 0), vec3(0, -1, 0)),
                                         test::makeVpl(vec3(40, 4, 0), vec3(0, -1, 0))};
   database.setLights(render, lights);

@@ -6,9 +6,9 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -29,8 +29,7 @@ struct FineMapsGl : test::GlTest, test::AssetRoom {
     Settings other = settings;
     other.set("map_resolution", resolution);
     other.set("settled_map_scale", scale);
-    FrameRenderer fresh(makeGlBackend());
-    return test::renderSettled(fresh, scene, SceneChanges::all(), view, other).radiance->pixels();
+    return test::freshPicture(makeGlBackend(), scene, view, other);
   }
 };
 

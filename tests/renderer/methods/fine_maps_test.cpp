@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/frame/frame.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -47,8 +47,7 @@ struct FineMaps : testing::Test, test::AssetRoom {
     Settings other = settings;
     other.set("map_resolution", resolution);
     other.set("settled_map_scale", scale);
-    FrameRenderer fresh(makeCpuBackend());
-    return test::renderSettled(fresh, scene, SceneChanges::all(), view, other).radiance->pixels();
+    return test::freshPicture(makeCpuBackend(), scene, view, other);
   }
   // The number of stored maps that are fine.
   uint64_t fine() {

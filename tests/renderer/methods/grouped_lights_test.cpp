@@ -8,8 +8,8 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/light_proxies.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -52,7 +52,7 @@ TEST(GroupedLights, NeedFewerLookUpsForTheSamePicture) {
       const double error = compareImages(grouped.image, naive.image).relRmse;
       const double bias = compareImages(grouped.image, naive.image).bias;
       std::cout << name << ", " << technique << ": relRMSE to naive " << 100.0 * error
-                << "% (each alone " << 100.0 * compareImages(each.image, naive.image).relRmse
+                << "% (without groups " << 100.0 * compareImages(each.image, naive.image).relRmse
                 << "%), look-ups " << grouped.lookUps << " for " << each.lookUps << "\n";
       EXPECT_LT(error, 0.03);
       EXPECT_NEAR(bias, 1.0, 0.003);

@@ -1,6 +1,5 @@
 // The irradiance accumulator keeps the sums of pixels between edits. Incremental updates per light
 // and tile give the bits of a fresh render.
-#include <filesystem>
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -8,13 +7,14 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
+
+using test::settledPicture;
 
 // The names "transfer", "reflecting transfer" and "blocks of N" stand for light maps with that
 // option.
@@ -34,20 +34,15 @@ Settings settingsOf(const std::string& technique, int vpls) {
   return s;
 }
 
-struct Room {
-  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-  View view;
-  explicit Room(bool isComplex = false) {
+struct Room : test::AssetRoom {
+  explicit Room(bool isComplex = false) : AssetRoom("pillar_room", 93, 61) {
     for (Node& node : scene.nodes)
       if (isComplex && node.mesh != kNone) node.meshKind = MeshKind::complex;
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 93, 61);
   }
 };
 
-Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
-              const View& view, const Settings& settings) {
-  return test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
+Image freshPicture(const Room& room, const Settings& settings) {
+  return test::freshPicture(makeCpuBackend(), room.scene, room.view, settings);
 }
 
 // Renders a few frames after each edit, so that the next edit finds lights half refreshed; then
@@ -56,7 +51,7 @@ bool equalsFreshRender(const std::string& technique, const test::EditSequence& e
   Room room(technique.ends_with("transfer"));
   const Settings settings = settingsOf(technique, 60);
   FrameRenderer renderer(makeCpuBackend());
-  settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   for (size_t i = 0; i < edits.size(); ++i) {
     const Scene before = room.scene;
     apply(room.scene, edits[i]);
@@ -64,9 +59,8 @@ bool equalsFreshRender(const std::string& technique, const test::EditSequence& e
     for (size_t frame = 0; frame <= i % 4; ++frame, changes = {})
       renderer.render({room.scene, changes, room.view, "many_lights", settings});
   }
-  const Image kept = settled(renderer, room.scene, {}, room.view, settings);
-  FrameRenderer fresh(makeCpuBackend());
-  return test::sameBits(kept, settled(fresh, room.scene, SceneChanges::all(), room.view, settings));
+  const Image kept = settledPicture(renderer, room.scene, {}, room.view, settings);
+  return test::sameBits(kept, freshPicture(room, settings));
 }
 
 class KeptSums : public testing::TestWithParam<std::tuple<const char*, uint32_t>> {};
@@ -86,11 +80,6 @@ INSTANTIATE_TEST_SUITE_P(Seeds, KeptSums,
                                                           "blocks of 8"),
                                           testing::Range(1u, 5u)));
 
-Image settledWith(const Room& room, const Settings& settings) {
-  FrameRenderer renderer(makeCpuBackend());
-  return settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
-}
-
 // Changes of the block size, and of the picture size with the same number of tiles.
 TEST(KeptSums, FollowBlockAndPictureSizes) {
   Room room;
@@ -101,8 +90,8 @@ TEST(KeptSums, FollowBlockAndPictureSizes) {
     Settings settings = settingsOf("light_maps", 40);
     settings.set("block", std::string(block));
     room.view.width = width;
-    const Image kept = settled(renderer, room.scene, changes, room.view, settings);
-    EXPECT_TRUE(test::sameBits(kept, settledWith(room, settings))) << block << ", " << width;
+    const Image kept = settledPicture(renderer, room.scene, changes, room.view, settings);
+    EXPECT_TRUE(test::sameBits(kept, freshPicture(room, settings))) << block << ", " << width;
     changes = {};
   }
 }
@@ -112,7 +101,7 @@ TEST(KeptSums, BlocksHaveTheSameBitsAtAnyNumberOfThreads) {
   std::vector<Image> images;
   for (const size_t threads : {1u, 2u, 5u}) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    images.push_back(settledWith(room, settingsOf("blocks of 4", 60)));
+    images.push_back(freshPicture(room, settingsOf("blocks of 4", 60)));
   }
   EXPECT_TRUE(test::sameBits(images[0], images[1]));
   EXPECT_TRUE(test::sameBits(images[0], images[2]));
@@ -128,7 +117,7 @@ TEST(KeptSums, ADragCostsOnlyWhatItAffects) {
       18;  // not a multiple of a tile, so maps are traced with one ray per texel
   settings.set("map_resolution", kResolution);
   FrameRenderer renderer(makeCpuBackend());
-  settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   const auto pixels = static_cast<uint64_t>(room.view.width) * room.view.height;
   const uint64_t all = pixels * 100;
   for (const char* name : {"mover", "ceiling light"}) {
@@ -146,7 +135,7 @@ TEST(KeptSums, ADragCostsOnlyWhatItAffects) {
     const uint64_t maps = end.shadowMaps - start.shadowMaps;
     const uint64_t rays = renderer.backend().counts().rays - raysAtStart;
     EXPECT_LT(rays - maps * kResolution * kResolution, pixels / 2) << name;
-    settled(renderer, room.scene, {}, room.view, settings);
+    settledPicture(renderer, room.scene, {}, room.view, settings);
   }
 }
 
@@ -161,7 +150,7 @@ TEST(KeptSums, UnchangedLightsAreLookedUpOnlyWhereTheirMapsChanged) {
     settings.set("updates", 1000);
     settings.set("map_resolution", 64);
     FrameRenderer renderer(makeCpuBackend());
-    settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+    settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
     std::vector<uint64_t> lookUps;  // by edit
     for (int edit = 0; edit < 4; ++edit) {
       const Scene before = room.scene;
@@ -187,7 +176,7 @@ TEST(KeptSums, FollowATurningCamera) {
   for (const char* technique : {"light_maps", "blocks of 4"}) {
     const Settings settings = settingsOf(technique, 60);
     FrameRenderer renderer(makeCpuBackend());
-    settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+    settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
     const quat initial = room.view.orientation;
     uint32_t turn = 0;
     for (const test::EditSequence& edit : {test::randomEdits(3, 21), test::randomEdits(3, 22),
@@ -198,11 +187,11 @@ TEST(KeptSums, FollowATurningCamera) {
         renderer.render(
             {room.scene, compare(before, room.scene), room.view, "many_lights", settings});
       }
-      settled(renderer, room.scene, {}, room.view, settings);
+      settledPicture(renderer, room.scene, {}, room.view, settings);
       room.view.orientation =
           glm::angleAxis(1.3f * static_cast<float>(++turn), vec3(0.0f, 1.0f, 0.0f)) * initial;
-      const Image kept = settled(renderer, room.scene, {}, room.view, settings);
-      EXPECT_TRUE(test::sameBits(kept, settledWith(room, settings))) << technique << ", " << turn;
+      const Image kept = settledPicture(renderer, room.scene, {}, room.view, settings);
+      EXPECT_TRUE(test::sameBits(kept, freshPicture(room, settings))) << technique << ", " << turn;
     }
     room.view.orientation = initial;
   }
@@ -214,12 +203,10 @@ TEST(KeptSums, FollowChangesOfShadowModes) {
   Room room;
   Settings settings = settingsOf("light_maps", 60);
   FrameRenderer renderer(makeCpuBackend());
-  const Image fine = settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  const Image fine = settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   settings.set("light_map_texel", 0.5f);
-  const Image kept = settled(renderer, room.scene, {}, room.view, settings);
-  FrameRenderer fresh(makeCpuBackend());
-  EXPECT_TRUE(
-      test::sameBits(kept, settled(fresh, room.scene, SceneChanges::all(), room.view, settings)));
+  const Image kept = settledPicture(renderer, room.scene, {}, room.view, settings);
+  EXPECT_TRUE(test::sameBits(kept, freshPicture(room, settings)));
   EXPECT_FALSE(test::sameBits(kept, fine));
 }
 
@@ -229,14 +216,15 @@ TEST(KeptSums, SurviveAntialiasing) {
   Settings settings = settingsOf("light_maps", 40);
   settings.set("antialias", 4);
   FrameRenderer renderer(makeCpuBackend());
-  const Image first = settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  const Image first =
+      settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   for (const float step : {0.3f, -0.3f}) {
     const Scene before = room.scene;
     for (Node& node : room.scene.nodes)
       if (node.name == "mover") node.local.translation.z += step;
-    settled(renderer, room.scene, compare(before, room.scene), room.view, settings);
+    settledPicture(renderer, room.scene, compare(before, room.scene), room.view, settings);
   }
-  const Image second = settled(renderer, room.scene, {}, room.view, settings);
+  const Image second = settledPicture(renderer, room.scene, {}, room.view, settings);
   double most = 0.0;
   for (size_t i = 0; i < first.pixels.size(); ++i)
     most = std::max<double>(most, glm::distance(first.pixels[i], second.pixels[i]));

@@ -8,11 +8,13 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/images.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 #include "tests/support/skies.h"
@@ -94,7 +96,7 @@ const Kind kKinds[] = {
        const NodeId id = test::addRectangleLight(s, vec3(0.5f, 3, 0), vec2(1, 1), vec3(20));
        s.find(id)->area->shape = AreaShape::disk;
      }},
-    {"profile", addProfiled, 0.12},  // lobes: as near as they come
+    {"profile", addProfiled, 0.12},  // limited by the approximation by lobes
     {"point",
      [](Scene& s) {
        punctual(s, {PunctualKind::point, vec3(9, 8, 7)}, vec3(1, 2.5f, 1), 0.0f);
@@ -118,16 +120,6 @@ const Kind kKinds[] = {
     {"image_sky", [](Scene& s) { s.sky = test::cloudySky(); }},
     {"image_sky_with_sun", [](Scene& s) { s.sky = test::sunnySky(); }},
 };
-
-Image blockMeans(const Image& image) {
-  constexpr int kSide = 4;
-  Image out(image.width / kSide, image.height / kSide);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x)
-      out.at(x / kSide, y / kSide) += image.at(x, y) / static_cast<float>(kSide * kSide);
-  }
-  return out;
-}
 
 class LightKinds : public testing::TestWithParam<Kind> {};
 
@@ -155,7 +147,7 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   ASSERT_TRUE(out.settled && out.refined);
   const Image reference = test::renderReference(scene, view, 256, 1);
   const Image& picture = out.radiance->pixels();
-  const Metrics m = compareImages(blockMeans(picture), blockMeans(reference));
+  const Metrics m = compareImages(test::blockMeans(picture, 4), test::blockMeans(reference, 4));
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("bias", std::to_string(m.bias));
   EXPECT_LT(m.relRmse, GetParam().mostError);

@@ -9,11 +9,10 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
-#include "tests/support/shared_files.h"
 
 namespace lamplighter {
 namespace {
@@ -37,8 +36,7 @@ std::vector<View> viewsOf(const Scene& scene) {
   for (const Node& node : scene.nodes)
     if (node.camera != kNone) views.push_back(viewOfCamera(scene, node, kWidth, kHeight));
   if (views.empty()) {
-    RenderScene render;
-    update(render, scene, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene);
     views.push_back(viewOfBounds(render.bounds, kWidth, kHeight));
   }
   return views;
@@ -56,10 +54,7 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 class LowResolutionPicture : public testing::TestWithParam<Case> {};
 
 TEST_P(LowResolutionPicture, IsCloseToFullResolution) {
-  const std::string name = GetParam().scene;
-  const fs::path path = name.find('/') == std::string::npos
-                            ? test::sourceFolder() / "assets/scenes" / name
-                            : test::sharedScenes() / name;
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
   FrameRenderer renderer(makeCpuBackend());
@@ -169,7 +164,7 @@ TEST(LowResolution, ReachesTheLastRowAndColumn) {
 class MovingCamera : public testing::TestWithParam<Case> {};
 
 TEST_P(MovingCamera, IsCloseToTheSettledPicture) {
-  const Scene scene = loadGltf(test::sourceFolder() / "assets/scenes" / GetParam().scene).scene;
+  const Scene scene = loadGltf(test::sceneFile(GetParam().scene)).scene;
   Settings settings = settingsOf(GetParam().vpls, "4");
   settings.set("importance", 1);  // importance does not choose other light samples
   settings.set("settled_map_scale", 1);

@@ -1,7 +1,6 @@
 // Shadow maps under a memory limit: only maps that the view looks up are rendered, and no more than
 // fit.
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -9,25 +8,15 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
 constexpr uint64_t kMebibyte = uint64_t{1} << 20;
-
-struct Room {
-  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-  View view;
-  Room() {
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 96, 60);
-  }
-};
 
 Settings settingsOf(const std::string& technique, int vpls, int mebibytes) {
   Settings s;
@@ -44,7 +33,7 @@ Settings settingsOf(const std::string& technique, int vpls, int mebibytes) {
 TEST(MapMemory, TheLimitHoldsInEveryFrameAndThePictureIsCorrect) {
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
-    Room room;
+    const test::AssetRoom room("pillar_room", 96, 60);
     FrameRenderer plenty(makeCpuBackend());
     const Image right = test::renderSettled(plenty, room.scene, SceneChanges::all(), room.view,
                                             settingsOf(technique, 1200, 256))

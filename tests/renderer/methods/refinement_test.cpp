@@ -51,11 +51,7 @@ struct Refined : testing::Test {
     return out;
   }
   // The settled picture of a new renderer, without refinement.
-  Image freshLivePicture() {
-    FrameRenderer fresh(makeCpuBackend());
-    return test::renderSettled(fresh, scene, SceneChanges::all(), view, settings)
-        .radiance->pixels();
-  }
+  Image freshLivePicture() { return test::freshPicture(makeCpuBackend(), scene, view, settings); }
 };
 
 TEST_F(Refined, ConvergesToThePathTracer) {

@@ -35,8 +35,7 @@ struct BumpyRoom {
 
   // 1 where the sphere is visible.
   Image mask() const {
-    RenderScene render;
-    update(render, scene, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene);
     const RayCaster rays(render);
     Image out(view.width, view.height);
     for (int y = 0; y < view.height; ++y) {

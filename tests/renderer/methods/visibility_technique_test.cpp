@@ -9,9 +9,8 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
-#include "tests/support/shared_files.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/traced_shadows.h"
 
 namespace lamplighter {
@@ -28,22 +27,8 @@ Settings settingsOf(const std::string& technique, int vpls) {
   s.set("vpls", vpls);
   s.set("updates", 150);
   s.set("antialias", 1);
-  s.set("corner_light", false);  // found by rays for each of them
+  s.set("corner_light", false);  // uses random rays
   return s;
-}
-
-fs::path pathOf(const std::string& name) {
-  return name.find('/') == std::string::npos ? test::sourceFolder() / "assets/scenes" / name
-                                             : test::sharedScenes() / name;
-}
-
-View viewOf(const Scene& scene, int divisor = 1) {
-  const int width = kWidth / divisor, height = kHeight / divisor;
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) return viewOfCamera(scene, node, width, height);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return viewOfBounds(render.bounds, width, height);
 }
 
 struct Rendered {
@@ -76,10 +61,10 @@ class VisibilityTechnique : public testing::TestWithParam<Case> {};
 // Within 1%. Where shadow maps leak by more than that, both techniques are farther from `naive` but
 // closer to the picture with shadow rays, because entries of the database are exact.
 TEST_P(VisibilityTechnique, GivesThePictureOfNaive) {
-  const fs::path path = pathOf(GetParam().scene);
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
-  const View view = viewOf(scene);
+  const View view = test::viewOf(scene, kWidth, kHeight);
   const Rendered naive = rendered(scene, view, "naive", GetParam().vpls);
   for (const std::string technique : {"visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
@@ -111,10 +96,10 @@ INSTANTIATE_TEST_SUITE_P(
 class VisibilityKnowledge : public testing::TestWithParam<Case> {};
 
 TEST_P(VisibilityKnowledge, AgreesWithShadowRays) {
-  const fs::path path = pathOf(GetParam().scene);
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
-  const View view = viewOf(scene, 2);
+  const View view = test::viewOf(scene, kWidth / 2, kHeight / 2);
   const Rendered shown = rendered(scene, view, "visibility", GetParam().vpls);
   const auto known = shown.renderer->inspect().patches;
   ASSERT_NE(known, nullptr);
@@ -128,8 +113,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, VisibilityKnowledge,
                                          Case{"classroom/classroom.gltf", 50}));
 
 TEST(VisibilityTechnique, AfterEditsThePictureEqualsAFreshRender) {
-  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-  const View view = viewOf(scene);
+  Scene scene = test::loadAsset("pillar_room");
+  const View view = test::viewOf(scene, kWidth, kHeight);
   FrameRenderer renderer(makeCpuBackend());
   const Settings settings = settingsOf("visibility", 120);
   test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);

@@ -14,11 +14,7 @@
 namespace lamplighter {
 namespace {
 
-RenderScene worldOf(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
-}
+using test::renderSceneOf;
 
 std::vector<Chart> findCharts(const RenderScene& world, uint32_t object) {
   return placeCharts(world, object, findTopology(world, object));
@@ -28,11 +24,11 @@ ObjectPatches makePatches(const RenderScene& world, uint32_t object) {
   return placePatches(world, object, findTopology(world, object));
 }
 
-RenderScene worldOf(std::shared_ptr<const Mesh> mesh) {
+RenderScene renderSceneOf(std::shared_ptr<const Mesh> mesh) {
   Scene scene;
   const NodeId id = test::addMesh(scene, std::move(mesh), vec3(1, 2, 3));
   scene.find(id)->local.rotation = glm::angleAxis(0.7f, glm::normalize(vec3(1, 2, 3)));
-  return worldOf(scene);
+  return renderSceneOf(scene);
 }
 
 // A grid of n × n squares in the XZ plane, displaced by `height`.
@@ -58,7 +54,7 @@ std::shared_ptr<const Mesh> grid(int n, float (*height)(float, float)) {
 }
 
 TEST(Charts, ABoxHasSixConvexOnes) {
-  const auto charts = findCharts(worldOf(test::boxMesh(vec3(2, 1, 3))), 0);
+  const auto charts = findCharts(renderSceneOf(test::boxMesh(vec3(2, 1, 3))), 0);
   ASSERT_EQ(charts.size(), 6u);
   float area = 0.0f;
   for (const Chart& c : charts) {
@@ -75,7 +71,7 @@ TEST(Charts, ABoxHasSixConvexOnes) {
 
 // A finely divided floor is one chart whose outline has four corners.
 TEST(Charts, AFinelyDividedFloorIsOneChart) {
-  const auto charts = findCharts(worldOf(grid(16, [](float, float) { return 0.0f; })), 0);
+  const auto charts = findCharts(renderSceneOf(grid(16, [](float, float) { return 0.0f; })), 0);
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_EQ(charts[0].triangles.size(), 512u);
   EXPECT_EQ(charts[0].outline.size(), 4u);
@@ -85,7 +81,7 @@ TEST(Charts, AFinelyDividedFloorIsOneChart) {
 float bumps(float u, float v) { return 0.002f * std::sin(37.0f * u) * std::cos(31.0f * v); }
 
 TEST(Charts, AFloorWithSmallBumpsIsOneRoughChart) {
-  const auto charts = findCharts(worldOf(grid(16, bumps)), 0);
+  const auto charts = findCharts(renderSceneOf(grid(16, bumps)), 0);
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_TRUE(charts[0].isRough);
   EXPECT_EQ(charts[0].triangles.size(), 512u);
@@ -97,19 +93,19 @@ TEST(Charts, AFloorWithSmallBumpsIsOneRoughChart) {
 // A floor with a step consists of several planes. A floor without one corner has no convex outline.
 TEST(Charts, ChartsEndWhereTheSurfaceBends) {
   const auto charts =
-      findCharts(worldOf(grid(16, [](float u, float) { return u > 0.5f ? 1.0f : 0.0f; })), 0);
+      findCharts(renderSceneOf(grid(16, [](float u, float) { return u > 0.5f ? 1.0f : 0.0f; })), 0);
   EXPECT_EQ(charts.size(), 3u);
   auto cut = std::make_shared<Mesh>(*grid(4, [](float, float) { return 0.0f; }));
   cut->primitives[0].indices.erase(cut->primitives[0].indices.begin(),
                                    cut->primitives[0].indices.begin() + 6);
-  const auto rest = findCharts(worldOf(cut), 0);
+  const auto rest = findCharts(renderSceneOf(cut), 0);
   ASSERT_EQ(rest.size(), 1u);
   EXPECT_TRUE(rest[0].outline.empty());
 }
 
 TEST(Charts, ACurvedSurfaceHasNone) {
   const auto mesh = grid(64, [](float u, float v) { return 2.0f * (u * u + v * v); });
-  const RenderScene world = worldOf(mesh);
+  const RenderScene world = renderSceneOf(mesh);
   EXPECT_TRUE(findCharts(world, 0).empty());
   const ObjectPatches patches = makePatches(world, 0);
   ASSERT_EQ(patches.roots.size(), 1u);
@@ -122,22 +118,22 @@ TEST(Charts, ACurvedSurfaceHasNone) {
 TEST(Charts, FollowTheKindOfTheMesh) {
   Scene scene;
   const NodeId id = test::addMesh(scene, test::boxMesh(vec3(2, 1, 3)));
-  EXPECT_EQ(findCharts(worldOf(scene), 0).size(), 6u);
+  EXPECT_EQ(findCharts(renderSceneOf(scene), 0).size(), 6u);
   scene.find(id)->meshKind = MeshKind::complex;
-  EXPECT_TRUE(findCharts(worldOf(scene), 0).empty());
+  EXPECT_TRUE(findCharts(renderSceneOf(scene), 0).empty());
   EXPECT_TRUE(compare(Scene(), scene).structure);
 
   Scene curved;
   const NodeId hill =
       test::addMesh(curved, grid(16, [](float u, float v) { return 2.0f * (u * u + v * v); }));
-  EXPECT_TRUE(findCharts(worldOf(curved), 0).empty());
+  EXPECT_TRUE(findCharts(renderSceneOf(curved), 0).empty());
   curved.find(hill)->meshKind = MeshKind::simple;
-  EXPECT_GT(findCharts(worldOf(curved), 0).size(), 250u);
+  EXPECT_GT(findCharts(renderSceneOf(curved), 0).size(), 250u);
 }
 
 // Every point of every triangle has a leaf and lies within it.
 TEST(PatchSet, LeavesContainThePointsLookedUp) {
-  const RenderScene world = worldOf(test::randomBoxes(12, 4));
+  const RenderScene world = renderSceneOf(test::randomBoxes(12, 4));
   std::set<int> seen;
   for (uint32_t object = 0; object < world.objects.size(); ++object) {
     const ObjectPatches patches = makePatches(world, object);

@@ -429,8 +429,7 @@ TEST(PrtLights, HaveTheSameBitsAtAnyNumberOfThreads) {
 TEST(IncidentLightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(0.5f, 48));
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const RenderScene own = ownSceneOf(render, 0, ownSpaceOf(render.objects[0]).value());
   EXPECT_EQ(placeIncidentLightPoints(own, 1).places.size(), 1u);
   EXPECT_LT(glm::length(placeIncidentLightPoints(own, 1).places[0]), 1e-3f);

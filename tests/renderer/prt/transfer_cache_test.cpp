@@ -84,7 +84,7 @@ TEST_F(TransferCacheTest, IgnoresAFileOfAnotherObject) {
   EXPECT_FALSE(cache_.load(key_, std::numeric_limits<size_t>::max() / 8).has_value());
   const TransferKey other{key_[0], 43};
   fs::copy_file(cache_.fileOf(key_), cache_.fileOf(other));
-  EXPECT_FALSE(cache_.load(other, 7).has_value()) << "by another name";
+  EXPECT_FALSE(cache_.load(other, 7).has_value()) << "the file of another object";
 }
 
 TEST_F(TransferCacheTest, IgnoresAFileWithAnyByteChanged) {
@@ -128,8 +128,7 @@ TEST(TransferKey, DependsOnExactlyTheInputsOfTransfer) {
   const int red = test::addMaterial(scene, vec3(1, 0, 0));
   const NodeId id = test::addMesh(scene, test::sphereMesh(0.5f, 8, 0.1f, red));
   const auto keyOf = [&](const TransferOptions& options = {}) {
-    RenderScene render;
-    update(render, scene, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene);
     return transferKey(ownSceneOf(render, 0, ownSpaceOf(render.objects[0]).value()), options);
   };
   const TransferKey first = keyOf();

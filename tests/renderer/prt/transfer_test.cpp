@@ -18,8 +18,7 @@ using test::addMesh;
 
 // The scene in object space of the only object of a scene.
 RenderScene ownSceneOf(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   return ownSceneOf(render, 0, ownSpaceOf(render.objects[0]).value());
 }
 
@@ -149,8 +148,7 @@ TEST(Transfer, OwnSpaceContainsThePlacementOfTheObject) {
     node.local.translation = vec3(3, -1, 8);
     node.local.rotation = glm::normalize(quat(0.3f, 0.5f, -0.2f, 0.7f));
     node.local.scale = scale;
-    RenderScene render;
-    update(render, scene, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene);
     const OwnSpace space = ownSpaceOf(render.objects[0]).value();
     EXPECT_NEAR(glm::determinant(space.rotation), 1.0f, 1e-5f);
     const RenderScene own = ownSceneOf(render, 0, space);
@@ -166,8 +164,7 @@ TEST(Transfer, AFlattenedObjectHasNone) {
   Scene scene;
   const NodeId id = addMesh(scene, test::sphereMesh(0.5f, 8));
   scene.find(id)->local.scale = vec3(1, 0, 1);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   EXPECT_FALSE(ownSpaceOf(render.objects[0]).has_value());
 }
 

@@ -13,12 +13,6 @@
 namespace lamplighter {
 namespace {
 
-RenderScene worldOf(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
-}
-
 // Makes the scene so large that the acceleration structure is updated, not rebuilt, when objects
 // move. The added mesh is far from the other objects.
 void enlarge(Scene& scene) {
@@ -31,7 +25,7 @@ TEST(RayCaster, HitsTheNearestSurface) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(4.0f));
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0, 2, 0));
-  const RenderScene world = worldOf(scene);
+  const RenderScene world = test::renderSceneOf(scene);
   const RayCaster rays(world);
   const Hit box = rays.intersect(down(0.1f, 0.2f));
   ASSERT_TRUE(box);
@@ -46,7 +40,7 @@ TEST(RayCaster, HitsTheNearestSurface) {
 }
 
 TEST(RayCaster, AnEmptySceneIsHitByNothing) {
-  const RenderScene world = worldOf(Scene());
+  const RenderScene world = test::renderSceneOf(Scene());
   EXPECT_FALSE(RayCaster(world).intersect(down(0, 0)));
 }
 
@@ -54,7 +48,7 @@ TEST(RayCaster, EightRaysAtATimeEqualSingleRays) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(4.0f));
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0, 2, 0));
-  const RenderScene world = worldOf(scene);
+  const RenderScene world = test::renderSceneOf(scene);
   const RayCaster rays(world);
   std::mt19937 random(3);
   std::uniform_real_distribution<float> u(-3.0f, 3.0f);
@@ -83,7 +77,7 @@ TEST(RayCaster, AtASharedEdgeTheFirstTriangleIsHit) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(4.0f));
   test::addMesh(scene, test::squareMesh(4.0f), vec3(4, 0, 0));
-  const RenderScene world = worldOf(scene);
+  const RenderScene world = test::renderSceneOf(scene);
   const RayCaster rays(world);
   const auto corner = [&](size_t i) { return world.positions[world.indices[i]]; };
   // The vertices that both triangles of the first square share.
@@ -116,7 +110,7 @@ TEST(RayCaster, CamerasSeeThroughTheBacksOfSingleSidedFaces) {
     scene.find(room)->local.scale.x = mirror;
     for (const bool doubleSided : {false, true}) {
       scene.materials[white].doubleSided = doubleSided;
-      const RenderScene world = worldOf(scene);
+      const RenderScene world = test::renderSceneOf(scene);
       const RayCaster rays(world);
       const float expected = doubleSided ? 9.0f : 11.0f;
       EXPECT_FLOAT_EQ(rays.intersect(down(0.1f, 0.2f), Surfaces::seen).t, expected);
@@ -135,7 +129,7 @@ TEST(RayCaster, FollowsAMovedObject) {
   Scene scene;
   const NodeId box = test::addMesh(scene, test::boxMesh(vec3(1.0f)));
   test::addMesh(scene, test::squareMesh(20.0f), vec3(0, -3, 0));
-  RenderScene world = worldOf(scene);
+  RenderScene world = test::renderSceneOf(scene);
   RayCaster rays(world);
   EXPECT_FLOAT_EQ(rays.intersect(down(0, 0)).t, 9.5f);
   Scene moved = scene;
@@ -159,10 +153,10 @@ TEST_P(MovesIn, GiveTheBitsOfANewAccelerationStructure) {
   if (GetParam()) enlarge(before);
   Scene after = before;
   for (const int i : {3, 17, 18, 30}) after.nodes[i].local.translation.y += 0.25f;
-  RenderScene world = worldOf(before);
+  RenderScene world = test::renderSceneOf(before);
   RayCaster moved(world);
   moved.update(update(world, after, compare(before, after)));
-  const RenderScene fresh = worldOf(after);
+  const RenderScene fresh = test::renderSceneOf(after);
   const RayCaster built(fresh);
   int hits = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
@@ -191,10 +185,10 @@ TEST(RayCaster, SkipsMovedObjectsOnlyForRaysThatMissThem) {
     const NodeId box = test::addMesh(before, test::boxMesh(vec3(1.0f, 2.0f, 0.5f)), middle);
     Scene after = before;
     after.find(box)->local.translation.x += 0.5f;
-    RenderScene world = worldOf(before);
+    RenderScene world = test::renderSceneOf(before);
     RayCaster moved(world);
     moved.update(update(world, after, compare(before, after)));
-    const RenderScene fresh = worldOf(after);
+    const RenderScene fresh = test::renderSceneOf(after);
     const RayCaster built(fresh);
     const vec3 centre = middle + vec3(0.5f, 0.0f, 0.0f);
     int hits = 0;
@@ -233,7 +227,7 @@ TEST(RayCaster, FollowsMaterialsThatBecomeTransparentOrMasked) {
   const int m = test::addMaterial(before, vec3(1.0f));
   test::addMesh(before, test::squareMesh(2.0f, m), vec3(0, 2, 0));
   test::addMesh(before, test::squareMesh(2.0f));
-  RenderScene world = worldOf(before);
+  RenderScene world = test::renderSceneOf(before);
   RayCaster rays(world);
   const auto change = [&](auto edit) {
     Scene after = before;
@@ -265,7 +259,7 @@ TEST(RayCaster, PassesTransparentPanesAndHolesOfMasks) {
   test::addMesh(scene, test::squareMesh(2.0f, glass), vec3(0, 3, 0));
   test::addMesh(scene, test::squareMesh(2.0f, leaf), vec3(0, 2, 0));
   test::addMesh(scene, test::squareMesh(2.0f), vec3(0, 0, 0));
-  const RenderScene world = worldOf(scene);
+  const RenderScene world = test::renderSceneOf(scene);
   const RayCaster rays(world);
   EXPECT_EQ(rays.intersect(down(-0.5f, 0.1f)).object, 2u);
   EXPECT_EQ(rays.intersect(down(0.5f, 0.1f)).object, 1u);

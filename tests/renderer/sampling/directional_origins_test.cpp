@@ -13,8 +13,7 @@ TEST(DirectionalOrigins, ThePdfMatchesTheSamples) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(100.0f));
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(20, 0.5f, -10));
-  RenderScene world;
-  update(world, scene, SceneChanges::all());
+  const RenderScene world = test::renderSceneOf(scene);
   const vec3 centre = world.bounds.centre();
   const float radius = world.bounds.radius();
   const DirectionalOrigins start(world, centre, radius);

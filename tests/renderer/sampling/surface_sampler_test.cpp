@@ -10,12 +10,6 @@
 namespace lamplighter {
 namespace {
 
-RenderScene rendered(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
-}
-
 // A sphere with triangles of many sizes, a small box, and a transparent pane.
 Scene bodies() {
   Scene scene;
@@ -34,7 +28,7 @@ double areaOf(const RenderScene& s, uint32_t object, uint32_t triangle) {
 }
 
 TEST(SurfaceSampler, TrianglesAreChosenByArea) {
-  const RenderScene scene = rendered(bodies());
+  const RenderScene scene = test::renderSceneOf(bodies());
   const SurfaceSampler sampler(scene);
   constexpr uint32_t kPoints = 20000;
   std::vector<std::vector<int>> counts(3);
@@ -64,7 +58,7 @@ TEST(SurfaceSampler, TrianglesAreChosenByArea) {
 TEST(SurfaceSampler, BlocksOfIndicesAreStratified) {
   Scene scene;
   for (int i = 0; i < 8; ++i) test::addMesh(scene, test::squareMesh(1.0f), vec3(2 * i, 0, 0));
-  const SurfaceSampler sampler(rendered(scene));
+  const SurfaceSampler sampler(test::renderSceneOf(scene));
   for (const uint32_t first : {0u, 8u, 64u}) {
     std::vector<int> counts(8, 0);
     for (uint32_t i = first; i < first + 8; ++i) ++counts[sampler.at(i, 3).object];
@@ -76,7 +70,7 @@ TEST(SurfaceSampler, BlocksOfIndicesAreStratified) {
 TEST(SurfaceSampler, PointsAreUniformInATriangle) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(1.0f));
-  const SurfaceSampler sampler(rendered(scene));
+  const SurfaceSampler sampler(test::renderSceneOf(scene));
   vec2 mean(0.0f);
   int count = 0;
   for (uint32_t i = 0; i < 4096; ++i) {
@@ -92,7 +86,7 @@ TEST(SurfaceSampler, PointsAreUniformInATriangle) {
 
 TEST(SurfaceSampler, AfterChangesItEqualsANewOne) {
   Scene scene = bodies();
-  RenderScene render = rendered(scene);
+  RenderScene render = test::renderSceneOf(scene);
   SurfaceSampler sampler(render);
   const auto edit = [&](const std::function<void(Scene&)>& change) {
     const Scene before = scene;

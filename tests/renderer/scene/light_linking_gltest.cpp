@@ -40,16 +40,13 @@ TEST_P(GlLinking, LooksTheSameOnBothBackends) {
   settings.set("block", std::string(GetParam().block));
   settings.set("speculars", GetParam().speculars);
   FrameRenderer gl(makeGlBackend()), cpu(makeCpuBackend());
-  const Image plain =
-      test::renderSettled(gl, scene, SceneChanges::all(), view, settings).radiance->pixels();
+  const Image plain = test::settledPicture(gl, scene, SceneChanges::all(), view, settings);
   const Scene before = scene;
   scene.find(lamp)->light.leftOut = {left, strip};
   scene.find(bulb)->light.leftOut = {box};
   // One picture after an edit on the gl backend, the other rendered fresh on the cpu backend.
-  const Image a =
-      test::renderSettled(gl, scene, compare(before, scene), view, settings).radiance->pixels();
-  const Image b =
-      test::renderSettled(cpu, scene, SceneChanges::all(), view, settings).radiance->pixels();
+  const Image a = test::settledPicture(gl, scene, compare(before, scene), view, settings);
+  const Image b = test::settledPicture(cpu, scene, SceneChanges::all(), view, settings);
   const Metrics m = compareImages(a, b);
   RecordProperty("relRmse", std::to_string(m.relRmse));
   EXPECT_LT(m.relRmse, 0.03);

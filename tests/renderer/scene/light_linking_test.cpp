@@ -10,6 +10,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/gltf_files.h"
+#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scene_equality.h"
@@ -108,11 +109,6 @@ Settings manyLights(const char* technique, bool prt, int prtBounces = 0) {
   return s;
 }
 
-Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
-              const View& view, const Settings& settings) {
-  return test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
-}
-
 struct Variant {
   const char* name;
   const char* technique;
@@ -136,13 +132,13 @@ TEST_P(LiveLinking, EqualsAFreshRender) {
   settings.set("block", std::string(GetParam().block));
   settings.set("speculars", GetParam().speculars);
   FrameRenderer live(makeCpuBackend());
-  settled(live, t.scene, SceneChanges::all(), t.view, settings);
+  test::settledPicture(live, t.scene, SceneChanges::all(), t.view, settings);
   const auto edit = [&](const char* what, auto change) {
     const Scene before = t.scene;
     change();
-    const Image edited = settled(live, t.scene, compare(before, t.scene), t.view, settings);
-    FrameRenderer fresh(makeCpuBackend());
-    const Image expected = settled(fresh, t.scene, SceneChanges::all(), t.view, settings);
+    const Image edited =
+        test::settledPicture(live, t.scene, compare(before, t.scene), t.view, settings);
+    const Image expected = test::freshPicture(makeCpuBackend(), t.scene, t.view, settings);
     EXPECT_TRUE(test::sameBits(edited, expected)) << what;
     return edited;
   };
@@ -174,21 +170,13 @@ TEST(LightLinking, MethodsAgree) {
   t.scene.sky = vec3(0.2f, 0.3f, 0.4f);
   t.scene.skyLight.leftOut = {t.right};
   const Image reference = test::renderReference(t.scene, t.view, 400, 2);
-  const auto blockMeans = [](const Image& image) {
-    constexpr int kSide = 4;
-    Image out(image.width / kSide, image.height / kSide);
-    for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x)
-        out.at(x / kSide, y / kSide) += image.at(x, y) / static_cast<float>(kSide * kSide);
-    return out;
-  };
+  const auto blockMeans = [](const Image& image) { return test::blockMeans(image, 4); };
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     Settings s = manyLights(technique, false);
     s.set("vpls", 2048);
     s.set("antialias", 4);
     s.set("corner_light", true);
-    FrameRenderer renderer(makeCpuBackend());
-    const Image picture = settled(renderer, t.scene, SceneChanges::all(), t.view, s);
+    const Image picture = test::freshPicture(makeCpuBackend(), t.scene, t.view, s);
     const Metrics m = compareImages(blockMeans(picture), blockMeans(reference));
     EXPECT_LT(m.relRmse, 0.05) << technique;
     EXPECT_NEAR(m.bias, 1.0, 0.02) << technique;
@@ -206,8 +194,7 @@ TEST(LightLinking, ExcludedObjectsReflectNoneOfTheLight) {
   Tiles t;
   std::erase_if(t.scene.nodes, [&](const Node& n) { return n.id == t.bulb; });
   t.leftOut(t.lamp) = {t.left, t.right, t.group};
-  RenderScene render;
-  update(render, t.scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(t.scene);
   const RayCaster rays(render);
   const VplSet set = generateVpls(render, rays, LightSet(render), {200, 0.5f, 2, 1});
   ASSERT_FALSE(set.vpls.empty());

@@ -64,8 +64,7 @@ TEST(LightPictures, TheMeanUsesLinearTexels) {
 TEST(LightPictures, FluxIsScaledByTheMean) {
   for (const AreaShape shape : {AreaShape::rectangle, AreaShape::disk}) {
     Lit lit(shape);
-    RenderScene render;
-    update(render, lit.scene, SceneChanges::all());
+    RenderScene render = test::renderSceneOf(lit.scene);
     const vec3 with = LightSet(render).emitters()[0].flux;
     lit.scene.find(lit.lamp)->area->picture = nullptr;
     update(render, lit.scene, SceneChanges::all());
@@ -99,15 +98,13 @@ TEST(LightPictures, AreUprightFromTheFront) {
 // After each edit, the incrementally updated RenderScene equals a new one.
 TEST(LightPictures, IncrementalUpdatesEqualANewScene) {
   Lit lit;
-  RenderScene live;
-  update(live, lit.scene, SceneChanges::all());
+  RenderScene live = test::renderSceneOf(lit.scene);
   Scene shown = lit.scene;
   const auto edit = [&](const char* what, auto change) {
     change(*lit.scene.find(lit.lamp));
     update(live, lit.scene, compare(shown, lit.scene));
     shown = lit.scene;
-    RenderScene fresh;
-    update(fresh, lit.scene, SceneChanges::all());
+    const RenderScene fresh = test::renderSceneOf(lit.scene);
     ASSERT_EQ(live.materials.size(), fresh.materials.size()) << what;
     for (size_t i = 0; i < fresh.materials.size(); ++i)
       EXPECT_TRUE(live.materials[i] == fresh.materials[i]) << what << " " << i;

@@ -32,8 +32,7 @@ class LightStates : public testing::Test {
   LightState& state(NodeId id) { return scene_.find(id)->light; }
   // The nodes that emit, with kNoNode for the sky.
   std::vector<NodeId> emitting() {
-    RenderScene render;
-    update(render, scene_, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene_);
     return emittersOf(render);
   }
   static std::vector<NodeId> emittersOf(const RenderScene& render) {
@@ -81,8 +80,7 @@ TEST_F(LightStates, GroupsAreMutedAndSolo) {
 // After each edit, the incrementally updated RenderScene equals a new one. An object with the same
 // material still emits.
 TEST_F(LightStates, IncrementalUpdatesEqualANewScene) {
-  RenderScene live;
-  update(live, scene_, SceneChanges::all());
+  RenderScene live = test::renderSceneOf(scene_);
   Scene shown = scene_;
   const auto edit = [&](const char* what, auto change) {
     change();
@@ -91,8 +89,7 @@ TEST_F(LightStates, IncrementalUpdatesEqualANewScene) {
     const bool structure = changes.structure;
     update(live, scene_, changes);
     shown = scene_;
-    RenderScene fresh;
-    update(fresh, scene_, SceneChanges::all());
+    const RenderScene fresh = test::renderSceneOf(scene_);
     EXPECT_EQ(emittersOf(live), emittersOf(fresh)) << what;
     EXPECT_EQ(live.materials.size(), fresh.materials.size()) << what;
     for (size_t i = 0; i < fresh.materials.size(); ++i)
@@ -172,8 +169,7 @@ TEST(TubeLights, HaveTheAreaOfACylinderAndAreSaved) {
   Scene scene;
   const NodeId id = test::addNode(scene, "tube");
   scene.find(id)->area = AreaLight{AreaShape::tube, vec3(3, 2, 1), vec2(1.2f, 0.05f)};
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const LightSet lights(render);
   ASSERT_EQ(lights.emitters().size(), 1u);
   EXPECT_NEAR(lights.emitters()[0].area, kPi * 0.05f * 1.2f, 1e-6f);

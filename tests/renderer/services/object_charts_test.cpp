@@ -118,8 +118,7 @@ TEST_F(ObjectChartsTest, AFileIsReusedAndADamagedOneIsReplaced) {
 TEST(MeshAtlas, IgnoresBytesOfAnotherMesh) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(1.0f, 8));
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const MeshAtlas atlas = makeMeshAtlas(render.positions, render.indices, 16.0f);
   const std::vector<uint8_t> bytes = bytesOf(atlas);
   const size_t triangles = render.triangleCount();
@@ -133,8 +132,7 @@ TEST(MeshAtlas, IgnoresBytesOfAnotherMesh) {
 TEST(MeshAtlas, NoTexelBelongsToTwoCharts) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(1.0f, 16));
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const MeshAtlas atlas = makeMeshAtlas(render.positions, render.indices, 16.0f);
   std::vector<int> owner(static_cast<size_t>(atlas.size.x) * static_cast<size_t>(atlas.size.y),
                          kNone);

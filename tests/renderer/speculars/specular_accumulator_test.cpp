@@ -20,21 +20,16 @@ using test::makeVpl;
 constexpr int kResolution = 32;
 constexpr float kClamp = 0.5f, kBias = 0.002f, kLeast = 0.1f;
 
-int material(Scene& scene, const vec3& colour, float metallic, float roughness) {
-  const int index = test::addMaterial(scene, colour);
-  scene.materials[static_cast<size_t>(index)].metallic = metallic;
-  scene.materials[static_cast<size_t>(index)].roughness = roughness;
-  return index;
-}
-
 Scene blocks() {
   Scene scene;
-  test::addMesh(scene, test::squareMesh(6.0f, material(scene, vec3(0.9f, 0.6f, 0.3f), 0.0f, 0.3f)));
-  test::addMesh(scene,
-                test::boxMesh(vec3(1.0f), material(scene, vec3(0.9f, 0.7f, 0.3f), 1.0f, 0.5f)),
-                vec3(0.6f, 0.5f, 0.2f));
+  test::addMesh(
+      scene, test::squareMesh(6.0f, test::addMaterial(scene, vec3(0.9f, 0.6f, 0.3f), 0.0f, 0.3f)));
+  test::addMesh(
+      scene,
+      test::boxMesh(vec3(1.0f), test::addMaterial(scene, vec3(0.9f, 0.7f, 0.3f), 1.0f, 0.5f)),
+      vec3(0.6f, 0.5f, 0.2f));
   const NodeId turned = test::addMesh(
-      scene, test::boxMesh(vec3(0.5f, 2, 0.7f), material(scene, vec3(0.5f), 0.0f, 1.0f)),
+      scene, test::boxMesh(vec3(0.5f, 2, 0.7f), test::addMaterial(scene, vec3(0.5f), 0.0f, 1.0f)),
       vec3(-1, 1, 0));
   scene.find(turned)->local.rotation = glm::angleAxis(0.7f, glm::normalize(vec3(0.3f, 1, 0.1f)));
   return scene;

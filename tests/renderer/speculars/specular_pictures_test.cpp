@@ -3,20 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
-
-int material(Scene& scene, const vec3& colour, float metallic, float roughness) {
-  const int index = test::addMaterial(scene, colour);
-  scene.materials[static_cast<size_t>(index)].metallic = metallic;
-  scene.materials[static_cast<size_t>(index)].roughness = roughness;
-  return index;
-}
 
 Image render(const Scene& scene, const View& view, const std::string& method,
              const Settings& settings) {
@@ -53,7 +47,8 @@ Image manyLights(const Scene& scene, const View& view, int vpls, int bounces) {
 TEST(SpecularPictures, AFloorUnderAConstantSkyReflectsItsAlbedo) {
   const auto mean = [](float metallic, float roughness) {
     Scene scene;
-    test::addMesh(scene, test::squareMesh(20.0f, material(scene, vec3(0.6f), metallic, roughness)));
+    test::addMesh(
+        scene, test::squareMesh(20.0f, test::addMaterial(scene, vec3(0.6f), metallic, roughness)));
     scene.sky = vec3(1.0f);
     const View above = test::lookAt(vec3(0.2f, 5, 0.1f), vec3(0), 12, 12, 0.05f);
     return test::meanOf(reference(scene, above, 256, 1)).g;
@@ -66,8 +61,8 @@ TEST(SpecularPictures, AFloorUnderAConstantSkyReflectsItsAlbedo) {
 // A glossy floor that reflects an area light.
 Scene glossyFloor(float metallic, float roughness) {
   Scene scene;
-  test::addMesh(
-      scene, test::squareMesh(8.0f, material(scene, vec3(0.5f, 0.4f, 0.3f), metallic, roughness)));
+  test::addMesh(scene, test::squareMesh(8.0f, test::addMaterial(scene, vec3(0.5f, 0.4f, 0.3f),
+                                                                metallic, roughness)));
   const NodeId light =
       test::addRectangleLight(scene, vec3(0, 1.2f, -1.5f), vec2(1.2f, 0.8f), vec3(6, 5, 4));
   scene.find(light)->local.rotation = glm::angleAxis(kPi, vec3(0, 1, 0));  // towards +Z, the eye
@@ -134,7 +129,7 @@ TEST(SpecularPictures, GlazedWindowsLetLightIn) {
     test::addMesh(scene, test::boxMesh(vec3(4, 1, 0.2f), white), vec3(0, 0.5f, 2));
     test::addMesh(scene, test::boxMesh(vec3(4, 3, 0.2f), white), vec3(0, 3.5f, 2));
     if (pane != Pane::none) {
-      const int glass = material(scene, vec3(0.7f), 0.0f, 0.0f);
+      const int glass = test::addMaterial(scene, vec3(0.7f), 0.0f, 0.0f);
       scene.materials[static_cast<size_t>(glass)].transmission = pane == Pane::glass ? 1.0f : 0.0f;
       test::addMesh(scene, test::boxMesh(vec3(4, 1, 0.02f), glass), vec3(0, 1.5f, 2));
     }

@@ -2,35 +2,26 @@
 #include "renderer/visibility/shadow_map_demand.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
-struct Room {
-  Scene scene;
-  RenderScene world;
+struct Room : test::AssetRoom {
+  RenderScene world = test::renderSceneOf(scene);
   VisibilityDatabase visibility;
-  View view;
 
-  explicit Room(const char* name) {
-    scene = loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(name) + ".gltf")).scene;
-    update(world, scene, SceneChanges::all());
+  explicit Room(const char* name) : AssetRoom(name, 64, 48) {
     std::vector<shared::Vpl> lights = test::lightsOf(world, 60);
     for (size_t i = 0; i < lights.size(); ++i) lights[i].slot = static_cast<int>(i);
-    RenderSceneChanges all;
-    all.rebuilt = true;
-    visibility.setScene(world, all);
+    visibility.setScene(world, test::everythingRebuilt());
     visibility.setLights(world, lights);
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 64, 48);
   }
 };
 

@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/low_discrepancy.h"
-#include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/random_boxes.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"
 
@@ -25,12 +25,10 @@ struct World {
   std::unique_ptr<RayCaster> rays;
   std::vector<shared::Vpl> lights;
 
-  explicit World(const Scene& from, int vpls = 60) {
-    update(scene, from, SceneChanges::all());
-    rays = std::make_unique<RayCaster>(scene);
-    for (const SceneVpl& v : generateVpls(scene, *rays, LightSet(scene), {vpls, 0.5f, 2, 1}).vpls)
-      lights.push_back(v.vpl);
-  }
+  explicit World(const Scene& from, int vpls = 60)
+      : scene(test::renderSceneOf(from)),
+        rays(std::make_unique<RayCaster>(scene)),
+        lights(test::lightsOf(scene, {vpls, 0.5f, 2, 1})) {}
 };
 
 // Whether light of the VPL reaches a point of the patch's rectangle or box. Both ends of the ray
@@ -119,9 +117,7 @@ Contradictions compareWithRays(const World& w, const VisibilityDatabase& databas
 void expectRaysAgree(const Scene& scene, uint32_t raysEach, int every = 1, int vpls = 60) {
   const World w(scene, vpls);
   VisibilityDatabase database;
-  RenderSceneChanges all;
-  all.rebuilt = true;
-  database.setScene(w.scene, all);
+  database.setScene(w.scene, test::everythingRebuilt());
   database.setLights(w.scene, w.lights);
   const Contradictions m = compareWithRays(w, database, raysEach, every);
   EXPECT_EQ(m.none, 0) << "of " << m.entries;
@@ -165,11 +161,7 @@ TEST(VisibilityDatabase, RaysAgreeOnARoughFloor) {
 
 class OwnScene : public testing::TestWithParam<const char*> {};
 
-TEST_P(OwnScene, RaysAgree) {
-  expectRaysAgree(
-      loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(GetParam()) + ".gltf")).scene,
-      64, 3);
-}
+TEST_P(OwnScene, RaysAgree) { expectRaysAgree(test::loadAsset(GetParam()), 64, 3); }
 INSTANTIATE_TEST_SUITE_P(Scenes, OwnScene,
                          testing::Values("default", "area_light_room", "table_room", "pillar_room",
                                          "cornell_style"));

@@ -5,22 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/folders.h"
 #include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
-
-RenderSceneChanges everything() {
-  RenderSceneChanges all;
-  all.rebuilt = true;
-  return all;
-}
-
-Scene defaultLevel() { return loadGltf(test::sourceFolder() / "assets/scenes/default.gltf").scene; }
 
 // Counts the differing entries of the first `slots` slots.
 int differences(const VisibilityDatabase& a, const VisibilityDatabase& b,
@@ -40,13 +32,12 @@ constexpr size_t kLittleMemory = 150000;  // bytes
 // Applies edits while the lights stay unchanged, and compares all entries with those of a new
 // database, under a memory limit of `mostBytes`.
 bool equalsFreshAfterEdits(const test::EditSequence& edits, size_t mostBytes) {
-  Scene level = defaultLevel();
-  RenderScene scene;
-  update(scene, level, SceneChanges::all());
+  Scene level = test::loadAsset("default");
+  RenderScene scene = test::renderSceneOf(level);
   const std::vector<shared::Vpl> lights = test::lightsOf(scene, 150);
   VisibilityDatabase kept;
   kept.limitMemory(mostBytes);
-  kept.setScene(scene, everything());
+  kept.setScene(scene, test::everythingRebuilt());
   kept.setLights(scene, lights);
   for (const test::Edit& edit : edits) {
     const Scene before = level;
@@ -55,7 +46,7 @@ bool equalsFreshAfterEdits(const test::EditSequence& edits, size_t mostBytes) {
     kept.refreshAll(scene);
     VisibilityDatabase fresh;
     fresh.limitMemory(mostBytes);
-    fresh.setScene(scene, everything());
+    fresh.setScene(scene, test::everythingRebuilt());
     fresh.setLights(scene, lights);
     if (kept.objects() != fresh.objects() || differences(kept, fresh) != 0) return false;
     if (kept.counts().divided != fresh.counts().divided) return false;
@@ -84,18 +75,17 @@ INSTANTIATE_TEST_SUITE_P(Seeds, EditsOfALevel, testing::Range(1u, 11u));
 
 // A reused slot must not keep entries of its previous light.
 TEST(VisibilityOfLights, EqualsANewDatabaseAfterAddingAndRemovingLights) {
-  const Scene level = defaultLevel();
-  RenderScene scene;
-  update(scene, level, SceneChanges::all());
+  const Scene level = test::loadAsset("default");
+  const RenderScene scene = test::renderSceneOf(level);
   const std::vector<shared::Vpl> all = test::lightsOf(scene, 70);
   VisibilityDatabase kept;
-  kept.setScene(scene, everything());
+  kept.setScene(scene, test::everythingRebuilt());
   for (const size_t used : {size_t{70}, size_t{60}, size_t{70}, size_t{20}, size_t{65}}) {
     std::vector<shared::Vpl> lights(all.begin(), all.begin() + static_cast<ptrdiff_t>(used));
-    lights.resize(all.size(), shared::Vpl{});  // slots stay
+    lights.resize(all.size(), shared::Vpl{});  // the number of slots is the same
     kept.setLights(scene, lights);
     VisibilityDatabase fresh;
-    fresh.setScene(scene, everything());
+    fresh.setScene(scene, test::everythingRebuilt());
     fresh.setLights(scene, lights);
     EXPECT_EQ(differences(kept, fresh, used), 0) << used;
     EXPECT_EQ(kept.counts().divided, fresh.counts().divided) << used;

@@ -182,7 +182,7 @@ TEST(AmbientOcclusion, AfterEditsThePictureEqualsAFreshRender) {
   scene.nodes.pop_back();
   view.eye.x += 0.1f;
   settled(renderer, scene, compare(before, scene), view, settings);
-  settings.set("samples_per_pixel", 3);  // fewer than there are
+  settings.set("samples_per_pixel", 3);  // fewer than already traced
   const Image edited = settled(renderer, scene, {}, view, settings).radiance->pixels();
   EXPECT_TRUE(test::sameBits(edited, pictureOf(scene, view, settings)));
 }

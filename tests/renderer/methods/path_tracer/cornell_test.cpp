@@ -16,6 +16,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -73,10 +74,7 @@ TEST_P(ReferenceCornell, AgreesWithTheIndependentPicture) {
   const Case& c = GetParam();
   const std::string name = c.scene;
   const Scene scene = loadGltf(kReferences / "scenes" / (name + ".gltf")).scene;
-  View view;
-  for (const Node& node : scene.nodes) {
-    if (node.camera != kNone) view = viewOfCamera(scene, node, 512, 384);
-  }
+  const View view = test::viewOf(scene, 512, 384);
   const Image first = pathTraced(scene, view, c.bounces, c.samples, 1);
   const Image second = pathTraced(scene, view, c.bounces, c.samples, 2);
   Image both = first;

@@ -15,6 +15,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/skies.h"
 
@@ -249,10 +250,7 @@ TEST(ReferenceLights, ThePatchEqualsTheClosedFormInAllPixels) {
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   const Scene scene = loadGltf(folder / "scenes" / "patch.gltf").scene;
   const Image expected = readImage(folder / "refs" / "patch_analytic.exr");
-  View view;
-  for (const Node& node : scene.nodes) {
-    if (node.camera != kNone) view = viewOfCamera(scene, node, expected.width, expected.height);
-  }
+  const View view = test::viewOf(scene, expected.width, expected.height);
   const Image image = renderReference(scene, view, 16, 3);
   // The closed form has 4×4 points per pixel at edges. A pixel counts as floor if no pixel in its
   // neighbourhood is black or shows the light.

@@ -138,17 +138,9 @@ TEST_P(Interoperates, WithTinygltf) {
   }
 }
 
-std::string testName(const testing::TestParamInfo<Row>& info) {
-  std::string name = info.param.at("file");
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, Interoperates,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         testName);
+                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Interoperates);
 
 }  // namespace

@@ -60,12 +60,8 @@ TEST_P(MalformedFile, LoadsOrIsRejectedAsExpected) {
 }
 
 std::string testName(const testing::TestParamInfo<Row>& info) {
-  std::string name = info.param.at("file");
-  name = name.substr(0, name.find('/'));
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name;
+  const std::string& file = info.param.at("file");
+  return test::testNameOf(file.substr(0, file.find('/')));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MalformedFile,

@@ -35,17 +35,9 @@ TEST_P(SavedScene, LoadsAsTheSameSceneFromAnotherFolder) {
   }
 }
 
-std::string testName(const testing::TestParamInfo<Row>& info) {
-  std::string name = info.param.at("file");
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, SavedScene,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         testName);
+                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SavedScene);
 
 TEST(SavedOddScene, LoadsAsTheSameScene) {
@@ -197,7 +189,7 @@ TEST_F(EditedScene, LightsOfEveryKind) {
   spot.punctual = PunctualLight{PunctualKind::spot, vec3(3, 2, 1), 12.5f, 0.2f, 0.7f};
   Node& sun = add("sun", node("root").id);
   sun.punctual = PunctualLight{PunctualKind::directional, vec3(0.3f)};
-  Node& rectangle = add("rectangle", node("floor").id);  // whose scale is 2, 1, 2
+  Node& rectangle = add("rectangle", node("floor").id);  // the scale of the floor is (2, 1, 2)
   rectangle.area = AreaLight{AreaShape::rectangle, vec3(0.1f, 0.2f, 0.3f), vec2(0.37f, 1.9f)};
   Node& disk = add("disk");
   disk.area = AreaLight{AreaShape::disk, vec3(17, 12.3f, 9), vec2(0.81f)};

@@ -81,17 +81,9 @@ TEST_P(SharedScene, HasUsableNormalsEverywhere) {
   }
 }
 
-std::string testName(const testing::TestParamInfo<Row>& info) {
-  std::string name = info.param.at("file");
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, SharedScene,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         testName);
+                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
 // There are no instances if the scenes are missing.
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedScene);
 

@@ -128,8 +128,7 @@ TEST(IesProfile, TheRendererAppliesTheTiltFactor) {
   light.profile = parseIes(ies(1, "0 90", "0", "7 7", 2, 1, "1", head), "tilted.ies");
   scene.find(id)->punctual = light;
   scene.find(id)->local.rotation = glm::angleAxis(-0.5f * kPi, vec3(1, 0, 0));  // straight down
-  RenderScene live;
-  update(live, scene, SceneChanges::all());
+  RenderScene live = test::renderSceneOf(scene);
   EXPECT_NEAR(live.punctuals[0].light.intensity.g, 8.0f, 1e-4f);
   const Scene before = scene;
   scene.find(id)->local.rotation = quat(1, 0, 0, 0);

@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/movers/shadow_volumes.h"
 #include "renderer/visibility/visibility_database.h"
-#include "tests/support/folders.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
@@ -18,11 +18,9 @@ namespace {
 class MoversOfARoom : public testing::Test {
  protected:
   void SetUp() override {
-    level_ = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-    update(scene_, level_, SceneChanges::all());
-    for (const SceneVpl& v :
-         generateVpls(scene_, RayCaster(scene_), LightSet(scene_), {130, 0.5f, 1, 1}).vpls)
-      lights_.push_back(v.vpl);
+    level_ = test::loadAsset("pillar_room");
+    scene_ = test::renderSceneOf(level_);
+    lights_ = test::lightsOf(scene_, {130, 0.5f, 1, 1});
     for (const Node& n : level_.nodes)
       if (n.name == "mover") mover_ = n.id;
   }
@@ -274,10 +272,8 @@ class DragsInARoom : public MoversOfARoom, public testing::WithParamInterface<fl
   // move(node, step): one step of the mover.
   template <typename Move>
   void drag(int steps, const Move& move) {
-    RenderSceneChanges everything;
-    everything.rebuilt = true;
     VisibilityDatabase kept;
-    kept.setScene(scene_, everything);
+    kept.setScene(scene_, test::everythingRebuilt());
     kept.setLights(scene_, lights_);
     std::vector<int> some;
     for (int slot = 0; slot < static_cast<int>(lights_.size()); slot += 3) some.push_back(slot);
@@ -289,7 +285,7 @@ class DragsInARoom : public MoversOfARoom, public testing::WithParamInterface<fl
       if (step % 3 != 2) continue;
       kept.refreshAll(scene_);
       VisibilityDatabase fresh;
-      fresh.setScene(scene_, everything);
+      fresh.setScene(scene_, test::everythingRebuilt());
       fresh.setLights(scene_, lights_);
       size_t differ = 0;
       for (uint32_t object = 0; object < fresh.objects(); ++object) {

@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/occlusion/back_facing_lights.h"
 #include "renderer/visibility/occlusion/occluders.h"
-#include "tests/support/folders.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
@@ -18,11 +18,8 @@ namespace {
 class OccluderHints : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    update(scene_, loadGltf(test::sourceFolder() / "assets/scenes" / GetParam()).scene,
-           SceneChanges::all());
-    for (const SceneVpl& v :
-         generateVpls(scene_, RayCaster(scene_), LightSet(scene_), {200, 0.3f, 3, 1}).vpls)
-      lights_.push_back(v.vpl);
+    scene_ = test::renderSceneOf(test::loadAsset(GetParam()));
+    lights_ = test::lightsOf(scene_, 200);
     occluders_.resize(scene_.objects.size());
     for (uint32_t i = 0; i < scene_.objects.size(); ++i) {
       const MeshTopology topology = findTopology(scene_, i);
@@ -115,7 +112,7 @@ TEST_P(OccluderHints, OfOtherLightsChangeNoResult) {
   EXPECT_EQ(differ, 0u) << "of " << asked;
   EXPECT_EQ(sidesDiffer, 0u);
 }
-INSTANTIATE_TEST_SUITE_P(Rooms, OccluderHints, testing::Values("pillar_room.gltf", "default.gltf"));
+INSTANTIATE_TEST_SUITE_P(Rooms, OccluderHints, testing::Values("pillar_room", "default"));
 
 }  // namespace
 }  // namespace lamplighter

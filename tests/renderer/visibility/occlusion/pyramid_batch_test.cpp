@@ -2,14 +2,13 @@
 #include "renderer/visibility/occlusion/pyramid_batch.h"
 
 #include <array>
-#include <filesystem>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
@@ -21,13 +20,8 @@ TEST(PyramidBatch, IntersectsTrianglesAsSinglePyramidsDo) {
     return static_cast<float>(random >> 8) * 0x1p-24f;
   };
   size_t asked = 0, differ = 0, met = 0, unsure = 0, missed = 0, missedUnsure = 0;
-  RenderScene scene;
-  update(scene, loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene,
-         SceneChanges::all());
-  std::vector<shared::Vpl> lights;
-  for (const SceneVpl& v :
-       generateVpls(scene, RayCaster(scene), LightSet(scene), {100, 0.3f, 3, 1}).vpls)
-    lights.push_back(v.vpl);
+  const RenderScene scene = test::renderSceneOf(test::loadAsset("pillar_room"));
+  const std::vector<shared::Vpl> lights = test::lightsOf(scene, 100);
   const auto askOf = [&](const PatchRegion& region, std::span<const shared::Vpl* const> some) {
     std::vector<PyramidApex> apices;
     for (const shared::Vpl* light : some) apices.emplace_back(*light);
