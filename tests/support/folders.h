@@ -1,4 +1,4 @@
-// Where tests find what they read and run.
+// The folders and programs that tests use.
 #pragma once
 
 #include <filesystem>

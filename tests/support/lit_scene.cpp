@@ -44,6 +44,17 @@ GiOutput renderSettled(FrameRenderer& renderer, const Scene& scene, const SceneC
   return out;
 }
 
+Image settledPicture(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
+                     const View& view, const Settings& settings) {
+  return renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
+}
+
+Image freshPicture(std::unique_ptr<Backend> backend, const Scene& scene, const View& view,
+                   const Settings& settings) {
+  FrameRenderer renderer(std::move(backend));
+  return settledPicture(renderer, scene, SceneChanges::all(), view, settings);
+}
+
 ManyLightsCounts lightCounts(Backend& backend) {
   const auto* kernels = backend.kernelsInUse<ManyLightsKernels>();
   return kernels == nullptr ? ManyLightsCounts() : kernels->lightCounts();

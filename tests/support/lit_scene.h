@@ -32,6 +32,13 @@ shared::Vpl makeVpl(const vec3& position, const vec3& normal, float kind = share
 GiOutput renderSettled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
                        const View& view, const Settings& settings, int limit = 1000);
 
+// The settled picture of renderSettled().
+Image settledPicture(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
+                     const View& view, const Settings& settings);
+// The settled picture of a new renderer.
+Image freshPicture(std::unique_ptr<Backend> backend, const Scene& scene, const View& view,
+                   const Settings& settings);
+
 // Counters of the sums and maps of many_lights; zero if it has not run.
 ManyLightsCounts lightCounts(Backend& backend);
 

@@ -1,5 +1,5 @@
-// What most tests include and seldom changes, compiled once (cmake/quick_build.cmake). Every source
-// still includes what it uses: only the preset release precompiles.
+// Headers that most tests include and that rarely change, precompiled (cmake/quick_build.cmake).
+// Every source still includes what it uses, because only the release preset precompiles.
 #pragma once
 
 #include <algorithm>

@@ -8,7 +8,7 @@ namespace lamplighter::test {
 
 // A room of 8×4×8 m around the origin, open at the top, with rotated boxes in several colours.
 Scene randomBoxes(int count, uint32_t seed);
-// VPLs with random axes in the air of that room.
+// VPLs with random positions and axes inside that room.
 std::vector<shared::Vpl> randomVpls(int count, uint32_t seed);
 
 }  // namespace lamplighter::test

@@ -118,4 +118,23 @@ int addMaterial(Scene& scene, const vec3& albedo, const vec3& emissive) {
   return static_cast<int>(scene.materials.size()) - 1;
 }
 
+int addMaterial(Scene& scene, const vec3& colour, float metallic, float roughness) {
+  const int index = addMaterial(scene, colour);
+  scene.materials.back().metallic = metallic;
+  scene.materials.back().roughness = roughness;
+  return index;
+}
+
+RenderScene renderSceneOf(const Scene& scene) {
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  return render;
+}
+
+RenderSceneChanges everythingRebuilt() {
+  RenderSceneChanges changes;
+  changes.rebuilt = true;
+  return changes;
+}
+
 }  // namespace lamplighter::test

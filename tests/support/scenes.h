@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "renderer/scene/render_scene.h"
 #include "renderer/scene/scene.h"
 
 namespace lamplighter::test {
@@ -25,5 +26,11 @@ NodeId addMesh(Scene& scene, std::shared_ptr<const Mesh> mesh, const vec3& at = 
 // A rectangle light at `at` that emits downwards.
 NodeId addRectangleLight(Scene& scene, const vec3& at, const vec2& size, const vec3& radiance);
 int addMaterial(Scene& scene, const vec3& albedo, const vec3& emissive = vec3(0.0f));
+int addMaterial(Scene& scene, const vec3& colour, float metallic, float roughness);
+
+// The renderer's scene, newly built.
+RenderScene renderSceneOf(const Scene& scene);
+// The changes of a newly built scene.
+RenderSceneChanges everythingRebuilt();
 
 }  // namespace lamplighter::test

@@ -1,5 +1,6 @@
 #include "tests/support/shared_files.h"
 
+#include <cctype>
 #include <fstream>
 #include <sstream>
 
@@ -28,6 +29,12 @@ std::vector<std::map<std::string, std::string>> readTable(const std::filesystem:
     rows.push_back(std::move(row));
   }
   return rows;
+}
+
+std::string testNameOf(std::string file) {
+  for (char& c : file)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return file;
 }
 
 }  // namespace lamplighter::test

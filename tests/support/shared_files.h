@@ -15,4 +15,7 @@ std::filesystem::path sharedScenes();
 // does not exist.
 std::vector<std::map<std::string, std::string>> readTable(const std::filesystem::path& path);
 
+// A valid test name: the file's name with '_' for all characters except letters and digits.
+std::string testNameOf(std::string file);
+
 }  // namespace lamplighter::test

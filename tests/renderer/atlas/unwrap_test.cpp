@@ -1,4 +1,4 @@
-// Charts, and rectangles packed on a page.
+// Charts of meshes, and packing of rectangles on a page.
 #include "renderer/atlas/unwrap.h"
 
 #include <cmath>
@@ -13,12 +13,10 @@
 namespace lamplighter {
 namespace {
 
-RenderScene rendered(std::shared_ptr<const Mesh> mesh) {
+RenderScene renderSceneOf(std::shared_ptr<const Mesh> mesh) {
   Scene scene;
   test::addMesh(scene, std::move(mesh));
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
+  return test::renderSceneOf(scene);
 }
 
 size_t trianglesIn(const std::vector<MeshChart>& charts) {
@@ -27,7 +25,7 @@ size_t trianglesIn(const std::vector<MeshChart>& charts) {
   return count;
 }
 
-TEST(Skyline, PacksWithoutOverlapAndRefusesWhatDoesNotFit) {
+TEST(Skyline, PacksWithoutOverlapAndRejectsWhatDoesNotFit) {
   Skyline page(64);
   std::set<std::pair<int, int>> taken;
   int placed = 0;
@@ -45,21 +43,21 @@ TEST(Skyline, PacksWithoutOverlapAndRefusesWhatDoesNotFit) {
   EXPECT_EQ(placed, 40);
   EXPECT_FALSE(page.place({65, 1}));
   EXPECT_FALSE(page.place({64, 64}));
-  EXPECT_FALSE(page.place({64, 64})) << "a refusal changes nothing";
+  EXPECT_FALSE(page.place({64, 64})) << "a rejected rectangle must not change the page";
 }
 
-TEST(Unwrap, ABoxHasItsSixSides) {
-  const RenderScene render = rendered(test::boxMesh(vec3(1, 2, 3)));
+TEST(Unwrap, ABoxHasSixCharts) {
+  const RenderScene render = renderSceneOf(test::boxMesh(vec3(1, 2, 3)));
   const std::vector<MeshChart> charts = unwrap(render.positions, render.indices, 16.0f);
   ASSERT_EQ(charts.size(), 6u);
   EXPECT_EQ(trianglesIn(charts), 12u);
   float area = 0.0f;
   for (const MeshChart& c : charts) area += c.extent().x * c.extent().y;
-  EXPECT_NEAR(area, 2.0f * (2 + 3 + 6), 1e-3f) << "boxes as small as the sides";
+  EXPECT_NEAR(area, 2.0f * (2 + 3 + 6), 1e-3f) << "each chart rectangle is as small as its side";
 }
 
 TEST(Unwrap, ASphereIsCutWhereItBends) {
-  const RenderScene render = rendered(test::sphereMesh(1.0f, 24));
+  const RenderScene render = renderSceneOf(test::sphereMesh(1.0f, 24));
   const std::vector<MeshChart> charts = unwrap(render.positions, render.indices, 16.0f);
   EXPECT_EQ(trianglesIn(charts), render.objects[0].triangleCount());
   EXPECT_GE(charts.size(), 5u);
@@ -74,10 +72,10 @@ TEST(Unwrap, ASphereIsCutWhereItBends) {
   }
 }
 
-// A strip that climbs round and round has all its triangles connected and nearly level, and lies
-// above itself.
-TEST(Unwrap, WhatLiesAboveItselfIsCut) {
-  constexpr int kSteps = 64;  // two turns
+// A spiral ramp of two turns. All its triangles are connected and nearly horizontal, but the second
+// turn lies above the first, so their projections overlap.
+TEST(Unwrap, ASurfaceThatOverlapsItselfInProjectionIsCut) {
+  constexpr int kSteps = 64;
   auto mesh = std::make_shared<Mesh>();
   Primitive& p = mesh->primitives.emplace_back();
   for (int i = 0; i <= kSteps; ++i) {
@@ -90,7 +88,7 @@ TEST(Unwrap, WhatLiesAboveItselfIsCut) {
   }
   for (uint32_t i = 0; i < kSteps; ++i)
     for (const uint32_t k : {0u, 2u, 1u, 1u, 2u, 3u}) p.indices.push_back(2 * i + k);
-  const RenderScene render = rendered(mesh);
+  const RenderScene render = renderSceneOf(mesh);
   const std::vector<MeshChart> charts = unwrap(render.positions, render.indices, 16.0f);
   EXPECT_EQ(trianglesIn(charts), 2u * kSteps);
   EXPECT_GE(charts.size(), 2u);

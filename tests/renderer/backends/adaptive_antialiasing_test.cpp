@@ -1,13 +1,14 @@
-// Samples of a pixel beside its middle take the light of the middle where the picture is even: far
-// less work, the same picture but for what nobody sees, and no trace of what was before.
+// Adaptive antialiasing: shifted samples of a pixel reuse the light of the middle sample where the
+// picture is even. This saves most of the work with an error that is not visible, and the result
+// does not depend on earlier frames.
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -35,7 +36,7 @@ Image settled(FrameRenderer& renderer, const Room& room, const SceneChanges& cha
 
 class SharedSamples : public testing::TestWithParam<const char*> {};
 
-TEST_P(SharedSamples, AreFarLessWorkAndShowTheSame) {
+TEST_P(SharedSamples, TakesLessWorkForTheSamePicture) {
   const Room room(GetParam());
   FrameRenderer renderer(makeCpuBackend());
   settled(renderer, room, SceneChanges::all(), settingsOf(1, "4"));
@@ -50,7 +51,7 @@ TEST_P(SharedSamples, AreFarLessWorkAndShowTheSame) {
   const Image each = settled(other, room, SceneChanges::all(), settingsOf(8, "1"));
   const double error = compareImages(shared, each).relRmse;
   RecordProperty("relRmse", std::to_string(error));
-  // Of blocks alone, one sample a pixel: what of the error is theirs.
+  // The error of low-resolution blocks alone, with one sample per pixel.
   const Image blocks = settled(renderer, room, {}, settingsOf(1, "4"));
   const Image all = settled(other, room, {}, settingsOf(1, "1"));
   EXPECT_LT(error, compareImages(blocks, all).relRmse + 0.002);
@@ -58,7 +59,7 @@ TEST_P(SharedSamples, AreFarLessWorkAndShowTheSame) {
 INSTANTIATE_TEST_SUITE_P(Rooms, SharedSamples,
                          testing::Values("pillar_room", "table_room", "cornell_style"));
 
-TEST(SharedSamples, LeaveNoTraceOfWhatWasBefore) {
+TEST(SharedSamples, DoesNotDependOnEarlierFrames) {
   Room room("pillar_room");
   const Settings settings = settingsOf(4, "4");
   FrameRenderer renderer(makeCpuBackend());
@@ -68,22 +69,22 @@ TEST(SharedSamples, LeaveNoTraceOfWhatWasBefore) {
     for (Node& node : room.scene.nodes)
       if (node.name == name) node.local.translation.x += 0.2f;
     const Image kept = settled(renderer, room, compare(before, room.scene), settings);
-    FrameRenderer anew(makeCpuBackend());
-    EXPECT_TRUE(test::sameBits(kept, settled(anew, room, SceneChanges::all(), settings))) << name;
+    FrameRenderer fresh(makeCpuBackend());
+    EXPECT_TRUE(test::sameBits(kept, settled(fresh, room, SceneChanges::all(), settings))) << name;
   }
-  // Another view, and back.
+  // Change the view, then restore it.
   const View view = room.view;
   room.view.eye.x += 0.1f;
   settled(renderer, room, {}, settings);
   room.view = view;
-  FrameRenderer anew(makeCpuBackend());
+  FrameRenderer fresh(makeCpuBackend());
   EXPECT_TRUE(test::sameBits(settled(renderer, room, {}, settings),
-                             settled(anew, room, SceneChanges::all(), settings)));
+                             settled(fresh, room, SceneChanges::all(), settings)));
 }
 
-// The border of a hard shadow on one plane, between packets or in one, is as smooth as where no
-// sample shares.
-TEST(SharedSamples, BordersOfShadowsStaySmooth) {
+// The border of a hard shadow on one plane is as smooth as without sharing, whether it lies between
+// packets or within one.
+TEST(SharedSamples, ShadowBordersStaySmooth) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(20.0f, test::addMaterial(scene, vec3(0.8f))));
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0, 2.0f, 0));
@@ -97,7 +98,7 @@ TEST(SharedSamples, BordersOfShadowsStaySmooth) {
     const View view = test::lookAt(vec3(0, 1.5f, 6.0f), vec3(0, 0.5f, 0), 161, 99);
     shared::ShadingParams params{vec4(0.0f, 0.002f, 512.0f, 64.0f), vec4(4.0f, 0, 0, 0), vec4(0)};
     Image mean(view.width, view.height);
-    if (isShared) {  // there is a middle to take light of
+    if (isShared) {  // the middle sample, whose light the others reuse
       lit.backend->renderGBuffer(view, vec2(0.0f));
       lit.kernels->sumVpls(vpls, params, nullptr);
     }

@@ -1,4 +1,4 @@
-// What both backends must do the same for every method.
+// Tests of what both backends provide to every method.
 #pragma once
 
 #include <algorithm>
@@ -35,8 +35,8 @@ inline float relativeDifference(const Image& a, const Image& b) {
   return difference / brightest;
 }
 
-// The light of a sum, read from its white picture and composed as an irradiance image, gives the
-// pictures that the kernels compose.
+// Reads the irradiance of a light sum from its picture with white surfaces. Composed as an
+// irradiance image, it gives the pictures that the kernels compose.
 inline void expectComposesAnyIrradiance(std::unique_ptr<Backend> backend) {
   LitScene lit(boxesUnderASky(), std::move(backend));
   // Not a multiple of the size of a tile or packet.
@@ -60,12 +60,12 @@ inline void expectComposesAnyIrradiance(std::unique_ptr<Backend> backend) {
               1e-6f);
     EXPECT_LT(relativeDifference(white, lit.backend->compose(irradiance, true)->pixels()), 1e-6f);
   }
-  // The light of the sum is still there.
+  // Composing an image does not change the stored light sum.
   EXPECT_TRUE(sameBits(coloured, lit.kernels->compose()->pixels()));
 }
 
-// The G-buffer in main memory shows what primary rays hit, also with jitter and after an edit.
-inline void expectHostGBufferIsWhatRaysHit(std::unique_ptr<Backend> backend) {
+// The G-buffer in main memory equals the hits of primary rays, also with jitter and after an edit.
+inline void expectHostGBufferEqualsRayHits(std::unique_ptr<Backend> backend) {
   Scene scene = boxesUnderASky();
   LitScene lit(scene, std::move(backend));
   const auto check = [&](const View& view, vec2 jitter) {
@@ -90,7 +90,7 @@ inline void expectHostGBufferIsWhatRaysHit(std::unique_ptr<Backend> backend) {
         EXPECT_LE(glm::dot(point.geometricNormal, towards), 0.0f);
       }
     }
-    EXPECT_LE(edges, 4);  // rays that meet two triangles at their shared edge
+    EXPECT_LE(edges, 4);  // rays through an edge may hit either of its two triangles
   };
   check(lookAt(vec3(0, 3, 7), vec3(0), 60, 33), vec2(0.0f));
   check(lookAt(vec3(0, 3, 7), vec3(0), 60, 33), vec2(0.3f, -0.2f));

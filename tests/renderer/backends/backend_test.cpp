@@ -1,4 +1,4 @@
-// What the cpu backend gives to every method, and how methods add kernels.
+// What the cpu backend provides to every method, and how methods add kernels.
 #include "renderer/base/error.h"
 #include "tests/renderer/backends/backend_checks.h"
 
@@ -7,11 +7,9 @@ namespace {
 
 TEST(CpuBackend, ComposesAnyIrradiance) { test::expectComposesAnyIrradiance(makeCpuBackend()); }
 
-TEST(CpuBackend, ItsGBufferIsWhatRaysHit) {
-  test::expectHostGBufferIsWhatRaysHit(makeCpuBackend());
-}
+TEST(CpuBackend, GBufferEqualsRayHits) { test::expectHostGBufferEqualsRayHits(makeCpuBackend()); }
 
-// Counts what the backend tells it.
+// Counts the calls from the backend.
 class CountingKernels : public MethodKernels {
  public:
   int scenes = 0, rebuilt = 0, gbuffers = 0;
@@ -23,7 +21,7 @@ class CountingKernels : public MethodKernels {
   BackendCounts counts() const override { return {7, 1000}; }
 };
 
-TEST(MethodKernels, AreMadeWhenAskedForAndToldWhatChanges) {
+TEST(MethodKernels, AreCreatedOnDemandAndNotifiedOfChanges) {
   test::LitScene lit(test::randomBoxes(3, 1));
   int made = 0;
   lit.backend->offer<CountingKernels>([&] {
@@ -38,7 +36,7 @@ TEST(MethodKernels, AreMadeWhenAskedForAndToldWhatChanges) {
   EXPECT_EQ(&lit.backend->kernels<CountingKernels>("counting"), &kernels);
   EXPECT_EQ(lit.backend->kernelsInUse<CountingKernels>(), &kernels);
   EXPECT_EQ(made, 1);
-  EXPECT_EQ(kernels.scenes, 1);  // the present scene, as if all of it were new
+  EXPECT_EQ(kernels.scenes, 1);  // the current scene, reported as completely new
   EXPECT_EQ(kernels.rebuilt, 1);
   EXPECT_EQ(kernels.gbuffers, 1);
   EXPECT_EQ(lit.backend->counts().rays, before.rays + 7);
@@ -51,7 +49,7 @@ TEST(MethodKernels, AreMadeWhenAskedForAndToldWhatChanges) {
   EXPECT_EQ(kernels.gbuffers, 2);
 }
 
-TEST(MethodKernels, ThatABackendDoesNotHaveAreNamed) {
+TEST(MethodKernels, MissingOnesGiveAnErrorThatNamesTheMethod) {
   const auto backend = makeCpuBackend();
   try {
     backend->kernels<CountingKernels>("my_method");

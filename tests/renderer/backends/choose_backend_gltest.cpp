@@ -1,4 +1,4 @@
-// The choice of a backend follows the clock it is given.
+// The faster backend is chosen, measured by the clock that is passed in.
 #include <chrono>
 
 #include "renderer/backends/gl/choose_backend.h"
@@ -10,8 +10,8 @@ namespace {
 
 using ChooseBackend = test::GlTest;
 
-TEST_F(ChooseBackend, TakesTheFaster) {
-  // cpu is tried first: two frames with two readings each. Then gl.
+TEST_F(ChooseBackend, TakesTheFasterOne) {
+  // The cpu backend is tried first: two frames, each with two clock readings. Then gl.
   for (const bool glIsFast : {true, false}) {
     int readings = 0;
     double now = 0.0;
@@ -29,7 +29,7 @@ TEST_F(ChooseBackend, TakesTheFaster) {
   }
 }
 
-TEST_F(ChooseBackend, MeasuresWithARealClock) {
+TEST_F(ChooseBackend, WorksWithARealClock) {
   const auto start = std::chrono::steady_clock::now();
   const Stopwatch clock = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

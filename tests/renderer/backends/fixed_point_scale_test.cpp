@@ -19,8 +19,9 @@ std::vector<LightRecord> randomLights(uint32_t seed) {
   return lights;
 }
 
-// What all of them could give a point that all of them face [W/m²].
-float mostAt(const vec3& point, const std::vector<LightRecord>& lights, float clampDistance) {
+// Upper bound on the irradiance from all lights at a point that faces all of them [W/m²].
+float irradianceBoundAt(const vec3& point, const std::vector<LightRecord>& lights,
+                        float clampDistance) {
   float sum = 0.0f;
   for (const LightRecord& light : lights) {
     const vec3 way = point - light.position;
@@ -34,9 +35,10 @@ float mostAt(const vec3& point, const std::vector<LightRecord>& lights, float cl
   return sum;
 }
 
-// Wherever it is taken, also where lights are, no sum is more than 32 bits hold; and with a small
-// clamp the unit is not that of a point that all lights touch.
-TEST(FixedPointScale, IsFineAndNoSumOverflows) {
+// A fixed-point sum must not overflow 32 bits at any point, including points near lights. With a
+// small clamp distance the scale must be finer than the bound for a point that touches all lights
+// at once.
+TEST(FixedPointScale, IsFineEnoughAndNoSumOverflows) {
   for (const float clampDistance : {0.5f, 0.2f, 0.05f, 0.01f}) {
     for (uint32_t seed = 1; seed <= 5; ++seed) {
       const std::vector<LightRecord> lights = randomLights(seed);
@@ -48,11 +50,11 @@ TEST(FixedPointScale, IsFineAndNoSumOverflows) {
         if (i % 2 == 0)
           point = lights[static_cast<size_t>(i / 2) % lights.size()].position +
                   vec3(near(random), near(random), near(random));
-        EXPECT_LE(units * mostAt(point, lights, clampDistance), 0x1p30f);
+        EXPECT_LE(units * irradianceBoundAt(point, lights, clampDistance), 0x1p30f);
       }
       float touched = 0.0f;
       for (const LightRecord& light : lights)
-        touched += mostAt(light.position, {light}, clampDistance);
+        touched += irradianceBoundAt(light.position, {light}, clampDistance);
       if (clampDistance < 0.1f) {
         EXPECT_GT(units * touched, 0x1p31f);
       }

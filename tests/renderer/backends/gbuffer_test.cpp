@@ -1,4 +1,4 @@
-// The rasterised G-buffer against a ray a pixel.
+// The rasterised G-buffer against one ray per pixel.
 #include "renderer/backends/cpu/gbuffer/gbuffer.h"
 
 #include <array>
@@ -8,10 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
-#include "tests/support/shared_files.h"
 
 namespace lamplighter {
 namespace {
@@ -27,7 +26,7 @@ struct World {
   }
 };
 
-// Pixels that show something else than a ray through their middle meets.
+// Counts the pixels whose surface differs from what a ray through the pixel's centre hits.
 int pixelsThatDiffer(const World& w, const View& view, vec2 jitter) {
   cpu::GBuffer g;
   cpu::renderGBuffer(w.render, *w.rays, view, jitter, g);
@@ -65,19 +64,16 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
 class RasterisedGBuffer : public testing::TestWithParam<Case> {};
 
-// But for rays along edges, and where surfaces lie within each other.
-TEST_P(RasterisedGBuffer, ShowsWhatRaysMeet) {
-  const std::string name = GetParam().scene;
-  const fs::path path = name.find('/') == std::string::npos
-                            ? test::sourceFolder() / "assets/scenes" / name
-                            : test::sharedScenes() / name;
+// Exceptions: rays along edges, and surfaces that coincide.
+TEST_P(RasterisedGBuffer, EqualsRayHits) {
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
   const World world(scene);
   std::vector<View> views{viewOfBounds(world.render.bounds, 117, 75)};
   for (const Node& node : scene.nodes)
     if (node.camera != kNone) views.push_back(viewOfCamera(scene, node, 117, 75));
-  // From within, with triangles all about the eye.
+  // From inside the scene, with triangles on all sides of the eye.
   const vec3 middle = world.render.bounds.centre();
   views.push_back(test::lookAt(middle, middle + vec3(0.3f, -0.4f, 1.0f), 117, 75, 1.9f));
   for (const View& view : views)
@@ -90,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"flight-helmet/FlightHelmet.gltf"}, Case{"bathroom/bathroom.glb"},
                     Case{"classroom/classroom.gltf"}, Case{"modern-hall/modern-hall.glb"}));
 
-// A closed box of many triangles about the eye lets no ray pass between them.
-TEST(RasterisedGBuffer, IsTightAtSharedEdges) {
+// Inside a closed mesh of many triangles, no ray passes between them.
+TEST(RasterisedGBuffer, HasNoGapsAtSharedEdges) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(1.0f, 24, 0.2f, test::addMaterial(scene, vec3(0.5f))));
   scene.materials[0].doubleSided = true;
@@ -107,7 +103,7 @@ TEST(RasterisedGBuffer, IsTightAtSharedEdges) {
   }
 }
 
-// All that is seen there, and what is said of packets and tiles.
+// Compares the visible surfaces and the flags of packets and tiles.
 void expectSame(const cpu::GBuffer& a, const cpu::GBuffer& b) {
   ASSERT_EQ(a.hit, b.hit);
   EXPECT_EQ(a.isFlat, b.isFlat);
@@ -125,7 +121,7 @@ void expectSame(const cpu::GBuffer& a, const cpu::GBuffer& b) {
   EXPECT_EQ(differ, 0);
 }
 
-// Where packets are said to show one flat triangle they do.
+// Packets that are marked as one flat triangle really show only that triangle.
 void expectOneTriangleEach(const cpu::GBuffer& g, int least) {
   int packets = 0;
   for (size_t i = 0; i < g.hit.size(); ++i) {
@@ -144,22 +140,21 @@ void expectOneTriangleEach(const cpu::GBuffer& g, int least) {
   EXPECT_GT(packets, least);
 }
 
-// What is there already is not written: nothing of another view, nor of how surfaces were.
-TEST(RasterisedGBuffer, OverAnotherIsAsAnew) {
-  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/table_room.gltf").scene;
+// Buffers are reused between frames. Parts that are not rewritten must not keep data of an earlier
+// view or of earlier materials.
+TEST(RasterisedGBuffer, ReusingABufferEqualsANewOne) {
+  Scene scene = test::loadAsset("table_room");
   constexpr int kWidth = 203, kHeight = 150;
   cpu::GBuffer kept;
   const auto look = [&](const View& view) {
     const World world(scene);
     cpu::renderGBuffer(world.render, *world.rays, view, vec2(0.0f), kept);
-    cpu::GBuffer anew;
-    cpu::renderGBuffer(world.render, *world.rays, view, vec2(0.0f), anew);
-    expectSame(kept, anew);
+    cpu::GBuffer fresh;
+    cpu::renderGBuffer(world.render, *world.rays, view, vec2(0.0f), fresh);
+    expectSame(kept, fresh);
     expectOneTriangleEach(kept, kWidth * kHeight / cpu::kLanes / 3);
   };
-  View view = viewOfBounds(World(scene).render.bounds, kWidth, kHeight);
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) view = viewOfCamera(scene, node, kWidth, kHeight);
+  View view = test::viewOf(scene, kWidth, kHeight);
   look(view);
   view.eye += vec3(0.002f, 0.001f, 0.0f);
   look(view);

@@ -1,5 +1,6 @@
-// The low-resolution pass on the gl backend: near the picture of all pixels, the same bits for any
-// number of lights a pass, and no light beyond what is thinner than a block.
+// The low-resolution pass on the gl backend. It is close to the full-resolution picture, gives the
+// same bits for any number of lights per pass, and leaks no light past objects thinner than a
+// block.
 #include <filesystem>
 #include <ostream>
 
@@ -8,11 +9,10 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
-#include "tests/support/shared_files.h"
 
 namespace lamplighter {
 namespace {
@@ -31,31 +31,7 @@ Settings settingsOf(int block, const std::string& technique = "light_maps", int 
   return s;
 }
 
-View viewOf(const Scene& scene, int width, int height) {
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) return viewOfCamera(scene, node, width, height);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return viewOfBounds(render.bounds, width, height);
-}
-
-Image rendered(FrameRenderer& renderer, const Scene& scene, const View& view,
-               const Settings& settings) {
-  return test::renderSettled(renderer, scene, SceneChanges::all(), view, settings)
-      .radiance->pixels();
-}
-
-Image rendered(std::unique_ptr<Backend> backend, const Scene& scene, const View& view,
-               const Settings& settings) {
-  FrameRenderer renderer(std::move(backend));
-  return rendered(renderer, scene, view, settings);
-}
-
-Scene loadAsset(const std::string& name) {
-  return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
-}
-
-// A point light, whose shadows are hard.
+// A point light. Its shadows are hard.
 void addLamp(Scene& scene) {
   const NodeId id = test::addNode(scene, "lamp", kNoNode, vec3(0.4f, 2.0f, 0.3f));
   PunctualLight lamp;
@@ -63,8 +39,8 @@ void addLamp(Scene& scene) {
   scene.find(id)->punctual = lamp;
 }
 
-// Share of the pixels that have other bits.
-double shareOther(const Image& a, const Image& b) {
+// Share of the pixels whose bits differ.
+double differingShare(const Image& a, const Image& b) {
   size_t other = 0;
   for (size_t i = 0; i < a.pixels.size(); ++i) other += a.pixels[i] != b.pixels[i];
   return static_cast<double>(other) / static_cast<double>(a.pixels.size());
@@ -73,27 +49,26 @@ double shareOther(const Image& a, const Image& b) {
 struct Case {
   const char* scene;
   double mostRelRmse = 0.015;
-  double leastShare = 0.03;  // of pixels that are interpolated: else the test says nothing
+  double leastShare =
+      0.03;  // minimum share of interpolated pixels; with fewer the test proves nothing
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
 class GlLowResolutionScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
 
-TEST_P(GlLowResolutionScenes, IsNearThePictureOfAllPixels) {
-  const std::string name = GetParam().scene;
-  const fs::path path = name.find('/') == std::string::npos
-                            ? test::sourceFolder() / "assets/scenes" / name
-                            : test::sharedScenes() / name;
+TEST_P(GlLowResolutionScenes, IsCloseToFullResolution) {
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
-  const View view = viewOf(scene, 318, 211);  // no multiple of any block
+  const View view = test::viewOf(scene, 318, 211);  // not a multiple of any block size
   for (const std::string technique : {"visibility", "light_maps"}) {
-    const Image all = rendered(makeGlBackend(), scene, view, settingsOf(1, technique));
+    const Image all = test::freshPicture(makeGlBackend(), scene, view, settingsOf(1, technique));
     for (const int block : {2, 4, 8}) {
       SCOPED_TRACE(technique + " " + std::to_string(block));
-      const Image low = rendered(makeGlBackend(), scene, view, settingsOf(block, technique));
+      const Image low =
+          test::freshPicture(makeGlBackend(), scene, view, settingsOf(block, technique));
       const Metrics m = compareImages(low, all);
-      const double share = shareOther(low, all);
+      const double share = differingShare(low, all);
       RecordProperty(technique + std::to_string(block),
                      std::to_string(m.relRmse) + ", interpolated " + std::to_string(share));
       EXPECT_LT(m.relRmse, GetParam().mostRelRmse);
@@ -110,45 +85,49 @@ INSTANTIATE_TEST_SUITE_P(
 
 using GlLowResolution = test::GlTest;
 
-TEST_F(GlLowResolution, AnyNumberOfLightsAPassGivesTheSameBits) {
-  const Scene scene = loadAsset("pillar_room.gltf");
-  const View view = viewOf(scene, 161, 97);
-  const Image all = rendered(makeGlBackend(), scene, view, settingsOf(4, "light_maps", 60));
+TEST_F(GlLowResolution, TheNumberOfLightsPerPassDoesNotChangeBits) {
+  const Scene scene = test::loadAsset("pillar_room");
+  const View view = test::viewOf(scene, 161, 97);
+  const Image all =
+      test::freshPicture(makeGlBackend(), scene, view, settingsOf(4, "light_maps", 60));
   for (const int most : {1, 7}) {
-    EXPECT_TRUE(test::sameBits(
-        all, rendered(makeGlBackend(), scene, view, settingsOf(4, "light_maps", 60, most))))
+    EXPECT_TRUE(test::sameBits(all, test::freshPicture(makeGlBackend(), scene, view,
+                                                       settingsOf(4, "light_maps", 60, most))))
         << most;
   }
 }
 
-TEST_F(GlLowResolution, MergedPassesAreThoseOfTheLists) {
-  const Scene scene = loadAsset("pillar_room.gltf");
-  const View view = viewOf(scene, 161, 97);
+TEST_F(GlLowResolution, MergedPassesGiveThePictureOfLightLists) {
+  const Scene scene = test::loadAsset("pillar_room");
+  const View view = test::viewOf(scene, 161, 97);
   Settings settings = settingsOf(4, "light_maps", 60, 6);
-  const Image listed = rendered(makeGlBackend(), scene, view, settings);
+  const Image listed = test::freshPicture(makeGlBackend(), scene, view, settings);
   settings.set("merge_passes", true);
-  // Float sums in another order; a cell at the limit of contrast may change sides.
-  EXPECT_LT(compareImages(rendered(makeGlBackend(), scene, view, settings), listed).relRmse, 1e-3);
+  // Floats are summed in another order. A cell close to the contrast threshold may be classified
+  // differently.
+  EXPECT_LT(
+      compareImages(test::freshPicture(makeGlBackend(), scene, view, settings), listed).relRmse,
+      1e-3);
 }
 
-// Both backends follow one definition. Their cells differ where a pixel sees past an edge on one of
-// them only, or at the limit of contrast.
-TEST_F(GlLowResolution, ItsCellsAreThoseOfTheCpuBackend) {
+// Both backends use the same definition of cells. Their cells differ only where a pixel sees past
+// an edge on one backend, or close to the contrast threshold.
+TEST_F(GlLowResolution, InterpolatesTheSameCellsAsTheCpuBackend) {
   for (const bool hasLamp : {false, true}) {
     SCOPED_TRACE(hasLamp);
-    Scene scene = loadAsset(hasLamp ? "pillar_room.gltf" : "area_light_room.gltf");
+    Scene scene = test::loadAsset(hasLamp ? "pillar_room" : "area_light_room");
     if (hasLamp) addLamp(scene);
-    const View view = viewOf(scene, 161, 97);
+    const View view = test::viewOf(scene, 161, 97);
     Image interpolated[2];
     for (const int i : {0, 1}) {
       const auto make = [&] { return i == 0 ? makeGlBackend() : makeCpuBackend(); };
-      const Image low = rendered(make(), scene, view, settingsOf(4));
-      const Image all = rendered(make(), scene, view, settingsOf(1));
+      const Image low = test::freshPicture(make(), scene, view, settingsOf(4));
+      const Image all = test::freshPicture(make(), scene, view, settingsOf(1));
       interpolated[i] = Image(low.width, low.height);
       for (size_t p = 0; p < low.pixels.size(); ++p)
         interpolated[i].pixels[p] = vec3(low.pixels[p] != all.pixels[p] ? 1.0f : 0.0f);
     }
-    const double share = shareOther(interpolated[0], interpolated[1]);
+    const double share = differingShare(interpolated[0], interpolated[1]);
     RecordProperty(hasLamp ? "lamp" : "room", std::to_string(share));
     EXPECT_GT(test::meanOf(interpolated[0]).r, hasLamp ? 0.02f : 0.3f);
     EXPECT_LT(share, 0.01);
@@ -156,56 +135,59 @@ TEST_F(GlLowResolution, ItsCellsAreThoseOfTheCpuBackend) {
 }
 
 // Samples and cells at the right and lower edges, pictures without any cell, and textures that are
-// made anew.
-TEST_F(GlLowResolution, AnySizeWill) {
-  const Scene scene = loadAsset("area_light_room.gltf");
+// created again.
+TEST_F(GlLowResolution, WorksForAnyPictureSize) {
+  const Scene scene = test::loadAsset("area_light_room");
   FrameRenderer renderer(makeGlBackend());
   for (const glm::ivec2 size :
        {glm::ivec2(1, 1), glm::ivec2(1, 40), glm::ivec2(40, 1), glm::ivec2(2, 2), glm::ivec2(5, 4),
         glm::ivec2(64, 64), glm::ivec2(65, 33), glm::ivec2(63, 35)}) {
-    const View view = viewOf(scene, size.x, size.y);
-    const Image all = rendered(renderer, scene, view, settingsOf(1, "light_maps", 40));
+    const View view = test::viewOf(scene, size.x, size.y);
+    const Image all = test::settledPicture(renderer, scene, SceneChanges::all(), view,
+                                           settingsOf(1, "light_maps", 40));
     for (const int block : {2, 4, 8}) {
       SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + " by " +
                    std::to_string(block));
-      const Image low = rendered(renderer, scene, view, settingsOf(block, "light_maps", 40));
+      const Image low = test::settledPicture(renderer, scene, SceneChanges::all(), view,
+                                             settingsOf(block, "light_maps", 40));
       EXPECT_LT(compareImages(low, all).relRmse, 0.03);
       if (size.x == 1 || size.y == 1) {
         EXPECT_TRUE(test::sameBits(low, all));
       }
-      EXPECT_TRUE(test::sameBits(
-          low, rendered(makeGlBackend(), scene, view, settingsOf(block, "light_maps", 40))));
+      EXPECT_TRUE(test::sameBits(low, test::freshPicture(makeGlBackend(), scene, view,
+                                                         settingsOf(block, "light_maps", 40))));
     }
   }
 }
 
-// While the camera moves samples are interpolated too. What is seen then does not depend on what
-// was seen before, and is near what the camera rests on, which is the picture from nothing.
-TEST_F(GlLowResolution, AMovingCameraShowsNearlyWhatItRestsOn) {
+// While the camera moves, samples are interpolated as well. The picture then does not depend on
+// earlier frames. It is close to the settled picture, which equals a fresh render.
+TEST_F(GlLowResolution, WhileTheCameraMovesThePictureIsCloseToTheSettledOne) {
   for (const std::string name : {"area_light_room", "table_room", "pillar_room"}) {
     SCOPED_TRACE(name);
-    Scene scene = loadAsset(name + ".gltf");
+    Scene scene = test::loadAsset(name);
     if (name == "pillar_room") addLamp(scene);
     Settings settings = settingsOf(4);
-    settings.set("importance", 1);  // samples are not chosen anew
+    settings.set("importance", 1);  // importance does not choose other light samples
     settings.set("settled_map_scale", 1);
     settings.set("corner_light", false);
-    const View view = viewOf(scene, 318, 211);
+    const View view = test::viewOf(scene, 318, 211);
     View from[2] = {view, view};
     from[0].eye += vec3(0.02f, 0.01f, 0.0f);
     from[1].eye += vec3(-0.3f, 0.1f, 0.2f);
     FrameRenderer renderers[2] = {FrameRenderer(makeGlBackend()), FrameRenderer(makeGlBackend())};
     Image moving[2], settled[2];
     for (const int i : {0, 1}) {
-      rendered(renderers[i], scene, from[i], settings);
+      test::settledPicture(renderers[i], scene, SceneChanges::all(), from[i], settings);
       const GiOutput out = renderers[i].render({scene, {}, view, "many_lights", settings});
       EXPECT_FALSE(out.settled);
       moving[i] = out.radiance->pixels();
-      settled[i] = test::renderSettled(renderers[i], scene, {}, view, settings).radiance->pixels();
+      settled[i] = test::settledPicture(renderers[i], scene, {}, view, settings);
     }
     EXPECT_TRUE(test::sameBits(moving[0], moving[1]));
     EXPECT_TRUE(test::sameBits(settled[0], settled[1]));
-    EXPECT_TRUE(test::sameBits(settled[0], rendered(makeGlBackend(), scene, view, settings)));
+    EXPECT_TRUE(
+        test::sameBits(settled[0], test::freshPicture(makeGlBackend(), scene, view, settings)));
     const Metrics m = compareImages(moving[0], settled[0]);
     RecordProperty(name, std::to_string(m.relRmse));
     EXPECT_LT(m.relRmse, 0.01);
@@ -214,17 +196,18 @@ TEST_F(GlLowResolution, AMovingCameraShowsNearlyWhatItRestsOn) {
   }
 }
 
-// Naive has none of it.
 TEST_F(GlLowResolution, NaiveSumsAllPixels) {
-  const Scene scene = loadAsset("pillar_room.gltf");
-  const View view = viewOf(scene, 96, 64);
-  EXPECT_TRUE(test::sameBits(rendered(makeGlBackend(), scene, view, settingsOf(4, "naive", 40)),
-                             rendered(makeGlBackend(), scene, view, settingsOf(1, "naive", 40))));
+  const Scene scene = test::loadAsset("pillar_room");
+  const View view = test::viewOf(scene, 96, 64);
+  EXPECT_TRUE(
+      test::sameBits(test::freshPicture(makeGlBackend(), scene, view, settingsOf(4, "naive", 40)),
+                     test::freshPicture(makeGlBackend(), scene, view, settingsOf(1, "naive", 40))));
 }
 
-// A wall between two rooms, seen end on and thinner than a block: its upper edge gets no direct
-// light, and the floor to both sides much and alike. Were cells asked for their corners alone, the
-// floor's light would get onto the wall; so too, with a dark room beyond, from room to room.
+// A wall between two rooms, seen from above and thinner than a block. Its upper edge gets no direct
+// light, while the floor on both sides is bright and even. If cells checked only their corners,
+// light of the floor would leak onto the wall. With a dark second room, light would leak from one
+// room to the other.
 TEST_F(GlLowResolution, NothingLeaksPastAThinWall) {
   for (const float other : {30.0f, 0.3f}) {
     Scene scene;
@@ -236,11 +219,14 @@ TEST_F(GlLowResolution, NothingLeaksPastAThinWall) {
     const View view = test::lookAt(vec3(0.0f, 10.0f, 0.5f), vec3(0.0f), 323, 203);
     for (const std::string technique : {"visibility", "light_maps"}) {
       SCOPED_TRACE(technique + " " + std::to_string(other));
-      const Image all = rendered(makeGlBackend(), scene, view, settingsOf(1, technique, 80));
+      const Image all =
+          test::freshPicture(makeGlBackend(), scene, view, settingsOf(1, technique, 80));
       for (const int block : {4, 8}) {
-        const Image low = rendered(makeGlBackend(), scene, view, settingsOf(block, technique, 80));
-        EXPECT_GT(shareOther(low, all), 0.05);
-        // Of every pixel, not of the mean: a line of light would be few pixels.
+        const Image low =
+            test::freshPicture(makeGlBackend(), scene, view, settingsOf(block, technique, 80));
+        EXPECT_GT(differingShare(low, all), 0.05);
+        // The largest error of any pixel: a line of leaked light covers too few pixels to change
+        // the mean.
         double worst = 0.0;
         for (size_t i = 0; i < all.pixels.size(); ++i) {
           const double d = std::abs(double{low.pixels[i].g} - double{all.pixels[i].g});

@@ -1,6 +1,6 @@
-// What the gl backend makes of patches and light maps: the techniques `visibility` and `light_maps`
-// give the picture of `naive` and of the cpu backend, whatever the number of lights a pass, and
-// edits leave no trace.
+// Patches and light maps on the gl backend. The techniques `visibility` and `light_maps` give the
+// picture of `naive` and of the cpu backend for any number of lights per pass, and the result does
+// not depend on earlier edits.
 #include <filesystem>
 #include <ostream>
 
@@ -8,12 +8,11 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
-#include "tests/support/shared_files.h"
 
 namespace lamplighter {
 namespace {
@@ -33,26 +32,15 @@ Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass = 
   return s;
 }
 
-View viewOf(const Scene& scene) {
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) return viewOfCamera(scene, node, kWidth, kHeight);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return viewOfBounds(render.bounds, kWidth, kHeight);
-}
-
 Image rendered(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
                const Settings& settings) {
-  return test::renderSettled(renderer, scene, changes, viewOf(scene), settings).radiance->pixels();
+  return test::settledPicture(renderer, scene, changes, test::viewOf(scene, kWidth, kHeight),
+                              settings);
 }
 
 Image rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Settings& settings) {
   FrameRenderer renderer(std::move(backend));
   return rendered(renderer, scene, SceneChanges::all(), settings);
-}
-
-Scene loadAsset(const std::string& name) {
-  return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
 }
 
 struct Case {
@@ -63,11 +51,8 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
 class GlPatchesScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
 
-TEST_P(GlPatchesScenes, EachTechniqueIsThePictureOfNaiveAndOfTheCpuBackend) {
-  const std::string name = GetParam().scene;
-  const fs::path path = name.find('/') == std::string::npos
-                            ? test::sourceFolder() / "assets/scenes" / name
-                            : test::sharedScenes() / name;
+TEST_P(GlPatchesScenes, EachTechniqueGivesThePictureOfNaiveAndOfTheCpuBackend) {
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
   const int vpls = GetParam().vpls;
@@ -83,7 +68,7 @@ TEST_P(GlPatchesScenes, EachTechniqueIsThePictureOfNaiveAndOfTheCpuBackend) {
     RecordProperty(technique + "FromNaive", std::to_string(fromNaive.relRmse));
     RecordProperty(technique + "FromCpu", std::to_string(fromCpu.relRmse));
     EXPECT_LT(fromNaive.relRmse, 0.01);
-    // Silhouettes of lamps differ by more in some levels, for naive just as much.
+    // Silhouettes of light sources differ more than that in some levels, with `naive` as well.
     EXPECT_LT(fromCpu.relRmse, std::max(0.01, 1.02 * backends));
     EXPECT_NEAR(fromNaive.bias, 1.0, 0.005);
   }
@@ -99,9 +84,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 using GlPatches = test::GlTest;
 
-// Else each of the pictures compared here would be that of naive.
-TEST_F(GlPatches, AreFollowed) {
-  const Scene scene = loadAsset("pillar_room.gltf");
+// If the techniques gave the picture of `naive`, the comparisons in this file would prove nothing.
+TEST_F(GlPatches, TechniquesGiveDifferentBits) {
+  const Scene scene = test::loadAsset("pillar_room");
   const Image naive = rendered(makeGlBackend(), scene, settingsOf("naive", 100));
   const Image visibility = rendered(makeGlBackend(), scene, settingsOf("visibility", 100));
   const Image lightMaps = rendered(makeGlBackend(), scene, settingsOf("light_maps", 100));
@@ -110,8 +95,8 @@ TEST_F(GlPatches, AreFollowed) {
   EXPECT_FALSE(test::sameBits(lightMaps, visibility));
 }
 
-TEST_F(GlPatches, AnyNumberOfLightsAPassGivesTheSameBits) {
-  const Scene scene = loadAsset("table_room.gltf");
+TEST_F(GlPatches, TheNumberOfLightsPerPassDoesNotChangeBits) {
+  const Scene scene = test::loadAsset("table_room");
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
     FrameRenderer renderer(makeGlBackend());
@@ -124,10 +109,10 @@ TEST_F(GlPatches, AnyNumberOfLightsAPassGivesTheSameBits) {
   }
 }
 
-TEST_F(GlPatches, APictureAfterEditsIsTheOneMadeFromNothing) {
+TEST_F(GlPatches, AfterEditsThePictureEqualsAFreshRender) {
   for (const char* technique : {"visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
-    Scene scene = loadAsset("pillar_room.gltf");
+    Scene scene = test::loadAsset("pillar_room");
     const Settings settings = settingsOf(technique, 120);
     FrameRenderer renderer(makeGlBackend());
     const Image first = rendered(renderer, scene, SceneChanges::all(), settings);
@@ -146,9 +131,8 @@ TEST_F(GlPatches, APictureAfterEditsIsTheOneMadeFromNothing) {
   }
 }
 
-// Switching between techniques leaves nothing of the one before.
-TEST_F(GlPatches, TechniquesMayBeSwitched) {
-  const Scene scene = loadAsset("table_room.gltf");
+TEST_F(GlPatches, SwitchingTechniquesEqualsAFreshRender) {
+  const Scene scene = test::loadAsset("table_room");
   FrameRenderer renderer(makeGlBackend());
   rendered(renderer, scene, SceneChanges::all(), settingsOf("naive", 60));
   for (const char* technique : {"light_maps", "visibility", "light_maps", "naive", "visibility"}) {
@@ -159,11 +143,12 @@ TEST_F(GlPatches, TechniquesMayBeSwitched) {
   }
 }
 
-// Where light maps come to have no room pixels sum all light, until there is some again.
-TEST_F(GlPatches, LightMapsMayLoseTheirRoom) {
+// If the memory is too small for light maps, pixels sum all lights, until there is enough memory
+// again.
+TEST_F(GlPatches, WithoutMemoryForLightMapsPixelsSumAllLights) {
   Scene scene = test::randomBoxes(900, 5);
   test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
-  const View view = viewOf(scene);
+  const View view = test::viewOf(scene, kWidth, kHeight);
   FrameRenderer kept(makeGlBackend());
   SceneChanges changes = SceneChanges::all();
   for (const int mebibytes : {512, 1, 512}) {
@@ -177,9 +162,10 @@ TEST_F(GlPatches, LightMapsMayLoseTheirRoom) {
   }
 }
 
-// Lights of more than one block and one texture array of maps, of two kinds.
-TEST_F(GlPatches, ThousandsOfLightsAreThoseOfTheCpuBackend) {
-  Scene scene = loadAsset("pillar_room.gltf");
+// So many lights that they need several uniform blocks and several texture arrays of shadow maps;
+// two kinds of light.
+TEST_F(GlPatches, ThousandsOfLightsEqualTheCpuBackend) {
+  Scene scene = test::loadAsset("pillar_room");
   scene.sky = vec3(0.3f, 0.4f, 0.5f);
   for (const char* technique : {"visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
@@ -194,8 +180,9 @@ TEST_F(GlPatches, ThousandsOfLightsAreThoseOfTheCpuBackend) {
   }
 }
 
-// A light map holds the front of a surface; its back, seen and lit from behind, sums all lights.
-TEST_F(GlPatches, BothSidesOfASurfaceAreLitAsTheyShould) {
+// A light map stores the front of a surface. Pixels that show its back, lit from behind, sum all
+// lights.
+TEST_F(GlPatches, BothSidesOfASurfaceAreLitCorrectly) {
   Scene scene;
   const int material = test::addMaterial(scene, vec3(0.7f));
   scene.materials[static_cast<size_t>(material)].doubleSided = true;

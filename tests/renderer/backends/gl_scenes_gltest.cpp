@@ -1,4 +1,5 @@
-// Real levels on both backends: textures, masks, thousands of small triangles, large coordinates.
+// Real levels on both backends: textures, alpha masks, thousands of small triangles, large
+// coordinates.
 #include <filesystem>
 
 #include "renderer/backends/gl/gl_backend.h"
@@ -6,7 +7,9 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/folders.h"
+#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"
 
 namespace lamplighter {
@@ -14,8 +17,8 @@ namespace {
 
 struct Case {
   const char* file;  // in assets/scenes, or in the shared scenes
-  // Bounds on the share of pixels whose radiance differs by more than 1% of itself and 5% of the
-  // picture's mean together; twice what was measured, or some pixels of the 13,824.
+  // Bounds on the share of pixels whose radiance differs by more than 1% of itself plus 5% of the
+  // picture's mean. They are twice the measured values, or a few of the 13,824 pixels.
   double lightShare;
 };
 
@@ -23,25 +26,13 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.file; }
 
 class GlScenes : public test::GlTest, public testing::WithParamInterface<Case> {};
 
-// Share of the pixels with a channel that differs by more than absolute + relative · |b|.
-double differing(const Image& a, const Image& b, float absolute, float relative) {
-  size_t count = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const vec3 d = glm::abs(a.pixels[i] - b.pixels[i]);
-    const vec3 limit = absolute + relative * glm::abs(b.pixels[i]);
-    count += !(d.r <= limit.r && d.g <= limit.g && d.b <= limit.b);
-  }
-  return static_cast<double>(count) / static_cast<double>(a.pixels.size());
-}
-
 TEST_P(GlScenes, LookTheSameOnBothBackends) {
   const Case& c = GetParam();
   std::filesystem::path path = test::sourceFolder() / "assets/scenes" / c.file;
   if (!std::filesystem::exists(path)) path = test::sharedScenes() / c.file;
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const Scene scene = loadGltf(path).scene;
-  RenderScene world;
-  update(world, scene, SceneChanges::all());
+  const RenderScene world = test::renderSceneOf(scene);
   View view = viewOfBounds(world.bounds, 144, 96);
   for (const Node& node : scene.nodes) {
     if (node.camera != kNone) view = viewOfCamera(scene, node, 144, 96);
@@ -59,13 +50,13 @@ TEST_P(GlScenes, LookTheSameOnBothBackends) {
   }
   const Metrics m = compareImages(radiance[0], radiance[1]);
   ASSERT_GT(m.meanB, 0.0);
-  const double albedoShare = differing(albedo[0], albedo[1], 0.01f, 0.01f);
+  const double albedoShare = test::differingShare(albedo[0], albedo[1], 0.01f, 0.01f);
   const double lightShare =
-      differing(radiance[0], radiance[1], 0.05f * static_cast<float>(m.meanB), 0.01f);
+      test::differingShare(radiance[0], radiance[1], 0.05f * static_cast<float>(m.meanB), 0.01f);
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("albedoShare", std::to_string(albedoShare));
   RecordProperty("lightShare", std::to_string(lightShare));
-  EXPECT_LT(albedoShare, 0.001);  // silhouettes; measured: 0.00015 at most
+  EXPECT_LT(albedoShare, 0.001);  // silhouettes; measured: at most 0.00015
   EXPECT_LT(lightShare, c.lightShare);
   EXPECT_NEAR(m.bias, 1.0, 0.005);
 }

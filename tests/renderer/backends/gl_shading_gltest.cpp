@@ -1,4 +1,4 @@
-// The gl backend's G-buffer, light sums and pictures against the cpu backend's.
+// G-buffer, light sums and pictures of the gl backend against the cpu backend.
 #include <fstream>
 
 #include "renderer/backends/gl/gl_backend.h"
@@ -6,6 +6,7 @@
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
 #include "tests/support/gltf_files.h"
+#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
@@ -16,26 +17,16 @@ namespace lamplighter {
 namespace {
 
 using GlShading = test::GlTest;
+using test::differingShare;
 using test::LitScene;
 using test::lookAt;
-
-// Share of the pixels with a channel that differs by more than `tolerance`.
-double differing(const Image& a, const Image& b, float tolerance) {
-  if (a.width != b.width || a.height != b.height) return 1.0;
-  size_t count = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const vec3 d = glm::abs(a.pixels[i] - b.pixels[i]);
-    count += !(std::max({d.r, d.g, d.b}) <= tolerance);
-  }
-  return static_cast<double>(count) / static_cast<double>(a.pixels.size());
-}
 
 View viewOfBoxes(int width = 160, int height = 120) {
   return lookAt(vec3(4.5f, 4.2f, 5.5f), vec3(-0.3f, 0.8f, -0.3f), width, height, 0.8f);
 }
 
-// Every kind of texture reference: wrapped, turned, on the second coordinates, normal-mapped with
-// and without tangents, emissive, masked, with vertex colours.
+// Every kind of texture reference: wrapped, rotated, with the second texture coordinates, normal
+// maps with and without tangents, emissive, alpha mask, vertex colours.
 Scene texturedScene() {
   Scene scene;
   for (const uint32_t seed : {1u, 2u, 3u}) {
@@ -87,7 +78,7 @@ Scene texturedScene() {
   return scene;
 }
 
-TEST_F(GlShading, GBufferIsThatOfRays) {
+TEST_F(GlShading, GBufferEqualsThatOfRays) {
   for (const Scene& scene : {test::randomBoxes(40, 7), texturedScene()}) {
     const bool textured = !scene.textures.empty();
     LitScene traced(scene), raster(scene, makeGlBackend());
@@ -95,11 +86,11 @@ TEST_F(GlShading, GBufferIsThatOfRays) {
     for (const vec2& jitter : {vec2(0.0f), vec2(0.31f, -0.42f)}) {
       for (LitScene* lit : {&traced, &raster}) lit->backend->renderGBuffer(view, jitter);
       const double normals =
-          differing(raster.backend->readNormals(), traced.backend->readNormals(), 2e-3f);
-      // Eight bits of a texture, weighted by a filter with eight bits.
-      const double albedo = differing(raster.backend->readAlbedo(), traced.backend->readAlbedo(),
-                                      textured ? 0.012f : 1e-4f);
-      // Silhouettes; measured: 0.00016 and 0.00005 at most.
+          differingShare(raster.backend->readNormals(), traced.backend->readNormals(), 2e-3f);
+      // Textures have 8 bits per channel and the filter weights of the GPU have 8 bits.
+      const double albedo = differingShare(raster.backend->readAlbedo(),
+                                           traced.backend->readAlbedo(), textured ? 0.012f : 1e-4f);
+      // Silhouettes; measured: at most 0.00016 and 0.00005.
       EXPECT_LT(normals, 0.001);
       EXPECT_LT(albedo, 0.001);
       const Image n = raster.backend->readNormals();
@@ -110,9 +101,9 @@ TEST_F(GlShading, GBufferIsThatOfRays) {
   }
 }
 
-// The jitter moves the picture by as much and to the side that rays say: the plain comparison above
-// would hardly tell on flat walls.
-TEST_F(GlShading, JitterMovesEdgesAsRaysSay) {
+// The jitter moves the picture by the same offset as the rays of the cpu backend. On flat walls the
+// comparison above would hardly detect an error.
+TEST_F(GlShading, JitterMovesEdgesAsRaysDo) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(1.0f), test::addMaterial(scene, vec3(1.0f))));
   LitScene traced(scene), raster(scene, makeGlBackend());
@@ -121,14 +112,14 @@ TEST_F(GlShading, JitterMovesEdgesAsRaysSay) {
   for (const vec2& jitter : {vec2(-0.45f, -0.45f), vec2(0.45f, -0.45f), vec2(0.45f, 0.45f)}) {
     for (LitScene* lit : {&traced, &raster}) lit->backend->renderGBuffer(view, jitter);
     pictures.push_back(raster.backend->readNormals());
-    EXPECT_LE(differing(pictures.back(), traced.backend->readNormals(), 1e-3f), 2.5 / 8000);
+    EXPECT_LE(differingShare(pictures.back(), traced.backend->readNormals(), 1e-3f), 2.5 / 8000);
   }
-  EXPECT_GT(differing(pictures[0], pictures[1], 1e-3f), 0.005);
-  EXPECT_GT(differing(pictures[1], pictures[2], 1e-3f), 0.005);
+  EXPECT_GT(differingShare(pictures[0], pictures[1], 1e-3f), 0.005);
+  EXPECT_GT(differingShare(pictures[1], pictures[2], 1e-3f), 0.005);
 }
 
-// The background by gradient and by picture, turned, with pixels shifted, as rays say.
-TEST_F(GlShading, SkyIsSeenWhereNothingIs) {
+// The background of a gradient and of rotated sky pictures, also with jitter, equals that of rays.
+TEST_F(GlShading, TheSkyIsSeenWhereNothingIsHit) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(0.5f), test::addMaterial(scene, vec3(0.5f))));
   std::vector<shared::Vpl> lamp{test::makeVpl(vec3(0, 3, 0), vec3(0, -1, 0))};
@@ -147,7 +138,7 @@ TEST_F(GlShading, SkyIsSeenWhereNothingIs) {
         }
         const Image a = traced.kernels->compose()->pixels(),
                     b = raster.kernels->compose()->pixels();
-        EXPECT_LE(differing(a, b, 2e-3f), 2.0 / 5400);
+        EXPECT_LE(differingShare(a, b, 2e-3f), 2.0 / 5400);
         const vec3 corner = sky.radianceFrom(view.rayDirection(0.5f + jitter.x, 0.5f + jitter.y));
         EXPECT_LT(glm::length(a.at(0, 0) - corner), 1e-4f);
       }
@@ -155,8 +146,8 @@ TEST_F(GlShading, SkyIsSeenWhereNothingIs) {
   }
 }
 
-// The maps are the same but for a few texels; a point on the border of a texel may fall to either
-// side, and a pixel on a silhouette to either surface.
+// The shadow maps agree except for a few texels. Due to rounding, a point on a texel border may use
+// either texel, and a pixel on a silhouette may show either surface.
 void expectSameLight(const Scene& scene, const std::vector<shared::Vpl>& vpls, double bound,
                      bool shadows = true) {
   LitScene traced(scene), raster(scene, makeGlBackend());
@@ -165,7 +156,7 @@ void expectSameLight(const Scene& scene, const std::vector<shared::Vpl>& vpls, d
   const Image b = traced.sum(vpls, view, 64, shadows, 0.1f);
   const float mean = (test::meanOf(b).r + test::meanOf(b).g + test::meanOf(b).b) / 3.0f;
   ASSERT_GT(mean, 0.0f);
-  const double share = differing(a, b, 0.01f * mean);
+  const double share = differingShare(a, b, 0.01f * mean);
   const Metrics m = compareImages(a, b);
   ::testing::Test::RecordProperty("differingPercent", std::to_string(100.0 * share));
   ::testing::Test::RecordProperty("relRmse", std::to_string(m.relRmse));
@@ -182,11 +173,10 @@ TEST_F(GlShading, LightWithShadowsIsTheSame) {
   expectSameLight(test::randomBoxes(40, 7), test::randomVpls(60, 5), 0.006);  // measured: 0.0043
 }
 
-// More than fit into one pass, and of every kind, mixed.
+// More VPLs than fit into one pass, of every kind.
 TEST_F(GlShading, ManyVplsOfEveryKindAreTheSame) {
   const Scene scene = test::randomBoxes(20, 9);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   std::vector<shared::Vpl> vpls = test::randomVpls(1500, 13);
   for (size_t i = 0; i < vpls.size(); i += 5) {
     vpls[i].position.w = shared::kVplUniform;
@@ -206,8 +196,8 @@ TEST_F(GlShading, EmissionTexturesAndSkyAreTheSame) {
   for (const View& view :
        {viewOfBoxes(), lookAt(vec3(3, -2, 2), vec3(0, 0.5f, 0), 160, 120, 0.8f)}) {
     const Image a = raster.sum({}, view, 16), b = traced.sum({}, view, 16);
-    const double share = differing(a, b, 0.025f);
-    EXPECT_LT(share, 0.001);  // measured: none
+    const double share = differingShare(a, b, 0.025f);
+    EXPECT_LT(share, 0.001);
     int sky = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i) sky += a.pixels[i] == traced.render.sky.radiance;
     EXPECT_GT(sky, 500);
@@ -221,7 +211,7 @@ TEST_F(GlShading, MaterialAndSkyChangesShow) {
   after.materials[3].emissive = vec3(0.0f, 5.0f, 0.0f);
   after.materials[0].baseColorTexture = {};
   after.materials[1].alphaMode = AlphaMode::mask;
-  after.materials[1].baseColor.a = 0.2f;  // below the cutoff: all of it is a hole
+  after.materials[1].baseColor.a = 0.2f;  // below the cutoff: the whole object is a hole
   after.sky = vec3(3.0f);
   const RenderSceneChanges changes = update(lit.render, after, compare(before, after));
   ASSERT_FALSE(changes.rebuilt);
@@ -234,7 +224,7 @@ TEST_F(GlShading, MaterialAndSkyChangesShow) {
   EXPECT_FALSE(test::sameBits(now, old.sum(vpls, viewOfBoxes(), 32)));
 }
 
-TEST_F(GlShading, PicturesStayWhatTheyAreWhileHeld) {
+TEST_F(GlShading, AHeldPictureDoesNotChangeWithLaterFrames) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   const std::vector vpls = test::randomVpls(3, 1);
   lit.sum(vpls, viewOfBoxes(), 16);
@@ -242,7 +232,7 @@ TEST_F(GlShading, PicturesStayWhatTheyAreWhileHeld) {
   const std::shared_ptr<RadianceImage> second = lit.kernels->compose();
   ASSERT_NE(textureOf(*held), textureOf(*second));
   lit.sum({}, viewOfBoxes(), 16);
-  EXPECT_GT(test::meanOf(held->pixels()).r, 0.0f);  // read only now
+  EXPECT_GT(test::meanOf(held->pixels()).r, 0.0f);  // read back only now
   EXPECT_EQ(test::meanOf(lit.kernels->compose()->pixels()).r, 0.0f);
 }
 
@@ -264,7 +254,7 @@ TEST_F(GlShading, CountsItsWork) {
   EXPECT_EQ(lit.backend->info().device, context().renderer());
 }
 
-TEST_F(GlShading, BrokenShadersLeaveTheGoodOnesInUse) {
+TEST_F(GlShading, ABrokenShaderLeavesTheWorkingOneInUse) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   const Image before = lit.sum(test::randomVpls(4, 1), viewOfBoxes(), 16);
   const test::TemporaryFolder folder;
@@ -279,7 +269,7 @@ TEST_F(GlShading, BrokenShadersLeaveTheGoodOnesInUse) {
   EXPECT_TRUE(test::sameBits(before, lit.sum(test::randomVpls(4, 1), viewOfBoxes(), 16)));
 }
 
-// A whole picture of many_lights, direct and indirect.
+// A complete picture of many_lights with direct and indirect light.
 class GlManyLights : public test::GlTest {
  protected:
   static Image render(std::unique_ptr<Backend> backend) {
@@ -294,10 +284,10 @@ class GlManyLights : public test::GlTest {
   }
 };
 
-TEST_F(GlManyLights, IsThePictureOfTheCpuBackend) {
+TEST_F(GlManyLights, GivesThePictureOfTheCpuBackend) {
   Image gl = render(makeGlBackend());
   const Image cpu = render(makeCpuBackend());
-  // A face seen from its edge may be there for one and not for the other: silhouettes apart.
+  // A face seen edge-on may be visible on one backend only: these pixels are compared separately.
   int silhouettes = 0;
   for (size_t i = 0; i < gl.pixels.size(); ++i) {
     if (glm::length(gl.pixels[i] - cpu.pixels[i]) < 0.1f) continue;
@@ -314,7 +304,7 @@ TEST_F(GlManyLights, IsThePictureOfTheCpuBackend) {
 TEST_F(GlManyLights, HasTheSameBitsEachTime) {
   const Image first = render(makeGlBackend());
   EXPECT_TRUE(test::sameBits(first, render(makeGlBackend())));
-  // A context of its own, as the command line uses.
+  // A context of its own, as on the command line.
   EXPECT_TRUE(
       test::sameBits(first, render(makeGlBackend(std::make_unique<gl::HeadlessContext>(true)))));
   context().makeCurrent();

@@ -14,9 +14,9 @@ using test::LitScene;
 
 struct Difference {
   int texels = 0;
-  int covered = 0;  // something was hit, in the traced map
-  int missed = 0;   // nothing in the rasterised map where something is in the traced
-  int other = 0;    // differ by more than a thousandth
+  int covered = 0;  // texels with a hit in the traced map
+  int missed = 0;   // of these, texels without a hit in the rasterised map
+  int other = 0;    // texels that differ by more than 0.001
 };
 
 Difference compare(const std::vector<float>& raster, const std::vector<float>& traced) {
@@ -36,8 +36,9 @@ std::vector<float> mapOf(LitScene& lit, const shared::Vpl& vpl, int resolution) 
   return lit.kernels->readShadowMap(vpl.slot);
 }
 
-// Where the maps differ a silhouette passes within a texel: a rasteriser snaps corners to a grid.
-TEST_F(GlShadowMap, OfRandomBoxesHoldsWhatRaysMeet) {
+// The maps differ only where a silhouette passes through a texel: the rasteriser snaps vertices to
+// a subpixel grid.
+TEST_F(GlShadowMap, OfRandomBoxesEqualsTheTracedMap) {
   const Scene scene = test::randomBoxes(40, 7);
   LitScene traced(scene), raster(scene, makeGlBackend());
   Difference sum;
@@ -62,9 +63,9 @@ TEST_F(GlShadowMap, OfRandomBoxesHoldsWhatRaysMeet) {
   EXPECT_LT(share, 0.0001);  // measured: 0.000012
 }
 
-// Inside a closed room every texel sees something; odd resolutions have texel centres on the
-// diagonals, where two faces meet, and turned walls have edges that cross them everywhere.
-TEST_F(GlShadowMap, HasNoHolesAtTheCreases) {
+// In a closed room every texel has a hit. Odd resolutions have texel centres on the diagonals,
+// where two faces of the octahedron meet. Edges of rotated walls cross the diagonals.
+TEST_F(GlShadowMap, HasNoHolesOnTheDiagonals) {
   Scene scene;
   const NodeId room = test::addMesh(scene, test::roomMesh(vec3(6, 3, 5)), vec3(0, 1.5f, 0));
   scene.find(room)->local.rotation = glm::angleAxis(0.4f, glm::normalize(vec3(1, 2, 3)));
@@ -77,7 +78,7 @@ TEST_F(GlShadowMap, HasNoHolesAtTheCreases) {
       const Difference d = compare(r, mapOf(traced, vpl, resolution));
       ASSERT_EQ(d.covered, d.texels);
       EXPECT_EQ(d.missed, 0) << "resolution " << resolution;
-      // On the creases themselves both agree but for the room's edges.
+      // On the diagonals both maps agree except at edges of the room.
       int wrong = 0;
       const std::vector<float> t = traced.kernels->readShadowMap(0);
       for (int i = 0; i < resolution; ++i) {
@@ -90,22 +91,22 @@ TEST_F(GlShadowMap, HasNoHolesAtTheCreases) {
   }
 }
 
-TEST_F(GlShadowMap, OfADirectionalLightHoldsWhatRaysMeet) {
+TEST_F(GlShadowMap, OfADirectionalLightEqualsTheTracedMap) {
   const Scene scene = test::randomBoxes(30, 3);
   LitScene traced(scene), raster(scene, makeGlBackend());
   shared::Vpl sun =
       test::makeVpl(traced.render.bounds.centre(), vec3(0.4f, 1.0f, 0.3f), shared::kVplDirectional);
   sun.normal.w = traced.render.bounds.radius();
-  sun.tangent.w = 0.85f * sun.normal.w;  // not all of it
+  sun.tangent.w = 0.85f * sun.normal.w;  // covers only part of the scene
   const Difference d = compare(mapOf(raster, sun, 128), mapOf(traced, sun, 128));
   ASSERT_GT(d.covered, d.texels / 10);
   ASSERT_LT(d.covered, d.texels);
   EXPECT_LE(d.other, d.texels / 1000);
 }
 
-TEST_F(GlShadowMap, HasHolesWhereTheMaskHasAndNothingOfWhatIsClear) {
+TEST_F(GlShadowMap, ContainsNeitherHolesOfAlphaMasksNorTransparentSurfaces) {
   Scene scene;
-  // A checkerboard of 4 texels, opaque and not.
+  // A checkerboard of 4 texels: opaque and transparent.
   auto image = std::make_shared<Image8>(4, 4);
   for (int i = 0; i < 16; ++i) image->at(i % 4, i / 4)[3] = (i + i / 4) % 2 == 0 ? 255 : 0;
   Texture& texture = scene.textures.emplace_back();
@@ -127,8 +128,8 @@ TEST_F(GlShadowMap, HasHolesWhereTheMaskHasAndNothingOfWhatIsClear) {
   EXPECT_LT(d.other, d.texels / 100);
 }
 
-// More maps than one array has layers on any device that is common (2048). Places are taken as maps
-// come, and given to others when they are dropped.
+// More maps than the usual maximum of array layers (2048). Layers are assigned as maps are
+// rendered, and are reused after maps are dropped.
 TEST_F(GlShadowMap, MapsMaySpanSeveralArrays) {
   const Scene scene = test::randomBoxes(10, 3);
   LitScene lit(scene, makeGlBackend());
@@ -157,7 +158,8 @@ TEST_F(GlShadowMap, MapsMaySpanSeveralArrays) {
   EXPECT_EQ(lit.kernels->readShadowMap(4998), map);
 }
 
-// A slot has a map of one size, and its place is free for others when it gets the other.
+// A slot has one map of either size. When the slot gets a map of the other size, its old layer is
+// free for other slots.
 TEST_F(GlShadowMap, ASlotHasAMapOfEitherSize) {
   LitScene lit(test::randomBoxes(10, 3), makeGlBackend());
   std::vector<shared::Vpl> vpls(3, test::randomVpls(1, 1)[0]);
@@ -195,7 +197,7 @@ TEST_F(GlShadowMap, FollowsMovedObjects) {
   Scene after = before;
   for (size_t i = 3; i < 8; ++i) {
     after.nodes[i].local.translation += vec3(0.5f, 0.2f, -0.4f);
-    after.nodes[i].local.scale.x = -1.0f;  // a mirror, which turns the triangles' corners
+    after.nodes[i].local.scale.x = -1.0f;  // mirrored, which reverses the winding of the triangles
   }
   const RenderSceneChanges changes =
       update(moved.render, after, lamplighter::compare(before, after));

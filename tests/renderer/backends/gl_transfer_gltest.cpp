@@ -1,5 +1,5 @@
-// Complex meshes lit by precomputed transfer: the gl backend's picture is the cpu backend's, and
-// edits and switches leave no trace.
+// Complex meshes lit by precomputed transfer. The gl backend gives the picture of the cpu backend,
+// and the result does not depend on earlier edits or settings.
 #include <spdlog/fmt/fmt.h>
 
 #include "renderer/backends/gl/gl_backend.h"
@@ -12,7 +12,7 @@
 namespace lamplighter {
 namespace {
 
-// A bumpy sphere, and a bowl that is seen from within and from without.
+// A bumpy sphere, and a bowl that is seen from inside and outside.
 struct Room {
   Scene scene;
   NodeId sphere = kNoNode, light = kNoNode;
@@ -64,26 +64,26 @@ Image rendered(std::unique_ptr<Backend> backend, const Room& room, const Setting
 
 using GlTransfer = test::GlTest;
 
-TEST_F(GlTransfer, IsThatOfTheCpuBackend) {
+TEST_F(GlTransfer, EqualsTheCpuBackend) {
   const Room room;
   const Image plain = rendered(makeGlBackend(), room, settingsOf(false));
   for (const std::string technique : {"visibility", "light_maps"}) {
     for (const auto& [block, bounces] : {std::pair(1, 4), {4, 4}, {4, 0}}) {
-      const std::string way = fmt::format("{}_{}_{}", technique, block, bounces);
-      SCOPED_TRACE(way);
+      const std::string variant = fmt::format("{}_{}_{}", technique, block, bounces);
+      SCOPED_TRACE(variant);
       const Image gl = rendered(makeGlBackend(), room, settingsOf(true, technique, block, bounces));
       const Image cpu = rendered(makeCpuBackend(), room, settingsOf(true, technique, 1, bounces));
       const Metrics m = compareImages(gl, cpu);
-      RecordProperty(way, std::to_string(m.relRmse));
+      RecordProperty(variant, std::to_string(m.relRmse));
       EXPECT_LT(m.relRmse, 0.01);
       EXPECT_NEAR(m.bias, 1.0, 0.002);
-      // Else it would be that of pixels with shadow maps.
+      // Verifies that transfer is used: the picture differs from that of pixels with shadow maps.
       EXPECT_GT(compareImages(gl, plain).relRmse, 2.0 * m.relRmse);
     }
   }
 }
 
-TEST_F(GlTransfer, APictureAfterEditsIsTheOneMadeFromNothing) {
+TEST_F(GlTransfer, AfterEditsThePictureEqualsAFreshRender) {
   Room room;
   FrameRenderer renderer(makeGlBackend());
   const Settings settings = settingsOf(true, "light_maps", 1, 0);
@@ -97,7 +97,7 @@ TEST_F(GlTransfer, APictureAfterEditsIsTheOneMadeFromNothing) {
   }
 }
 
-TEST_F(GlTransfer, MayBeSwitched) {
+TEST_F(GlTransfer, SwitchingItEqualsAFreshRender) {
   const Room room;
   FrameRenderer renderer(makeGlBackend());
   rendered(renderer, room, SceneChanges::all(), settingsOf(false));

@@ -1,31 +1,32 @@
-// Shadow maps that are kept from edit to edit, and what of them changes.
+// Shadow maps that are kept between edits, and which of their parts change.
 #include "renderer/backends/cpu/shadow_maps/map_store.h"
 
-#include <filesystem>
 #include <iostream>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "renderer/scene/gltf/gltf_io.h"
 #include "shaders/shared/octahedral.h"
 #include "shaders/shared/vpl_shading.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
-enum class Kind { drawn, traced };  // how maps are made, for the most part
+enum class Kind {
+  rasterised,
+  traced
+};  // how most triangles get into the maps: rasterised or by rays
 
-// A room with lights of all kinds, in which things move.
+// A room with lights of all kinds and objects that move.
 class Room {
  public:
   Room(Kind kind, uint32_t seed) : random_(seed) {
-    scene_ = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-    // More triangles than are drawn one by one.
+    scene_ = test::loadAsset("pillar_room");
+    // More triangles than the store rasterises individually.
     for (int i = 0; kind == Kind::traced && i < 100; ++i)
       test::addMesh(
           scene_, test::boxMesh(vec3(0.1f)),
@@ -82,9 +83,9 @@ std::vector<float> copyOf(std::span<const float> map) { return {map.begin(), map
 
 class KeptMaps : public testing::TestWithParam<std::tuple<Kind, int, uint32_t>> {};
 
-// Only what sees what moved is rendered anew, after one move or several; it has the bits of a map
-// made from nothing, and costs less.
-TEST_P(KeptMaps, AreThoseMadeFromNothing) {
+// After one or several moves, only the affected parts of a map are rendered again. The result has
+// the same bits as a newly rendered map and costs fewer rays.
+TEST_P(KeptMaps, EqualNewlyRenderedOnes) {
   const auto [kind, resolution, seed] = GetParam();
   Room room(kind, seed);
   const int slots = static_cast<int>(room.lights.size());
@@ -94,7 +95,7 @@ TEST_P(KeptMaps, AreThoseMadeFromNothing) {
   render(kept, room, room.lights, changes);
   for (const cpu::ShadowMapDiff& change : changes)
     EXPECT_EQ(change.extent, cpu::ShadowMapDiff::Extent::everything);
-  uint64_t rays = 0, raysAnew = 0;
+  uint64_t rays = 0, freshRays = 0;
   size_t parts = 0;
   for (int step = 0; step < 12; ++step) {
     kept.castersMove(room.world, room.moveSomething());
@@ -104,77 +105,77 @@ TEST_P(KeptMaps, AreThoseMadeFromNothing) {
     std::vector<std::vector<float>> before;
     for (const shared::Vpl& light : some) before.push_back(copyOf(kept.map(light.slot)));
     rays += render(kept, room, some, changes);
-    cpu::MapStore anew;
-    anew.reserve(slots, {resolution, slots}, {});
-    std::vector<cpu::ShadowMapDiff> ofNew;
-    raysAnew += render(anew, room, some, ofNew);
+    cpu::MapStore fresh;
+    fresh.reserve(slots, {resolution, slots}, {});
+    std::vector<cpu::ShadowMapDiff> freshChanges;
+    freshRays += render(fresh, room, some, freshChanges);
     for (size_t i = 0; i < some.size(); ++i) {
       const int slot = some[i].slot;
       const std::vector<float> map = copyOf(kept.map(slot));
-      ASSERT_EQ(map, copyOf(anew.map(slot))) << "slot " << slot << ", step " << step;
+      ASSERT_EQ(map, copyOf(fresh.map(slot))) << "slot " << slot << ", step " << step;
       ASSERT_EQ(map == before[i], changes[i].extent == cpu::ShadowMapDiff::Extent::nothing);
       parts += changes[i].extent == cpu::ShadowMapDiff::Extent::part ? 1 : 0;
     }
   }
-  std::cout << 100 * rays / raysAnew << "% of the rays, " << parts << " changed in part\n";
-  // Those about what moved are cast in either case.
-  EXPECT_LT(rays, kind == Kind::drawn ? raysAnew : raysAnew / 2);
+  std::cout << 100 * rays / freshRays << "% of the rays, " << parts << " changed in part\n";
+  // Rays near the moved object are cast in both cases.
+  EXPECT_LT(rays, kind == Kind::rasterised ? freshRays : freshRays / 2);
   EXPECT_GT(parts, 20u);
 }
 INSTANTIATE_TEST_SUITE_P(Rooms, KeptMaps,
-                         testing::Combine(testing::Values(Kind::drawn, Kind::traced),
+                         testing::Combine(testing::Values(Kind::rasterised, Kind::traced),
                                           testing::Values(16, 64, 96), testing::Range(1u, 4u)));
 
-// Maps of which no part can be told from others.
-TEST(KeptMaps, OfAnyResolutionAreThoseMadeFromNothing) {
-  Room room(Kind::drawn, 5);
+// At this resolution a map cannot be updated in parts.
+TEST(KeptMaps, OfAnyResolutionEqualNewlyRenderedOnes) {
+  Room room(Kind::rasterised, 5);
   const int slots = static_cast<int>(room.lights.size()), resolution = 18;
-  cpu::MapStore kept, anew;
+  cpu::MapStore kept, fresh;
   std::vector<cpu::ShadowMapDiff> changes;
   kept.reserve(slots, {resolution, slots}, {});
   render(kept, room, room.lights, changes);
   kept.castersMove(room.world, room.moveSomething());
   render(kept, room, room.lights, changes);
-  anew.reserve(slots, {resolution, slots}, {});
-  render(anew, room, room.lights, changes);
+  fresh.reserve(slots, {resolution, slots}, {});
+  render(fresh, room, room.lights, changes);
   for (int slot = 0; slot < slots; ++slot)
-    EXPECT_EQ(copyOf(kept.map(slot)), copyOf(anew.map(slot)));
+    EXPECT_EQ(copyOf(kept.map(slot)), copyOf(fresh.map(slot)));
 }
 
-// A light elsewhere, materials that change, and more moves than are remembered.
-TEST(KeptMaps, ForgetWhatNoLongerHolds) {
-  Room room(Kind::drawn, 6);
+// A light that moved, changed materials, and more moves than the store remembers.
+TEST(KeptMaps, DiscardOutdatedMaps) {
+  Room room(Kind::rasterised, 6);
   const int slots = static_cast<int>(room.lights.size()), resolution = 32;
   cpu::MapStore kept;
   std::vector<cpu::ShadowMapDiff> changes;
   kept.reserve(slots, {resolution, slots}, {});
   render(kept, room, room.lights, changes);
-  const auto expectAsNew = [&](const char* what) {
-    cpu::MapStore anew;
-    anew.reserve(slots, {resolution, slots}, {});
-    render(anew, room, room.lights, changes);
+  const auto expectEqualsNew = [&](const char* what) {
+    cpu::MapStore fresh;
+    fresh.reserve(slots, {resolution, slots}, {});
+    render(fresh, room, room.lights, changes);
     render(kept, room, room.lights, changes);
     for (int slot = 0; slot < slots; ++slot)
-      EXPECT_EQ(copyOf(kept.map(slot)), copyOf(anew.map(slot))) << what;
+      EXPECT_EQ(copyOf(kept.map(slot)), copyOf(fresh.map(slot))) << what;
   };
   for (shared::Vpl& light : room.lights) light.position += vec4(0.1f, 0.0f, 0.1f, 0.0f);
   render(kept, room, room.lights, changes);
   for (const cpu::ShadowMapDiff& change : changes)
     EXPECT_EQ(change.extent, cpu::ShadowMapDiff::Extent::everything);
-  expectAsNew("a light elsewhere");
+  expectEqualsNew("moved lights");
   for (int i = 0; i < 2500; ++i) kept.castersMove(room.world, room.moveSomething());
-  expectAsNew("many moves");
+  expectEqualsNew("many moves");
   for (Material& material : room.world.materials) material.transmission = 1.0f;
   RenderSceneChanges clear;
   clear.materials = true;
   room.rays->update(clear);
   kept.castersChange();
-  expectAsNew("clear materials");
+  expectEqualsNew("transparent materials");
 }
 
-// Lights have maps of either size, turn by turn, while things move.
-TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
-  for (const Kind kind : {Kind::drawn, Kind::traced}) {
+// Lights get maps of both sizes alternately while objects move.
+TEST(KeptMaps, OfTwoSizesEqualNewlyRenderedOnes) {
+  for (const Kind kind : {Kind::rasterised, Kind::traced}) {
     Room room(kind, 8);
     const int slots = static_cast<int>(room.lights.size());
     const MapRoom coarse{16, slots}, fine{64, slots};
@@ -190,16 +191,16 @@ TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
         for (const shared::Vpl& light : room.lights)
           if (room.number() % 2 != 0) some.push_back(light);
         render(kept, room, some, changes, size);
-        cpu::MapStore anew;
-        anew.reserve(slots, coarse, fine);
-        std::vector<cpu::ShadowMapDiff> ofNew;
-        render(anew, room, some, ofNew, size);
+        cpu::MapStore fresh;
+        fresh.reserve(slots, coarse, fine);
+        std::vector<cpu::ShadowMapDiff> freshChanges;
+        render(fresh, room, some, freshChanges, size);
         const int resolution = size == MapSize::coarse ? 16 : 64;
         for (size_t i = 0; i < some.size(); ++i) {
           const int slot = some[i].slot;
           MapSize& was = sizes[static_cast<size_t>(slot)];
           ASSERT_EQ(kept.resolution(slot), resolution);
-          ASSERT_EQ(copyOf(kept.map(slot)), copyOf(anew.map(slot))) << "step " << step;
+          ASSERT_EQ(copyOf(kept.map(slot)), copyOf(fresh.map(slot))) << "step " << step;
           if (was != size) {
             ASSERT_EQ(changes[i].extent, cpu::ShadowMapDiff::Extent::everything);
           }
@@ -212,18 +213,18 @@ TEST(KeptMaps, OfTwoSizesAreThoseMadeFromNothing) {
     }
     for (int slot = 0; slot < slots; ++slot) kept.drop(slot);
     EXPECT_EQ(kept.bytes(), 0u);
-    // Of each size no more are held than there is room for.
+    // For each size, no more maps than reserved.
     kept.reserve(slots, coarse, {64, 1});
     render(kept, room, room.lights, changes);
     EXPECT_THROW(render(kept, room, room.lights, changes, MapSize::fine), std::length_error);
   }
 }
 
-// Whatever looks up a texel that changed is in reach of the change.
-TEST(ShadowMapDiff, ReachesWhateverLooksItUp) {
+// Every point whose look-up reads a changed texel is reported as reached by the change.
+TEST(ShadowMapDiff, ReachesEveryPointThatReadsAChangedTexel) {
   constexpr int kPoints = 4000;
   for (const int resolution : {16, 64, 256}) {
-    Room room(Kind::drawn, 7);
+    Room room(Kind::rasterised, 7);
     const int slots = static_cast<int>(room.lights.size());
     cpu::MapStore store;
     store.reserve(slots, {resolution, slots}, {});

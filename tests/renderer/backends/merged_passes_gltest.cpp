@@ -1,30 +1,24 @@
-// Merged passes (paper 1, 4.3.5) of the gl backend: each pixel gets each of its lights once, by no
-// more draws than object by object.
-#include <filesystem>
+// Merged passes (paper 1, section 4.3.5) of the gl backend: each pixel gets each of its lights
+// once, with at most as many draw calls as object by object.
 #include <set>
 
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/backends/gl/many_lights/light_lists.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/pass_merging.h"
-#include "renderer/sampling/emitters/lights.h"
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "shaders/shared/patches.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
-// The same lights are added in another order, so the last bits of float sums differ: each addition
-// of a few hundred rounds by 2⁻²⁴ at most, and up and down alike.
+// The same lights are added in another order, so the last bits of float sums differ: each of a few
+// hundred additions rounds by at most 2⁻²⁴, up or down.
 constexpr double kRounding = 1e-6;
-
-Scene loadAsset(const std::string& name) {
-  return loadGltf(test::sourceFolder() / "assets/scenes" / name).scene;
-}
 
 Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, bool merge) {
   Settings s;
@@ -40,10 +34,7 @@ Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, b
 
 GiOutput rendered(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
                   const Settings& settings) {
-  View view;
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) view = viewOfCamera(scene, node, 160, 100);
-  return test::renderSettled(renderer, scene, changes, view, settings);
+  return test::renderSettled(renderer, scene, changes, test::viewOf(scene, 160, 100), settings);
 }
 
 GiOutput rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Settings& settings) {
@@ -55,9 +46,9 @@ GiOutput rendered(std::unique_ptr<Backend> backend, const Scene& scene, const Se
 
 using MergedGlPasses = test::GlTest;
 
-TEST_F(MergedGlPasses, GiveTheSamePictureByFewerDraws) {
-  for (const char* name : {"pillar_room.gltf", "table_room.gltf"}) {
-    const Scene scene = loadAsset(name);
+TEST_F(MergedGlPasses, GiveTheSamePictureWithFewerDrawCalls) {
+  for (const char* name : {"pillar_room", "table_room"}) {
+    const Scene scene = test::loadAsset(name);
     for (const char* technique : {"visibility", "light_maps"}) {
       const GiOutput listed =
           rendered(makeGlBackend(), scene, settingsOf(technique, 150, 6, false));
@@ -69,7 +60,7 @@ TEST_F(MergedGlPasses, GiveTheSamePictureByFewerDraws) {
         EXPECT_LT(compareImages(merged.radiance->pixels(), listed.radiance->pixels()).relRmse,
                   kRounding);
         EXPECT_GT(merged.stats.of("merged_passes"), 0);
-        // One draw takes all lights of an object at once: then there is little to merge.
+        // If one draw call takes all lights of an object, there is little to merge.
         if (most <= 6) {
           EXPECT_GT(merged.stats.of("passes_saved"), merged.stats.of("merged_passes"));
         }
@@ -78,8 +69,8 @@ TEST_F(MergedGlPasses, GiveTheSamePictureByFewerDraws) {
   }
 }
 
-TEST_F(MergedGlPasses, TakeLightsOfSeveralKindsArraysAndBlocks) {
-  Scene scene = loadAsset("pillar_room.gltf");
+TEST_F(MergedGlPasses, WorkForSeveralLightKindsTextureArraysAndBlocks) {
+  Scene scene = test::loadAsset("pillar_room");
   scene.sky = vec3(0.3f, 0.4f, 0.5f);
   Image pictures[2];
   for (const bool merge : {false, true}) {
@@ -90,8 +81,8 @@ TEST_F(MergedGlPasses, TakeLightsOfSeveralKindsArraysAndBlocks) {
   EXPECT_LT(compareImages(pictures[1], pictures[0]).relRmse, kRounding);
 }
 
-TEST_F(MergedGlPasses, MayBeSwitchedAndLeaveNoTrace) {
-  Scene scene = loadAsset("pillar_room.gltf");
+TEST_F(MergedGlPasses, SwitchingThemEqualsAFreshRender) {
+  Scene scene = test::loadAsset("pillar_room");
   FrameRenderer renderer(makeGlBackend());
   rendered(renderer, scene, SceneChanges::all(), settingsOf("light_maps", 100, 6, false));
   const Scene before = scene;
@@ -107,7 +98,7 @@ TEST_F(MergedGlPasses, MayBeSwitchedAndLeaveNoTrace) {
     EXPECT_EQ(switched.stats.of("merged_passes"), fresh.stats.of("merged_passes"));
     EXPECT_EQ(switched.stats.of("merged_passes") > 0, merge);
   }
-  // What has no lists has nothing to merge.
+  // `naive` and the cpu backend have no light lists, so there is nothing to merge.
   EXPECT_EQ(
       rendered(renderer, scene, {}, settingsOf("naive", 100, 6, true)).stats.of("merged_passes"),
       0);
@@ -116,22 +107,15 @@ TEST_F(MergedGlPasses, MayBeSwitchedAndLeaveNoTrace) {
             0);
 }
 
-// The lists themselves: the same entries as before, in the order of their passes, none of which
-// takes more lights than it may.
-TEST(MergedLists, HoldEachLightOnceInPassesThatAreFull) {
-  const Scene scene = loadAsset("table_room.gltf");
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  const RayCaster rays(render);
-  std::vector<shared::Vpl> vpls;
-  for (const SceneVpl& v : generateVpls(render, rays, LightSet(render), {90, 0.5f, 1, 1}).vpls) {
-    vpls.push_back(v.vpl);
-    vpls.back().slot = static_cast<int>(vpls.size() - 1);
-  }
+// The lists contain the same entries as before, sorted by pass, and no pass takes more lights than
+// allowed.
+TEST(MergedLists, ContainEachLightOnceInFullPasses) {
+  const Scene scene = test::loadAsset("table_room");
+  const RenderScene render = test::renderSceneOf(scene);
+  std::vector<shared::Vpl> vpls = test::lightsOf(render, {90, 0.5f, 1, 1});
+  for (size_t i = 0; i < vpls.size(); ++i) vpls[i].slot = static_cast<int>(i);
   VisibilityDatabase database;
-  RenderSceneChanges all;
-  all.rebuilt = true;
-  database.setScene(render, all);
+  database.setScene(render, test::everythingRebuilt());
   database.setLights(render, vpls);
   const PatchLights patches(database, nullptr, true);
   std::vector<gl::SeenObject> objects;
@@ -176,7 +160,7 @@ TEST(MergedLists, HoldEachLightOnceInPassesThatAreFull) {
         }
         std::sort(is.begin(), is.end());
         ASSERT_EQ(is, was);
-        // What needs no map is as it was.
+        // Entries of lights that need no shadow map are unchanged.
         for (size_t i = range.x; i < first; ++i) ASSERT_EQ(merged.entries()[i], plain.entries()[i]);
       }
       byObject += (static_cast<int>(needed.size()) + kMost - 1) / kMost;

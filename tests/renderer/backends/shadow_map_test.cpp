@@ -1,5 +1,4 @@
-// The octahedral hemisphere shadow maps against their closed form, and what a look-up makes of
-// them.
+// Octahedral hemisphere shadow maps against their closed form, and the shadows that look-ups give.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -17,7 +16,7 @@ using test::LitScene;
 using test::lookAt;
 using test::makeVpl;
 
-// Where the ray from o along d enters the box, or 0 when it does not: the slab method.
+// The distance at which the ray from o along d enters the box, or 0 if it misses it (slab method).
 double entersBox(const glm::dvec3& o, const glm::dvec3& d, const Bounds& box) {
   double first = 0.0, last = 1e30;
   for (int axis = 0; axis < 3; ++axis) {
@@ -29,9 +28,10 @@ double entersBox(const glm::dvec3& o, const glm::dvec3& d, const Bounds& box) {
   return first < last ? first : 0.0;
 }
 
-// A box on a large floor, below a light that is tilted: every texel's 1/w is known.
-TEST(ShadowMap, OfABoxOnAFloorHoldsTheClosedForm) {
-  constexpr int kResolution = 33;  // odd: texels on both diagonals, the octahedron's creases
+// A tilted light above a box on a large floor: 1/w of every texel is known in closed form.
+TEST(ShadowMap, OfABoxOnAFloorEqualsTheClosedForm) {
+  constexpr int kResolution =
+      33;  // odd: texel centres on both diagonals, where faces of the octahedron meet
   Scene scene;
   test::addMesh(scene, test::squareMesh(200.0f));
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0.3f, 0.5f, 0.2f));
@@ -62,7 +62,7 @@ TEST(ShadowMap, OfABoxOnAFloorHoldsTheClosedForm) {
       nothing += w == 0.0;
       const double expected = w > 0.0 ? 1.0 / w : 0.0;
       const double error = std::abs(map[y * kResolution + x] - expected);
-      // A ray along the box's very edge may fall to either side.
+      // A ray along an edge of the box may hit or miss it.
       if (error > 2e-6 + 2e-5 * expected) ++silhouettes;
     }
   }
@@ -98,8 +98,9 @@ int differing(const Image& a, const Image& b) {
   return count;
 }
 
-// Planes do not shadow themselves, however coarse the map and however grazing the light: with and
-// without shadow the picture has the same bits, with a quarter of the default bias (for rounding).
+// A plane does not shadow itself, for any resolution and any grazing angle: the picture has the
+// same bits with and without shadows, already with a quarter of the default bias (which is needed
+// for rounding only).
 TEST(ShadowLookUp, APlaneHasNoAcne) {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(1.0f));
@@ -109,7 +110,7 @@ TEST(ShadowLookUp, APlaneHasNoAcne) {
   LitScene lit(scene);
   const View view = lookAt(6.0f * up + vec3(1, 0, 2), vec3(0), 96, 96, 1.4f);
   for (const float height : {0.02f, 0.3f, 3.0f}) {
-    // Axes that look down, along the plane, and past it.
+    // Light axes that point down at the plane, along it, and away from it.
     for (const float tilt : {0.0f, 1.2f, 1.57f, 2.2f}) {
       for (const int resolution : {8, 64}) {
         const vec3 axis = glm::angleAxis(tilt, glm::normalize(glm::cross(up, vec3(1, 0, 0)))) * -up;
@@ -124,7 +125,8 @@ TEST(ShadowLookUp, APlaneHasNoAcne) {
   }
 }
 
-// Two walls and a floor, all seen by the light: nothing blocks anything, so nothing may be dark.
+// Two walls and a floor, all visible from the light: there are no occluders, so nothing may be in
+// shadow.
 TEST(ShadowLookUp, AConcaveCornerShadowsItselfLittle) {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(1.0f));
@@ -141,16 +143,16 @@ TEST(ShadowLookUp, AConcaveCornerShadowsItselfLittle) {
   EXPECT_LT(lost, 0.0003);  // measured: 0.00014
 }
 
-// Paper 1, figure 4-3: the shadow of a wall that stands on the floor must reach the wall's foot.
-// The light that leaks there, as a share of what would fall into the shadow without the wall, is
-// bounded by the texels along the foot.
+// Paper 1, figure 4-3: the shadow of a wall on the floor must begin at the foot of the wall. The
+// leaked light, as a share of the light without the wall, is bounded by the size of the texels
+// along the foot.
 TEST(ShadowLookUp, LittleLightLeaksUnderAWall) {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(1.0f));
   test::addMesh(scene, test::squareMesh(20.0f, white));
   test::addMesh(scene, test::boxMesh(vec3(20, 4, 0.1f), white), vec3(0, 2, -2.05f));
   LitScene lit(scene);
-  // Straight down on the floor behind the wall, from the wall's foot 2 m onwards.
+  // Straight down at the floor behind the wall, from its foot to 2 m behind it.
   View view = lookAt(vec3(0, 3.9f, -3.1f), vec3(0, 0, -3.1f - 1e-4f), 128, 128, 0.54f);
   const std::vector vpls{makeVpl(vec3(0.3f, 3.0f, 0), vec3(0, -1, 0))};
   double leaked[2];
@@ -161,7 +163,8 @@ TEST(ShadowLookUp, LittleLightLeaksUnderAWall) {
     leaked[resolution / 128] = static_cast<double>(test::meanOf(shadowed).r / test::meanOf(open).r);
     RecordProperty("leakPercent" + std::to_string(resolution),
                    std::to_string(100.0 * leaked[resolution / 128]));
-    // No light but within two texels of the foot: a texel covers 2/resolution of the L1 distance.
+    // No light farther than two texels from the foot: a texel covers 2/resolution of the L1
+    // distance.
     const float reach = 2.0f * 2.0f / static_cast<float>(resolution) * (3.0f + 2.1f + 1.0f);
     for (int y = 0; y < view.height; ++y) {
       for (int x = 0; x < view.width; ++x) {
@@ -174,7 +177,8 @@ TEST(ShadowLookUp, LittleLightLeaksUnderAWall) {
       }
     }
   }
-  // What kCornerTexels costs, for what it spares corners (above): 0.00055 with 1, 0.0015 with 2.
+  // The leak that kCornerTexels causes in exchange for lit corners (test above): 0.00055 with 1,
+  // 0.0015 with 2.
   EXPECT_LT(leaked[0], 0.002);
   EXPECT_LT(leaked[1], 0.6 * leaked[0]);
 }

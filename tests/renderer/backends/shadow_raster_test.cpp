@@ -1,4 +1,4 @@
-// Maps that are rasterised hold what rays meet.
+// Rasterised shadow maps equal traced ones.
 #include "renderer/backends/cpu/shadow_maps/shadow_raster.h"
 
 #include <cmath>
@@ -7,21 +7,20 @@
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"
-#include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
 struct Compared {
-  size_t texels = 0, others = 0;  // by more than rounding
+  size_t texels = 0, others = 0;  // `others`: texels that differ by more than rounding
   uint64_t rays = 0;
 };
 
-// Both in pieces of rows, as the backend has them.
+// Renders both maps in strips of rows, as the backend does.
 Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, int resolution) {
   const RayCaster rays(scene);
   cpu::ShadowRaster raster;
@@ -43,13 +42,10 @@ Compared compare(const RenderScene& scene, std::span<const shared::Vpl> vpls, in
   return all;
 }
 
-// A texel may fall to either side of an edge.
-TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
+// A texel centre close to an edge may fall to either side of it.
+TEST(ShadowRaster, EqualsTracedMapsInRooms) {
   for (const char* name : {"pillar_room", "area_light_room", "cornell_style", "table_room"}) {
-    RenderScene scene;
-    update(scene,
-           loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(name) + ".gltf")).scene,
-           SceneChanges::all());
+    const RenderScene scene = test::renderSceneOf(test::loadAsset(name));
     for (const int resolution : {8, 24, 64, 96, 256}) {
       const Compared c = compare(scene, test::lightsOf(scene, 8192 / resolution), resolution);
       std::cout << name << " " << resolution << ": " << c.others << " of " << c.texels
@@ -60,11 +56,9 @@ TEST(ShadowRaster, HoldsWhatRaysMeetInRooms) {
   }
 }
 
-// Of suns: squares over parts of the room, from all round.
-TEST(ShadowRaster, HoldsWhatParallelRaysMeet) {
-  RenderScene scene;
-  update(scene, loadGltf(test::sourceFolder() / "assets/scenes/table_room.gltf").scene,
-         SceneChanges::all());
+// Parallel lights from many directions, each over a square part of the room.
+TEST(ShadowRaster, OfParallelLightsEqualsTracedMaps) {
+  const RenderScene scene = test::renderSceneOf(test::loadAsset("table_room"));
   const float radius = scene.bounds.radius();
   std::vector<shared::Vpl> suns;
   for (int i = 0; i < 40; ++i) {

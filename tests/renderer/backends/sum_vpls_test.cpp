@@ -1,4 +1,4 @@
-// The eight-wide sum against the definition that it follows, shaders/shared/vpl_shading.h.
+// The 8-lane sum against the scalar definition in shaders/shared/vpl_shading.h.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -35,14 +35,15 @@ shared::Vpl colored(shared::Vpl vpl, const vec3& intensity) {
   return vpl;
 }
 
-// One of each kind, the spot aslant, the cosine one near enough to be clamped.
+// One light of each kind. The spot light is oblique, and the cosine light is so near that its
+// distance is clamped.
 std::vector<shared::Vpl> lights() {
   shared::Vpl spot = makeVpl(vec3(2, 3, 1), vec3(-1, -1.5f, -0.3f), shared::kVplUniform, 1.0f);
   spot.normal.w = 3.0f;
   spot.tangent.w = -2.2f;
   shared::Vpl sun = makeVpl(vec3(0), vec3(0.5f, 1, 0.4f), shared::kVplDirectional, 2.0f);
   sun.normal.w = 5.0f;
-  sun.tangent.w = 1.7f;  // not all of the scene
+  sun.tangent.w = 1.7f;  // covers only part of the scene
   return {colored(makeVpl(vec3(-0.2f, 3, -0.1f), vec3(0.1f, -1, 0.2f)), vec3(3, 2, 1)),
           colored(makeVpl(vec3(0.2f, 0.3f, 1.2f), vec3(0, -1, -0.5f)), vec3(0.2f, 0.5f, 0.1f)),
           colored(spot, vec3(5, 1, 9)), colored(sun, vec3(0.3f, 0.2f, 0.4f))};
@@ -92,11 +93,11 @@ TEST(SumVpls, FollowsTheSharedDefinition) {
     }
   }
   EXPECT_LT(dark, view.width * view.height / 2);
-  // The rounding of a point may put it into the neighbouring texel.
+  // Due to rounding, a point may use the neighbouring texel.
   EXPECT_LE(wrong, view.width * view.height / 500);
 }
 
-TEST(SumVpls, TheSameBitsAtAnyNumberOfThreads) {
+TEST(SumVpls, HasTheSameBitsAtAnyNumberOfThreads) {
   const View view = test::lookAt(vec3(3, 3, 4), vec3(0, 0.7f, 0), 93, 70, 0.8f);
   std::vector<Image> images;
   for (const size_t threads : {1u, 2u, 5u}) {
@@ -109,7 +110,7 @@ TEST(SumVpls, TheSameBitsAtAnyNumberOfThreads) {
 }
 
 TEST(CpuBackend, CountsItsWork) {
-  // Maps of whole tiles are rasterised, others are traced.
+  // Maps that consist of whole tiles are rasterised, others are traced.
   for (const auto& [resolution, raysAMap] : {std::pair(16u, 0u), {17u, 17u * 17u}}) {
     LitScene lit(blocks());
     const View view = test::lookAt(vec3(3, 3, 4), vec3(0), 20, 10);
@@ -123,7 +124,7 @@ TEST(CpuBackend, CountsItsWork) {
   }
 }
 
-TEST(CpuBackend, ShowsAnAreaLightsBackDark) {
+TEST(CpuBackend, ShowsTheBackOfAnAreaLightBlack) {
   Scene scene;
   const NodeId light = test::addRectangleLight(scene, vec3(0), vec2(2.0f), vec3(2, 3, 4));
   scene.find(light)->local.rotation = quat(1, 0, 0, 0);  // towards −Z
@@ -144,7 +145,7 @@ TEST(CpuBackend, ShowsTheSkyAndEmissionFromTheFrontOnly) {
   const View below = test::lookAt(vec3(0, -2, 0.01f), vec3(0), 9, 9, 1.6f);
   const Image front = lit.sum({}, above, 8), back = lit.sum({}, below, 8);
   EXPECT_EQ(front.at(4, 4), vec3(2, 3, 4));
-  EXPECT_EQ(back.at(4, 4), scene.sky.radiance);  // culled
+  EXPECT_EQ(back.at(4, 4), scene.sky.radiance);  // back faces are culled
   EXPECT_EQ(front.at(0, 0), scene.sky.radiance);
 }
 

@@ -1,4 +1,4 @@
-// The places of charts on pages, and the points of texels.
+// Placement of charts on pages, and the surface points of texels.
 #include "renderer/bake/atlas.h"
 
 #include <cmath>
@@ -15,23 +15,17 @@
 namespace lamplighter {
 namespace {
 
-RenderScene rendered(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
-}
-
 Scene oneMesh(std::shared_ptr<const Mesh> mesh) {
   Scene scene;
   test::addMesh(scene, std::move(mesh));
   return scene;
 }
 
-TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelIsTwoCharts) {
+TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelBelongsToTwoCharts) {
   Scene scene;
   for (int i = 0; i < 12; ++i)
     test::addMesh(scene, test::boxMesh(vec3(1, 2, 1.5f)), vec3(3 * i, 0, 0));
-  const RenderScene render = rendered(scene);
+  const RenderScene render = test::renderSceneOf(scene);
   const LightMapAtlas atlas = makeAtlas(render, {16.0f, 128});
   EXPECT_GT(atlas.pages, 1);
   EXPECT_TRUE(atlas.coarser.empty());
@@ -50,26 +44,26 @@ TEST(Atlas, ChartsOfANodeShareAPageAndNoTexelIsTwoCharts) {
   }
 }
 
-TEST(Atlas, WhatIsTooLargeForAPageIsMadeCoarser) {
+TEST(Atlas, ObjectsTooLargeForAPageGetCoarserTexels) {
   const Scene scene = oneMesh(test::squareMesh(100.0f));
-  const LightMapAtlas atlas = makeAtlas(rendered(scene), {8.0f, 256});
+  const LightMapAtlas atlas = makeAtlas(test::renderSceneOf(scene), {8.0f, 256});
   ASSERT_EQ(atlas.coarser.size(), 1u);
   EXPECT_EQ(atlas.coarser[0].node, scene.nodes[0].id);
   EXPECT_LT(atlas.charts[0].size.x, 257);
   EXPECT_GT(atlas.charts[0].size.x, 128);
 }
 
-TEST(Atlas, AreaLightsAndPanesHaveNone) {
+TEST(Atlas, AreaLightsAndPanesHaveNoCharts) {
   Scene scene;
   const int glass = test::addMaterial(scene, vec3(1));
   scene.materials[static_cast<size_t>(glass)].transmission = 1.0f;
   test::addMesh(scene, test::squareMesh(1.0f, glass));
   test::addRectangleLight(scene, vec3(0, 2, 0), vec2(1), vec3(1));
-  EXPECT_TRUE(makeAtlas(rendered(scene), {}).charts.empty());
+  EXPECT_TRUE(makeAtlas(test::renderSceneOf(scene), {}).charts.empty());
 }
 
 TEST(BakePoints, LieOnTheSurfaceUnderTheirTexels) {
-  const RenderScene render = rendered(oneMesh(test::squareMesh(2.0f)));
+  const RenderScene render = test::renderSceneOf(oneMesh(test::squareMesh(2.0f)));
   const LightMapAtlas atlas = makeAtlas(render, {8.0f, 64});
   ASSERT_EQ(atlas.charts.size(), 1u);
   const ObjectChart& c = atlas.charts[0];
@@ -82,7 +76,7 @@ TEST(BakePoints, LieOnTheSurfaceUnderTheirTexels) {
     const vec2 off = texels - vec2(p.x, p.y);
     const bool isOn = std::abs(off.x - 0.5f) < 0.3f && std::abs(off.y - 0.5f) < 0.3f;
     on += isOn;
-    // In the gutter: the nearest of the square, which is no further than that.
+    // A texel in the gutter uses the nearest point of the square.
     if (!isOn) {
       EXPECT_LT(glm::length(off - 0.5f), 1.0f + kGutter * 1.5f);
     }
@@ -107,7 +101,7 @@ TEST(SecondUvs, InstancesGetMeshesOfTheirOwn) {
   test::addMesh(scene, box);
   test::addMesh(scene, box, vec3(4, 0, 0));
   scene.nodes[1].mesh = scene.nodes[0].mesh;
-  const RenderScene render = rendered(scene);
+  const RenderScene render = test::renderSceneOf(scene);
   const LightMapAtlas atlas = makeAtlas(render, {8.0f, 128});
   const Scene out = withLightMapUvs(scene, render, atlas);
   ASSERT_NE(out.nodes[0].mesh, out.nodes[1].mesh);
@@ -128,7 +122,7 @@ TEST(SecondUvs, RefusesWhereATextureUsesThem) {
   texture.image = std::make_shared<Image8>(1, 1);
   scene.textures.push_back(texture);
   test::addMesh(scene, test::squareMesh(1.0f, brick));
-  const RenderScene render = rendered(scene);
+  const RenderScene render = test::renderSceneOf(scene);
   EXPECT_THROW(withLightMapUvs(scene, render, makeAtlas(render, {})), InputError);
 }
 

@@ -1,4 +1,4 @@
-// Irradiance as it is baked, against closed forms and the other way of finding it.
+// Baked irradiance against closed forms, and many_lights against the path tracer.
 #include "renderer/bake/baked_light.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ struct Baked {
     atlas = makeAtlas(render, {texelsPerMetre, 256});
     points = bakePoints(render, atlas, 0);
   }
-  // At the texel of object 0 that is nearest to a place.
+  // Irradiance at the texel of object 0 that is nearest to `place`.
   vec3 at(const vec3& place, const BakeLightOptions& options) const {
     const RayCaster rays(render);
     const glm::ivec2 texel(atlas.charts[0].texelsOf(place));
@@ -45,7 +45,7 @@ BakeLightOptions settled(int bounces, int vpls = 4096) {
   return o;
 }
 
-// A point under the middle of a rectangle light: E = π L F.
+// A point below the centre of a rectangle light: E = π L F.
 TEST(BakedLight, IsTheFormFactorUnderARectangle) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(4.0f, test::addMaterial(scene, vec3(0.5f))));
@@ -86,14 +86,14 @@ TEST(BakedLight, CountsItsBounces) {
   }
 }
 
-TEST(BakedLight, BothWaysAgreeInAShadowedRoom) {
+TEST(BakedLight, BothMethodsAgreeInAShadowedRoom) {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(0.7f));
   test::addMesh(scene, test::squareMesh(4.0f, white));
   test::addMesh(scene, test::roomMesh(vec3(4), white), vec3(0, 2.001f, 0));
   test::addMesh(scene, test::boxMesh(vec3(0.8f), white), vec3(0.5f, 0.41f, 0));
   test::addRectangleLight(scene, vec3(-0.5f, 3.5f, 0), vec2(1), vec3(10));
-  Scene open = scene;  // the room's own floor lies over the square
+  Scene open = scene;  // the room's own floor would coincide with the square
   open.nodes[1].local.translation.y = 1.99f;
   const Baked baked(open);
   for (const vec3 place : {vec3(-1.0f, 0, 0.3f), vec3(1.2f, 0, 0.1f)}) {
@@ -102,8 +102,8 @@ TEST(BakedLight, BothWaysAgreeInAShadowedRoom) {
   }
 }
 
-// Below a box that stands on the floor nothing is known; beside it something is.
-TEST(BakedLight, KnowsWhatIsBuried) {
+// Texels below a box on the floor are marked as unknown (negative); texels beside it are lit.
+TEST(BakedLight, MarksTexelsInsideGeometryAsUnknown) {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(0.7f));
   test::addMesh(scene, test::squareMesh(4.0f, white));

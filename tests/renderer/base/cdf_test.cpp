@@ -10,16 +10,16 @@
 namespace lamplighter {
 namespace {
 
-TEST(Scan, SumsWhatComesBefore) {
+TEST(Scan, GivesTheSumOfTheEntriesBefore) {
   EXPECT_EQ(exclusiveScan(std::span<const uint32_t>()), (std::vector<uint32_t>{0}));
   const std::vector<uint32_t> values{3, 0, 4, 1};
   EXPECT_EQ(exclusiveScan(values), (std::vector<uint32_t>{0, 3, 3, 7, 8}));
-  // A float sum would stay at 2²⁴.
+  // A float sum would stop growing at 2²⁴.
   std::vector<float> ones(20'000'000, 1.0f);
   EXPECT_EQ(exclusiveScan(ones).back(), 2e7f);
 }
 
-TEST(Cdf, TakesEntriesByTheirWeight) {
+TEST(Cdf, SamplesEntriesInProportionToTheirWeight) {
   const std::vector<float> weights{0.0f, 1.0f, 0.0f, 3.0f, 0.0f};
   const Cdf cdf(weights);
   EXPECT_EQ(cdf.total(), 4.0);
@@ -50,7 +50,7 @@ TEST(Cdf, OneHugeWeightTakesAll) {
   for (const float u : {1e-6f, 0.5f, 0x1.fffffep-1f}) EXPECT_EQ(cdf.sample(u).index, 700u);
 }
 
-TEST(GridCdf, TakesCellsByTheirWeightAndNoneWithout) {
+TEST(GridCdf, SamplesCellsInProportionToTheirWeight) {
   const GridCdf choice(3, 2, {0, 2, 1, 0, 0, 1});
   EXPECT_FLOAT_EQ(choice.probability(1, 0), 0.5f);
   EXPECT_FLOAT_EQ(choice.probability(2, 1), 0.25f);
@@ -64,7 +64,8 @@ TEST(GridCdf, TakesCellsByTheirWeightAndNoneWithout) {
   EXPECT_EQ(counts.size(), 3u);
   EXPECT_NEAR(counts.at({1, 0}), 2048, 8);
   EXPECT_TRUE(GridCdf(2, 2, {0, 0, 0, 0}).empty());
-  const GridCdf::Cell last = choice.sample(vec2(1.0f, 1.0f));  // not asked for, but harmless
+  const GridCdf::Cell last =
+      choice.sample(vec2(1.0f, 1.0f));  // outside of [0, 1), but must not crash
   EXPECT_GT(last.probability, 0.0f);
 }
 

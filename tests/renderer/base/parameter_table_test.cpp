@@ -42,7 +42,7 @@ const ParameterTable<Options>& table() {
   return all;
 }
 
-// Some value that is not the default.
+// Any value that is not the default.
 ParameterValue otherValue(const ParameterSpec& spec) {
   if (!spec.choices.empty())
     return spec.choices.front() == std::get<std::string>(spec.defaultValue) ? spec.choices.back()

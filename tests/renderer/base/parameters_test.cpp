@@ -19,7 +19,7 @@ TEST(Parameters, TextReadsBackAsItself) {
   EXPECT_EQ(std::get<int>(Settings::parse(spec("vpls"), "1024")), 1024);
 }
 
-TEST(Parameters, WhatIsOutOfRangeIsRefused) {
+TEST(Parameters, ValuesOutOfRangeAreRejected) {
   for (const char* text : {"1.5", "nan", ""})
     EXPECT_THROW(Settings::parse(spec("direct_share"), text), InputError) << text;
   for (const char* text : {"0", "12.5", "99999999999999999999", "30x"})
@@ -36,7 +36,8 @@ TEST(Parameters, UnsetOnesHaveTheirDefault) {
   EXPECT_EQ(s.integer(spec("bounces")), 2);
 }
 
-// Panels show group by group: one that is not listed would not be seen at all.
+// Panels show the parameters of the listed groups only; a parameter in another group would be
+// missing.
 TEST(Parameters, EveryParameterIsInAGroupThatPanelsShow) {
   for (const MethodInfo& method : methods()) {
     std::set<std::string> shown;

@@ -11,7 +11,7 @@
 namespace lamplighter {
 namespace {
 
-// A method that no other code knows.
+// Statistics of a method that exists only in this test.
 struct ProbeStats : GiStats {
   int probes = 0, waiting = 0, oldest = 0;
   uint64_t bytes = 0;
@@ -115,7 +115,7 @@ TEST(Statistics, WorkIsSummedOverFrames) {
   EXPECT_EQ(total[1].value, 7.0);
 }
 
-TEST(Statistics, EachOfAMethodIsDeclaredWholly) {
+TEST(Statistics, OfMethodsAreDeclaredCompletely) {
   for (const MethodInfo& method : methods()) {
     std::set<std::string> names;
     for (const StatisticSpec& spec : method.statistics) {

@@ -1,5 +1,5 @@
-// Views of what is kept of light: counts for each patch, false colour, a shadow map, the mask of
-// the low-resolution pass. A floor under a plate and a lamp, and one beside.
+// Debug views of stored light data: counts per patch, false colour, a shadow map, the mask of the
+// low-resolution pass. The scene is a floor below a plate and a lamp, and a second floor beside it.
 #include <algorithm>
 #include <cmath>
 
@@ -74,7 +74,7 @@ testing::AssertionResult isHue(const vec3& seen, const vec3& legend) {
                                      << legend.r << " " << legend.g << " " << legend.b;
 }
 
-// E of the small lamp [lx], without what stands between.
+// Unshadowed illuminance of the small lamp [lx].
 float irradianceAt(const vec3& x) {
   const vec3 d = vec3(0, kHeight, 0) - x;
   const float d2 = glm::dot(d, d);
@@ -89,11 +89,11 @@ TEST_F(EngineViews, FalseColourIsIlluminanceByItsLegend) {
   const float t = std::log(irradianceAt(kOpen) / 1e-3f) / std::log(1e3f);
   EXPECT_LT(glm::length(colourAt(picture, kOpen) - colours::ramp(t)), 0.02f);
   EXPECT_LT(glm::length(colourAt(picture, kHidden) - colours::ramp(0.0f)), 0.01f);
-  ASSERT_EQ(picture.legend.ticks.size(), 4u);  // a decade each
+  ASSERT_EQ(picture.legend.ticks.size(), 4u);  // one per decade
   EXPECT_EQ(picture.legend.ticks.front().second, "0.001");
   EXPECT_EQ(picture.legend.ticks.back().second, "1");
   EXPECT_EQ(picture.legend.title, "Illuminance [lx]");
-  // A range of its own holds what is there.
+  // Without a given range, the range is found from the picture.
   const ViewPicture automatic = draw(DebugView::falseColour);
   EXPECT_FALSE(isHue(colourAt(automatic, kOpen), colours::ramp(0.0f)));
 }
@@ -115,7 +115,7 @@ TEST_F(EngineViews, PatchesCountLightsThatReachThem) {
   const ViewPicture lights = draw(DebugView::lightsPerPatch);
   EXPECT_EQ(lights.problem, "");
   EXPECT_TRUE(isHue(colourAt(lights, kHidden), colours::ramp(0.0f)));
-  // All that there are, of up to 24 that the legend ends with.
+  // All light samples: the legend ends at 24 of 24.
   EXPECT_TRUE(isHue(colourAt(lights, kOpen), colours::ramp(1.0f)));
   const ViewPicture occlusion = draw(DebugView::lightOcclusion);
   EXPECT_TRUE(isHue(colourAt(occlusion, kOpen), colours::kNone));
@@ -123,10 +123,10 @@ TEST_F(EngineViews, PatchesCountLightsThatReachThem) {
   EXPECT_TRUE(isHue(colourAt(occlusion, kPlateSide), colours::kAway));
 }
 
-TEST_F(EngineViews, PatchesWaitOnlyWhileLightsDo) {
+TEST_F(EngineViews, PatchesArePendingOnlyWhileLightsAre) {
   settle();
   EXPECT_TRUE(isHue(colourAt(draw(DebugView::pendingPatches), kOpen), colours::kSettled));
-  // A large step of the lamp with one update a frame: nearly all of it waits.
+  // A large move of the lamp with one update per frame: nearly all light samples are pending.
   settings_.set("updates", 1);
   scene_.find(lamp_)->local.translation.x = 3.0f;
   out_ = renderer_.render({scene_, SceneChanges::all(), view_, "many_lights", settings_});
@@ -141,17 +141,17 @@ TEST_F(EngineViews, LightMapDensityIsTheSpacingOfTexels) {
   EXPECT_FALSE(isHue(colourAt(picture, kOpen), colours::kNoData));
   const std::string& high = picture.legend.high;
   EXPECT_NE(high.find(" cm"), std::string::npos);
-  EXPECT_GE(std::stof(high), 24.0f);  // texels of a quarter of a metre
+  EXPECT_GE(std::stof(high), 24.0f);  // texels of 0.25 m
   EXPECT_LE(std::stof(high), 100.0f);
 }
 
-TEST_F(EngineViews, TheShadowMapIsThatOfTheChosenSample) {
+TEST_F(EngineViews, TheShadowMapIsThatOfTheSelectedSample) {
   settings_.set("technique", std::string("naive"));
   settle();
   const ViewPicture picture = draw(DebugView::shadowMap);
   EXPECT_EQ(picture.problem, "");
   EXPECT_EQ(picture.legend.title, "Shadow map of light sample 0");
-  // Under the lamp's middle the map holds the plate's top; at its rim nothing.
+  // The texel below the lamp's centre shows the top of the plate; a texel at the rim has no hit.
   const uint8_t* middle = picture.image.at(320, 150);
   const vec3 plate = vec3(middle[0], middle[1], middle[2]) / 255.0f;
   EXPECT_FALSE(isHue(plate, colours::kAway));

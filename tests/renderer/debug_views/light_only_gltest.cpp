@@ -1,4 +1,4 @@
-// Light only on the gl backend: what the cpu backend shows.
+// The view "light only" is the same on both backends.
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
@@ -26,7 +26,7 @@ TEST_F(LightOnly, IsTheSameOnBothBackends) {
   for (const int backend : {0, 1}) {
     FrameRenderer renderer(backend == 0 ? makeGlBackend() : makeCpuBackend());
     test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
-    // There and back again: the switch alone makes a new picture.
+    // Switch to light only and back: the switch alone must cause a new picture.
     for (const int lightOnly : {1, 0})
       pictures[backend][lightOnly] =
           renderer.render({scene, {}, view, "many_lights", settings, lightOnly == 1})
@@ -39,7 +39,7 @@ TEST_F(LightOnly, IsTheSameOnBothBackends) {
   EXPECT_NEAR(lit.g / white.g, 0.1f, 0.002f);
 }
 
-// Direct and indirect light on the gl backend: what the cpu backend shows, and both add up.
+// Direct and indirect light: both backends give the same pictures.
 TEST_F(LightOnly, PartsAreTheSameOnBothBackends) {
   Scene scene;
   const int red = test::addMaterial(scene, vec3(0.8f, 0.3f, 0.2f));

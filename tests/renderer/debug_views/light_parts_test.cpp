@@ -1,4 +1,5 @@
-// Direct and indirect light: that both add up to the lit picture, and are what they say.
+// Direct and indirect light: each part contains only its own light, and both add up to the lit
+// picture.
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
@@ -11,10 +12,10 @@ namespace {
 
 struct Case {
   const char *name, *method, *technique;
-  double tolerance;  // of the whole's mean, at any pixel
+  double tolerance;  // relative to the mean of the lit picture, for every pixel
 };
 
-// A lamp in a room with a box, and a glossy ball of it.
+// A room with a lamp, a box and a glossy ball.
 Scene room() {
   Scene scene;
   const int red = test::addMaterial(scene, vec3(0.7f, 0.3f, 0.2f));
@@ -47,7 +48,7 @@ class LightParts : public testing::TestWithParam<Case> {
     settings_.set("map_resolution", 32);
     settings_.set("antialias", 2);
     settings_.set("samples_per_pixel", 8);
-    // Found by random rays, of which each part takes others.
+    // Corner light uses random rays that differ between the parts.
     settings_.set("corner_light", false);
     settings_.set("block", std::string("1"));
     if (GetParam().technique[0] != 0) settings_.set("technique", std::string(GetParam().technique));
@@ -73,7 +74,7 @@ TEST_P(LightParts, AddUpToTheLitPicture) {
       worst = std::max(worst, std::abs(static_cast<double>(sum[c] - lit.pixels[i][c])));
   }
   EXPECT_LT(worst, GetParam().tolerance * mean);
-  // Back again: nothing of the parts stays.
+  // After switching back, the picture is the same as before.
   EXPECT_EQ(settled(LightPart::all).pixels, lit.pixels);
 }
 
@@ -86,7 +87,7 @@ TEST_P(LightParts, WithoutBouncesAllIsDirect) {
   EXPECT_NEAR(luminance(test::meanOf(indirect)), 0.0f, 1e-5f * mean);
 }
 
-// The lamp looks down, so the ceiling has bounced light alone.
+// The lamp faces down, so the ceiling gets only indirect light.
 TEST_P(LightParts, TheCeilingHasNoDirectLight) {
   view_ = test::lookAt(vec3(0, 1.0f, 1.0f), vec3(0, 3.0f, -1.6f), 16, 12, 0.3f);
   EXPECT_EQ(luminance(test::meanOf(settled(LightPart::direct))), 0.0f);
@@ -96,7 +97,8 @@ TEST_P(LightParts, TheCeilingHasNoDirectLight) {
 INSTANTIATE_TEST_SUITE_P(Methods, LightParts,
                          testing::Values(Case{"naive", "many_lights", "naive", 1e-4},
                                          Case{"visibility", "many_lights", "visibility", 1e-4},
-                                         // A pixel is left no less light than none, in each part.
+                                         // Light maps clamp the irradiance of each part to zero
+                                         // after they subtract shadows.
                                          Case{"light_maps", "many_lights", "light_maps", 4e-3},
                                          Case{"reference", "reference", "", 1e-4}),
                          [](const auto& each) { return std::string(each.param.name); });

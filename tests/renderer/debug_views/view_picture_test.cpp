@@ -1,5 +1,5 @@
-// Views of a small level whose states are known: floors under, beside and half beside a plate that
-// stands between them and a small lamp.
+// Debug views of a small level whose visibility is known: a plate below a small lamp, and floors in
+// its umbra, half in its shadow, and outside its shadow.
 #include "renderer/debug_views/view_picture.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 namespace colours = view_colours;
 
-// Off the middles, where patches may be halved.
+// Not at the centres, where patches may be divided.
 constexpr vec3 kHidden{0.25f, 0.0f, 0.25f}, kHalf{2.95f, 0.0f, 0.25f}, kOpen{6.25f, 0.0f, 0.25f};
 constexpr vec3 kPlateSide{0.5f, 1.0f, 2.0f};
 constexpr vec3 kAlbedo{0.6f, 0.5f, 0.4f};
@@ -73,7 +73,7 @@ class Views : public testing::Test {
   FrameRenderer renderer_{makeCpuBackend()};
 };
 
-// A colour of the legend, whatever the lamp at the camera makes of its brightness.
+// The colour is that of the legend up to brightness, which depends on the light at the camera.
 testing::AssertionResult isHue(const vec3& seen, const vec3& legend) {
   const float cosine = glm::dot(glm::normalize(seen), glm::normalize(legend));
   const float brightness = glm::length(seen) / glm::length(legend);
@@ -83,7 +83,7 @@ testing::AssertionResult isHue(const vec3& seen, const vec3& legend) {
                                      << legend.r << " " << legend.g << " " << legend.b;
 }
 
-TEST_F(Views, OcclusionShowsWhatStandsBeforeTheChosenLight) {
+TEST_F(Views, OcclusionShowsTheStatesOfTheSelectedLight) {
   settle();
   const Inspection inspection = renderer_.inspect();
   ASSERT_EQ(inspection.lights.front().id.bounce, 0u);
@@ -98,24 +98,24 @@ TEST_F(Views, OcclusionShowsWhatStandsBeforeTheChosenLight) {
   EXPECT_EQ(picture.legend.swatches.size(), 4u);
 }
 
-TEST_F(Views, OcclusionIsOfTheChosenLight) {
+TEST_F(Views, OcclusionFollowsTheSelectedLight) {
   settle();
   const auto lights = renderer_.inspect().lights;
   const auto bounce = std::find_if(lights.begin(), lights.end(), [](const LightSample& l) {
-    return l.id.bounce > 0 && l.vpl.normal.y > 0.5f;  // faces away from what lies lower
+    return l.id.bounce > 0 && l.vpl.normal.y > 0.5f;  // faces away from all lower surfaces
   });
   ASSERT_NE(bounce, lights.end());
   const ViewPicture picture = draw(DebugView::occlusion, static_cast<int>(bounce - lights.begin()));
   EXPECT_TRUE(isHue(colourAt(picture, kOpen), colours::kAway));
 }
 
-TEST_F(Views, PatchesDifferAndLookAlikeWithin) {
+TEST_F(Views, PatchesHaveDifferentColoursWithDarkBorders) {
   settle();
   const ViewPicture picture = draw(DebugView::patches);
   const vec3 open = colourAt(picture, kOpen), half = colourAt(picture, kHalf);
   EXPECT_GT(glm::length(glm::normalize(open) - glm::normalize(half)), 0.05f);
   EXPECT_TRUE(isHue(colourAt(picture, kOpen + vec3(0.1f, 0, -0.1f)), open));
-  // Its border is darker: the last row of the front edge.
+  // The border of a patch is darker. It lies in the last row of the front edge.
   const vec3 p = view_.project(vec3(6.25f, 0, 0.75f));
   bool darker = false;
   for (int y = -2; y <= 2; ++y)
@@ -124,7 +124,7 @@ TEST_F(Views, PatchesDifferAndLookAlikeWithin) {
   EXPECT_TRUE(darker);
 }
 
-TEST_F(Views, LevelsCountHalvings) {
+TEST_F(Views, LevelsCountSubdivisions) {
   settle();
   const ViewPicture picture = draw(DebugView::patchLevels);
   const auto levelAt = [&](NodeId node, const vec3& at) {
@@ -167,7 +167,7 @@ TEST_F(Views, LightMapsShowTheirIrradiance) {
   const ViewPicture picture = draw(DebugView::lightMaps, 0, kExposure);
   const Inspection inspection = renderer_.inspect();
   const uint32_t object = objectOf(open_);
-  // Where the pixel's ray meets the floor.
+  // The point at which the pixel's ray hits the floor.
   const vec3 pixel = glm::floor(view_.project(kOpen)) + 0.5f;
   const vec3 direction = view_.rayDirection(pixel.x, pixel.y);
   const vec3 at = view_.eye - view_.eye.y / direction.y * direction;
@@ -183,16 +183,16 @@ TEST_F(Views, LightMapsShowTheirTexels) {
   view_ = test::lookAt(vec3(6.25f, 1.5f, 0.26f), kOpen, 200, 200);
   settle();
   const ViewPicture picture = draw(DebugView::lightMaps, 0, 1.5f);
-  // Texels every 0.25 m from the corner at 5.25.
+  // Texels every 0.25 m, starting at the corner at 5.25.
   const vec3 on = colourAt(picture, vec3(6.25f, 0, 0.125f)),
              beside = colourAt(picture, vec3(6.375f, 0, 0.125f));
   EXPECT_GT(glm::length(on - beside), 0.1f * glm::length(beside));
 }
 
-TEST_F(Views, AgeIsOfTheLightThatWaits) {
+TEST_F(Views, MapAgeIsThatOfPendingLights) {
   settle();
-  const vec3 calm = colourAt(draw(DebugView::mapAge), kOpen);
-  EXPECT_TRUE(isHue(calm, colours::kSettled));
+  const vec3 settled = colourAt(draw(DebugView::mapAge), kOpen);
+  EXPECT_TRUE(isHue(settled, colours::kSettled));
 
   Scene before = scene_;
   scene_.find(plate_)->local.translation.x += 0.1f;
@@ -208,7 +208,7 @@ TEST_F(Views, AgeIsOfTheLightThatWaits) {
   const ViewPicture picture = draw(DebugView::mapAge);
   EXPECT_FALSE(isHue(colourAt(picture, kOpen), colours::kSettled));
   EXPECT_EQ(picture.legend.high, "5 frames");
-  // The lamp's samples but the three that had their turn are three frames old: nearly all light.
+  // All but three of the lamp's samples are three frames old, so nearly all light is.
   const vec3 seen = glm::normalize(colourAt(picture, kOpen));
   float best = 0.0f, age = 0.0f;
   for (float t = 0.0f; t <= 1.0f; t += 0.01f) {
@@ -223,7 +223,7 @@ TEST_F(Views, AgeIsOfTheLightThatWaits) {
   EXPECT_TRUE(isHue(colourAt(draw(DebugView::mapAge), kOpen), colours::kSettled));
 }
 
-TEST_F(Views, SurfacesAsTheyAre) {
+TEST_F(Views, AlbedoNormalsAndFlatShading) {
   settle();
   const vec3 albedo = colourAt(draw(DebugView::albedo), kOpen);
   const vec3 normal = colourAt(draw(DebugView::normals), kOpen);
@@ -231,7 +231,7 @@ TEST_F(Views, SurfacesAsTheyAre) {
     EXPECT_NEAR(albedo[c], encodeSrgb(kAlbedo[c]), 1.0f / 255.0f);
     EXPECT_NEAR(normal[c], c == 1 ? 1.0f : 0.5f, 1.0f / 255.0f);
   }
-  // Under a lamp at the camera what faces it is brighter.
+  // The light is at the camera, so surfaces that face it are brighter.
   const ViewPicture flat = draw(DebugView::flat);
   EXPECT_GT(colourAt(flat, kPlateSide).g, colourAt(flat, kOpen).g);
   EXPECT_LE(colourAt(flat, kPlateSide).g, encodeSrgb(kAlbedo.g) + 1.0f / 255.0f);
@@ -255,7 +255,7 @@ TEST_F(Views, SameBitsAtAnyNumberOfThreads) {
   }
 }
 
-TEST_F(Views, SayWhatTheyNeed) {
+TEST_F(Views, NameTheRequirementThatIsMissing) {
   settings_.set("technique", std::string("naive"));
   settle();
   const auto flat = draw(DebugView::flat).image.pixels;
@@ -314,7 +314,7 @@ TEST(DebugViews, AreFoundByName) {
   }
 }
 
-TEST(ViewColours, NiceMaximaAreNotLess) {
+TEST(ViewColours, NiceMaximaAreNotLessThanTheValue) {
   for (const auto& [value, nice] :
        {std::pair{0, 1}, {1, 1}, {3, 5}, {7, 10}, {10, 10}, {11, 20}, {299, 500}})
     EXPECT_EQ(colours::niceMaximum(value), nice);

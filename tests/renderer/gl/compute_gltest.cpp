@@ -14,7 +14,7 @@ namespace {
 using Compute = test::GlTest;
 
 TEST_F(Compute, WritesImagesAndCountsInWholeWorkGroups) {
-  constexpr int kWidth = 21, kHeight = 10;  // no multiples of the work group
+  constexpr int kWidth = 21, kHeight = 10;  // not multiples of the work group size
   const gl::ComputeProgram program(gl::defaultShaderFolder(),
                                    "../tests/renderer/gl/compute.comp.glsl", {"FACTOR 2.0"});
   std::vector<vec4> values(kWidth * kHeight);
@@ -41,7 +41,7 @@ TEST_F(Compute, WritesImagesAndCountsInWholeWorkGroups) {
   EXPECT_EQ(columns[0], 11u * kHeight);
   EXPECT_EQ(columns[1], 10u * kHeight);
 
-  program.dispatch({0, kHeight, 1}, GL_SHADER_STORAGE_BARRIER_BIT);  // nothing
+  program.dispatch({0, kHeight, 1}, GL_SHADER_STORAGE_BARRIER_BIT);  // an empty dispatch
   EXPECT_EQ(count.read()[0], static_cast<uint32_t>(kWidth * kHeight));
   EXPECT_THROW(program.dispatch({~0u, 1, 1}, 0), InputError);
 }
@@ -102,14 +102,14 @@ TEST_F(Compute, QueriesGiveTheirResultsLater) {
     program.use();
     gl::drawFullScreen(empty.name());
   };
-  for (int frame = 1; frame <= 3; ++frame) draw(frame, 2);  // three at once in flight
+  for (int frame = 1; frame <= 3; ++frame) draw(frame, 2);  // three queries in flight
   glFinish();
   EXPECT_TRUE(samples.ready());
   EXPECT_EQ(samples.result(), 6u);  // the newest
   EXPECT_FALSE(samples.ready());
   EXPECT_TRUE(primitives.ready());
   EXPECT_EQ(primitives.result(), 1u);
-  EXPECT_TRUE(time.ready());  // no value: it means nothing on llvmpipe
+  EXPECT_TRUE(time.ready());  // the value itself is meaningless on llvmpipe
   draw(16, 9);
   glFinish();
   EXPECT_EQ(samples.result(), 144u);

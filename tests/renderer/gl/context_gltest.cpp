@@ -25,13 +25,13 @@ TEST_F(Context, IsOpenGl45Core) {
 
 TEST_F(Context, LogsErrors) {
   ASSERT_TRUE(context().debugLog()->errors().empty());
-  glBindFramebuffer(GL_FRAMEBUFFER, 12345);  // never made
+  glBindFramebuffer(GL_FRAMEBUFFER, 12345);  // does not exist
   EXPECT_EQ(context().debugLog()->errors().size(), 1u);
   context().debugLog()->clear();
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_INVALID_OPERATION));
 }
 
-TEST_F(Context, SeveralCanLiveAndBeLeft) {
+TEST_F(Context, SeveralCanExistAndBeReleased) {
   {
     gl::HeadlessContext other(true);
     gl::Buffer buffer = gl::Buffer::make();

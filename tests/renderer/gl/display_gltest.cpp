@@ -1,4 +1,4 @@
-// The display pass against the tone mapping of written pictures.
+// The display pass gives the same colours as the tone mapping of saved pictures.
 #include <limits>
 
 #include "renderer/gl/display_pass.h"
@@ -11,7 +11,7 @@ namespace {
 
 using Display = test::GlTest;
 
-// From dark to far beyond white, a different ramp in each channel, odd width.
+// From dark to far above white, with a different ramp per channel and an odd width.
 Image ramp() {
   Image image(61, 3);
   for (int y = 0; y < image.height; ++y) {
@@ -39,7 +39,7 @@ void expectNear(const std::vector<uint8_t>& shown, const Image8& written) {
   }
 }
 
-TEST_F(Display, ShowsAHostPictureAsItWouldBeWritten) {
+TEST_F(Display, ShowsAHostPictureAsItWouldBeSaved) {
   gl::DisplayPass pass;
   const auto image = std::make_shared<HostImage>(ramp());
   for (const float ev : {0.0f, -3.0f, 2.5f}) {
@@ -50,7 +50,7 @@ TEST_F(Display, ShowsAHostPictureAsItWouldBeWritten) {
     expectNear(read(pass.render(image, 1.0f, m.mapper), image->pixels()),
                toneMap(image->pixels(), 1.0f, m.mapper));
   }
-  // Another picture of another size.
+  // A second picture with another size.
   const auto other = std::make_shared<HostImage>(Image(7, 5, vec3(0.18f)));
   expectNear(read(pass.render(other, 0), other->pixels()), toneMap(other->pixels(), 0));
 }

@@ -1,4 +1,4 @@
-// What tests with an OpenGL context share.
+// The fixture of tests with an OpenGL context.
 #pragma once
 
 #include <cstdlib>
@@ -11,8 +11,8 @@
 
 namespace lamplighter::test {
 
-// Every test has a context of its own, with a debug log, and fails on any error the driver reports.
-// Where there is no context at all it is skipped, unless LAMPLIGHTER_REQUIRE_GL is set.
+// Every test has its own context with a debug log, and fails on any error that the driver reports.
+// Without OpenGL the test is skipped, unless LAMPLIGHTER_REQUIRE_GL is set.
 class GlTest : public ::testing::Test {
  protected:
   void SetUp() override {

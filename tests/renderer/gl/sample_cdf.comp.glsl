@@ -1,4 +1,4 @@
-// For scan_gltest.cpp: samples a cumulative distribution of one row at each of the numbers.
+// For scan_gltest.cpp: samples a cumulative distribution of one row with each of the given numbers.
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) readonly buffer Cdf { float cdf[]; };
 layout(std430, binding = 1) readonly buffer Numbers { float numbers[]; };

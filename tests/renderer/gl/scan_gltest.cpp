@@ -1,4 +1,4 @@
-// Prefix sums and cumulative distributions in compute shaders: those of the CPU.
+// Prefix sums and cumulative distributions by compute shaders equal those of the CPU.
 #include <cmath>
 
 #include "renderer/base/cdf.h"
@@ -17,7 +17,7 @@ constexpr size_t kLengths[] = {0, 1, 255, 256, 257, 65'536, 100'000};
 
 std::vector<float> randomWeights(size_t count, uint32_t seed) {
   std::vector<float> weights(count);
-  // A third of them is zero.
+  // A third of the weights is zero.
   for (uint32_t i = 0; i < count; ++i)
     weights[i] =
         std::max(0.0f, 1.5f * (static_cast<float>(hash4(i, seed, 0, 0) >> 8) * 0x1p-24f) - 0.5f);
@@ -62,7 +62,7 @@ TEST_F(GlScan, SumsFloatsRowByRow) {
   }
 }
 
-TEST_F(GlScan, MakesTheDistributionOfTheCpu) {
+TEST_F(GlScan, GivesTheDistributionOfTheCpu) {
   gl::CdfPass pass(gl::defaultShaderFolder());
   for (const size_t length : kLengths) {
     if (length == 0) continue;
@@ -77,7 +77,7 @@ TEST_F(GlScan, MakesTheDistributionOfTheCpu) {
   }
 }
 
-TEST_F(GlScan, DistributesZerosEvenlyAndOneHugeWeightToItself) {
+TEST_F(GlScan, IsUniformForZerosAndHandlesOneHugeWeight) {
   gl::CdfPass pass(gl::defaultShaderFolder());
   std::vector<float> weights(3000, 0.0f);
   std::fill(weights.begin() + 1000, weights.begin() + 2000, 1.0f);
@@ -124,7 +124,7 @@ TEST_F(GlScan, ShadersSampleTheDistribution) {
   for (size_t i = 0; i < u.size(); ++i) {
     ASSERT_LT(indices[i], kCount);
     EXPECT_TRUE(rests[i] >= 0.0f && rests[i] < 1.0f);
-    // Where the number lies in the distribution of the CPU.
+    // The position of the sample in the CPU's distribution.
     EXPECT_NEAR(expected.values()[indices[i]] + rests[i] * expected.probability(indices[i]), u[i],
                 1e-6f);
     EXPECT_TRUE(weights[indices[i]] > 0.0f);

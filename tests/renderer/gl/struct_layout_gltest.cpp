@@ -1,5 +1,5 @@
-// The structs that GLSL and C++ share lie the same in memory on both sides, in uniform and in
-// storage blocks: asked of the compiler, member by member.
+// Structs shared by GLSL and C++ have the same memory layout on both sides, in uniform and storage
+// blocks. The layout of each member is queried from the GLSL compiler.
 #include <cstddef>
 
 #include "renderer/gl/program.h"
@@ -21,7 +21,8 @@ struct Member {
 
 class StructLayout : public test::GlTest {
  protected:
-  // Two of the struct in a block of each layout, so that the distance between them shows too.
+  // Declares an array of two structs in a block of each layout, so that the stride is checked as
+  // well.
   void expectLayout(const std::string& header, const std::string& type, size_t size,
                     const std::vector<Member>& members) {
     const test::TemporaryFolder folder;
@@ -38,7 +39,8 @@ class StructLayout : public test::GlTest {
         const std::string element = "[" + std::to_string(i) + "]." + m.name;
         const size_t expected = static_cast<size_t>(i) * size + m.offset;
         EXPECT_EQ(offset(program, GL_UNIFORM, "u" + element), expected) << type << element;
-        // A storage block's array names its first element only; the rest is the stride.
+        // For an array in a storage block, only the first element has names; the stride gives the
+        // rest.
         if (i == 0) {
           EXPECT_EQ(offset(program, GL_BUFFER_VARIABLE, "s" + element), expected)
               << type << element;
@@ -115,7 +117,7 @@ TEST_F(StructLayout, OfPatchTile) {
                {MEMBER(PatchTile, frame), MEMBER(PatchTile, texels)});
 }
 
-// Whoever adds a struct to shaders/shared must add it here.
+// A struct that is added to shaders/shared must be added to this file.
 TEST(SharedStructs, AreAllTestedHere) {
   int structs = 0;
   for (const auto& file :
@@ -126,8 +128,8 @@ TEST(SharedStructs, AreAllTestedHere) {
       ++structs;
     }
   }
-  // Vpl, ShadingParams, Lobe (only passed about, in brdf.h), TextureLookup (within
-  // SurfaceMaterial), SurfaceMaterial, PatchNode, PatchChart, PatchTile.
+  // Vpl, ShadingParams, Lobe (local to brdf.h), TextureLookup (a member of SurfaceMaterial),
+  // SurfaceMaterial, PatchNode, PatchChart, PatchTile.
   EXPECT_EQ(structs, 8);
 }
 

@@ -25,13 +25,13 @@ Image8 gradient() {
       p[0] = static_cast<uint8_t>(50 * x);
       p[1] = static_cast<uint8_t>(100 * y);
       p[2] = 77;
-      p[3] = static_cast<uint8_t>(10 + 40 * x);  // colours must not be multiplied by it
+      p[3] = static_cast<uint8_t>(10 + 40 * x);  // must not be multiplied into the colours
     }
   }
   return image;
 }
 
-TEST(DecodeImage, PngComesBackAsItWas) {
+TEST(DecodeImage, PngRoundTripIsExact) {
   const Image8 image = gradient();
   std::string why;
   const auto decoded = decodeImage8(encodePng(image), why);
@@ -41,7 +41,7 @@ TEST(DecodeImage, PngComesBackAsItWas) {
   EXPECT_EQ(decoded->pixels, image.pixels);
 }
 
-TEST(DecodeImage, DamageIsToldOf) {
+TEST(DecodeImage, DamagedFilesGiveAReason) {
   const std::vector<uint8_t> whole = encodePng(gradient());
   std::string why;
   EXPECT_FALSE(decodeImage8({}, why).has_value());
@@ -49,7 +49,8 @@ TEST(DecodeImage, DamageIsToldOf) {
   const std::vector<uint8_t> garbage = {'h', 'e', 'l', 'l', 'o'};
   EXPECT_FALSE(decodeImage8(garbage, why).has_value());
   EXPECT_THAT(why, HasSubstr("no known image format"));
-  for (size_t size = 0; size < whole.size() - 12; size += 7) {  // all before the end mark is needed
+  for (size_t size = 0; size < whole.size() - 12;
+       size += 7) {  // the end marker of a PNG may be missing
     why.clear();
     EXPECT_FALSE(decodeImage8(std::span(whole).first(size), why).has_value()) << size << " bytes";
     EXPECT_NE(why, "");
@@ -65,13 +66,13 @@ uint32_t crc32(std::span<const uint8_t> bytes) {
   return ~crc;
 }
 
-// Width and height are in the header: nothing may be allocated because a few bytes say so.
-TEST(DecodeImage, UnreasonableSizeIsRefused) {
+// Width and height are in the header: a small file must not cause a large allocation.
+TEST(DecodeImage, UnreasonableSizeIsRejected) {
   std::vector<uint8_t> bytes = encodePng(Image8(1, 1));
   const auto put = [&](size_t at, uint32_t value) {
     for (size_t i = 0; i < 4; ++i) bytes[at + i] = static_cast<uint8_t>(value >> (24 - 8 * i));
   };
-  put(16, 8193);  // IHDR is at 12: its mark, width, height; its checksum at 29
+  put(16, 8193);  // The IHDR chunk: type at 12, width at 16, height at 20, checksum at 29.
   put(20, 8193);
   put(29, crc32(std::span(bytes).subspan(12, 17)));
   std::string why;
@@ -79,8 +80,8 @@ TEST(DecodeImage, UnreasonableSizeIsRefused) {
   EXPECT_THAT(why, HasSubstr("8193 x 8193"));
 }
 
-// What would be given its room by the reader already.
-TEST(DecodeImage, GifIsRefusedUnread) {
+// The reader would allocate memory for the header's size before the file is checked.
+TEST(DecodeImage, GifIsRejectedWithoutDecoding) {
   const std::string_view header = "GIF89a\xff\xff\xff\xff\x80";
   std::vector<uint8_t> bytes(header.begin(), header.end());
   bytes.resize(2000, 0x2c);
@@ -110,7 +111,7 @@ TEST(DecodeImage, JpegAndGreyAreExpanded) {
   EXPECT_GT(count, 0);
 }
 
-// A JPEG with a colour profile of tags that nobody knows.
+// A JPEG with a colour profile whose tags are unknown.
 std::vector<uint8_t> withProfile(const std::vector<uint8_t>& jpeg, uint32_t firstTag) {
   constexpr size_t kHeader = 128, kTags = 24, kATag = 12;
   std::vector<uint8_t> profile(kHeader + 4 + kTags * kATag + 16, 0);
@@ -132,7 +133,7 @@ std::vector<uint8_t> withProfile(const std::vector<uint8_t>& jpeg, uint32_t firs
     put(at + 4, static_cast<uint32_t>(data));
     put(at + 8, 16);
   }
-  // After the first marker, a second application segment.
+  // Inserts a second application segment after the first marker.
   const std::string_view name("ICC_PROFILE\0\1\1", 14);
   const size_t length = 2 + name.size() + profile.size();
   std::vector<uint8_t> segment{0xff, 0xe2, static_cast<uint8_t>(length >> 8),
@@ -144,11 +145,11 @@ std::vector<uint8_t> withProfile(const std::vector<uint8_t>& jpeg, uint32_t firs
   return out;
 }
 
-// Each of so many tags is new to the library, which remembers them for all threads. Without
-// open_picture.h two runs of six crashed.
+// The library registers each unknown tag in a list shared by all threads. Without the lock in
+// open_picture.h, two of six runs crashed.
 TEST(DecodeImage, ColourProfilesAreReadByManyThreads) {
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "profile.jpg";
-  writePng(gradient(), path);  // its ending says what it is
+  writePng(gradient(), path);  // the name's extension does not matter
   std::ifstream file(path, std::ios::binary);
   const std::vector<uint8_t> jpeg{std::istreambuf_iterator<char>(file), {}};
   ASSERT_GT(jpeg.size(), 2u);

@@ -22,12 +22,13 @@ TEST(HistogramTest, CountsEachPixelInTheBinOfItsExposedLuminance) {
   EXPECT_EQ(std::accumulate(h.bins.begin(), h.bins.end(), uint64_t{0}), 100u);
   EXPECT_EQ(h.bins[static_cast<size_t>(binOf(-2.99f))], 10u);
   EXPECT_EQ(h.bins[static_cast<size_t>(binOf(-0.95f))], 90u);
-  EXPECT_NEAR(std::log2(h.median), 0.0f, 0.1f);  // before exposure
+  EXPECT_NEAR(std::log2(h.median), 0.0f, 0.1f);  // of the radiance before exposure
 }
 
-TEST(HistogramTest, SaysWhatTheDisplayCannotShow) {
+TEST(HistogramTest, CountsClippedPixels) {
   Image image(10, 10, vec3(0.5f));
-  for (int x = 0; x < 10; ++x) image.at(x, 0) = vec3(0.1f, 3.0f, 0.1f);  // one channel is enough
+  for (int x = 0; x < 10; ++x)
+    image.at(x, 0) = vec3(0.1f, 3.0f, 0.1f);  // one clipped channel counts
   for (int x = 0; x < 5; ++x) image.at(x, 1) = vec3(0.0f);
   image.at(9, 9) = vec3(std::numeric_limits<float>::quiet_NaN());
   image.at(8, 9) = vec3(std::numeric_limits<float>::infinity());
@@ -35,10 +36,10 @@ TEST(HistogramTest, SaysWhatTheDisplayCannotShow) {
   EXPECT_FLOAT_EQ(linear.white, 0.11f);
   EXPECT_FLOAT_EQ(linear.black, 0.06f);
   EXPECT_EQ(linear.bins.back(), 1u);
-  // Reinhard's white is at 4.
+  // The white point of `reinhard` is 4.
   EXPECT_FLOAT_EQ(histogramOf(image, 0.0f, ToneMapper::reinhard).white, 0.01f);
   EXPECT_FLOAT_EQ(histogramOf(image, 1.0f, ToneMapper::reinhard).white, 0.11f);
-  // As the shown picture has it.
+  // The counts equal those of the displayed picture.
   const Image8 shown = toneMap(image, 0.0f, ToneMapper::linear);
   int whites = 0;
   for (size_t i = 0; i < image.pixels.size(); ++i)

@@ -30,9 +30,9 @@ TEST(ImageIo, ExrKeepsEveryBit) {
   fs::remove(path);
 }
 
-TEST(ImageIo, PngComesBackLinear) {
+TEST(ImageIo, PngIsReadAsLinearValues) {
   Image8 image(2, 1);
-  for (int c = 0; c < 3; ++c) image.at(0, 0)[c] = 188;  // sRGB of about one half
+  for (int c = 0; c < 3; ++c) image.at(0, 0)[c] = 188;  // about 0.5 in linear values
   const fs::path path = temporary("linear.png");
   writePng(image, path);
   const Image back = readImage(path);
@@ -41,10 +41,10 @@ TEST(ImageIo, PngComesBackLinear) {
   fs::remove(path);
 }
 
-TEST(ImageIo, AFolderThatIsNotThereIsOneClearLine) {
+TEST(ImageIo, AMissingFolderGivesOneLine) {
   try {
     writeExr(Image(2, 2), temporary("none") / "a.exr");
-    FAIL() << "should have thrown";
+    FAIL() << "no exception";
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("a.exr: cannot be written"), std::string::npos)
         << e.what();
@@ -52,7 +52,7 @@ TEST(ImageIo, AFolderThatIsNotThereIsOneClearLine) {
   }
 }
 
-TEST(ImageIo, WhatIsNoImageIsRefused) {
+TEST(ImageIo, AFileThatIsNotAnImageIsRejected) {
   EXPECT_THROW(readImage(temporary("absent.exr")), InputError);
   EXPECT_THROW(readImage(test::sourceFolder() / "README.md"), InputError);
 }
@@ -65,8 +65,8 @@ TEST(ImageIo, AFailedWriteLeavesTheOldFile) {
   fs::remove_all(folder);
 }
 
-// The curve and the sRGB encoding by hand: 1 → 2.54 / 3.16 = 0.80380 → 0.90823,
-// 0.18 → 0.086724 / 0.324932 = 0.26690 → 0.55346.
+// The curve and the sRGB encoding, computed by hand: 1 → 2.54 / 3.16 = 0.80380 → 0.90823, 0.18 →
+// 0.086724 / 0.324932 = 0.26690 → 0.55346.
 TEST(ToneMap, IsTheCurveThenTheEncoding) {
   EXPECT_NEAR(toneMapPixel(vec3(1.0f), 0.0f).r, 0.90823f, 1e-5f);
   EXPECT_NEAR(toneMapPixel(vec3(0.18f), 0.0f).g, 0.55346f, 1e-5f);

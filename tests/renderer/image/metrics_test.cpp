@@ -23,7 +23,7 @@ TEST(Metrics, AreWhatTheFormulasSay) {
   EXPECT_EQ(m.max, 2.0);
 }
 
-TEST(Metrics, ThePictureItselfIsPerfect) {
+TEST(Metrics, ThePictureItselfHasNoError) {
   Image a(20, 10);
   for (size_t i = 0; i < a.pixels.size(); ++i)
     a.pixels[i] = vec3(static_cast<float>(i % 7), 1.0f, 0.5f);
@@ -45,24 +45,25 @@ TEST(Metrics, NoiseLowersSimilarity) {
   EXPECT_LT(compareImages(much, a).ssim, 0.5);
 }
 
-// Flat pictures of radiance 1 and 0.18, tone-mapped to x = 0.90823 and y = 0.55346: without
+// Uniform pictures of radiance 1 and 0.18, tone-mapped to x = 0.90823 and y = 0.55346. Without
 // variance the index is (2xy + 0.01²) / (x² + y² + 0.01²).
-TEST(Metrics, SimilarityOfFlatPicturesIsThatOfTheirLuminance) {
+TEST(Metrics, SimilarityOfUniformPicturesDependsOnLuminance) {
   EXPECT_NEAR(compareImages(Image(16, 12, vec3(1.0f)), Image(16, 12, vec3(0.18f))).ssim, 0.88874,
               1e-3);
 }
 
-TEST(Metrics, SimilarityIsOfTheMaskedPixels) {
+TEST(Metrics, SimilarityUsesOnlyMaskedPixels) {
   Image a(64, 8, vec3(0.3f)), b = a, mask(64, 8);
   for (int y = 0; y < 8; ++y) {
     for (int x = 0; x < 16; ++x) a.at(x, y) = vec3(x % 2 == 0 ? 0.0f : 1.0f);
-    for (int x = 32; x < 64; ++x) mask.at(x, y) = vec3(1.0f);  // out of the window's reach
+    for (int x = 32; x < 64; ++x)
+      mask.at(x, y) = vec3(1.0f);  // no window of these pixels reaches the noise
   }
   EXPECT_LT(compareImages(a, b).ssim, 0.9);
   EXPECT_NEAR(compareImages(a, b, &mask).ssim, 1.0, 1e-4);
 }
 
-TEST(Metrics, NanPoisonsEveryMean) {
+TEST(Metrics, NanMakesEveryMeanNan) {
   Image a(4, 4, vec3(1.0f)), b = a;
   a.at(2, 2).g = std::numeric_limits<float>::quiet_NaN();
   const Metrics m = compareImages(a, b);
@@ -94,13 +95,13 @@ TEST(HeatMap, GrowsFromBlackToWhiteWithTheError) {
   EXPECT_EQ(map.at(n - 1, 0)[0] + map.at(n - 1, 0)[1] + map.at(n - 1, 0)[2], 3 * 255);
 }
 
-TEST(HeatMap, ShowsWhatIsNoNumber) {
+TEST(HeatMap, MarksNanPixels) {
   Image a(2, 1, vec3(1.0f)), b = a;
   a.at(1, 0).g = std::numeric_limits<float>::quiet_NaN();
   const Image8 map = heatMap(a, b);
   EXPECT_EQ(map.at(0, 0)[0], 0);
   EXPECT_EQ(map.at(1, 0)[0], 255);
-  EXPECT_EQ(map.at(1, 0)[1], 0);  // magenta is in no heat map
+  EXPECT_EQ(map.at(1, 0)[1], 0);  // magenta does not occur in the colour scale
   EXPECT_EQ(map.at(1, 0)[2], 255);
 }
 

@@ -1,4 +1,4 @@
-// The tone curves: known values, monotony, and what every one of them owes the display.
+// The tone curves: published values, monotonicity, and properties that all of them must have.
 #include "renderer/image/tone_map.h"
 
 #include <limits>
@@ -31,9 +31,10 @@ TEST(ToneMappers, HaveTheirPublishedValues) {
   // x (1 + x/16) / (1 + x)
   EXPECT_NEAR(grey(1.0f, ToneMapper::reinhard), encodeSrgb(1.0625f / 2.0f), 1e-5f);
   EXPECT_NEAR(grey(4.0f, ToneMapper::reinhard), 1.0f, 1e-5f);
-  EXPECT_NEAR(grey(5.6f, ToneMapper::hable), 1.0f, 1e-5f);  // twice that is its white
+  EXPECT_NEAR(grey(5.6f, ToneMapper::hable), 1.0f,
+              1e-5f);  // its white point is 11.2, twice this value
   EXPECT_LT(grey(5.0f, ToneMapper::hable), 1.0f);
-  // Grey stays grey, and middle grey near the middle of the display.
+  // Grey stays grey. Middle grey is displayed near the middle.
   const vec3 agx = toneMapPixel(vec3(0.18f), 0.0f, ToneMapper::agx);
   EXPECT_NEAR(agx.r, agx.g, 2e-3f);
   EXPECT_NEAR(agx.g, agx.b, 2e-3f);
@@ -56,7 +57,8 @@ TEST_P(EachMapper, RisesFromBlackToWhiteAndNeverLeavesTheDisplay) {
   float before = -1.0f;
   for (float ev = -16.0f; ev < 13.0f; ev += 0.125f) {
     const vec3 shown = toneMapPixel(vec3(1.0f), ev, m);
-    EXPECT_GE(shown.g, before - 2e-3f) << ev;  // fits may ripple by less than a step of the display
+    EXPECT_GE(shown.g, before - 2e-3f)
+        << ev;  // fitted curves may ripple by less than one step of 8 bits
     before = shown.g;
     for (int c = 0; c < 3; ++c) {
       EXPECT_GE(shown[c], 0.0f);
@@ -66,7 +68,7 @@ TEST_P(EachMapper, RisesFromBlackToWhiteAndNeverLeavesTheDisplay) {
   EXPECT_GT(before, 0.97f);
 }
 
-TEST_P(EachMapper, ShowsInfinityWhiteAndNoNumberBlack) {
+TEST_P(EachMapper, ShowsInfinityWhiteAndNanBlack) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const vec3 odd(kInfinity, std::numeric_limits<float>::quiet_NaN(), -1.0f);
   const vec3 shown = toneMapPixel(odd, 0.0f, GetParam());

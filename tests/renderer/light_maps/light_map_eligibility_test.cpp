@@ -12,15 +12,16 @@ namespace {
 
 constexpr float kClamp = 0.5f;
 
-// Eight lights at a time are told as one by one: of every kind, far from the tile and near it, in
-// its plane, behind it, and too bright.
-TEST(EligibleLights, AreThoseThatAreMappableOneByOne) {
+// The test of eight lights at a time equals the test of each light. Lights of every kind are far
+// from the tile, near it, in its plane, behind it, and too bright.
+TEST(EligibleLights, EqualTheTestOfEachLight) {
   std::vector<shared::Vpl> lights = test::randomVpls(180, 7);
   for (size_t i = 0; i < lights.size(); ++i) {
     if (i % 5 == 0) lights[i].position.y = 0.3f;  // the plane of the tile
     if (i % 7 == 0) lights[i].intensity *= 1e5f;
     if (i % 11 == 0) lights[i].position.w = shared::kVplUniform;
-    if (i % 11 == 0) lights[i].normal.w = i % 2 == 0 ? 0.0f : 4.0f;  // all around, or a spot
+    if (i % 11 == 0)
+      lights[i].normal.w = i % 2 == 0 ? 0.0f : 4.0f;  // an omnidirectional light or a spot light
   }
   shared::Vpl sun = test::makeVpl(vec3(0), vec3(0.5f, 1, 0.4f), shared::kVplDirectional, 2.0f);
   sun.normal.w = 5.0f;
@@ -35,7 +36,7 @@ TEST(EligibleLights, AreThoseThatAreMappableOneByOne) {
   chart.bitangent = vec3(0, 0, -1);
   chart.normal = vec3(0, 1, 0);
   const EligibleLights many(lights, slots, kClamp);
-  int mappable = 0, tiles = 0;
+  int eligible = 0, tiles = 0;
   for (float at = -3.0f; at < 3.0f; at += 0.4f, ++tiles) {
     Patch patch;
     patch.min = vec2(at, 0.5f * at);
@@ -47,11 +48,11 @@ TEST(EligibleLights, AreThoseThatAreMappableOneByOne) {
       const bool isAsked = std::find(slots.begin(), slots.end(), i) != slots.end();
       const bool expected = !isAsked || isLightMapEligible(lights[i], tile, kClamp);
       EXPECT_EQ((bits[i / 64] >> i % 64 & 1) != 0, expected) << i << ", " << at;
-      mappable += isAsked && expected;
+      eligible += isAsked && expected;
     }
   }
-  EXPECT_GT(mappable, tiles * 20);
-  EXPECT_LT(mappable, tiles * static_cast<int>(slots.size() - 20));
+  EXPECT_GT(eligible, tiles * 20);
+  EXPECT_LT(eligible, tiles * static_cast<int>(slots.size() - 20));
 }
 
 }  // namespace

@@ -1,15 +1,16 @@
-// Light maps take no more memory than they may, and nothing of what was there before decides how.
+// The memory limit of light maps. It is never exceeded, and the result does not depend on earlier
+// edits.
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/light_maps.h"
-#include "renderer/sampling/vpl_set.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -21,7 +22,7 @@ Scene litBoxes(int count = 14) {
   return scene;
 }
 
-// Light maps of a scene, within some memory, kept from edit to edit.
+// Light maps of a scene under a memory limit, updated incrementally.
 struct Kept {
   RenderScene scene;
   VisibilityDatabase visibility;
@@ -32,10 +33,7 @@ struct Kept {
   void update(const Scene& from, const SceneChanges& changes, int count = 40,
               bool mayBeFiner = true) {
     visibility.setScene(scene, lamplighter::update(scene, from, changes));
-    std::vector<shared::Vpl> lights;
-    for (const SceneVpl& v :
-         generateVpls(scene, RayCaster(scene), LightSet(scene), {count, 0.5f, 1, 1}).vpls)
-      lights.push_back(v.vpl);
+    const std::vector<shared::Vpl> lights = test::lightsOf(scene, {count, 0.5f, 1, 1});
     visibility.setLights(scene, lights);
     visibility.refreshAll(scene);
     maps.update(scene, visibility, lights, options, nullptr, mayBeFiner);
@@ -54,7 +52,7 @@ TEST(LightMapMemory, IsNotExceeded) {
     Kept little(all / part - (part == 1 ? 0 : 1));
     little.update(scene, SceneChanges::all());
     EXPECT_LE(little.maps.bytes(), little.options.mostBytes);
-    EXPECT_GT(little.maps.bytes(), little.options.mostBytes / 5) << "more would have fitted";
+    EXPECT_GT(little.maps.bytes(), little.options.mostBytes / 5) << "most of the memory is unused";
     EXPECT_TRUE(part == 1 ? little.maps.texel() == last : little.maps.texel() > last) << part;
     last = little.maps.texel();
   }
@@ -67,8 +65,8 @@ TEST(LightMapMemory, IsNotExceeded) {
       EXPECT_EQ(none.maps.tile(object, static_cast<int>(p)), nullptr);
 }
 
-// When things come there is less room for each, and when they go there is more again.
-TEST(LightMapMemory, IsSharedByWhatIsThereNow) {
+// A new object leaves less memory for each light map; removing it gives the memory back.
+TEST(LightMapMemory, IsSharedByTheCurrentObjects) {
   const Scene before = litBoxes();
   Kept plenty;
   plenty.update(before, SceneChanges::all());
@@ -90,8 +88,9 @@ TEST(LightMapMemory, IsSharedByWhatIsThereNow) {
   EXPECT_EQ(kept.maps.hash(), hash);
 }
 
-// All maps are made anew for other texels: at once where they have to, else when there is time.
-TEST(LightMapMemory, TexelsBecomeSmallerWhenTheyMay) {
+// Another texel size requires all maps to be rendered again. Coarser texels are applied at once if
+// memory requires it, finer texels only when allowed.
+TEST(LightMapMemory, TexelsBecomeFinerOnlyWhenAllowed) {
   const Scene before = litBoxes();
   Kept kept;
   kept.update(before, SceneChanges::all());
@@ -114,8 +113,8 @@ TEST(LightMapMemory, TexelsBecomeSmallerWhenTheyMay) {
   EXPECT_EQ(kept.maps.hash(), fresh.maps.hash());
 }
 
-// What was held for lights that are gone is gone with them.
-TEST(LightMapMemory, CountsTheLightsThatThereAre) {
+// Memory of removed lights is released.
+TEST(LightMapMemory, CountsOnlyCurrentLights) {
   const Scene scene = litBoxes();
   Kept kept, fresh;
   kept.update(scene, SceneChanges::all(), 900);
@@ -147,11 +146,11 @@ TEST(LightMapMemory, ThePictureStaysNearlyTheSame) {
   EXPECT_LT(error, 0.01);
 }
 
-// While the camera rests: with no room pixels sum all light, and with some they do so no more.
-TEST(LightMapMemory, ThePictureFollowsWhatIsLeft) {
+// With a camera at rest: without memory for light maps pixels sum all lights; with memory light
+// maps are used again.
+TEST(LightMapMemory, ThePictureFollowsTheMemoryLimit) {
   const Scene scene = litBoxes(900);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const View view = viewOfBounds(render.bounds, 192, 128);
   Settings settings;
   settings.set("vpls", 60);
@@ -163,8 +162,9 @@ TEST(LightMapMemory, ThePictureFollowsWhatIsLeft) {
   for (const int mebibytes : {512, 1, 4, 1, 512}) {
     settings.set("light_map_memory", mebibytes);
     const GiOutput out = test::renderSettled(kept, scene, changes, view, settings);
-    FrameRenderer anew(makeCpuBackend());
-    const GiOutput fresh = test::renderSettled(anew, scene, SceneChanges::all(), view, settings);
+    FrameRenderer freshRenderer(makeCpuBackend());
+    const GiOutput fresh =
+        test::renderSettled(freshRenderer, scene, SceneChanges::all(), view, settings);
     EXPECT_EQ(out.stats.of("light_map_texel"), fresh.stats.of("light_map_texel"));
     EXPECT_TRUE(test::sameBits(out.radiance->pixels(), fresh.radiance->pixels())) << mebibytes;
     texels.push_back(static_cast<float>(out.stats.of("light_map_texel")));

@@ -1,4 +1,5 @@
-// Light maps against the definition of a light's share, and against their own past.
+// Light maps against the definition of a light's irradiance, and incremental updates against new
+// light maps.
 #include "renderer/light_maps/light_maps.h"
 
 #include <algorithm>
@@ -9,11 +10,11 @@
 #include <tbb/global_control.h>
 
 #include "renderer/light_maps/accumulate.h"
-#include "renderer/sampling/vpl_set.h"
 #include "shaders/shared/vpl_shading.h"
 #include "tests/support/edit_sequence.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
+#include "tests/support/room_lights.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -22,25 +23,18 @@ namespace {
 constexpr float kClamp = 0.5f;
 constexpr LightMaps::Options kOptions{0.1f, kClamp};
 
-std::vector<shared::Vpl> vplsOf(const RenderScene& scene, const RayCaster& rays, int count) {
-  std::vector<shared::Vpl> vpls;
-  for (const SceneVpl& v : generateVpls(scene, rays, LightSet(scene), {count, 0.5f, 1, 1}).vpls)
-    vpls.push_back(v.vpl);
-  return vpls;
-}
-
-// A scene with its database and maps, kept from edit to edit.
+// A scene with its visibility database and light maps, updated incrementally.
 struct Kept {
   RenderScene scene;
   VisibilityDatabase visibility;
   LightMaps maps;
   std::vector<shared::Vpl> lights;
 
-  // `refreshes`: else columns of lights that did not move are left to wait.
+  // Without `refreshes`, columns of lights that did not move stay pending.
   void update(const Scene& from, const SceneChanges& changes, bool refreshes = true) {
     const RenderSceneChanges found = lamplighter::update(scene, from, changes);
     visibility.setScene(scene, found);
-    lights = vplsOf(scene, RayCaster(scene), 40);
+    lights = test::lightsOf(scene, {40, 0.5f, 1, 1});
     visibility.setLights(scene, lights);
     if (refreshes) visibility.refreshAll(scene);
     maps.update(scene, visibility, lights, kOptions);
@@ -51,13 +45,13 @@ struct Kept {
 Scene litBoxes() {
   Scene scene = test::randomBoxes(14, 5);
   test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
-  // What is curved is in no chart.
+  // Curved surfaces have no chart.
   const NodeId ball = test::addRectangleLight(scene, vec3(-1, 2, 1), vec2(0.6f), vec3(3));
   scene.find(ball)->area->shape = AreaShape::sphere;
   return scene;
 }
 
-// On the plane y = `height`, along a line.
+// Points on a line in the plane y = `height`.
 struct Line {
   std::vector<float> u, w;
   float height;
@@ -88,7 +82,7 @@ Line lineOf64() {
   return line;
 }
 
-TEST(Accumulate, IsTheSharedDefinitionRounded) {
+TEST(Accumulate, EqualsTheSharedDefinitionUpToRounding) {
   std::vector<shared::Vpl> vpls = test::randomVpls(20, 3);
   shared::Vpl sun = test::makeVpl(vec3(0), vec3(0.5f, 1, 0.4f), shared::kVplDirectional, 2.0f);
   sun.normal.w = 5.0f;
@@ -120,30 +114,30 @@ TEST(Accumulate, IsTheSharedDefinitionRounded) {
   EXPECT_GT(lit, 100);
 }
 
-// Whatever is added and in whichever order it is taken away, nothing is left.
-TEST(Accumulate, WhatIsTakenAwayLeavesNoBit) {
+// Subtracting lights in any order restores exactly zero.
+TEST(Accumulate, SubtractingRestoresExactlyZero) {
   const std::vector<shared::Vpl> vpls = test::randomVpls(50, 9);
   const Line line = lineOf64();
   std::vector<double> r(64), g(64), b(64);
   const TexelPlaces places = line.places();
   std::vector<TexelLight> lights;
-  std::vector<const TexelLight*> added, taken;
+  std::vector<const TexelLight*> added, subtracted;
   for (const float sign : {1.0f, -1.0f})
     for (const shared::Vpl& vpl : vpls) lights.emplace_back(vpl, sign);
   for (size_t i = 0; i < vpls.size(); ++i) {
     added.push_back(&lights[i]);
-    taken.insert(taken.begin(), &lights[vpls.size() + i]);
+    subtracted.insert(subtracted.begin(), &lights[vpls.size() + i]);
   }
   accumulate(added, places, kClamp, r.data(), g.data(), b.data());
   EXPECT_GT(*std::max_element(r.begin(), r.end()), 0.0);
-  accumulate(taken, places, kClamp, r.data(), g.data(), b.data());
+  accumulate(subtracted, places, kClamp, r.data(), g.data(), b.data());
   for (const auto* sums : {&r, &g, &b})
     EXPECT_TRUE(std::all_of(sums->begin(), sums->end(), [](double s) { return s == 0.0; }));
 }
 
-// Faint ones are summed in 32 bits, several runs of them, and bright ones in doubles: together they
-// are what each gives alone.
-TEST(Accumulate, AllAtOnceAreTheSameBitsAsOneByOne) {
+// Faint lights are summed in 32 bits in several runs, bright ones in double precision. The result
+// has the same bits as adding the lights one by one.
+TEST(Accumulate, TogetherHasTheSameBitsAsOneByOne) {
   std::vector<shared::Vpl> vpls = test::randomVpls(200, 4);
   for (size_t i = 0; i < vpls.size(); ++i) {
     const float scale = i % 7 == 0 ? 5000.0f : i % 3 == 0 ? 40.0f : 0.3f;
@@ -170,9 +164,9 @@ TEST(Accumulate, AllAtOnceAreTheSameBitsAsOneByOne) {
   EXPECT_EQ(together, alone);
 }
 
-// At every texel: the sum of the lights that it holds. Between them, and from one tile to the next
-// that holds the same lights, it goes on without a step.
-TEST(LightMaps, HoldTheSumOfTheirLights) {
+// At each corner of a tile, the map holds the sum of its lights. The irradiance is continuous
+// within a tile and between tiles with the same lights.
+TEST(LightMaps, StoreTheSumOfTheirLights) {
   Kept kept;
   kept.update(litBoxes(), SceneChanges::all());
   int tiles = 0, heldLights = 0;
@@ -206,8 +200,8 @@ TEST(LightMaps, HoldTheSumOfTheirLights) {
   EXPECT_GT(heldLights, 20 * tiles);
 }
 
-// Beyond the borders of a tile too, where it is as at them.
-TEST(LightMaps, EightPointsAreReadAsEachIs) {
+// Also outside the borders of a tile, where look-ups are clamped.
+TEST(LightMaps, EightPointsAreReadAsOneByOne) {
   Kept kept;
   kept.update(litBoxes(), SceneChanges::all());
   constexpr size_t kPoints = LightMaps::Sampler::kPoints;
@@ -261,9 +255,9 @@ bool sameStates(const VisibilityDatabase& a, const VisibilityDatabase& b) {
   return true;
 }
 
-// After any edits both are what would be made from nothing, bit for bit; and after undoing them
-// all, what they were.
-bool leavesNoTrace(const test::EditSequence& edits) {
+// After any edits, visibility and light maps equal new ones bit for bit. After all edits are
+// undone, they equal the initial ones.
+bool equalsFreshAfterEdits(const test::EditSequence& edits) {
   Scene scene = litBoxes();
   Kept kept;
   kept.update(scene, SceneChanges::all());
@@ -288,14 +282,14 @@ bool leavesNoTrace(const test::EditSequence& edits) {
 
 class AnyEdits : public testing::TestWithParam<uint32_t> {};
 
-TEST_P(AnyEdits, LeaveNoTraceInVisibilityAndLightMaps) {
-  EXPECT_EQ(test::shortestFailing(test::randomEdits(14, GetParam()), leavesNoTrace),
+TEST_P(AnyEdits, GiveTheVisibilityAndLightMapsOfAFreshStart) {
+  EXPECT_EQ(test::shortestFailing(test::randomEdits(14, GetParam()), equalsFreshAfterEdits),
             test::EditSequence());
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, AnyEdits, testing::Range(1u, 13u));
 
-// The search for a short sequence finds the edit that is to blame.
-TEST(EditSequence, IsShortenedToWhatFails) {
+// The search finds the single edit that causes the failure.
+TEST(EditSequence, IsShortenedToTheFailingEdit) {
   test::EditSequence edits = test::randomEdits(20, 4);
   edits[13].kind = test::Edit::Kind::mirror;
   edits[13].node = 77;

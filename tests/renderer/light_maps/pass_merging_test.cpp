@@ -19,18 +19,18 @@ std::vector<uint32_t> range(uint32_t first, uint32_t end) {
   return out;
 }
 
-// The lights of each object, which must be there once each.
+// The lights of each object. Each light must occur once.
 std::map<uint32_t, std::set<uint32_t>> lightsOfObjects(std::span<const PassElement> elements) {
   std::map<uint32_t, std::set<uint32_t>> out;
   for (const PassElement& e : elements)
     for (const uint32_t object : e.objects)
       for (const uint32_t light : e.lights)
-        EXPECT_TRUE(out[object].insert(light).second) << object << " has twice " << light;
+        EXPECT_TRUE(out[object].insert(light).second) << object << " has twice the light " << light;
   return out;
 }
 
 TEST(PassMerging, ObjectsWithTheSameLightsAreDrawnTogether) {
-  // The paper's example: 20 objects under 300 lights, 6 a pass: 1000 passes.
+  // The paper's example: 20 objects under 300 lights with 6 lights per pass need 1000 passes.
   std::vector<PassElement> elements;
   for (uint32_t i = 0; i < 20; ++i) elements.push_back({{i}, range(0, 300)});
   const MergedPasses merged = mergePasses(elements, 6);
@@ -47,11 +47,11 @@ TEST(PassMerging, ObjectsWithoutLightsInCommonStayApart) {
   EXPECT_EQ(merged.saved, 0);
 }
 
-TEST(PassMerging, OnlyWhatSavesPassesIsMerged) {
-  // Three lights in common: 1 + 1 + 1 passes instead of 1 + 1.
+TEST(PassMerging, MergesOnlyIfThatSavesPasses) {
+  // Merging the three common lights would give 1 + 1 + 1 passes instead of 1 + 1.
   const std::vector<PassElement> elements{{{0}, range(0, 4)}, {{1}, range(1, 5)}};
   EXPECT_EQ(mergePasses(elements, 4).elements, elements);
-  // With passes of one light each of the three saves one.
+  // With one light per pass, each of the three common lights saves one pass.
   const MergedPasses merged = mergePasses(elements, 1);
   EXPECT_EQ(merged.saved, 3);
   EXPECT_EQ(merged.elements,
@@ -65,7 +65,7 @@ TEST(PassMerging, NothingGivesNothing) {
   EXPECT_EQ(merged.saved, 0);
 }
 
-// The paper's loop as it stands there, all pairs scored each time.
+// The algorithm as printed in the paper, which scores all pairs in each step.
 int passesByAllPairs(std::vector<PassElement> elements, int most) {
   const auto total = [&](std::span<const PassElement> some) {
     int n = 0;
@@ -103,7 +103,7 @@ int passesByAllPairs(std::vector<PassElement> elements, int most) {
   }
 }
 
-TEST(PassMerging, IsTheGreedyOneAndKeepsEachObjectsLights) {
+TEST(PassMerging, EqualsTheGreedyAlgorithmAndKeepsEachObjectsLights) {
   std::mt19937 random(5);
   int everSaved = 0;
   for (int round = 0; round < 60; ++round) {
@@ -134,12 +134,9 @@ TEST(PassMerging, ObjectsNeedTheMapsOfLightsThatMayBeHiddenFromThem) {
   test::addMesh(scene, test::squareMesh(4.0f, grey));                       // under the box
   test::addMesh(scene, test::squareMesh(4.0f, grey), vec3(40, 0, 0));       // far from it
   test::addMesh(scene, test::boxMesh(vec3(1.0f), grey), vec3(0, 1.5f, 0));  // between
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  RenderSceneChanges all;
-  all.rebuilt = true;
+  const RenderScene render = test::renderSceneOf(scene);
   VisibilityDatabase database;
-  database.setScene(render, all);
+  database.setScene(render, test::everythingRebuilt());
   const std::vector<shared::Vpl> lights{test::makeVpl(vec3(0, 4, 0), vec3(0, -1, 0)),
                                         test::makeVpl(vec3(40, 4, 0), vec3(0, -1, 0))};
   database.setLights(render, lights);

@@ -8,6 +8,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -20,10 +21,7 @@ Metrics compareCornell(const std::string& name, int vpls, int bounces) {
   settings.set("vpls", vpls);
   settings.set("bounces", bounces);
   settings.set("updates", vpls);
-  View view;
-  for (const Node& node : scene.nodes) {
-    if (node.camera != kNone) view = viewOfCamera(scene, node, 512, 384);
-  }
+  const View view = test::viewOf(scene, 512, 384);
   FrameRenderer renderer(makeCpuBackend());
   const GiOutput out = test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
   const auto file = name + "_b" + std::to_string(bounces) + ".exr";
@@ -42,7 +40,8 @@ TEST(ManyLightsCornell, DirectLightOf1024VplsIsWithinFivePercent) {
   }
 }
 
-// One bounce more: what is left is the noise of 512 bounced samples, the clamp, and the maps.
+// With one more bounce, the remaining errors are the noise of 512 indirect VPLs, the clamp and the
+// resolution of shadow maps.
 TEST(ManyLightsCornell, OneBounceKeepsTheBrightness) {
   if (!std::filesystem::exists(kReferences)) GTEST_SKIP() << "no " << kReferences;
   const Metrics m = compareCornell("cornell", 1024, 1);

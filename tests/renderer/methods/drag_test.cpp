@@ -1,5 +1,5 @@
-// A light or a coloured object under a hand: the picture follows without a jump, most paths stay,
-// and what comes to rest is what is opened afresh.
+// A light or a coloured object is dragged. The brightness has no jumps, most light paths are kept,
+// and the settled picture equals a fresh render.
 #include <gtest/gtest.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
@@ -14,7 +14,7 @@ namespace {
 struct Room {
   Scene scene;
   NodeId cube, light;
-  // A wall with a strip of the floor, neither the light nor the cube.
+  // Shows a wall and a strip of the floor, but neither the light nor the cube.
   View view = test::lookAt(vec3(0, 1.5f, -1.5f), vec3(-3, 1.2f, -1.5f), 64, 48, 0.9f);
   Settings settings;
 
@@ -29,14 +29,14 @@ struct Room {
     settings.set("updates", 80);
     settings.set("map_resolution", 32);
     settings.set("antialias", 1);
-    // Of the paths and their maps alone: which of these are looked up is visibility's business.
+    // Tests light paths and shadow maps only: `naive` uses no visibility database.
     settings.set("technique", std::string("naive"));
   }
 };
 
 class Drag : public testing::TestWithParam<std::tuple<bool, int>> {};
 
-TEST_P(Drag, FollowsWithoutAJumpAndSettlesAsAFreshStart) {
+TEST_P(Drag, HasNoJumpsAndSettlesToTheFreshPicture) {
   const auto [isLight, maxPaths] = GetParam();
   Room room;
   room.settings.set("max_paths", maxPaths);
@@ -48,7 +48,7 @@ TEST_P(Drag, FollowsWithoutAJumpAndSettlesAsAFreshStart) {
     const GiOutput out =
         renderer.render({room.scene, changes, room.view, "many_lights", room.settings});
     const vec3 mean = test::meanOf(out.radiance->pixels());
-    // One path of the 150, where it lands by the wall in view, is two hundredths of its light.
+    // One of the 150 light paths, if it hits near the visible wall, gives 2% of the light in view.
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(mean[i] / last[i], 1.0f, 0.04f);
     last = mean;
     return out;
@@ -68,19 +68,20 @@ TEST_P(Drag, FollowsWithoutAJumpAndSettlesAsAFreshStart) {
   }
   GiOutput out;
   for (int frames = 0; !out.settled; ++frames) {
-    SCOPED_TRACE("resting");
+    SCOPED_TRACE("after the drag");
     ASSERT_LT(frames, 100);
     out = frame({});
   }
-  FrameRenderer anew(makeCpuBackend());
+  FrameRenderer freshRenderer(makeCpuBackend());
   const GiOutput fresh =
-      test::renderSettled(anew, room.scene, SceneChanges::all(), room.view, room.settings);
+      test::renderSettled(freshRenderer, room.scene, SceneChanges::all(), room.view, room.settings);
   EXPECT_TRUE(test::sameBits(out.radiance->pixels(), fresh.radiance->pixels()));
 }
 INSTANTIATE_TEST_SUITE_P(What, Drag, testing::Combine(testing::Bool(), testing::Values(0, 24)));
 
-// The red cube beside the wall: its colour is on the wall; taken back, the picture is what it was.
-TEST(Drag, AColouredMoverChangesTheBouncedColour) {
+// Near the wall, the red cube tints the wall. When the cube is moved back, the picture has its old
+// bits.
+TEST(Drag, AColouredMoverChangesTheColourOfIndirectLight) {
   Room room;
   FrameRenderer renderer(makeCpuBackend());
   const Image away =

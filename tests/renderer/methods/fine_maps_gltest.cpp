@@ -1,13 +1,14 @@
-// Shadow maps that become finer once nothing else is left to do, on the gl backend.
+// Fine shadow maps, which replace coarse ones when the picture has settled otherwise, on the gl
+// backend.
 #include <map>
 
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -24,34 +25,34 @@ struct FineMapsGl : test::GlTest, test::AssetRoom {
     settings.set("map_resolution", 32);
     settings.set("settled_map_scale", 4);
   }
-  Image directly(int resolution, int scale) const {
+  Image freshPicture(int resolution, int scale) const {
     Settings other = settings;
     other.set("map_resolution", resolution);
     other.set("settled_map_scale", scale);
-    FrameRenderer fresh(makeGlBackend());
-    return test::renderSettled(fresh, scene, SceneChanges::all(), view, other).radiance->pixels();
+    return test::freshPicture(makeGlBackend(), scene, view, other);
   }
 };
 
-// Lights are summed in another order where some have no map, which rounds otherwise.
+// Lights without a shadow map are summed in another order, which rounds differently.
 constexpr double kRounding = 1e-5;
 
-TEST_F(FineMapsGl, ASettledPictureIsThatOfFineMaps) {
+TEST_F(FineMapsGl, ASettledPictureUsesFineMaps) {
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
     settings.set("technique", std::string(technique));
-    const Image picture = directly(32, 4);
-    EXPECT_LT(compareImages(picture, directly(128, 1)).relRmse, kRounding);
-    EXPECT_GT(compareImages(picture, directly(32, 1)).relRmse, 100 * kRounding);
+    const Image picture = freshPicture(32, 4);
+    EXPECT_LT(compareImages(picture, freshPicture(128, 1)).relRmse, kRounding);
+    EXPECT_GT(compareImages(picture, freshPicture(32, 1)).relRmse, 100 * kRounding);
   }
 }
 
-// Of both sizes at a time: each is looked up with its own resolution, as by the cpu backend.
-TEST_F(FineMapsGl, OnTheWayItIsAsByTheCpuBackend) {
+// While maps of both sizes exist, each is looked up with its own resolution, as on the cpu backend.
+TEST_F(FineMapsGl, WithMixedSizesThePictureEqualsTheCpuBackend) {
   for (const char* technique : {"naive", "light_maps"}) {
     SCOPED_TRACE(technique);
     settings.set("technique", std::string(technique));
-    // By how many maps are to become fine; a fine map counts as two of the cpu backend's.
+    // Pictures by the number of maps that are still coarse. A fine map costs twice as much of the
+    // budget on the cpu backend.
     const auto picturesOf = [&](std::unique_ptr<Backend> backend, int updates) {
       settings.set("updates", updates);
       FrameRenderer renderer(std::move(backend));
@@ -75,8 +76,8 @@ TEST_F(FineMapsGl, OnTheWayItIsAsByTheCpuBackend) {
   }
 }
 
-// An edit half way, and another once it is settled.
-TEST_F(FineMapsGl, AnyWayThereIsThePictureFromNothing) {
+// One edit while maps are replaced, and another after the picture has settled.
+TEST_F(FineMapsGl, AfterEditsThePictureEqualsAFreshRender) {
   FrameRenderer renderer(makeGlBackend());
   SceneChanges changes = SceneChanges::all();
   for (const int frames : {6, 60, 2}) {
@@ -89,9 +90,9 @@ TEST_F(FineMapsGl, AnyWayThereIsThePictureFromNothing) {
       if (node.name == "mover") node.local.translation.x += 0.1f;
     changes = compare(before, scene);
   }
-  const Image there =
+  const Image edited =
       test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
-  EXPECT_LT(compareImages(there, directly(32, 4)).relRmse, kRounding);
+  EXPECT_LT(compareImages(edited, freshPicture(32, 4)).relRmse, kRounding);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
-// Shadow maps that become finer once nothing else is left to do, on the cpu backend.
+// Fine shadow maps, which replace coarse ones when the picture has settled otherwise, on the cpu
+// backend.
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "renderer/frame/frame.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -15,7 +16,7 @@ using test::sameBits;
 
 constexpr int kCoarse = 16, kScale = 4;
 
-// The pillar room, whose mover is complex, with maps of 16² that become 64².
+// The pillar room, whose mover is complex, with maps of 16² texels that are replaced by 64².
 struct FineMaps : testing::Test, test::AssetRoom {
   Settings settings;
   FrameRenderer renderer{makeCpuBackend()};
@@ -42,14 +43,13 @@ struct FineMaps : testing::Test, test::AssetRoom {
     nodeOf(name).local.translation += by;
     return compare(before, scene);
   }
-  Image directly(int resolution, int scale) const {
+  Image freshPicture(int resolution, int scale) const {
     Settings other = settings;
     other.set("map_resolution", resolution);
     other.set("settled_map_scale", scale);
-    FrameRenderer fresh(makeCpuBackend());
-    return test::renderSettled(fresh, scene, SceneChanges::all(), view, other).radiance->pixels();
+    return test::freshPicture(makeCpuBackend(), scene, view, other);
   }
-  // How many of the maps that are held are fine.
+  // The number of stored maps that are fine.
   uint64_t fine() {
     const ManyLightsCounts counts = test::lightCounts(renderer.backend());
     const uint64_t coarse = 4 * kCoarse * kCoarse;
@@ -57,7 +57,7 @@ struct FineMaps : testing::Test, test::AssetRoom {
   }
 };
 
-TEST_F(FineMaps, ASettledPictureIsThatOfFineMaps) {
+TEST_F(FineMaps, ASettledPictureUsesFineMaps) {
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     for (const char* block : {"1", "4"}) {
       SCOPED_TRACE(std::string(technique) + ", blocks of " + block);
@@ -65,14 +65,15 @@ TEST_F(FineMaps, ASettledPictureIsThatOfFineMaps) {
       settings.set("block", std::string(block));
       const Image picture = settle(SceneChanges::all()).radiance->pixels();
       EXPECT_EQ(fine(), test::lightCounts(renderer.backend()).mapsHeld);
-      EXPECT_TRUE(sameBits(picture, directly(kCoarse * kScale, 1)));
-      EXPECT_FALSE(sameBits(picture, directly(kCoarse, 1)));
+      EXPECT_TRUE(sameBits(picture, freshPicture(kCoarse * kScale, 1)));
+      EXPECT_FALSE(sameBits(picture, freshPicture(kCoarse, 1)));
     }
   }
 }
 
-// As many a frame as the budget has for, and none before all else is done.
-TEST_F(FineMaps, ComeLastAndByTheBudget) {
+// Each frame renders as many fine maps as the budget allows, and none before all other work is
+// done.
+TEST_F(FineMaps, AreRenderedLastAndWithinTheBudget) {
   GiOutput out = step(SceneChanges::all());
   while (out.stats.of("vpls_pending") > 0) {
     EXPECT_EQ(fine(), 0u);
@@ -83,8 +84,8 @@ TEST_F(FineMaps, ComeLastAndByTheBudget) {
   EXPECT_EQ(left, out.stats.of("maps_held"));
   while (left > 0) {
     EXPECT_FALSE(out.settled);
-    const int told = out.stats.framesUntilSettled;
-    EXPECT_EQ(told, (left + 9) / 10);
+    const int predicted = out.stats.framesUntilSettled;
+    EXPECT_EQ(predicted, (left + 9) / 10);
     out = step();
     EXPECT_EQ(out.stats.of("maps_sharpened"), std::min(left, 10));
     EXPECT_EQ(out.stats.of("maps_to_sharpen"), left - out.stats.of("maps_sharpened"));
@@ -96,16 +97,16 @@ TEST_F(FineMaps, ComeLastAndByTheBudget) {
   EXPECT_EQ(step().radiance, picture);
   EXPECT_EQ(test::lightCounts(renderer.backend()).shadowMaps, rendered);
 
-  // Rays are counted one by one.
+  // Under `max_rays`, a fine map counts its number of rays.
   settings.set("max_rays", 3 * kCoarse * kScale * kCoarse * kScale);
   out = step(move("mover", vec3(0.2f, 0.0f, 0.0f)));
   while (out.stats.of("maps_sharpened") == 0) out = step();
   EXPECT_EQ(out.stats.of("maps_sharpened"), std::min(3.0, 3 + out.stats.of("maps_to_sharpen")));
 }
 
-// What an object's move touches is coarse in the next frame, the rest stays fine; what a light's
-// move touches is all of its own.
-TEST_F(FineMaps, WhatAnEditTouchesIsCoarse) {
+// The maps that a moved object affects are coarse in the next frame, the others stay fine. A moved
+// light affects all of its own maps.
+TEST_F(FineMaps, MapsAffectedByAnEditBecomeCoarse) {
   settle(SceneChanges::all());
   const uint64_t held = test::lightCounts(renderer.backend()).mapsHeld;
   ASSERT_EQ(fine(), held);
@@ -121,8 +122,9 @@ TEST_F(FineMaps, WhatAnEditTouchesIsCoarse) {
   EXPECT_LT(fine(), now / 2);
 }
 
-// Turned away, edited half way, turned back: it is the picture made from nothing.
-TEST_F(FineMaps, AnyWayThereIsThePictureFromNothing) {
+// The camera turns away, an edit follows while maps are replaced, and the camera turns back: the
+// picture equals a fresh render.
+TEST_F(FineMaps, AfterEditsThePictureEqualsAFreshRender) {
   for (const char* technique : {"naive", "light_maps"}) {
     SCOPED_TRACE(technique);
     settings.set("technique", std::string(technique));
@@ -133,17 +135,17 @@ TEST_F(FineMaps, AnyWayThereIsThePictureFromNothing) {
       step(move(i % 4 == 3 ? "ceiling light" : "mover", vec3(i < 6 ? 0.1f : -0.1f, 0.0f, 0.0f)));
       for (int frame = 0; frame < i; ++frame) step();
     }
-    EXPECT_TRUE(sameBits(settle().radiance->pixels(), directly(kCoarse, kScale)));
+    EXPECT_TRUE(sameBits(settle().radiance->pixels(), freshPicture(kCoarse, kScale)));
     view = front;
     nodeOf("mover").local.translation.x += 0.1f;
-    const Image there = settle(SceneChanges::all()).radiance->pixels();
-    EXPECT_FALSE(sameBits(first, there));
-    EXPECT_TRUE(sameBits(there, directly(kCoarse, kScale)));
+    const Image edited = settle(SceneChanges::all()).radiance->pixels();
+    EXPECT_FALSE(sameBits(first, edited));
+    EXPECT_TRUE(sameBits(edited, freshPicture(kCoarse, kScale)));
   }
 }
 
-// They are as fine as the memory lets all of them be.
-TEST_F(FineMaps, TakeNoMoreMemoryThanTheyMay) {
+// The maps are as fine as possible if all of them must fit into the memory.
+TEST_F(FineMaps, KeepWithinTheMemory) {
   settings.set("map_memory", 1);
   for (const auto& [vpls, scale] : {std::pair(20, 4), {120, 2}, {600, 1}}) {
     SCOPED_TRACE(vpls);

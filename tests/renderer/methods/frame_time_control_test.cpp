@@ -5,9 +5,9 @@
 namespace lamplighter {
 namespace {
 
-// Frames of a machine on which some of the time is the same whatever is refreshed.
+// Simulates frames that cost a constant time plus a time per refreshed VPL.
 struct Machine {
-  double perVpl, rest;  // seconds
+  double perVpl, constant;  // seconds
   int pending;
 
   GiStats frame(int allowed) const {
@@ -15,13 +15,13 @@ struct Machine {
     GiStats stats;
     stats.updates = vpls;
     stats.stageSeconds = {{"shadow maps", 0.5 * perVpl * vpls},
-                          {"light sums", 0.5 * perVpl * vpls + 0.6 * rest},
-                          {"g-buffer", 0.4 * rest}};
+                          {"light sums", 0.5 * perVpl * vpls + 0.6 * constant},
+                          {"g-buffer", 0.4 * constant}};
     return stats;
   }
 };
 
-int after(FrameTimeControl& control, const Machine& machine, double seconds, int frames) {
+int updatesAfter(FrameTimeControl& control, const Machine& machine, double seconds, int frames) {
   for (int i = 0; i < frames; ++i) control.measured(machine.frame(control.updatesWithin(seconds)));
   return control.updatesWithin(seconds);
 }
@@ -29,31 +29,31 @@ int after(FrameTimeControl& control, const Machine& machine, double seconds, int
 TEST(FrameTimeControl, FillsTheFrame) {
   FrameTimeControl control;
   EXPECT_EQ(control.updatesWithin(0.05), 16);
-  EXPECT_NEAR(after(control, {0.0005, 0.02, 1000}, 0.05, 40), 60, 1);
-  EXPECT_NEAR(after(control, {0.0005, 0.02, 1000}, 0.1, 40), 160, 2);
-  // The rest alone takes longer: it goes on all the same.
-  EXPECT_EQ(after(control, {0.0005, 0.02, 1000}, 0.01, 40), 16);
+  EXPECT_NEAR(updatesAfter(control, {0.0005, 0.02, 1000}, 0.05, 40), 60, 1);
+  EXPECT_NEAR(updatesAfter(control, {0.0005, 0.02, 1000}, 0.1, 40), 160, 2);
+  // The constant part alone exceeds the target: a minimum of updates remains.
+  EXPECT_EQ(updatesAfter(control, {0.0005, 0.02, 1000}, 0.01, 40), 16);
 }
 
-TEST(FrameTimeControl, FollowsWhatFramesCost) {
+TEST(FrameTimeControl, FollowsChangesOfTheCost) {
   FrameTimeControl control;
-  after(control, {0.0005, 0.02, 1000}, 0.05, 40);
-  EXPECT_NEAR(after(control, {0.001, 0.02, 1000}, 0.05, 40), 30, 1);
+  updatesAfter(control, {0.0005, 0.02, 1000}, 0.05, 40);
+  EXPECT_NEAR(updatesAfter(control, {0.001, 0.02, 1000}, 0.05, 40), 30, 1);
 }
 
-TEST(FrameTimeControl, FramesWithLittleToDoTakeNoPart) {
+TEST(FrameTimeControl, IgnoresFramesWithLittleWork) {
   FrameTimeControl control;
-  after(control, {0.0005, 0.02, 1000}, 0.05, 40);
-  EXPECT_NEAR(after(control, {0.0005, 0.02, 3}, 0.05, 40), 60, 1);
-  EXPECT_NEAR(after(control, {0.0005, 0.02, 0}, 0.05, 40), 60, 1);
+  updatesAfter(control, {0.0005, 0.02, 1000}, 0.05, 40);
+  EXPECT_NEAR(updatesAfter(control, {0.0005, 0.02, 3}, 0.05, 40), 60, 1);
+  EXPECT_NEAR(updatesAfter(control, {0.0005, 0.02, 0}, 0.05, 40), 60, 1);
 }
 
-TEST(FrameTimeControl, ASlowFrameDoesNotBringItToAStop) {
+TEST(FrameTimeControl, RecoversFromOneSlowFrame) {
   FrameTimeControl control;
-  after(control, {0.0005, 0.02, 1000}, 0.05, 40);
+  updatesAfter(control, {0.0005, 0.02, 1000}, 0.05, 40);
   control.measured(Machine{0.0005, 10.0, 1000}.frame(control.updatesWithin(0.05)));
   EXPECT_GE(control.updatesWithin(0.05), 16);
-  EXPECT_NEAR(after(control, {0.0005, 0.02, 1000}, 0.05, 20), 60, 2);
+  EXPECT_NEAR(updatesAfter(control, {0.0005, 0.02, 1000}, 0.05, 20), 60, 2);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Look-ups that groups of light samples share: fewer, with a picture that stays right.
+// Groups of VPLs that share shadow map look-ups: fewer look-ups with almost the same picture.
 #include <algorithm>
 #include <iostream>
 
@@ -8,8 +8,8 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/light_maps/light_proxies.h"
-#include "tests/support/asset_room.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -41,7 +41,7 @@ Result render(const Room& room, const Settings& settings) {
   return {out.radiance->pixels(), test::lightCounts(renderer.backend()).lookUps};
 }
 
-TEST(GroupedLights, LookUpLessAndShowTheSame) {
+TEST(GroupedLights, NeedFewerLookUpsForTheSamePicture) {
   for (const char* name : {"pillar_room", "table_room"}) {
     const Room room(name);
     const Result naive = render(room, settingsOf("naive", 1500, 0.4f));
@@ -52,7 +52,7 @@ TEST(GroupedLights, LookUpLessAndShowTheSame) {
       const double error = compareImages(grouped.image, naive.image).relRmse;
       const double bias = compareImages(grouped.image, naive.image).bias;
       std::cout << name << ", " << technique << ": relRMSE to naive " << 100.0 * error
-                << "% (each alone " << 100.0 * compareImages(each.image, naive.image).relRmse
+                << "% (without groups " << 100.0 * compareImages(each.image, naive.image).relRmse
                 << "%), look-ups " << grouped.lookUps << " for " << each.lookUps << "\n";
       EXPECT_LT(error, 0.03);
       EXPECT_NEAR(bias, 1.0, 0.003);
@@ -61,7 +61,7 @@ TEST(GroupedLights, LookUpLessAndShowTheSame) {
   }
 }
 
-TEST(GroupedLights, LeaveNoTraceOfHowTheyCameAbout) {
+TEST(GroupedLights, DoNotDependOnEarlierFrames) {
   Room room("pillar_room");
   Settings settings = settingsOf("light_maps", 900, 0.4f);
   settings.set("updates", 250);
@@ -106,11 +106,11 @@ LightSampleTable tableOf(std::span<const shared::Vpl> vpls, const std::vector<ui
   return table;
 }
 
-TEST(LightProxies, OneWithoutMapLooksUpThatOfItsNeighbour) {
+TEST(LightProxies, ALightWithoutAMapUsesThatOfItsNeighbour) {
   const auto vpls = row(4, vec3(1, 0, 0));
   LightProxies lightProxies;
   lightProxies.update(tableOf(vpls, {1, 0, 1, 0}), {1, 0, 1, 1}, {.share = 0.0f, .sees = {}});
-  ASSERT_EQ(lightProxies.lights().size(), 1u);  // nothing looks up that of light 1
+  ASSERT_EQ(lightProxies.lights().size(), 1u);  // light 1 is skipped, so it needs no proxy
   const int slot = lightProxies.lights()[0].slot;
   EXPECT_EQ(lightProxies.mapSlot(slot), 2);
   EXPECT_EQ(lightProxies.mapSlot(3), 3);
@@ -126,7 +126,7 @@ TEST(LightProxies, OneWithoutMapLooksUpThatOfItsNeighbour) {
   EXPECT_EQ(uses[static_cast<size_t>(slot)], ShadowMode::addShadowed);
 }
 
-TEST(LightProxies, AGroupIsLookedUpOnceWhereItIsFar) {
+TEST(LightProxies, AGroupIsLookedUpOnceAtADistance) {
   const auto vpls = row(4, vec3(0.01f, 0, 0));
   LightProxies lightProxies;
   lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
@@ -146,18 +146,20 @@ TEST(LightProxies, AGroupIsLookedUpOnceWhereItIsFar) {
   EXPECT_EQ(far[slot], ShadowMode::subtractShadow);
   EXPECT_EQ(std::count(far.begin(), far.end(), ShadowMode::skip),
             static_cast<std::ptrdiff_t>(far.size() - 1));
-  for (const auto& uses : {usesAt(0.5f, ShadowMode::subtractShadow),  // near
-                           usesAt(5.0f, ShadowMode::skip)}) {         // not all are looked up
+  for (const auto& uses :
+       {usesAt(0.5f, ShadowMode::subtractShadow),  // near
+        usesAt(5.0f, ShadowMode::skip)}) {         // one light of the group has another shadow mode
     EXPECT_EQ(uses[slot], ShadowMode::skip);
     EXPECT_EQ(uses[0], ShadowMode::subtractShadow);
   }
   lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1},
-                      {.share = 0.3f, .sees = {}});  // too bright
+                      {.share = 0.3f, .sees = {}});  // its share of the light exceeds the limit
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
 
-// With a shadow or without, where it is small beside the lobe.
-TEST(LightProxies, AGroupIsOneLightForWideLobes) {
+// A group that is small compared with the specular lobe acts as one light, with or without a
+// shadow.
+TEST(LightProxies, AGroupActsAsOneLightForWideLobes) {
   auto vpls = row(4, vec3(0.1f, 0, 0));
   for (shared::Vpl& vpl : vpls) vpl.footprint.x = 0.25f;
   LightProxies lightProxies;
@@ -178,8 +180,8 @@ TEST(LightProxies, AGroupIsOneLightForWideLobes) {
   }
 }
 
-// Among them one whose lobes show the light samples, and a rough one.
-TEST(GroupedLights, ShowTheSameInLobes) {
+// One of the materials is so smooth that lobes show single VPLs, another is rough.
+TEST(GroupedLights, GiveTheSameSpecularReflections) {
   Room room("table_room");
   int i = 0;
   for (Material& m : room.scene.materials) {
@@ -195,8 +197,8 @@ TEST(GroupedLights, ShowTheSameInLobes) {
   EXPECT_NEAR(difference.bias, 1.0, 0.003);
 }
 
-// On both sides of a wall, for which there is one shadow less.
-TEST(LightProxies, WhatDoesNotSeeEachOtherIsNoGroup) {
+// VPLs on the two sides of a wall. As one group, the shadow of the wall would be lost.
+TEST(LightProxies, LightsThatDoNotSeeEachOtherFormNoGroup) {
   const auto vpls = row(4, vec3(0.01f, 0, 0));
   const std::vector<uint8_t> all(4, 1);
   LightProxies lightProxies;
@@ -205,7 +207,7 @@ TEST(LightProxies, WhatDoesNotSeeEachOtherIsNoGroup) {
   };
   lightProxies.update(tableOf(vpls, all), all, {.share = 1.0f, .sees = wallAt(0.025f)});
   EXPECT_EQ(lightProxies.groups(), 0u);
-  // It is gone, and back.
+  // The wall is removed and put back.
   lightProxies.update(tableOf(vpls, all), all,
                       {.share = 1.0f, .sees = wallAt(9.0f), .sceneChanged = true});
   EXPECT_GE(lightProxies.groups(), 1u);
@@ -214,8 +216,9 @@ TEST(LightProxies, WhatDoesNotSeeEachOtherIsNoGroup) {
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
 
-// One light that is far brighter, as the sunny ground outside is, makes no groups of all others.
-TEST(LightProxies, AFewBrightLightsAreNoMeasure) {
+// A single much brighter VPL, such as sunny ground outdoors, must not raise the limit so that all
+// others form groups.
+TEST(LightProxies, AFewBrightLightsDoNotRaiseTheLimit) {
   auto vpls = row(8, vec3(0.01f, 0, 0));
   const std::vector<uint8_t> all(8, 1);
   vpls[7].position += vec4(50.0f, 0, 0, 0);

@@ -1,6 +1,5 @@
-// The picture that is kept from edit to edit, light by light and tile by tile, is the one made from
-// nothing.
-#include <filesystem>
+// The irradiance accumulator keeps the sums of pixels between edits. Incremental updates per light
+// and tile give the bits of a fresh render.
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -8,23 +7,25 @@
 
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
 
-// "transfer", "reflecting transfer" and "blocks of N" are besides light maps.
+using test::settledPicture;
+
+// The names "transfer", "reflecting transfer" and "blocks of N" stand for light maps with that
+// option.
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
-  const bool isByTransfer = technique.ends_with("transfer");
-  const bool isByBlocks = technique.starts_with("blocks");
-  s.set("technique", isByTransfer || isByBlocks ? "light_maps" : technique);
-  s.set("prt", isByTransfer);
+  const bool usesTransfer = technique.ends_with("transfer");
+  const bool usesBlocks = technique.starts_with("blocks");
+  s.set("technique", usesTransfer || usesBlocks ? "light_maps" : technique);
+  s.set("prt", usesTransfer);
   s.set("prt_bounces", technique == "reflecting transfer" ? 4 : 0);
-  s.set("block", isByBlocks ? technique.substr(technique.size() - 1) : "1");
+  s.set("block", usesBlocks ? technique.substr(technique.size() - 1) : "1");
   s.set("vpls", vpls);
   s.set("bounces", 2);
   s.set("updates", 9);
@@ -33,28 +34,24 @@ Settings settingsOf(const std::string& technique, int vpls) {
   return s;
 }
 
-struct Room {
-  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-  View view;
-  explicit Room(bool isComplex = false) {
+struct Room : test::AssetRoom {
+  explicit Room(bool isComplex = false) : AssetRoom("pillar_room", 93, 61) {
     for (Node& node : scene.nodes)
       if (isComplex && node.mesh != kNone) node.meshKind = MeshKind::complex;
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 93, 61);
   }
 };
 
-Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
-              const View& view, const Settings& settings) {
-  return test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
+Image freshPicture(const Room& room, const Settings& settings) {
+  return test::freshPicture(makeCpuBackend(), room.scene, room.view, settings);
 }
 
-// A few frames after each edit, so that the next comes upon lights half refreshed; then to rest.
-bool isLikeNew(const std::string& technique, const test::EditSequence& edits) {
+// Renders a few frames after each edit, so that the next edit finds lights half refreshed; then
+// settles.
+bool equalsFreshRender(const std::string& technique, const test::EditSequence& edits) {
   Room room(technique.ends_with("transfer"));
   const Settings settings = settingsOf(technique, 60);
   FrameRenderer renderer(makeCpuBackend());
-  settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   for (size_t i = 0; i < edits.size(); ++i) {
     const Scene before = room.scene;
     apply(room.scene, edits[i]);
@@ -62,18 +59,17 @@ bool isLikeNew(const std::string& technique, const test::EditSequence& edits) {
     for (size_t frame = 0; frame <= i % 4; ++frame, changes = {})
       renderer.render({room.scene, changes, room.view, "many_lights", settings});
   }
-  const Image kept = settled(renderer, room.scene, {}, room.view, settings);
-  FrameRenderer anew(makeCpuBackend());
-  return test::sameBits(kept, settled(anew, room.scene, SceneChanges::all(), room.view, settings));
+  const Image kept = settledPicture(renderer, room.scene, {}, room.view, settings);
+  return test::sameBits(kept, freshPicture(room, settings));
 }
 
 class KeptSums : public testing::TestWithParam<std::tuple<const char*, uint32_t>> {};
 
-TEST_P(KeptSums, AreThoseMadeFromNothing) {
+TEST_P(KeptSums, GiveThePictureOfAFreshRender) {
   const auto [technique, seed] = GetParam();
   EXPECT_EQ(test::shortestFailing(test::randomEdits(12, seed),
                                   [&, t = std::string(technique)](const test::EditSequence& s) {
-                                    return isLikeNew(t, s);
+                                    return equalsFreshRender(t, s);
                                   }),
             test::EditSequence());
 }
@@ -84,13 +80,8 @@ INSTANTIATE_TEST_SUITE_P(Seeds, KeptSums,
                                                           "blocks of 8"),
                                           testing::Range(1u, 5u)));
 
-Image settledWith(const Room& room, const Settings& settings) {
-  FrameRenderer renderer(makeCpuBackend());
-  return settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
-}
-
-// From one block to another and back, and to other sizes of picture with as many tiles.
-TEST(KeptSums, FollowBlocksAndSizes) {
+// Changes of the block size, and of the picture size with the same number of tiles.
+TEST(KeptSums, FollowBlockAndPictureSizes) {
   Room room;
   FrameRenderer renderer(makeCpuBackend());
   SceneChanges changes = SceneChanges::all();
@@ -99,32 +90,34 @@ TEST(KeptSums, FollowBlocksAndSizes) {
     Settings settings = settingsOf("light_maps", 40);
     settings.set("block", std::string(block));
     room.view.width = width;
-    const Image kept = settled(renderer, room.scene, changes, room.view, settings);
-    EXPECT_TRUE(test::sameBits(kept, settledWith(room, settings))) << block << ", " << width;
+    const Image kept = settledPicture(renderer, room.scene, changes, room.view, settings);
+    EXPECT_TRUE(test::sameBits(kept, freshPicture(room, settings))) << block << ", " << width;
     changes = {};
   }
 }
 
-TEST(KeptSums, BlocksAreTheSameBitsAtAnyNumberOfThreads) {
+TEST(KeptSums, BlocksHaveTheSameBitsAtAnyNumberOfThreads) {
   Room room;
   std::vector<Image> images;
   for (const size_t threads : {1u, 2u, 5u}) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    images.push_back(settledWith(room, settingsOf("blocks of 4", 60)));
+    images.push_back(freshPicture(room, settingsOf("blocks of 4", 60)));
   }
   EXPECT_TRUE(test::sameBits(images[0], images[1]));
   EXPECT_TRUE(test::sameBits(images[0], images[2]));
 }
 
-// What moves costs its own tiles, and the lights that were refreshed: far less than all.
-TEST(KeptSums, ADragCostsWhatItTouches) {
+// An edit costs only the tiles of the moved object and the refreshed lights, far less than the
+// whole picture.
+TEST(KeptSums, ADragCostsOnlyWhatItAffects) {
   Room room;
   Settings settings = settingsOf("light_maps", 100);
   settings.set("updates", 10);
-  constexpr int kResolution = 18;  // of maps that are traced, a ray a texel
+  constexpr int kResolution =
+      18;  // not a multiple of a tile, so maps are traced with one ray per texel
   settings.set("map_resolution", kResolution);
   FrameRenderer renderer(makeCpuBackend());
-  settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   const auto pixels = static_cast<uint64_t>(room.view.width) * room.view.height;
   const uint64_t all = pixels * 100;
   for (const char* name : {"mover", "ceiling light"}) {
@@ -142,13 +135,13 @@ TEST(KeptSums, ADragCostsWhatItTouches) {
     const uint64_t maps = end.shadowMaps - start.shadowMaps;
     const uint64_t rays = renderer.backend().counts().rays - raysAtStart;
     EXPECT_LT(rays - maps * kResolution * kResolution, pixels / 2) << name;
-    settled(renderer, room.scene, {}, room.view, settings);
+    settledPicture(renderer, room.scene, {}, room.view, settings);
   }
 }
 
-// Lights that stay are looked up again only where what moved may be in their maps. The first edit
-// sums all of them, as what is lit is noted from then on.
-TEST(KeptSums, WhatStaysIsLookedUpWhereItsMapChanged) {
+// Unchanged lights are looked up again only where the mover may be in their shadow maps. The first
+// edit looks up all of them, because the shadow mask cache is recorded from then on.
+TEST(KeptSums, UnchangedLightsAreLookedUpOnlyWhereTheirMapsChanged) {
   Room room;
   room.view.width = 240;
   room.view.height = 160;
@@ -157,7 +150,7 @@ TEST(KeptSums, WhatStaysIsLookedUpWhereItsMapChanged) {
     settings.set("updates", 1000);
     settings.set("map_resolution", 64);
     FrameRenderer renderer(makeCpuBackend());
-    settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+    settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
     std::vector<uint64_t> lookUps;  // by edit
     for (int edit = 0; edit < 4; ++edit) {
       const Scene before = room.scene;
@@ -176,14 +169,15 @@ TEST(KeptSums, WhatStaysIsLookedUpWhereItsMapChanged) {
   }
 }
 
-// What is not seen while things change is brought up to date when the camera turns to it, at once.
-TEST(KeptSums, FollowACameraThatTurns) {
+// Parts that were outside the view during edits are brought up to date as soon as the camera turns
+// to them.
+TEST(KeptSums, FollowATurningCamera) {
   Room room;
   for (const char* technique : {"light_maps", "blocks of 4"}) {
     const Settings settings = settingsOf(technique, 60);
     FrameRenderer renderer(makeCpuBackend());
-    settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
-    const quat way = room.view.orientation;
+    settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
+    const quat initial = room.view.orientation;
     uint32_t turn = 0;
     for (const test::EditSequence& edit : {test::randomEdits(3, 21), test::randomEdits(3, 22),
                                            test::randomEdits(3, 23), test::randomEdits(3, 24)}) {
@@ -193,48 +187,48 @@ TEST(KeptSums, FollowACameraThatTurns) {
         renderer.render(
             {room.scene, compare(before, room.scene), room.view, "many_lights", settings});
       }
-      settled(renderer, room.scene, {}, room.view, settings);
+      settledPicture(renderer, room.scene, {}, room.view, settings);
       room.view.orientation =
-          glm::angleAxis(1.3f * static_cast<float>(++turn), vec3(0.0f, 1.0f, 0.0f)) * way;
-      const Image kept = settled(renderer, room.scene, {}, room.view, settings);
-      EXPECT_TRUE(test::sameBits(kept, settledWith(room, settings))) << technique << ", " << turn;
+          glm::angleAxis(1.3f * static_cast<float>(++turn), vec3(0.0f, 1.0f, 0.0f)) * initial;
+      const Image kept = settledPicture(renderer, room.scene, {}, room.view, settings);
+      EXPECT_TRUE(test::sameBits(kept, freshPicture(room, settings))) << technique << ", " << turn;
     }
-    room.view.orientation = way;
+    room.view.orientation = initial;
   }
 }
 
-// Coarser light maps leave out other lights: the same lights are used in another way.
-TEST(KeptSums, FollowHowPatchesUseTheSameLights) {
+// With coarser light maps, other lights are not eligible, so the shadow modes of unchanged lights
+// change.
+TEST(KeptSums, FollowChangesOfShadowModes) {
   Room room;
   Settings settings = settingsOf("light_maps", 60);
   FrameRenderer renderer(makeCpuBackend());
-  const Image fine = settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  const Image fine = settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   settings.set("light_map_texel", 0.5f);
-  const Image kept = settled(renderer, room.scene, {}, room.view, settings);
-  FrameRenderer anew(makeCpuBackend());
-  EXPECT_TRUE(
-      test::sameBits(kept, settled(anew, room.scene, SceneChanges::all(), room.view, settings)));
+  const Image kept = settledPicture(renderer, room.scene, {}, room.view, settings);
+  EXPECT_TRUE(test::sameBits(kept, freshPicture(room, settings)));
   EXPECT_FALSE(test::sameBits(kept, fine));
 }
 
-// While edges are smoothed the picture with pixels in their places waits for the next edit.
-TEST(KeptSums, OutlastAntialiasing) {
+// During antialiasing, the sums of the unshifted picture are kept for the next edit.
+TEST(KeptSums, SurviveAntialiasing) {
   Room room;
   Settings settings = settingsOf("light_maps", 40);
   settings.set("antialias", 4);
   FrameRenderer renderer(makeCpuBackend());
-  const Image first = settled(renderer, room.scene, SceneChanges::all(), room.view, settings);
+  const Image first =
+      settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
   for (const float step : {0.3f, -0.3f}) {
     const Scene before = room.scene;
     for (Node& node : room.scene.nodes)
       if (node.name == "mover") node.local.translation.z += step;
-    settled(renderer, room.scene, compare(before, room.scene), room.view, settings);
+    settledPicture(renderer, room.scene, compare(before, room.scene), room.view, settings);
   }
-  const Image second = settled(renderer, room.scene, {}, room.view, settings);
+  const Image second = settledPicture(renderer, room.scene, {}, room.view, settings);
   double most = 0.0;
   for (size_t i = 0; i < first.pixels.size(); ++i)
     most = std::max<double>(most, glm::distance(first.pixels[i], second.pixels[i]));
-  // The mover's place is a sum of two steps, and off by their rounding.
+  // The mover's position is a sum of two steps, with rounding errors.
   EXPECT_LT(most, 0.05);
 }
 

@@ -1,18 +1,20 @@
-// Every kind of light as a source of VPLs: the picture of many_lights, refined, against the path
-// tracer's, on a floor with a box under the open sky. By means over blocks of 4 × 4 pixels, as
-// edges of pixels and of shadows, which maps have in texels, are no matter of how much light there
-// is.
+// Every kind of light as a source of VPLs: the refined picture of many_lights against the path
+// tracer, for a floor with a box under the open sky. Means over blocks of 4 × 4 pixels are
+// compared, because pixel edges and the shadow borders of map texels do not change how much light
+// there is.
 #include <array>
 #include <cmath>
 #include <ostream>
 
 #include <gtest/gtest.h>
 
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/light_picture.h"
-#include "tests/support/lit_scene.h"
+#include "tests/support/images.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 #include "tests/support/skies.h"
@@ -23,7 +25,8 @@ namespace {
 struct Kind {
   const char* name;
   void (*add)(Scene&);
-  double mostError = 0.03;  // the most are texels of the spot's only map
+  double mostError =
+      0.03;  // the largest errors come from the texels of the spot light's single map
 };
 void PrintTo(const Kind& k, std::ostream* out) { *out << k.name; }
 
@@ -34,7 +37,7 @@ NodeId punctual(Scene& scene, const PunctualLight& light, const vec3& at, float 
   return id;
 }
 
-// A square that glows down, by a texture that is bright in one corner alone.
+// A square that emits downwards, with a texture that is bright in one corner only.
 void addTextured(Scene& scene) {
   auto image = std::make_shared<Image8>(4, 4);
   for (int y = 0; y < 4; ++y) {
@@ -52,7 +55,7 @@ void addTextured(Scene& scene) {
   scene.find(id)->local.rotation = glm::angleAxis(kPi, vec3(0, 0, 1));
 }
 
-// The same as the picture of an area light, of which the bright corner is the far left one.
+// The same as a picture on an area light, whose bright corner is the far left one.
 void addPictured(Scene& scene) {
   Image8 image(4, 4);
   for (int y = 0; y < 4; ++y)
@@ -69,7 +72,7 @@ void addGlowingBall(Scene& scene) {
   test::addMesh(scene, test::sphereMesh(0.4f, 12, 0.0f, glow), vec3(1, 2.5f, 0.5f));
 }
 
-// A batwing: most of it aside, at 45°, more along X; by lobes in the live picture.
+// A batwing profile: most light at 45°, more along X. The live picture approximates it by lobes.
 void addProfiled(Scene& scene) {
   const auto profile = parseIes(
       "TILT=NONE\n1 1000 1 10 3 1 2 0 0 0 1 1 60\n"
@@ -93,7 +96,7 @@ const Kind kKinds[] = {
        const NodeId id = test::addRectangleLight(s, vec3(0.5f, 3, 0), vec2(1, 1), vec3(20));
        s.find(id)->area->shape = AreaShape::disk;
      }},
-    {"profile", addProfiled, 0.12},  // lobes: as near as they come
+    {"profile", addProfiled, 0.12},  // limited by the approximation by lobes
     {"point",
      [](Scene& s) {
        punctual(s, {PunctualKind::point, vec3(9, 8, 7)}, vec3(1, 2.5f, 1), 0.0f);
@@ -117,16 +120,6 @@ const Kind kKinds[] = {
     {"image_sky", [](Scene& s) { s.sky = test::cloudySky(); }},
     {"image_sky_with_sun", [](Scene& s) { s.sky = test::sunnySky(); }},
 };
-
-Image inBlocks(const Image& image) {
-  constexpr int kSide = 4;
-  Image out(image.width / kSide, image.height / kSide);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x)
-      out.at(x / kSide, y / kSide) += image.at(x, y) / static_cast<float>(kSide * kSide);
-  }
-  return out;
-}
 
 class LightKinds : public testing::TestWithParam<Kind> {};
 
@@ -154,7 +147,7 @@ TEST_P(LightKinds, AgreeWithThePathTracer) {
   ASSERT_TRUE(out.settled && out.refined);
   const Image reference = test::renderReference(scene, view, 256, 1);
   const Image& picture = out.radiance->pixels();
-  const Metrics m = compareImages(inBlocks(picture), inBlocks(reference));
+  const Metrics m = compareImages(test::blockMeans(picture, 4), test::blockMeans(reference, 4));
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("bias", std::to_string(m.bias));
   EXPECT_LT(m.relRmse, GetParam().mostError);

@@ -1,4 +1,5 @@
-// The VPLs on their way: consistent in every frame, within the budget, as bright as they should be.
+// Transitions from live to wanted VPLs: consistent in every frame, within the budget, and without
+// changes of brightness.
 #include "renderer/methods/many_lights/live_lights.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace lamplighter {
 namespace {
 
-// Remembers what each slot's map was rendered for.
+// Records the VPL for which each slot's map was rendered.
 class RecordingKernels : public ManyLightsKernels {
  public:
   std::map<int, shared::Vpl> maps;
@@ -57,7 +58,8 @@ std::vector<SceneVpl> samples(NodeId light, uint32_t count, float flux, float x)
 
 class LiveLightsTest : public testing::Test {
  protected:
-  // Every VPL shown stands where its map was rendered, in a slot of its own.
+  // Checks that every live VPL is where its shadow map was rendered, and that it has its own slot.
+  // Returns the sum of intensities.
   float checkedSum() {
     float sum = 0.0f;
     std::map<int, int> uses;
@@ -77,7 +79,8 @@ class LiveLightsTest : public testing::Test {
     return sum;
   }
 
-  // Refreshes until nothing is pending; in each frame the flux is what it should be.
+  // Refreshes until nothing is pending and checks the flux in each frame. Returns the number of
+  // frames.
   int settle(int budget, float flux) {
     int frames = 0;
     for (; lights.pending() > 0 && frames < 1000; ++frames) {
@@ -101,7 +104,7 @@ TEST_F(LiveLightsTest, FillsUnderTheBudgetAtFullBrightness) {
   EXPECT_EQ(lights.live(), 100);
 }
 
-TEST_F(LiveLightsTest, AMoveShowsOldAndNewVplsEachWhole) {
+TEST_F(LiveLightsTest, DuringAMoveEachVplIsEitherOldOrNew) {
   lights.want(samples(1, 100, 5.0f, 0.0f));
   settle(100, 5.0f);
   lights.want(samples(1, 100, 5.0f, 7.0f));
@@ -130,7 +133,7 @@ TEST_F(LiveLightsTest, BrightnessAloneNeedsNoMap) {
   EXPECT_FALSE(lights.changed());
 }
 
-TEST_F(LiveLightsTest, MapsBecomeFineTheBrightestFirst) {
+TEST_F(LiveLightsTest, BrightVplsGetFineMapsFirst) {
   std::vector<SceneVpl> wanted = samples(1, 20, 5.0f, 0.0f);
   for (size_t i = 0; i < wanted.size(); ++i)
     wanted[i].vpl.intensity *= 1.0f + static_cast<float>(i);
@@ -155,31 +158,31 @@ TEST_F(LiveLightsTest, MapsBecomeFineTheBrightestFirst) {
   EXPECT_EQ(lights.coarse(marked), 14);
   EXPECT_EQ(lights.sharpenMaps(kernels, marked, 100), 14);
   EXPECT_EQ(lights.sharpenMaps(kernels, marked, 100), 0);
-  // Those that move have coarse maps again.
+  // Moved VPLs have coarse maps again.
   for (size_t i = 0; i < 3; ++i) wanted[5 + i].vpl.position.x += 1.0f;
   lights.want(wanted);
   lights.refresh(kernels, {20});
   EXPECT_EQ(lights.coarse(marked), 3);
 }
 
-TEST_F(LiveLightsTest, TheNumberOfSamplesChangesWithoutAJump) {
+TEST_F(LiveLightsTest, ChangingTheNumberOfSamplesKeepsTheBrightness) {
   lights.want(samples(1, 70, 5.0f, 0.0f));
   settle(100, 5.0f);
   lights.want(samples(1, 90, 5.0f, 0.0f));  // more
   EXPECT_EQ(lights.pending(), 20);
-  EXPECT_NEAR(checkedSum(), 5.0f, 1e-3f);  // before any of the new ones
+  EXPECT_NEAR(checkedSum(), 5.0f, 1e-3f);  // before any new VPL is live
   settle(25, 5.0f);
-  lights.want(samples(1, 60, 5.0f, 0.0f));  // fewer: nothing to wait for
+  lights.want(samples(1, 60, 5.0f, 0.0f));  // fewer VPLs need no refresh
   EXPECT_EQ(lights.pending(), 0);
   EXPECT_NEAR(checkedSum(), 5.0f, 1e-3f);
-  // Far more: the maps must be reserved anew, but every frame is as bright as before.
+  // Many more VPLs: the maps must be reserved again, but the brightness does not change.
   lights.want(samples(1, 500, 5.0f, 0.0f));
   EXPECT_EQ(settle(100, 5.0f), 5);
   lights.want(samples(1, 3, 5.0f, 0.0f));
   EXPECT_EQ(settle(100, 5.0f), 1);
 }
 
-TEST_F(LiveLightsTest, LightsComeAndGo) {
+TEST_F(LiveLightsTest, LightsCanBeAddedAndRemoved) {
   auto both = samples(1, 40, 5.0f, 0.0f);
   const auto second = samples(2, 20, 3.0f, 1.0f);
   both.insert(both.end(), second.begin(), second.end());
@@ -196,7 +199,7 @@ TEST_F(LiveLightsTest, LightsComeAndGo) {
 }
 
 TEST_F(LiveLightsTest, OnlyMapsThatSeeTheMoverAreRefreshed) {
-  lights.want(samples(1, 10, 5.0f, 0.0f));  // at heights 0 to 9, looking down
+  lights.want(samples(1, 10, 5.0f, 0.0f));  // at heights 0 to 9, facing down
   settle(100, 5.0f);
   const Bounds box{vec3(-1, 6.5f, -1), vec3(1, 6.8f, 1)};
   lights.markStale(std::vector<MoverFinder::Mover>{{box, box}});
@@ -205,7 +208,7 @@ TEST_F(LiveLightsTest, OnlyMapsThatSeeTheMoverAreRefreshed) {
   EXPECT_EQ(kernels.rendered, 13);
 }
 
-// Two bounces of 20 paths; the flux of both is 5.
+// Two bounces of 20 paths; the flux of both together is 5.
 std::vector<SceneVpl> bounced(float x, uint32_t lengthOfFirst = 2) {
   std::vector<SceneVpl> vpls;
   for (uint32_t path = 0; path < 20; ++path) {
@@ -227,8 +230,9 @@ std::vector<VplId> pathsOf(uint32_t count) {
   return paths;
 }
 
-// However short the budget: at no time is one bounce of a path new and another old.
-TEST_F(LiveLightsTest, APathIsReplacedWhole) {
+// For any budget, the VPLs of a path are replaced together: there is never an old bounce next to a
+// new one.
+TEST_F(LiveLightsTest, APathIsReplacedAsAWhole) {
   const auto paths = pathsOf(20);
   lights.want(bounced(0.0f), paths);
   settle(100, 5.0f);
@@ -237,7 +241,7 @@ TEST_F(LiveLightsTest, APathIsReplacedWhole) {
   for (int frame = 0; lights.pending() > 0; ++frame) {
     ASSERT_LT(frame, 20);
     EXPECT_LE(lights.refresh(kernels, {5}), 4);
-    std::map<float, std::map<float, int>> places;  // by path: where its VPLs are
+    std::map<float, std::map<float, int>> places;  // for each path: the x positions of its VPLs
     for (const shared::Vpl& v : lights.table().summedInOrder())
       ++places[v.position.y][v.position.x];
     EXPECT_EQ(places.size(), 20u);
@@ -250,8 +254,8 @@ TEST_F(LiveLightsTest, APathIsReplacedWhole) {
   EXPECT_EQ(kernels.rendered, 80);
 }
 
-// What a path leaves no more stays until its turn, and what it leaves besides is not missing
-// before.
+// VPLs that a path loses stay live until the path is refreshed; VPLs that it gains do not reduce
+// the flux before.
 TEST_F(LiveLightsTest, APathGetsShorterAndLongerInOneFrame) {
   const auto paths = pathsOf(20);
   const float one = 5.0f / 40.0f;
@@ -266,12 +270,12 @@ TEST_F(LiveLightsTest, APathGetsShorterAndLongerInOneFrame) {
     EXPECT_EQ(lights.pending(), 0);
     EXPECT_NEAR(checkedSum(), 5.0f - one * static_cast<float>(2 - length), 1e-4f);
   }
-  // One whose light is gone goes at once.
+  // The VPLs of a removed light are removed at once.
   lights.want({}, {});
   EXPECT_TRUE(lights.table().summedInOrder().empty());
 }
 
-// Back before its turn, it needs nothing.
+// A VPL that returns to its old position before it is refreshed needs no new map.
 TEST_F(LiveLightsTest, AnUndoneMoveCostsNoMap) {
   lights.want(samples(1, 20, 5.0f, 0.0f));
   settle(100, 5.0f);
@@ -283,7 +287,7 @@ TEST_F(LiveLightsTest, AnUndoneMoveCostsNoMap) {
   EXPECT_EQ(kernels.rendered, 26);
 }
 
-TEST_F(LiveLightsTest, LostMapsAreNotShown) {
+TEST_F(LiveLightsTest, VplsWithoutAMapAreNotLive) {
   lights.want(samples(1, 10, 5.0f, 0.0f));
   settle(100, 5.0f);
   lights.loseMaps();
@@ -291,7 +295,8 @@ TEST_F(LiveLightsTest, LostMapsAreNotShown) {
   EXPECT_EQ(settle(4, 5.0f), 3);
 }
 
-// Everything goes stale in every frame, as while an object is dragged: all come to their turn.
+// All maps become outdated in every frame, as during a drag. Every VPL must be refreshed at some
+// time.
 TEST_F(LiveLightsTest, NoneStarvesWhileAnObjectMoves) {
   auto wanted = samples(1, 30, 300.0f, 0.0f);
   const auto dim = samples(2, 10, 1.0f, 3.0f);
@@ -305,7 +310,7 @@ TEST_F(LiveLightsTest, NoneStarvesWhileAnObjectMoves) {
     EXPECT_EQ(lights.refresh(kernels, {10}), 10);
     oldest = std::max(oldest, lights.oldestFrames());
   }
-  // The dim ones have a hundredth of the others' brightness, which come round every three frames.
+  // The dim VPLs have 1% of the brightness of the others, which are refreshed every three frames.
   EXPECT_GT(oldest, 100);
   EXPECT_LT(oldest, 600);
 }

@@ -1,4 +1,5 @@
-// With blocks the picture is the one without, but for little, and no light leaks past an edge.
+// The low-resolution pass on the cpu backend: close to the full-resolution picture, without light
+// leaks at edges.
 #include <filesystem>
 #include <ostream>
 
@@ -8,11 +9,10 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
-#include "tests/support/shared_files.h"
 
 namespace lamplighter {
 namespace {
@@ -36,8 +36,7 @@ std::vector<View> viewsOf(const Scene& scene) {
   for (const Node& node : scene.nodes)
     if (node.camera != kNone) views.push_back(viewOfCamera(scene, node, kWidth, kHeight));
   if (views.empty()) {
-    RenderScene render;
-    update(render, scene, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene);
     views.push_back(viewOfBounds(render.bounds, kWidth, kHeight));
   }
   return views;
@@ -54,11 +53,8 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
 class LowResolutionPicture : public testing::TestWithParam<Case> {};
 
-TEST_P(LowResolutionPicture, IsTheOneOfAllPixels) {
-  const std::string name = GetParam().scene;
-  const fs::path path = name.find('/') == std::string::npos
-                            ? test::sourceFolder() / "assets/scenes" / name
-                            : test::sharedScenes() / name;
+TEST_P(LowResolutionPicture, IsCloseToFullResolution) {
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
   FrameRenderer renderer(makeCpuBackend());
@@ -94,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LowResolutionPicture,
                                          Case{"classroom/classroom.gltf", 300, 0.05f},
                                          Case{"modern-hall/modern-hall.glb", 100, 0.3f, 0.03}));
 
-// A floor with a wall on it that is thinner than a pixel, lit from one side only.
+// A floor with a wall that is thinner than a pixel, lit from one side only.
 struct Wall {
   Scene scene;
   View view = test::lookAt(vec3(0, 6, 0.01f), vec3(0), 128, 96);
@@ -135,7 +131,8 @@ TEST(LowResolution, LeaksNoLightPastAThinWall) {
   EXPECT_GT(lit, 10000);
 }
 
-// A floor alone under even light is all cells, whatever the sizes of picture, tiles and blocks.
+// A uniformly lit floor consists of interpolated cells only, for any size of picture, tiles and
+// blocks.
 TEST(LowResolution, ReachesTheLastRowAndColumn) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(80.0f, test::addMaterial(scene, vec3(0.8f))));
@@ -147,14 +144,14 @@ TEST(LowResolution, ReachesTheLastRowAndColumn) {
   for (const glm::ivec2 size : {glm::ivec2(64, 64), glm::ivec2(128, 32), glm::ivec2(96, 256),
                                 glm::ivec2(61, 35), glm::ivec2(65, 129)}) {
     for (const float block : {2.0f, 4.0f, 8.0f}) {
-      for (const float haste : {0.0f, 1.0f}) {
+      for (const float moving : {0.0f, 1.0f}) {
         SCOPED_TRACE(std::to_string(size.x) + "x" + std::to_string(size.y) + " by " +
-                     std::to_string(block) + (haste != 0.0f ? " in haste" : ""));
+                     std::to_string(block) + (moving != 0.0f ? " while moving" : ""));
         const uint64_t before = lit.kernels->lightCounts().pixelsInterpolated;
         lit.backend->renderGBuffer(test::lookAt(vec3(0, 6, 0.01f), vec3(0), size.x, size.y),
                                    vec2(0.0f));
-        lit.kernels->sumVpls({&vpl, 1},
-                             {vec4(0.1f, 0.002f, 64.0f, 64.0f), vec4(block, haste, 0, 0)}, nullptr);
+        lit.kernels->sumVpls(
+            {&vpl, 1}, {vec4(0.1f, 0.002f, 64.0f, 64.0f), vec4(block, moving, 0, 0)}, nullptr);
         EXPECT_EQ(lit.kernels->lightCounts().pixelsInterpolated - before,
                   static_cast<uint64_t>(size.x * size.y));
       }
@@ -162,14 +159,14 @@ TEST(LowResolution, ReachesTheLastRowAndColumn) {
   }
 }
 
-// While the camera moves samples are interpolated too; where it rests the picture is the one from
-// nothing.
+// While the camera moves, samples are interpolated as well. When it stops, the settled picture
+// equals a fresh render.
 class MovingCamera : public testing::TestWithParam<Case> {};
 
-TEST_P(MovingCamera, ShowsNearlyWhatItRestsOn) {
-  const Scene scene = loadGltf(test::sourceFolder() / "assets/scenes" / GetParam().scene).scene;
+TEST_P(MovingCamera, IsCloseToTheSettledPicture) {
+  const Scene scene = loadGltf(test::sceneFile(GetParam().scene)).scene;
   Settings settings = settingsOf(GetParam().vpls, "4");
-  settings.set("importance", 1);  // samples are not chosen anew
+  settings.set("importance", 1);  // importance does not choose other light samples
   settings.set("settled_map_scale", 1);
   settings.set("corner_light", false);
   const View view = viewsOf(scene)[0];
@@ -180,7 +177,7 @@ TEST_P(MovingCamera, ShowsNearlyWhatItRestsOn) {
   const auto sums = [&] { return test::lightCounts(renderer.backend()).lightPixels; };
   const uint64_t before = sums();
   GiOutput out = renderer.render({scene, {}, moved, "many_lights", settings});
-  const uint64_t inHaste = sums() - before;
+  const uint64_t whileMoving = sums() - before;
   EXPECT_FALSE(out.settled);
   const Image moving = out.radiance->pixels();
   out = test::renderSettled(renderer, scene, {}, moved, settings);
@@ -192,19 +189,19 @@ TEST_P(MovingCamera, ShowsNearlyWhatItRestsOn) {
   EXPECT_LT(m.relRmse, GetParam().mostError);
   EXPECT_GT(m.relRmse, 0.0);
   EXPECT_NEAR(m.bias, 1.0, 0.001);
-  // At this size it is little less work than the picture of all samples, and little more where all
-  // is streaks (narrow_gap).
+  // At this size it saves little work compared with all samples, and costs slightly more where most
+  // of the picture is narrow stripes of light (narrow_gap).
   const uint64_t whole = test::lightCounts(other.backend()).lightPixels;
-  RecordProperty("sums", std::to_string(inHaste) + " of " + std::to_string(whole));
-  EXPECT_LT(static_cast<double>(inHaste), 1.03 * static_cast<double>(whole));
+  RecordProperty("sums", std::to_string(whileMoving) + " of " + std::to_string(whole));
+  EXPECT_LT(static_cast<double>(whileMoving), 1.03 * static_cast<double>(whole));
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, MovingCamera,
                          testing::Values(Case{"area_light_room.gltf", 200, 0.0f, 0.01},
                                          Case{"table_room.gltf", 200, 0.0f, 0.01},
                                          Case{"narrow_gap.gltf", 200, 0.0f, 0.01}));
 
-// Cells at the sky and at curved surfaces are not interpolated.
-TEST(LowResolution, SpheresBeforeTheSkyAreSummedPixelByPixel) {
+// Cells at the sky and on curved surfaces are not interpolated.
+TEST(LowResolution, SpheresInFrontOfTheSkyAreNotInterpolated) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(0.5f, 16, 0.0f, test::addMaterial(scene, vec3(0.8f))));
   test::LitScene lit(scene);

@@ -38,8 +38,7 @@ struct Room {
   }
 };
 
-// Direct light of 1024 VPLs against the polygon's form factor, E = π L F, where nothing is in the
-// way.
+// Direct light of 1024 VPLs without occluders against the form factor of the polygon, E = π L F.
 TEST(ManyLights, DirectLightIsThePolygonsFormFactor) {
   Scene scene;
   const int material = test::addMaterial(scene, vec3(0.6f));
@@ -51,7 +50,8 @@ TEST(ManyLights, DirectLightIsThePolygonsFormFactor) {
     const View view = lookAt(x + vec3(0.3f, 1.0f, 0.4f), x, 8, 8, 0.01f);
     FrameRenderer renderer(makeCpuBackend());
     const double expected = 0.6 * 7.0 * test::polygonFormFactor(x, vec3(0, 1, 0), polygon);
-    // A light map is right at its texels; between them it lies over a curve by a chord.
+    // A light map is exact at its texels. Between them, linear interpolation of a curved function
+    // has an error.
     for (const auto& [technique, tolerance] : {std::pair("naive", 1e-3), {"light_maps", 2e-3}}) {
       Settings settings = settingsOf(1024, 0, 1024);
       settings.set("technique", std::string(technique));
@@ -63,7 +63,7 @@ TEST(ManyLights, DirectLightIsThePolygonsFormFactor) {
   }
 }
 
-// With bounces, against the path tracer; the clamp far below any distance that counts.
+// With bounces, against the path tracer. The clamp distance is far below all distances that matter.
 TEST(ManyLights, AgreesWithThePathTracer) {
   const Room room;
   Settings settings = settingsOf(4096, 2, 4096, 2);
@@ -96,13 +96,13 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
   out = step({});
   EXPECT_TRUE(out.settled);
   EXPECT_EQ(out.stats.of("vpls_refreshed"), 10);
-  // Of some it is known everywhere in the view whether anything stands between.
+  // Some lights are visible or hidden everywhere in the view, so they need no map.
   const uint64_t maps = test::lightCounts(renderer.backend()).shadowMaps;
   EXPECT_GT(maps, 80u);
   EXPECT_LE(maps, 100u);
   EXPECT_EQ(static_cast<uint64_t>(out.stats.of("maps_held")), maps);
 
-  // Nothing to do: no work at all, the same picture.
+  // Without changes there is no work and the same picture.
   const uint64_t sums = test::lightCounts(renderer.backend()).lightPixels;
   const auto picture = out.radiance;
   out = step({});
@@ -111,7 +111,7 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
   EXPECT_EQ(test::lightCounts(renderer.backend()).lightPixels, sums);
   EXPECT_EQ(test::lightCounts(renderer.backend()).shadowMaps, maps);
 
-  // Another view: the sums alone, and maps that it is the first to look up.
+  // Another view needs new sums, and the maps that only this view looks up.
   room.view.eye.x += 0.1f;
   EXPECT_FALSE(step({}).settled) << "fewer samples while the camera moves";
   EXPECT_TRUE(step({}).settled);
@@ -120,9 +120,9 @@ TEST(ManyLights, KeepsTheBudgetAndSettles) {
   EXPECT_LE(test::lightCounts(renderer.backend()).shadowMaps, 100u);
 }
 
-// The light moves: each frame's pixels lie between what the old and the new VPLs give, all told,
-// and the picture comes to rest.
-TEST(ManyLights, AMoveNeverFlickers) {
+// While the light moves, the brightness of each frame lies between that of the old and the new
+// VPLs, and the picture settles.
+TEST(ManyLights, AMoveDoesNotFlicker) {
   Room room;
   FrameRenderer renderer(makeCpuBackend());
   Settings settings = settingsOf(120, 0, 17);
@@ -143,7 +143,7 @@ TEST(ManyLights, AMoveNeverFlickers) {
   }
   const float after = means.back();
   ASSERT_GT(std::abs(after - before), 0.02f * before);
-  // The light's own surface shows at its new place at once; what it lights follows by sevenths.
+  // The emitting surface itself moves at once. The light that it emits follows over seven frames.
   const float slack = 0.05f * before;
   for (const float mean : means) {
     EXPECT_GT(mean, std::min(before, after) - slack);
@@ -151,8 +151,8 @@ TEST(ManyLights, AMoveNeverFlickers) {
   }
 }
 
-// However it came about, a settled picture is the one that the scene has when opened afresh.
-TEST(ManyLights, SettledAfterManyMovesEqualsAFreshStart) {
+// A settled picture does not depend on earlier edits: it equals that of the newly opened scene.
+TEST(ManyLights, SettledAfterManyMovesEqualsAFreshRender) {
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
     Room room;
@@ -162,7 +162,7 @@ TEST(ManyLights, SettledAfterManyMovesEqualsAFreshStart) {
     SceneChanges changes = SceneChanges::all();
     NodeId second = kNoNode;
     for (int move = 0; move < 12; ++move) {
-      // Not settled in between.
+      // The renderer does not settle between the edits.
       renderer.render({room.scene, changes, room.view, "many_lights", settings});
       const Scene old = room.scene;
       const float t = static_cast<float>(move);
@@ -186,8 +186,8 @@ TEST(ManyLights, SettledAfterManyMovesEqualsAFreshStart) {
   }
 }
 
-// Undone, the picture comes back; the settings too.
-TEST(ManyLights, SettingsThereAndBackGiveTheSameBits) {
+// A changed setting changes the picture; changing it back restores the bits.
+TEST(ManyLights, RestoredSettingsGiveTheSameBits) {
   const Room room;
   FrameRenderer renderer(makeCpuBackend());
   Settings settings = settingsOf(60, 1, 50, 3);
@@ -215,7 +215,7 @@ TEST(ManyLights, SettingsThereAndBackGiveTheSameBits) {
   differs("antialias", 1);
 }
 
-TEST(ManyLights, TheSameBitsAtAnyNumberOfThreads) {
+TEST(ManyLights, HasTheSameBitsAtAnyNumberOfThreads) {
   const Room room;
   std::vector<Image> images;
   for (const size_t threads : {1u, 2u, 5u}) {

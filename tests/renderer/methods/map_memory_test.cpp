@@ -1,6 +1,6 @@
-// Shadow maps within bounds: those that the view looks up, made when it does, and no more than fit.
+// Shadow maps under a memory limit: only maps that the view looks up are rendered, and no more than
+// fit.
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -8,25 +8,15 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
 constexpr uint64_t kMebibyte = uint64_t{1} << 20;
-
-struct Room {
-  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-  View view;
-  Room() {
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 96, 60);
-  }
-};
 
 Settings settingsOf(const std::string& technique, int vpls, int mebibytes) {
   Settings s;
@@ -39,23 +29,23 @@ Settings settingsOf(const std::string& technique, int vpls, int mebibytes) {
   return s;
 }
 
-// 64² maps of 16 KiB: a mebibyte holds 64 of them.
-TEST(MapMemory, TheBoundHoldsInEveryFrameAndThePictureIsRight) {
+// A map of 64² texels has 16 KiB: a mebibyte holds 64 of them.
+TEST(MapMemory, TheLimitHoldsInEveryFrameAndThePictureIsCorrect) {
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
-    Room room;
+    const test::AssetRoom room("pillar_room", 96, 60);
     FrameRenderer plenty(makeCpuBackend());
     const Image right = test::renderSettled(plenty, room.scene, SceneChanges::all(), room.view,
                                             settingsOf(technique, 1200, 256))
                             .radiance->pixels();
-    FrameRenderer short_(makeCpuBackend());
+    FrameRenderer limited(makeCpuBackend());
     const Settings settings = settingsOf(technique, 1200, 4);
     GiOutput out;
     SceneChanges changes = SceneChanges::all();
     uint64_t most = 0;
     for (int frame = 0; frame < 100 && !out.settled; ++frame, changes = {}) {
-      out = short_.render({room.scene, changes, room.view, "many_lights", settings});
-      most = std::max(most, test::lightCounts(short_.backend()).mapBytes);
+      out = limited.render({room.scene, changes, room.view, "many_lights", settings});
+      most = std::max(most, test::lightCounts(limited.backend()).mapBytes);
     }
     ASSERT_TRUE(out.settled);
     EXPECT_LE(most, 4 * kMebibyte);
@@ -70,7 +60,7 @@ TEST(MapMemory, TheBoundHoldsInEveryFrameAndThePictureIsRight) {
   }
 }
 
-// Two closed rooms beside each other, a light and a box in each.
+// Two closed rooms side by side, with a light and a box in each.
 struct TwoRooms {
   Scene scene;
   View view;
@@ -82,24 +72,24 @@ struct TwoRooms {
     }
     look(-3.0f, 3.0f);
   }
-  // From a room, towards x = `at`.
+  // From inside one room, facing x = `at`.
   void look(float from, float at) {
     view = test::lookAt(vec3(from + (at > from ? -1.5f : 1.5f), 1.6f, 0.3f), vec3(at, 1.0f, 0.0f),
                         96, 60);
   }
 };
 
-// Through the wall between them nothing of the other room is seen, though all of it is in the
-// view's pyramid. Whoever goes there finds the picture that he finds when he begins there.
-TEST(MapMemory, OnlyMapsThatTheViewLooksUpAreMade) {
+// The wall hides the other room although it lies in the view frustum. After moving to the other
+// room, the picture equals a fresh render.
+TEST(MapMemory, OnlyMapsThatTheViewLooksUpAreRendered) {
   TwoRooms rooms;
   FrameRenderer renderer(makeCpuBackend());
   const Settings settings = settingsOf("light_maps", 400, 256);
   const GiOutput first =
       test::renderSettled(renderer, rooms.scene, SceneChanges::all(), rooms.view, settings);
   EXPECT_GT(first.stats.of("maps_held"), first.stats.of("vpls") / 5);
-  // Of the other room's those few that lie on its floor, from where it is not known whether the
-  // bottom of a wall hides the bottom of another.
+  // A few VPLs near the floor of the other room also get a map: for them the database is not
+  // certain that the bottoms of two walls hide everything.
   const auto lights = renderer.inspect().lights;
   const auto here = std::count_if(lights.begin(), lights.end(),
                                   [](const auto& l) { return l.vpl.position.x < 0.0f; });
@@ -111,26 +101,26 @@ TEST(MapMemory, OnlyMapsThatTheViewLooksUpAreMade) {
   EXPECT_LT(compareImages(first.radiance->pixels(), naive.radiance->pixels()).relRmse, 0.03);
 
   rooms.look(3.0f, -3.0f);
-  const GiOutput gone = test::renderSettled(renderer, rooms.scene, {}, rooms.view, settings);
-  EXPECT_GT(gone.stats.of("maps_held"), first.stats.of("maps_held"));  // there is room for both
+  const GiOutput other = test::renderSettled(renderer, rooms.scene, {}, rooms.view, settings);
+  EXPECT_GT(other.stats.of("maps_held"), first.stats.of("maps_held"));  // both rooms' maps fit
   FrameRenderer fresh(makeCpuBackend());
   const GiOutput opened =
       test::renderSettled(fresh, rooms.scene, SceneChanges::all(), rooms.view, settings);
-  EXPECT_LT(opened.stats.of("maps_held"), gone.stats.of("maps_held"));
-  EXPECT_TRUE(test::sameBits(gone.radiance->pixels(), opened.radiance->pixels()));
+  EXPECT_LT(opened.stats.of("maps_held"), other.stats.of("maps_held"));
+  EXPECT_TRUE(test::sameBits(other.radiance->pixels(), opened.radiance->pixels()));
 }
 
-// To and fro between rooms with memory for the maps of one: in every frame within bounds, and with
-// maps for a few lights a frame no frame is far from the picture that it comes to, since others
-// stand in.
-TEST(MapMemory, MapsComeAndGoWithoutAFlash) {
+// The camera moves between two rooms with memory for the maps of one. The limit holds in every
+// frame. Only a few maps are rendered per frame, but no frame differs much from the settled
+// picture, because light proxies replace missing maps.
+TEST(MapMemory, ReplacingMapsCausesNoFlash) {
   TwoRooms rooms;
   FrameRenderer renderer(makeCpuBackend());
   Settings settings = settingsOf("light_maps", 240, 3);
-  // Maps alone come and go, not the light samples, nor what is added where all is settled.
+  // Only maps change, neither the choice of light samples nor corner light of the settled picture.
   settings.set("importance", 1);
   settings.set("corner_light", false);
-  int stoodIn = 0;
+  int framesWithProxies = 0;
   for (int visit = 0; visit < 6; ++visit) {
     settings.set("updates", visit == 0 ? 400 : 10);
     rooms.look(visit % 2 == 0 ? -3.0f : 3.0f, visit % 2 == 0 ? 3.0f : -3.0f);
@@ -146,13 +136,13 @@ TEST(MapMemory, MapsComeAndGoWithoutAFlash) {
       frames.push_back(out.radiance->pixels());
     }
     ASSERT_TRUE(out.settled);
-    stoodIn += static_cast<int>(frames.size()) - 1;
+    framesWithProxies += static_cast<int>(frames.size()) - 1;
     EXPECT_EQ(out.stats.of("maps_without_room"), 0);
-    // In the first frame of a visit none of this room's lights may have a map at all.
+    // In the first frame of a visit, possibly none of this room's lights has a map.
     for (size_t i = 1; i < frames.size(); ++i)
       EXPECT_LT(compareImages(frames[i], frames.back()).relRmse, 0.1) << visit << ", frame " << i;
   }
-  EXPECT_GT(stoodIn, 6);
+  EXPECT_GT(framesWithProxies, 6);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A picture at rest that is refined on the gl backend.
+// Refinement of a settled picture on the gl backend.
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
@@ -37,8 +37,8 @@ struct RefinementGl : test::GlTest {
   }
 };
 
-// The same batches on both; maps that are drawn instead of traced differ at silhouettes.
-TEST_F(RefinementGl, IsThatOfTheCpuBackend) {
+// The batches are the same. Rasterised and traced maps differ at silhouettes.
+TEST_F(RefinementGl, EqualsTheCpuBackend) {
   FrameRenderer onGl(makeGlBackend()), onCpu(makeCpuBackend());
   const Metrics m =
       compareImages(refined(onGl, SceneChanges::all()), refined(onCpu, SceneChanges::all()));
@@ -47,8 +47,9 @@ TEST_F(RefinementGl, IsThatOfTheCpuBackend) {
   EXPECT_NEAR(m.bias, 1.0, 0.001);
 }
 
-// An edit on the way leaves no trace, in the live picture nor in the next refined one.
-TEST_F(RefinementGl, AnEditLeavesNoTrace) {
+// After an edit during refinement, the live picture and the next refined picture equal those of a
+// fresh renderer.
+TEST_F(RefinementGl, AfterAnEditThePicturesEqualFreshOnes) {
   FrameRenderer renderer(makeGlBackend());
   refined(renderer, SceneChanges::all());
   for (int frames : {1, 12}) {

@@ -1,4 +1,4 @@
-// A picture at rest that is refined, on the cpu backend.
+// Refinement of a settled picture on the cpu backend.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
@@ -14,7 +14,8 @@ using test::sameBits;
 
 constexpr int kBounces = 2;
 
-// A closed room with a box in it, so small that a quarter of it is nearer to a wall than the clamp.
+// A closed room with a box. It is so small that a quarter of it is closer to a wall than the clamp
+// distance.
 struct Refined : testing::Test {
   Scene scene;
   NodeId box = kNoNode;
@@ -40,7 +41,7 @@ struct Refined : testing::Test {
     return renderer->render(
         {scene, changes, view, "many_lights", settings, false, false, refines ? updates : 0});
   }
-  // The picture once it is settled and, where it is asked for, refined.
+  // Renders until the picture is settled and, if `refines`, refined.
   GiOutput rest(const SceneChanges& changes, bool refines) {
     GiOutput out = step(changes, refines);
     for (int i = 0; i < 2000 && !(out.settled && (out.refined || !refines)); ++i)
@@ -49,12 +50,8 @@ struct Refined : testing::Test {
     EXPECT_EQ(out.refined, true);
     return out;
   }
-  // The same scene and settings from nothing, never refined.
-  Image liveFromNothing() {
-    FrameRenderer fresh(makeCpuBackend());
-    return test::renderSettled(fresh, scene, SceneChanges::all(), view, settings)
-        .radiance->pixels();
-  }
+  // The settled picture of a new renderer, without refinement.
+  Image freshLivePicture() { return test::freshPicture(makeCpuBackend(), scene, view, settings); }
 };
 
 TEST_F(Refined, ConvergesToThePathTracer) {
@@ -76,7 +73,7 @@ TEST_F(Refined, ConvergesToThePathTracer) {
   }
 }
 
-TEST_F(Refined, TheSameBitsAtAnyNumberOfThreads) {
+TEST_F(Refined, HasTheSameBitsAtAnyNumberOfThreads) {
   std::vector<Image> images;
   for (const size_t threads : {1u, 2u, 5u}) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -87,10 +84,11 @@ TEST_F(Refined, TheSameBitsAtAnyNumberOfThreads) {
   EXPECT_TRUE(sameBits(images[0], images[2]));
 }
 
-// At the next edit the live picture is there again, and settles to what it would be without.
-TEST_F(Refined, AnEditDropsBackAndLeavesNoTrace) {
+// After an edit the live picture is shown again. It settles to the picture that it has without
+// refinement.
+TEST_F(Refined, AnEditReturnsToTheLivePicture) {
   const Image before = rest(SceneChanges::all(), true).radiance->pixels();
-  for (int frames : {0, 3, 40}) {  // on the way to the next refined picture
+  for (int frames : {0, 3, 40}) {  // while the next refined picture is computed
     const Scene old = scene;
     scene.find(box)->local.translation.x += 0.1f;
     GiOutput out = step(compare(old, scene));
@@ -100,18 +98,18 @@ TEST_F(Refined, AnEditDropsBackAndLeavesNoTrace) {
     while (!out.settled) out = step();
     for (int i = 0; i < frames; ++i) out = step();
   }
-  // Settled but not refined: the frame in which the last sample of the edges came.
+  // Stops at the frame with the last antialiasing sample: settled but not refined.
   const Scene old = scene;
   scene.find(box)->local.translation.z += 0.1f;
   GiOutput out = step(compare(old, scene));
   while (!out.settled) out = step();
-  EXPECT_TRUE(sameBits(out.radiance->pixels(), liveFromNothing()));
+  EXPECT_TRUE(sameBits(out.radiance->pixels(), freshLivePicture()));
 }
 
-// Settings and views too; the picture of each is that of a fresh start.
-TEST_F(Refined, WhatIsShownOtherwiseIsRefinedAnew) {
+// Changed settings and views restart the refinement. The result equals that of a new renderer.
+TEST_F(Refined, ChangedSettingsAndViewsRestartTheRefinement) {
   rest(SceneChanges::all(), true);
-  const auto isAsFromNothing = [&](const char* what) {
+  const auto expectEqualsFresh = [&](const char* what) {
     const Image picture = rest({}, true).radiance->pixels();
     auto used = std::move(renderer);
     renderer = std::make_unique<FrameRenderer>(makeCpuBackend());
@@ -119,29 +117,29 @@ TEST_F(Refined, WhatIsShownOtherwiseIsRefinedAnew) {
     renderer = std::move(used);
   };
   settings.set("refine", 2048);
-  isAsFromNothing("refine");
+  expectEqualsFresh("refine");
   settings.set("clamp_distance", 0.2f);
-  isAsFromNothing("clamp_distance");
+  expectEqualsFresh("clamp_distance");
   settings.set("seed", 5);
-  isAsFromNothing("seed");
+  expectEqualsFresh("seed");
   settings.set("antialias", 1);
-  isAsFromNothing("antialias");
+  expectEqualsFresh("antialias");
   settings.set("map_resolution", 16);
-  isAsFromNothing("map_resolution");
+  expectEqualsFresh("map_resolution");
   settings.set("technique", std::string("naive"));
-  isAsFromNothing("technique");
+  expectEqualsFresh("technique");
   view.eye.x -= 0.2f;
-  isAsFromNothing("view");
+  expectEqualsFresh("view");
   view.width = 50;
-  isAsFromNothing("size");
+  expectEqualsFresh("size");
   settings.set("bounces", 0);
-  isAsFromNothing("bounces");
+  expectEqualsFresh("bounces");
 }
 
-// Batch by batch the picture becomes another, none of them far from the one before.
+// Each batch changes the picture only slightly.
 TEST_F(Refined, NeverFlashes) {
   GiOutput out = rest(SceneChanges::all(), false);
-  // Maps are reserved anew.
+  // This step reserves the shadow maps again.
   out = step();
   while (!out.settled) out = step();
   const float live = test::meanOf(out.radiance->pixels()).g;
@@ -171,7 +169,7 @@ TEST_F(Refined, KeepsTheBudget) {
     EXPECT_EQ(test::lightCounts(renderer->backend()).shadowMaps - maps,
               static_cast<uint64_t>(out.stats.refineUpdates));
   }
-  // And then nothing more is done.
+  // Afterwards no more work is done.
   const auto picture = out.radiance;
   const uint64_t sums = test::lightCounts(renderer->backend()).lightPixels;
   out = step();
@@ -180,8 +178,8 @@ TEST_F(Refined, KeepsTheBudget) {
   EXPECT_EQ(test::lightCounts(renderer->backend()).lightPixels, sums);
 }
 
-// Who does not ask for it has it not, whatever the setting says.
-TEST_F(Refined, IsOffUnlessTheCallerLetsIt) {
+// Without permission of the caller nothing is refined, for any value of the setting.
+TEST_F(Refined, IsOffUnlessTheCallerAllowsIt) {
   GiOutput out = rest(SceneChanges::all(), false);
   const auto picture = out.radiance;
   const uint64_t maps = test::lightCounts(renderer->backend()).shadowMaps;

@@ -1,5 +1,5 @@
-// Complex objects by precomputed transfer in a picture: against each pixel on its own, and against
-// paths.
+// Complex objects lit by precomputed transfer in a picture: against shading per pixel, and against
+// the path tracer.
 #include <algorithm>
 #include <filesystem>
 #include <ostream>
@@ -17,7 +17,7 @@
 namespace lamplighter {
 namespace {
 
-// A bumpy sphere on the floor of a room, some of it in the shadow of a plate below the light.
+// A bumpy sphere on the floor of a room, partly in the shadow of a plate below the light.
 struct BumpyRoom {
   Scene scene;
   NodeId sphere = kNoNode;
@@ -33,10 +33,9 @@ struct BumpyRoom {
     test::addRectangleLight(scene, vec3(0.6f, 2.95f, 0.6f), vec2(1.0f), vec3(12.0f));
   }
 
-  // 1 where the sphere is seen.
+  // 1 where the sphere is visible.
   Image mask() const {
-    RenderScene render;
-    update(render, scene, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene);
     const RayCaster rays(render);
     Image out(view.width, view.height);
     for (int y = 0; y < view.height; ++y) {
@@ -51,16 +50,16 @@ struct BumpyRoom {
   }
 };
 
-// With transfer for all light and its reflections, unless it is told how much of it may be wrong.
+// Without `error`, transfer is used for all light and for reflections within the object.
 Settings settingsOf(bool prt, int bounces, float error = 1.0f) {
   Settings s;
   s.set("prt", prt);
   s.set("prt_error", error);
   s.set("prt_bounces", 4);
   s.set("block", std::string("1"));
-  // It is found from the light of the whole picture, transfer's too.
+  // Corner light depends on the whole picture, including objects with transfer.
   s.set("corner_light", false);
-  s.set("importance", 1);  // of all samples, as many as for any view
+  s.set("importance", 1);  // importance does not choose other light samples
   s.set("vpls", 1000);
   s.set("updates", 1000);
   s.set("bounces", bounces);
@@ -81,9 +80,9 @@ Rendered rendered(const BumpyRoom& room, const Settings& settings) {
   return {out.radiance->pixels(), test::lightCounts(renderer.backend()).lookUps};
 }
 
-// In the open the error stays within what 25 coefficients lose of one strong light. In the shadow
-// of the plate it is close to that of pixels with maps of 64²: over eight seeds on average 3%
-// larger, for a single seed between 1% smaller and 10% larger.
+// Without the plate, the error is at most that of representing one strong light by 25 coefficients.
+// In the plate's shadow it is close to that of pixels with maps of 64² texels: over eight seeds 3%
+// larger on average, for single seeds between 1% smaller and 10% larger.
 struct Case {
   bool hasPlate;
   int bounces;
@@ -98,7 +97,7 @@ constexpr float kError = 0.05f;
 
 class TransferPictures : public testing::TestWithParam<Case> {};
 
-TEST_P(TransferPictures, AreNearTheReference) {
+TEST_P(TransferPictures, AreCloseToTheReference) {
   const Case& c = GetParam();
   const BumpyRoom room(c.hasPlate);
   const Image mask = room.mask();
@@ -119,18 +118,19 @@ TEST_P(TransferPictures, AreNearTheReference) {
   if (c.isComparedWithPixels) {
     EXPECT_LT(a.relRmse, 1.1 * b.relRmse);
   }
-  EXPECT_LT(2.0 * a.relRmse, paper.relRmse) << "with the paper's one point (figure 4-14)";
+  EXPECT_LT(2.0 * a.relRmse, paper.relRmse) << "the paper's single light point (figure 4-14)";
   EXPECT_LT(with.lookUps, without.lookUps);
-  // Without what it gets wrong of direct light it is not behind pixels.
+  // If lights with a large error are left to pixels, the result is at least as good as shading per
+  // pixel.
   const double carefulError = compareImages(careful.image, reference, &mask).relRmse;
   RecordProperty("careful", std::to_string(carefulError));
   EXPECT_LT(carefulError, a.relRmse);
   EXPECT_LE(carefulError, b.relRmse);
   EXPECT_LE(careful.lookUps, without.lookUps);
-  // Elsewhere it is the very picture.
+  // The rest of the picture has the same bits.
   for (int y = 0; y < mask.height; ++y) {
     for (int x = 0; x < mask.width; ++x) {
-      bool isFar = true;  // from the sphere's edge, where pixels' samples are of both
+      bool isFar = true;  // not at the sphere's edge, where antialiasing mixes both
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx)
           if (x + dx >= 0 && y + dy >= 0 && x + dx < mask.width && y + dy < mask.height)
@@ -145,9 +145,9 @@ INSTANTIATE_TEST_SUITE_P(Rooms, TransferPictures,
                                          Case{false, 2, 0.09, 0.02, false},
                                          Case{true, 2, 0.21, 0.08, true}));
 
-// Where reflections are left to light samples, too, it is the light of the same samples, but for
-// what of it may be wrong.
-TEST(TransferPicture, IsThatOfPixelsButForTheError) {
+// Without reflections within the object, transfer gives the light of the same VPLs as pixels, up to
+// the allowed error.
+TEST(TransferPicture, EqualsThatOfPixelsUpToTheAllowedError) {
   for (const bool hasPlate : {false, true}) {
     const BumpyRoom room(hasPlate);
     const Image mask = room.mask();
@@ -158,15 +158,15 @@ TEST(TransferPicture, IsThatOfPixelsButForTheError) {
       return compareImages(rendered(room, settings).image, pixels, &mask).relRmse;
     };
     const double all = errorOf(1.0f);
-    EXPECT_GT(all, 0.05) << "it is another model of light";
+    EXPECT_GT(all, 0.05) << "transfer must differ from pixels, or the bound proves nothing";
     EXPECT_LT(errorOf(0.07f), std::min(all, 0.07));
     EXPECT_LT(errorOf(0.02f), 0.02);
   }
 }
 
-// What is prepared in the background comes in some frame, and then the picture is that of one that
-// has waited.
-TEST(TransferPicture, IsTheSameAfterTheBackgroundAndFromTheCache) {
+// Transfer that is computed in the background becomes available in some frame. The settled picture
+// then equals that of a renderer that waited for it.
+TEST(TransferPicture, IsTheSameWhenComputedInTheBackgroundOrCached) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(testing::TempDir()) / "transfer_picture_cache";
   fs::remove_all(folder);
@@ -190,8 +190,8 @@ TEST(TransferPicture, IsTheSameAfterTheBackgroundAndFromTheCache) {
   fs::remove_all(folder);
 }
 
-// A light that is refreshed takes a ray to each light point besides those for its map.
-TEST(TransferPicture, ItsRaysAreOfTheBudget) {
+// A refreshed light needs one ray to each light point in addition to the rays of its shadow map.
+TEST(TransferPicture, ItsRaysCountInTheBudget) {
   constexpr int kMaps = 20, kRaysAMap = 64 * 64;
   const auto refreshedOf = [](bool prt) {
     BumpyRoom room;
@@ -212,7 +212,7 @@ TEST(TransferPicture, ItsRaysAreOfTheBudget) {
   EXPECT_GT(with, kMaps / 2);
 }
 
-TEST(TransferPicture, FollowsItsSwitch) {
+TEST(TransferPicture, CanBeSwitchedOnAndOff) {
   const BumpyRoom room;
   FrameRenderer renderer(makeCpuBackend());
   Settings on = settingsOf(true, 1), off = settingsOf(false, 1);

@@ -1,5 +1,5 @@
 // The techniques `visibility` and `light_maps` give the picture of `naive` with fewer look-ups, and
-// edits leave no trace in it.
+// the result does not depend on earlier edits.
 #include <filesystem>
 #include <ostream>
 
@@ -9,9 +9,8 @@
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
-#include "tests/support/shared_files.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/traced_shadows.h"
 
 namespace lamplighter {
@@ -28,22 +27,8 @@ Settings settingsOf(const std::string& technique, int vpls) {
   s.set("vpls", vpls);
   s.set("updates", 150);
   s.set("antialias", 1);
-  s.set("corner_light", false);  // found by rays for each of them
+  s.set("corner_light", false);  // uses random rays
   return s;
-}
-
-fs::path pathOf(const std::string& name) {
-  return name.find('/') == std::string::npos ? test::sourceFolder() / "assets/scenes" / name
-                                             : test::sharedScenes() / name;
-}
-
-View viewOf(const Scene& scene, int divisor = 1) {
-  const int width = kWidth / divisor, height = kHeight / divisor;
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) return viewOfCamera(scene, node, width, height);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return viewOfBounds(render.bounds, width, height);
 }
 
 struct Rendered {
@@ -59,8 +44,8 @@ Rendered rendered(const Scene& scene, const View& view, const std::string& techn
   return {std::move(renderer), out.radiance->pixels()};
 }
 
-// The picture that is shown, with rays.
-Image withRays(const FrameRenderer& of, const View& view, const PatchView* known) {
+// The same light samples, with shadow rays instead of shadow maps.
+Image withShadowRays(const FrameRenderer& of, const View& view, const PatchView* known) {
   return test::withTracedShadows(of.scene(), *of.rays(), test::shownLights(of.inspect()), view,
                                  Settings(), known);
 }
@@ -73,13 +58,13 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.scene; }
 
 class VisibilityTechnique : public testing::TestWithParam<Case> {};
 
-// Within 1%. Where a level's shadow maps leak by more than that, the techniques that know that
-// nothing or all of a light arrives are farther from `naive`, but then nearer to what is right.
-TEST_P(VisibilityTechnique, IsThePictureOfNaive) {
-  const fs::path path = pathOf(GetParam().scene);
+// Within 1%. Where shadow maps leak by more than that, both techniques are farther from `naive` but
+// closer to the picture with shadow rays, because entries of the database are exact.
+TEST_P(VisibilityTechnique, GivesThePictureOfNaive) {
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
-  const View view = viewOf(scene);
+  const View view = test::viewOf(scene, kWidth, kHeight);
   const Rendered naive = rendered(scene, view, "naive", GetParam().vpls);
   for (const std::string technique : {"visibility", "light_maps"}) {
     SCOPED_TRACE(technique);
@@ -91,7 +76,7 @@ TEST_P(VisibilityTechnique, IsThePictureOfNaive) {
     EXPECT_LT(fast.lookUps(), naive.lookUps());
     EXPECT_NEAR(m.bias, 1.0, 0.005);
     if (m.relRmse < 0.01) continue;
-    const Image truth = withRays(*naive.renderer, view, nullptr);
+    const Image truth = withShadowRays(*naive.renderer, view, nullptr);
     EXPECT_LT(compareImages(fast.image, truth).relRmse, compareImages(naive.image, truth).relRmse)
         << "and " << m.relRmse << " from naive";
   }
@@ -106,29 +91,30 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"kenney-fps-level/kenney-fps-level.gltf", 100},
                     Case{"flight-helmet/FlightHelmet.gltf", 100}));
 
-// Whatever shadow maps leak: where the database says that a light arrives, or that it does not, a
-// ray says so too, at every pixel.
+// Independent of leaks of shadow maps: where the database says `visible` or `hidden`, shadow rays
+// agree at every pixel.
 class VisibilityKnowledge : public testing::TestWithParam<Case> {};
 
-TEST_P(VisibilityKnowledge, IsWhatRaysSay) {
-  const fs::path path = pathOf(GetParam().scene);
+TEST_P(VisibilityKnowledge, AgreesWithShadowRays) {
+  const fs::path path = test::sceneFile(GetParam().scene);
   if (!fs::exists(path)) GTEST_SKIP() << "no " << path;
   const Scene scene = loadGltf(path).scene;
-  const View view = viewOf(scene, 2);
+  const View view = test::viewOf(scene, kWidth / 2, kHeight / 2);
   const Rendered shown = rendered(scene, view, "visibility", GetParam().vpls);
   const auto known = shown.renderer->inspect().patches;
   ASSERT_NE(known, nullptr);
-  const Image rays = withRays(*shown.renderer, view, nullptr);
-  EXPECT_LT(compareImages(withRays(*shown.renderer, view, known.get()), rays).relRmse, 0.0005);
+  const Image rays = withShadowRays(*shown.renderer, view, nullptr);
+  EXPECT_LT(compareImages(withShadowRays(*shown.renderer, view, known.get()), rays).relRmse,
+            0.0005);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, VisibilityKnowledge,
                          testing::Values(Case{"narrow_gap.gltf", 300}, Case{"default.gltf", 300},
                                          Case{"living-room/living-room.gltf", 50},
                                          Case{"classroom/classroom.gltf", 50}));
 
-TEST(VisibilityTechnique, APictureAfterEditsIsTheOneMadeFromNothing) {
-  Scene scene = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-  const View view = viewOf(scene);
+TEST(VisibilityTechnique, AfterEditsThePictureEqualsAFreshRender) {
+  Scene scene = test::loadAsset("pillar_room");
+  const View view = test::viewOf(scene, kWidth, kHeight);
   FrameRenderer renderer(makeCpuBackend());
   const Settings settings = settingsOf("visibility", 120);
   test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);

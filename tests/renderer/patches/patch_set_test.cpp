@@ -14,11 +14,7 @@
 namespace lamplighter {
 namespace {
 
-RenderScene worldOf(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
-}
+using test::renderSceneOf;
 
 std::vector<Chart> findCharts(const RenderScene& world, uint32_t object) {
   return placeCharts(world, object, findTopology(world, object));
@@ -28,14 +24,14 @@ ObjectPatches makePatches(const RenderScene& world, uint32_t object) {
   return placePatches(world, object, findTopology(world, object));
 }
 
-RenderScene worldOf(std::shared_ptr<const Mesh> mesh) {
+RenderScene renderSceneOf(std::shared_ptr<const Mesh> mesh) {
   Scene scene;
   const NodeId id = test::addMesh(scene, std::move(mesh), vec3(1, 2, 3));
   scene.find(id)->local.rotation = glm::angleAxis(0.7f, glm::normalize(vec3(1, 2, 3)));
-  return worldOf(scene);
+  return renderSceneOf(scene);
 }
 
-// A grid of n × n squares on the plane, lifted by a height at each place.
+// A grid of n × n squares in the XZ plane, displaced by `height`.
 std::shared_ptr<const Mesh> grid(int n, float (*height)(float, float)) {
   auto mesh = std::make_shared<Mesh>();
   Primitive& p = mesh->primitives.emplace_back();
@@ -58,33 +54,34 @@ std::shared_ptr<const Mesh> grid(int n, float (*height)(float, float)) {
 }
 
 TEST(Charts, ABoxHasSixConvexOnes) {
-  const auto charts = findCharts(worldOf(test::boxMesh(vec3(2, 1, 3))), 0);
+  const auto charts = findCharts(renderSceneOf(test::boxMesh(vec3(2, 1, 3))), 0);
   ASSERT_EQ(charts.size(), 6u);
   float area = 0.0f;
   for (const Chart& c : charts) {
     EXPECT_EQ(c.triangles.size(), 2u);
     EXPECT_EQ(c.outline.size(), 4u);
     EXPECT_LT(c.thickness, 1e-5f);
-    // The frame lies along the sides: the rectangle is no larger than the face.
+    // The axes of the chart are parallel to the sides: the bounding rectangle is not larger than
+    // the face.
     EXPECT_NEAR((c.max.x - c.min.x) * (c.max.y - c.min.y), c.area, 1e-4f);
     area += c.area;
   }
   EXPECT_NEAR(area, 22.0f, 1e-3f);
 }
 
-// A floor of many triangles is one chart, whose outline has four corners.
-TEST(Charts, AFinelyDividedFloorIsOne) {
-  const auto charts = findCharts(worldOf(grid(16, [](float, float) { return 0.0f; })), 0);
+// A finely divided floor is one chart whose outline has four corners.
+TEST(Charts, AFinelyDividedFloorIsOneChart) {
+  const auto charts = findCharts(renderSceneOf(grid(16, [](float, float) { return 0.0f; })), 0);
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_EQ(charts[0].triangles.size(), 512u);
   EXPECT_EQ(charts[0].outline.size(), 4u);
 }
 
-// Millimetres here and there: one chart, in whose plane all of it nearly is.
+// Bumps of millimetres: the floor is still one chart, planar within a tolerance.
 float bumps(float u, float v) { return 0.002f * std::sin(37.0f * u) * std::cos(31.0f * v); }
 
 TEST(Charts, AFloorWithSmallBumpsIsOneRoughChart) {
-  const auto charts = findCharts(worldOf(grid(16, bumps)), 0);
+  const auto charts = findCharts(renderSceneOf(grid(16, bumps)), 0);
   ASSERT_EQ(charts.size(), 1u);
   EXPECT_TRUE(charts[0].isRough);
   EXPECT_EQ(charts[0].triangles.size(), 512u);
@@ -93,22 +90,22 @@ TEST(Charts, AFloorWithSmallBumpsIsOneRoughChart) {
   EXPECT_TRUE(charts[0].outline.empty());
 }
 
-// A floor with a step is not one plane; and a corner cut out of it has no convex outline.
-TEST(Charts, PlanesEndWhereTheSurfaceTurns) {
+// A floor with a step consists of several planes. A floor without one corner has no convex outline.
+TEST(Charts, ChartsEndWhereTheSurfaceBends) {
   const auto charts =
-      findCharts(worldOf(grid(16, [](float u, float) { return u > 0.5f ? 1.0f : 0.0f; })), 0);
+      findCharts(renderSceneOf(grid(16, [](float u, float) { return u > 0.5f ? 1.0f : 0.0f; })), 0);
   EXPECT_EQ(charts.size(), 3u);
   auto cut = std::make_shared<Mesh>(*grid(4, [](float, float) { return 0.0f; }));
   cut->primitives[0].indices.erase(cut->primitives[0].indices.begin(),
                                    cut->primitives[0].indices.begin() + 6);
-  const auto rest = findCharts(worldOf(cut), 0);
+  const auto rest = findCharts(renderSceneOf(cut), 0);
   ASSERT_EQ(rest.size(), 1u);
   EXPECT_TRUE(rest[0].outline.empty());
 }
 
 TEST(Charts, ACurvedSurfaceHasNone) {
   const auto mesh = grid(64, [](float u, float v) { return 2.0f * (u * u + v * v); });
-  const RenderScene world = worldOf(mesh);
+  const RenderScene world = renderSceneOf(mesh);
   EXPECT_TRUE(findCharts(world, 0).empty());
   const ObjectPatches patches = makePatches(world, 0);
   ASSERT_EQ(patches.roots.size(), 1u);
@@ -116,27 +113,27 @@ TEST(Charts, ACurvedSurfaceHasNone) {
   EXPECT_FALSE(patches.patches[0].isLeaf());
 }
 
-// What the rule says of a mesh can be changed: a box has six planar parts or none, and the facets
-// of a curved surface are parts too.
-TEST(Charts, AreWhatTheMeshIsSaidToBe) {
+// The kind of a mesh overrides the automatic choice: a box has six charts or none, and the facets
+// of a curved surface can become charts.
+TEST(Charts, FollowTheKindOfTheMesh) {
   Scene scene;
   const NodeId id = test::addMesh(scene, test::boxMesh(vec3(2, 1, 3)));
-  EXPECT_EQ(findCharts(worldOf(scene), 0).size(), 6u);
+  EXPECT_EQ(findCharts(renderSceneOf(scene), 0).size(), 6u);
   scene.find(id)->meshKind = MeshKind::complex;
-  EXPECT_TRUE(findCharts(worldOf(scene), 0).empty());
+  EXPECT_TRUE(findCharts(renderSceneOf(scene), 0).empty());
   EXPECT_TRUE(compare(Scene(), scene).structure);
 
   Scene curved;
   const NodeId hill =
       test::addMesh(curved, grid(16, [](float u, float v) { return 2.0f * (u * u + v * v); }));
-  EXPECT_TRUE(findCharts(worldOf(curved), 0).empty());
+  EXPECT_TRUE(findCharts(renderSceneOf(curved), 0).empty());
   curved.find(hill)->meshKind = MeshKind::simple;
-  EXPECT_GT(findCharts(worldOf(curved), 0).size(), 250u);
+  EXPECT_GT(findCharts(renderSceneOf(curved), 0).size(), 250u);
 }
 
-// Every point of every triangle has a leaf, and lies in it.
-TEST(PatchSet, LeavesHoldWhatTheyAreAskedFor) {
-  const RenderScene world = worldOf(test::randomBoxes(12, 4));
+// Every point of every triangle has a leaf and lies within it.
+TEST(PatchSet, LeavesContainThePointsLookedUp) {
+  const RenderScene world = renderSceneOf(test::randomBoxes(12, 4));
   std::set<int> seen;
   for (uint32_t object = 0; object < world.objects.size(); ++object) {
     const ObjectPatches patches = makePatches(world, object);

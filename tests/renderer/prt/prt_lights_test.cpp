@@ -1,4 +1,4 @@
-// Light on complex objects by transfer, without a picture.
+// Incident light on complex objects with transfer, without a picture.
 #include "renderer/prt/prt_lights.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using shared::Vpl;
 
-// A scene with its rays, its visibility and its light by transfer, kept from change to change.
+// A scene with rays, visibility database and transfer lighting, updated incrementally.
 class World {
  public:
   explicit World(int bounces = 0, int points = 32) {
@@ -39,8 +39,8 @@ class World {
                {vpls, std::vector<bool>(vpls.size(), true), areLast}, options, true);
     visibility.clearChanged();
   }
-  // The same made from nothing.
-  bool isAsFromNothing(const std::vector<Vpl>& vpls) const {
+  // Compares the results with those of a new World.
+  bool equalsFresh(const std::vector<Vpl>& vpls) const {
     World other;
     other.options = options;
     other.areLast = areLast;
@@ -64,7 +64,7 @@ class World {
   VisibilityDatabase visibility;
   PrtLights prt;
   PrtLights::Options options;
-  std::vector<bool> areLast;  // of the lights
+  std::vector<bool> areLast;  // for each light: it is of the last bounce
 };
 
 Vpl brightVpl(const vec3& position, const vec3& normal, float intensity,
@@ -80,7 +80,7 @@ NodeId addComplex(Scene& scene, std::shared_ptr<const Mesh> mesh, const vec3& at
   return id;
 }
 
-TEST(PrtLights, LightASphereFromAfarAsItIsLitDirectly) {
+TEST(PrtLights, OfADistantSourceEqualDirectLightOnASphere) {
   for (const int points : {1, 32}) {
     World world(0, points);
     const NodeId id = addComplex(world.scene, test::sphereMesh(0.5f, 24), vec3(1, 2, 3));
@@ -95,8 +95,8 @@ TEST(PrtLights, LightASphereFromAfarAsItIsLitDirectly) {
     for (size_t v = 0; v < irradiance.size(); ++v) {
       const vec3 &p = world.render.positions[v], &n = world.render.normals[v];
       const float expected = shared::vplGeometry(vpl, p, n, n, 0.0f) * vpl.intensity.g;
-      // What is cut off (spherical_harmonics_test.cpp), and the nearer side of the sphere, which
-      // one point does not know of: 2 · 0.65 m / 20 m.
+      // The truncation error (spherical_harmonics_test.cpp). A single light point also ignores that
+      // one side of the sphere is nearer: 2 · 0.65 m / 20 m.
       const float tolerance = 15.0f / 256.0f + (points == 1 ? 0.07f : 0.01f);
       EXPECT_NEAR(irradiance[v].g, expected, tolerance * facing);
       EXPECT_NEAR(irradiance[v].r * 0.8f, irradiance[v].g, 1e-4f * facing);
@@ -105,7 +105,7 @@ TEST(PrtLights, LightASphereFromAfarAsItIsLitDirectly) {
   }
 }
 
-// Parallel light in a square of ten metres.
+// A parallel light over a square of ten metres.
 Vpl parallelVpl(const vec3& position, const vec3& towards, float intensity) {
   Vpl vpl = brightVpl(position, towards, intensity, shared::kVplDirectional);
   vpl.normal.w = 10.0f;
@@ -113,7 +113,7 @@ Vpl parallelVpl(const vec3& position, const vec3& towards, float intensity) {
   return vpl;
 }
 
-// One of a sky's, and others that pass the scene by.
+// A sky with this light and 30 others that miss the scene.
 std::vector<Vpl> skyWith(const Vpl& vpl) {
   std::vector<Vpl> sky = {vpl};
   for (int i = 0; i < 30; ++i)
@@ -128,7 +128,7 @@ float brightest(const World& world) {
   return most;
 }
 
-TEST(PrtLights, OfADirectionalLightEndWhereItsSquareEnds) {
+TEST(PrtLights, OfAParallelLightEndAtTheBorderOfItsSquare) {
   World world;
   addComplex(world.scene, test::sphereMesh(0.5f, 16), vec3(0.0f));
   Vpl light = parallelVpl(vec3(0.0f), vec3(0, 1, 0), 2.0f);
@@ -139,7 +139,7 @@ TEST(PrtLights, OfADirectionalLightEndWhereItsSquareEnds) {
   EXPECT_EQ(brightest(world), 0.0f);
 }
 
-// A sun's shadows are harder than light points can tell; it comes and goes as the sky does.
+// Shadows of a single sun are too hard for light points. The same light as part of a sky is not.
 TEST(PrtLights, LeaveASunToPixels) {
   World world;
   addComplex(world.scene, test::sphereMesh(0.5f, 16), vec3(0.0f));
@@ -151,11 +151,11 @@ TEST(PrtLights, LeaveASunToPixels) {
     world.show(vpls, isAlone ? SceneChanges::all() : SceneChanges());
     EXPECT_EQ(world.prt.held(0)[0], isAlone ? 0 : 1);
     EXPECT_EQ(brightest(world) > 1.0f, !isAlone);
-    EXPECT_TRUE(world.isAsFromNothing(vpls));
+    EXPECT_TRUE(world.equalsFresh(vpls));
   }
 }
 
-// Figure 4-14: a bar of four metres, one half of it under a roof.
+// Figure 4-14: a bar of four metres, half of it below a roof.
 class HalfShadowedBar : public testing::Test {
  protected:
   void light(World& world) {
@@ -165,7 +165,7 @@ class HalfShadowedBar : public testing::Test {
     vpl_ = brightVpl(vec3(0, 40, 0), vec3(0, -1, 0), 1600.0f);
     world.show({vpl_});
   }
-  // E over that without shadows, of vertices on top.
+  // The irradiance relative to that without shadows, at a vertex on top of the bar near x.
   float shareAt(const World& world, float x) const {
     const RenderObject& bar = world.render.objects[0];
     float nearest = 1e9f, share = 0.0f;
@@ -181,12 +181,13 @@ class HalfShadowedBar : public testing::Test {
   Vpl vpl_{};
 };
 
-TEST_F(HalfShadowedBar, ShowsTheBoundaryAcrossIt) {
+TEST_F(HalfShadowedBar, ShowsTheBorderOfTheShadow) {
   World world;
   light(world);
   for (const float x : {-1.5f, -1.2f, -0.9f}) EXPECT_NEAR(shareAt(world, x), 1.0f, 0.07f) << x;
   for (const float x : {0.9f, 1.2f, 1.5f}) EXPECT_NEAR(shareAt(world, x), 0.0f, 0.01f) << x;
-  // It gets darker all the way, and the middle of that is near where the shadow is.
+  // The irradiance decreases along the bar, and its half value is close to the border of the
+  // shadow.
   float last = 1.1f, middle = -10.0f;
   for (float x = -1.5f; x < 1.5f; x += 0.1f) {
     const float share = shareAt(world, x);
@@ -197,14 +198,15 @@ TEST_F(HalfShadowedBar, ShowsTheBoundaryAcrossIt) {
   EXPECT_NEAR(middle, 0.0f, 0.4f);
 }
 
-TEST_F(HalfShadowedBar, ShowsNoneWithThePapersOnePoint) {
+TEST_F(HalfShadowedBar, ShowsNoBorderWithThePapersSinglePoint) {
   World world(0, 1);
   light(world);
   EXPECT_NEAR(shareAt(world, -1.5f), shareAt(world, 1.5f), 0.05f);
 }
 
-// Its own shadow is in the transfer; a ray that stopped at the object itself would make it dark.
-TEST(PrtLights, AreNotHiddenByTheObjectItself) {
+// The transfer contains the object's own shadow. Rays that hit the object itself would make it
+// dark.
+TEST(PrtLights, AreNotOccludedByTheObjectItself) {
   World world(0, 1);
   addComplex(world.scene, test::sphereMesh(0.5f, 16), vec3(0.0f));
   world.show({brightVpl(vec3(0, 20, 0), vec3(0, -1, 0), 400.0f)});
@@ -213,28 +215,28 @@ TEST(PrtLights, AreNotHiddenByTheObjectItself) {
   EXPECT_GT(world.prt.rays(), 0u);
 }
 
-TEST(PrtLights, CountLightOfTheObjectOnItselfOnce) {
+TEST(PrtLights, CountLightFromTheObjectItselfOnce) {
   World world(2);
   addComplex(world.scene, test::sphereMesh(0.5f, 16, 0.1f), vec3(0.0f));
   world.show({});
   const vec3 p = world.render.positions[40], n = world.render.normals[40];
-  // A VPL where a path has hit it, and one next to it.
+  // A VPL where a light path has hit the object, and a VPL just above it.
   const Vpl on = brightVpl(p + rayEpsilon(p) * n, n, 1.0f);
   const Vpl over = brightVpl(p + 0.01f * n, n, 1.0f);
   EXPECT_TRUE(liesOn(*world.rays, 0, on));
   EXPECT_FALSE(liesOn(*world.rays, 0, over));
   world.show({on, over}, SceneChanges());
-  EXPECT_EQ(world.prt.held(0)[0], 1) << "nothing is left to pixels";
-  EXPECT_EQ(world.prt.held(0)[1], 0) << "too near to be blended";
+  EXPECT_EQ(world.prt.held(0)[0], 1) << "must not be left to pixels";
+  EXPECT_EQ(world.prt.held(0)[1], 0) << "too near for interpolation between light points";
   for (const vec3& e : world.prt.irradiance(0)) EXPECT_EQ(e, vec3(0.0f));
 }
 
-TEST(PrtLights, LeaveOutWhatTheyWouldGetWrong) {
+TEST(PrtLights, ExcludeObjectsThatTransferCannotLight) {
   World world;
   Scene& scene = world.scene;
   const int glowing = test::addMaterial(scene, vec3(0.5f), vec3(1.0f));
   addComplex(scene, test::sphereMesh(0.5f, 8, 0.0f, glowing), vec3(0, 0, 0));
-  // Two charts, and slivers about them.
+  // Two charts with narrow side faces.
   test::addMesh(scene, test::boxMesh(vec3(2.0f, 0.05f, 2.0f)), vec3(5, 0, 0));
   const NodeId flat = addComplex(scene, test::sphereMesh(0.5f, 8), vec3(10, 0, 0));
   scene.find(flat)->local.scale = vec3(1, 0, 1);
@@ -248,7 +250,7 @@ TEST(PrtLights, LeaveOutWhatTheyWouldGetWrong) {
 
 class PrtLightsOfError : public testing::TestWithParam<float> {};
 
-TEST_P(PrtLightsOfError, LeaveNoTraceOfWhatWas) {
+TEST_P(PrtLightsOfError, DoNotDependOnEarlierStates) {
   World world(1);
   world.options.mostError = GetParam();
   Scene& scene = world.scene;
@@ -262,7 +264,7 @@ TEST_P(PrtLightsOfError, LeaveNoTraceOfWhatWas) {
     vpls.push_back(brightVpl(at, -at, 1.0f + static_cast<float>(i)));
   }
   world.show(vpls);
-  EXPECT_TRUE(world.isAsFromNothing(vpls));
+  EXPECT_TRUE(world.equalsFresh(vpls));
 
   const auto moved = [](NodeId id) {
     SceneChanges changes;
@@ -271,26 +273,26 @@ TEST_P(PrtLightsOfError, LeaveNoTraceOfWhatWas) {
   };
   scene.find(box)->local.translation = vec3(1.5f, 1.2f, 0.1f);
   world.show(vpls, moved(box));
-  EXPECT_TRUE(world.isAsFromNothing(vpls)) << "an occluder moved";
+  EXPECT_TRUE(world.equalsFresh(vpls)) << "an occluder moved";
   scene.find(bumpy)->local.translation = vec3(0.3f, 0.2f, 0.1f);
   scene.find(bumpy)->local.rotation = glm::normalize(quat(0.9f, 0.3f, 0.2f, 0.1f));
   world.show(vpls, moved(bumpy));
-  EXPECT_TRUE(world.isAsFromNothing(vpls)) << "an object moved and turned";
+  EXPECT_TRUE(world.equalsFresh(vpls)) << "an object moved and rotated";
   vpls[3] = brightVpl(vec3(3, 5, 1), vec3(-1, -1, 0), 7.0f);
   vpls[9].intensity *= 0.3f;
   vpls[12] = Vpl{};
   world.show(vpls, SceneChanges());
-  EXPECT_TRUE(world.isAsFromNothing(vpls)) << "lights changed, one went";
+  EXPECT_TRUE(world.equalsFresh(vpls)) << "lights changed, one was removed";
   vpls.push_back(brightVpl(vec3(-3, 5, 1), vec3(1, -1, 0), 7.0f));
   world.show(vpls, SceneChanges());
-  EXPECT_TRUE(world.isAsFromNothing(vpls)) << "one came";
+  EXPECT_TRUE(world.equalsFresh(vpls)) << "a light was added";
 }
 
 INSTANTIATE_TEST_SUITE_P(Errors, PrtLightsOfError, testing::Values(1.0f, 0.3f, 0.15f, 0.0f));
 
-// What is left to pixels is what light points cannot tell; what the object's parts reflect of it
-// stays.
-TEST_F(HalfShadowedBar, IsLeftToPixelsWhereItMayNotBeWrong) {
+// Lights that light points represent badly are left to pixels; their reflections within the object
+// remain.
+TEST_F(HalfShadowedBar, IsLeftToPixelsIfTheErrorExceedsTheLimit) {
   for (const int bounces : {0, 2}) {
     World all(bounces), direct(0), some(bounces);
     some.options.mostError = 0.1f;
@@ -309,9 +311,9 @@ TEST_F(HalfShadowedBar, IsLeftToPixelsWhereItMayNotBeWrong) {
   }
 }
 
-// Light of the last bounce comes straight and is not reflected, whether it was so from the start or
-// became so; of such as is left to pixels there is nothing.
-TEST(PrtLights, ReflectNothingOfTheLastBounce) {
+// The VPLs of the last bounce light directly but are not reflected, whether they were so from the
+// start or became so. If they are left to pixels, they add nothing.
+TEST(PrtLights, DoNotReflectLightOfTheLastBounce) {
   const Vpl vpl = brightVpl(vec3(3, 6, 1), vec3(-3, -6, -1), 60.0f);
   World all(2), direct(0), last(2), left(2);
   last.areLast = left.areLast = {true};
@@ -330,11 +332,11 @@ TEST(PrtLights, ReflectNothingOfTheLastBounce) {
     EXPECT_EQ(left.prt.irradiance(0)[v], vec3(0.0f));
     reflected = std::max(reflected, whole[v].g - d[v].g);
   }
-  EXPECT_GT(reflected, 0.01f) << "nothing to leave out";
+  EXPECT_GT(reflected, 0.01f) << "without reflections the test proves nothing";
   all.areLast = {true};
   all.show({vpl}, SceneChanges());
   EXPECT_TRUE(std::equal(l.begin(), l.end(), all.prt.irradiance(0).begin()));
-  EXPECT_TRUE(all.isAsFromNothing({vpl}));
+  EXPECT_TRUE(all.equalsFresh({vpl}));
   all.areLast = {false};
   all.show({vpl}, SceneChanges());
   EXPECT_TRUE(std::equal(whole.begin(), whole.end(), all.prt.irradiance(0).begin()));
@@ -342,8 +344,9 @@ TEST(PrtLights, ReflectNothingOfTheLastBounce) {
 
 class PrtLightsInRoom : public testing::TestWithParam<size_t> {};
 
-// Another shape has other transfer, and more or fewer light points, so that others have other room.
-TEST_P(PrtLightsInRoom, FollowMeshesThatAreScaled) {
+// A scaled mesh gets other transfer and another number of light points, so the memory for other
+// objects changes.
+TEST_P(PrtLightsInRoom, FollowScaledMeshes) {
   World world(2);
   world.options.mostPoints = 128;
   world.options.mostBytes = GetParam();
@@ -358,7 +361,7 @@ TEST_P(PrtLightsInRoom, FollowMeshesThatAreScaled) {
     const Scene before = world.scene;
     world.scene.find(id)->local.scale = scale;
     world.show(vpls, compare(before, world.scene));
-    EXPECT_TRUE(world.isAsFromNothing(vpls)) << scale.x << ", " << scale.y;
+    EXPECT_TRUE(world.equalsFresh(vpls)) << scale.x << ", " << scale.y;
     EXPECT_LE(world.prt.bytes(), GetParam());
     lacked += world.prt.left().withoutRoom;
     const bool isFlat = scale.y == 0.0f;
@@ -368,7 +371,7 @@ TEST_P(PrtLightsInRoom, FollowMeshesThatAreScaled) {
 }
 INSTANTIATE_TEST_SUITE_P(Rooms, PrtLightsInRoom, testing::Values(SIZE_MAX, 400000, 250000));
 
-TEST(PrtLights, LeaveASphereInTheOpenNothing) {
+TEST(PrtLights, LeaveNothingToPixelsForAnUnshadowedSphere) {
   World world;
   world.options.mostError = 0.05f;
   addComplex(world.scene, test::sphereMesh(0.5f, 32), vec3(0.0f));
@@ -383,7 +386,7 @@ TEST(PrtLights, LeaveASphereInTheOpenNothing) {
   for (const uint8_t held : world.prt.held(0)) EXPECT_EQ(held, 1);
 }
 
-TEST(PrtLights, KeepTheShadowsOfLightsThatWait) {
+TEST(PrtLights, KeepTheShadowsOfPendingLights) {
   World world;
   addComplex(world.scene, test::sphereMesh(0.5f, 12), vec3(0.0f));
   const NodeId box = test::addMesh(world.scene, test::boxMesh(vec3(3, 0.2f, 3)), vec3(9, 2, 0));
@@ -422,12 +425,11 @@ TEST(PrtLights, HaveTheSameBitsAtAnyNumberOfThreads) {
   EXPECT_EQ(lit(1), lit(4));
 }
 
-// Points that all blend are those a vertex is nearest to, and blending is continuous.
+// The nearest light points of a vertex are blended, and the blending is continuous.
 TEST(IncidentLightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(0.5f, 48));
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const RenderScene own = ownSceneOf(render, 0, ownSpaceOf(render.objects[0]).value());
   EXPECT_EQ(placeIncidentLightPoints(own, 1).places.size(), 1u);
   EXPECT_LT(glm::length(placeIncidentLightPoints(own, 1).places[0]), 1e-3f);
@@ -446,7 +448,7 @@ TEST(IncidentLightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
     const float step = glm::distance(own.positions[v], own.positions[v + 1]);
     for (size_t i = 0; i < here.size(); ++i) {
       sum += here[i];
-      // Steps along a ring are 0.033 m and less; those to the next ring start at the same place.
+      // Steps along a ring are at most 0.033 m. Longer steps lead to the next ring and are skipped.
       if (step < 0.1f) {
         EXPECT_NEAR(here[i], next[i], 12.0f * step + 1e-4f);
       }
@@ -455,7 +457,7 @@ TEST(IncidentLightPoints, AreSpreadOverTheObjectAndBlendedSmoothly) {
   }
 }
 
-TEST(IncidentLightPoints, AreAsManyAsTheSizeAsksFor) {
+TEST(IncidentLightPoints, TheirNumberFollowsTheSizeOfTheObject) {
   EXPECT_EQ(lightPointsFor(0.1f, 32), 1);
   EXPECT_EQ(lightPointsFor(1.0f, 128), 64);
   EXPECT_EQ(lightPointsFor(1.0f, 8), 8);

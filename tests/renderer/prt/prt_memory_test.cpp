@@ -1,4 +1,4 @@
-// Which objects get light by transfer where not all fit, and that none takes more than it may.
+// Which objects get transfer if the memory is too small for all, and that the limit holds.
 #include "renderer/prt/prt_memory.h"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ class Spheres : public testing::TestWithParam<float> {
   std::vector<shared::Vpl> vpls_;
 };
 
-TEST_P(Spheres, TakeNoMoreThanTheyMay) {
+TEST_P(Spheres, KeepWithinTheMemory) {
   PrtLights lights;
   light(lights, SIZE_MAX);
   EXPECT_EQ(lights.left().objects, 3);
@@ -65,7 +65,7 @@ TEST_P(Spheres, TakeNoMoreThanTheyMay) {
   for (const RenderObject& o : render_.objects)
     most += mostBytesOf({o.vertexCount, 32, vpls_.size(), GetParam() < 1.0f});
   EXPECT_LE(lights.bytes(), most);
-  EXPECT_GT(2 * lights.bytes(), most) << "room is wasted";
+  EXPECT_GT(2 * lights.bytes(), most) << "the bound must not be too large";
 
   std::vector<size_t> held;
   for (const size_t room : {most, most - 1, most / 2, most / 3, most / 20, size_t{0}}) {

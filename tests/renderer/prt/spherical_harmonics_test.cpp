@@ -1,4 +1,4 @@
-// Spherical harmonics against what is known in closed form.
+// Spherical harmonics against closed forms.
 #include "renderer/prt/spherical_harmonics.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
 
-// ∫ f over the sphere by the midpoint rule in z and φ. In φ it is exact for what has fewer turns
-// than `around`; in z its error goes by 1/n².
+// ∫ f over the sphere by the midpoint rule in z and φ. In φ it is exact for frequencies below
+// `around`; in z the error is proportional to 1/n².
 double integrate(const std::function<double(const vec3&)>& f, int up = 800, int around = 24) {
   double sum = 0.0;
   for (int i = 0; i < up; ++i) {
@@ -29,7 +29,7 @@ double integrate(const std::function<double(const vec3&)>& f, int up = 800, int 
 
 std::vector<vec3> someDirections() {
   std::vector<vec3> out;
-  for (int i = 0; i < 60; ++i) {  // Fibonacci
+  for (int i = 0; i < 60; ++i) {  // Fibonacci sphere
     const float z = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / 60.0f;
     const float s = std::sqrt(1.0f - z * z), phi = 2.39996323f * static_cast<float>(i);
     out.emplace_back(s * std::cos(phi), s * std::sin(phi), z);
@@ -48,7 +48,8 @@ TEST(SphericalHarmonics, AreOrthonormal) {
           << i << ", " << j;
 }
 
-// Σₘ Yₗₘ(a) Yₗₘ(b) = (2l + 1)/4π · Pₗ(a·b): what sets the signs and the order within a band right.
+// Σₘ Yₗₘ(a) Yₗₘ(b) = (2l + 1)/4π · Pₗ(a·b). It is sensitive to the signs and the order within a
+// band.
 TEST(SphericalHarmonics, ObeyTheAdditionTheorem) {
   const auto legendre = [](int l, double x) {
     const double x2 = x * x;
@@ -104,7 +105,7 @@ TEST(CosineTransfer, IsTheProjectionOfTheClampedCosine) {
   }
 }
 
-// Environments with no more than band 4 are integrated without any truncation.
+// Environments that contain only bands up to 4 are integrated without truncation.
 TEST(CosineTransfer, GivesIrradianceOfConstantAndLinearLight) {
   ShVector constant{};
   constant[0] = std::sqrt(4.0f * kPi);  // L = 1
@@ -121,8 +122,8 @@ TEST(CosineTransfer, GivesIrradianceOfConstantAndLinearLight) {
   }
 }
 
-// A distant light of unit irradiance: max(0, cos θ) but for bands 6, 8, ... that are cut off.
-TEST(CosineTransfer, GivesIrradianceOfADistantLightWithinWhatIsCutOff) {
+// A distant light of unit irradiance gives max(0, cos θ), except for the truncated bands 6, 8, …
+TEST(CosineTransfer, GivesIrradianceOfADistantLightUpToTruncation) {
   const vec3 light = glm::normalize(vec3(-0.4f, 0.8f, 0.3f));
   const Frame frame(light);
   const ShVector radiance = shBasis(light);
@@ -139,7 +140,7 @@ TEST(CosineTransfer, GivesIrradianceOfADistantLightWithinWhatIsCutOff) {
   // Series of max(0, x) in Pₗ to l = 4: 1/4 + x/2 + 5/16 P₂ − 3/32 P₄. At x = 0 that is
   // 1/4 − 5/32 − 9/256 = 15/256.
   EXPECT_NEAR(worst, 15.0 / 256.0, 1e-4);
-  // What is left of ∫ max(0, x)² dx = 1/3 by Parseval, 2/(2l + 1) cₗ².
+  // The remainder of ∫ max(0, x)² dx = 1/3 by Parseval, with 2/(2l + 1) cₗ² per band.
   const double left = 1.0 / 3.0 - (2.0 / 16.0 + 2.0 / 3.0 / 4.0 + 2.0 / 5.0 * 25.0 / 256.0 +
                                    2.0 / 9.0 * 9.0 / 1024.0);
   EXPECT_NEAR(squares, left, 1e-5);

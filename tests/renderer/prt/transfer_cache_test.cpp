@@ -1,4 +1,4 @@
-// Transfer on disk: what was saved comes back, and nothing else does.
+// The cache of transfer on disk returns what was saved, and ignores all other files.
 #include "renderer/prt/transfer_cache.h"
 
 #include <cstdint>
@@ -52,24 +52,24 @@ class TransferCacheTest : public testing::Test {
   Transfer transfer_;
 };
 
-TEST_F(TransferCacheTest, GivesBackWhatWasSaved) {
+TEST_F(TransferCacheTest, ReturnsWhatWasSaved) {
   EXPECT_FALSE(isThere());
   EXPECT_TRUE(cache_.save(key_, transfer_));
   EXPECT_TRUE(cache_.load(key_, 7).value() == transfer_);
-  // Nothing is left beside it.
+  // No temporary file is left.
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "some" / "where"), {}), 1);
   transfer_.vertices[3].g[4] = 17.0f;
-  EXPECT_TRUE(cache_.save(key_, transfer_)) << "over the old one";
+  EXPECT_TRUE(cache_.save(key_, transfer_)) << "replaces the old file";
   EXPECT_TRUE(cache_.load(key_, 7).value() == transfer_);
 }
 
-TEST_F(TransferCacheTest, KeepsNothingWithoutAFolder) {
+TEST_F(TransferCacheTest, StoresNothingWithoutAFolder) {
   const TransferCache none;
   EXPECT_FALSE(none.save(key_, transfer_));
   EXPECT_FALSE(none.load(key_, 7).has_value());
 }
 
-TEST_F(TransferCacheTest, IsNoErrorWhereNothingCanBeWritten) {
+TEST_F(TransferCacheTest, AReadOnlyFolderIsNoError) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "file") << "x";
   const TransferCache blocked(folder_ / "file" / "below");
@@ -84,7 +84,7 @@ TEST_F(TransferCacheTest, IgnoresAFileOfAnotherObject) {
   EXPECT_FALSE(cache_.load(key_, std::numeric_limits<size_t>::max() / 8).has_value());
   const TransferKey other{key_[0], 43};
   fs::copy_file(cache_.fileOf(key_), cache_.fileOf(other));
-  EXPECT_FALSE(cache_.load(other, 7).has_value()) << "by another name";
+  EXPECT_FALSE(cache_.load(other, 7).has_value()) << "the file of another object";
 }
 
 TEST_F(TransferCacheTest, IgnoresAFileWithAnyByteChanged) {
@@ -113,7 +113,7 @@ TEST_F(TransferCacheTest, IgnoresAFileThatIsCutShortOrTooLong) {
   EXPECT_FALSE(isThere());
 }
 
-TEST_F(TransferCacheTest, IgnoresWhatIsNoNumberAndWhatIsNoFile) {
+TEST_F(TransferCacheTest, IgnoresNanValuesAndFolders) {
   transfer_.vertices[2].b[24] = std::numeric_limits<float>::quiet_NaN();
   ASSERT_TRUE(cache_.save(key_, transfer_));
   EXPECT_FALSE(isThere());
@@ -123,13 +123,12 @@ TEST_F(TransferCacheTest, IgnoresWhatIsNoNumberAndWhatIsNoFile) {
   EXPECT_FALSE(cache_.save(key_, transfer_));
 }
 
-TEST(TransferKey, TellsApartWhatGivesAnotherTransferAndNothingElse) {
+TEST(TransferKey, DependsOnExactlyTheInputsOfTransfer) {
   Scene scene;
   const int red = test::addMaterial(scene, vec3(1, 0, 0));
   const NodeId id = test::addMesh(scene, test::sphereMesh(0.5f, 8, 0.1f, red));
   const auto keyOf = [&](const TransferOptions& options = {}) {
-    RenderScene render;
-    update(render, scene, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene);
     return transferKey(ownSceneOf(render, 0, ownSpaceOf(render.objects[0]).value()), options);
   };
   const TransferKey first = keyOf();

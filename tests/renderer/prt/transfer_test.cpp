@@ -1,4 +1,4 @@
-// Transfer against what is known in closed form.
+// Precomputed transfer against closed forms.
 #include "renderer/prt/transfer.h"
 
 #include <algorithm>
@@ -16,20 +16,19 @@ namespace {
 using test::addMaterial;
 using test::addMesh;
 
-// The own scene of the only object of a scene.
+// The scene in object space of the only object of a scene.
 RenderScene ownSceneOf(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   return ownSceneOf(render, 0, ownSpaceOf(render.objects[0]).value());
 }
 
-// Irradiance under light of radiance 1 from everywhere.
+// Irradiance under radiance 1 from all directions.
 vec3 underSky(const Transfer::Vertex& v) {
   const float constant = std::sqrt(4.0f * kPi);
   return constant * vec3(v.r[0], v.g[0], v.b[0]);
 }
 
-TEST(Transfer, OfASphereIsThatOfAPlaneAtEachOfItsPoints) {
+TEST(Transfer, OfASphereEqualsThatOfItsTangentPlanes) {
   Scene scene;
   addMesh(scene, test::sphereMesh(0.7f, 24));
   const RenderScene own = ownSceneOf(scene);
@@ -44,7 +43,7 @@ TEST(Transfer, OfASphereIsThatOfAPlaneAtEachOfItsPoints) {
   }
 }
 
-TEST(Transfer, OfAClosedRoomIsNothing) {
+TEST(Transfer, OfAClosedRoomIsZero) {
   Scene scene;
   const int white = addMaterial(scene, vec3(1.0f));
   addMesh(scene, test::roomMesh(vec3(4, 3, 5), white));
@@ -53,8 +52,8 @@ TEST(Transfer, OfAClosedRoomIsNothing) {
     for (size_t i = 0; i < kShCoefficients; ++i) EXPECT_NEAR(v.g[i], 0.0f, 1e-5f);
 }
 
-// Two squares at a right angle, finely cut: in the edge half of the sky is seen, by form factors
-// 1/2 (an infinite wall through the point).
+// Two finely divided squares at a right angle. A point on the common edge sees half of the sky: the
+// form factor of an infinite wall through the point is 1/2.
 std::shared_ptr<const Mesh> cornerMesh(int material) {
   auto mesh = std::make_shared<Mesh>();
   Primitive& p = mesh->primitives.emplace_back();
@@ -82,17 +81,17 @@ std::shared_ptr<const Mesh> cornerMesh(int material) {
   return mesh;
 }
 
-TEST(Transfer, InACornerLosesLightToTheOtherWall) {
+TEST(Transfer, InACornerIsReducedByTheOtherWall) {
   Scene scene;
   addMesh(scene, cornerMesh(addMaterial(scene, vec3(0.0f))));
   const RenderScene own = ownSceneOf(scene);
   const Transfer transfer = computeTransfer(own, {1024, 0}).value();
   for (size_t v = 0; v < own.positions.size() / 2; ++v) {
-    // A wall of height 1 and of length 1 from z = 0 to 1, seen from (x, 0, z) on the floor: two
-    // walls that each begin at the point's own z, each of form factor
-    // 1/2π [atan(w/x) − x/√(x² + 1) atan(w/√(x² + 1))].
+    // A wall of height 1 and length 1 from z = 0 to 1, seen from (x, 0, z) on the floor. The
+    // point's own z divides it into two walls of lengths w, each with the form factor 1/2π
+    // [atan(w/x) − x/√(x² + 1) atan(w/√(x² + 1))].
     const vec3& p = own.positions[v];
-    if (p.x == 0.0f && (p.z == 0.0f || p.z == 1.0f)) continue;  // anything between 3/4 and 1
+    if (p.x == 0.0f && (p.z == 0.0f || p.z == 1.0f)) continue;  // undefined: between 3/4 and 1
     const auto part = [&](float w) {
       const float s = std::sqrt(p.x * p.x + 1.0f);
       return (std::atan2(w, p.x) - p.x / s * std::atan(w / s)) / (2.0f * kPi);
@@ -102,7 +101,7 @@ TEST(Transfer, InACornerLosesLightToTheOtherWall) {
   }
 }
 
-TEST(Transfer, OfAWhiteCornerGainsByReflectionAndNeverMoreThanThereIs) {
+TEST(Transfer, OfAWhiteCornerGrowsWithBouncesAndConservesEnergy) {
   Scene scene;
   addMesh(scene, cornerMesh(addMaterial(scene, vec3(1.0f, 0.5f, 0.0f))));
   const RenderScene own = ownSceneOf(scene);
@@ -112,18 +111,20 @@ TEST(Transfer, OfAWhiteCornerGainsByReflectionAndNeverMoreThanThereIs) {
   for (size_t v = 0; v < own.positions.size(); ++v) {
     const vec3 none = underSky(shadows.vertices[v]), once = underSky(one.vertices[v]),
                all = underSky(many.vertices[v]);
-    EXPECT_EQ(all.b, none.b) << "black reflects nothing";
+    EXPECT_EQ(all.b, none.b) << "a black surface reflects nothing";
     const float hidden = 1.0f - none.g / kPi;
     EXPECT_GE(once.r, none.r);
     EXPECT_GE(all.r, once.r);
     EXPECT_LE(all.r, kPi * 1.001f);
-    EXPECT_NEAR(2.0f * (once.g - none.g), once.r - none.r, 1e-4f) << "half as much";
-    // What is hidden is the other wall, which is lit by half of the sky at least.
+    EXPECT_NEAR(2.0f * (once.g - none.g), once.r - none.r, 1e-4f)
+        << "half the albedo reflects half the light";
+    // The hidden part of the sky is covered by the other wall, which receives at least half of the
+    // sky's light.
     EXPECT_GE(once.r - none.r, 0.49f * kPi * hidden - 1e-4f);
   }
 }
 
-TEST(Transfer, IsTheSameHoweverTheObjectStands) {
+TEST(Transfer, DoesNotDependOnThePlacementOfTheObject) {
   Scene scene;
   const NodeId id = addMesh(scene, test::sphereMesh(0.5f, 12, 0.2f));
   const auto transferOf = [](const Scene& s) {
@@ -139,7 +140,7 @@ TEST(Transfer, IsTheSameHoweverTheObjectStands) {
   EXPECT_FALSE(transferOf(scene) == first);
 }
 
-TEST(Transfer, KnowsWhereTheObjectStands) {
+TEST(Transfer, OwnSpaceContainsThePlacementOfTheObject) {
   Scene scene;
   const NodeId id = addMesh(scene, test::sphereMesh(0.5f, 12, 0.2f));
   for (const vec3& scale : {vec3(1.7f), vec3(0.5f, 2.0f, 1.0f), vec3(-1.0f, 1.0f, 2.0f)}) {
@@ -147,8 +148,7 @@ TEST(Transfer, KnowsWhereTheObjectStands) {
     node.local.translation = vec3(3, -1, 8);
     node.local.rotation = glm::normalize(quat(0.3f, 0.5f, -0.2f, 0.7f));
     node.local.scale = scale;
-    RenderScene render;
-    update(render, scene, SceneChanges::all());
+    const RenderScene render = test::renderSceneOf(scene);
     const OwnSpace space = ownSpaceOf(render.objects[0]).value();
     EXPECT_NEAR(glm::determinant(space.rotation), 1.0f, 1e-5f);
     const RenderScene own = ownSceneOf(render, 0, space);
@@ -160,12 +160,11 @@ TEST(Transfer, KnowsWhereTheObjectStands) {
   }
 }
 
-TEST(Transfer, IsNoneOfAFlattenedObject) {
+TEST(Transfer, AFlattenedObjectHasNone) {
   Scene scene;
   const NodeId id = addMesh(scene, test::sphereMesh(0.5f, 8));
   scene.find(id)->local.scale = vec3(1, 0, 1);
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   EXPECT_FALSE(ownSpaceOf(render.objects[0]).has_value());
 }
 
@@ -185,7 +184,7 @@ TEST(Transfer, HasTheSameBitsAtAnyNumberOfThreads) {
   EXPECT_TRUE(one.value() == many.value());
 }
 
-TEST(Transfer, TellsItsProgressAndCanBeCancelled) {
+TEST(Transfer, ReportsItsProgressAndCanBeCancelled) {
   Scene scene;
   addMesh(scene, test::sphereMesh(0.5f, 16));
   const RenderScene own = ownSceneOf(scene);

@@ -1,4 +1,4 @@
-// Which lights are left to pixels, and by what that is decided.
+// The choice of lights that are left to pixels, by the errors at check points.
 #include "renderer/prt/transfer_validation.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace lamplighter {
 namespace {
 
-// Lights over two check points: exact light and error at the first, then at the second.
+// Lights at two check points: exact light and error at the first and at the second.
 struct Lights {
   std::vector<LightErrors> all;
   std::vector<bool> isHeld;
@@ -22,18 +22,18 @@ struct Lights {
   std::vector<bool> leave(float mostError) const { return lightsToLeave(all, isHeld, mostError); }
 };
 
-// As many of a small error each as there are lights, so that few may be left.
+// Ten lights of the same small error, so that up to a sixth of the lights may be left to pixels.
 Lights manySmall() {
   Lights out;
   for (int i = 0; i < 10; ++i) out.add({0.1f, 0.0001f}, {0.1f, 0.0001f});
   return out;
 }
 
-TEST(LightsToLeave, AreNoneWhereTheErrorIsSmall) {
+TEST(LightsToLeave, AreNoneIfTheErrorIsSmall) {
   EXPECT_EQ(manySmall().leave(0.01f), std::vector<bool>(10, false));
 }
 
-TEST(LightsToLeave, AreThoseOfLargestErrorUntilItIsSmall) {
+TEST(LightsToLeave, AreThoseOfLargestErrorUntilTheSumIsSmall) {
   Lights lights = manySmall();
   lights.add({1.0f, 0.5f}, {1.0f, -0.5f});
   lights.add({1.0f, 0.1f}, {1.0f, 0.0f});
@@ -46,41 +46,42 @@ TEST(LightsToLeave, AreThoseOfLargestErrorUntilItIsSmall) {
   EXPECT_EQ(lights.leave(0.01f), expected);
 }
 
-TEST(LightsToLeave, AreCountedTogether) {
+TEST(LightsToLeave, ErrorsOfLightsMayCancel) {
   Lights lights = manySmall();
   lights.add({1.0f, 0.5f}, {1.0f, 0.5f});
   lights.add({1.0f, -0.5f}, {1.0f, -0.5f});
-  EXPECT_EQ(lights.leave(0.01f), std::vector<bool>(12, false)) << "they make up for each other";
+  EXPECT_EQ(lights.leave(0.01f), std::vector<bool>(12, false)) << "the errors cancel";
 }
 
-TEST(LightsToLeave, AreAllWhereTheyAreMany) {
+TEST(LightsToLeave, AreAllIfTooManyExceedTheLimit) {
   Lights lights;
   for (int i = 0; i < 9; ++i) lights.add({1.0f, i < 4 ? 0.5f : 0.01f}, {1.0f, 0.0f});
   lights.add({1.0f, 0.0f}, {1.0f, 0.0f}, false);
   std::vector<bool> expected(10, true);
-  expected[9] = false;  // that is at pixels anyhow
+  expected[9] = false;  // already shaded per pixel
   EXPECT_EQ(lights.leave(0.02f), expected);
 }
 
-// An error is a share of a quarter of the mean at least, so that what is black asks for no pixels.
-TEST(LightsToLeave, MayGetTheDarkWrong) {
+// Errors are relative to at least a quarter of the mean, so that errors at dark points do not
+// matter.
+TEST(LightsToLeave, ErrorsAtDarkPointsAreTolerated) {
   Lights lights = manySmall();
   lights.add({1.0f, 0.0f}, {0.0f, 0.0f});
   for (LightErrors& light : lights.all) light[1].exact = light[0].error = light[1].error = 0.0f;
-  lights.all[0][1].error = 0.02f;  // at a point where there is no light at all
+  lights.all[0][1].error = 0.02f;  // a point without any light
   EXPECT_EQ(lights.leave(0.06f), std::vector<bool>(11, false)) << "0.02 / √2 / (1/4 of 1) = 0.057";
   EXPECT_TRUE(lights.leave(0.02f)[0]);
 }
 
-TEST(LightsToLeave, AreAllThatArriveNowhere) {
+TEST(LightsToLeave, AreAllIfNoLightArrives) {
   Lights lights;
   lights.add({0.0f, 0.1f}, {0.0f, 0.0f});
-  lights.all.emplace_back();  // arrives nowhere, and is not said to
+  lights.all.emplace_back();  // no check point sees this light
   lights.isHeld.push_back(true);
   EXPECT_EQ(lights.leave(0.5f), (std::vector<bool>{true, false}));
 }
 
-// A sphere, with its transfer and light points.
+// A sphere with transfer and light points.
 class CheckedSphere : public testing::Test {
  protected:
   CheckedSphere() {
@@ -105,7 +106,7 @@ class CheckedSphere : public testing::Test {
   std::vector<vec3> places_;
 };
 
-TEST_F(CheckedSphere, IsCheckedAllOver) {
+TEST_F(CheckedSphere, IsCheckedOnAllSides) {
   const auto checks = placed();
   ASSERT_EQ(checks.size(), 64u);
   vec3 mean(0.0f);
@@ -114,7 +115,7 @@ TEST_F(CheckedSphere, IsCheckedAllOver) {
     EXPECT_NEAR(glm::dot(check.normal, glm::normalize(check.place)), 1.0f, 0.01f);
     EXPECT_NEAR(glm::dot(check.plane, check.normal), 1.0f, 0.01f);
     mean += check.place / 64.0f;
-    // All weights of its vertices' light points, and theirs.
+    // The sum of the transfer over all light points.
     float sum = 0.0f;
     for (const ValidationPoint::Term& term : check.terms) sum += term.direct[0];
     EXPECT_NEAR(sum, cosineTransfer(check.normal)[0], 1e-4f);
@@ -123,7 +124,7 @@ TEST_F(CheckedSphere, IsCheckedAllOver) {
   EXPECT_TRUE(placed(false).empty());
 }
 
-TEST_F(CheckedSphere, KnowsWhatIsWrong) {
+TEST_F(CheckedSphere, FindsTheErrors) {
   const RayCaster rays(render_);
   const auto checks = placed();
   shared::Vpl vpl = test::makeVpl(vec3(1, 22, 3), vec3(0, -1, 0));
@@ -136,14 +137,14 @@ TEST_F(CheckedSphere, KnowsWhatIsWrong) {
   for (size_t c = 0; c < out.size(); ++c) {
     const float cosine = std::max(checks[c].normal.y, 0.0f);
     EXPECT_NEAR(out[c].exact, cosine, 0.07f) << "400 W/sr from 20 m, 0.5 m nearer on top";
-    EXPECT_NEAR(out[c].error, 0.0f, 0.07f) << "what is cut off";
+    EXPECT_NEAR(out[c].error, 0.0f, 0.07f) << "truncation error";
   }
-  // Light points that say it is hidden, where it is not.
+  // The light points claim that the light is hidden, although it is visible.
   hidden.assign(hidden.size(), 1);
   out = checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, traced);
   ASSERT_EQ(out.size(), checks.size());
   for (const LightError& light : out) EXPECT_EQ(light.error, -light.exact);
-  // A light that shines elsewhere.
+  // A light that faces away.
   vpl.normal = vec4(0, 1, 0, 0);
   EXPECT_TRUE(checkLight(checks, space_, rays, vpl, places_, hidden, 0.0f, traced).empty());
 }

@@ -13,25 +13,19 @@
 namespace lamplighter {
 namespace {
 
-RenderScene worldOf(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
-}
-
-// Makes a scene so large, well away from the origin, that its tree is not built anew where
-// something moves.
+// Makes the scene so large that the acceleration structure is updated, not rebuilt, when objects
+// move. The added mesh is far from the other objects.
 void enlarge(Scene& scene) {
   test::addMesh(scene, test::sphereMesh(1.0f, 120), vec3(0.0f, -50.0f, 0.0f));
 }
 
 Ray down(float x, float z) { return {vec3(x, 10.0f, z), 0.0f, vec3(0, -1, 0)}; }
 
-TEST(RayCaster, HitsTheNearestAndSaysWhere) {
+TEST(RayCaster, HitsTheNearestSurface) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(4.0f));
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0, 2, 0));
-  const RenderScene world = worldOf(scene);
+  const RenderScene world = test::renderSceneOf(scene);
   const RayCaster rays(world);
   const Hit box = rays.intersect(down(0.1f, 0.2f));
   ASSERT_TRUE(box);
@@ -46,15 +40,15 @@ TEST(RayCaster, HitsTheNearestAndSaysWhere) {
 }
 
 TEST(RayCaster, AnEmptySceneIsHitByNothing) {
-  const RenderScene world = worldOf(Scene());
+  const RenderScene world = test::renderSceneOf(Scene());
   EXPECT_FALSE(RayCaster(world).intersect(down(0, 0)));
 }
 
-TEST(RayCaster, EightAtATimeAreTheSameAsOneByOne) {
+TEST(RayCaster, EightRaysAtATimeEqualSingleRays) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(4.0f));
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(0, 2, 0));
-  const RenderScene world = worldOf(scene);
+  const RenderScene world = test::renderSceneOf(scene);
   const RayCaster rays(world);
   std::mt19937 random(3);
   std::uniform_real_distribution<float> u(-3.0f, 3.0f);
@@ -64,7 +58,7 @@ TEST(RayCaster, EightAtATimeAreTheSameAsOneByOne) {
     for (Ray& ray : r)
       ray = {vec3(u(random), 6.0f, u(random)), 0.0f,
              glm::normalize(vec3(u(random), -4.0f, u(random)))};
-    r[5].tFar = -1.0f;  // switched off
+    r[5].tFar = -1.0f;  // an inactive lane
     rays.intersect8(r, h);
     for (size_t i = 0; i < 8; ++i) {
       const Hit one = i == 5 ? Hit() : rays.intersect(r[i]);
@@ -78,15 +72,15 @@ TEST(RayCaster, EightAtATimeAreTheSameAsOneByOne) {
   }
 }
 
-// The diagonal of a square, and the common edge of two squares.
-TEST(RayCaster, OfTrianglesAtASharedEdgeTheFirstIsHit) {
+// Rays through the diagonal of a square, and through the common edge of two squares.
+TEST(RayCaster, AtASharedEdgeTheFirstTriangleIsHit) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(4.0f));
   test::addMesh(scene, test::squareMesh(4.0f), vec3(4, 0, 0));
-  const RenderScene world = worldOf(scene);
+  const RenderScene world = test::renderSceneOf(scene);
   const RayCaster rays(world);
   const auto corner = [&](size_t i) { return world.positions[world.indices[i]]; };
-  // The vertices of the first triangle that are also in the second.
+  // The vertices that both triangles of the first square share.
   std::vector<vec3> shared;
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 3; j < 6; ++j)
@@ -106,8 +100,8 @@ TEST(RayCaster, OfTrianglesAtASharedEdgeTheFirstIsHit) {
   }
 }
 
-// A room is looked into through its ceiling, mirrored or not, unless its material is double-sided;
-// light is stopped by both sides.
+// A camera sees into a room through its ceiling, mirrored or not, unless the material is
+// double-sided. Light is blocked by both sides.
 TEST(RayCaster, CamerasSeeThroughTheBacksOfSingleSidedFaces) {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(0.5f));
@@ -116,7 +110,7 @@ TEST(RayCaster, CamerasSeeThroughTheBacksOfSingleSidedFaces) {
     scene.find(room)->local.scale.x = mirror;
     for (const bool doubleSided : {false, true}) {
       scene.materials[white].doubleSided = doubleSided;
-      const RenderScene world = worldOf(scene);
+      const RenderScene world = test::renderSceneOf(scene);
       const RayCaster rays(world);
       const float expected = doubleSided ? 9.0f : 11.0f;
       EXPECT_FLOAT_EQ(rays.intersect(down(0.1f, 0.2f), Surfaces::seen).t, expected);
@@ -131,11 +125,11 @@ TEST(RayCaster, CamerasSeeThroughTheBacksOfSingleSidedFaces) {
   }
 }
 
-TEST(RayCaster, SeesAMovedObjectWhereItIs) {
+TEST(RayCaster, FollowsAMovedObject) {
   Scene scene;
   const NodeId box = test::addMesh(scene, test::boxMesh(vec3(1.0f)));
   test::addMesh(scene, test::squareMesh(20.0f), vec3(0, -3, 0));
-  RenderScene world = worldOf(scene);
+  RenderScene world = test::renderSceneOf(scene);
   RayCaster rays(world);
   EXPECT_FLOAT_EQ(rays.intersect(down(0, 0)).t, 9.5f);
   Scene moved = scene;
@@ -147,9 +141,9 @@ TEST(RayCaster, SeesAMovedObjectWhereItIs) {
 
 class MovesIn : public testing::TestWithParam<bool> {};
 
-// What is hit, distance and weights included, must not tell where things were before: recordings
-// compare bits after an undo.
-TEST_P(MovesIn, LeaveATreeThatGivesTheBitsOfANewOne) {
+// Hits must have the same bits (distance and barycentrics) whether objects were moved or the
+// structure was built with them in place: recordings compare bits after an undo.
+TEST_P(MovesIn, GiveTheBitsOfANewAccelerationStructure) {
   Scene before;
   for (int i = 0; i < 40; ++i) {
     const float x = static_cast<float>(i);
@@ -159,11 +153,11 @@ TEST_P(MovesIn, LeaveATreeThatGivesTheBitsOfANewOne) {
   if (GetParam()) enlarge(before);
   Scene after = before;
   for (const int i : {3, 17, 18, 30}) after.nodes[i].local.translation.y += 0.25f;
-  RenderScene world = worldOf(before);
+  RenderScene world = test::renderSceneOf(before);
   RayCaster moved(world);
   moved.update(update(world, after, compare(before, after)));
-  const RenderScene anew = worldOf(after);
-  const RayCaster built(anew);
+  const RenderScene fresh = test::renderSceneOf(after);
+  const RayCaster built(fresh);
   int hits = 0;
   for (uint32_t i = 0; i < 20000; ++i) {
     const vec2 at = 5.0f * sobol2(i, 1) - 2.5f, to = 5.0f * sobol2(i, 2) - 2.5f;
@@ -182,27 +176,28 @@ TEST_P(MovesIn, LeaveATreeThatGivesTheBitsOfANewOne) {
 
 INSTANTIATE_TEST_SUITE_P(LargeScenesToo, MovesIn, testing::Bool());
 
-// Rays that surely pass by what moved are not asked about it: none that meets it may be, be it at
-// an edge, along an axis or far from the origin.
-TEST(RayCaster, AsksAboutWhatMovedWhereItIsHit) {
+// Rays that certainly miss a moved object skip the test with it. Rays that hit it must never be
+// skipped, be it at an edge, parallel to an axis or far from the origin.
+TEST(RayCaster, SkipsMovedObjectsOnlyForRaysThatMissThem) {
   for (const float away : {0.0f, 3000.0f}) {
     Scene before;
     const vec3 middle(away, 1.0f, -away);
     const NodeId box = test::addMesh(before, test::boxMesh(vec3(1.0f, 2.0f, 0.5f)), middle);
     Scene after = before;
     after.find(box)->local.translation.x += 0.5f;
-    RenderScene world = worldOf(before);
+    RenderScene world = test::renderSceneOf(before);
     RayCaster moved(world);
     moved.update(update(world, after, compare(before, after)));
-    const RenderScene anew = worldOf(after);
-    const RayCaster built(anew);
+    const RenderScene fresh = test::renderSceneOf(after);
+    const RayCaster built(fresh);
     const vec3 centre = middle + vec3(0.5f, 0.0f, 0.0f);
     int hits = 0;
     for (uint32_t i = 0; i < 2000; ++i) {
       std::array<Ray, 8> rays;
       for (uint32_t lane = 0; lane < 8; ++lane) {
         const vec2 u = 2.0f * sobol2(8 * i + lane, 1) - 1.0f, v = sobol2(8 * i + lane, 2);
-        // On its surface, its edges and just past them; every other one along an axis.
+        // Points on the surface, on its edges and just outside; every second ray is parallel to an
+        // axis.
         vec3 at(u.x, u.y, v.x < 0.5f ? -1.0f : 1.0f);
         if (i % 4 > 1) at.x = at.x < 0.0f ? -1.0f : 1.0f;
         if (i % 8 > 5) at.y = 1.0f + 1e-4f * u.x;
@@ -227,12 +222,12 @@ TEST(RayCaster, AsksAboutWhatMovedWhereItIsHit) {
   }
 }
 
-TEST(RayCaster, FollowsMaterialsThatBecomeClearOrMasked) {
+TEST(RayCaster, FollowsMaterialsThatBecomeTransparentOrMasked) {
   Scene before;
   const int m = test::addMaterial(before, vec3(1.0f));
   test::addMesh(before, test::squareMesh(2.0f, m), vec3(0, 2, 0));
   test::addMesh(before, test::squareMesh(2.0f));
-  RenderScene world = worldOf(before);
+  RenderScene world = test::renderSceneOf(before);
   RayCaster rays(world);
   const auto change = [&](auto edit) {
     Scene after = before;
@@ -251,20 +246,20 @@ TEST(RayCaster, FollowsMaterialsThatBecomeClearOrMasked) {
   EXPECT_EQ(change([](Material& x) { x.alphaCutoff = 0.1f; }), 0u);
 }
 
-TEST(RayCaster, PassesClearPanesAndHolesOfMasks) {
+TEST(RayCaster, PassesTransparentPanesAndHolesOfMasks) {
   Scene scene;
   const int glass = test::addMaterial(scene, vec3(1.0f));
   scene.materials[glass].transmission = 1.0f;
   const int leaf = test::addMaterial(scene, vec3(1.0f));
   auto image = std::make_shared<Image8>(2, 1);
-  image->at(0, 0)[3] = 0;  // left half: a hole
+  image->at(0, 0)[3] = 0;  // the left half is a hole
   scene.textures.push_back({"leaf", image, Wrap::clamp, Wrap::clamp, true, false});
   scene.materials[leaf].alphaMode = AlphaMode::mask;
   scene.materials[leaf].baseColorTexture.texture = 0;
   test::addMesh(scene, test::squareMesh(2.0f, glass), vec3(0, 3, 0));
   test::addMesh(scene, test::squareMesh(2.0f, leaf), vec3(0, 2, 0));
   test::addMesh(scene, test::squareMesh(2.0f), vec3(0, 0, 0));
-  const RenderScene world = worldOf(scene);
+  const RenderScene world = test::renderSceneOf(scene);
   const RayCaster rays(world);
   EXPECT_EQ(rays.intersect(down(-0.5f, 0.1f)).object, 2u);
   EXPECT_EQ(rays.intersect(down(0.5f, 0.1f)).object, 1u);

@@ -1,4 +1,4 @@
-// A method of a library that uses OpenGL: it is added to the list and draws with OpenGL itself.
+// A method of a library that uses OpenGL: it is added to the registry and draws with OpenGL.
 #include <epoxy/gl.h>
 
 #include "renderer/backends/cpu/cpu_backend.h"
@@ -13,7 +13,7 @@
 namespace lamplighter {
 namespace {
 
-// One colour, drawn by OpenGL.
+// Fills the picture with one colour by OpenGL.
 class Clear final : public GiMethod {
  public:
   GiOutput render(const FrameInputs& in) override {

@@ -1,4 +1,4 @@
-// What methods say that they need and show, against what they do.
+// The declared needs and views of methods against what they use and draw.
 #include "renderer/registry/registry.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Scene floorUnderALamp() {
   return scene;
 }
 
-TEST(Registry, MethodsAskOnlyForTheServicesThatTheyDeclareAndDrawTheirViews) {
+TEST(Registry, MethodsUseOnlyDeclaredServicesAndDrawTheirViews) {
   const Scene scene = floorUnderALamp();
   const View view = test::lookAt(vec3(0, 2, 4), vec3(0), 32, 24);
   for (const MethodInfo& method : methods()) {
@@ -58,7 +58,7 @@ TEST(Registry, MethodsAskOnlyForTheServicesThatTheyDeclareAndDrawTheirViews) {
   }
 }
 
-TEST(Registry, NoTwoViewsHaveAName) {
+TEST(Registry, ViewNamesAreUnique) {
   std::set<std::string> names;
   std::set<DebugView> ids;
   for (const DebugViewInfo& view : debugViews()) {
@@ -69,7 +69,7 @@ TEST(Registry, NoTwoViewsHaveAName) {
 
 struct NoKernels : MethodKernels {};
 
-TEST(Registry, AMethodThatCannotRunIsRefusedByOneLine) {
+TEST(Registry, AMethodThatCannotRunIsRejectedWithOneLine) {
   const auto backend = makeCpuBackend();
   MethodInfo method = findMethod("reference");
   method.name = "needy";
@@ -81,8 +81,8 @@ TEST(Registry, AMethodThatCannotRunIsRefusedByOneLine) {
             "needy needs the kernels needy kernels, which the backend cpu does not have");
 }
 
-// As a library does that the renderer does not link.
-TEST(Registry, AddedMethodsAreListedAndRefusedWhereTheyCannotRun) {
+// Adds a method as a library does that the renderer does not link.
+TEST(Registry, AddedMethodsAreListedAndRejectedIfTheyCannotRun) {
   MethodInfo method = findMethod("reference");
   method.name = "added_by_a_test";
   method.needs.openGl = true;

@@ -8,13 +8,12 @@
 namespace lamplighter {
 namespace {
 
-// A wide ground with one small box on it: 1/density over the samples must give back areas.
-TEST(DirectionalOrigins, ItsDensityIsThatOfItsSamples) {
+// A large ground with one small box: sums of 1/pdf over samples must give areas.
+TEST(DirectionalOrigins, ThePdfMatchesTheSamples) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(100.0f));
   test::addMesh(scene, test::boxMesh(vec3(1.0f)), vec3(20, 0.5f, -10));
-  RenderScene world;
-  update(world, scene, SceneChanges::all());
+  const RenderScene world = test::renderSceneOf(scene);
   const vec3 centre = world.bounds.centre();
   const float radius = world.bounds.radius();
   const DirectionalOrigins start(world, centre, radius);
@@ -37,7 +36,7 @@ TEST(DirectionalOrigins, ItsDensityIsThatOfItsSamples) {
   }
   EXPECT_NEAR(whole / n / static_cast<double>(kPi * radius * radius), 1.0, 0.02);
   EXPECT_NEAR(nearBox / n / (static_cast<double>(kPi) * 0.25), 1.0, 0.02);
-  EXPECT_GT(through, static_cast<int>(n / 10)) << "the box is most of the detail";
+  EXPECT_GT(through, static_cast<int>(n / 10)) << "most samples must go to the small box";
 }
 
 }  // namespace

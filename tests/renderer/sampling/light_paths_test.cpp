@@ -1,5 +1,5 @@
-// Paths that are kept from edit to edit: at rest those made from nothing, on the way as many as can
-// be kept, and light distributed as it should be.
+// Light paths that are kept between edits. When settled they equal new paths. During edits as many
+// as possible are kept, with the correct distribution.
 #include "renderer/sampling/light_paths.h"
 
 #include <functional>
@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-// A room with a box in it and a light below its ceiling; edits come in as in a frame.
+// A room with a box and a light below the ceiling. Edits are applied as in a frame.
 class Stage {
  public:
   Stage() {
@@ -24,7 +24,7 @@ class Stage {
     light = test::addRectangleLight(scene, vec3(-0.5f, 3.5f, 0), vec2(1, 0.8f), vec3(8, 7, 5));
   }
 
-  // Brings the paths up to the scene as it is now.
+  // Updates the paths to the current scene.
   void frame(LightPaths& paths, const VplCounts& counts, int mostPaths = 0) {
     SceneChanges changes = isNew_ ? SceneChanges::all() : compare(before_, scene);
     isNew_ = false;
@@ -36,7 +36,7 @@ class Stage {
     paths.update(render, *rays, done, movers, counts, mostPaths);
     before_ = scene;
   }
-  std::vector<SceneVpl> fromNothing(const VplCounts& counts) const {
+  std::vector<SceneVpl> fresh(const VplCounts& counts) const {
     return generateVpls(render, *rays, LightSet(render), counts).vpls;
   }
 
@@ -62,15 +62,15 @@ void expectSame(const std::vector<SceneVpl>& a, const std::vector<SceneVpl>& b) 
   }
 }
 
-vec3 bouncedSum(const std::vector<SceneVpl>& vpls) {
+vec3 indirectSum(const std::vector<SceneVpl>& vpls) {
   vec3 sum(0.0f);
   for (const SceneVpl& v : vpls)
     if (v.id.bounce > 0) sum += v.vpl.intensity;
   return sum;
 }
 
-// Whatever was done to the scene, in whatever portions.
-TEST(LightPaths, AtRestAreThoseMadeFromNothing) {
+// For any edits, and for any number of paths per frame.
+TEST(LightPaths, SettledOnesEqualNewOnes) {
   for (const int mostPaths : {0, 3}) {
     SCOPED_TRACE(mostPaths);
     Stage stage;
@@ -82,7 +82,7 @@ TEST(LightPaths, AtRestAreThoseMadeFromNothing) {
     const VplCounts counts{200, 0.3f, 3, 1};
     stage.frame(paths, counts, mostPaths);
     EXPECT_TRUE(paths.isAtRest());
-    expectSame(paths.set(stage.render).vpls, stage.fromNothing(counts));
+    expectSame(paths.set(stage.render).vpls, stage.fresh(counts));
     const std::vector<std::function<void(Scene&)>> edits{
         [&](Scene& s) { s.find(stage.light)->local.translation += vec3(0.1f, -0.2f, 0.05f); },
         [&](Scene& s) { s.find(stage.box)->local.translation.x -= 0.4f; },
@@ -104,25 +104,25 @@ TEST(LightPaths, AtRestAreThoseMadeFromNothing) {
     for (size_t i = 0; i < edits.size(); ++i) {
       edits[i](stage.scene);
       stage.frame(paths, counts, mostPaths);
-      if (i % 3 == 0) continue;  // the next edit comes at once
+      if (i % 3 == 0) continue;  // the next edit follows before the paths are settled
       int frames = 0;
       for (; !paths.isAtRest() && frames < 1000; ++frames) {
         stage.frame(paths, counts, mostPaths);
       }
       ASSERT_TRUE(paths.isAtRest());
       SCOPED_TRACE(i);
-      expectSame(paths.set(stage.render).vpls, stage.fromNothing(counts));
+      expectSame(paths.set(stage.render).vpls, stage.fresh(counts));
     }
   }
 }
 
-TEST(LightPaths, ASmallMoveKeepsMost) {
+TEST(LightPaths, ASmallMoveKeepsMostPaths) {
   Stage stage;
   LightPaths paths;
   const VplCounts counts{300, 0.5f, 2, 1};
   stage.frame(paths, counts);
   const int count = paths.set(stage.render).paths;
-  vec3 last = bouncedSum(paths.set(stage.render).vpls);
+  vec3 last = indirectSum(paths.set(stage.render).vpls);
   uint64_t traced = 0;
   for (int step = 0; step < 40; ++step) {
     stage.scene.find(stage.light)->local.translation += vec3(step < 20 ? 0.05f : -0.05f, 0, 0.02f);
@@ -130,25 +130,25 @@ TEST(LightPaths, ASmallMoveKeepsMost) {
     EXPECT_GT(paths.work().kept, 9 * count / 10);
     const VplSet set = paths.set(stage.render);
     EXPECT_EQ(set.paths, count);
-    const vec3 sum = bouncedSum(set.vpls);
+    const vec3 sum = indirectSum(set.vpls);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum[i] / last[i], 1.0f, 0.03f) << step;
     last = sum;
     traced += paths.work().rays;
   }
-  // Not much more than to walk all paths anew.
+  // Not many more rays than for tracing all paths again.
   EXPECT_LT(traced, static_cast<uint64_t>(40 * 5 * count));
-  // Let go, they become those of the scene as it is, some in each frame.
+  // After the drag, the paths become those of a new start, some of them in each frame.
   int frames = 0;
   for (; !paths.isAtRest() && frames < 100; ++frames) {
     stage.frame(paths, counts);
     EXPECT_LE(paths.work().replaced, (count + 8) / 8);
   }
   EXPECT_LE(frames, 9);
-  expectSame(paths.set(stage.render).vpls, stage.fromNothing(counts));
+  expectSame(paths.set(stage.render).vpls, stage.fresh(counts));
 }
 
-// One that is turned about has none of its paths kept, and takes its own along at once.
-TEST(LightPaths, AFarMoveWalksAllAnew) {
+// If a light is turned around, no path is kept, and all paths are replaced at once.
+TEST(LightPaths, ALargeMoveReplacesAllPaths) {
   Stage stage;
   LightPaths paths;
   const VplCounts counts{300, 0.5f, 2, 1};
@@ -162,10 +162,11 @@ TEST(LightPaths, AFarMoveWalksAllAnew) {
     stage.frame(paths, counts);
     EXPECT_EQ(paths.work().replaced, 0);
   }
-  expectSame(paths.set(stage.render).vpls, stage.fromNothing(counts));
+  expectSame(paths.set(stage.render).vpls, stage.fresh(counts));
 }
 
-// What bounced VPLs do at some places, without shadows.
+// Unshadowed irradiance-like sums of the indirect VPLs at some points, and two sums over all of
+// them.
 std::vector<double> lightAt(const std::vector<SceneVpl>& vpls) {
   const vec3 places[] = {
       {-2.5f, 0.5f, -2}, {2.5f, 1, 2}, {0, 2, 0}, {1.0f, 3.5f, 0.3f}, {2, 0.2f, 0}};
@@ -183,9 +184,9 @@ std::vector<double> lightAt(const std::vector<SceneVpl>& vpls) {
   return sums;
 }
 
-// The mean over many seeds of paths that followed a light on a long way, in small and in large
-// steps, past a box and turning, against paths walked from nothing.
-TEST(LightPaths, ThoseThatFollowAreSpreadAsThoseWalkedAnew) {
+// The mean over many seeds. Paths that followed a light over a long distance, in small and large
+// steps, past a box and with rotations, have the same mean as new paths.
+TEST(LightPaths, MovedPathsHaveTheDistributionOfNewOnes) {
   for (const bool isPunctual : {false, true}) {
     SCOPED_TRACE(isPunctual);
     std::vector<double> followed(7, 0.0), fresh(7, 0.0), squares(7, 0.0);
@@ -195,7 +196,7 @@ TEST(LightPaths, ThoseThatFollowAreSpreadAsThoseWalkedAnew) {
       node.area.reset();
       node.punctual = PunctualLight{PunctualKind::spot, vec3(9), 0.0f, 0.3f, 1.2f};
     }
-    stage.scene.find(stage.box)->local.translation.y = 1.6f;  // between light and floor
+    stage.scene.find(stage.box)->local.translation.y = 1.6f;  // between the light and the floor
     const Scene start = stage.scene;
     constexpr int kSeeds = 700;
     for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
@@ -211,7 +212,7 @@ TEST(LightPaths, ThoseThatFollowAreSpreadAsThoseWalkedAnew) {
         stage.frame(paths, counts);
       }
       const std::vector<double> a = lightAt(paths.set(stage.render).vpls);
-      const std::vector<double> b = lightAt(stage.fromNothing(counts));
+      const std::vector<double> b = lightAt(stage.fresh(counts));
       for (size_t i = 0; i < a.size(); ++i) {
         followed[i] += a[i];
         fresh[i] += b[i];
@@ -220,26 +221,26 @@ TEST(LightPaths, ThoseThatFollowAreSpreadAsThoseWalkedAnew) {
     }
     for (size_t i = 0; i < followed.size(); ++i) {
       const double difference = followed[i] / fresh[i] - 1.0;
-      const double chance = std::sqrt(squares[i]) / fresh[i];  // one standard error
-      EXPECT_LT(chance, 0.008) << i;
-      EXPECT_LT(std::abs(difference), 3.0 * chance) << i;
+      const double standardError = std::sqrt(squares[i]) / fresh[i];  // one standard error
+      EXPECT_LT(standardError, 0.008) << i;
+      EXPECT_LT(std::abs(difference), 3.0 * standardError) << i;
       EXPECT_LT(std::abs(difference), 0.015) << i;
     }
   }
 }
 
-// A red box comes near a wall: the paths that it touches change, and no others.
-TEST(LightPaths, AColouredMoverChangesThePathsThatItTouches) {
+// A red box moves near a wall: only the paths that it affects change.
+TEST(LightPaths, AColouredMoverChangesOnlyThePathsThatItAffects) {
   Stage stage;
   LightPaths paths;
   const VplCounts counts{400, 0.2f, 3, 1};
   stage.frame(paths, counts);
   const VplSet before = paths.set(stage.render);
   const auto redness = [](const std::vector<SceneVpl>& vpls) {
-    const vec3 sum = bouncedSum(vpls);
+    const vec3 sum = indirectSum(vpls);
     return sum.r / sum.b;
   };
-  stage.scene.find(stage.box)->local.translation = vec3(-0.5f, 2.0f, 0.0f);  // under the light
+  stage.scene.find(stage.box)->local.translation = vec3(-0.5f, 2.0f, 0.0f);  // below the light
   stage.frame(paths, counts);
   const LightPaths::Work work = paths.work();
   const VplSet after = paths.set(stage.render);
@@ -247,9 +248,9 @@ TEST(LightPaths, AColouredMoverChangesThePathsThatItTouches) {
   EXPECT_GT(work.kept, before.paths / 4);
   EXPECT_EQ(work.pending, 0);
   EXPECT_GT(redness(after.vpls), 1.1f * redness(before.vpls));
-  // All are what they are when walked anew.
+  // All paths equal new ones.
   std::map<VplId, vec3> fresh;
-  for (const SceneVpl& v : stage.fromNothing(counts)) fresh[v.id] = vec3(v.vpl.position);
+  for (const SceneVpl& v : stage.fresh(counts)) fresh[v.id] = vec3(v.vpl.position);
   size_t found = 0;
   for (const SceneVpl& v : after.vpls) {
     const auto it = fresh.find(v.id);
@@ -259,7 +260,7 @@ TEST(LightPaths, AColouredMoverChangesThePathsThatItTouches) {
   }
   EXPECT_GT(found, 300u);
 
-  // In a corner it touches few of them.
+  // In a corner the box affects few paths.
   stage.scene.find(stage.box)->local.translation = vec3(1.0f, 0.4f, 0.3f);
   stage.frame(paths, counts);
   while (!paths.isAtRest()) stage.frame(paths, counts);
@@ -270,8 +271,8 @@ TEST(LightPaths, AColouredMoverChangesThePathsThatItTouches) {
   EXPECT_LT(paths.work().walked, before.paths / 2);
 }
 
-// Colours alone: no ray is traced, nothing moves.
-TEST(LightPaths, ColoursWeighPathsAnew) {
+// Changes of colour need no ray, and no VPL moves.
+TEST(LightPaths, ChangedColoursKeepTheVertices) {
   Stage stage;
   LightPaths paths;
   const VplCounts counts{200, 0.5f, 2, 1};
@@ -283,25 +284,26 @@ TEST(LightPaths, ColoursWeighPathsAnew) {
   EXPECT_EQ(paths.work().rays, 0u);
   EXPECT_TRUE(paths.isAtRest());
   const auto after = paths.set(stage.render).vpls;
-  expectSame(after, stage.fromNothing(counts));
+  expectSame(after, stage.fresh(counts));
   ASSERT_EQ(after.size(), before.size());
   for (size_t i = 0; i < after.size(); ++i)
     EXPECT_EQ(after[i].vpl.position, before[i].vpl.position);
 }
 
-// In portions of a few paths a drag goes on from where it was; at rest all are looked at.
-TEST(LightPaths, PortionsGoRoundAndLoseNoLight) {
+// With a few paths per frame, all paths are updated in turn during a drag, and all are checked
+// before the result is settled.
+TEST(LightPaths, LimitedUpdatesReachAllPathsAndKeepTheFlux) {
   Stage stage;
   LightPaths paths;
   const VplCounts counts{300, 0.0f, 2, 1};
   stage.frame(paths, counts, 10);
-  vec3 last = bouncedSum(paths.set(stage.render).vpls);
+  vec3 last = indirectSum(paths.set(stage.render).vpls);
   for (int step = 0; step < 30; ++step) {
     stage.scene.find(stage.light)->local.translation.x += 0.05f;
     stage.frame(paths, counts, 10);
     EXPECT_EQ(paths.work().walked, 10);
     EXPECT_GT(paths.work().pending, 0);
-    const vec3 sum = bouncedSum(paths.set(stage.render).vpls);
+    const vec3 sum = indirectSum(paths.set(stage.render).vpls);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum[i] / last[i], 1.0f, 0.02f) << step;
     last = sum;
   }
@@ -309,7 +311,7 @@ TEST(LightPaths, PortionsGoRoundAndLoseNoLight) {
   for (; !paths.isAtRest() && frames < 100; ++frames) stage.frame(paths, counts, 10);
   EXPECT_GT(frames, 10);
   EXPECT_LT(frames, 30);
-  expectSame(paths.set(stage.render).vpls, stage.fromNothing(counts));
+  expectSame(paths.set(stage.render).vpls, stage.fresh(counts));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace lamplighter {
 namespace {
 
-TEST(AliasTable, DrawsInProportionAndNeverTheImpossible) {
+TEST(AliasTable, SamplesInProportionAndNeverWeightZero) {
   const std::vector<float> weights{1.0f, 0.0f, 3.0f, 6.0f};
   const AliasTable table(weights);
   std::vector<int> drawn(4);
@@ -33,7 +33,7 @@ TEST(AliasTable, DrawsInProportionAndNeverTheImpossible) {
   EXPECT_TRUE(AliasTable(std::vector<float>{0.0f, 0.0f}).empty());
 }
 
-// Every elementary interval of area 2⁻ᵐ holds exactly one of the first 2ᵐ points.
+// Every elementary interval of area 2⁻ᵐ contains exactly one of the first 2ᵐ points.
 TEST(LowDiscrepancy, IsANetInBase2) {
   constexpr int m = 6, n = 1 << m;
   for (const bool ordered : {false, true}) {
@@ -72,7 +72,7 @@ struct LightsOf {
   }
 };
 
-TEST(LightSet, FluxIsThatOfTheLights) {
+TEST(LightSet, FluxEqualsTheSumOfTheLights) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(2.0f)));
   test::addRectangleLight(scene, vec3(0, 3, 0), vec2(2.0f, 0.5f), vec3(10, 20, 30));
@@ -86,7 +86,7 @@ TEST(LightSet, FluxIsThatOfTheLights) {
   EXPECT_EQ(s.lights.emitterOfObject(1), 0);
 }
 
-TEST(LightSet, PointsLieOnTheLightEvenly) {
+TEST(LightSet, PointsAreUniformOnTheLight) {
   Scene scene;
   test::addRectangleLight(scene, vec3(1, 3, 2), vec2(2.0f, 1.0f), vec3(5.0f));
   const LightsOf s(scene);
@@ -106,7 +106,7 @@ TEST(LightSet, PointsLieOnTheLightEvenly) {
   EXPECT_NEAR(sum.z / n, 2.0f, 5e-3f);
 }
 
-// A triangle without area is never chosen, and a light of nothing else is none.
+// A triangle without area is never sampled, and an object of such triangles is not an emitter.
 TEST(LightSet, SkipsTrianglesWithoutArea) {
   Scene scene;
   const int glowing = test::addMaterial(scene, vec3(0.0f), vec3(4.0f));
@@ -127,8 +127,8 @@ TEST(LightSet, SkipsTrianglesWithoutArea) {
   }
 }
 
-// An eighth of each side of a texture glows: 1/64 of the square.
-TEST(LightSet, TheFluxOfATextureIsThatOfItsMean) {
+// A square with an eighth of each side of the texture emits: 1/64 of the area.
+TEST(LightSet, TheFluxOfATextureFollowsItsMean) {
   Scene scene;
   auto image = std::make_shared<Image8>(64, 64);
   for (int y = 0; y < 64; ++y) {
@@ -147,7 +147,7 @@ TEST(LightSet, TheFluxOfATextureIsThatOfItsMean) {
   EXPECT_NEAR(s.lights.emitters()[0].flux.g / expected, 1.0f, 0.05f);
 }
 
-TEST(LightSet, NothingComesFromTheHolesOfAMask) {
+TEST(LightSet, HolesOfAnAlphaMaskEmitNothing) {
   Scene scene;
   auto image = std::make_shared<Image8>(2, 1);
   image->at(0, 0)[3] = 0;  // the left half
@@ -165,7 +165,7 @@ TEST(LightSet, NothingComesFromTheHolesOfAMask) {
   }
 }
 
-TEST(LightSet, NothingEmitsInTheDark) {
+TEST(LightSet, ASceneWithoutLightHasNoEmitters) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(2.0f)));
   const LightsOf s(scene);

@@ -1,4 +1,4 @@
-// Skies: what comes from where, and whether their samples are as much light as they have.
+// Skies: orientation of pictures, and whether samples represent all light of the sky.
 #include "renderer/sampling/emitters/sky_sampler.h"
 
 #include <limits>
@@ -23,14 +23,14 @@ void expectDirection(const vec3& actual, const vec3& expected, float within) {
       << actual.x << " " << actual.y << " " << actual.z;
 }
 
-// A picture with one bright pixel.
+// A sky picture with one bright pixel.
 Sky spot(int x, int y, float rotation = 0.0f) {
   Image image(64, 32, vec3(0.01f));
   image.at(x, y) = vec3(5.0f);
   return Sky::picture(makeSkyImage(std::move(image), "spot"), rotation);
 }
 
-TEST(Sky, APicturesMiddleIsTowardsMinusZAndItsTopIsUp) {
+TEST(Sky, TheCentreOfAPictureIsTowardsMinusZAndItsTopIsUp) {
   const float height = std::cos(kPi * 15.5f / 32.0f), flat = std::sqrt(1.0f - height * height);
   const auto at = [&](float azimuth) {
     return vec3(flat * std::sin(azimuth), height, -flat * std::cos(azimuth));
@@ -40,7 +40,7 @@ TEST(Sky, APicturesMiddleIsTowardsMinusZAndItsTopIsUp) {
   EXPECT_NEAR(spot(48, 15).radianceFrom(at(0.5f * kPi + half)).r, 5.0f, 1e-3f);   // +X
   EXPECT_NEAR(spot(16, 15).radianceFrom(at(-0.5f * kPi + half)).r, 5.0f, 1e-3f);  // −X
   EXPECT_NEAR(spot(0, 15).radianceFrom(at(kPi + half)).r, 5.0f, 1e-3f);           // +Z
-  // By a quarter to the left, as a node turned by that about Y would.
+  // A rotation by 90° to the left, as of a node about Y.
   const quat turn = glm::angleAxis(0.5f * kPi, vec3(0, 1, 0));
   EXPECT_NEAR(spot(32, 15, 0.5f * kPi).radianceFrom(turn * at(half)).r, 5.0f, 1e-3f);
   Image top(64, 32, vec3(0.0f));
@@ -49,7 +49,7 @@ TEST(Sky, APicturesMiddleIsTowardsMinusZAndItsTopIsUp) {
   EXPECT_EQ(Sky::picture(makeSkyImage(top, "")).radianceFrom(vec3(0, -1, 0)).r, 0.0f);
 }
 
-TEST(Sky, PicturesAreCleanedAndNotTooLarge) {
+TEST(Sky, InvalidPixelsAreReplacedAndLargePicturesReduced) {
   Image image(2, 1);
   image.at(0, 0) =
       vec3(std::numeric_limits<float>::quiet_NaN(), -3.0f, std::numeric_limits<float>::infinity());
@@ -62,8 +62,8 @@ TEST(Sky, PicturesAreCleanedAndNotTooLarge) {
   EXPECT_TRUE(Sky::picture(makeSkyImage(Image(8, 4), "black")).isBlack());
 }
 
-TEST(Sky, IsEqualByWhatItShows) {
-  EXPECT_EQ(test::cloudySky(), test::cloudySky());  // two pictures of the same pixels
+TEST(Sky, SkiesWithEqualPixelsAreEqual) {
+  EXPECT_EQ(test::cloudySky(), test::cloudySky());  // two pictures with the same pixels
   EXPECT_NE(test::cloudySky(), test::sunnySky());
   EXPECT_NE(test::gradientSky(), Sky(vec3(1.0f)));
   Sky turned = test::cloudySky();
@@ -71,8 +71,8 @@ TEST(Sky, IsEqualByWhatItShows) {
   EXPECT_NE(turned, test::cloudySky());
 }
 
-// All kinds: the samples' sum is the whole sky's light, each has as much, and what they give to
-// planes is what quadrature does.
+// For all kinds of skies: all samples have the same luminance, their sum is all light of the sky,
+// and their irradiance on planes equals quadrature.
 class SkyLight : public testing::TestWithParam<int> {
  protected:
   Sky sky() const {
@@ -110,9 +110,9 @@ TEST_P(SkyLight, SamplesAddUpToTheSkysLight) {
   for (int n = 0; n < 4; ++n) expectNear(onPlane[n], test::irradianceOn(sky(), normals[n]), 1e-2f);
 }
 
-// An estimate by its samples is that of quadrature, the density is that of the samples, and it is
-// one.
-TEST_P(SkyLight, TheDensityIsThatOfTheSamplesAndNowhereMissing) {
+// The sampling density: estimates equal quadrature, density() agrees with the samples, and its
+// integral is 1.
+TEST_P(SkyLight, ThePdfMatchesTheSamplesAndCoversAllLight) {
   const SkySampler sampler(sky());
   constexpr uint32_t kCount = 1 << 16;
   glm::dvec3 up(0.0);
@@ -135,22 +135,22 @@ TEST_P(SkyLight, TheDensityIsThatOfTheSamplesAndNowhereMissing) {
       EXPECT_GT(density, 0.0f);
     }
   }
-  EXPECT_NEAR(total, 1.0, GetParam() == 3 ? 0.2 : 5e-3);  // a sun is hit by few even directions
+  EXPECT_NEAR(total, 1.0, GetParam() == 3 ? 0.2 : 5e-3);  // few uniform directions hit the sun
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SkyLight, testing::Range(0, 4));
 
-TEST(SkyMap, ASunIsFoundWholeAndOnlyOnce) {
+TEST(SkyMap, ASunIsFoundCompletelyAndOnlyOnce) {
   const SkySampler sampler(test::sunnySky());
   ASSERT_EQ(sampler.sunCount(), 1u);
   const float elevation = 40.0f / 180.0f * kPi;
   const vec3 expected(std::cos(elevation), std::sin(elevation), 0.0f);
   const SkyMap::Light sun = sampler.sun(0);
   expectDirection(sun.towards, expected, 0.002f);
-  // A disc of half a degree, in pixels of half a degree.
+  // A disc of radius 0.5° with pixels of 0.5°.
   const float solid = 2.0f * kPi * (1.0f - std::cos(0.5f / 180.0f * kPi));
   expectNear(sun.irradiance, solid * vec3(30000.0f, 25000.0f, 18000.0f), 0.2f);
-  // The rest is the two even halves, without it.
+  // The remaining sky without the sun consists of two uniform halves.
   expectNear(sampler.irradiance(), 2.0f * kPi * vec3(0.4f, 0.58f, 0.95f), 0.02f);
   for (uint32_t i = 0; i < 256; ++i)
     expectDirection(sampler.sun(0, sobol2(i, 1)).towards, expected, 0.016f);
@@ -169,7 +169,7 @@ TEST(SkyMap, AConstantPictureIsAConstantSky) {
   }
 }
 
-TEST(SkyMap, NeighbouringNumbersGiveNeighbouringDirections) {
+TEST(SkyMap, NeighbouringSamplesGiveNeighbouringDirections) {
   const SkySampler sampler(test::cloudySky());
   for (uint32_t i = 0; i < 64; ++i) {
     const vec2 u = 0.98f * sobol2(i, 1);

@@ -1,4 +1,4 @@
-// Where a sun's shadow maps lie.
+// Placement of sun shadow tiles.
 #include "renderer/sampling/sun_shadow_tiles.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Level {
     node.local.rotation = glm::angleAxis(-1.2f, vec3(1, 0, 0));
     update(render, scene, SceneChanges::all());
   }
-  std::vector<SceneVpl> squares(const View* view, int count) const {
+  std::vector<SceneVpl> tiles(const View* view, int count) const {
     const RayCaster rays(render);
     VplCounts counts{64, 0.5f, 0, 1};
     counts.sunMaps = count;
@@ -33,45 +33,46 @@ struct Level {
   }
 };
 
-// The half-width of the square that a place falls into.
-float sideAt(const std::vector<SceneVpl>& vpls, const vec3& place) {
+// The half side of the tile that contains a point.
+float halfSideAt(const std::vector<SceneVpl>& vpls, const vec3& point) {
   float side = 0.0f;
   int found = 0;
   for (const SceneVpl& v : vpls) {
-    const vec3 q = shared::vplToLight(v.vpl, place - vec3(v.vpl.position));
+    const vec3 q = shared::vplToLight(v.vpl, point - vec3(v.vpl.position));
     if (std::max(std::abs(q.x), std::abs(q.y)) >= v.vpl.tangent.w) continue;
     side = v.vpl.tangent.w;
     ++found;
   }
-  EXPECT_EQ(found, 1) << "squares lie side by side";
+  EXPECT_EQ(found, 1) << "tiles must not overlap or leave gaps";
   return side;
 }
 
 TEST(SunShadowTiles, AreSmallWhereTheCameraLooks) {
   const Level level;
   const View near = test::lookAt(vec3(-28, 3, -28), vec3(-30, 0, -30), 64, 48);
-  const auto seen = level.squares(&near, 64);
+  const auto seen = level.tiles(&near, 64);
   EXPECT_LE(seen.size(), 64u);
   EXPECT_GT(seen.size(), 32u);
   EXPECT_EQ(sampleCount(seen), 1);
-  const float there = sideAt(seen, vec3(-30, 0, -30)), elsewhere = sideAt(seen, vec3(35, 0, -35));
+  const float there = halfSideAt(seen, vec3(-30, 0, -30)),
+              elsewhere = halfSideAt(seen, vec3(35, 0, -35));
   EXPECT_LT(8.0f * there, elsewhere);
-  const auto unseen = level.squares(nullptr, 64);
-  EXPECT_LT(there, sideAt(unseen, vec3(-30, 0, -30)));
+  const auto unseen = level.tiles(nullptr, 64);
+  EXPECT_LT(there, halfSideAt(unseen, vec3(-30, 0, -30)));
 }
 
-TEST(SunShadowTiles, OneIsTheWhole) {
+TEST(SunShadowTiles, ASingleTileCoversTheScene) {
   const Level level;
-  EXPECT_EQ(level.squares(nullptr, 1).size(), 1u);
+  EXPECT_EQ(level.tiles(nullptr, 1).size(), 1u);
 }
 
-// A place in the sun counts more than one in shadow: neither is left out.
+// Lit points have more weight than points in shadow, but both are covered.
 TEST(SunShadowTiles, CoverEverything) {
   const Level level;
   const View view = test::lookAt(vec3(24, 4, 24), vec3(20, 0, 20), 64, 48);
-  const auto squares = level.squares(&view, 128);
+  const auto tiles = level.tiles(&view, 128);
   for (const vec3 p : {vec3(20, 1, 20), vec3(21, 0, 19), vec3(-40, 0, 33), vec3(3, 0, -45)})
-    EXPECT_GT(sideAt(squares, p), 0.0f);
+    EXPECT_GT(halfSideAt(tiles, p), 0.0f);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Points on surfaces: uniform by area, stratified, and functions of their arguments.
+// Points on surfaces: uniform by area, stratified, and determined by their arguments.
 #include "renderer/sampling/surface_sampler.h"
 
 #include <cmath>
@@ -10,13 +10,7 @@
 namespace lamplighter {
 namespace {
 
-RenderScene rendered(const Scene& scene) {
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
-  return render;
-}
-
-// A ball with triangles of many sizes, a small box, and a pane.
+// A sphere with triangles of many sizes, a small box, and a transparent pane.
 Scene bodies() {
   Scene scene;
   const int grey = test::addMaterial(scene, vec3(0.5f)), glass = test::addMaterial(scene, vec3(1));
@@ -34,7 +28,7 @@ double areaOf(const RenderScene& s, uint32_t object, uint32_t triangle) {
 }
 
 TEST(SurfaceSampler, TrianglesAreChosenByArea) {
-  const RenderScene scene = rendered(bodies());
+  const RenderScene scene = test::renderSceneOf(bodies());
   const SurfaceSampler sampler(scene);
   constexpr uint32_t kPoints = 20000;
   std::vector<std::vector<int>> counts(3);
@@ -57,14 +51,14 @@ TEST(SurfaceSampler, TrianglesAreChosenByArea) {
       ++degrees;
     }
   }
-  EXPECT_LT(chi2, degrees + 4.0 * std::sqrt(2.0 * degrees)) << degrees;  // four sigma
+  EXPECT_LT(chi2, degrees + 4.0 * std::sqrt(2.0 * degrees)) << degrees;  // four standard deviations
   for (const int count : counts[2]) EXPECT_EQ(count, 0) << "rays pass through the pane";
 }
 
 TEST(SurfaceSampler, BlocksOfIndicesAreStratified) {
   Scene scene;
   for (int i = 0; i < 8; ++i) test::addMesh(scene, test::squareMesh(1.0f), vec3(2 * i, 0, 0));
-  const SurfaceSampler sampler(rendered(scene));
+  const SurfaceSampler sampler(test::renderSceneOf(scene));
   for (const uint32_t first : {0u, 8u, 64u}) {
     std::vector<int> counts(8, 0);
     for (uint32_t i = first; i < first + 8; ++i) ++counts[sampler.at(i, 3).object];
@@ -72,11 +66,11 @@ TEST(SurfaceSampler, BlocksOfIndicesAreStratified) {
   }
 }
 
-// In a triangle, too: the mean of the points is its middle.
+// Also within a triangle: the mean of the points is its centroid.
 TEST(SurfaceSampler, PointsAreUniformInATriangle) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(1.0f));
-  const SurfaceSampler sampler(rendered(scene));
+  const SurfaceSampler sampler(test::renderSceneOf(scene));
   vec2 mean(0.0f);
   int count = 0;
   for (uint32_t i = 0; i < 4096; ++i) {
@@ -90,9 +84,9 @@ TEST(SurfaceSampler, PointsAreUniformInATriangle) {
   EXPECT_NEAR(mean.y / 2048.0f, 1.0f / 3.0f, 2e-3f);
 }
 
-TEST(SurfaceSampler, AfterChangesItIsTheOneFromNothing) {
+TEST(SurfaceSampler, AfterChangesItEqualsANewOne) {
   Scene scene = bodies();
-  RenderScene render = rendered(scene);
+  RenderScene render = test::renderSceneOf(scene);
   SurfaceSampler sampler(render);
   const auto edit = [&](const std::function<void(Scene&)>& change) {
     const Scene before = scene;

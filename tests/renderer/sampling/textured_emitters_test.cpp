@@ -1,4 +1,4 @@
-// Emitters whose brightness varies: their light samples are where the light is.
+// Emitters with textures: light samples are placed where the light is.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPixels = 32;
 
-// Dim everywhere, 1 in the upper left corner of an eighth of its sides.
+// Value `dim`, except for 255 in the upper left corner, which has an eighth of each side.
 std::shared_ptr<Image8> brightCorner(uint8_t dim) {
   auto image = std::make_shared<Image8>(kPixels, kPixels);
   for (int y = 0; y < kPixels; ++y) {
@@ -59,9 +59,8 @@ TEST(TexturedEmitters, TheMeanOfManySamplesIsTheClosedFormFlux) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] / n, expected[c], 5e-3 * expected[c]) << c;
 }
 
-// ∫ density dA over the surface is 1, and that which light sampling weighs hits by is the one that
-// points were drawn with.
-TEST(TexturedEmitters, OneDensityDrawsAndWeighs) {
+// ∫ pdf dA over the surface is 1, and the pdf that weighs hits equals that of the samples.
+TEST(TexturedEmitters, SamplingAndWeighingUseTheSamePdf) {
   const Lit lit(brightCorner(40), true);
   double whole = 0.0;
   constexpr int kGrid = 256;
@@ -70,7 +69,7 @@ TEST(TexturedEmitters, OneDensityDrawsAndWeighs) {
       for (int x = 0; x + y < kGrid; ++x) {
         const vec2 at((static_cast<float>(x) + 0.3f) / kGrid,
                       (static_cast<float>(y) + 0.3f) / kGrid);
-        // Two of these to a square of the grid, but for the last of a row.
+        // A grid cell contains two such triangles, except for the last one of a row.
         const double cells = x + y + 1 < kGrid ? 2.0 : 1.0;
         whole +=
             cells * 2.0 / (kGrid * kGrid) / static_cast<double>(lit.lights.areaAt(0, triangle, at));
@@ -97,11 +96,11 @@ TEST(TexturedEmitters, LightSamplesAreWhereItIsBright) {
     ASSERT_GT(set.vpls.size(), 240u);
     float flux = 0.0f;
     for (const SceneVpl& v : set.vpls) {
-      // The half texel of interpolation about the corner.
+      // The bright corner plus half a texel of interpolation.
       EXPECT_LT(v.vpl.position.x, -0.71f);
       EXPECT_GT(v.vpl.position.z, 0.71f);  // v = 0
       flux += kPi * v.vpl.intensity.r;
-      // It stands for a share of the bright corner, not of all.
+      // The footprint is a part of the bright corner, not of the whole square.
       EXPECT_LT(v.vpl.footprint.x, 0.05f);
     }
     const float expected = kPi * 4.0f / 64.0f * 10.0f * (twoSided ? 2.0f : 1.0f);
@@ -109,19 +108,19 @@ TEST(TexturedEmitters, LightSamplesAreWhereItIsBright) {
   }
 }
 
-// What is found once for a mesh and its texture stays through edits, and is the same found anew.
-TEST(TexturedEmitters, MovingFindsNothingAnew) {
+// The data for a mesh and its texture is kept through edits, and equals newly computed data.
+TEST(TexturedEmitters, MovingReusesTheData) {
   Lit lit(brightCorner(20));
   const auto before = lit.lights.emitters()[0].cells.brightness();
   lit.scene.nodes[0].local.translation = vec3(1, 2, 3);
   lit.scene.materials[0].emissive = vec3(0.0f, 9.0f, 0.0f);
   lit.see();
   EXPECT_EQ(lit.lights.emitters()[0].cells.brightness(), before);
-  const LightSet anew(lit.world);
-  EXPECT_EQ(anew.emitters()[0].flux, lit.lights.emitters()[0].flux);
+  const LightSet fresh(lit.world);
+  EXPECT_EQ(fresh.emitters()[0].flux, lit.lights.emitters()[0].flux);
   for (uint32_t i = 0; i < 64; ++i) {
     const vec2 u = sobol2(i, 1);
-    EXPECT_EQ(anew.samplePoint(lit.world, 0, u).position,
+    EXPECT_EQ(fresh.samplePoint(lit.world, 0, u).position,
               lit.lights.samplePoint(lit.world, 0, u).position);
   }
   lit.scene.textures[0].image = brightCorner(90);
@@ -129,7 +128,7 @@ TEST(TexturedEmitters, MovingFindsNothingAnew) {
   EXPECT_NE(lit.lights.emitters()[0].cells.brightness(), before);
 }
 
-TEST(TexturedEmitters, OneThatIsBlackIsNone) {
+TEST(TexturedEmitters, ABlackTextureMakesNoEmitter) {
   const Lit lit(std::make_shared<Image8>([] {
     Image8 image(2, 2);
     for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = i % 4 == 3 ? 255 : 0;

@@ -12,7 +12,7 @@
 namespace lamplighter {
 namespace {
 
-// A lit room of 4 × 3 × 4 m and a dark one beside it, behind a wall at x = 0 with a gap of 0.2 m.
+// A lit room of 4 × 3 × 4 m and a dark room beside it, behind a wall at x = 0 with a gap of 0.2 m.
 Scene narrowGap() {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(0.7f));
@@ -25,34 +25,34 @@ Scene narrowGap() {
 
 const View kInTheDark = test::lookAt(vec3(0.4f, 1.6f, 1.7f), vec3(3, 0.9f, -0.8f), 64, 48, 1.0f);
 
-// Of all samples, each with a ray for its shadow; summed over some points in the dark room.
+// Light of all VPLs with shadow rays, summed over some points in the dark room.
 double lightInTheDark(const test::LitScene& lit, const std::vector<SeenPoint>& points,
                       const std::vector<SceneVpl>& vpls) {
   double sum = 0.0;
   for (const SeenPoint& at : points) {
     for (const SceneVpl& v : vpls) {
-      const vec3 way = vec3(v.vpl.position) - at.position;
-      const float d = glm::length(way);
-      const float z = -glm::dot(way, vec3(v.vpl.normal)), s = glm::dot(way, at.normal);
-      if (z <= 0.0f || s <= 0.0f || lit.rays->occluded({at.position, 0.0f, way / d, d})) continue;
+      const vec3 to = vec3(v.vpl.position) - at.position;
+      const float d = glm::length(to);
+      const float z = -glm::dot(to, vec3(v.vpl.normal)), s = glm::dot(to, at.normal);
+      if (z <= 0.0f || s <= 0.0f || lit.rays->occluded({at.position, 0.0f, to / d, d})) continue;
       sum += static_cast<double>(v.vpl.intensity.r * s * z / (d * d * std::max(d * d, 0.25f)));
     }
   }
   return sum;
 }
 
-// Against all of the candidates: what is chosen differs from them by little each time, less than a
-// third of what the first of them do, and on average by nothing.
-TEST(ViewImportance, LessensTheErrorBehindANarrowGap) {
+// Against the light of all candidates. The error of the chosen VPLs is less than a third of the
+// error of the first candidates, and zero on average.
+TEST(ViewImportance, ReducesTheErrorBehindANarrowGap) {
   const test::LitScene lit(narrowGap());
   const LightSet lights(lit.render);
   constexpr int kFactor = 16;
   constexpr uint32_t kSeeds = 16;
-  // Others than those that the samples are chosen for.
+  // Points other than those for which the VPLs are chosen.
   std::vector<SeenPoint> points = seenPoints(lit.render, *lit.rays, kInTheDark, 148);
   ASSERT_EQ(points.size(), 148u);
   points.erase(points.begin(), points.begin() + 128);
-  double first = 0.0, chosen = 0.0, mean = 0.0;  // squared errors and the mean ratio
+  double first = 0.0, chosen = 0.0, mean = 0.0;  // squared errors, and the mean ratio
   for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const VplCounts counts{300, 0.3f, 3, seed};
     VplCounts more = counts;
@@ -76,8 +76,8 @@ TEST(ViewImportance, LessensTheErrorBehindANarrowGap) {
   EXPECT_NEAR(mean, 1.0, 0.02);
 }
 
-// While a box and a light are dragged through the room: what is kept changes no sample.
-TEST(ViewImportance, IsTheSameWithWhatWasFoundBefore) {
+// While a box and a light are dragged, cached visibility does not change the chosen VPLs.
+TEST(ViewImportance, CachedVisibilityDoesNotChangeTheChoice) {
   Scene scene = narrowGap();
   const NodeId box = test::addMesh(scene, test::boxMesh(vec3(0.4f), 0), vec3(-3, 1, -1));
   const NodeId light = scene.nodes[scene.nodes.size() - 2].id;
@@ -98,12 +98,12 @@ TEST(ViewImportance, IsTheSameWithWhatWasFoundBefore) {
     kept.outdate(changes, finder.update(render, changes));
     const VplSet candidates = generateVpls(render, rays, LightSet(render), counts);
     PointVisibility nothing;
-    const VplSet as = chooseForView(candidates, counts, render, rays, kInTheDark, 0.5f, kept);
-    const VplSet anew = chooseForView(candidates, counts, render, rays, kInTheDark, 0.5f, nothing);
-    ASSERT_EQ(as.vpls.size(), anew.vpls.size()) << step;
-    for (size_t i = 0; i < as.vpls.size(); ++i) {
-      ASSERT_EQ(as.vpls[i].id, anew.vpls[i].id) << step;
-      ASSERT_EQ(as.vpls[i].vpl.intensity, anew.vpls[i].vpl.intensity) << step;
+    const VplSet cached = chooseForView(candidates, counts, render, rays, kInTheDark, 0.5f, kept);
+    const VplSet fresh = chooseForView(candidates, counts, render, rays, kInTheDark, 0.5f, nothing);
+    ASSERT_EQ(cached.vpls.size(), fresh.vpls.size()) << step;
+    for (size_t i = 0; i < cached.vpls.size(); ++i) {
+      ASSERT_EQ(cached.vpls[i].id, fresh.vpls[i].id) << step;
+      ASSERT_EQ(cached.vpls[i].vpl.intensity, fresh.vpls[i].vpl.intensity) << step;
     }
   }
 }
@@ -118,7 +118,7 @@ std::vector<SceneVpl> candidatesOf(uint32_t paths) {
   return candidates;
 }
 
-TEST(ViewImportance, TakesTheFirstWhereAllAreAsImportant) {
+TEST(ViewImportance, TakesTheFirstIfAllAreEquallyImportant) {
   const std::vector<SceneVpl> candidates = candidatesOf(400);
   const auto chosen = chooseByImportance(candidates, std::vector<float>(400, 3.0f), 100);
   ASSERT_EQ(chosen.size(), 100u);
@@ -128,8 +128,8 @@ TEST(ViewImportance, TakesTheFirstWhereAllAreAsImportant) {
   }
 }
 
-// Of places whose importance is 50 : 1 each still gives what it has, for any sequence.
-TEST(ViewImportance, KeepsWhatEachPlaceGives) {
+// Candidates with an importance of 50 : 1 keep their total light, for any sequence.
+TEST(ViewImportance, KeepsTheLightOfEachGroup) {
   constexpr uint32_t kPaths = 2000, kSequences = 64;
   double rare = 0.0, common = 0.0;
   for (uint32_t s = 0; s < kSequences; ++s) {
@@ -147,7 +147,7 @@ TEST(ViewImportance, KeepsWhatEachPlaceGives) {
   EXPECT_NEAR(common / kSequences, 0.9, 0.03);
 }
 
-TEST(ViewImportance, ChangesFewWhenOneChanges) {
+TEST(ViewImportance, OneChangedImportanceChangesFewVpls) {
   const std::vector<SceneVpl> candidates = candidatesOf(400);
   std::vector<float> importance(400);
   for (uint32_t i = 0; i < 400; ++i) importance[i] = 0.1f + toUnitFloat(hash4(i, 7, 0, 0));
@@ -169,7 +169,7 @@ TEST(ViewImportance, SmallMovesOfTheCameraChangeNothing) {
   EXPECT_EQ(steadyView(moved, *lit.rays), steadyView(kInTheDark, *lit.rays));
   moved.eye += vec3(1.0f, 0.0f, 0.0f);
   EXPECT_FALSE(steadyView(moved, *lit.rays) == steadyView(kInTheDark, *lit.rays));
-  // Never through a wall: there are grid points on either side of this one.
+  // The position is never moved through a wall: there are grid points on both sides of this wall.
   for (const float z : {0.5f, 1.0f, 1.5f}) {
     View close = kInTheDark;
     close.eye = vec3(0.12f, 1.6f, z);

@@ -39,7 +39,7 @@ Scene room(const vec3& albedo) {  // closed: no path escapes
   return scene;
 }
 
-TEST(ShareSamples, GivesByLargestRemainderAndTheLeastFirst) {
+TEST(ShareSamples, GivesEachLightItsMinimumThenUsesLargestRemainders) {
   const std::vector<SampleShare> shares{{6, 1, false}, {3, 1, false}, {1, 1, false}, {0, 1, false}};
   EXPECT_EQ(shareSamples(shares, 13).counts, (std::vector<int>{7, 4, 2, 0}));
   EXPECT_EQ(shareSamples(shares, 3).counts, (std::vector<int>{1, 1, 1, 0}));
@@ -48,7 +48,7 @@ TEST(ShareSamples, GivesByLargestRemainderAndTheLeastFirst) {
   EXPECT_FLOAT_EQ(shareSamples(fixed, 10).scale, 1.0f);
 }
 
-TEST(ShareSamples, ServesTheHeaviestWhenThereAreTooFew) {
+TEST(ShareSamples, PrefersTheBrightestIfThereAreTooFew) {
   const std::vector<SampleShare> shares{{2, 1, false}, {5, 1, false}, {3, 1, false}};
   const SampleCounts two = shareSamples(shares, 2);
   EXPECT_EQ(two.counts, (std::vector<int>{0, 1, 1}));
@@ -57,7 +57,7 @@ TEST(ShareSamples, ServesTheHeaviestWhenThereAreTooFew) {
   EXPECT_EQ(shareSamples(shares, 0).counts, (std::vector<int>{0, 0, 0}));
 }
 
-// Σ I = Le·A (Φ/π), whatever the number of samples; and as many samples as were asked for.
+// Σ I = Le·A (Φ/π) for any number of samples, and the number of samples is as requested.
 TEST(VplSet, DirectIntensitiesAddUpToTheFlux) {
   Scene scene = room(vec3(0.5f));
   const NodeId a = test::addRectangleLight(scene, vec3(0, 1.9f, 0), vec2(2, 0.5f), vec3(4, 2, 1));
@@ -72,7 +72,7 @@ TEST(VplSet, DirectIntensitiesAddUpToTheFlux) {
   }
 }
 
-// With fewer samples than lights the whole flux is still there.
+// If there are fewer samples than lights, the sum is still the whole flux.
 TEST(VplSet, TooFewSamplesKeepTheFlux) {
   Scene scene = room(vec3(0.5f));
   for (int i = 1; i <= 5; ++i) {
@@ -85,7 +85,7 @@ TEST(VplSet, TooFewSamplesKeepTheFlux) {
   expectNear(sum, vec3(3 * (0.01f + 0.04f + 0.09f + 0.16f + 0.25f)));
 }
 
-TEST(VplSet, ADoubleSidedEmitterShinesFromBothSides) {
+TEST(VplSet, ADoubleSidedEmitterEmitsFromBothSides) {
   Scene scene;
   const int glowing = test::addMaterial(scene, vec3(0.0f), vec3(2.0f));
   scene.materials[glowing].doubleSided = true;
@@ -93,13 +93,14 @@ TEST(VplSet, ADoubleSidedEmitterShinesFromBothSides) {
   vec3 up(0.0f), down(0.0f);
   for (const SceneVpl& v : vplsOf(scene, {64, 0.5f, 0, 1})) {
     (v.vpl.normal.y > 0.0f ? up : down) += v.vpl.intensity;
-    EXPECT_GT(v.vpl.position.y * v.vpl.normal.y, 0.0f);  // just off the surface, on its side
+    EXPECT_GT(v.vpl.position.y * v.vpl.normal.y,
+              0.0f);  // slightly off the surface, on its own side
   }
   expectNear(up, vec3(2 * 4));
   expectNear(down, vec3(2 * 4));
 }
 
-// In a closed room of one albedo the bounce k carries ρᵏ Φ: Σ I = ρᵏ Φ/π.
+// In a closed room of one albedo, bounce k carries the flux ρᵏ Φ: Σ I = ρᵏ Φ/π.
 TEST(VplSet, BouncesCarryTheFluxTimesAlbedo) {
   const vec3 albedo(0.8f, 0.5f, 0.2f);
   Scene scene = room(albedo);
@@ -118,8 +119,8 @@ TEST(VplSet, BouncesCarryTheFluxTimesAlbedo) {
   EXPECT_EQ(direct, 100);
 }
 
-// Paths that escape count among the paths: half of the flux leaves a light whose lower side faces a
-// large floor and whose upper side faces nothing.
+// Escaped paths count as paths. The light's lower side faces a large floor and its upper side
+// nothing, so half of the flux escapes.
 TEST(VplSet, EscapedPathsCarryTheirShareAway) {
   Scene scene;
   const int white = test::addMaterial(scene, vec3(1.0f));
@@ -130,7 +131,7 @@ TEST(VplSet, EscapedPathsCarryTheirShareAway) {
   const auto vpls = vplsOf(scene, {256, 0.0f, 1, 1});
   ASSERT_FALSE(vpls.empty());
   expectNear(sums(vpls).at({light, 1}), vec3(1.0f), 0.03f);
-  // Nothing to hit at all: no endless search, no VPL.
+  // Without any surface there are no VPLs, and the search ends.
   Scene empty;
   test::addRectangleLight(empty, vec3(0), vec2(1), vec3(1));
   EXPECT_TRUE(vplsOf(empty, {64, 0.0f, 2, 1}).empty());
@@ -158,14 +159,14 @@ TEST(VplSet, PunctualLightsAndSky) {
       EXPECT_EQ(v.vpl.position.w, shared::kVplUniform);
       expectNear(v.vpl.intensity, vec3(1, 2, 3));
     } else if (v.id.light == spot) {
-      // 1 within the inner cone, 0 at the outer.
+      // The falloff is 1 at the inner cone and 0 at the outer cone.
       EXPECT_NEAR(std::cos(0.3f) * v.vpl.normal.w + v.vpl.tangent.w, 1.0f, 1e-4f);
       EXPECT_NEAR(std::cos(0.6f) * v.vpl.normal.w + v.vpl.tangent.w, 0.0f, 1e-4f);
       EXPECT_NEAR(v.vpl.normal.z, -1.0f, 1e-6f);
     } else if (v.id.light == sun) {
       EXPECT_EQ(v.vpl.position.w, shared::kVplDirectional);
       EXPECT_NEAR(v.vpl.normal.z, 1.0f, 1e-6f);  // towards the light
-      expectNear(v.vpl.intensity, vec3(7));      // each square in full
+      expectNear(v.vpl.intensity, vec3(7));      // each tile has the whole irradiance
       ++ofSun;
     } else {
       ASSERT_EQ(v.id.light, kSky);
@@ -178,8 +179,8 @@ TEST(VplSet, PunctualLightsAndSky) {
   expectNear(skySum, vec3(0.5f * 4.0f * kPi));
 }
 
-// A light that moves takes its VPLs along under the same ids, and bounced ones follow by as much as
-// their paths turn.
+// If a light moves, its VPLs move with it and keep their ids. Indirect VPLs move as their paths
+// change.
 TEST(VplSet, AMovedLightMovesItsVpls) {
   Scene scene = room(vec3(0.5f));
   const NodeId light = test::addRectangleLight(scene, vec3(0, 1.5f, 0), vec2(1, 1), vec3(4));
@@ -201,10 +202,10 @@ TEST(VplSet, AMovedLightMovesItsVpls) {
     }
   }
   EXPECT_EQ(bounced, 50);
-  EXPECT_LE(far, 2);  // those whose path came round a corner
+  EXPECT_LE(far, 2);  // paths that now hit another wall
 }
 
-// More samples keep the places of those that were there.
+// More samples do not move the existing ones.
 TEST(VplSet, IsStableInTheNumberOfSamples) {
   Scene scene = room(vec3(0.5f));
   test::addRectangleLight(scene, vec3(0, 1.5f, 0), vec2(1, 1), vec3(4));
@@ -232,7 +233,7 @@ TEST(VplSet, AnotherSeedGivesOtherPlaces) {
   EXPECT_EQ(same, 0);
 }
 
-// The squares cover every object once, and are small where there is much.
+// The tiles cover every object once, and are small where there is much detail.
 TEST(SunShadowTiles, CoverTheSceneOnceAndFollowItsDetail) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(100.0f));
@@ -248,34 +249,34 @@ TEST(SunShadowTiles, CoverTheSceneOnceAndFollowItsDetail) {
   const auto across = [&](const vec3& p) {
     return vec2(glm::dot(p - middle, axes[0]), glm::dot(p - middle, axes[1]));
   };
-  const auto covering = [&](const std::vector<SunShadowTile>& squares, const vec2& p) {
+  const auto covering = [&](const std::vector<SunShadowTile>& tiles, const vec2& p) {
     std::vector<SunShadowTile> found;
-    for (const SunShadowTile& s : squares) {
+    for (const SunShadowTile& s : tiles) {
       const vec2 d = p - s.centre;
       if (d.x >= -s.side && d.x < s.side && d.y >= -s.side && d.y < s.side) found.push_back(s);
     }
     return found;
   };
   EXPECT_EQ(sunShadowTiles(lit.render, axes, middle, whole, 1).size(), 1u);
-  const auto squares = sunShadowTiles(lit.render, axes, middle, whole, 40);
-  EXPECT_LE(squares.size(), 40u);
-  EXPECT_GT(squares.size(), 25u);
+  const auto tiles = sunShadowTiles(lit.render, axes, middle, whole, 40);
+  EXPECT_LE(tiles.size(), 40u);
+  EXPECT_GT(tiles.size(), 25u);
   std::set<uint32_t> codes;
-  for (const SunShadowTile& s : squares) EXPECT_TRUE(codes.insert(s.code).second);
+  for (const SunShadowTile& s : tiles) EXPECT_TRUE(codes.insert(s.code).second);
   for (int i = -49; i < 50; i += 7) {
     for (int k = -49; k < 50; k += 7) {
-      EXPECT_EQ(covering(squares, across(vec3(i, 0, k))).size(), 1u) << i << " " << k;
+      EXPECT_EQ(covering(tiles, across(vec3(i, 0, k))).size(), 1u) << i << " " << k;
     }
   }
-  const auto atBoxes = covering(squares, across(vec3(22, 0.3f, 12)));
-  const auto elsewhere = covering(squares, across(vec3(-30, 0, -30)));
+  const auto atBoxes = covering(tiles, across(vec3(22, 0.3f, 12)));
+  const auto elsewhere = covering(tiles, across(vec3(-30, 0, -30)));
   ASSERT_EQ(atBoxes.size(), 1u);
   ASSERT_EQ(elsewhere.size(), 1u);
   EXPECT_LE(atBoxes[0].side, 0.25f * elsewhere[0].side);
 }
 
-// Each sample of a sky has the same luminance, together they are all of its light.
-TEST(VplSet, SkysOfAllKindsGiveAllTheirLight) {
+// Every sample of a sky has the same luminance, and their sum is all light of the sky.
+TEST(VplSet, SkiesOfAllKindsGiveAllTheirLight) {
   for (const Sky& sky : {test::gradientSky(), test::cloudySky(), test::sunnySky()}) {
     Scene scene = room(vec3(0.5f));
     scene.sky = sky;
@@ -284,7 +285,7 @@ TEST(VplSet, SkysOfAllKindsGiveAllTheirLight) {
     for (const SceneVpl& v : vplsOf(scene, {256, 0.5f, 0, 1})) {
       EXPECT_EQ(v.vpl.position.w, shared::kVplDirectional);
       ASSERT_EQ(v.id.light, kSky);
-      // Squares of a sun give its light to a place each.
+      // Every tile of a sun has the whole irradiance, so only one of them counts.
       if (v.id.emitter == 0 || suns.insert(v.id.emitter).second) sum += v.vpl.intensity;
       EXPECT_EQ(v.isSample, v.id.emitter == 0);
     }
@@ -293,8 +294,8 @@ TEST(VplSet, SkysOfAllKindsGiveAllTheirLight) {
   }
 }
 
-// Turned a little, a sky turns its samples a little: the ids and their brightness stay.
-TEST(VplSet, ATurnedSkyKeepsItsSamples) {
+// A small rotation of the sky rotates its samples; ids and intensities stay.
+TEST(VplSet, ARotatedSkyKeepsItsSamples) {
   Scene scene = room(vec3(0.5f));
   scene.sky = test::sunnySky();
   const VplCounts counts{128, 0.5f, 0, 1};
@@ -303,7 +304,7 @@ TEST(VplSet, ATurnedSkyKeepsItsSamples) {
   const auto after = vplsOf(scene, counts);
   int same = 0;
   for (size_t i = 0; i < before.size(); ++i) {
-    if (before[i].id.emitter != 0) continue;  // the sun's squares lie where the room is
+    if (before[i].id.emitter != 0) continue;  // the sun's tiles follow the room
     ASSERT_EQ(after[i].id, before[i].id);
     EXPECT_EQ(after[i].vpl.intensity, before[i].vpl.intensity);
     EXPECT_LT(glm::length(vec3(after[i].vpl.normal - before[i].vpl.normal)), 0.011f);
@@ -312,7 +313,7 @@ TEST(VplSet, ATurnedSkyKeepsItsSamples) {
   EXPECT_GT(same, 20);
 }
 
-// Batches of refinement shine from all over a sun, so that shadows get as soft as it is wide.
+// Refinement batches sample the whole disc of a sun, so that shadows have the correct penumbra.
 TEST(VplSet, BatchesSpreadOverASun) {
   Scene scene = room(vec3(0.5f));
   scene.sky = test::sunnySky();

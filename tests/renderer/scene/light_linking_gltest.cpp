@@ -1,5 +1,5 @@
-// What lights leave out, on both backends: the same pictures, with and without patches, with
-// speculars, and with the low-resolution pass.
+// Light linking on both backends: the same pictures with and without patches, with speculars, and
+// with the low-resolution pass.
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
 #include "tests/renderer/gl/gl_test.h"
@@ -10,14 +10,14 @@
 namespace lamplighter {
 namespace {
 
-struct MotionMetric {
+struct Variant {
   const char* technique;
   const char* block;
   bool speculars;
 };
-void PrintTo(const MotionMetric& w, std::ostream* out) { *out << w.technique << w.block; }
+void PrintTo(const Variant& v, std::ostream* out) { *out << v.technique << v.block; }
 
-class GlLinking : public test::GlTest, public testing::WithParamInterface<MotionMetric> {};
+class GlLinking : public test::GlTest, public testing::WithParamInterface<Variant> {};
 
 TEST_P(GlLinking, LooksTheSameOnBothBackends) {
   Scene scene;
@@ -40,16 +40,13 @@ TEST_P(GlLinking, LooksTheSameOnBothBackends) {
   settings.set("block", std::string(GetParam().block));
   settings.set("speculars", GetParam().speculars);
   FrameRenderer gl(makeGlBackend()), cpu(makeCpuBackend());
-  const Image plain =
-      test::renderSettled(gl, scene, SceneChanges::all(), view, settings).radiance->pixels();
+  const Image plain = test::settledPicture(gl, scene, SceneChanges::all(), view, settings);
   const Scene before = scene;
   scene.find(lamp)->light.leftOut = {left, strip};
   scene.find(bulb)->light.leftOut = {box};
-  // Live on one, afresh on the other.
-  const Image a =
-      test::renderSettled(gl, scene, compare(before, scene), view, settings).radiance->pixels();
-  const Image b =
-      test::renderSettled(cpu, scene, SceneChanges::all(), view, settings).radiance->pixels();
+  // One picture after an edit on the gl backend, the other rendered fresh on the cpu backend.
+  const Image a = test::settledPicture(gl, scene, compare(before, scene), view, settings);
+  const Image b = test::settledPicture(cpu, scene, SceneChanges::all(), view, settings);
   const Metrics m = compareImages(a, b);
   RecordProperty("relRmse", std::to_string(m.relRmse));
   EXPECT_LT(m.relRmse, 0.03);
@@ -58,10 +55,9 @@ TEST_P(GlLinking, LooksTheSameOnBothBackends) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, GlLinking,
-                         testing::Values(MotionMetric{"naive", "1", false},
-                                         MotionMetric{"naive", "1", true},
-                                         MotionMetric{"light_maps", "1", true},
-                                         MotionMetric{"light_maps", "4", false}));
+                         testing::Values(Variant{"naive", "1", false}, Variant{"naive", "1", true},
+                                         Variant{"light_maps", "1", true},
+                                         Variant{"light_maps", "4", false}));
 
 }  // namespace
 }  // namespace lamplighter

@@ -1,5 +1,5 @@
-// What lights leave out: none of their direct light arrives there, all else is as it was, in every
-// method; and linking live gives the picture of a scene opened so.
+// Light linking: excluded objects get no direct light of the light, nothing else changes, and all
+// methods agree. An edit of the lists gives the picture of the newly opened scene.
 #include "renderer/scene/light_linking.h"
 
 #include <fstream>
@@ -10,6 +10,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/gltf_files.h"
+#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scene_equality.h"
@@ -21,7 +22,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// Two tiles side by side in one plane, a box on the left one, and two lights.
+// Two squares side by side in one plane, a box on the left one, and two lights.
 struct Tiles {
   Scene scene;
   NodeId left, right, box, group, lamp, bulb;
@@ -41,10 +42,10 @@ struct Tiles {
   std::vector<NodeId>& leftOut(NodeId light) { return scene.find(light)->light.leftOut; }
 };
 
-TEST(LightLinking, ListsAreSharedAndGoDownTheTree) {
+TEST(LightLinking, EqualListsAreSharedAndIncludeDescendants) {
   Tiles t;
   t.leftOut(t.lamp) = {t.left, t.group};
-  t.leftOut(t.bulb) = {t.left, t.group, 77};  // one that is gone
+  t.leftOut(t.bulb) = {t.left, t.group, 77};  // the last one does not exist
   t.scene.skyLight.leftOut = {t.right};
   const LightLinks links = lightLinks(t.scene);
   EXPECT_EQ(links.count, 2u);
@@ -57,7 +58,7 @@ TEST(LightLinking, ListsAreSharedAndGoDownTheTree) {
   EXPECT_FALSE(isLeftOut(~0u, 0));
 }
 
-// Direct light alone, at two points: E of the lamp by Lambert's formula, of the bulb by I cos/d².
+// Direct light only, at two points: the lamp by Lambert's formula, the bulb by I cos θ / d².
 TEST(LightLinking, DirectLightIsThatOfTheOtherLights) {
   Tiles t;
   t.leftOut(t.lamp) = {t.left};
@@ -75,8 +76,8 @@ TEST(LightLinking, DirectLightIsThatOfTheOtherLights) {
           sum += image.at(static_cast<int>(at.x) + dx, static_cast<int>(at.y) + dy) / 9.0f;
       return sum;
     };
-    const vec3 way = vec3(1, 2, 1) - p;
-    const vec3 bulb = vec3(3, 4, 5) * (way.y / std::pow(glm::length(way), 3.0f));
+    const vec3 toBulb = vec3(1, 2, 1) - p;
+    const vec3 bulb = vec3(3, 4, 5) * (toBulb.y / std::pow(glm::length(toBulb), 3.0f));
     const float h = 0.3f;
     const vec3 lamp =
         vec3(20, 18, 16) * kPi *
@@ -108,12 +109,7 @@ Settings manyLights(const char* technique, bool prt, int prtBounces = 0) {
   return s;
 }
 
-Image settled(FrameRenderer& renderer, const Scene& scene, const SceneChanges& changes,
-              const View& view, const Settings& settings) {
-  return test::renderSettled(renderer, scene, changes, view, settings).radiance->pixels();
-}
-
-struct MotionMetric {
+struct Variant {
   const char* name;
   const char* technique;
   bool prt;
@@ -121,11 +117,11 @@ struct MotionMetric {
   bool speculars;
   int prtBounces = 0;
 };
-void PrintTo(const MotionMetric& w, std::ostream* out) { *out << w.name; }
-class LiveLinking : public testing::TestWithParam<MotionMetric> {};
+void PrintTo(const Variant& v, std::ostream* out) { *out << v.name; }
+class LiveLinking : public testing::TestWithParam<Variant> {};
 
-// Lists change, with a light under way and an object moved: the same bits as opened afresh.
-TEST_P(LiveLinking, IsTheRebuiltPicture) {
+// The lists change between moves of lights and objects: the bits are those of a fresh render.
+TEST_P(LiveLinking, EqualsAFreshRender) {
   Tiles t;
   const int gloss = test::addMaterial(t.scene, vec3(0.6f));
   t.scene.materials[static_cast<size_t>(gloss)].roughness = 0.3f;
@@ -136,79 +132,69 @@ TEST_P(LiveLinking, IsTheRebuiltPicture) {
   settings.set("block", std::string(GetParam().block));
   settings.set("speculars", GetParam().speculars);
   FrameRenderer live(makeCpuBackend());
-  settled(live, t.scene, SceneChanges::all(), t.view, settings);
+  test::settledPicture(live, t.scene, SceneChanges::all(), t.view, settings);
   const auto edit = [&](const char* what, auto change) {
     const Scene before = t.scene;
     change();
-    const Image now = settled(live, t.scene, compare(before, t.scene), t.view, settings);
-    FrameRenderer fresh(makeCpuBackend());
-    const Image anew = settled(fresh, t.scene, SceneChanges::all(), t.view, settings);
-    EXPECT_TRUE(test::sameBits(now, anew)) << what;
-    return now;
+    const Image edited =
+        test::settledPicture(live, t.scene, compare(before, t.scene), t.view, settings);
+    const Image expected = test::freshPicture(makeCpuBackend(), t.scene, t.view, settings);
+    EXPECT_TRUE(test::sameBits(edited, expected)) << what;
+    return edited;
   };
-  edit("lamp leaves out the left", [&] { t.leftOut(t.lamp) = {t.left}; });
-  edit("bulb the ball", [&] { t.leftOut(t.bulb) = {ball}; });
-  edit("the left moved", [&] { t.scene.find(t.left)->local.translation.z = -0.3f; });
-  edit("sky the group", [&] { t.scene.skyLight.leftOut = {t.group}; });
+  edit("lamp excludes the left square", [&] { t.leftOut(t.lamp) = {t.left}; });
+  edit("bulb excludes the ball", [&] { t.leftOut(t.bulb) = {ball}; });
+  edit("left square moved", [&] { t.scene.find(t.left)->local.translation.z = -0.3f; });
+  edit("sky excludes the group", [&] { t.scene.skyLight.leftOut = {t.group}; });
   edit("lamp moved", [&] { t.scene.find(t.lamp)->local.translation.x = -0.6f; });
-  edit("lamp lights all", [&] { t.leftOut(t.lamp).clear(); });  // links are numbered anew
-  edit("all do", [&] {
+  edit("lamp lights all", [&] { t.leftOut(t.lamp).clear(); });  // changes the numbers of links
+  edit("all lights light all", [&] {
     t.leftOut(t.bulb).clear();
     t.scene.skyLight.leftOut.clear();
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, LiveLinking,
-    testing::Values(MotionMetric{"naive", "naive", false, "1", true},
-                    MotionMetric{"visibility", "visibility", false, "1", false},
-                    MotionMetric{"light_maps", "light_maps", false, "1", true},
-                    MotionMetric{"low_resolution", "light_maps", false, "4", false},
-                    MotionMetric{"transfer", "light_maps", true, "1", false},
-                    MotionMetric{"reflecting", "light_maps", true, "1", false, 4}),
-    [](const auto& i) { return std::string(i.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, LiveLinking,
+                         testing::Values(Variant{"naive", "naive", false, "1", true},
+                                         Variant{"visibility", "visibility", false, "1", false},
+                                         Variant{"light_maps", "light_maps", false, "1", true},
+                                         Variant{"low_resolution", "light_maps", false, "4", false},
+                                         Variant{"transfer", "light_maps", true, "1", false},
+                                         Variant{"reflecting", "light_maps", true, "1", false, 4}),
+                         [](const auto& i) { return std::string(i.param.name); });
 
-// All techniques give nearly one picture, and it is the path tracer's.
+// All techniques give nearly the picture of the path tracer.
 TEST(LightLinking, MethodsAgree) {
   Tiles t;
   t.leftOut(t.lamp) = {t.left, t.box};
   t.scene.sky = vec3(0.2f, 0.3f, 0.4f);
   t.scene.skyLight.leftOut = {t.right};
   const Image reference = test::renderReference(t.scene, t.view, 400, 2);
-  const auto inBlocks = [](const Image& image) {
-    constexpr int kSide = 4;
-    Image out(image.width / kSide, image.height / kSide);
-    for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x)
-        out.at(x / kSide, y / kSide) += image.at(x, y) / static_cast<float>(kSide * kSide);
-    return out;
-  };
+  const auto blockMeans = [](const Image& image) { return test::blockMeans(image, 4); };
   for (const char* technique : {"naive", "visibility", "light_maps"}) {
     Settings s = manyLights(technique, false);
     s.set("vpls", 2048);
     s.set("antialias", 4);
     s.set("corner_light", true);
-    FrameRenderer renderer(makeCpuBackend());
-    const Image picture = settled(renderer, t.scene, SceneChanges::all(), t.view, s);
-    const Metrics m = compareImages(inBlocks(picture), inBlocks(reference));
+    const Image picture = test::freshPicture(makeCpuBackend(), t.scene, t.view, s);
+    const Metrics m = compareImages(blockMeans(picture), blockMeans(reference));
     EXPECT_LT(m.relRmse, 0.05) << technique;
     EXPECT_NEAR(m.bias, 1.0, 0.02) << technique;
   }
-  // It matters: without links the picture is another.
+  // Verifies that linking changes the picture.
   Tiles plain;
   plain.scene.sky = t.scene.sky;
-  const Metrics other = compareImages(inBlocks(test::renderReference(plain.scene, t.view, 64, 2)),
-                                      inBlocks(reference));
+  const Metrics other = compareImages(blockMeans(test::renderReference(plain.scene, t.view, 64, 2)),
+                                      blockMeans(reference));
   EXPECT_GT(other.relRmse, 0.3);
 }
 
-// A light whose paths all end on what it leaves out gives no bounced light either.
-TEST(LightLinking, WhatIsLeftOutReflectsNoneOfIt) {
+// If all light paths end on excluded objects, there is no indirect light.
+TEST(LightLinking, ExcludedObjectsReflectNoneOfTheLight) {
   Tiles t;
   std::erase_if(t.scene.nodes, [&](const Node& n) { return n.id == t.bulb; });
   t.leftOut(t.lamp) = {t.left, t.right, t.group};
-  RenderScene render;
-  update(render, t.scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(t.scene);
   const RayCaster rays(render);
   const VplSet set = generateVpls(render, rays, LightSet(render), {200, 0.5f, 2, 1});
   ASSERT_FALSE(set.vpls.empty());
@@ -221,7 +207,7 @@ TEST(LightLinking, WhatIsLeftOutReflectsNoneOfIt) {
             vec3(0.0f));
 }
 
-TEST(LightLinking, IsSavedByPlaceInTheFile) {
+TEST(LightLinking, IsSavedByNodeIndex) {
   const test::TemporaryFolder folder;
   Tiles t;
   t.leftOut(t.lamp) = {t.left, t.group};
@@ -240,7 +226,7 @@ TEST(LightLinking, IsSavedByPlaceInTheFile) {
   };
   EXPECT_EQ(lampOf(loaded).light.leftOut.size(), 2u);
   EXPECT_EQ(names(loaded, loaded.skyLight.leftOut), std::vector<int>{t.scene.find(t.box)->mesh});
-  // A node that goes moves the numbers of those behind it.
+  // Removing a node changes the indices of the nodes behind it.
   const int box = t.scene.find(t.box)->mesh;
   std::erase_if(loaded.nodes, [](const Node& n) { return n.mesh == 0; });
   saveGltf(loaded, folder.path() / "less.gltf");

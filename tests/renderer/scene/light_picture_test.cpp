@@ -1,5 +1,5 @@
-// Pictures on area lights: how much light they leave, which way up they are, and files. That the
-// live picture is the path tracer's: methods/light_kinds_test.cpp.
+// Pictures on area lights: emitted flux, orientation, and saving. methods/light_kinds_test.cpp
+// compares the rendered pictures with the path tracer.
 #include "renderer/scene/light_picture.h"
 
 #include <fstream>
@@ -18,7 +18,7 @@
 namespace lamplighter {
 namespace {
 
-// Red above left, green above right, blue below left, dark below right.
+// Red top left, green top right, blue bottom left, black bottom right.
 std::shared_ptr<const LightPicture> quarters() {
   Image8 image(8, 8);
   for (int y = 0; y < 8; ++y) {
@@ -34,7 +34,7 @@ std::shared_ptr<const LightPicture> quarters() {
   return decodeLightPicture(bytes, "quarters.png", why);
 }
 
-// On a floor, facing it or along −Z.
+// A floor and an area light with the picture, facing down.
 struct Lit {
   Scene scene;
   NodeId lamp;
@@ -47,7 +47,7 @@ struct Lit {
   }
 };
 
-TEST(LightPictures, TheMeanIsThatOfLinearTexels) {
+TEST(LightPictures, TheMeanUsesLinearTexels) {
   const auto picture = quarters();
   ASSERT_NE(picture, nullptr);
   for (int c = 0; c < 3; ++c) {
@@ -57,15 +57,14 @@ TEST(LightPictures, TheMeanIsThatOfLinearTexels) {
   AreaLight light;
   light.picture = picture;
   EXPECT_EQ(meanFactor(light), picture->mean);
-  light.shape = AreaShape::sphere;  // shows none
+  light.shape = AreaShape::sphere;  // a sphere does not show the picture
   EXPECT_EQ(meanFactor(light), vec3(1.0f));
 }
 
-TEST(LightPictures, FluxIsTheMeansShareOfThePlainLights) {
+TEST(LightPictures, FluxIsScaledByTheMean) {
   for (const AreaShape shape : {AreaShape::rectangle, AreaShape::disk}) {
     Lit lit(shape);
-    RenderScene render;
-    update(render, lit.scene, SceneChanges::all());
+    RenderScene render = test::renderSceneOf(lit.scene);
     const vec3 with = LightSet(render).emitters()[0].flux;
     lit.scene.find(lit.lamp)->area->picture = nullptr;
     update(render, lit.scene, SceneChanges::all());
@@ -74,12 +73,12 @@ TEST(LightPictures, FluxIsTheMeansShareOfThePlainLights) {
   }
 }
 
-// Looked at from where it shines to: as an eye would see a screen.
+// Seen from the front, as a screen is seen.
 TEST(LightPictures, AreUprightFromTheFront) {
   for (const AreaShape shape : {AreaShape::rectangle, AreaShape::disk}) {
     Lit lit(shape);
     Node& lamp = *lit.scene.find(lit.lamp);
-    lamp.local = Transform();  // it shines along −Z
+    lamp.local = Transform();  // it emits along −Z
     lamp.area->size = vec2(1.0f);
     lit.scene.nodes.erase(lit.scene.nodes.begin());
     const Image seen =
@@ -96,22 +95,20 @@ TEST(LightPictures, AreUprightFromTheFront) {
   }
 }
 
-// Edit by edit the renderer's scene is what a new one would be.
-TEST(LightPictures, UpdatesAsARebuildWould) {
+// After each edit, the incrementally updated RenderScene equals a new one.
+TEST(LightPictures, IncrementalUpdatesEqualANewScene) {
   Lit lit;
-  RenderScene live;
-  update(live, lit.scene, SceneChanges::all());
+  RenderScene live = test::renderSceneOf(lit.scene);
   Scene shown = lit.scene;
   const auto edit = [&](const char* what, auto change) {
     change(*lit.scene.find(lit.lamp));
     update(live, lit.scene, compare(shown, lit.scene));
     shown = lit.scene;
-    RenderScene anew;
-    update(anew, lit.scene, SceneChanges::all());
-    ASSERT_EQ(live.materials.size(), anew.materials.size()) << what;
-    for (size_t i = 0; i < anew.materials.size(); ++i)
-      EXPECT_TRUE(live.materials[i] == anew.materials[i]) << what << " " << i;
-    EXPECT_TRUE(live.textures == anew.textures) << what;
+    const RenderScene fresh = test::renderSceneOf(lit.scene);
+    ASSERT_EQ(live.materials.size(), fresh.materials.size()) << what;
+    for (size_t i = 0; i < fresh.materials.size(); ++i)
+      EXPECT_TRUE(live.materials[i] == fresh.materials[i]) << what << " " << i;
+    EXPECT_TRUE(live.textures == fresh.textures) << what;
   };
   edit("brighter", [](Node& n) { n.area->radiance *= 2.0f; });
   edit("off", [](Node& n) { n.light.on = false; });
@@ -130,19 +127,19 @@ TEST(LightPictures, AreSavedBesideTheScene) {
     saveGltf(lit.scene, folder.path() / name);
     const LoadedScene loaded = loadGltf(folder.path() / name);
     EXPECT_EQ(test::difference(lit.scene, loaded.scene), "") << name;
-    // And from there to another folder.
+    // Saved again, to another folder.
     std::filesystem::create_directories(folder.path() / "other");
     saveGltf(loaded.scene, folder.path() / "other" / name);
     EXPECT_EQ(test::difference(lit.scene, loadGltf(folder.path() / "other" / name).scene), "");
   }
-  // One that is gone is a plain light, with a warning.
+  // If the picture file is missing, the light has no picture, and there is a warning.
   std::filesystem::remove(folder.path() / "quarters.png");
   const LoadedScene without = loadGltf(folder.path() / "s.gltf");
   EXPECT_FALSE(without.warnings.empty());
   EXPECT_EQ(without.scene.nodes.back().area->picture, nullptr);
 }
 
-TEST(LightPictures, WhatIsNoneIsRefusedInOneLine) {
+TEST(LightPictures, FilesThatAreNoPictureAreRejectedWithOneLine) {
   const test::TemporaryFolder folder;
   writePng(Image8(2, 2), folder.path() / "white.png");
   EXPECT_NE(readLightPicture(folder.path() / "white.png"), nullptr);

@@ -1,4 +1,4 @@
-// What does not shine: which lights those are, what the renderer makes of them, and files.
+// States of lights (off, solo, groups): which lights emit, the renderer's scene, and saving.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -30,10 +30,9 @@ class LightStates : public testing::Test {
     scene_.sky = vec3(0.5f);
   }
   LightState& state(NodeId id) { return scene_.find(id)->light; }
-  // The nodes whose light reaches the renderer, and kNoNode for the sky.
-  std::vector<NodeId> shining() {
-    RenderScene render;
-    update(render, scene_, SceneChanges::all());
+  // The nodes that emit, with kNoNode for the sky.
+  std::vector<NodeId> emitting() {
+    const RenderScene render = test::renderSceneOf(scene_);
     return emittersOf(render);
   }
   static std::vector<NodeId> emittersOf(const RenderScene& render) {
@@ -48,41 +47,40 @@ class LightStates : public testing::Test {
 using testing::ElementsAre;
 
 TEST_F(LightStates, OffSoloAndGroups) {
-  EXPECT_THAT(shining(), ElementsAre(kNoNode, area_, point_, glow_, twin_));
+  EXPECT_THAT(emitting(), ElementsAre(kNoNode, area_, point_, glow_, twin_));
   state(area_).on = false;
   state(glow_).on = false;
-  EXPECT_THAT(shining(), ElementsAre(kNoNode, point_, twin_));
+  EXPECT_THAT(emitting(), ElementsAre(kNoNode, point_, twin_));
   state(twin_).solo = true;
-  EXPECT_THAT(shining(), ElementsAre(twin_));
-  state(area_).solo = true;  // but it is off
-  EXPECT_THAT(shining(), ElementsAre(twin_));
+  EXPECT_THAT(emitting(), ElementsAre(twin_));
+  state(area_).solo = true;  // it is off, though
+  EXPECT_THAT(emitting(), ElementsAre(twin_));
   scene_.skyLight.solo = true;
-  EXPECT_THAT(shining(), ElementsAre(kNoNode, twin_));
+  EXPECT_THAT(emitting(), ElementsAre(kNoNode, twin_));
   scene_.skyLight = {.on = false};
   state(twin_).solo = state(area_).solo = false;
-  EXPECT_THAT(shining(), ElementsAre(point_, twin_));
+  EXPECT_THAT(emitting(), ElementsAre(point_, twin_));
 }
 
 TEST_F(LightStates, GroupsAreMutedAndSolo) {
   scene_.lightGroups = {{"a"}, {"b"}};
   state(area_).group = state(glow_).group = "a";
   state(point_).group = "b";
-  state(twin_).group = "gone";  // of no group that is there
+  state(twin_).group = "gone";  // this group does not exist
   scene_.lightGroups[0].muted = true;
-  EXPECT_THAT(shining(), ElementsAre(kNoNode, point_, twin_));
+  EXPECT_THAT(emitting(), ElementsAre(kNoNode, point_, twin_));
   scene_.lightGroups[0] = {"a", false, true};
-  EXPECT_THAT(shining(), ElementsAre(area_, glow_));
-  // Solo on what is no light darkens nothing.
+  EXPECT_THAT(emitting(), ElementsAre(area_, glow_));
+  // Solo on an object that is not a light has no effect.
   scene_.lightGroups[0].solo = false;
   state(floor_).solo = true;
-  EXPECT_EQ(shining().size(), 5u);
+  EXPECT_EQ(emitting().size(), 5u);
 }
 
-// Edit by edit the renderer's scene is what a new one would be, and the twin of a shared material
-// shines on.
-TEST_F(LightStates, UpdatesAsARebuildWould) {
-  RenderScene live;
-  update(live, scene_, SceneChanges::all());
+// After each edit, the incrementally updated RenderScene equals a new one. An object with the same
+// material still emits.
+TEST_F(LightStates, IncrementalUpdatesEqualANewScene) {
+  RenderScene live = test::renderSceneOf(scene_);
   Scene shown = scene_;
   const auto edit = [&](const char* what, auto change) {
     change();
@@ -91,15 +89,14 @@ TEST_F(LightStates, UpdatesAsARebuildWould) {
     const bool structure = changes.structure;
     update(live, scene_, changes);
     shown = scene_;
-    RenderScene anew;
-    update(anew, scene_, SceneChanges::all());
-    EXPECT_EQ(emittersOf(live), emittersOf(anew)) << what;
-    EXPECT_EQ(live.materials.size(), anew.materials.size()) << what;
-    for (size_t i = 0; i < anew.materials.size(); ++i)
-      EXPECT_TRUE(live.materials[i] == anew.materials[i]) << what << " " << i;
-    for (size_t i = 0; i < anew.objects.size(); ++i)
-      EXPECT_EQ(live.objects[i].material, anew.objects[i].material) << what;
-    EXPECT_TRUE(live.sky == anew.sky) << what;
+    const RenderScene fresh = test::renderSceneOf(scene_);
+    EXPECT_EQ(emittersOf(live), emittersOf(fresh)) << what;
+    EXPECT_EQ(live.materials.size(), fresh.materials.size()) << what;
+    for (size_t i = 0; i < fresh.materials.size(); ++i)
+      EXPECT_TRUE(live.materials[i] == fresh.materials[i]) << what << " " << i;
+    for (size_t i = 0; i < fresh.objects.size(); ++i)
+      EXPECT_EQ(live.objects[i].material, fresh.objects[i].material) << what;
+    EXPECT_TRUE(live.sky == fresh.sky) << what;
     return structure;
   };
   EXPECT_FALSE(edit("area off", [&] { state(area_).on = false; }));
@@ -132,7 +129,7 @@ TEST_F(LightStates, AreSavedAndLoaded) {
   EXPECT_EQ(loaded.skyLight, scene_.skyLight);
   EXPECT_EQ(loaded.nodes[1].light, state(area_));
   EXPECT_EQ(loaded.nodes[2].light, state(point_));
-  // What is taken back leaves no note.
+  // Default states write no extras.
   Scene plain = loaded;
   plain.lightGroups.clear();
   plain.skyLight = {};
@@ -143,7 +140,7 @@ TEST_F(LightStates, AreSavedAndLoaded) {
   EXPECT_TRUE(again.lightGroups.empty());
 }
 
-TEST_F(LightStates, NotesOfAnotherTypeAreRefusedInOneLine) {
+TEST_F(LightStates, ExtrasOfAWrongTypeAreRejectedWithOneLine) {
   const test::TemporaryFolder folder;
   state(area_) = {false, true, "a"};
   saveGltf(scene_, folder.path() / "s.gltf");
@@ -172,12 +169,11 @@ TEST(TubeLights, HaveTheAreaOfACylinderAndAreSaved) {
   Scene scene;
   const NodeId id = test::addNode(scene, "tube");
   scene.find(id)->area = AreaLight{AreaShape::tube, vec3(3, 2, 1), vec2(1.2f, 0.05f)};
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const LightSet lights(render);
   ASSERT_EQ(lights.emitters().size(), 1u);
   EXPECT_NEAR(lights.emitters()[0].area, kPi * 0.05f * 1.2f, 1e-6f);
-  // Faces look outwards, and it is centred along X.
+  // Faces point outwards, and the tube is centred on the X axis.
   for (size_t i = 0; i < render.indices.size(); i += 3) {
     const vec3 &a = render.positions[render.indices[i]],
                &b = render.positions[render.indices[i + 1]],

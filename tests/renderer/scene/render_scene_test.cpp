@@ -22,7 +22,7 @@ float surfaceArea(const RenderScene& s, const RenderObject& o) {
   return area;
 }
 
-TEST(RenderScene, MovingEqualsBuildingAnew) {
+TEST(RenderScene, MovingEqualsRebuilding) {
   Scene scene;
   addMaterial(scene, vec3(0.5f));
   const NodeId box = addMesh(scene, test::boxMesh(vec3(1.0f), 0));
@@ -41,17 +41,17 @@ TEST(RenderScene, MovingEqualsBuildingAnew) {
   EXPECT_EQ(c.movedObjects, (std::vector<uint32_t>{0, 2}));
   EXPECT_TRUE(c.materials);
 
-  RenderScene anew;
-  update(anew, moved, SceneChanges::all());
-  EXPECT_EQ(render.positions, anew.positions);
-  EXPECT_EQ(render.normals, anew.normals);
-  EXPECT_EQ(render.indices, anew.indices);
-  EXPECT_EQ(render.materials, anew.materials);
-  EXPECT_EQ(render.bounds.min, anew.bounds.min);
-  EXPECT_EQ(render.bounds.max, anew.bounds.max);
+  RenderScene fresh;
+  update(fresh, moved, SceneChanges::all());
+  EXPECT_EQ(render.positions, fresh.positions);
+  EXPECT_EQ(render.normals, fresh.normals);
+  EXPECT_EQ(render.indices, fresh.indices);
+  EXPECT_EQ(render.materials, fresh.materials);
+  EXPECT_EQ(render.bounds.min, fresh.bounds.min);
+  EXPECT_EQ(render.bounds.max, fresh.bounds.max);
 }
 
-TEST(RenderScene, ChangesInARowAreOneChangeFromTheFirstPlace) {
+TEST(RenderScene, MergedChangesKeepTheFirstBounds) {
   RenderSceneChanges changes, later;
   changes.movedObjects = {2};
   changes.movedBounds.emplace_back().add(vec3(1.0f));
@@ -121,7 +121,7 @@ TEST(RenderScene, AHiddenParentHidesItsChildren) {
   EXPECT_TRUE(render.objects.empty());
 }
 
-TEST(Surface, TexturesWrapAsTheySay) {
+TEST(Surface, TexturesUseTheirWrapMode) {
   auto image = std::make_shared<Image8>(2, 1);
   const uint8_t texels[] = {0, 0, 0, 255, 255, 255, 255, 255};
   image->pixels.assign(texels, texels + 8);

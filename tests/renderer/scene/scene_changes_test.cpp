@@ -40,7 +40,7 @@ TEST(SceneChanges, NamesDoNotCount) {
   EXPECT_TRUE(compare(before, after).none());
 }
 
-TEST(SceneChanges, EachKindIsToldApart) {
+TEST(SceneChanges, KindsOfChangesAreDistinguished) {
   Scene before;
   addMaterial(before, vec3(0.5f));
   const NodeId light = addRectangleLight(before, vec3(0, 2, 0), vec2(1.0f), vec3(1.0f));

@@ -1,4 +1,4 @@
-// Charts of objects: once for all instances, from the cache by content, and never from a bad file.
+// Charts of objects: shared by instances, cached by content, and never read from a damaged file.
 #include "renderer/services/object_charts.h"
 
 #include <fstream>
@@ -47,7 +47,7 @@ TEST_F(ObjectChartsTest, InstancesShareALayout) {
   ASSERT_EQ(objects.size(), 2u);
   EXPECT_EQ(charts.computed(), 1u);
   EXPECT_EQ(objects[0].atlas, objects[1].atlas);
-  // The same corner of both has the same texel.
+  // A vertex has the same texel in both instances.
   for (uint32_t corner = 0; corner < 3; ++corner) {
     vec2 texels[2];
     for (uint32_t i = 0; i < 2; ++i)
@@ -88,7 +88,7 @@ TEST_F(ObjectChartsTest, AreaLightsAndFlattenedObjectsHaveNone) {
   EXPECT_EQ(objects[2].atlas, nullptr);
 }
 
-TEST_F(ObjectChartsTest, AFileServesTheNextRunAndADamagedOneIsMadeAgain) {
+TEST_F(ObjectChartsTest, AFileIsReusedAndADamagedOneIsReplaced) {
   std::vector<uint8_t> expected;
   fs::path file;
   {
@@ -118,8 +118,7 @@ TEST_F(ObjectChartsTest, AFileServesTheNextRunAndADamagedOneIsMadeAgain) {
 TEST(MeshAtlas, IgnoresBytesOfAnotherMesh) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(1.0f, 8));
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const MeshAtlas atlas = makeMeshAtlas(render.positions, render.indices, 16.0f);
   const std::vector<uint8_t> bytes = bytesOf(atlas);
   const size_t triangles = render.triangleCount();
@@ -133,8 +132,7 @@ TEST(MeshAtlas, IgnoresBytesOfAnotherMesh) {
 TEST(MeshAtlas, NoTexelBelongsToTwoCharts) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(1.0f, 16));
-  RenderScene render;
-  update(render, scene, SceneChanges::all());
+  const RenderScene render = test::renderSceneOf(scene);
   const MeshAtlas atlas = makeMeshAtlas(render.positions, render.indices, 16.0f);
   std::vector<int> owner(static_cast<size_t>(atlas.size.x) * static_cast<size_t>(atlas.size.y),
                          kNone);

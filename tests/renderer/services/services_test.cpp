@@ -1,4 +1,4 @@
-// Services between frames: movers once a frame, and data that follow the changes of the scene.
+// Services between frames: movers of each frame, and data that follow changes of the scene.
 #include "renderer/services/services.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ class ServicesTest : public testing::Test {
   Services services_;
 };
 
-TEST_F(ServicesTest, NothingIsMadeBeforeItIsAskedFor) {
+TEST_F(ServicesTest, NothingIsComputedBeforeItIsUsed) {
   for (const Service service : kServices) EXPECT_FALSE(services_.hasAsked(service));
   EXPECT_EQ(services_.budget().refineUpdates, 7);
   EXPECT_TRUE(services_.budget().inBackground);
@@ -45,8 +45,8 @@ TEST_F(ServicesTest, NothingIsMadeBeforeItIsAskedFor) {
   EXPECT_FALSE(services_.hasAsked(Service::movers));
 }
 
-TEST_F(ServicesTest, AllWhoAskInAFrameGetItsMovers) {
-  EXPECT_EQ(services_.movers().size(), 2u) << "at first every object";
+TEST_F(ServicesTest, MoversAreTheSameForAllCallersOfAFrame) {
+  EXPECT_EQ(services_.movers().size(), 2u) << "in the first frame all objects are movers";
   move(vec3(1, 0, 0));
   ASSERT_EQ(services_.movers().size(), 1u);
   EXPECT_EQ(services_.movers()[0].node, box_);
@@ -54,10 +54,10 @@ TEST_F(ServicesTest, AllWhoAskInAFrameGetItsMovers) {
   frame({});
   EXPECT_TRUE(services_.movers().empty());
   frame(SceneChanges::all(), true);
-  EXPECT_EQ(services_.movers().size(), 2u) << "of another scene again every object";
+  EXPECT_EQ(services_.movers().size(), 2u) << "in another scene all objects are movers again";
 }
 
-TEST_F(ServicesTest, MoversOfFramesInWhichNobodyAskedAreNotLost) {
+TEST_F(ServicesTest, MoversOfFramesWithoutCallersAreKept) {
   services_.movers();
   move(vec3(1, 0, 0));
   move(vec3(1, 0, 0));

@@ -13,14 +13,15 @@ namespace {
 TEST(ChooseRefreshes, TakesTheHighestPriorityWithinTheBudget) {
   const std::vector<RefreshCandidate> waiting{
       {1, 1, {}}, {5, 1, {}}, {2, 3, {}}, {6, 1, {}}, {3, 2, {}}};
-  EXPECT_EQ(chooseRefreshes(waiting, {3}), (std::vector<size_t>{2, 3, 4}));  // 6, 6, 6, before 5
+  EXPECT_EQ(chooseRefreshes(waiting, {3}),
+            (std::vector<size_t>{2, 3, 4}));  // priorities 6, 6, 6, before 5
   EXPECT_EQ(chooseRefreshes(waiting, {99}), (std::vector<size_t>{2, 3, 4, 1, 0}));
   EXPECT_TRUE(chooseRefreshes(waiting, {0}).empty());
   EXPECT_TRUE(chooseRefreshes({}, {10}).empty());
 }
 
-// Bright maps go stale again in every frame; the dimmest must come to its turn all the same.
-TEST(ChooseRefreshes, StarvesNone) {
+// Bright maps become outdated in every frame. The dimmest map must be refreshed at some time.
+TEST(ChooseRefreshes, EveryMapIsRefreshedAtSomeTime) {
   std::vector<RefreshCandidate> maps(20, {100.0f, 1, {}});
   maps[13].brightness = 2.0f;
   int frame = 1;
@@ -32,10 +33,10 @@ TEST(ChooseRefreshes, StarvesNone) {
     if (std::find(chosen.begin(), chosen.end(), size_t{13}) != chosen.end()) break;
     for (const size_t i : chosen) maps[i].framesWaiting = 1;
   }
-  EXPECT_GT(frame, 100);  // and not before the bright ones earned theirs
+  EXPECT_GT(frame, 100);  // not before its priority justifies it
 }
 
-// Whichever kind of work is scarce, it is not exceeded; but the first always has its turn.
+// No limit of any kind of work is exceeded, except that the first refresh is always done.
 TEST(ChooseRefreshes, KeepsWithinEachKindOfWork) {
   const RefreshWork each{1, 700, 20000, 4096};
   const std::vector<RefreshCandidate> waiting(10, {1.0f, 1, each});
@@ -62,7 +63,7 @@ TEST(SeesMover, UnlessItStaysBehindTheLight) {
   EXPECT_FALSE(seesMover(down, above, Bounds()));
   const shared::Vpl sun = test::makeVpl(vec3(0), vec3(0, 1, 0), shared::kVplDirectional);
   EXPECT_TRUE(seesMover(sun, above, above));
-  // Aslant, the corner that counts is not the lowest one.
+  // For an oblique axis, the decisive corner of the box is not the lowest one.
   const shared::Vpl aslant = test::makeVpl(vec3(0), vec3(1, -1, 0));
   EXPECT_TRUE(seesMover(aslant, Bounds{vec3(-3, 1, 0), vec3(2, 3, 1)}, Bounds()));
   EXPECT_FALSE(seesMover(aslant, Bounds{vec3(-3, 1, 0), vec3(0.9f, 3, 1)}, Bounds()));
@@ -81,7 +82,7 @@ struct Movers : testing::Test {
   bool first = true;
 };
 
-TEST_F(Movers, AreWhatMovedCameOrWentAndNothingElse) {
+TEST_F(Movers, AreMovedAddedAndRemovedObjectsOnly) {
   const NodeId a = test::addMesh(scene, test::boxMesh(vec3(1)), vec3(0));
   test::addMesh(scene, test::boxMesh(vec3(1)), vec3(3, 0, 0));
   EXPECT_EQ(step().size(), 2u);
@@ -94,7 +95,7 @@ TEST_F(Movers, AreWhatMovedCameOrWentAndNothingElse) {
   EXPECT_EQ(movers[0].after.min, vec3(-0.5f, 1.5f, -0.5f));
 
   scene.find(a)->local.rotation = glm::angleAxis(glm::half_pi<float>(), vec3(0, 1, 0));
-  EXPECT_EQ(step().size(), 1u);  // a cube's bounds stay, but it turned
+  EXPECT_EQ(step().size(), 1u);  // the bounds of the cube are the same, but it has rotated
 
   const NodeId c = test::addMesh(scene, test::boxMesh(vec3(1)), vec3(9, 0, 0));
   movers = step();
@@ -111,12 +112,12 @@ TEST_F(Movers, AreWhatMovedCameOrWentAndNothingElse) {
   EXPECT_EQ(movers[1].after.min.x, 19.5f);
 }
 
-TEST_F(Movers, AMaterialThatBecomesClearIsOne) {
+TEST_F(Movers, IncludeObjectsWhoseMaterialBecomesTransparent) {
   const int material = test::addMaterial(scene, vec3(0.5f));
   test::addMesh(scene, test::boxMesh(vec3(1), material));
   step();
   scene.materials[material].baseColor.r = 0.1f;
-  EXPECT_TRUE(step().empty());  // another colour casts the same shadow
+  EXPECT_TRUE(step().empty());  // the shadow does not depend on the colour
   scene.materials[material].transmission = 1.0f;
   EXPECT_EQ(step().size(), 1u);
 }

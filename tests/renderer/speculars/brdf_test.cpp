@@ -1,4 +1,4 @@
-// shaders/shared/brdf.h by itself: what a BRDF must be, and where it ends.
+// shaders/shared/brdf.h alone: general properties of a BRDF, and its limits.
 #include "shaders/shared/brdf.h"
 
 #include <cmath>
@@ -22,8 +22,8 @@ vec3 lobe(const vec3& base, float metallic, float roughness, const vec3& eye, co
   return shared::lobeTowards(l, light.z, glm::dot(light, eye), solidAngle);
 }
 
-// ∫ f cos dω over light's directions, of all of the BRDF or of its lobe: by half vectors, even in
-// the distribution of the roughness, so that narrow lobes are met.
+// ∫ f cos dω over the directions of light, for the whole BRDF or its specular lobe. The half
+// vectors are sampled by the microfacet distribution, so that narrow lobes are sampled well.
 double albedo(const vec3& base, float metallic, float roughness, float cosine, bool diffuse) {
   const vec3 eye(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
   const float a2 = roughness * roughness * roughness * roughness;
@@ -60,8 +60,8 @@ TEST(Brdf, TheLobeIsReciprocal) {
       }
 }
 
-// What the fit of the dielectric's albedo is off is all that may be too much.
-TEST(Brdf, GivesBackNoMoreThanItGets) {
+// Energy may exceed 1 only by the error of the fit of the dielectric's albedo.
+TEST(Brdf, ConservesEnergy) {
   for (const float roughness : {0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1.0f})
     for (const float cosine : {1.0f, 0.8f, 0.45f, 0.2f, 0.1f, 0.05f}) {
       EXPECT_LT(albedo(vec3(1.0f), 1.0f, roughness, cosine, true), 1.002)
@@ -73,7 +73,7 @@ TEST(Brdf, GivesBackNoMoreThanItGets) {
     }
 }
 
-TEST(Brdf, TheFitOfTheDielectricsAlbedoIsClose) {
+TEST(Brdf, TheFitOfTheDielectricAlbedoIsClose) {
   for (const float roughness : {0.2f, 0.3f, 0.45f, 0.6f, 0.75f, 0.9f})
     for (const float cosine : {1.0f, 0.9f, 0.7f, 0.45f, 0.25f, 0.1f, 0.05f}) {
       const double integral = albedo(vec3(0.0f), 0.0f, roughness, cosine, false);
@@ -82,21 +82,21 @@ TEST(Brdf, TheFitOfTheDielectricsAlbedoIsClose) {
     }
 }
 
-TEST(Brdf, ASmoothMetalReflectsItsColourStraightOn) {
+TEST(Brdf, ASmoothMetalReflectsItsColourAtNormalIncidence) {
   const double reflected = albedo(vec3(0.3f, 0.6f, 0.9f), 1.0f, 0.2f, 1.0f, false);
   EXPECT_NEAR(reflected, 0.6, 0.006);
 }
 
-TEST(Brdf, ASmoothDielectricReflectsAFewHundredthsStraightOnAndMoreAside) {
+TEST(Brdf, ASmoothDielectricReflectsFourPercentAtNormalIncidenceAndMoreAtGrazing) {
   EXPECT_NEAR(albedo(vec3(0.0f), 0.0f, 0.2f, 1.0f, false), 0.04, 0.001);
   EXPECT_GT(albedo(vec3(0.0f), 0.0f, 0.2f, 0.17f, false), 0.25);
 }
 
-TEST(Brdf, WhatIsRoughAndNoMetalIsLamberts) {
+TEST(Brdf, ARoughDielectricIsLambertian) {
   EXPECT_FALSE(shared::isGlossy(0.0f, 1.0f));
   EXPECT_EQ(shared::diffuseShare(0.0f, 1.0f, 0.1f, 0.3f), 1.0f);
   EXPECT_EQ(lobe(vec3(0.7f), 0.0f, 1.0f, direction(0.4f, 0), direction(0.5f, 1)), vec3(0.0f));
-  // And nothing jumps on the way there.
+  // The limit is continuous.
   const float nearly = shared::diffuseShare(0.0f, 0.999f, 0.1f, 0.3f);
   EXPECT_NEAR(nearly, 1.0f, 1e-3f);
   EXPECT_TRUE(shared::isGlossy(0.01f, 1.0f));
@@ -107,10 +107,10 @@ TEST(Brdf, AMetalHasNoDiffusePart) {
   EXPECT_EQ(shared::diffuseShare(1.0f, 0.3f, 0.1f, 0.8f), 0.0f);
 }
 
-// The bound that keeps VPLs from being seen: of light of radiance 1 from a small solid angle, no
-// more comes back than a mirror would show, where the half vector is about the normal, and not much
-// more anywhere.
-TEST(Brdf, NoLightSamplesHighlightOutshinesWhatItStandsFor) {
+// The bound that keeps single VPLs from being visible as highlights. Light of radiance 1 from a
+// small solid angle is not reflected brighter than by a mirror where the half vector is close to
+// the normal, and not much brighter elsewhere.
+TEST(Brdf, NoHighlightOfALightSampleIsBrighterThanItsSource) {
   float most = 0.0f, mostStraight = 0.0f;
   for (const float roughness : {0.05f, 0.1f, 0.3f, 0.6f})
     for (const float solidAngle : {1e-4f, 1e-3f, 1e-2f, 0.1f, 1.0f})
@@ -128,7 +128,7 @@ TEST(Brdf, NoLightSamplesHighlightOutshinesWhatItStandsFor) {
   EXPECT_LT(most, 2.0f / shared::kSpread);
 }
 
-// And the widened lobe carries nearly as much light as the narrow one.
+// The widened lobe carries nearly as much light as the narrow one.
 TEST(Brdf, WideningKeepsTheEnergy) {
   const vec3 eye = direction(0.5f, 0.0f);
   const auto total = [&](float solidAngle) {

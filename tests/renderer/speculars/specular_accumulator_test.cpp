@@ -1,5 +1,5 @@
-// The eight-wide speculars against the definition that they follow, shaders/shared/vpl_speculars.h,
-// and what is kept of them.
+// The 8-lane speculars against the scalar definition in shaders/shared/vpl_speculars.h, and their
+// incremental updates.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -20,27 +20,22 @@ using test::makeVpl;
 constexpr int kResolution = 32;
 constexpr float kClamp = 0.5f, kBias = 0.002f, kLeast = 0.1f;
 
-int material(Scene& scene, const vec3& colour, float metallic, float roughness) {
-  const int index = test::addMaterial(scene, colour);
-  scene.materials[static_cast<size_t>(index)].metallic = metallic;
-  scene.materials[static_cast<size_t>(index)].roughness = roughness;
-  return index;
-}
-
 Scene blocks() {
   Scene scene;
-  test::addMesh(scene, test::squareMesh(6.0f, material(scene, vec3(0.9f, 0.6f, 0.3f), 0.0f, 0.3f)));
-  test::addMesh(scene,
-                test::boxMesh(vec3(1.0f), material(scene, vec3(0.9f, 0.7f, 0.3f), 1.0f, 0.5f)),
-                vec3(0.6f, 0.5f, 0.2f));
+  test::addMesh(
+      scene, test::squareMesh(6.0f, test::addMaterial(scene, vec3(0.9f, 0.6f, 0.3f), 0.0f, 0.3f)));
+  test::addMesh(
+      scene,
+      test::boxMesh(vec3(1.0f), test::addMaterial(scene, vec3(0.9f, 0.7f, 0.3f), 1.0f, 0.5f)),
+      vec3(0.6f, 0.5f, 0.2f));
   const NodeId turned = test::addMesh(
-      scene, test::boxMesh(vec3(0.5f, 2, 0.7f), material(scene, vec3(0.5f), 0.0f, 1.0f)),
+      scene, test::boxMesh(vec3(0.5f, 2, 0.7f), test::addMaterial(scene, vec3(0.5f), 0.0f, 1.0f)),
       vec3(-1, 1, 0));
   scene.find(turned)->local.rotation = glm::angleAxis(0.7f, glm::normalize(vec3(0.3f, 1, 0.1f)));
   return scene;
 }
 
-// One of each kind, with and without a footprint.
+// One light of each kind, with and without a footprint.
 std::vector<shared::Vpl> lights() {
   std::vector<shared::Vpl> vpls = {
       makeVpl(vec3(-0.2f, 3, -0.1f), vec3(0.1f, -1, 0.2f)),
@@ -48,11 +43,11 @@ std::vector<shared::Vpl> lights() {
       makeVpl(vec3(2, 3, 1), vec3(-1, -1.5f, -0.3f), shared::kVplUniform, 1.0f),
       makeVpl(vec3(0), vec3(0.5f, 1, 0.4f), shared::kVplDirectional, 2.0f)};
   vpls[0].footprint.x = 0.4f;
-  vpls[1].footprint.x = 3.0f;  // behind which some points are
+  vpls[1].footprint.x = 3.0f;  // so large that some points are behind its disc
   vpls[2].normal.w = 3.0f;
   vpls[2].tangent.w = -2.2f;
   vpls[3].normal.w = 5.0f;
-  vpls[3].tangent.w = 1.7f;  // not all of the scene
+  vpls[3].tangent.w = 1.7f;  // covers only part of the scene
   vpls[3].footprint.x = 0.05f;
   const vec3 intensities[] = {vec3(3, 2, 1), vec3(0.2f, 0.5f, 0.1f), vec3(5, 1, 9),
                               vec3(0.3f, 0.2f, 0.4f)};
@@ -106,9 +101,9 @@ vec3 expectedRadiance(const LitScene& lit, ManyLightsKernels& kernels, const Vie
 
 const View kView = test::lookAt(vec3(3, 3, 4), vec3(0, 0.7f, 0), 61, 47, 0.8f);
 
-TEST(SpecularAccumulator, FollowTheSharedDefinition) {
+TEST(SpecularAccumulator, FollowsTheSharedDefinition) {
   LitScene lit(blocks());
-  lit.sum(lights(), kView, kResolution, true, kClamp, kBias);  // with its maps
+  lit.sum(lights(), kView, kResolution, true, kClamp, kBias);  // renders the shadow maps
   lit.kernels->sumVpls(lights(), paramsOf(true), nullptr);
   const Image image = lit.kernels->compose()->pixels();
   int wrong = 0, dark = 0;
@@ -117,15 +112,15 @@ TEST(SpecularAccumulator, FollowTheSharedDefinition) {
       const vec3 expected = expectedRadiance(lit, *lit.kernels, kView, x, y);
       const vec3 d = glm::abs(image.at(x, y) - expected);
       dark += expected == vec3(0.0f);
-      wrong += !(std::max({d.x, d.y, d.z}) <= 1e-4f + 2e-3f * expected.g);  // no number is wrong
+      wrong += !(std::max({d.x, d.y, d.z}) <= 1e-4f + 2e-3f * expected.g);  // NaN counts as wrong
     }
   }
   EXPECT_LT(dark, kView.width * kView.height / 2);
-  // The rounding of a point may put it into the neighbouring texel.
+  // Due to rounding, a point may use the neighbouring texel.
   EXPECT_LE(wrong, kView.width * kView.height / 500);
 }
 
-TEST(SpecularAccumulator, AreThereOnlyWhereAskedFor) {
+TEST(SpecularAccumulator, AddsSpecularsOnlyIfEnabled) {
   LitScene lit(blocks());
   const Image matt = lit.sum(lights(), kView, kResolution, true, kClamp, kBias);
   lit.kernels->sumVpls(lights(), paramsOf(true), nullptr);
@@ -134,12 +129,12 @@ TEST(SpecularAccumulator, AreThereOnlyWhereAskedFor) {
   lit.kernels->sumVpls(lights(), paramsOf(false), nullptr);
   EXPECT_TRUE(test::sameBits(lit.kernels->compose()->pixels(), matt));
   EXPECT_FALSE(test::sameBits(glossy, matt));
-  // Light alone is that of the surface, whatever it is made of.
+  // A picture of white surfaces does not depend on the materials.
   EXPECT_TRUE(test::sameBits(lit.kernels->compose(true)->pixels(), white));
 }
 
-// What is kept must be what would be summed anew: a light that changes, a map that does.
-TEST(SpecularAccumulator, KeptAreTheBitsOfFreshOnes) {
+// Incremental updates equal a new sum, after a change of a light and of a shadow map.
+TEST(SpecularAccumulator, IncrementalUpdatesHaveTheBitsOfANewSum) {
   LitScene lit(blocks());
   lit.sum(lights(), kView, kResolution, true, kClamp, kBias);
   std::vector<shared::Vpl> vpls = lights();

@@ -1,22 +1,16 @@
-// Speculars in whole pictures, against the path tracer's and against closed forms.
+// Speculars in whole pictures, against the path tracer and against closed forms.
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
-
-int material(Scene& scene, const vec3& colour, float metallic, float roughness) {
-  const int index = test::addMaterial(scene, colour);
-  scene.materials[static_cast<size_t>(index)].metallic = metallic;
-  scene.materials[static_cast<size_t>(index)].roughness = roughness;
-  return index;
-}
 
 Image render(const Scene& scene, const View& view, const std::string& method,
              const Settings& settings) {
@@ -26,7 +20,7 @@ Image render(const Scene& scene, const View& view, const std::string& method,
     const GiOutput out = renderer.render({scene, changes, view, method, settings});
     if (out.settled) return out.radiance->pixels();
   }
-  ADD_FAILURE() << "never settled";
+  ADD_FAILURE() << "not settled";
   return {};
 }
 
@@ -48,12 +42,13 @@ Image manyLights(const Scene& scene, const View& view, int vpls, int bounces) {
   return render(scene, view, "many_lights", s);
 }
 
-// Seen straight on a smooth metal reflects its colour, and what is between it and a dielectric goes
-// between: a body under an even sky of radiance 1.
-TEST(SpecularPictures, ABodyUnderAnEvenSkyReflectsItsAlbedo) {
+// Seen at normal incidence below a constant sky of radiance 1: a smooth metal reflects its colour,
+// a smooth dielectric its diffuse colour plus 4%, and a rough dielectric its colour.
+TEST(SpecularPictures, AFloorUnderAConstantSkyReflectsItsAlbedo) {
   const auto mean = [](float metallic, float roughness) {
     Scene scene;
-    test::addMesh(scene, test::squareMesh(20.0f, material(scene, vec3(0.6f), metallic, roughness)));
+    test::addMesh(
+        scene, test::squareMesh(20.0f, test::addMaterial(scene, vec3(0.6f), metallic, roughness)));
     scene.sky = vec3(1.0f);
     const View above = test::lookAt(vec3(0.2f, 5, 0.1f), vec3(0), 12, 12, 0.05f);
     return test::meanOf(reference(scene, above, 256, 1)).g;
@@ -63,11 +58,11 @@ TEST(SpecularPictures, ABodyUnderAnEvenSkyReflectsItsAlbedo) {
   EXPECT_NEAR(mean(0.0f, 1.0f), 0.6f, 0.01f);
 }
 
-// A floor before a wall, under a light that it mirrors.
+// A glossy floor that reflects an area light.
 Scene glossyFloor(float metallic, float roughness) {
   Scene scene;
-  test::addMesh(
-      scene, test::squareMesh(8.0f, material(scene, vec3(0.5f, 0.4f, 0.3f), metallic, roughness)));
+  test::addMesh(scene, test::squareMesh(8.0f, test::addMaterial(scene, vec3(0.5f, 0.4f, 0.3f),
+                                                                metallic, roughness)));
   const NodeId light =
       test::addRectangleLight(scene, vec3(0, 1.2f, -1.5f), vec2(1.2f, 0.8f), vec3(6, 5, 4));
   scene.find(light)->local.rotation = glm::angleAxis(kPi, vec3(0, 1, 0));  // towards +Z, the eye
@@ -75,7 +70,7 @@ Scene glossyFloor(float metallic, float roughness) {
 }
 const View kFloorView = test::lookAt(vec3(0.2f, 1.1f, 2.5f), vec3(0, 0, -0.2f), 48, 36, 0.7f);
 
-// The lower half, where only floor is.
+// The error in the lower half of the picture, which shows only the floor.
 double error(const Scene& scene, const Image& reference, int vpls) {
   const Image image = manyLights(scene, kFloorView, vpls, 0);
   double sum = 0.0, squares = 0.0;
@@ -108,8 +103,8 @@ float brightestOfFloor(const Image& image) {
   return most;
 }
 
-// However few VPLs stand for the light, none shows brighter than the light's mirror picture.
-TEST(SpecularPictures, NoLightSampleShowsAsASpot) {
+// For any number of VPLs, none of their highlights is brighter than the mirror image of the light.
+TEST(SpecularPictures, NoLightSampleIsVisibleAsASpot) {
   const Scene scene = glossyFloor(1.0f, 0.1f);
   const float mirrored = brightestOfFloor(reference(scene, kFloorView, 64, 0));
   for (const int vpls : {1, 4, 16, 64}) {
@@ -120,7 +115,7 @@ TEST(SpecularPictures, NoLightSampleShowsAsASpot) {
   }
 }
 
-// A room with one window: panes that light passes are as if they were not there.
+// A room with one window: transparent panes do not change the light.
 TEST(SpecularPictures, GlazedWindowsLetLightIn) {
   enum class Pane { none, glass, wood };
   const auto room = [](Pane pane) {
@@ -134,7 +129,7 @@ TEST(SpecularPictures, GlazedWindowsLetLightIn) {
     test::addMesh(scene, test::boxMesh(vec3(4, 1, 0.2f), white), vec3(0, 0.5f, 2));
     test::addMesh(scene, test::boxMesh(vec3(4, 3, 0.2f), white), vec3(0, 3.5f, 2));
     if (pane != Pane::none) {
-      const int glass = material(scene, vec3(0.7f), 0.0f, 0.0f);
+      const int glass = test::addMaterial(scene, vec3(0.7f), 0.0f, 0.0f);
       scene.materials[static_cast<size_t>(glass)].transmission = pane == Pane::glass ? 1.0f : 0.0f;
       test::addMesh(scene, test::boxMesh(vec3(4, 1, 0.02f), glass), vec3(0, 1.5f, 2));
     }
@@ -147,7 +142,7 @@ TEST(SpecularPictures, GlazedWindowsLetLightIn) {
                                    : manyLights(room(pane), view, 64, 1);
     };
     const Image glazed = picture(Pane::glass);
-    // Squares of the sun's light are laid over panes too, so that its samples are not the same.
+    // The tiles of the sun also cover the panes, so the light samples differ slightly.
     const double difference = compareImages(glazed, picture(Pane::none)).relRmse;
     std::printf("%s: %.5f\n", method.c_str(), difference);
     EXPECT_LE(difference, method == "reference" ? 0.0 : 0.03) << method;

@@ -1,8 +1,9 @@
-// Speculars on the gl backend: the pictures of the cpu backend.
+// Speculars on the gl backend give the pictures of the cpu backend.
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/renderer/gl/gl_test.h"
+#include "tests/support/images.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/random_boxes.h"
 #include "tests/support/render.h"
@@ -14,17 +15,7 @@ namespace {
 
 class GlSpeculars : public test::GlTest {};
 
-double differing(const Image& a, const Image& b, float absolute, float relative) {
-  size_t count = 0;
-  for (size_t i = 0; i < a.pixels.size(); ++i) {
-    const vec3 d = glm::abs(a.pixels[i] - b.pixels[i]);
-    const vec3 limit = absolute + relative * glm::abs(b.pixels[i]);
-    count += !(d.r <= limit.r && d.g <= limit.g && d.b <= limit.b);
-  }
-  return static_cast<double>(count) / static_cast<double>(a.pixels.size());
-}
-
-// Every second surface is glossy, one by a texture.
+// Every second surface is glossy, one of them by a texture.
 Scene glossyBoxes() {
   Scene scene = test::randomBoxes(12, 5);
   auto image = std::make_shared<Image8>(8, 8);
@@ -60,16 +51,15 @@ TEST_F(GlSpeculars, LookAsOnCpu) {
   }
   const float mean = test::meanOf(images[1]).g;
   EXPECT_GT(compareImages(images[1], matt[1]).relRmse, 0.05);
-  const double mattShare = differing(matt[0], matt[1], 0.01f * mean, 0.01f);
-  EXPECT_LE(differing(images[0], images[1], 0.01f * mean, 0.01f), mattShare + 0.005);
+  const double mattShare = test::differingShare(matt[0], matt[1], 0.01f * mean, 0.01f);
+  EXPECT_LE(test::differingShare(images[0], images[1], 0.01f * mean, 0.01f), mattShare + 0.005);
 }
 
 TEST_F(GlSpeculars, OfAHelmetLookAsOnCpu) {
   const auto path = test::sharedScenes() / "flight-helmet/FlightHelmet.gltf";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const Scene scene = loadGltf(path).scene;
-  RenderScene world;
-  update(world, scene, SceneChanges::all());
+  const RenderScene world = test::renderSceneOf(scene);
   const View view = viewOfBounds(world.bounds, 96, 72);
   Settings settings;
   settings.set("vpls", 40);

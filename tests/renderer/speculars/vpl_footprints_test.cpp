@@ -19,10 +19,10 @@ struct Footprints {
     findFootprints(lights, set.vpls);
     vpls = std::move(set.vpls);
   }
-  float sum(bool bounced) const {
+  float sum(bool indirect) const {
     float sum = 0.0f;
     for (const SceneVpl& v : vpls)
-      if ((v.id.bounce > 0) == bounced) sum += v.vpl.footprint.x;
+      if ((v.id.bounce > 0) == indirect) sum += v.vpl.footprint.x;
     return sum;
   }
   RenderScene world;
@@ -37,12 +37,12 @@ Scene room() {
   return scene;
 }
 
-TEST(VplFootprints, OfALightAreItsArea) {
+TEST(VplFootprints, OfALightSumToItsArea) {
   const Footprints f(room(), 60, 0);
   EXPECT_NEAR(f.sum(false), 0.8f, 1e-4f);
 }
 
-TEST(VplFootprints, OfTheSkyAreTheWholeSphere) {
+TEST(VplFootprints, OfTheSkySumToTheWholeSphere) {
   Scene scene = room();
   scene.nodes.pop_back();
   scene.sky = vec3(1.0f);
@@ -50,8 +50,9 @@ TEST(VplFootprints, OfTheSkyAreTheWholeSphere) {
   EXPECT_NEAR(f.sum(false), 4.0f * kPi, 1e-3f);
 }
 
-// Together they are about the walls, 94 m²: discs of neighbours overlap, and bend around corners.
-TEST(VplFootprints, OfBouncedLightAreAboutTheWallsArea) {
+// Their sum is about the area of the walls, 94 m²: discs of neighbours overlap and extend around
+// corners.
+TEST(VplFootprints, OfIndirectLightSumToAboutTheAreaOfTheWalls) {
   for (const int total : {200, 1000, 4000}) {
     const Footprints f(room(), total, 1);
     EXPECT_GT(f.sum(true), 50.0f) << total;
@@ -59,7 +60,7 @@ TEST(VplFootprints, OfBouncedLightAreAboutTheWallsArea) {
   }
 }
 
-TEST(VplFootprints, OfPointLightsAreNone) {
+TEST(VplFootprints, OfPointLightsAreZero) {
   Scene scene = room();
   scene.nodes.pop_back();
   Node& lamp = scene.nodes.emplace_back();

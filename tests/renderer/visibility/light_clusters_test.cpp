@@ -1,43 +1,31 @@
-// Clusters of lights spare work and change no entry.
+// Clusters of lights save tests and do not change any entry.
 #include "renderer/visibility/light_clusters.h"
 
-#include <filesystem>
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
-#include "tests/support/folders.h"
 #include "tests/support/random_boxes.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
-std::vector<shared::Vpl> lightsOf(const RenderScene& scene, int count) {
-  const RayCaster rays(scene);
-  std::vector<shared::Vpl> lights;
-  for (const SceneVpl& v : generateVpls(scene, rays, LightSet(scene), {count, 0.5f, 2, 1}).vpls)
-    lights.push_back(v.vpl);
-  return lights;
-}
-
 void fill(VisibilityDatabase& database, const RenderScene& scene,
           std::span<const shared::Vpl> lights) {
-  RenderSceneChanges all;
-  all.rebuilt = true;
-  database.setScene(scene, all);
+  database.setScene(scene, test::everythingRebuilt());
   database.setLights(scene, lights);
 }
 
-// vpls: of the scene; 0: 300 anywhere.
+// With `vpls` light samples of the scene; 0: with 300 random ones.
 void compareStates(const Scene& from, int vpls) {
-  RenderScene scene;
-  update(scene, from, SceneChanges::all());
+  const RenderScene scene = test::renderSceneOf(from);
   const std::vector<shared::Vpl> lights =
-      vpls > 0 ? lightsOf(scene, vpls) : test::randomVpls(300, 7);
+      vpls > 0 ? test::lightsOf(scene, {vpls, 0.5f, 2, 1}) : test::randomVpls(300, 7);
   VisibilityDatabase with, without;
   without.useClusters(false);
   fill(with, scene, lights);
@@ -65,17 +53,13 @@ TEST(LightClusters, StatesAreTheSameInRandomScenes) {
 TEST(LightClusters, StatesAreTheSameInRooms) {
   for (const char* room : {"pillar_room", "area_light_room", "table_room"}) {
     SCOPED_TRACE(room);
-    compareStates(
-        loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(room) + ".gltf")).scene,
-        400);
+    compareStates(test::loadAsset(room), 400);
   }
 }
 
-TEST(LightClusters, HoldEachLightOnceAndFewAndNear) {
-  const Scene from = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-  RenderScene scene;
-  update(scene, from, SceneChanges::all());
-  std::vector<shared::Vpl> lights = lightsOf(scene, 500);
+TEST(LightClusters, ContainEachLightOnceAndAreSmall) {
+  const RenderScene scene = test::renderSceneOf(test::loadAsset("pillar_room"));
+  std::vector<shared::Vpl> lights = test::lightsOf(scene, {500, 0.5f, 2, 1});
   lights[3] = {};  // an empty slot
   lights[5].position.w = shared::kVplDirectional;
   const LightClusters clusters = clusterLights(lights);

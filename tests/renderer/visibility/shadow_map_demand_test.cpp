@@ -1,40 +1,31 @@
-// Which lights a view looks up.
+// Which shadow maps a view looks up.
 #include "renderer/visibility/shadow_map_demand.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "renderer/raycast/ray_caster.h"
-#include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
-struct Room {
-  Scene scene;
-  RenderScene world;
+struct Room : test::AssetRoom {
+  RenderScene world = test::renderSceneOf(scene);
   VisibilityDatabase visibility;
-  View view;
 
-  explicit Room(const char* name) {
-    scene = loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(name) + ".gltf")).scene;
-    update(world, scene, SceneChanges::all());
+  explicit Room(const char* name) : AssetRoom(name, 64, 48) {
     std::vector<shared::Vpl> lights = test::lightsOf(world, 60);
     for (size_t i = 0; i < lights.size(); ++i) lights[i].slot = static_cast<int>(i);
-    RenderSceneChanges all;
-    all.rebuilt = true;
-    visibility.setScene(world, all);
+    visibility.setScene(world, test::everythingRebuilt());
     visibility.setLights(world, lights);
-    for (const Node& node : scene.nodes)
-      if (node.camera != kNone) view = viewOfCamera(scene, node, 64, 48);
   }
 };
 
-// Lights that are partial where a pixel of the view lies, by slot.
+// By slot: whether the light is partial at a pixel of the view.
 std::vector<uint8_t> partialAtPixels(const Room& room) {
   const RayCaster rays(room.world);
   std::vector<uint8_t> partial(room.visibility.slots(), 0);
@@ -55,14 +46,16 @@ std::vector<uint8_t> partialAtPixels(const Room& room) {
   return partial;
 }
 
-// From its camera and all round: none is missing, and where nothing is seen none is found.
-TEST(SeenLights, AreAllThatAPixelLooksUp) {
+// For six directions of the camera, no light that a pixel looks up is missing. Outside the scene
+// none is found.
+TEST(SeenLights, IncludeAllLightsThatPixelsLookUp) {
   size_t found = 0, looked = 0, asked = 0;
   for (const char* name : {"pillar_room", "area_light_room", "table_room", "default"}) {
     Room room(name);
-    const quat way = room.view.orientation;
+    const quat initial = room.view.orientation;
     for (int turn = 0; turn < 6; ++turn) {
-      room.view.orientation = glm::angleAxis(1.05f * static_cast<float>(turn), vec3(0, 1, 0)) * way;
+      room.view.orientation =
+          glm::angleAxis(1.05f * static_cast<float>(turn), vec3(0, 1, 0)) * initial;
       const std::vector<uint8_t> seen = shadowMapDemand(room.visibility, room.world, room.view);
       const std::vector<uint8_t> partial = partialAtPixels(room);
       for (size_t slot = 0; slot < partial.size(); ++slot)

@@ -1,5 +1,5 @@
-// The visibility database against rays: none and full are never wrong. That edits leave no trace in
-// it stands in tests/renderer/light_maps.
+// The visibility database against rays: entries `visible` and `hidden` are never wrong.
+// light_maps_test.cpp tests that results do not depend on earlier edits.
 #include "renderer/visibility/visibility_database.h"
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/low_discrepancy.h"
-#include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
 #include "tests/support/random_boxes.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shared_files.h"
 
@@ -25,16 +25,14 @@ struct World {
   std::unique_ptr<RayCaster> rays;
   std::vector<shared::Vpl> lights;
 
-  explicit World(const Scene& from, int vpls = 60) {
-    update(scene, from, SceneChanges::all());
-    rays = std::make_unique<RayCaster>(scene);
-    for (const SceneVpl& v : generateVpls(scene, *rays, LightSet(scene), {vpls, 0.5f, 2, 1}).vpls)
-      lights.push_back(v.vpl);
-  }
+  explicit World(const Scene& from, int vpls = 60)
+      : scene(test::renderSceneOf(from)),
+        rays(std::make_unique<RayCaster>(scene)),
+        lights(test::lightsOf(scene, {vpls, 0.5f, 2, 1})) {}
 };
 
-// Whether light gets from the VPL to a point of the patch's rectangle or box. Both ends stand off
-// by what the database takes for the surfaces themselves.
+// Whether light of the VPL reaches a point of the patch's rectangle or box. Both ends of the ray
+// are offset by the tolerance within which the database treats geometry as the surface itself.
 bool reaches(const World& w, const shared::Vpl& vpl, const PatchRegion& region, vec3 point) {
   const bool parallel = vpl.position.w == shared::kVplDirectional;
   const vec3 axis(vpl.normal), apex(vpl.position);
@@ -42,7 +40,7 @@ bool reaches(const World& w, const shared::Vpl& vpl, const PatchRegion& region, 
   if (!parallel) margin = std::max(margin, rayEpsilon(apex));
   for (const vec3& c : region.points()) margin = std::max(margin, rayEpsilon(c));
   const vec3 rough = parallel ? axis : apex - point;
-  // What is behind the light's plane gets none of it, bumps too, wherever the ray begins.
+  // Points behind the light's plane, including bumps, get no light, wherever the ray begins.
   const bool isBehind = glm::dot(point - apex, axis) + region.thickness <= 0.0f;
   if (region.count == 4) {
     const float side = glm::dot(rough, region.normal) < 0.0f ? -1.0f : 1.0f;
@@ -55,8 +53,8 @@ bool reaches(const World& w, const shared::Vpl& vpl, const PatchRegion& region, 
   return !w.rays->occluded({point, 0.0f, end - point, 1.0f});
 }
 
-// Points of a rectangle stand off its border too: that is often in another surface, and a ray that
-// begins in one may meet it or not.
+// Points of a rectangle are also offset from its border, which often touches another surface, where
+// rays are not reliable.
 vec3 pointOf(const PatchRegion& region, uint32_t i, uint32_t seed) {
   vec2 u = sobol2(i, seed), v = sobol2(i, seed + 77);
   if (region.count == 4) {
@@ -68,15 +66,15 @@ vec3 pointOf(const PatchRegion& region, uint32_t i, uint32_t seed) {
   return region.corners[0] + (region.corners[7] - region.corners[0]) * vec3(u, v.x);
 }
 
-struct Misses {
-  int none = 0, full = 0;        // rays that say otherwise
+struct Contradictions {
+  int none = 0, full = 0;        // rays that contradict the entry
   int entries = 0, partial = 0;  // leaves × lights
-  int needless = 0;              // partial, and all rays agree
+  int needless = 0;              // partial, although all rays agree
 };
 
-Misses compareWithRays(const World& w, const VisibilityDatabase& database, uint32_t raysEach,
-                       int every = 1) {
-  Misses m;
+Contradictions compareWithRays(const World& w, const VisibilityDatabase& database,
+                               uint32_t raysEach, int every = 1) {
+  Contradictions m;
   uint32_t seed = 0;
   for (uint32_t object = 0; object < database.objects(); ++object) {
     const ObjectPatches& patches = database.patches(object);
@@ -93,14 +91,14 @@ Misses compareWithRays(const World& w, const VisibilityDatabase& database, uint3
         ++m.entries;
         m.partial += state == Occlusion::partial;
         m.needless += state == Occlusion::partial && (lit == 0 || lit == raysEach);
-        // Light on a back that nobody sees does not count.
+        // Light on an invisible back face does not count.
         const vec3 rough =
             w.lights[slot].position.w == shared::kVplDirectional ? axis : apex - region.corners[0];
         const bool unseen = region.frontOnly && glm::dot(rough, region.normal) <= 0.0f;
         m.full += state == Occlusion::full && lit > 0 && !unseen;
         if (state != Occlusion::none) continue;
-        // Points behind the light's own plane are dark without anything between; those of a rough
-        // chart begin over its bumps, and may be behind it there.
+        // Points behind the light's own plane are dark without an occluder. Rays of a rough chart
+        // begin above its bumps and may also be behind the plane.
         uint32_t behind = 0;
         if (w.lights[slot].position.w != shared::kVplDirectional) {
           for (uint32_t i = 0; i < raysEach; ++i)
@@ -116,34 +114,32 @@ Misses compareWithRays(const World& w, const VisibilityDatabase& database, uint3
   return m;
 }
 
-void expectNoMiss(const Scene& scene, uint32_t raysEach, int every = 1, int vpls = 60) {
+void expectRaysAgree(const Scene& scene, uint32_t raysEach, int every = 1, int vpls = 60) {
   const World w(scene, vpls);
   VisibilityDatabase database;
-  RenderSceneChanges all;
-  all.rebuilt = true;
-  database.setScene(w.scene, all);
+  database.setScene(w.scene, test::everythingRebuilt());
   database.setLights(w.scene, w.lights);
-  const Misses m = compareWithRays(w, database, raysEach, every);
+  const Contradictions m = compareWithRays(w, database, raysEach, every);
   EXPECT_EQ(m.none, 0) << "of " << m.entries;
   EXPECT_EQ(m.full, 0) << "of " << m.entries;
   EXPECT_GT(m.entries, 0);
-  // The price of being conservative.
+  // The cost of being conservative.
   std::cout << "[ partial  ] " << 100.0 * m.partial / m.entries << "% of " << m.entries
-            << " entries, of these needlessly as far as rays tell "
+            << " entries, of these not needed according to rays "
             << 100.0 * m.needless / std::max(m.partial, 1) << "%\n";
 }
 
 class RandomBoxes : public testing::TestWithParam<uint32_t> {};
 
-TEST_P(RandomBoxes, NoRaySaysOtherwise) {
+TEST_P(RandomBoxes, RaysAgree) {
   Scene scene = test::randomBoxes(20, GetParam());
   test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12.0f));
-  expectNoMiss(scene, 64);
+  expectRaysAgree(scene, 64);
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomBoxes, testing::Range(1u, 7u));
 
-// A floor that is a plane but for millimetres, with boxes on it.
-TEST(VisibilityDatabase, NoRaySaysOtherwiseOfARoughFloor) {
+// A floor that is planar within millimetres, with boxes on it.
+TEST(VisibilityDatabase, RaysAgreeOnARoughFloor) {
   Scene scene = test::randomBoxes(12, 3);
   auto mesh = std::make_shared<Mesh>();
   Primitive& p = mesh->primitives.emplace_back();
@@ -160,26 +156,22 @@ TEST(VisibilityDatabase, NoRaySaysOtherwiseOfARoughFloor) {
       p.indices.insert(p.indices.end(), {i, i + kSide, i + 1, i + 1, i + kSide, i + kSide + 1});
   test::addMesh(scene, mesh);
   test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12.0f));
-  expectNoMiss(scene, 64);
+  expectRaysAgree(scene, 64);
 }
 
 class OwnScene : public testing::TestWithParam<const char*> {};
 
-TEST_P(OwnScene, NoRaySaysOtherwise) {
-  expectNoMiss(
-      loadGltf(test::sourceFolder() / "assets/scenes" / (std::string(GetParam()) + ".gltf")).scene,
-      64, 3);
-}
+TEST_P(OwnScene, RaysAgree) { expectRaysAgree(test::loadAsset(GetParam()), 64, 3); }
 INSTANTIATE_TEST_SUITE_P(Scenes, OwnScene,
                          testing::Values("default", "area_light_room", "table_room", "pillar_room",
                                          "cornell_style"));
 
 class SharedLevel : public testing::TestWithParam<const char*> {};
 
-TEST_P(SharedLevel, NoRaySaysOtherwise) {
+TEST_P(SharedLevel, RaysAgree) {
   const std::filesystem::path path = test::sharedScenes() / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
-  expectNoMiss(loadGltf(path).scene, 32, 101, 20);
+  expectRaysAgree(loadGltf(path).scene, 32, 101, 20);
 }
 INSTANTIATE_TEST_SUITE_P(Levels, SharedLevel,
                          testing::Values("modern-hall/modern-hall.glb", "zdm2-map/zdm2.glb",

@@ -1,28 +1,20 @@
-// What is kept of visibility from edit to edit of a level, against what is found from nothing:
-// entry for entry, else a picture would hang on what was before.
+// Incremental updates of the visibility database against a new database: all entries must be equal,
+// otherwise the picture would depend on earlier edits.
 #include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
 #include "tests/support/edit_sequence.h"
-#include "tests/support/folders.h"
 #include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
-RenderSceneChanges everything() {
-  RenderSceneChanges all;
-  all.rebuilt = true;
-  return all;
-}
-
-Scene defaultLevel() { return loadGltf(test::sourceFolder() / "assets/scenes/default.gltf").scene; }
-
-// Entries of the first slots that differ.
+// Counts the differing entries of the first `slots` slots.
 int differences(const VisibilityDatabase& a, const VisibilityDatabase& b,
                 size_t slots = std::numeric_limits<size_t>::max()) {
   int count = 0;
@@ -35,18 +27,17 @@ int differences(const VisibilityDatabase& a, const VisibilityDatabase& b,
   return count;
 }
 
-constexpr size_t kLittle = 150000;  // bytes
+constexpr size_t kLittleMemory = 150000;  // bytes
 
-// The lights stay where they are, so that all entries are only brought up to date. mostBytes: that
-// they may take.
-bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
-  Scene level = defaultLevel();
-  RenderScene scene;
-  update(scene, level, SceneChanges::all());
+// Applies edits while the lights stay unchanged, and compares all entries with those of a new
+// database, under a memory limit of `mostBytes`.
+bool equalsFreshAfterEdits(const test::EditSequence& edits, size_t mostBytes) {
+  Scene level = test::loadAsset("default");
+  RenderScene scene = test::renderSceneOf(level);
   const std::vector<shared::Vpl> lights = test::lightsOf(scene, 150);
   VisibilityDatabase kept;
   kept.limitMemory(mostBytes);
-  kept.setScene(scene, everything());
+  kept.setScene(scene, test::everythingRebuilt());
   kept.setLights(scene, lights);
   for (const test::Edit& edit : edits) {
     const Scene before = level;
@@ -55,7 +46,7 @@ bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
     kept.refreshAll(scene);
     VisibilityDatabase fresh;
     fresh.limitMemory(mostBytes);
-    fresh.setScene(scene, everything());
+    fresh.setScene(scene, test::everythingRebuilt());
     fresh.setLights(scene, lights);
     if (kept.objects() != fresh.objects() || differences(kept, fresh) != 0) return false;
     if (kept.counts().divided != fresh.counts().divided) return false;
@@ -66,34 +57,35 @@ bool staysTheSame(const test::EditSequence& edits, size_t mostBytes) {
 
 class EditsOfALevel : public testing::TestWithParam<uint32_t> {};
 
-TEST_P(EditsOfALevel, LeaveNoEntryOtherThanFromNothing) {
+TEST_P(EditsOfALevel, GiveTheEntriesOfANewDatabase) {
   const auto check = [](const test::EditSequence& edits) {
-    return staysTheSame(edits, std::numeric_limits<size_t>::max());
+    return equalsFreshAfterEdits(edits, std::numeric_limits<size_t>::max());
   };
   EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), check), test::EditSequence());
 }
 
-// What objects that come and go need changes how far all others may be divided.
-TEST_P(EditsOfALevel, LeaveNoEntryOtherThanFromNothingWithLittleMemory) {
-  const auto check = [](const test::EditSequence& edits) { return staysTheSame(edits, kLittle); };
+// Adding and removing objects changes how far all others may be divided.
+TEST_P(EditsOfALevel, GiveTheEntriesOfANewDatabaseWithLittleMemory) {
+  const auto check = [](const test::EditSequence& edits) {
+    return equalsFreshAfterEdits(edits, kLittleMemory);
+  };
   EXPECT_EQ(test::shortestFailing(test::randomEdits(12, GetParam()), check), test::EditSequence());
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, EditsOfALevel, testing::Range(1u, 11u));
 
-// Where slots are used again, a new light's entries may be what the slot had before.
-TEST(VisibilityOfLights, IsWhatItIsFromNothingAfterMoreAndFewer) {
-  const Scene level = defaultLevel();
-  RenderScene scene;
-  update(scene, level, SceneChanges::all());
+// A reused slot must not keep entries of its previous light.
+TEST(VisibilityOfLights, EqualsANewDatabaseAfterAddingAndRemovingLights) {
+  const Scene level = test::loadAsset("default");
+  const RenderScene scene = test::renderSceneOf(level);
   const std::vector<shared::Vpl> all = test::lightsOf(scene, 70);
   VisibilityDatabase kept;
-  kept.setScene(scene, everything());
+  kept.setScene(scene, test::everythingRebuilt());
   for (const size_t used : {size_t{70}, size_t{60}, size_t{70}, size_t{20}, size_t{65}}) {
     std::vector<shared::Vpl> lights(all.begin(), all.begin() + static_cast<ptrdiff_t>(used));
-    lights.resize(all.size(), shared::Vpl{});  // slots stay
+    lights.resize(all.size(), shared::Vpl{});  // the number of slots is the same
     kept.setLights(scene, lights);
     VisibilityDatabase fresh;
-    fresh.setScene(scene, everything());
+    fresh.setScene(scene, test::everythingRebuilt());
     fresh.setLights(scene, lights);
     EXPECT_EQ(differences(kept, fresh, used), 0) << used;
     EXPECT_EQ(kept.counts().divided, fresh.counts().divided) << used;

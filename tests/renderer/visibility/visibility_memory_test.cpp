@@ -1,4 +1,5 @@
-// Entries within bounds: patches are divided less far, and nothing is said that is not so.
+// The memory limit of the visibility database: patches are divided less, and no entry becomes
+// wrong.
 #include <iostream>
 
 #include <gtest/gtest.h>
@@ -6,12 +7,11 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/frame/frame.h"
 #include "renderer/image/metrics.h"
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/visibility_database.h"
-#include "tests/support/folders.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/render.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 
 namespace lamplighter {
@@ -19,31 +19,16 @@ namespace {
 
 constexpr size_t kMebibyte = size_t{1} << 20;
 
-Scene pillarRoom() {
-  return loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-}
-
 struct Room {
-  RenderScene scene;
-  std::vector<shared::Vpl> lights;  // about a thousand: paths end where they may
-  Room() {
-    update(scene, pillarRoom(), SceneChanges::all());
-    for (const SceneVpl& v :
-         generateVpls(scene, RayCaster(scene), LightSet(scene), {1000, 0.3f, 3, 1}).vpls)
-      lights.push_back(v.vpl);
-  }
+  RenderScene scene = test::renderSceneOf(test::loadAsset("pillar_room"));
+  // About a thousand, because paths end at random.
+  std::vector<shared::Vpl> lights = test::lightsOf(scene, 1000);
   void fill(VisibilityDatabase& database, size_t count) const {
     database.setLights(scene, std::span(lights).first(count));
   }
 };
 
-RenderSceneChanges everything() {
-  RenderSceneChanges all;
-  all.rebuilt = true;
-  return all;
-}
-
-// Entries of leaves that differ; there those of `coarse` have to be partial.
+// Counts the differing entries of leaves. Those of `coarse` must be partial.
 size_t coarser(const VisibilityDatabase& coarse, const VisibilityDatabase& fine) {
   size_t count = 0;
   for (uint32_t object = 0; object < fine.objects(); ++object) {
@@ -64,14 +49,14 @@ size_t coarser(const VisibilityDatabase& coarse, const VisibilityDatabase& fine)
 TEST(VisibilityMemory, LessIsCoarserAndNeverWrong) {
   const Room room;
   VisibilityDatabase fine;
-  fine.setScene(room.scene, everything());
+  fine.setScene(room.scene, test::everythingRebuilt());
   room.fill(fine, room.lights.size());
   ASSERT_GT(fine.bytes(), kMebibyte / 2);
   size_t before = 0;
   for (const size_t most : {kMebibyte / 2, kMebibyte / 4, kMebibyte / 8}) {
     VisibilityDatabase coarse;
     coarse.limitMemory(most);
-    coarse.setScene(room.scene, everything());
+    coarse.setScene(room.scene, test::everythingRebuilt());
     room.fill(coarse, room.lights.size());
     EXPECT_LE(coarse.bytes(), most);
     const size_t now = coarser(coarse, fine);
@@ -80,13 +65,14 @@ TEST(VisibilityMemory, LessIsCoarserAndNeverWrong) {
   }
 }
 
-// With more lights a patch may be divided less far, with fewer further again; and with more memory.
-TEST(VisibilityMemory, FollowsTheLightsAndTheBound) {
+// With more lights patches are divided less, with fewer lights or more memory they are divided
+// further.
+TEST(VisibilityMemory, FollowsTheNumberOfLightsAndTheLimit) {
   const Room room;
   const auto fresh = [&](size_t most, size_t lights) {
     VisibilityDatabase database;
     database.limitMemory(most);
-    database.setScene(room.scene, everything());
+    database.setScene(room.scene, test::everythingRebuilt());
     room.fill(database, lights);
     return database;
   };
@@ -108,10 +94,7 @@ TEST(VisibilityMemory, FollowsTheLightsAndTheBound) {
 }
 
 TEST(VisibilityMemory, ThePictureStaysTheSame) {
-  const Scene scene = pillarRoom();
-  View view;
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) view = viewOfCamera(scene, node, 96, 60);
+  const test::AssetRoom room("pillar_room", 96, 60);
   Settings settings;
   settings.set("vpls", 2000);
   settings.set("bounces", 1);
@@ -120,7 +103,7 @@ TEST(VisibilityMemory, ThePictureStaysTheSame) {
   const auto render = [&](int mebibytes) {
     settings.set("visibility_memory", mebibytes);
     FrameRenderer renderer(makeCpuBackend());
-    return test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+    return test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
   };
   const GiOutput plenty = render(512), little = render(1);
   EXPECT_GT(plenty.stats.of("visibility_bytes"), kMebibyte);
@@ -130,15 +113,13 @@ TEST(VisibilityMemory, ThePictureStaysTheSame) {
   std::cout << "relRMSE " << 100.0 * error << "%\n";
 }
 
-// Of so many patches that even the roots have no room: as naive, until there is room again.
-TEST(VisibilityMemory, WhereNothingFitsThePictureIsThatOfNaive) {
-  Scene scene = pillarRoom();
-  View view;
-  for (const Node& node : scene.nodes)
-    if (node.camera != kNone) view = viewOfCamera(scene, node, 64, 40);
+// With so many patches that not even the roots fit: the picture is that of `naive` until the limit
+// is raised.
+TEST(VisibilityMemory, IfNothingFitsThePictureIsThatOfNaive) {
+  test::AssetRoom room("pillar_room", 64, 40);
   const auto box = test::boxMesh(vec3(0.05f));
   for (int i = 0; i < 1000; ++i)
-    test::addMesh(scene, box,
+    test::addMesh(room.scene, box,
                   vec3(0.1f * static_cast<float>(i % 40), 0.1f, 0.1f * static_cast<float>(i / 40)));
   Settings settings;
   settings.set("vpls", 300);
@@ -148,16 +129,17 @@ TEST(VisibilityMemory, WhereNothingFitsThePictureIsThatOfNaive) {
   settings.set("visibility_memory", 1);
   FrameRenderer renderer(makeCpuBackend());
   const GiOutput without =
-      test::renderSettled(renderer, scene, SceneChanges::all(), view, settings);
+      test::renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings);
   EXPECT_GT(without.stats.of("visibility_bytes_needed"), kMebibyte);
   EXPECT_EQ(without.stats.of("visibility_bytes"), 0u);
   settings.set("visibility_memory", 512);
-  const GiOutput with = test::renderSettled(renderer, scene, {}, view, settings);
+  const GiOutput with = test::renderSettled(renderer, room.scene, {}, room.view, settings);
   EXPECT_EQ(with.stats.of("visibility_bytes_needed"), 0u);
   EXPECT_GT(with.stats.of("visibility_bytes"), kMebibyte);
   settings.set("technique", std::string("naive"));
   FrameRenderer other(makeCpuBackend());
-  const GiOutput naive = test::renderSettled(other, scene, SceneChanges::all(), view, settings);
+  const GiOutput naive =
+      test::renderSettled(other, room.scene, SceneChanges::all(), room.view, settings);
   EXPECT_TRUE(test::sameBits(without.radiance->pixels(), naive.radiance->pixels()));
   EXPECT_LT(compareImages(with.radiance->pixels(), naive.radiance->pixels()).relRmse, 0.03);
 }

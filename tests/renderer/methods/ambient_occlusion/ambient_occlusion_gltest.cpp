@@ -1,4 +1,4 @@
-// Ambient occlusion on the gl backend: what the cpu backend shows.
+// Ambient occlusion on the gl backend equals that of the cpu backend.
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/frame/frame.h"

@@ -1,4 +1,4 @@
-// Ambient occlusion against cases whose answer is known in closed form.
+// Ambient occlusion against closed forms.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-constexpr float kEverywhere = 1000.0f;  // a radius that all surfaces are within [m]
+constexpr float kEverywhere = 1000.0f;  // larger than all distances [m]
 
 Settings settingsOf(float radius, const std::string& falloff, int samples = 256) {
   Settings settings;
@@ -43,7 +43,7 @@ Image pictureOf(const Scene& scene, const View& view, const Settings& settings,
       .radiance->pixels();
 }
 
-// Of a small patch of floor at x, seen from above at an angle.
+// The accessibility of a small part of the floor at x, seen from above at an angle.
 float accessibilityAt(const Scene& scene, const vec3& x, const Settings& settings) {
   const View view = test::lookAt(x + vec3(0.3f, 1.0f, 0.4f), x, 8, 8, 0.005f);
   return test::meanOf(pictureOf(scene, view, settings)).g;
@@ -55,7 +55,7 @@ Scene floorOf(float size) {
   return scene;
 }
 
-// A room with a box and a ball.
+// A room with a box and a sphere.
 Scene room() {
   Scene scene;
   const int grey = test::addMaterial(scene, vec3(0.6f, 0.4f, 0.2f));
@@ -66,11 +66,11 @@ Scene room() {
 }
 const View kRoomView = test::lookAt(vec3(0.5f, 1.6f, 2.3f), vec3(0, 0.8f, 0), 48, 32, 1.1f);
 
-TEST(AmbientOcclusion, AnOpenPlaneIsWhollyAccessible) {
+TEST(AmbientOcclusion, AnOpenPlaneIsFullyAccessible) {
   EXPECT_EQ(accessibilityAt(floorOf(10.0f), vec3(0), settingsOf(kEverywhere, "none")), 1.0f);
 }
 
-TEST(AmbientOcclusion, AConvexBodyIsWhollyAccessibleWhateverItsNormals) {
+TEST(AmbientOcclusion, AConvexBodyIsFullyAccessibleForAnyNormals) {
   Scene scene;
   test::addMesh(scene, test::sphereMesh(1.0f, 8), vec3(0));
   const View view = test::lookAt(vec3(0, 0, 5), vec3(0), 16, 16, 0.2f);
@@ -78,9 +78,9 @@ TEST(AmbientOcclusion, AConvexBodyIsWhollyAccessibleWhateverItsNormals) {
     EXPECT_NEAR(p.g, 1.0f, 1e-6f);
 }
 
-// The form factor from a point to an infinitely long wall of height h at distance d, at right
-// angles to the floor: 1/2 (1 − d / √(d² + h²)). In the corner it is 1/2.
-TEST(AmbientOcclusion, BesideAWallItIsOneLessTheFormFactorOfTheWall) {
+// The form factor from a point to an infinitely long wall of height h at distance d, perpendicular
+// to the floor: 1/2 (1 − d / √(d² + h²)). In the corner it is 1/2.
+TEST(AmbientOcclusion, BesideAWallItIsOneMinusTheFormFactorOfTheWall) {
   constexpr float kHeight = 2.0f;
   Scene scene = floorOf(400.0f);
   test::addMesh(scene, test::boxMesh(vec3(400.0f, kHeight, 0.5f)), vec3(0, 0.5f * kHeight, -0.25f));
@@ -92,7 +92,7 @@ TEST(AmbientOcclusion, BesideAWallItIsOneLessTheFormFactorOfTheWall) {
   }
 }
 
-TEST(AmbientOcclusion, UnderASquareItIsOneLessTheFormFactorOfTheSquare) {
+TEST(AmbientOcclusion, UnderASquareItIsOneMinusTheFormFactorOfTheSquare) {
   Scene scene = floorOf(20.0f);
   test::addMesh(scene, test::boxMesh(vec3(2.0f, 0.2f, 2.0f)), vec3(0, 1.1f, 0));
   const std::vector<vec3> square{{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}};
@@ -168,7 +168,7 @@ TEST(AmbientOcclusion, SameBitsAtAnyNumberOfThreadsAndFrames) {
   }
 }
 
-TEST(AmbientOcclusion, AfterEditsThePictureIsTheOneFromNothing) {
+TEST(AmbientOcclusion, AfterEditsThePictureEqualsAFreshRender) {
   Scene scene = room();
   View view = kRoomView;
   Settings settings = settingsOf(2.0f, "root", 6);
@@ -182,7 +182,7 @@ TEST(AmbientOcclusion, AfterEditsThePictureIsTheOneFromNothing) {
   scene.nodes.pop_back();
   view.eye.x += 0.1f;
   settled(renderer, scene, compare(before, scene), view, settings);
-  settings.set("samples_per_pixel", 3);  // fewer than there are
+  settings.set("samples_per_pixel", 3);  // fewer than already traced
   const Image edited = settled(renderer, scene, {}, view, settings).radiance->pixels();
   EXPECT_TRUE(test::sameBits(edited, pictureOf(scene, view, settings)));
 }

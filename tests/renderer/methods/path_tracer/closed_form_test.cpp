@@ -1,4 +1,4 @@
-// The path tracer against cases whose answer is known in closed form.
+// The path tracer against closed forms.
 #include <cmath>
 #include <memory>
 
@@ -15,7 +15,7 @@ using test::lookAt;
 using test::meanOf;
 using test::renderReference;
 
-// The unit sphere seen from within, albedo ρ, emitting Le from its inside everywhere.
+// The unit sphere seen from inside, with albedo ρ, emitting Le everywhere.
 Scene furnace(float albedo, float emission) {
   Scene scene;
   const int material = test::addMaterial(scene, vec3(albedo), vec3(emission));
@@ -31,7 +31,7 @@ Scene furnace(float albedo, float emission) {
 
 class Furnace : public testing::TestWithParam<int> {};
 
-// Every path meets the same light everywhere: L = Le · Σ ρᵏ for k = 0 … bounces + 1.
+// All paths meet the same radiance: L = Le · Σ ρᵏ for k = 0 … bounces + 1.
 TEST_P(Furnace, RadianceIsTheGeometricSeries) {
   const int bounces = GetParam();
   const View view = lookAt(vec3(0.2f, 0.1f, 0.0f), vec3(0, 0, -1), 16, 16, 1.2f);
@@ -41,7 +41,7 @@ TEST_P(Furnace, RadianceIsTheGeometricSeries) {
 }
 INSTANTIATE_TEST_SUITE_P(Bounces, Furnace, testing::Values(0, 1, 2, 5, 20));
 
-// A third of this light is carried by bounces after the eighth, where paths are ended by chance.
+// A third of this light comes from bounces after the eighth, where Russian roulette ends paths.
 TEST(ClosedForm, RussianRouletteKeepsTheMean) {
   const View view = lookAt(vec3(0.2f, 0.1f, 0.0f), vec3(0, 0, -1), 16, 16, 1.2f);
   const Image image = renderReference(furnace(0.9f, 1.0f), view, 256, 64);
@@ -49,20 +49,20 @@ TEST(ClosedForm, RussianRouletteKeepsTheMean) {
   EXPECT_NEAR(static_cast<double>(meanOf(image).g) / expected, 1.0, 6e-3);
 }
 
-// A convex body under a sky of constant radiance L sees nothing else: ρL, whatever its normals.
-TEST(ClosedForm, AConvexBodyUnderAnEvenSkyHasRadianceRhoL) {
+// A convex body under a sky of constant radiance L sees only the sky: its radiance is ρL.
+TEST(ClosedForm, AConvexBodyUnderAConstantSkyHasRadianceRhoL) {
   Scene scene;
   const int material = test::addMaterial(scene, vec3(0.2f, 0.5f, 0.8f));
   test::addMesh(scene, test::boxMesh(vec3(2.0f), material));
   scene.sky = vec3(2.0f);
-  const View view = lookAt(vec3(3, 2.5f, 4), vec3(0), 16, 16, 0.2f);  // wholly within the box
+  const View view = lookAt(vec3(3, 2.5f, 4), vec3(0), 16, 16, 0.2f);  // all pixels show the box
   const vec3 mean = meanOf(renderReference(scene, view, 256, 3));
   EXPECT_NEAR(mean.r, 0.4f, 0.4f * 3e-3f);
   EXPECT_NEAR(mean.g, 1.0f, 1.0f * 3e-3f);
   EXPECT_NEAR(mean.b, 1.6f, 1.6f * 3e-3f);
 }
 
-// A small patch of floor at x, seen from above at an angle.
+// A small part of the floor at x, seen from above at an angle.
 View viewOfFloor(const vec3& x, int pixels = 8) {
   return lookAt(x + vec3(0.3f, 1.0f, 0.4f), x, pixels, pixels, 0.01f);
 }
@@ -82,9 +82,9 @@ TEST(ClosedForm, APatchUnderARectangleLightHasThePolygonsFormFactor) {
   }
 }
 
-// Two squares of side 2, a metre apart: the floor emits, the ceiling reflects, and the floor
-// reflects what comes back. At a point of the floor with bounces = 1:
-//   L = Le + ρ_floor ∫ ρ_ceiling Le F(x') cos cos / (π r²) dA'.
+// Two squares of side 2 at a distance of 1 m: the floor emits, the ceiling reflects, and the floor
+// reflects the light that returns. At a point of the floor with bounces = 1, L = Le + ρ_floor ∫
+// ρ_ceiling Le F(x') cos cos / (π r²) dA'.
 TEST(ClosedForm, OneBounceBetweenTwoParallelPlates) {
   constexpr float kEmission = 4.0f, kFloor = 0.5f, kCeiling = 0.8f;
   Scene scene;
@@ -110,7 +110,7 @@ TEST(ClosedForm, OneBounceBetweenTwoParallelPlates) {
                   kernel * 4.0 / (n * n);
     }
   }
-  // From the side, under the ceiling.
+  // From the side, below the ceiling.
   const View view = lookAt(x + vec3(3.0f, 0.6f, 0.0f), x, 8, 8, 0.005f);
   const double measured =
       static_cast<double>(meanOf(renderReference(scene, view, 2048, 1)).r) - kEmission;
@@ -128,7 +128,7 @@ TEST(ClosedForm, PunctualLightsGiveTheirIrradiance) {
     return meanOf(renderReference(scene, viewOfFloor(x, 4), 4, 0)).r;
   };
   const float rhoOverPi = 0.5f / kPi;
-  // Point: I cos θ / d²; 2 m up, 1.5 m aside: d² = 6.25, cos θ = 0.8.
+  // Point: I cos θ / d²; 2 m above, 1.5 m to the side: d² = 6.25, cos θ = 0.8.
   EXPECT_NEAR(radianceUnder({PunctualKind::point, vec3(5.0f)}, vec3(0, 2, 0), vec3(1.5f, 0, 0)),
               rhoOverPi * 5.0f * 0.8f / 6.25f, 3e-5f);
   // Directional: E cos θ, θ = 0.

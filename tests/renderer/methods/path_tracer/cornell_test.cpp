@@ -1,9 +1,9 @@
-// The path tracer against pictures of the Cornell box from an independent renderer, whose own noise
-// is 0.13% (direct light), 0.74% (one bounce) and 0.59% (five) of the mean, see noise.csv there.
-//
-// Few paths a pixel have to do here, so three things are compared: the whole picture's brightness;
-// means over blocks of 16×16 pixels, in which the noise of either is small; and the pixels, from
-// whose difference the noise is taken off, known from two halves with different seeds.
+// The path tracer against pictures of the Cornell box from an independent renderer. The noise of
+// those pictures is 0.13% (direct light), 0.74% (one bounce) and 0.59% (five bounces) of the mean,
+// see noise.csv in their folder. To keep the number of paths small, three things are compared: the
+// brightness of the whole picture; means over blocks of 16×16 pixels, where the noise of both is
+// small; and the pixels, whose difference is corrected for noise, which is known from two halves
+// with different seeds.
 #include <cmath>
 #include <filesystem>
 #include <ostream>
@@ -16,6 +16,7 @@
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
+#include "tests/support/scene_files.h"
 
 namespace lamplighter {
 namespace {
@@ -34,8 +35,8 @@ Image pathTraced(const Scene& scene, const View& view, int bounces, int samples,
   return out.radiance->pixels();
 }
 
-// The mean over the mask in each block of 16×16 pixels. In `covered`: 1 where at least half of the
-// block counts.
+// The mean over the masked pixels of each block of 16×16 pixels. `covered` receives 1 where the
+// mask contains at least half of the block.
 Image blockMeans(const Image& image, const Image& mask, Image& covered) {
   constexpr int kSide = 16;
   Image out(image.width / kSide, image.height / kSide);
@@ -60,7 +61,7 @@ Image blockMeans(const Image& image, const Image& mask, Image& covered) {
 struct Case {
   const char* scene;
   int bounces;
-  int samples;   // a pixel, in each half
+  int samples;   // per pixel, in each half
   double noise;  // of the independent picture, relative to its mean
 };
 
@@ -73,10 +74,7 @@ TEST_P(ReferenceCornell, AgreesWithTheIndependentPicture) {
   const Case& c = GetParam();
   const std::string name = c.scene;
   const Scene scene = loadGltf(kReferences / "scenes" / (name + ".gltf")).scene;
-  View view;
-  for (const Node& node : scene.nodes) {
-    if (node.camera != kNone) view = viewOfCamera(scene, node, 512, 384);
-  }
+  const View view = test::viewOf(scene, 512, 384);
   const Image first = pathTraced(scene, view, c.bounces, c.samples, 1);
   const Image second = pathTraced(scene, view, c.bounces, c.samples, 2);
   Image both = first;
@@ -94,7 +92,7 @@ TEST_P(ReferenceCornell, AgreesWithTheIndependentPicture) {
   const double blocks = compareImages(ours, theirs, &covered).relRmse;
   EXPECT_LT(blocks, 0.01);
 
-  // The halves differ by twice the noise of their mean.
+  // The difference of the halves is twice the noise of their mean.
   const double own = 0.5 * compareImages(first, second, &mask).relRmse;
   const double rest = pixels.relRmse * pixels.relRmse - own * own - c.noise * c.noise;
   EXPECT_LT(rest, 0.01 * 0.01);

@@ -1,5 +1,5 @@
-// The path tracer against closed forms of every kind of light and of what it falls on: shapes,
-// textures, masks, sides, mapped normals, and all kinds of light at once.
+// The path tracer against closed forms for every kind of light and receiver: shapes, textures,
+// alpha masks, sides, normal maps, and all kinds of light at once.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/support/folders.h"
 #include "tests/support/render.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/skies.h"
 
@@ -35,14 +36,14 @@ Scene floorScene() {
   return scene;
 }
 
-// The radiance of the floor at x, direct light only.
+// The radiance of the floor at x, with direct light only.
 float floorRadiance(const Scene& scene, const vec3& x, int samples = 256, uint32_t seed = 1) {
   const View view = lookAt(x + vec3(0.3f, 1.0f, 0.4f), x, 4, 4, 0.005f);
   return meanOf(renderReference(scene, view, samples, 0, seed)).r;
 }
 
-// A square of side 2 that glows, two metres above the floor, its front down.
-Scene underGlowingSquare(Material glow) {
+// A square emitter of side 2, two metres above the floor, facing down.
+Scene underEmissiveSquare(Material glow) {
   Scene scene = floorScene();
   const int material = test::addMaterial(scene, vec3(0.0f));
   scene.materials[material] = std::move(glow);
@@ -58,7 +59,7 @@ Material glowing(float radiance) {
   return m;
 }
 
-// The texture of two texels, left and right, not blended.
+// A texture of two texels, left and right, without filtering.
 Texture halves(const std::array<uint8_t, 4>& left, const std::array<uint8_t, 4>& right) {
   auto image = std::make_shared<Image8>(2, 1);
   std::copy(left.begin(), left.end(), image->at(0, 0));
@@ -79,39 +80,39 @@ TEST(ReferenceLights, ADiskOnItsAxis) {
   EXPECT_NEAR(floorRadiance(scene, vec3(0)) / expected, 1.0f, 3e-3f);
 }
 
-// Evenly among all rotations (Shoemake, "Uniform Random Rotations", Graphics Gems III, 1992).
-quat evenRotation(vec2 u, float v) {
+// Uniform over all rotations (Shoemake, "Uniform Random Rotations", Graphics Gems III, 1992).
+quat uniformRotation(vec2 u, float v) {
   const float a = std::sqrt(1.0f - v), b = std::sqrt(v);
   const vec2 angle = 2.0f * kPi * u;
   return {a * std::sin(angle.x), a * std::cos(angle.x), b * std::sin(angle.y),
           b * std::cos(angle.y)};
 }
 
-// F = r² cos θ / d² while it is wholly above the horizon. The sphere is a polyhedron of the same
-// area: as much light in the mean over its turns (Cauchy: a convex body's mean shadow is a quarter
-// of its area), a little more or less for each.
-TEST(ReferenceLights, ASphereAboveAndAside) {
+// F = r² cos θ / d² for a sphere completely above the horizon. The sphere is a polyhedron with the
+// same area. Its light is the same only on average over all rotations (Cauchy: the mean projected
+// area of a convex body is a quarter of its surface).
+TEST(ReferenceLights, ASphereAboveAndToTheSide) {
   Scene scene = floorScene();
   const NodeId id = test::addRectangleLight(scene, vec3(0, 2, 0), vec2(1.0f), vec3(5.0f));
   scene.find(id)->area->shape = AreaShape::sphere;
   scene.find(id)->area->size = vec2(1.0f);
-  constexpr uint32_t kTurns = 64;
+  constexpr uint32_t kRotations = 64;
   for (const float x : {0.0f, 0.5f, 1.0f, 2.0f, 4.0f}) {
     const float d2 = 4.0f + x * x;
     const float expected = kRho * 5.0f * 0.25f * (2.0f / std::sqrt(d2)) / d2;
     float sum = 0.0f;
-    for (uint32_t i = 0; i < kTurns; ++i) {
-      scene.find(id)->local.rotation = evenRotation(sobol2(i, 1), sobol2(i, 2).x);
+    for (uint32_t i = 0; i < kRotations; ++i) {
+      scene.find(id)->local.rotation = uniformRotation(sobol2(i, 1), sobol2(i, 2).x);
       sum += floorRadiance(scene, vec3(x, 0, 0), 256, i + 1) / expected;
     }
-    EXPECT_NEAR(sum / kTurns, 1.0f, 4e-3f) << x;
+    EXPECT_NEAR(sum / kRotations, 1.0f, 4e-3f) << x;
   }
 }
 
-TEST(ReferenceLights, AnEmissiveMeshLightsOnlyByItsTexturesBrightHalf) {
+TEST(ReferenceLights, OnlyTheBrightHalfOfAnEmissiveTextureEmits) {
   Material m = glowing(6.0f);
   m.emissiveTexture.texture = 0;
-  Scene scene = underGlowingSquare(m);
+  Scene scene = underEmissiveSquare(m);
   scene.textures.push_back(halves({0, 0, 0, 255}, {255, 255, 255, 255}));
   for (const vec3& x : {vec3(0), vec3(-1, 0, 0.5f), vec3(1.5f, 0, 0)}) {
     const double expected = 6.0 * kRho * polygonFormFactor(x, vec3(0, 1, 0), kRightHalf);
@@ -119,11 +120,11 @@ TEST(ReferenceLights, AnEmissiveMeshLightsOnlyByItsTexturesBrightHalf) {
   }
 }
 
-TEST(ReferenceLights, AMasksHolesGiveNoLight) {
+TEST(ReferenceLights, HolesOfAnAlphaMaskEmitNoLight) {
   Material m = glowing(6.0f);
   m.alphaMode = AlphaMode::mask;
   m.baseColorTexture.texture = 0;
-  Scene scene = underGlowingSquare(m);
+  Scene scene = underEmissiveSquare(m);
   scene.textures.push_back(halves({255, 255, 255, 0}, {255, 255, 255, 255}));
   const double expected = 6.0 * kRho * polygonFormFactor(vec3(0), vec3(0, 1, 0), kRightHalf);
   EXPECT_NEAR(floorRadiance(scene, vec3(0), 1024) / expected, 1.0, 6e-3);
@@ -133,8 +134,8 @@ TEST(ReferenceLights, TheBackIsDarkUnlessTheMaterialIsDoubleSided) {
   for (const bool doubleSided : {false, true}) {
     Material m = glowing(6.0f);
     m.doubleSided = doubleSided;
-    Scene scene = underGlowingSquare(m);
-    scene.nodes.back().local.rotation = quat(1, 0, 0, 0);  // its back to the floor
+    Scene scene = underEmissiveSquare(m);
+    scene.nodes.back().local.rotation = quat(1, 0, 0, 0);  // its back faces the floor
     const double form =
         polygonFormFactor(vec3(0), vec3(0, 1, 0), {{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}});
     const double expected = doubleSided ? 6.0 * kRho * form : 0.0;
@@ -144,7 +145,7 @@ TEST(ReferenceLights, TheBackIsDarkUnlessTheMaterialIsDoubleSided) {
   }
 }
 
-// E = π L_sky (1 − F) + π L F + I cos θ/d² + E_sun cos θ: the light hides its share of the sky.
+// E = π L_sky (1 − F) + π L F + I cos θ/d² + E_sun cos θ: the area light hides its part of the sky.
 TEST(ReferenceLights, AllKindsTogetherAddUp) {
   Scene scene = floorScene();
   scene.sky = vec3(0.7f);
@@ -163,7 +164,8 @@ TEST(ReferenceLights, AllKindsTogetherAddUp) {
   EXPECT_NEAR(floorRadiance(scene, vec3(0), 1024) / (kRho / pi * irradiance), 1.0, 6e-3);
 }
 
-// E = π (horizon + 2/3 (zenith − horizon)): the ground's light comes from below.
+// E = π (horizon + 2/3 (zenith − horizon)). The ground colour is below the horizon and does not
+// count.
 TEST(ReferenceLights, AGradientSkyAboveTheFloor) {
   Scene scene = floorScene();
   scene.sky = Sky::gradient(vec3(3.0f), vec3(1.2f), vec3(100.0f));
@@ -171,8 +173,8 @@ TEST(ReferenceLights, AGradientSkyAboveTheFloor) {
   EXPECT_NEAR(floorRadiance(scene, vec3(0)) / expected, 1.0f, 4e-3f);
 }
 
-// A picture with a sun, turned and scaled, against quadrature over its interpolated pixels.
-TEST(ReferenceLights, ASkysPictureOverTheFloor) {
+// A rotated and scaled sky picture with a sun, against quadrature over its interpolated pixels.
+TEST(ReferenceLights, ASkyPictureAboveTheFloor) {
   for (const Sky& picture : {test::cloudySky(), test::sunnySky()}) {
     Scene scene = floorScene();
     scene.sky = picture;
@@ -185,7 +187,7 @@ TEST(ReferenceLights, ASkysPictureOverTheFloor) {
   }
 }
 
-// A picture of one colour is the constant sky: the same light, the same background.
+// A sky picture of one colour equals the constant sky: the same light, the same background.
 TEST(ReferenceLights, AConstantPictureIsTheConstantSky) {
   const View view = lookAt(vec3(1.5f, 0.8f, 2.5f), vec3(0, 0.4f, 0), 32, 24);
   Scene scene;
@@ -199,7 +201,7 @@ TEST(ReferenceLights, AConstantPictureIsTheConstantSky) {
   EXPECT_NEAR(m.bias, 1.0, 1e-3);
 }
 
-// A floor whose normal map tilts every normal by the same angle towards +x.
+// A floor whose normal map tilts all normals by the same angle towards +x.
 struct TiltedFloor {
   Scene scene = floorScene();
   float cosine = 0.0f;
@@ -219,7 +221,7 @@ struct TiltedFloor {
   }
 };
 
-TEST(ReferenceLights, AMappedNormalTakesSunlightByItsCosine) {
+TEST(ReferenceLights, SunlightFollowsTheCosineToTheMappedNormal) {
   TiltedFloor tilted;
   const NodeId sun = test::addNode(tilted.scene, "sun");
   tilted.scene.find(sun)->local.rotation = glm::angleAxis(-0.5f * kPi, vec3(1, 0, 0));
@@ -227,34 +229,31 @@ TEST(ReferenceLights, AMappedNormalTakesSunlightByItsCosine) {
   EXPECT_NEAR(floorRadiance(tilted.scene, vec3(0), 4), kRho / kPi * 3.0f * tilted.cosine, 1e-4f);
 }
 
-// Light from under the real surface does not count, however far the normal is tilted: of an even
-// sky, (1 + cos α)/2 is left.
+// Light from below the geometric surface does not count, for any tilt of the shading normal. Of a
+// constant sky, (1 + cos α)/2 is left.
 TEST(ReferenceLights, AMappedNormalLeaksNoLightFromBelow) {
   TiltedFloor tilted;
   tilted.scene.sky = vec3(2.0f);
   const float expected = kRho * 2.0f * 0.5f * (1.0f + tilted.cosine);
   EXPECT_NEAR(floorRadiance(tilted.scene, vec3(0), 1024) / expected, 1.0f, 5e-3f);
 
-  // A lamp under the floor's edge, above the horizon of the tilted normal but not of the floor.
+  // A lamp below the plane of the floor, but above the horizon of the tilted normal.
   tilted.scene.sky = vec3(0.0f);
   const NodeId lamp = test::addNode(tilted.scene, "lamp", kNoNode, vec3(22, -0.5f, 0));
   tilted.scene.find(lamp)->punctual = PunctualLight{PunctualKind::point, vec3(1000.0f)};
   EXPECT_EQ(floorRadiance(tilted.scene, vec3(19.9f, 0, 0), 4), 0.0f);
 }
 
-// The picture of references/scenes/patch.gltf against that of the closed form.
-TEST(ReferenceLights, ThePatchIsTheClosedFormAllOverThePicture) {
+// The rendered picture of references/scenes/patch.gltf against that of the closed form.
+TEST(ReferenceLights, ThePatchEqualsTheClosedFormInAllPixels) {
   const auto folder = test::sharedFolder() / "references";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   const Scene scene = loadGltf(folder / "scenes" / "patch.gltf").scene;
   const Image expected = readImage(folder / "refs" / "patch_analytic.exr");
-  View view;
-  for (const Node& node : scene.nodes) {
-    if (node.camera != kNone) view = viewOfCamera(scene, node, expected.width, expected.height);
-  }
+  const View view = test::viewOf(scene, expected.width, expected.height);
   const Image image = renderReference(scene, view, 16, 3);
-  // The closed form has 4×4 points a pixel at edges: floor are the pixels whose neighbours all are
-  // neither black nor the light.
+  // The closed form has 4×4 points per pixel at edges. A pixel counts as floor if no pixel in its
+  // neighbourhood is black or shows the light.
   const auto isFloor = [&](int x, int y) {
     for (int i = 0; i < 9; ++i) {
       const float r = expected.at(x - 1 + i % 3, y - 1 + i / 3).r;
@@ -276,7 +275,7 @@ TEST(ReferenceLights, ThePatchIsTheClosedFormAllOverThePicture) {
   RecordProperty("relRmse", std::to_string(m.relRmse));
   RecordProperty("bias", std::to_string(m.bias));
   EXPECT_NEAR(m.bias, 1.0, 5e-4);
-  // In blocks wholly of floor, where 16 paths a pixel leave little noise.
+  // In blocks that contain only floor, the noise of 16 paths per pixel is small.
   constexpr int kSide = 16;
   Image ours(image.width / kSide, image.height / kSide), theirs = ours, whole = ours;
   for (int by = 0; by < ours.height; ++by) {

@@ -1,4 +1,4 @@
-// The path tracer as a method: bits that depend on nothing but the input, and when it begins again.
+// The path tracer as a method: the picture depends on the input only, and every change restarts it.
 #include "renderer/methods/path_tracer/reference_method.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ Settings settingsOf(int samples, int perFrame, int bounces = 2, int seed = 1) {
   return settings;
 }
 
-// Frames until settled, the scene unchanged after the first.
+// The frames until the picture is settled. Changes are passed to the first frame only.
 struct Rendered {
   Image image;
   int frames = 0;
@@ -51,7 +51,7 @@ Rendered settle(FrameRenderer& renderer, const Scene& scene, SceneChanges change
     r.image = out.radiance->pixels();
     return r;
   }
-  ADD_FAILURE() << "never settled";
+  ADD_FAILURE() << "not settled";
   return r;
 }
 
@@ -75,7 +75,7 @@ TEST(ReferenceMethod, GivesTheSameBitsAtAnyNumberOfThreads) {
   }
 }
 
-TEST(ReferenceMethod, TheSplitOverFramesChangesNothing) {
+TEST(ReferenceMethod, TheDistributionOverFramesDoesNotChangeBits) {
   const Rendered whole = fresh(litRoom(), litRoomView(), settingsOf(7, 64));
   const Rendered split = fresh(litRoom(), litRoomView(), settingsOf(7, 2));
   EXPECT_EQ(whole.frames, 1);
@@ -90,8 +90,8 @@ TEST(ReferenceMethod, AnotherSeedIsAnotherPicture) {
                               fresh(litRoom(), litRoomView(), settingsOf(2, 2, 2, 2)).image));
 }
 
-// Whatever changes, what follows is as if nothing had been before.
-TEST(ReferenceMethod, BeginsAgainWhenAnythingChanges) {
+// After any change, the picture equals that of a new renderer.
+TEST(ReferenceMethod, RestartsWhenAnythingChanges) {
   FrameRenderer renderer(makeCpuBackend());
   Scene scene = litRoom();
   View view = litRoomView();

@@ -5,7 +5,7 @@
 namespace lamplighter {
 namespace {
 
-// The corner of a cube: three squares on seven points, without normals.
+// The corner of a cube: three squares with seven shared vertices and without normals.
 Primitive cubeCorner() {
   Primitive p;
   p.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
@@ -16,12 +16,12 @@ Primitive cubeCorner() {
   return p;
 }
 
-TEST(FlatNormals, EveryFaceHasItsOwn) {
+TEST(FlatNormals, EveryFaceGetsItsOwn) {
   Primitive p = cubeCorner();
   const Primitive before = p;
   addFlatNormals(p, std::vector<bool>(7, true));
-  // 0 is on three faces; 1, 3 and 4 are on two each: 7 + 2 + 3 vertices. Within a square they
-  // share.
+  // Vertex 0 is on three faces, 1, 3 and 4 are on two each: 7 + 2 + 3 vertices. The two triangles
+  // of a square share vertices.
   EXPECT_EQ(p.positions.size(), 12u);
   ASSERT_EQ(p.normals.size(), 12u);
   EXPECT_EQ(p.uv0.size(), 12u);
@@ -29,14 +29,14 @@ TEST(FlatNormals, EveryFaceHasItsOwn) {
     const vec3 face(t < 6 ? vec3(0, 0, -1) : t < 12 ? vec3(0, -1, 0) : vec3(-1, 0, 0));
     for (size_t c = t; c < t + 3; ++c) {
       EXPECT_EQ(p.normals[p.indices[c]], face);
-      // Split vertices are where they were, with what they had.
+      // Split vertices keep their position and attributes.
       EXPECT_EQ(p.positions[p.indices[c]], before.positions[before.indices[c]]);
       EXPECT_EQ(p.uv0[p.indices[c]], before.uv0[before.indices[c]]);
     }
   }
 }
 
-TEST(FlatNormals, ThoseThatAreThereStay) {
+TEST(FlatNormals, ExistingOnesAreKept) {
   Primitive p = cubeCorner();
   const vec3 round = glm::normalize(vec3(-1, -1, -1));
   p.normals.assign(7, round);

@@ -1,5 +1,5 @@
-// What is saved can be read by others: tinygltf, an independent reader, finds the same triangles at
-// the same places in every scene of the collection after an edit.
+// Other programs can read saved files: tinygltf, an independent reader, finds the same triangles at
+// the same positions in every scene of the collection after an edit.
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ void addPrimitive(Content& content, const tinygltf::Model& m, const tinygltf::Pr
   const tinygltf::Accessor& counted =
       p.indices < 0 ? positions : m.accessors.at(static_cast<size_t>(p.indices));
   content.triangles += counted.count / 3;
-  // Of float positions, the only kind in the collection that has no sparse values.
+  // Only float positions, the one kind in the collection without sparse values.
   if (positions.bufferView < 0 || positions.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
   const tinygltf::BufferView& view = m.bufferViews.at(static_cast<size_t>(positions.bufferView));
   const auto stride = static_cast<size_t>(positions.ByteStride(view));
@@ -93,7 +93,7 @@ Content contentOf(const Scene& scene) {
 
 tinygltf::Model readByTinygltf(const std::filesystem::path& path) {
   tinygltf::TinyGLTF reader;
-  // Pixels are not what is compared.
+  // Images are not compared.
   reader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
                            const unsigned char*, int, void*) { return true; },
                         nullptr);
@@ -138,17 +138,9 @@ TEST_P(Interoperates, WithTinygltf) {
   }
 }
 
-std::string testName(const testing::TestParamInfo<Row>& info) {
-  std::string name = info.param.at("file");
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, Interoperates,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         testName);
+                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Interoperates);
 
 }  // namespace

@@ -1,5 +1,4 @@
-// A scene that is saved and opened again is the same scene, edits and what is not understood
-// included.
+// A saved scene loads as the same scene, including edits and unknown extensions.
 #include <csignal>
 
 #include <gmock/gmock.h>
@@ -26,7 +25,7 @@ using Row = std::map<std::string, std::string>;
 
 class SavedScene : public testing::TestWithParam<Row> {};
 
-TEST_P(SavedScene, IsTheSameInAnotherFolder) {
+TEST_P(SavedScene, LoadsAsTheSameSceneFromAnotherFolder) {
   const Scene scene = loadGltf(test::sharedScenes() / GetParam().at("file")).scene;
   const test::TemporaryFolder folder;
   for (const char* name : {"again.glb", "again.gltf"}) {
@@ -36,20 +35,12 @@ TEST_P(SavedScene, IsTheSameInAnotherFolder) {
   }
 }
 
-std::string testName(const testing::TestParamInfo<Row>& info) {
-  std::string name = info.param.at("file");
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, SavedScene,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         testName);
+                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SavedScene);
 
-TEST(SavedOddScene, IsTheSame) {
+TEST(SavedOddScene, LoadsAsTheSameScene) {
   const fs::path folder = test::sharedScenes() / "malformed";
   if (!fs::exists(folder)) GTEST_SKIP() << "no " << folder;
   const test::TemporaryFolder target;
@@ -69,7 +60,7 @@ TEST(SavedOddScene, IsTheSame) {
   EXPECT_GE(saved, 5);
 }
 
-// --- a scene of our own, edited ---
+// --- a generated scene, edited ---
 
 class EditedScene : public testing::Test {
  protected:
@@ -102,7 +93,8 @@ class EditedScene : public testing::Test {
     return scene_.nodes.back();
   }
 
-  // Saved to the three kinds of places, the scene comes back; gives the JSON of the .gltf.
+  // Saves the scene as .glb, as .gltf in another folder and as .gltf beside its source, and
+  // compares it after loading. Returns the JSON of the last file.
   Json expectRoundTrip() {
     saveGltf(scene_, other_.path() / "edited.glb");
     EXPECT_EQ(test::difference(scene_, loadGltf(other_.path() / "edited.glb").scene), "");
@@ -119,12 +111,12 @@ class EditedScene : public testing::Test {
   Scene scene_;
 };
 
-TEST_F(EditedScene, UneditedIsTheSameFile) {
+TEST_F(EditedScene, WithoutEditsTheFileIsTheSame) {
   EXPECT_EQ(expectRoundTrip(), json_);
-  EXPECT_FALSE(fs::exists(folder_.path() / "edited.bin")) << "nothing new to hold";
+  EXPECT_FALSE(fs::exists(folder_.path() / "edited.bin")) << "there is no new binary data";
 }
 
-TEST_F(EditedScene, HoldsWhatItWasMadeOf) {
+TEST_F(EditedScene, ContainsTheDataOfTheFile) {
   EXPECT_EQ(scene_.name, "the level");
   EXPECT_EQ(scene_.nodes.size(), 6u);
   EXPECT_EQ(node("floor").parent, node("root").id);
@@ -141,7 +133,7 @@ TEST_F(EditedScene, HoldsWhatItWasMadeOf) {
   EXPECT_TRUE(scene_.textures[0].nearest);
   const uint8_t* pixel = scene_.textures[0].image->at(0, 0);
   EXPECT_EQ(std::vector<int>(pixel, pixel + 4), (std::vector<int>{255, 128, 32, 255}));
-  // The strip's last two vertices come from its sparse data.
+  // The last two vertices of the strip come from sparse data.
   const Primitive& strip = scene_.meshes[1]->primitives[0];
   EXPECT_EQ(strip.indices.size(), 6u);
   EXPECT_EQ(scene_.meshes[0]->primitives[0].uv0[1], vec2(1.0f));
@@ -161,7 +153,7 @@ TEST_F(EditedScene, TransformsNamesAndVisibility) {
   EXPECT_EQ(saved["nodes"][5]["extensions"]["KHR_node_visibility"]["visible"], false);
 }
 
-TEST_F(EditedScene, HowAMeshIsLit) {
+TEST_F(EditedScene, KindOfMesh) {
   node("floor").meshKind = MeshKind::complex;
   Json saved = expectRoundTrip();
   EXPECT_EQ(saved["nodes"][1]["extras"]["lamplighter"]["mesh"], "complex");
@@ -197,7 +189,7 @@ TEST_F(EditedScene, LightsOfEveryKind) {
   spot.punctual = PunctualLight{PunctualKind::spot, vec3(3, 2, 1), 12.5f, 0.2f, 0.7f};
   Node& sun = add("sun", node("root").id);
   sun.punctual = PunctualLight{PunctualKind::directional, vec3(0.3f)};
-  Node& rectangle = add("rectangle", node("floor").id);  // whose scale is 2, 1, 2
+  Node& rectangle = add("rectangle", node("floor").id);  // the scale of the floor is (2, 1, 2)
   rectangle.area = AreaLight{AreaShape::rectangle, vec3(0.1f, 0.2f, 0.3f), vec2(0.37f, 1.9f)};
   Node& disk = add("disk");
   disk.area = AreaLight{AreaShape::disk, vec3(17, 12.3f, 9), vec2(0.81f)};
@@ -207,12 +199,12 @@ TEST_F(EditedScene, LightsOfEveryKind) {
     sphere.local.translation = vec3(diameter);
   }
   const Json saved = expectRoundTrip();
-  EXPECT_EQ(saved["meshes"].size(), 4u) << "two more, for spheres of two sizes";
+  EXPECT_EQ(saved["meshes"].size(), 4u) << "two additional meshes for spheres of two sizes";
   EXPECT_EQ(saved["materials"].size(), 2u);
   EXPECT_EQ(saved["extensions"]["XYZ_unheard_of"], json_["extensions"]["XYZ_unheard_of"]);
 }
 
-TEST_F(EditedScene, SpheresDoNotPileUp) {
+TEST_F(EditedScene, RepeatedSavingAddsNoSpheres) {
   Node& sphere = add("sphere");
   sphere.area = AreaLight{AreaShape::sphere, vec3(20), vec2(0.4f)};
   const fs::path path = other_.path() / "level.glb";
@@ -221,13 +213,13 @@ TEST_F(EditedScene, SpheresDoNotPileUp) {
   saveGltf(loadGltf(path).scene, path);
   saveGltf(loadGltf(path).scene, path);
   EXPECT_EQ(test::readText(path), once);
-  // Beside its source, with a buffer of its own.
+  // Saved over its source, with an additional buffer.
   saveGltf(scene_, path_);
   saveGltf(loadGltf(path_).scene, path_);
   saveGltf(loadGltf(path_).scene, path_);
   EXPECT_EQ(test::difference(scene_, loadGltf(path_).scene), "");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 3);  // .gltf and two .bin
-  // Deleted again, nothing of it is left.
+  // After the sphere is deleted, none of its data is left.
   Scene without = loadGltf(path_).scene;
   without.nodes.pop_back();
   saveGltf(without, path_);
@@ -235,7 +227,7 @@ TEST_F(EditedScene, SpheresDoNotPileUp) {
 }
 
 TEST_F(EditedScene, AreaLightsFollowTheirParentsScale) {
-  // EXT_lights_area scales by the largest axis alone; the light must stay what it is here.
+  // EXT_lights_area scales by the largest axis only; the light must keep its size.
   node("lamp").local.scale = vec3(1, 2, 1);
   const Json saved = expectRoundTrip();
   const Json& light = saved["extensions"]["EXT_lights_area"]["lights"].back();
@@ -243,7 +235,7 @@ TEST_F(EditedScene, AreaLightsFollowTheirParentsScale) {
   EXPECT_NEAR(light["rect"]["aspect"].get<double>(), 1.5, 1e-6);  // 1.5 × 1 to 0.5 × 2
 }
 
-TEST_F(EditedScene, DeletingFixesWhatCountsNodes) {
+TEST_F(EditedScene, DeletingUpdatesNodeIndices) {
   remove("bulb");  // a joint of the skin, target of an animation, the only node with light 0
   const Json saved = expectRoundTrip();
   ASSERT_EQ(saved["nodes"].size(), 6u);
@@ -255,7 +247,7 @@ TEST_F(EditedScene, DeletingFixesWhatCountsNodes) {
   EXPECT_EQ(saved["animations"][0]["channels"].size(), 1u);
   EXPECT_EQ(saved["animations"][0]["channels"][0]["target"]["node"], 3);
   const Json& lights = saved["extensions"]["KHR_lights_punctual"]["lights"];
-  ASSERT_EQ(lights.size(), 1u) << "the unused one was the author's and stays";
+  ASSERT_EQ(lights.size(), 1u) << "the unused light of the source file is kept";
   EXPECT_EQ(lights[0]["type"], "spot");
 }
 
@@ -269,7 +261,7 @@ TEST_F(EditedScene, EverythingDeleted) {
   EXPECT_EQ(again.meshes.size(), scene_.meshes.size());
 }
 
-TEST_F(EditedScene, DuplicatesTakeAlongWhatIsNotUnderstood) {
+TEST_F(EditedScene, DuplicatesKeepUnknownExtensions) {
   Node copy = node("bulb");
   copy.id = scene_.nextId++;
   copy.name = "bulb 2";
@@ -290,7 +282,7 @@ TEST_F(EditedScene, Reparenting) {
   node("strip").parent = kNoNode;
   node("root").parent = kNoNode;
   expectRoundTrip();
-  // "root" is in the other scene, too; below a node of this one it cannot be a root there.
+  // "root" is also a root of the other scene. As a child it cannot be a root there.
   const Node lamp = node("lamp");
   std::erase_if(scene_.nodes, [&](const Node& n) { return n.id == lamp.id; });
   scene_.nodes.insert(scene_.nodes.begin(), lamp);
@@ -341,7 +333,7 @@ TEST_F(EditedScene, AnotherMaterialKeepsTheMesh) {
   EXPECT_EQ(saved["meshes"][0]["primitives"][0]["extras"], Json({{"kept", 1}}));
 }
 
-TEST(SavedNewScene, ComesBack) {
+TEST(SavedNewScene, LoadsAsTheSameScene) {
   Scene scene;
   const int red = test::addMaterial(scene, vec3(0.8f, 0.1f, 0.1f));
   test::addMesh(scene, test::boxMesh(vec3(1), red), vec3(0, 1, 0));
@@ -385,7 +377,7 @@ TEST_F(EditedScene, ForeignBuffersAreNotOverwritten) {
   EXPECT_EQ(test::difference(scene_, loadGltf(folder_.path() / "new.gltf").scene), "");
 }
 
-TEST_F(EditedScene, WhatCannotBeWrittenIsRefused) {
+TEST_F(EditedScene, InvalidTargetsAreRejected) {
   EXPECT_THAT(refusal(scene_, folder_.path() / "level.obj"), HasSubstr(".gltf"));
   EXPECT_THAT(refusal(scene_, folder_.path() / "none" / "level.gltf"), HasSubstr("No such file"));
   EXPECT_THAT(refusal(scene_, path_ / "level.glb"), HasSubstr("Not a directory"));
@@ -394,10 +386,10 @@ TEST_F(EditedScene, WhatCannotBeWrittenIsRefused) {
   fs::permissions(path_, fs::perms::owner_read);
   EXPECT_THAT(refusal(scene_, path_), HasSubstr("write-protected"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 3)
-      << "nothing is left behind";
+      << "no temporary file may remain";
 }
 
-// A limit on the size of files stands for a full disk: write() fails half-way.
+// A limit on the file size simulates a full disk: write() fails in the middle.
 TEST_F(EditedScene, FullDiskChangesNothing) {
   auto mesh = std::make_shared<Mesh>(*test::boxMesh(vec3(1)));
   mesh->primitives[0].uv1.assign(mesh->primitives[0].positions.size(), vec2(0.0f));
@@ -411,7 +403,7 @@ TEST_F(EditedScene, FullDiskChangesNothing) {
   getrlimit(RLIMIT_FSIZE, &old);
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit small = old;
-  small.rlim_cur = before.size() + 1000;  // enough for the .bin, not for the .gltf
+  small.rlim_cur = before.size() + 1000;  // enough for the .bin file, not for the .gltf file
   setrlimit(RLIMIT_FSIZE, &small);
   const std::string message = refusal(scene_, other_.path() / "level.gltf");
   setrlimit(RLIMIT_FSIZE, &old);

@@ -1,4 +1,4 @@
-// Every real scene loads as its table says.
+// Every third-party scene loads with the contents listed in the table.
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ vec3 parseVec3(const std::string& text) {
   return v;
 }
 
-TEST_P(SharedScene, LoadsAsStated) {
+TEST_P(SharedScene, LoadsAsListed) {
   const Row& row = GetParam();
   const auto number = [&](const char* column) {
     return static_cast<size_t>(std::stoul(row.at(column)));
@@ -53,8 +53,8 @@ TEST_P(SharedScene, LoadsAsStated) {
   EXPECT_EQ(scene.skyIsDefault, !isLit);
   ASSERT_EQ(loaded.warnings.size(), isLit ? 0u : 1u) << loaded.warnings.front();
 
-  // Clear panes are in the world's bounds or not as the renderer decides; these are of all there
-  // is.
+  // The bounds of RenderScene depend on the treatment of transparent panes. These bounds include
+  // all geometry.
   const vec3 low = parseVec3(row.at("bounds_min")), high = parseVec3(row.at("bounds_max"));
   const std::vector<mat4> world = worldMatrices(scene);
   Bounds bounds;
@@ -64,7 +64,7 @@ TEST_P(SharedScene, LoadsAsStated) {
       for (const vec3& v : p.positions) bounds.add(vec3(world[i] * vec4(v, 1.0f)));
     }
   }
-  // The table has three decimals.
+  // The table has three decimal places.
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(bounds.min[c], low[c], 0.00051f + 1e-6f * std::abs(low[c]));
     EXPECT_NEAR(bounds.max[c], high[c], 0.00051f + 1e-6f * std::abs(high[c]));
@@ -81,18 +81,10 @@ TEST_P(SharedScene, HasUsableNormalsEverywhere) {
   }
 }
 
-std::string testName(const testing::TestParamInfo<Row>& info) {
-  std::string name = info.param.at("file");
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  }
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, SharedScene,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         testName);
-// Where the scenes are absent there is nothing to instantiate.
+                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
+// There are no instances if the scenes are missing.
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedScene);
 
 }  // namespace

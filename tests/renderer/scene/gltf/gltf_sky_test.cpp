@@ -1,4 +1,4 @@
-// The sky in a file: what is written comes back, and what is malformed is left out as a whole.
+// The sky in files: a saved sky loads as the same sky, and a malformed one is ignored as a whole.
 #include <filesystem>
 #include <fstream>
 
@@ -36,7 +36,7 @@ class SavedSky : public testing::Test {
   Json noteIn(const fs::path& file) const {
     return Json::parse(test::readText(file))["scenes"][0]["extras"]["lamplighter"]["sky"];
   }
-  // The scene after saving and loading.
+  // Returns the scene after saving and loading.
   Scene roundTrip(const Scene& scene, const std::string& name) const {
     saveGltf(scene, folder_.path() / name);
     LoadedScene loaded = loadGltf(folder_.path() / name);
@@ -45,7 +45,7 @@ class SavedSky : public testing::Test {
   }
 };
 
-TEST_F(SavedSky, OfEachKindComesBackFromBothFormats) {
+TEST_F(SavedSky, OfEachKindLoadsFromBothFormats) {
   for (const Sky& sky : {Sky(vec3(0.1f, 0.2f, 0.3f)), test::gradientSky(), Sky(vec3(0.0f)),
                          Sky::picture(picture_, 0.4f, 2.5f)}) {
     for (const char* name : {"level.gltf", "level.glb"}) {
@@ -54,7 +54,7 @@ TEST_F(SavedSky, OfEachKindComesBackFromBothFormats) {
                        saveGltf(boxScene(), other_.path() / "plain.gltf");
                        return other_.path() / "plain.gltf";
                      }())
-                         .scene.source;  // which has the default sky: black is a change
+                         .scene.source;  // it has the default sky, so a black sky is a change
       scene.sky = sky;
       const Scene back = roundTrip(scene, name);
       EXPECT_EQ(back.sky, sky) << name << " " << static_cast<int>(sky.kind);
@@ -63,13 +63,14 @@ TEST_F(SavedSky, OfEachKindComesBackFromBothFormats) {
   }
 }
 
-TEST_F(SavedSky, PicturesLieBesideTheSceneOnce) {
+TEST_F(SavedSky, PicturesAreSavedBesideTheSceneOnce) {
   Scene scene = boxScene();
   scene.sky = Sky::picture(picture_);
   saveGltf(scene, file_);
   EXPECT_EQ(noteIn(file_)["uri"], "clo%20udy.exr");
   EXPECT_TRUE(fs::exists(folder_.path() / "clo udy.exr"));
-  // Again, turned, from what was loaded and from what was saved: the same file.
+  // Saved again, rotated, from the loaded and from the original scene: the picture file is the
+  // same.
   Scene loaded = loadGltf(file_).scene;
   loaded.sky.rotation = 1.0f;
   saveGltf(loaded, file_);
@@ -77,17 +78,17 @@ TEST_F(SavedSky, PicturesLieBesideTheSceneOnce) {
   saveGltf(scene, file_);
   EXPECT_EQ(noteIn(file_)["rotation"], 0.5);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 3);  // .gltf, .bin, .exr
-  // To another folder it is taken along; another file of its name stays.
+  // The picture is copied to another folder. A different file of the same name is kept.
   const fs::path elsewhere = other_.path() / "sub";
   fs::create_directory(elsewhere);
-  std::ofstream(elsewhere / "clo udy.exr") << "somebody else's";
+  std::ofstream(elsewhere / "clo udy.exr") << "another file";
   saveGltf(loadGltf(file_).scene, elsewhere / "copy.gltf");
   EXPECT_EQ(noteIn(elsewhere / "copy.gltf")["uri"], "clo%20udy-1.exr");
-  EXPECT_EQ(test::readText(elsewhere / "clo udy.exr"), "somebody else's");
+  EXPECT_EQ(test::readText(elsewhere / "clo udy.exr"), "another file");
   EXPECT_EQ(loadGltf(elsewhere / "copy.gltf").scene.sky, loadGltf(file_).scene.sky);
 }
 
-TEST_F(SavedSky, IsTakenOutAgainAndLeavesOtherExtrasAlone) {
+TEST_F(SavedSky, CanBeRemovedWithoutChangingOtherExtras) {
   Scene scene = boxScene();
   test::addRectangleLight(scene, vec3(0, 3, 0), vec2(1), vec3(5));
   scene.sky = test::gradientSky();
@@ -103,7 +104,7 @@ TEST_F(SavedSky, IsTakenOutAgainAndLeavesOtherExtrasAlone) {
   EXPECT_TRUE(loadGltf(file_).scene.sky.isBlack());
 }
 
-TEST_F(SavedSky, WithoutALightNoSkyIsNotedSoThatThePlainOneStaysAway) {
+TEST_F(SavedSky, ABlackSkyIsSavedIfThereAreNoLights) {
   Scene scene = loadGltf([&] {
                   saveGltf(boxScene(), file_);
                   return file_;
@@ -118,7 +119,7 @@ TEST_F(SavedSky, WithoutALightNoSkyIsNotedSoThatThePlainOneStaysAway) {
   EXPECT_FALSE(back.scene.skyIsDefault);
 }
 
-TEST_F(SavedSky, MalformedOnesAreLeftOutWithOneWarning) {
+TEST_F(SavedSky, MalformedOnesAreIgnoredWithOneWarning) {
   test::throughFile(test::cloudySky().image->pixels, folder_.path() / "fine.exr");
   folder_.write("text.exr", "no picture");
   saveGltf(boxScene(), file_);
@@ -129,7 +130,7 @@ TEST_F(SavedSky, MalformedOnesAreLeftOutWithOneWarning) {
     folder_.write("level.gltf", json.dump());
     const LoadedScene loaded = loadGltf(file_);
     if (loaded.warnings.size() > 1) {
-      EXPECT_TRUE(loaded.scene.skyIsDefault);  // nothing is half there
+      EXPECT_TRUE(loaded.scene.skyIsDefault);  // nothing of the malformed sky is used
     }
     return loaded.warnings;
   };
@@ -157,16 +158,16 @@ TEST_F(SavedSky, MalformedOnesAreLeftOutWithOneWarning) {
   };
   for (const auto& [note, what] : cases) {
     const auto warnings = warningsWith(note);
-    ASSERT_EQ(warnings.size(), 2u) << note;  // the other: there is no light
+    ASSERT_EQ(warnings.size(), 2u) << note;  // the other warning: the scene has no light
     EXPECT_THAT(warnings[0], HasSubstr(what)) << note;
     EXPECT_TRUE(warnings[0].starts_with(file_.string() + ": ")) << warnings[0];
   }
-  // What was not understood is not lost by saving.
+  // Saving keeps the malformed sky of the file.
   saveGltf(loadGltf(file_).scene, file_);
   EXPECT_EQ(noteIn(file_)["scale"], -1);
 }
 
-TEST(SkyFile, ThatIsNoPictureIsRefused) {
+TEST(SkyFile, ThatIsNoPictureIsRejected) {
   const test::TemporaryFolder folder;
   for (const auto& [name, what] :
        {std::pair("gone.exr", "is not there"), {"text.hdr", "no known image format"}}) {

@@ -5,7 +5,7 @@
 namespace lamplighter {
 namespace {
 
-TEST(UnusedVertices, AreTakenOutWhereTheyAreMost) {
+TEST(UnusedVertices, AreRemovedIfMostAreUnused) {
   Primitive p;
   for (int i = 0; i < 10; ++i) {
     p.positions.emplace_back(static_cast<float>(i));
@@ -23,7 +23,7 @@ TEST(UnusedVertices, AreTakenOutWhereTheyAreMost) {
   }
 }
 
-TEST(UnusedVertices, StayWhereTheyAreFew) {
+TEST(UnusedVertices, AreKeptIfFewAreUnused) {
   Primitive p;
   p.positions.assign(4, vec3(1.0f));
   p.indices = {0, 1, 3};

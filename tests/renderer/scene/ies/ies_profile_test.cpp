@@ -1,4 +1,4 @@
-// IES files: closed forms of what they say, and what is none.
+// IES files: closed forms of their photometry, and malformed files.
 #include "renderer/scene/ies/ies_profile.h"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 namespace lamplighter {
 namespace {
 
-// A file with these angles and candela, horizontal angle by horizontal angle.
+// A file with the given angles and candela, ordered by horizontal angle.
 std::string ies(int type, const std::string& vertical, const std::string& horizontal,
                 const std::string& candela, int rows, int columns,
                 const std::string& multiplier = "1",
@@ -31,14 +31,14 @@ vec3 typeB(float vertical, float horizontal) {
   return {std::sin(h), std::cos(h) * std::sin(v), -std::cos(h) * std::cos(v)};
 }
 
-TEST(IesProfile, AnEvenOneGivesFourPi) {
+TEST(IesProfile, AUniformOneGivesFourPi) {
   const auto p = parseIes(ies(1, "0 90 180", "0", "50 50 50", 3, 1, "2"), "even.ies");
   EXPECT_FLOAT_EQ(p->peak, 100.0f);
   EXPECT_NEAR(p->solidAngle, 4.0f * kPi, 1e-3f);
   EXPECT_FLOAT_EQ(p->at({0.6f, 0.0f, 0.8f}), 1.0f);
 }
 
-// cos θ below the horizon: ∫ = π. Every 5°, linear between: a little less.
+// cos θ below the horizon: ∫ = π. Linear interpolation between steps of 5° gives slightly less.
 TEST(IesProfile, ALambertianOneGivesPi) {
   std::string vertical, candela;
   for (int v = 0; v <= 90; v += 5) {
@@ -48,7 +48,7 @@ TEST(IesProfile, ALambertianOneGivesPi) {
   const auto p = parseIes(ies(1, vertical, "0", candela, 19, 1), "lambert.ies");
   EXPECT_NEAR(p->peak * p->solidAngle, 300.0f * kPi, 2.0f);
   EXPECT_NEAR(p->at(typeC(60, 123)), 0.5f, 1e-3f);
-  EXPECT_EQ(p->at(typeC(91, 0)), 0.0f);  // beyond its angles
+  EXPECT_EQ(p->at(typeC(91, 0)), 0.0f);  // beyond the last angle
 }
 
 TEST(IesProfile, InterpolatesBetweenAngles) {
@@ -71,7 +71,7 @@ TEST(IesProfile, MirrorsHalvesAndQuarters) {
   EXPECT_NEAR(turned->at(typeC(90, 60)) * 3.0f, 1.0f + 2.0f * 30.0f / 180.0f, 1e-3f);
 }
 
-TEST(IesProfile, TypeBHasItsPoleAside) {
+TEST(IesProfile, TypeBHasAHorizontalPole) {
   // A beam along the aim, 10° high and 40° wide.
   const auto p = parseIes(ies(2, "-90 -10 0 10 90", "-90 -40 0 40 90",
                               "0 0 0 0 0  0 0 0 0 0  0 0 100 0 0  0 0 0 0 0  0 0 0 0 0", 5, 5),
@@ -83,13 +83,13 @@ TEST(IesProfile, TypeBHasItsPoleAside) {
   EXPECT_NEAR(p->at(typeB(-5, 20)), 0.25f, 1e-3f);
   EXPECT_EQ(p->at({0, 1, 0}), 0.0f);
   EXPECT_EQ(p->at({0, 0, 1}), 0.0f);
-  // One side alone stands for both.
+  // One half is mirrored.
   const auto mirrored =
       parseIes(ies(2, "0 10 90", "0 40 90", "100 0 0 0 0 0 0 0 0", 3, 3), "m.ies");
   EXPECT_NEAR(mirrored->at(typeB(-5, -20)), 0.25f, 1e-3f);
 }
 
-TEST(IesProfile, TakesEveryEdition) {
+TEST(IesProfile, ReadsEveryVersion) {
   const std::string rest = "0 90", h = "0", c = "7 0";
   for (const char* head : {"TILT=NONE\n", "IESNA91\n[MANUFAC] x\nTILT=NONE\r\n",
                            "IESNA:LM-63-2002\n[OTHER]\nTILT=NONE\n",
@@ -97,12 +97,12 @@ TEST(IesProfile, TakesEveryEdition) {
     const auto p = parseIes(ies(1, rest, h, c, 2, 1, "1", head), "x.ies");
     EXPECT_FLOAT_EQ(p->peak, 7.0f) << head;
   }
-  // Numbers may be broken anywhere and parted by commas.
+  // Numbers may be split over lines at any place, and separated by commas.
   const auto p = parseIes("TILT=NONE\n1,1000,1\n2 1 1\n2 0 0 0 1\n1 60 0\n90 0 +7\n.5e1", "x.ies");
   EXPECT_NEAR(p->at(typeC(90, 0)), 5.0f / 7.0f, 1e-5f);
 }
 
-// Factors over the angle from straight down, linear between the angles.
+// The factors depend on the angle from straight down, with linear interpolation.
 TEST(IesProfile, TiltFactorsFollowTheAimsAngle) {
   const std::string head = "IESNA:LM-63-2002\nTILT=INCLUDE\n3\n3\n0 45 90\n1 0.8 0.5\n";
   const auto p = parseIes(ies(1, "0 90", "0", "7 7", 2, 1, "1", head), "tilted.ies");
@@ -114,13 +114,13 @@ TEST(IesProfile, TiltFactorsFollowTheAimsAngle) {
   EXPECT_NEAR(p->atTilt(aimed(22.5f, 33)), 0.9f, 1e-4f);
   EXPECT_NEAR(p->atTilt(aimed(45, 200)), 0.8f, 1e-4f);
   EXPECT_NEAR(p->atTilt(aimed(90)), 0.5f, 1e-4f);
-  EXPECT_FLOAT_EQ(p->atTilt(aimed(180)), 0.5f);  // beyond its angles
+  EXPECT_FLOAT_EQ(p->atTilt(aimed(180)), 0.5f);  // beyond the last angle
   const auto plain = parseIes(ies(1, "0 90", "0", "7 7", 2, 1), "plain.ies");
   EXPECT_EQ(plain->atTilt(aimed(70)), 1.0f);
 }
 
-// Turned live it is as bright as opened so, by the factor.
-TEST(IesProfile, TheRendererTakesTheTilt) {
+// When the lamp is rotated by an edit, the tilt factor changes its brightness.
+TEST(IesProfile, TheRendererAppliesTheTiltFactor) {
   const std::string head = "TILT=INCLUDE\n1\n2\n0 90\n1 0.5\n";
   Scene scene;
   const NodeId id = test::addNode(scene, "lamp");
@@ -128,8 +128,7 @@ TEST(IesProfile, TheRendererTakesTheTilt) {
   light.profile = parseIes(ies(1, "0 90", "0", "7 7", 2, 1, "1", head), "tilted.ies");
   scene.find(id)->punctual = light;
   scene.find(id)->local.rotation = glm::angleAxis(-0.5f * kPi, vec3(1, 0, 0));  // straight down
-  RenderScene live;
-  update(live, scene, SceneChanges::all());
+  RenderScene live = test::renderSceneOf(scene);
   EXPECT_NEAR(live.punctuals[0].light.intensity.g, 8.0f, 1e-4f);
   const Scene before = scene;
   scene.find(id)->local.rotation = quat(1, 0, 0, 0);
@@ -137,9 +136,9 @@ TEST(IesProfile, TheRendererTakesTheTilt) {
   EXPECT_NEAR(live.punctuals[0].light.intensity.g, 4.0f, 1e-4f);
 }
 
-// What the virtual point lights make of some kinds of luminaires: how far it is off, over all
-// directions, and that no light is lost.
-TEST(IesProfile, LobesComeNear) {
+// The lobes by which VPLs approximate typical luminaires: the error over all directions, and that
+// no flux is lost.
+TEST(IesProfile, LobesApproximateTheProfile) {
   struct Kind {
     const char* name;
     float (*at)(float vertical, float horizontal);  // degrees
@@ -197,7 +196,7 @@ TEST(IesProfile, LobesComeNear) {
   }
 }
 
-TEST(IesProfile, BadFilesAreOneClearLine) {
+TEST(IesProfile, BadFilesGiveOneClearLine) {
   const std::string good = ies(1, "0 90", "0", "7 0", 2, 1);
   std::vector<std::string> bad = {
       "", "hello", "TILT=NONE\n", "TILT=lamp.tlt\n1 2 3", ies(3, "0 90", "0", "7 0", 2, 1),
@@ -207,7 +206,7 @@ TEST(IesProfile, BadFilesAreOneClearLine) {
       ies(1, "0 190", "0", "7 0", 2, 1), ies(1, "0 90", "0", "7 nan", 2, 1),
       ies(1, "0 90", "0", "7 1e300", 2, 1), ies(1, "0 90", "0", "7 0", 2, 1, "-1"),
       ies(1, "0 90", "0", "7 0", -2, 1), ies(1, "0 90", "0", "7 0", 2, 0),
-      // A billion values promised by a hundred bytes.
+      // Counts of a billion values in a file of a hundred bytes.
       ies(1, "0 90", "0", "7 0", 100000, 100000), "TILT=INCLUDE\n1 99999 0 1 2",
       "TILT=INCLUDE\n4 1 0 1\n", "TILT=INCLUDE\n1 2 90 0 1 1\n", "TILT=INCLUDE\n1 1 0 -1\n",
       "TILT=INCLUDE\n1 1 0 0\n", std::string(100, '\0')};
@@ -215,7 +214,7 @@ TEST(IesProfile, BadFilesAreOneClearLine) {
   for (const std::string& text : bad) {
     try {
       parseIes(text, "bad.ies");
-      ADD_FAILURE() << "taken: " << text;
+      ADD_FAILURE() << "accepted: " << text;
     } catch (const InputError& e) {
       const std::string what = e.what();
       EXPECT_THAT(what, testing::StartsWith("bad.ies: "));
@@ -241,10 +240,10 @@ TEST(IesProfile, IsSavedBesideTheScene) {
   ASSERT_TRUE(loaded.nodes[1].punctual && loaded.nodes[1].punctual->profile);
   EXPECT_EQ(*loaded.nodes[1].punctual->profile, *profile);
   EXPECT_EQ(loaded.nodes[2].punctual->profile, loaded.nodes[1].punctual->profile);
-  // To another folder it goes along, once.
+  // When the scene is saved to another folder, the file is copied once.
   saveGltf(loaded, other.path() / "s.glb");
   EXPECT_EQ(loadGltf(other.path() / "s.glb").scene.nodes[1].punctual, loaded.nodes[1].punctual);
-  // Gone: a warning, and a plain light.
+  // If the file is missing, there is a warning, and the light has no profile.
   std::filesystem::remove(folder.path() / "a lamp.ies");
   const LoadedScene without = loadGltf(folder.path() / "s.gltf");
   EXPECT_FALSE(without.scene.nodes[1].punctual->profile);

@@ -1,16 +1,16 @@
-// What is asked of many lights at once against what each is told alone: the same, to the bit, for a
-// database that a drag brought up to date is the one that is made from nothing.
+// Tests of eight lights at a time give the results of each light alone, bit for bit. A database
+// that is updated during a drag must equal a new one.
 #include "renderer/visibility/movers/mover_shadows.h"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/movers/shadow_volumes.h"
 #include "renderer/visibility/visibility_database.h"
-#include "tests/support/folders.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
@@ -18,11 +18,9 @@ namespace {
 class MoversOfARoom : public testing::Test {
  protected:
   void SetUp() override {
-    level_ = loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene;
-    update(scene_, level_, SceneChanges::all());
-    for (const SceneVpl& v :
-         generateVpls(scene_, RayCaster(scene_), LightSet(scene_), {130, 0.5f, 1, 1}).vpls)
-      lights_.push_back(v.vpl);
+    level_ = test::loadAsset("pillar_room");
+    scene_ = test::renderSceneOf(level_);
+    lights_ = test::lightsOf(scene_, {130, 0.5f, 1, 1});
     for (const Node& n : level_.nodes)
       if (n.name == "mover") mover_ = n.id;
   }
@@ -33,8 +31,8 @@ class MoversOfARoom : public testing::Test {
     return 0;
   }
 
-  // The lights, eight at a time, for which a rectangle of objects that do not move is neither dark
-  // nor degenerate.
+  // Visits each rectangle of static objects with up to eight lights at a time for which it is
+  // neither dark nor degenerate.
   template <typename Visit>
   void forEachBatch(const Visit& visit) const {
     for (uint32_t object = 0; object < scene_.objects.size(); ++object) {
@@ -70,7 +68,7 @@ class MoversOfARoom : public testing::Test {
     return {occluders.caster(moverObject()), {groups.begin(), groups.end()}};
   }
 
-  // After some steps that way.
+  // The path after three steps in this direction.
   MoverPath straightPath(const vec3& direction) const {
     MoverPath path;
     MoverPlace place{Caster(Bounds{vec3(0.0f), vec3(1.0f)}), {}};
@@ -83,8 +81,8 @@ class MoversOfARoom : public testing::Test {
     return path;
   }
 
-  // visit(region, slot, whether it is met, the answer's slack), the same ones whatever the shadows,
-  // with hints of all kinds.
+  // Calls visit(region, slot, whether the mover may block the light, slack) for the same entries in
+  // the same order for any shadows, with random hints.
   template <typename Visit>
   void forEachAnswer(const MoverShadows& shadows, const Visit& visit) const {
     uint32_t random = 1;
@@ -112,13 +110,13 @@ class MoversOfARoom : public testing::Test {
   NodeId mover_ = kNoNode;
 };
 
-TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
+TEST_F(MoversOfARoom, EightPyramidsEqualSinglePyramids) {
   uint32_t random = 1;
   const auto next = [&] {
     random = random * 1664525u + 1013904223u;
     return static_cast<float>(random >> 8) * 0x1p-24f;
   };
-  const MotionMetric ways[] = {MotionMetric(), {glm::normalize(vec3(1.0f, 0.2f, -0.5f)), 8.0f}};
+  const MotionMetric metrics[] = {MotionMetric(), {glm::normalize(vec3(1.0f, 0.2f, -0.5f)), 8.0f}};
   size_t met = 0, asked = 0, differ = 0;
   forEachBatch([&](const PatchRegion& region, const std::vector<size_t>& slots) {
     std::vector<PyramidApex> apices;
@@ -126,7 +124,7 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
     std::vector<const PyramidApex*> pointers;
     for (const PyramidApex& a : apices) pointers.push_back(&a);
     PyramidBatch batch(LightPacket(pointers), region);
-    batch.weighBy(ways[random % 2]);
+    batch.weighBy(metrics[random % 2]);
     std::array<Bounds, 13> each;
     for (size_t i = 0; i < each.size(); ++i) {
       const vec3 at = scene_.bounds.min + vec3(next(), next(), next()) * scene_.bounds.extent();
@@ -164,20 +162,20 @@ TEST_F(MoversOfARoom, PyramidsMeetTogetherWhatEachMeetsAlone) {
   EXPECT_EQ(differ, 0u) << "of " << asked;
 }
 
-TEST_F(MoversOfARoom, ShadowsReachTogetherWhatEachReachesAlone) {
+TEST_F(MoversOfARoom, EightShadowVolumesEqualSingleOnes) {
   const Caster caster(scene_.objects[moverObject()].bounds);
   ShadowVolumes reaches(lights_.size());
   std::vector<ShadowVolume> each;
   for (size_t i = 0; i < lights_.size(); ++i) {
     each.emplace_back(lights_[i], caster);
-    if (i % 7 != 0) reaches.set(i, each[i]);  // the others stay empty
+    if (i % 7 != 0) reaches.set(i, each[i]);  // the other slots are empty
   }
   size_t reached = 0, differ = 0;
   forEachBatch([&](const PatchRegion& region, const std::vector<size_t>& slots) {
     for (const size_t slot : slots) {
       const bool expected = slot % 7 != 0 && each[slot].mayFallOn(region.centre, region.radius);
       const uint64_t bit = uint64_t{1} << slot % 64;
-      const uint64_t both = bit | uint64_t{1} << 5;  // and what else is wanted
+      const uint64_t both = bit | uint64_t{1} << 5;  // and another light
       differ += (reaches.mayFallOn(slot / 64, bit, region.centre, region.radius) != 0) != expected;
       differ += (reaches.mayFallOn(slot / 64, both, region.centre, region.radius) & bit) !=
                 (expected ? bit : 0);
@@ -188,8 +186,8 @@ TEST_F(MoversOfARoom, ShadowsReachTogetherWhatEachReachesAlone) {
   EXPECT_EQ(differ, 0u);
 }
 
-// Whatever they were met by before.
-TEST_F(MoversOfARoom, MoversShadowTogetherWhatTheyShadowAlone) {
+// The hints, which come from earlier tests, do not change the result.
+TEST_F(MoversOfARoom, ShadowsOfEightLightsEqualThoseOfSingleLights) {
   const Occluders occluders = placeOccluders();
   const uint32_t mover = moverObject();
   const MoverShadows shadows(occluders, {&mover, 1}, lights_, MoverPath());
@@ -208,8 +206,9 @@ TEST_F(MoversOfARoom, MoversShadowTogetherWhatTheyShadowAlone) {
   EXPECT_EQ(differ, 0u) << "of " << asked;
 }
 
-// Wherever it goes and however it turns, no box of it by more than was said, as the way counts it.
-TEST_F(MoversOfARoom, AnswersStandWhileMoversGoLessThanTheirSlack) {
+// As long as the mover has moved less than the slack by the motion metric, for any direction and
+// rotation, the result stays valid.
+TEST_F(MoversOfARoom, ResultsStayValidWithinTheirSlack) {
   const uint32_t mover = moverObject();
   const Occluders before = placeOccluders();
   const MoverPlace placeBefore = placeOf(before);
@@ -217,11 +216,12 @@ TEST_F(MoversOfARoom, AnswersStandWhileMoversGoLessThanTheirSlack) {
                         {0.01f, -0.15f, 0.01f}, {0.0f, 0.25f, 0.2f},   {0.004f, 0.0f, 0.003f}};
   float angle = 0.0f;
   for (const vec3& shift : steps) {
-    // In all directions alike; along the step, as a drag has gone before; and along another.
+    // Without a direction; along the step, as in a straight drag; along another direction.
     const vec3 straight = glm::normalize(shift), other = glm::normalize(vec3(1.0f, 0.1f, 0.3f));
-    std::array<size_t, 3> stand{}, met{};
-    for (size_t way = 0; way < 3; ++way) {
-      const MoverPath path = way == 0 ? MoverPath() : straightPath(way == 1 ? straight : other);
+    std::array<size_t, 3> valid{}, met{};
+    for (size_t metric = 0; metric < 3; ++metric) {
+      const MoverPath path =
+          metric == 0 ? MoverPath() : straightPath(metric == 1 ? straight : other);
       std::vector<float> slacks;
       std::vector<bool> answers;
       forEachAnswer(MoverShadows(before, {&mover, 1}, lights_, path),
@@ -240,41 +240,40 @@ TEST_F(MoversOfARoom, AnswersStandWhileMoversGoLessThanTheirSlack) {
       size_t differ = 0, i = 0;
       forEachAnswer(MoverShadows(after, {&mover, 1}, lights_, MoverPath()),
                     [&](const PatchRegion&, size_t, bool isMet, float) {
-                      const bool stands = slacks[i] > step;
-                      stand[way] += stands;
-                      met[way] += stands && isMet;
-                      differ += stands && isMet != answers[i];
+                      const bool isValid = slacks[i] > step;
+                      valid[metric] += isValid;
+                      met[metric] += isValid && isMet;
+                      differ += isValid && isMet != answers[i];
                       ++i;
                     });
-      if (way == 0) {
+      if (metric == 0) {
         EXPECT_LT(step, 0.6f);
-        EXPECT_GT(stand[0], 100u) << "after " << step << " m";
+        EXPECT_GT(valid[0], 100u) << "after " << step << " m";
         if (step < 0.1f) {
           EXPECT_GT(met[0], 100u);
         }
       }
-      EXPECT_EQ(differ, 0u) << "of " << stand[way] << " after " << step << " m, way " << way;
+      EXPECT_EQ(differ, 0u) << "of " << valid[metric] << " after " << step << " m, metric "
+                            << metric;
       node.local = place;
       update(scene_, level_, SceneChanges::all());
     }
     if (angle == 0.0f) {
-      EXPECT_GT(stand[1], stand[0]);
+      EXPECT_GT(valid[1], valid[0]);
       EXPECT_GT(met[1], met[0]);
     }
     angle += 0.02f;
   }
 }
 
-// Steps and turns, of which some lights miss a few; short ones leave most of what was found before.
+// Drags with steps and rotations in which some lights skip updates. Short steps keep most entries.
 class DragsInARoom : public MoversOfARoom, public testing::WithParamInterface<float> {
  protected:
   // move(node, step): one step of the mover.
   template <typename Move>
   void drag(int steps, const Move& move) {
-    RenderSceneChanges everything;
-    everything.rebuilt = true;
     VisibilityDatabase kept;
-    kept.setScene(scene_, everything);
+    kept.setScene(scene_, test::everythingRebuilt());
     kept.setLights(scene_, lights_);
     std::vector<int> some;
     for (int slot = 0; slot < static_cast<int>(lights_.size()); slot += 3) some.push_back(slot);
@@ -286,7 +285,7 @@ class DragsInARoom : public MoversOfARoom, public testing::WithParamInterface<fl
       if (step % 3 != 2) continue;
       kept.refreshAll(scene_);
       VisibilityDatabase fresh;
-      fresh.setScene(scene_, everything);
+      fresh.setScene(scene_, test::everythingRebuilt());
       fresh.setLights(scene_, lights_);
       size_t differ = 0;
       for (uint32_t object = 0; object < fresh.objects(); ++object) {
@@ -300,7 +299,7 @@ class DragsInARoom : public MoversOfARoom, public testing::WithParamInterface<fl
   }
 };
 
-TEST_P(DragsInARoom, LeaveNoEntryOtherThanFromNothing) {
+TEST_P(DragsInARoom, GiveTheEntriesOfANewDatabase) {
   drag(18, [&](Node& node, int step) {
     node.local.translation += GetParam() * vec3(0.11f, step % 4 == 1 ? 0.3f : 0.0f, -0.07f);
     node.local.rotation =
@@ -308,8 +307,8 @@ TEST_P(DragsInARoom, LeaveNoEntryOtherThanFromNothing) {
   });
 }
 
-// Along an axis, to and fro, not quite straight any more, then along another one.
-TEST_P(DragsInARoom, LeaveNoEntryOtherThanFromNothingWhereTheyAreStraight) {
+// Along an axis, back and forth, then not quite straight, then along another axis.
+TEST_P(DragsInARoom, GiveTheEntriesOfANewDatabaseIfStraight) {
   drag(30, [&](Node& node, int step) {
     const float length = 0.3f * GetParam() * (step % 3 == 0 ? -1.0f : 1.0f);
     const float aside = step > 8 ? 0.002f * static_cast<float>(step % 5) : 0.0f;
@@ -319,8 +318,8 @@ TEST_P(DragsInARoom, LeaveNoEntryOtherThanFromNothingWhereTheyAreStraight) {
 }
 INSTANTIATE_TEST_SUITE_P(Steps, DragsInARoom, testing::Values(1.0f, 0.2f, 0.03f));
 
-// However long it is, and however many steps it is made of.
-TEST(MoverPathTest, MarksStandNoLongerThanTheirSlack) {
+// For slacks and steps of any length.
+TEST(MoverPathTest, MarksAreValidOnlyWithinTheirSlack) {
   for (const float step : {0.0003f, 0.01f, 0.17f, 1.5f, 40.0f}) {
     MoverPath path;
     path.advance(step, 0.7f);
@@ -346,8 +345,8 @@ TEST(MoverPathTest, MarksStandNoLongerThanTheirSlack) {
   EXPECT_EQ(path.advance(std::numeric_limits<float>::infinity(), 0.7f), 255);
 }
 
-// Only where it goes straight, and no longer than that.
-TEST_F(MoversOfARoom, GoTheWayOfTwoStraightSteps) {
+// The metric follows a straight path and is reset when the path is not straight.
+TEST_F(MoversOfARoom, MetricFollowsTwoStraightSteps) {
   MoverPath path = straightPath(vec3(0.0f, 0.0f, -1.0f));
   EXPECT_NEAR(std::abs(path.way().axis.z), 1.0f, 1e-5f);
   EXPECT_GT(path.way().across, 1.0f);
@@ -360,7 +359,7 @@ TEST_F(MoversOfARoom, GoTheWayOfTwoStraightSteps) {
                    aside = at(vec3(0.02f, 0.0f, 0.02f));
   EXPECT_EQ(path.advance({&here, 1}, {&ahead, 1}), 0);
   EXPECT_GE(mark, path.now());
-  EXPECT_EQ(path.advance({&ahead, 1}, {&aside, 1}), 255) << "all marks are void";
+  EXPECT_EQ(path.advance({&ahead, 1}, {&aside, 1}), 255) << "all marks are invalid";
   EXPECT_EQ(path.way().axis, vec3(0.0f));
   EXPECT_EQ(path.way().lengthOf(vec3(0.03f, 0.0f, 0.04f)), 0.05f);
 }

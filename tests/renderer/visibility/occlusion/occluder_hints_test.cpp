@@ -1,16 +1,16 @@
-// What stood between another light and another patch is asked first, to be quick. It must change no
-// answer: which one that is hangs on threads, and on what was edited before.
+// Occluders found for other lights and patches are tested first, to save time. These hints must not
+// change any result, because they depend on the number of threads and on earlier edits.
 #include <array>
 #include <set>
 #include <utility>
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/visibility/occlusion/back_facing_lights.h"
 #include "renderer/visibility/occlusion/occluders.h"
-#include "tests/support/folders.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
@@ -18,11 +18,8 @@ namespace {
 class OccluderHints : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    update(scene_, loadGltf(test::sourceFolder() / "assets/scenes" / GetParam()).scene,
-           SceneChanges::all());
-    for (const SceneVpl& v :
-         generateVpls(scene_, RayCaster(scene_), LightSet(scene_), {200, 0.3f, 3, 1}).vpls)
-      lights_.push_back(v.vpl);
+    scene_ = test::renderSceneOf(test::loadAsset(GetParam()));
+    lights_ = test::lightsOf(scene_, 200);
     occluders_.resize(scene_.objects.size());
     for (uint32_t i = 0; i < scene_.objects.size(); ++i) {
       const MeshTopology topology = findTopology(scene_, i);
@@ -48,8 +45,8 @@ class OccluderHints : public testing::TestWithParam<const char*> {
   Occluders occluders_;
 };
 
-// Where nothing stands between, none of all that ever did is found to when it is asked first.
-TEST_P(OccluderHints, ChangeNoAnswer) {
+// For visible pairs, no occluder of any other pair blocks the light when it is tested first.
+TEST_P(OccluderHints, ChangeNoResult) {
   std::set<std::pair<int, uint32_t>> blockers;
   forEachPatch([&](const PatchRegion& region) {
     for (const shared::Vpl& light : lights_) {
@@ -75,13 +72,13 @@ TEST_P(OccluderHints, ChangeNoAnswer) {
   EXPECT_EQ(differ, 0u) << "of " << asked << ", " << blockers.size() << " blockers";
 }
 
-// Nor does it which lights are looked at together.
-TEST_P(OccluderHints, OfOtherLightsChangeNoAnswer) {
+// The choice of lights that are tested together does not change any result either.
+TEST_P(OccluderHints, OfOtherLightsChangeNoResult) {
   size_t asked = 0, differ = 0, sidesDiffer = 0;
   std::array<size_t, 3> found{};
   uint32_t random = 1;
   forEachPatch([&](const PatchRegion& region) {
-    std::array<Blocker, LightPacket::kLights> hints;  // of the lights before
+    std::array<Blocker, LightPacket::kLights> hints;  // from previous lights
     for (size_t first = 0, last = 0; first < lights_.size(); first = last) {
       random = random * 1664525u + 1013904223u;
       last = std::min(first + 1 + (random >> 29), lights_.size());
@@ -115,7 +112,7 @@ TEST_P(OccluderHints, OfOtherLightsChangeNoAnswer) {
   EXPECT_EQ(differ, 0u) << "of " << asked;
   EXPECT_EQ(sidesDiffer, 0u);
 }
-INSTANTIATE_TEST_SUITE_P(Rooms, OccluderHints, testing::Values("pillar_room.gltf", "default.gltf"));
+INSTANTIATE_TEST_SUITE_P(Rooms, OccluderHints, testing::Values("pillar_room", "default"));
 
 }  // namespace
 }  // namespace lamplighter

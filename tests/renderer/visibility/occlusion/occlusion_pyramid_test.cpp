@@ -1,4 +1,4 @@
-// Single pyramids whose answer is plain.
+// Single occlusion pyramids with obvious results.
 #include "renderer/visibility/occlusion/occlusion_pyramid.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace lamplighter {
 namespace {
 
-// A floor of side 2 under a light two metres above, and a screen between.
+// A floor of side 2 below a light at a height of two metres, with an occluding screen between.
 struct Setting {
   Scene scene;
   RenderScene world;
@@ -53,7 +53,7 @@ TEST(OcclusionPyramid, NothingBetweenIsNone) {
   EXPECT_EQ(Setting(4.0f, vec3(0, -0.5f, 0)).of(kAbove), Occlusion::none);  // below the floor
 }
 
-// Half-way the pyramid is a metre wide.
+// At half height the pyramid is one metre wide.
 TEST(OcclusionPyramid, AScreenHidesAllOrSome) {
   EXPECT_EQ(Setting(1.01f, vec3(0, 1, 0)).of(kAbove), Occlusion::full);
   EXPECT_EQ(Setting(0.99f, vec3(0, 1, 0)).of(kAbove), Occlusion::partial);
@@ -61,7 +61,7 @@ TEST(OcclusionPyramid, AScreenHidesAllOrSome) {
   EXPECT_EQ(Setting(1.01f, vec3(0.1f, 1, 0)).of(kAbove), Occlusion::partial);
 }
 
-TEST(OcclusionPyramid, WhatHasHolesHidesNothingWholly) {
+TEST(OcclusionPyramid, OccludersWithAlphaMasksNeverHideCompletely) {
   EXPECT_EQ(Setting(1.5f, vec3(0, 1, 0), true).of(kAbove), Occlusion::partial);
 }
 
@@ -79,16 +79,16 @@ TEST(OcclusionPyramid, APatchBehindTheLightOrSeenFromItsBackIsDark) {
   EXPECT_EQ(open.of(test::makeVpl(vec3(0, -2, 0), vec3(0, 1, 0))), Occlusion::full);
 }
 
-// A sample of the same surface, or of one beside it in the same plane, stands off it as far as rays
-// do and shines away from it.
-TEST(OcclusionPyramid, ASampleOfThePatchItselfGivesItNoLight) {
+// A light sample on the same surface, or on another surface in the same plane, is offset by the ray
+// epsilon and emits away from the patch.
+TEST(OcclusionPyramid, ALightSampleOnThePatchDoesNotLightIt) {
   for (const float x : {0.3f, 3.0f})
     EXPECT_EQ(Setting(0.0f, vec3(0)).of(test::makeVpl(vec3(x, 1e-5f, 0), vec3(0, 1, 0))),
               Occlusion::full);
 }
 
-// A wall at the end of the patch stands in no light's way, whether that is steep or flat.
-TEST(OcclusionPyramid, AWallThatThePatchEndsAtIsNotBetween) {
+// A wall at the border of the patch does not block light of any direction.
+TEST(OcclusionPyramid, AWallAtTheBorderOfThePatchIsNoOccluder) {
   Setting open(0.0f, vec3(0));
   Scene scene = open.scene;
   const NodeId wall = test::addMesh(scene, test::squareMesh(2.0f, 0), vec3(-1, 1, 0));
@@ -98,7 +98,7 @@ TEST(OcclusionPyramid, AWallThatThePatchEndsAtIsNotBetween) {
     EXPECT_EQ(walled.of(test::makeVpl(at, glm::normalize(vec3(0, 0, 0) - at))), Occlusion::none);
 }
 
-TEST(OcclusionPyramid, ALightInThePatchsPlaneIsUndecided) {
+TEST(OcclusionPyramid, ALightInThePlaneOfThePatchIsPartial) {
   EXPECT_EQ(Setting(0.0f, vec3(0)).of(test::makeVpl(vec3(3, 0, 0), vec3(-1, 0, 0))),
             Occlusion::partial);
 }

@@ -1,40 +1,34 @@
-// What pyramids say of triangles eight at a time is what each says alone.
+// Eight occlusion pyramids at a time give the results of each pyramid alone.
 #include "renderer/visibility/occlusion/pyramid_batch.h"
 
 #include <array>
-#include <filesystem>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "renderer/sampling/vpl_set.h"
-#include "renderer/scene/gltf/gltf_io.h"
-#include "tests/support/folders.h"
+#include "tests/support/room_lights.h"
+#include "tests/support/scene_files.h"
+#include "tests/support/scenes.h"
 
 namespace lamplighter {
 namespace {
 
-TEST(PyramidBatch, MeetsTrianglesAsEachPyramidDoesAlone) {
+TEST(PyramidBatch, IntersectsTrianglesAsSinglePyramidsDo) {
   uint32_t random = 2;
   const auto next = [&] {
     random = random * 1664525u + 1013904223u;
     return static_cast<float>(random >> 8) * 0x1p-24f;
   };
   size_t asked = 0, differ = 0, met = 0, unsure = 0, missed = 0, missedUnsure = 0;
-  RenderScene scene;
-  update(scene, loadGltf(test::sourceFolder() / "assets/scenes/pillar_room.gltf").scene,
-         SceneChanges::all());
-  std::vector<shared::Vpl> lights;
-  for (const SceneVpl& v :
-       generateVpls(scene, RayCaster(scene), LightSet(scene), {100, 0.3f, 3, 1}).vpls)
-    lights.push_back(v.vpl);
+  const RenderScene scene = test::renderSceneOf(test::loadAsset("pillar_room"));
+  const std::vector<shared::Vpl> lights = test::lightsOf(scene, 100);
   const auto askOf = [&](const PatchRegion& region, std::span<const shared::Vpl* const> some) {
     std::vector<PyramidApex> apices;
     for (const shared::Vpl* light : some) apices.emplace_back(*light);
     std::vector<const PyramidApex*> pointers;
     for (const PyramidApex& apex : apices) pointers.push_back(&apex);
     const PyramidBatch batch(LightPacket(pointers), region);
-    std::array<vec3, 3> t;  // some of them small, some that go through all of the room
+    std::array<vec3, 3> t;  // small triangles, and triangles as large as the room
     const float size = next();
     for (vec3& corner : t)
       corner =
