@@ -74,12 +74,12 @@ TEST_F(CommandLine, TheSkyCanBeAnother) {
     call.insert(call.end(), more.begin(), more.end());
     expectOneError(runLamplighter(call), part);
   };
-  bad({"--sky", "1,2"}, "is no radiance");
-  bad({"--sky", "1,2,-3"}, "is no radiance");
-  bad({"--sky", "gradient:1,2,3"}, "is no gradient");
-  bad({"--sky", file("gone.exr")}, "is not there");
+  bad({"--sky", "1,2"}, "is not a radiance");
+  bad({"--sky", "1,2,-3"}, "is not a radiance");
+  bad({"--sky", "gradient:1,2,3"}, "is not a gradient");
+  bad({"--sky", file("gone.exr")}, "does not exist");
   bad({"--sky", scene}, "no known image format");
-  bad({"--sky", "1,1,1", "--sky-rotation", "90"}, "the sky is no picture");
+  bad({"--sky", "1,1,1", "--sky-rotation", "90"}, "the sky is not a picture");
   bad({"--sky", file("sky.exr"), "--sky-scale", "-1"}, "--sky-scale");
 }
 
@@ -88,11 +88,11 @@ TEST_F(CommandLine, BadUseIsOneLineAndCode2) {
   expectOneError(runLamplighter({"render", kScene}), "--output");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.jpg")}), ".exr or .png");
   expectOneError(runLamplighter({"render", kScene, "-o", file("none/a.png")}),
-                 "folder is not there");
+                 "folder does not exist");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "12"}),
-                 "is no size");
+                 "is not a size");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "0x5"}),
-                 "is no size");
+                 "is not a size");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--method", "magic"}),
                  "magic");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--camera", "nobody"}),

@@ -34,7 +34,7 @@ TEST(ParseSize, TakesWidthAndHeight) {
 TEST(ParseSize, RefusesEverythingElse) {
   for (const char* text : {"", "x", "640", "640x", "x360", "640X360", "640x360x2", "640 x360",
                            "0x1", "1x0", "-4x4", "16385x1", "4.5x4", "99999999999x1", "1e3x10"}) {
-    EXPECT_NE(errorOf([&] { parseSize(text); }).find("is no size"), std::string::npos) << text;
+    EXPECT_NE(errorOf([&] { parseSize(text); }).find("is not a size"), std::string::npos) << text;
   }
 }
 

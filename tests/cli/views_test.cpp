@@ -107,8 +107,8 @@ TEST_F(RenderView, MarksLieOverAnyView) {
 }
 
 TEST_F(RenderView, RefusesWhatItCannotShow) {
-  fails("a.png", {"--view", "colour"}, "'colour' is none; give one of lit, light_only");
-  fails("a.exr", {"--view", "albedo"}, "is no radiance");
+  fails("a.png", {"--view", "colour"}, "there is no view 'colour'; give one of lit, light_only");
+  fails("a.exr", {"--view", "albedo"}, "is not radiance");
   fails("a.png", {"--view", "occlusion", "--set", "technique=naive"},
         "needs patches: choose many_lights with the technique visibility or light_maps");
   fails("a.png", {"--view", "light_maps", "--set", "technique=visibility"},
@@ -119,10 +119,10 @@ TEST_F(RenderView, RefusesWhatItCannotShow) {
         "there is no light sample 1000; give one from 0 to ");
   fails("a.png", {"--view", "prt_objects"}, "choose many_lights with prt");
   fails("a.png", {"--view", "edge_mask", "--set", "block=1"}, "needs block over 1");
-  fails("a.exr", {"--view", "false_colour"}, "is no radiance");
-  fails("a.exr", {"--marks"}, "marks are no radiance");
-  fails("a.exr", {"--legend"}, "a legend is no radiance");
-  fails("a.png", {"--marks", "--method", "reference"}, "there is no light sample");
+  fails("a.exr", {"--view", "false_colour"}, "is not radiance");
+  fails("a.exr", {"--marks"}, "marks are not radiance");
+  fails("a.exr", {"--legend"}, "a legend is not radiance");
+  fails("a.png", {"--marks", "--method", "reference"}, "there are no light samples");
 }
 
 }  // namespace

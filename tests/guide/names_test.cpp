@@ -121,8 +121,8 @@ std::string problemOf(const Page& page, const std::string& text) {
   for (const CodeBlock& block : page.blocks)
     for (const std::string& word : split(block.text)) typed.insert(word);
   if (typed.contains(text) || isFile(text)) return "";
-  if (isNumber(text)) return text.size() > 1 || program().isKey(text) ? "" : "is no key";
-  if (text.starts_with("--")) return program().isFlag(split(text)[0]) ? "" : "is no flag";
+  if (isNumber(text)) return text.size() > 1 || program().isKey(text) ? "" : "is not a key";
+  if (text.starts_with("--")) return program().isFlag(split(text)[0]) ? "" : "is not a flag";
   if (text.starts_with("lamplighter")) {
     const std::string unknown = program().unknownOf(split(text));
     return unknown.empty() ? "" : unknown + " is not known to lamplighter";
@@ -131,12 +131,13 @@ std::string problemOf(const Page& page, const std::string& text) {
     std::ifstream in(test::sourceFolder() / "dev");
     const std::string dev{std::istreambuf_iterator<char>(in), {}};
     return dev.find("\n  " + text.substr(6) + ")") != std::string::npos ? ""
-                                                                        : "is no command of dev";
+                                                                        : "is not a command of dev";
   }
-  if (text.find('.') != std::string::npos) return program().isAction(text) ? "" : "is no action";
+  if (text.find('.') != std::string::npos)
+    return program().isAction(text) ? "" : "is not an action";
   if (std::isupper(static_cast<unsigned char>(text[0])))
-    return program().isKey(text) ? "" : "is no key";
-  return program().isWord(text) ? "" : "is no parameter, method or setting";
+    return program().isKey(text) ? "" : "is not a key";
+  return program().isWord(text) ? "" : "is not a parameter, method or setting";
 }
 
 TEST(GuideNames, EverythingInBackticksIsThere) {

@@ -60,7 +60,7 @@ TEST(Annotate, WithoutAFontItSaysSo) {
     FAIL();
   } catch (const InputError& e) {
     const std::string what = e.what();
-    EXPECT_TRUE(what.starts_with("--legend: nothing can be written: ")) << what;
+    EXPECT_TRUE(what.starts_with("--legend: text cannot be drawn: ")) << what;
     EXPECT_NE(what.find("/nowhere/none.otf"), std::string::npos) << what;
     EXPECT_NE(what.find("install fonts-inter"), std::string::npos) << what;
   }

@@ -48,7 +48,7 @@ TEST_F(PointToolsTest, ExplainAtAnswersWithoutAStepAndSelectsBlockers) {
   EXPECT_GT(answer()->irradiance, 0.0f);
   EXPECT_EQ(answer()->lights.front().light, light_);
   EXPECT_FALSE(session_.runAction("explain.blocker 0"));  // nothing stands before it
-  EXPECT_NE(session_.status().find("nothing stands before it"), std::string::npos);
+  EXPECT_NE(session_.status().find("nothing blocks this light"), std::string::npos);
   EXPECT_FALSE(session_.runAction("explain.blocker 7"));
   EXPECT_FALSE(session_.runAction("explain.light 0.5"));
 

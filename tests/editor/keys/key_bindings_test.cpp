@@ -72,7 +72,7 @@ TEST_F(KeyBindings, TheFileIsOverThePreset) {
 TEST_F(KeyBindings, ProblemsAreOneLineEach) {
   bind({}, R"({"tool.mvoe": "G", "tool.move": "Ctrl+Foo", "tool.scale": 3})");
   ASSERT_EQ(problems_.size(), 3u);
-  EXPECT_NE(problems_[0].find("\"tool.move\": \"Ctrl+Foo\" is no key"), std::string::npos);
+  EXPECT_NE(problems_[0].find("\"tool.move\": \"Ctrl+Foo\" is not a key"), std::string::npos);
   EXPECT_NE(problems_[1].find("tool.scale"), std::string::npos);
   EXPECT_NE(problems_[2].find("\"tool.mvoe\": there is no such action"), std::string::npos);
   EXPECT_EQ(at(Key::w), "tool.move");
@@ -83,7 +83,7 @@ TEST_F(KeyBindings, ProblemsAreOneLineEach) {
 TEST_F(KeyBindings, ConflictsAreTold) {
   bind({}, R"({"tool.move": "G", "tool.scale": "G"})");
   ASSERT_EQ(problems_.size(), 1u);
-  EXPECT_NE(problems_[0].find("G is the key of \"tool.move\" already"), std::string::npos)
+  EXPECT_NE(problems_[0].find("G is already the key of \"tool.move\""), std::string::npos)
       << problems_[0];
   EXPECT_EQ(at(Key::g), "tool.move");
   bind({}, R"({"tool.move": "L"})");

@@ -48,7 +48,7 @@ TEST_F(SessionNotices, TellWhatWasUndoneAndWhatFailed) {
   session_.runAction("edit.undo");
   EXPECT_EQ(session_.home().notices.all().back().text.rfind("Undid: ", 0), 0u);
   session_.runAction("edit.redo");
-  EXPECT_EQ(session_.home().notices.all().back().text.rfind("Did again: ", 0), 0u);
+  EXPECT_EQ(session_.home().notices.all().back().text.rfind("Redid: ", 0), 0u);
   session_.runAction("object.move nowhere");
   EXPECT_EQ(session_.home().notices.all().back().kind, NoticeKind::error);
   EXPECT_EQ(session_.home().notices.all().back().text, session_.status());
