@@ -12,7 +12,7 @@ namespace lamplighter::test {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr uint32_t kAfterClick = 4;  // frames until what a click opened can be clicked
+constexpr uint32_t kAfterClick = 4;  // frames until a widget that a click opened can be clicked
 constexpr int kDragMoves = 8;
 
 class Writer {
@@ -127,7 +127,7 @@ class Writer {
       fail(step, "'" + step.words[i] + "' is not a number");
     }
   }
-  // `i`: where the place begins among the words; the middle where there is none.
+  // `i`: index of the first word of the position. Default: the middle of the widget.
   void point(const Step& step, size_t i) {
     if (step.words.empty()) fail(step, "lacks the widget");
     InputEvent e;
