@@ -33,7 +33,7 @@ std::set<std::string> allActions() {
 }
 
 // The lines "NAME: reason" of uncovered.txt.
-std::map<std::string, std::string> excused() {
+std::map<std::string, std::string> reasonsOfUncovered() {
   std::map<std::string, std::string> out;
   std::ifstream in(kRecordings / "uncovered.txt");
   for (std::string line; std::getline(in, line);) {
@@ -61,7 +61,7 @@ TEST(RecordingCoverage, EveryActionIsInARecording) {
   if (!fs::exists(test::sharedFolder() / "scenes"))
     GTEST_SKIP() << "not all recordings are replayed, because ../shared/scenes is missing";
   const std::set<std::string> actions = allActions();
-  const std::map<std::string, std::string> without = excused();
+  const std::map<std::string, std::string> without = reasonsOfUncovered();
   for (const std::string& name : actions)
     EXPECT_TRUE(covered.contains(name) || without.contains(name))
         << name << ": no recording in tests/recordings runs it";

@@ -112,8 +112,7 @@ int main(int argc, char** argv) {
   }
   if (corpus.empty()) corpus.emplace_back();
   Random random(seed);
-  const char* keep =
-      std::getenv("LAMPLIGHTER_FUZZ_LAST");  // receives the input, for use after a crash
+  const char* keep = std::getenv("LAMPLIGHTER_FUZZ_LAST");  // a file for the latest input
   for (size_t i = 0; i < mutations; ++i) {
     const Input input = changed(corpus, random);
     if (keep != nullptr)

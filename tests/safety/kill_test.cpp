@@ -139,19 +139,20 @@ TEST(Kill, NothingConfirmedIsLost) {
     random = random * 6364136223846793005ull + 1442695040888963407ull;
     const uint64_t seed = 1000 + static_cast<uint64_t>(k);
     Child child(seed, folder / "journal", level);
-    const std::vector<std::string> told =
+    const std::vector<std::string> hashes =
         child.killAfter(1 + (random >> 33) % 80, static_cast<int>((random >> 20) % 3000));
-    ASSERT_FALSE(told.empty());
-    confirmed += told.size();
+    ASSERT_FALSE(hashes.empty());
+    confirmed += hashes.size();
     const std::vector<Expected> expected =
-        expectedWith(seed, folder / "check" / "level.glb", told.size());
-    for (size_t i = 0; i < told.size(); ++i) ASSERT_EQ(told[i], expected[i].hash) << "step " << i;
+        expectedWith(seed, folder / "check" / "level.glb", hashes.size());
+    for (size_t i = 0; i < hashes.size(); ++i)
+      ASSERT_EQ(hashes[i], expected[i].hash) << "step " << i;
     const Expected& next = expected.back();
 
     const std::vector<Recoverable> found = findRecoverable(folder / "journal");
     if (found.empty()) {
       // All work was saved in the file of the level.
-      EXPECT_FALSE(expected[told.size() - 1].isModified && next.isModified) << "kill " << k;
+      EXPECT_FALSE(expected[hashes.size() - 1].isModified && next.isModified) << "kill " << k;
       continue;
     }
     ASSERT_EQ(found.size(), 1u);
@@ -159,10 +160,10 @@ TEST(Kill, NothingConfirmedIsLost) {
     EXPECT_EQ(recovered.warning, "");
     const std::string now = hashText(documentHash(recovered.document));
     // The last confirmed step, or the step that was in progress.
-    EXPECT_TRUE(now == told.back() || now == next.hash)
-        << "kill " << k << " after " << told.size() << " steps: recovered " << now << ", confirmed "
-        << told.back() << ", next " << next.hash;
-    ahead += now != told.back();
+    EXPECT_TRUE(now == hashes.back() || now == next.hash)
+        << "kill " << k << " after " << hashes.size() << " steps: recovered " << now
+        << ", confirmed " << hashes.back() << ", next " << next.hash;
+    ahead += now != hashes.back();
     ++recoveries;
     fs::remove_all(folder);
   }
