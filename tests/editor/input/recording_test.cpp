@@ -95,7 +95,7 @@ TEST_F(RecordingFile, ErrorsNameTheLine) {
   EXPECT_NE(complaint("{\"lamplighter\":2}\n").find(":1: "), std::string::npos);
   EXPECT_NE(complaint("nonsense\n").find(":1: "), std::string::npos);
   EXPECT_NE(complaint(header + "{\"f\":1,\"key\":\"w\",\"down\":true}\n{\"f\":0,\"text\":\"x\"}\n")
-                .find(":3: goes back"),
+                .find(":3: has a frame number below"),
             std::string::npos);
   EXPECT_NE(complaint(header + "{\"f\":1,\"key\":\"hyper\",\"down\":true}\n").find("no known key"),
             std::string::npos);
