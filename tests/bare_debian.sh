@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# What a new user does, on Debian 12 with git and a shell and nothing else: the committed tree is
-# built by the README's commands in one root, and its package is installed and started in another
-# that has never seen a compiler. bare_debian.sh [FOLDER]; a folder that is given is kept, with the
-# logs and pictures. Needs root, debootstrap, a network, 6 GiB of disk and about half an hour.
+# Tests the steps of a new user on a minimal Debian 12 with git: builds the committed tree in one root
+# file system by the commands of the README, then installs and starts the package in another one without
+# a compiler. bare_debian.sh [FOLDER]; the given FOLDER is kept, with logs and pictures. Needs root,
+# debootstrap, a network, 6 GiB of disk and about half an hour.
 set -eu
 cd "$(dirname "$0")/.."
 fail() { echo "bare_debian: $*" >&2; exit 1; }
@@ -23,7 +23,7 @@ leave() {
 trap leave EXIT
 [ $# -gt 0 ] || trap 'leave; rm -rf --one-file-system "$work"' EXIT
 
-# A root with what debootstrap calls the smallest.
+# Creates a root file system with the smallest variant of debootstrap.
 bare() {
   [ -d "$work/minimal" ] || { debootstrap --variant=minbase bookworm "$work/new" "$mirror" >"$work/debootstrap.log" &&
     mv "$work/new" "$work/minimal"; }
@@ -35,7 +35,7 @@ bare() {
   mount -t tmpfs tmpfs "$work/$1/dev/shm"
   cp /etc/resolv.conf "$work/$1/etc/resolv.conf"
 }
-# inside ROOT COMMAND: as root of it, with nothing of this machine's environment.
+# inside ROOT COMMAND: runs COMMAND in ROOT, without the environment of this machine.
 inside() {
   chroot "$work/$1" env -i HOME=/root TERM=dumb PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
     CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}" bash -euc "$2"
@@ -61,14 +61,14 @@ inside build "cd /root/lamplighter && ./dev package"
 echo "bare_debian: the package on another Debian 12"
 bare use
 cp "$work"/build/root/lamplighter/out/*.deb "$work/use/root/"
-# With what a desktop has: a display, and man.
+# Packages that a desktop has: a display, and man.
 install use "--no-install-recommends xvfb xauth imagemagick man-db"
 install use "/root/*.deb"
 inside use "lamplighter --version; lamplighter --help >/root/help.txt; grep -q SCENE /root/help.txt
   man -P cat lamplighter >/root/man.txt; grep -q 'lighting editor' /root/man.txt
   cd /root && lamplighter render /usr/share/lamplighter/assets/scenes/default.gltf -o render.png --size 640x360
   test -s render.png"
-# The window, for twenty seconds: it lives, and it is not one colour.
+# Runs the window for twenty seconds: it must keep running and show more than one colour.
 inside use "cd /root && cat >start.sh <<'EOF'
 lamplighter & sleep 20
 kill -0 \$! || exit 1

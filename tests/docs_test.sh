@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Every relative link and image in the pages leads to a file, and every source path that a page names
-# in backticks is there. docs_test.sh [FOLDER of the pages; without: this repository]
+# Checks that every relative link, image and source path in backticks of the pages exists.
+# docs_test.sh [FOLDER of the pages; default: this repository]
 set -u
 self=$(realpath "$0")
 cd "${1:-$(dirname "$0")/..}" || exit 2
 pages=$(find . -name '*.md' -not -path './build/*' -not -path './out/*')
 [ -n "$pages" ] || { echo "docs_test: no pages"; exit 2; }
-# PAGE<tab>kind<tab>TARGET for each link and each path; code blocks and comments hold neither.
+# PAGE<tab>kind<tab>TARGET for each link and each path, without those in code blocks and comments.
 # shellcheck disable=SC2086  # a list
 targets=$(awk '
   FNR == 1 { code = comment = 0 }
@@ -32,14 +32,14 @@ while IFS=$'\t' read -r page kind target; do
   file=${target%%#*}
   [ "$kind" = path ] || file=$(dirname "$page")/$file
   # shellcheck disable=SC2086  # a pattern such as tests/*.sh
-  ls -d $file >/dev/null 2>&1 || { echo "$page: $kind to $target, which is not there"; bad=1; }
+  ls -d $file >/dev/null 2>&1 || { echo "$page: $kind to $target, which does not exist"; bad=1; }
 done <<<"$targets"
-if [ $# -eq 0 ]; then  # a page with a dead link, and one with a dead path, are found
+if [ $# -eq 0 ]; then  # tests this script: it must report a dead link and a dead path
   work=$(mktemp -d)
   trap 'rm -rf "$work"' EXIT
   for text in '[a](b.md)' '`renderer/not_there.h`'; do
     echo "$text" >"$work/page.md"
-    "$self" "$work" >/dev/null && { echo "docs_test: $text is not found"; bad=1; }
+    "$self" "$work" >/dev/null && { echo "docs_test: $text was not reported"; bad=1; }
   done
 fi
 exit $bad

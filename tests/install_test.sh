@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `cmake --install` and the Debian package give a program that finds its shaders and assets wherever
-# it stands. install_test.sh BUILD_FOLDER
+# Checks that the program finds its shaders and assets after `cmake --install` and in the Debian package,
+# in any folder. install_test.sh BUILD_FOLDER
 set -eu
 build=$1
 work=$(mktemp -d)
@@ -8,7 +8,7 @@ trap 'rm -rf "$work"' EXIT
 export HOME=$work/home XDG_CACHE_HOME=$work/cache XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state
 fail() { echo "install_test: $*" >&2; exit 1; }
 
-# The program in $1/bin works, with the files that stand beside it and no others.
+# Checks that the program in $1/bin works and uses only the files of its own installation.
 check() {
   local root=$1 scene=$1/share/lamplighter/assets/scenes/default.gltf
   [ -x "$root/bin/lamplighter" ] || fail "no program in $root"
@@ -21,8 +21,8 @@ check() {
     # shellcheck disable=SC2086  # a pattern
     ls $root/$file >/dev/null 2>&1 || fail "no $file"
   done
-  # A fault in those shaders is a fault of that program: it reads no others.
-  echo 'this is no shader' >>"$root/share/lamplighter/shaders/shared/vpl.h"
+  # An error in the installed shaders must appear, which shows that the program reads no others.
+  echo 'this is not a shader' >>"$root/share/lamplighter/shaders/shared/vpl.h"
   if "$root/bin/lamplighter" render "$scene" -o "$work/b.png" --size 64x48 --vpls 16 --backend gl 2>"$work/err"; then
     fail "it takes its shaders from elsewhere"
   fi
@@ -41,7 +41,7 @@ if command -v man >/dev/null; then
 fi
 
 if ! command -v dpkg-shlibdeps >/dev/null; then
-  echo "install_test: no dpkg-dev: the Debian package is left out"
+  echo "install_test: no dpkg-dev: the Debian package is not tested"
   exit 0
 fi
 (cd "$work" && cpack -G DEB --config "$build/CPackConfig.cmake" -B "$work/package" >"$work/cpack.log" 2>&1) ||
@@ -50,7 +50,7 @@ package=$(ls "$work"/package/*.deb)
 for needed in libembree3 libopenimageio libglfw3 fonts-inter; do
   dpkg-deb -f "$package" Depends | grep -q "$needed" || fail "the package does not depend on $needed"
 done
-# Installed by dpkg into a root and a database of its own; what it depends on is this machine's.
+# Installs with dpkg into a separate root and database. The dependencies are those of this machine.
 mkdir -p "$work/root" "$work/db/info" "$work/db/updates" "$work/db/triggers"
 touch "$work/db/status" "$work/db/available"
 dpkg --force-not-root --force-depends --log="$work/dpkg.log" --admindir="$work/db" --instdir="$work/root" \

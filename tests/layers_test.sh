@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# The layers of docs/design/architecture.md, checked on the includes: shaders/shared <- renderer <- editor
-# <- ui; ImGui and GLFW in ui only; OpenGL only in the gl parts of renderer and in ui.
+# Checks the layers of docs/design/architecture.md by the includes: shaders/shared <- renderer <- editor
+# <- ui; ImGui and GLFW in ui only; OpenGL only in the gl folders of renderer and in ui.
 set -u
 cd "$(dirname "$0")/.." || exit 2
 bad=0
-forbid() {  # forbid PATTERN WHERE... : no #include that matches PATTERN may stand there
+forbid() {  # forbid PATTERN WHERE... : no #include there may match PATTERN
   local pattern=$1; shift
   local rows
   rows=$(grep -rnE "#include *[<\"]($pattern)" "$@" --include='*.h' --include='*.cpp' 2>/dev/null)
@@ -18,8 +18,7 @@ rows=$(grep -rnE '#include *[<"](epoxy/|EGL/|renderer/(.*/)?gl/)' renderer --inc
 if [ -n "$rows" ]; then printf 'OpenGL outside the gl parts:\n%s\n' "$rows"; bad=1; fi
 rows=$(grep -rnE '(std::rand\b|random_device|system_clock|time\(NULL\)|time\(nullptr\))' renderer editor 2>/dev/null)
 if [ -n "$rows" ]; then printf 'clock or unseeded randomness below ui:\n%s\n' "$rows"; bad=1; fi
-# Within a layer the folders include each other one way too: each folder that has files of its own is
-# a room, and the rooms' includes have no cycle.
+# The includes between the folders of a layer must not have a cycle, either.
 for layer in renderer editor ui; do
   loop=$(grep -rHE "^ *# *include *\"$layer/" "$layer" --include='*.h' --include='*.cpp' |
     sed -E 's|^(.*)/[^/]*: *# *include *"(.*)/[^/"]*".*|\1 \2|' | awk '$1 != $2' | sort -u | tsort 2>&1 >/dev/null)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The same bits on another processor: what this one gives against what qemu's does, which has AVX2
-# and no AVX-512, and whose approximate reciprocals are others.
+# Compares the results of this processor with those of an emulated one (qemu), which has AVX2, no
+# AVX-512, and different approximate reciprocals. They must be equal bit for bit.
 #   tests/same_on_other_cpu.sh LAMPLIGHTER RAY_HITS
 set -u
 lamplighter=$1 ray_hits=$2
@@ -10,8 +10,8 @@ trap 'rm -rf "$work"' EXIT
 other=(qemu-x86_64 -cpu max)
 bad=0
 
-# Pictures: equal bits, which no shared edge has to spoil in these.
-picture() {  # picture NAME ARGUMENT... : of `lamplighter render`
+# Pictures must be equal bit for bit. In these views no ray hits an edge exactly.
+picture() {  # picture NAME ARGUMENT...: arguments of `lamplighter render`
   local name=$1; shift
   "$lamplighter" render "$@" -o "$work/here.exr" --size 96x54 --backend cpu || { bad=1; return; }
   "${other[@]}" "$lamplighter" render "$@" -o "$work/there.exr" --size 96x54 --backend cpu || { bad=1; return; }
@@ -23,16 +23,16 @@ picture() {  # picture NAME ARGUMENT... : of `lamplighter render`
   fi
 }
 
-# Rays: where the same triangle is hit, the same bits. Of rays at an edge or a corner one in a thousand
-# may hit another of the triangles there, of others one in ten thousand. Distances alone differ only where
-# one processor misses what the other one hits: one in a thousand.
+# Rays that hit the same triangle must give the same bits. One ray in a thousand at an edge or a corner,
+# and one in ten thousand elsewhere, may hit another triangle. Distances alone may differ only where one
+# processor misses what the other one hits: one in a thousand.
 rays() {  # rays SCENE COUNT
   "$ray_hits" "$1" "$2" > "$work/here" || { bad=1; return; }
   "${other[@]}" "$ray_hits" "$1" "$2" > "$work/there" || { bad=1; return; }
   paste -d' ' "$work/here" "$work/there" | awk -v name="$(basename "$1")" '
     { n[$1]++; half = NF / 2 }
-    $1 == "d" { ties["d"] += $2 != $4; next }
-    NF % 2 == 1 { ties[$1]++; next }                       # a hit here, none there
+    $1 == "d" { ties["d"] += $2 != $4; next }              # a distance only
+    NF % 2 == 1 { ties[$1]++; next }                       # hit on one processor only
     half == 2 { next }
     $2 != $(half + 2) || $3 != $(half + 3) { ties[$1]++; next }
     $4 != $(half + 4) || $5 != $(half + 5) || $6 != $(half + 6) { bits++ }
@@ -44,12 +44,12 @@ rays() {  # rays SCENE COUNT
     }' || bad=1
 }
 
-# Recordings: documents and pictures, bit for bit.
+# Documents and pictures of recordings must be equal bit for bit.
 recording() {  # recording NAME
   local from=tests/recordings/$1.jsonl
   "$lamplighter" replay "$from" --headless --frame-clock -o "$work/here_$1" > "$work/here" || { bad=1; return; }
   "${other[@]}" "$lamplighter" replay "$from" --headless --frame-clock -o "$work/there_$1" > "$work/there" || { bad=1; return; }
-  rm -f "$work"/*/*.window.png  # by OpenGL
+  rm -f "$work"/*/*.window.png  # drawn by OpenGL
   if diff <(grep document "$work/here") <(grep document "$work/there") && diff -r "$work/here_$1" "$work/there_$1"; then
     echo "recording $1: equal, $(grep -c document "$work/here") checkpoints"
   else
@@ -70,7 +70,7 @@ if [ -d ../shared/scenes ]; then
   rays ../shared/scenes/zdm2-map/zdm2.glb 60000
   picture kenney,reference ../shared/scenes/kenney-fps-level/kenney-fps-level.gltf --method reference --spp 2
 else
-  echo "levels are left out: there is no ../shared/scenes"
+  echo "levels are skipped: there is no ../shared/scenes"
 fi
 recording add_light_menu
 recording exposure_and_tone

@@ -12,7 +12,8 @@ namespace lamplighter {
 void requireArguments(const Arguments& arguments, size_t least, size_t most,
                       const std::string& usage) {
   if (arguments.size() >= least && arguments.size() <= most) return;
-  throw InputError(usage, std::to_string(arguments.size()) + " arguments do not fit",
+  throw InputError(usage,
+                   "the number of arguments is wrong (" + std::to_string(arguments.size()) + ")",
                    "give them as shown");
 }
 
@@ -29,7 +30,7 @@ float numberOf(const std::string& text) {
   float v = 0.0f;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(v)) {
-    throw InputError(text, "is no number", "give one such as 1.5");
+    throw InputError(text, "is not a number", "give one such as 1.5");
   }
   return v;
 }
@@ -43,7 +44,7 @@ const Node& nodeNamed(const Document& document, const std::string& name) {
   const auto it =
       std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return n.name == name; });
   if (it == nodes.end())
-    throw InputError(name, "there is no object of that name", "look in the outliner");
+    throw InputError(name, "there is no object with this name", "the outliner lists them");
   return *it;
 }
 

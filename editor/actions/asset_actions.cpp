@@ -50,7 +50,7 @@ void addAssetActions(ActionRegistry& r) {
            s.home().assetsListed = folder;
            s.home().bottom = BottomPanel::assets;
            s.lighting().showsTable = false;
-           s.setStatus(std::to_string(s.home().assetFiles.size()) + " files to place in " +
+           s.setStatus("Found " + std::to_string(s.home().assetFiles.size()) + " assets in " +
                        folder.filename().string());
          },
          {},

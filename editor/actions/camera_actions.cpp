@@ -16,7 +16,7 @@ constexpr float kStepSeconds = 0.25f;  // seconds of flight per step
 int slotOf(const std::string& text) {
   const float number = numberOf(text);
   if (number != std::floor(number) || number < 1.0f || number > kCameraBookmarks)
-    throw InputError(text, "is no number of a bookmark", "give one from 1 to 9");
+    throw InputError(text, "is not the number of a bookmark", "give one from 1 to 9");
   return static_cast<int>(number);
 }
 
@@ -36,15 +36,15 @@ void store(Session& s, int slot) {
   std::sort(all.begin(), all.end(),
             [](const CameraBookmark& a, const CameraBookmark& b) { return a.slot < b.slot; });
   edit.commit();
-  s.setStatus("Bookmark " + number + " is this view; " + number + " goes there");
+  s.setStatus("Stored this view as bookmark " + number + "; press " + number + " to return to it");
 }
 
 void go(Session& s, int slot) {
   const CameraBookmark* b = find(s, slot);
   if (b == nullptr) {
     const std::string number = std::to_string(slot);
-    throw InputError("bookmark " + number, "nothing is put by there",
-                     "Ctrl+" + number + " puts this view there");
+    throw InputError("bookmark " + number, "is empty",
+                     "press Ctrl+" + number + " to store the current view in it");
   }
   View view = s.view();
   view.eye = b->eye;
@@ -57,8 +57,8 @@ void go(Session& s, int slot) {
 void clear(Session& s, int slot) {
   Transaction edit = s.editing().begin("Clear bookmark " + std::to_string(slot));
   if (std::erase_if(edit.bookmarks(), [&](const CameraBookmark& b) { return b.slot == slot; }) == 0)
-    throw InputError("bookmark " + std::to_string(slot), "nothing is put by there",
-                     "give the number of another");
+    throw InputError("bookmark " + std::to_string(slot), "is empty",
+                     "give the number of a stored bookmark");
   edit.commit();
 }
 
@@ -126,7 +126,7 @@ void addCameraActions(ActionRegistry& r) {
                   requireArguments(a, 1, 1, "camera.go NAME");
                   const Node& n = nodeNamed(s.document(), a[0]);
                   if (n.camera == kNone)
-                    throw InputError(a[0], "is no camera", "give the name of one");
+                    throw InputError(a[0], "is not a camera", "give the name of a camera");
                   const View& view = s.view();
                   s.setView(viewOfCamera(s.document().scene, n, view.width, view.height));
                   s.setStatus("Camera " + n.name);

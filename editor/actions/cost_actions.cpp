@@ -15,7 +15,7 @@ int wholeNumberOf(const std::string& text, int least, int most) {
   if (number != std::floor(number) || number < static_cast<float>(least) ||
       number > static_cast<float>(most))
     throw InputError(
-        text, "is no whole number from " + std::to_string(least) + " to " + std::to_string(most),
+        text, "is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
         "give one in that range");
   return static_cast<int>(number);
 }
@@ -56,7 +56,7 @@ void addCostActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "error.block 1|2|4|8");
            const int block = wholeNumberOf(a[0], 1, 8);
            if ((block & (block - 1)) != 0)
-             throw InputError(a[0], "is no size of a block", "give 1, 2, 4 or 8");
+             throw InputError(a[0], "is not a block size", "give 1, 2, 4 or 8");
            s.watch().meter.setBlock(block);
          },
          {},

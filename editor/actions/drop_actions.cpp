@@ -47,11 +47,11 @@ void dropProfile(Session& s, const fs::path& file) {
     const std::string whose =
         lights.size() == 1 ? lights[0].name : std::to_string(lights.size()) + " lights";
     setNodes(s.editing(), "Profile " + name, std::move(lights));
-    return s.setStatus(whose + " shines by " + name);
+    return s.setStatus(name + " is now the profile of " + whose);
   }
   auto place = s.surfaceUnderPointer({});
   if (!place) place = s.surfaceAhead();
-  if (!place) throw InputError(name, "there is no surface to put its light on", "point at one");
+  if (!place) throw InputError(name, "there is no surface for a new light", "point at a surface");
   Node n = newLight("point", glm::length(place->position - s.view().eye),
                     s.document().render.exposureEv);
   n.id = s.editing().newNodeId();
@@ -63,7 +63,7 @@ void dropProfile(Session& s, const fs::path& file) {
   if (const auto local = placedOn(with, n.id, *place)) n.local = *local;
   addNodes(s.editing(), "Add " + n.name, {n});
   s.select({n.id});
-  s.setStatus("A light that shines by " + name);
+  s.setStatus("Added a light with the profile " + name);
 }
 
 void drop(Session& s, const Arguments& files) {
@@ -79,7 +79,7 @@ void drop(Session& s, const Arguments& files) {
       const Sky& before = s.document().scene.sky;
       s.setSky(Sky::picture(findSkyImage(file, s.document().path.parent_path()), before.rotation,
                             before.scale));
-      s.setStatus(path.filename().string() + " is the sky");
+      s.setStatus("The sky is now " + path.filename().string());
     } else {
       throw InputError(path.filename().string(), "cannot be dropped here",
                        "drop a level (.gltf, .glb), a sky (.hdr, .exr) or a profile (.ies)");
@@ -121,8 +121,10 @@ void addDropActions(ActionRegistry& r) {
                  const float n = numberOf(a[0]);
                  for (size_t i = 0; i < files.size(); ++i)
                    if (n == static_cast<float>(i + 1)) return s.requestOpen(files[i]);
-                 throw InputError(a[0], "is no number of a recent file",
-                                  "there are " + std::to_string(files.size()));
+                 throw InputError(a[0], "is not the number of a recent file",
+                                  files.empty()
+                                      ? "there are none"
+                                      : "give one from 1 to " + std::to_string(files.size()));
                },
                {}};
   again.choices = recent;

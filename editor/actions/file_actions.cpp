@@ -13,7 +13,7 @@ bool hasFile(const Session& s) { return !s.document().path.empty(); }
 // Whether the argument at `index` is there. It can only be `force`.
 bool isForced(const Arguments& a, size_t index) {
   if (a.size() <= index) return false;
-  if (a[index] != "force") throw InputError(a[index], "is no way to save", "give force or nothing");
+  if (a[index] != "force") throw InputError(a[index], "is not an option", "give force or nothing");
   return true;
 }
 
@@ -103,7 +103,8 @@ void addFileActions(ActionRegistry& r) {
            constexpr int kPatience = 100000;  // frames
            for (int i = 0; i < kPatience; ++i)
              if (s.renderFrame().settled) return;
-           throw InputError("script.wait", "the picture does not settle", "set smaller counts");
+           throw InputError("script.wait", "the picture does not settle",
+                            "use fewer light samples");
          },
          {}});
   r.add({"app.quit",

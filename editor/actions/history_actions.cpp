@@ -19,7 +19,7 @@ void addHistoryActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "history.go STEP");
            const float step = numberOf(a[0]);
            if (!(step >= 0.0f && step < 1e7f) || step != std::floor(step))
-             throw InputError(a[0], "is no step", "give a whole number from 0");
+             throw InputError(a[0], "is not a step", "give a whole number from 0");
            s.goToStep(static_cast<size_t>(step));
          },
          {}});

@@ -35,7 +35,7 @@ void addLight(Session& s, const std::string& kind) {
 
 const Node& activeAreaLight(const Session& s) {
   const Node& n = activeNode(s.document());
-  if (!n.area) throw InputError(n.name, "is no area light", "select one");
+  if (!n.area) throw InputError(n.name, "is not an area light", "select an area light");
   return n;
 }
 
@@ -72,7 +72,8 @@ void addLightActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "light.ies FILE");
            const Node& n = activeNode(s.document());
            if (!takesProfile(n))
-             throw InputError(n.name, "is neither a point nor a spot light", "select one");
+             throw InputError(n.name, "is neither a point nor a spot light",
+                              "select a point or spot light");
            const auto profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
            s.setPunctualLight(n.id, withProfile(s.document().scene, n, profile));
          },
@@ -88,7 +89,8 @@ void addLightActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "light.picture FILE");
            const Node& n = activeAreaLight(s);
            if (n.area->shape != AreaShape::rectangle && n.area->shape != AreaShape::disk)
-             throw InputError(n.name, "is neither a rectangle nor a disk", "select one");
+             throw InputError(n.name, "is neither a rectangle nor a disk",
+                              "select a rectangle or disk light");
            AreaLight light = *n.area;
            light.picture =
                a[0] == "none" ? nullptr : readLightPicture(fileBeside(s.document(), a[0]));
@@ -124,7 +126,7 @@ void addLightActions(ActionRegistry& r) {
            light.size.x = numberOf(a[0]);
            light.size.y = a.size() == 2 ? numberOf(a[1]) : light.size.x;
            if (light.size.x <= 0.0f || light.size.y <= 0.0f)
-             throw InputError("light.size", "a size must be above 0", "give one in metres");
+             throw InputError("light.size", "a size must be above 0", "give a size in metres");
            s.setAreaLight(n.id, light);
          },
          {}});

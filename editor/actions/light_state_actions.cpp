@@ -15,7 +15,7 @@ constexpr const char* kTrueFalse = "true|false";
 bool flagOf(const std::string& text) {
   if (text == "true") return true;
   if (text == "false") return false;
-  throw InputError(text, "is neither true nor false", "give one of them");
+  throw InputError(text, "is neither true nor false", "give true or false");
 }
 
 // A switch of the selected lights or of the sky. With one argument: true or false.
@@ -116,7 +116,8 @@ void addLightStateActions(ActionRegistry& r) {
              if (n.light.group == a[0]) ids.push_back(n.id);
            }
            if (ids.empty() || a[0].empty())
-             throw InputError(a[0], "no light is in a group of that name", "look in the table");
+             throw InputError(a[0], "there is no group of lights with this name",
+                              "the light table lists them");
            s.select(std::move(ids));
          },
          {}});

@@ -16,12 +16,12 @@ LightProperty propertyNamed(const std::string& name) {
     if (name == info.name) return info.property;
     names += (names.empty() ? "" : ", ") + std::string(info.name);
   }
-  throw InputError(name, "is no property of lights", "give one of " + names);
+  throw InputError(name, "is not a property of lights", "give one of " + names);
 }
 
 LightUnit unitOf(const std::string& name) {
   const auto unit = unitNamed(name);
-  if (!unit) throw InputError(name, "is no unit of light", "give lm, cd, nits, W or lx");
+  if (!unit) throw InputError(name, "is not a unit of light", "give lm, cd, nits, W or lx");
   return *unit;
 }
 
@@ -35,7 +35,7 @@ void edit(Session& s, const Arguments& a, LightOperation operation, const std::s
       commonValue(s.document().scene, selectedLights(s.document()), property, shown).unitOr(shown);
   if (a.size() == 3) {
     if (property != LightProperty::intensity)
-      throw InputError(a[2], "is not needed: " + a[0] + " has one unit alone", "leave it out");
+      throw InputError(a[2], "is not needed: " + a[0] + " has only one unit", "omit it");
     unit = unitOf(a[2]);
   }
   editLights(s.editing(), operation, property, static_cast<double>(numberOf(a[1])), unit);
@@ -88,7 +88,7 @@ void addLightsActions(ActionRegistry& r) {
              if (a[0] == columnName(column))
                return editLightTableCells(s.editing(), column, a[1], s.lighting().unit);
            }
-           throw InputError(a[0], "is no column to type in",
+           throw InputError(a[0], "is not a column that can be edited",
                             "give name, strength, temperature, size or group");
          },
          anySelected});

@@ -21,7 +21,7 @@ void drop(Session& s) {
   auto place = s.surfaceUnderPointer(s.document().selection);
   if (!place) place = s.surfaceAhead(s.document().selection);
   if (!place)
-    throw InputError("object.drop", "there is no surface under the pointer", "point at one");
+    throw InputError("object.drop", "there is no surface under the pointer", "point at a surface");
   // If an ancestor of the active object is selected, it moves instead.
   const std::vector<NodeId> roots = topmost(scene, s.document().selection);
   NodeId leader = active.id;
@@ -30,8 +30,8 @@ void drop(Session& s) {
   }
   const auto local = placedOn(scene, leader, {place->position, place->normal});
   if (!local) {
-    throw InputError(active.name, "hangs below an object that has no volume",
-                     "give that one a scale other than 0");
+    throw InputError(active.name, "has a parent with a scale of 0",
+                     "give the parent a scale other than 0");
   }
   std::vector<Node> nodes{*scene.find(leader)};
   const mat4 above = nodes[0].parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, nodes[0].parent);

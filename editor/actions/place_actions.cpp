@@ -20,7 +20,7 @@ constexpr int kMostCopies = 10000;
 int countOf(const std::string& text) {
   const float value = numberOf(text);
   if (value != std::floor(value) || value < 1.0f || value > static_cast<float>(kMostCopies))
-    throw InputError(text, "is no number of copies", "give a whole one from 1 to 10000");
+    throw InputError(text, "is not a number of copies", "give a whole number from 1 to 10000");
   return static_cast<int>(value);
 }
 
@@ -30,8 +30,8 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
                      const std::string& label) {
   const double cells = static_cast<double>(count.x) * count.y * count.z;
   if (cells - 1.0 > kMostCopies)
-    throw InputError(std::to_string(static_cast<long long>(cells)), "are too many copies",
-                     "make 10000 at most in one step");
+    throw InputError(std::to_string(static_cast<long long>(cells)) + " copies",
+                     "are too many for one step", "make at most 10000");
   const Scene& scene = s.document().scene;
   const std::vector<NodeId> originals = s.document().selection;
   std::vector<Node> nodes;
@@ -70,13 +70,13 @@ void align(Session& s) {
   auto place = s.surfaceUnderPointer({active.id});
   if (!place) place = s.surfaceAhead({active.id});
   if (!place)
-    throw InputError("object.align", "there is no surface under the pointer", "point at one");
+    throw InputError("object.align", "there is no surface under the pointer", "point at a surface");
   Node node = active;
   const Scene& scene = s.document().scene;
   const mat4 parent = node.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, node.parent);
   if (!hasVolume(parent))
-    throw InputError(node.name, "hangs below an object that has no volume",
-                     "give that one a scale other than 0");
+    throw InputError(node.name, "has a parent with a scale of 0",
+                     "give the parent a scale other than 0");
   const quat now = decompose(worldMatrix(scene, node.id)).rotation;
   const bool isLight = node.area || node.punctual;
   node.local.rotation = glm::normalize(
@@ -105,7 +105,7 @@ void addPlaceActions(ActionRegistry& r) {
              text += (text.empty() ? "" : " ") + (isPlain ? word : quoted(word));
            }
            s.startPlacing(text);
-           s.setStatus("Click where it is to be; Esc leaves it", NoticeKind::hint);
+           s.setStatus("Click a surface to place it; Esc cancels", NoticeKind::hint);
          },
          {}});
   const std::string kinds = r.find("light.add")->usage;

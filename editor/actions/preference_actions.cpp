@@ -47,7 +47,7 @@ void addPreferenceActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "settings.set NAME=VALUE");
            const size_t equals = a[0].find('=');
            if (equals == std::string::npos)
-             throw InputError(a[0], "changes no setting", "give NAME=VALUE");
+             throw InputError(a[0], "does not change a setting", "give NAME=VALUE");
            takePreferences(s);
            s.home().preferences.setText(a[0].substr(0, equals), a[0].substr(equals + 1));
            apply(s);

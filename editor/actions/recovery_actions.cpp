@@ -14,8 +14,9 @@ size_t numberFrom(const Session& s, const Arguments& a, const std::string& usage
   const size_t count = s.crashRecovery().found().size();
   const float n = a.empty() ? 1.0f : numberOf(a[0]);
   if (n >= 1.0f && n <= static_cast<float>(count)) return static_cast<size_t>(n) - 1;
-  throw InputError(usage, "there are " + std::to_string(count) + " levels to recover",
-                   "give a number from 1");
+  throw InputError(usage, "there is no such level to recover",
+                   count == 0 ? "nothing is left to recover"
+                              : "give a number from 1 to " + std::to_string(count));
 }
 
 }  // namespace

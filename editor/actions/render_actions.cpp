@@ -49,7 +49,7 @@ void addRenderActions(ActionRegistry& r) {
            const auto& all = findMethod(s.document().render.method).parameters;
            const ParameterSpec* spec = findParameter(all, name);
            if (equals == std::string::npos || !spec) {
-             throw InputError(a[0], "sets no parameter of " + s.document().render.method,
+             throw InputError(a[0], "does not set a parameter of " + s.document().render.method,
                               "give NAME=VALUE");
            }
            RenderSettings settings = s.document().render;

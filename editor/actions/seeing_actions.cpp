@@ -17,7 +17,7 @@ vec2 pixelOf(const Arguments& a, const std::string& usage) {
 int rowOf(const std::string& text) {
   const float number = numberOf(text);
   if (number != std::floor(number) || std::abs(number) > 1e6f)
-    throw InputError(text, "is no whole number", "give one such as 0");
+    throw InputError(text, "is not a whole number", "give one such as 0");
   return static_cast<int>(number);
 }
 

@@ -17,7 +17,7 @@ std::filesystem::path folderOf(const Session& s) { return s.document().path.pare
 Sky pictureOf(const Session& s, const char* action) {
   const Sky& sky = s.document().scene.sky;
   if (sky.kind != SkyKind::image)
-    throw InputError(action, "the sky is no picture", "choose one with sky.image FILE");
+    throw InputError(action, "the sky is not a picture", "choose one with sky.image FILE");
   return sky;
 }
 

@@ -59,7 +59,7 @@ void addSplitActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "split.position SHARE");
            const float share = numberOf(a[0]);
            if (share < 0.0f || share > 1.0f)
-             throw InputError(a[0], "is no share of the width", "give one from 0 to 1");
+             throw InputError(a[0], "is not a share of the width", "give one from 0 to 1");
            s.split().setPosition(share);
            s.split().setShown(SplitView::Shown::both);
          },
@@ -91,7 +91,7 @@ void addSplitActions(ActionRegistry& r) {
            if (a[0] == "off") return s.split().turnOff();
            const auto shown = kShown.find(a[0]);
            if (shown == kShown.end())
-             throw InputError(a[0], "is nothing that a split view shows",
+             throw InputError(a[0], "is not a mode of the split view",
                               "give off, both, first, second or heat");
            makeSureOfSplit(s);
            s.split().setShown(shown->second);
@@ -124,7 +124,7 @@ void addSplitActions(ActionRegistry& r) {
          requireArguments(a, 1, 1, "split.heat_scale SHARE");
          const float share = numberOf(a[0]);
          if (share < 0.001f || share > 100.0f)
-           throw InputError(a[0], "is no such share", "give one from 0.001 to 100");
+           throw InputError(a[0], "is not from 0.001 to 100", "give a number in that range");
          s.split().setHeatScale(share);
        },
        {},

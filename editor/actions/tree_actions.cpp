@@ -23,7 +23,7 @@ std::vector<NodeId> lockedNodes(const Session& s) {
 float shareOf(const std::string& text) {
   const float value = numberOf(text);
   if (!(value >= 0.0f && value <= 1.0f))
-    throw InputError(text, "is not from 0 to 1", "give such a number");
+    throw InputError(text, "is not from 0 to 1", "give a number in that range");
   return value;
 }
 
@@ -61,7 +61,7 @@ void addTreeActions(ActionRegistry& r) {
            const ObjectProperty& property = objectProperty(a[0]);
            const float value = numberOf(a[1]);
            if (!(std::abs(value) <= 1e6f))
-             throw InputError(a[1], "is beyond a million", "give a smaller number");
+             throw InputError(a[1], "is larger than 1000000", "give a smaller number");
            setNumber(s.editing(), property, value);
          },
          hasSelection});
@@ -75,7 +75,7 @@ void addTreeActions(ActionRegistry& r) {
                                  : a[0] == "complex" ? MeshKind::complex
                                                      : MeshKind::automatic;
            if (kind == MeshKind::automatic && a[0] != "automatic")
-             throw InputError(a[0], "is no way to light a mesh",
+             throw InputError(a[0], "is not a way to light a mesh",
                               "give automatic, simple or complex");
            editSelected(
                s.editing(), "Light", [](const Node& n) { return n.mesh != kNone; },

@@ -77,7 +77,7 @@ void addViewActions(ActionRegistry& r) {
            requireArguments(a, 1, 1, "view.choose_vpl INDEX");
            const float index = numberOf(a[0]);
            if (index != std::floor(index) || std::abs(index) > 1e6f)
-             throw InputError(a[0], "is no whole number", "give one such as 12");
+             throw InputError(a[0], "is not a whole number", "give one such as 12");
            s.display().choose(s.inspect(), static_cast<int>(index));
          },
          {},
@@ -103,7 +103,7 @@ void addViewActions(ActionRegistry& r) {
          [](Session& s, const Arguments& a) {
            requireArguments(a, 1, 1, "view.false_colour_unit lux|nits");
            if (a[0] != "lux" && a[0] != "nits")
-             throw InputError(a[0], "is no unit of light", "give lux or nits");
+             throw InputError(a[0], "is not a unit of light", "give lux or nits");
            FalseColour f = s.display().falseColour();
            f.isLux = a[0] == "lux";
            s.display().setFalseColour(f);
@@ -124,8 +124,8 @@ void addViewActions(ActionRegistry& r) {
            f.low = a.empty() ? 0.0f : numberOf(a[0]);
            f.high = a.empty() ? 0.0f : numberOf(a[1]);
            if (!a.empty() && !(f.low > 0.0f && f.high > f.low))
-             throw InputError("view.false_colour_range", "its ends are " + a[0] + " and " + a[1],
-                              "give two numbers over 0, the smaller first");
+             throw InputError("view.false_colour_range", a[0] + " to " + a[1] + " is not a range",
+                              "give two numbers above 0, the smaller first");
            s.display().setFalseColour(f);
          },
          {},

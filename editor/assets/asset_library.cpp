@@ -38,7 +38,8 @@ std::shared_ptr<const ClipboardFragment> AssetLibrary::load(const fs::path& file
   if (fragment->meshes.empty() &&
       std::none_of(fragment->nodes.begin(), fragment->nodes.end(),
                    [](const Node& n) { return n.area || n.punctual; })) {
-    throw InputError(file.string(), "holds nothing to place", "give a file with a mesh or a light");
+    throw InputError(file.string(), "contains nothing to place",
+                     "give a file with a mesh or a light");
   }
   entries_.push_front({path, time, size, fragment});
   if (entries_.size() > kMost) entries_.pop_back();

@@ -135,12 +135,13 @@ BakeReport bake(const Scene& scene, const BakeJobOptions& o, const BakeProgress&
   update(render, scene, SceneChanges::all());
   const LightMapAtlas atlas = makeAtlas(render, o.atlas);
   if (atlas.charts.empty())
-    throw InputError(o.name, "has no surface that light maps are for", "give a scene with meshes");
+    throw InputError(o.name, "has no surface that can have a light map",
+                     "give a scene with meshes");
   BakeReport report;
   report.pages = atlas.pages;
   for (const LightMapAtlas::Coarser& c : atlas.coarser)
     report.warnings.push_back(
-        fmt::format("\"{}\" has {:.3g} texels a metre: a page holds no more of it",
+        fmt::format("\"{}\" has only {:.3g} texels per metre: more do not fit on a page",
                     scene.find(c.node)->name, c.texelsPerMetre));
   // Checks before the long computation that its last step will work.
   if (o.shard == 0) withLightMapUvs(scene, render, atlas);

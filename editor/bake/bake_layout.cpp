@@ -55,7 +55,9 @@ bool BakeParts::has(const BakeTile& tile) const { return read(tile).has_value();
 void BakeParts::write(const BakeTile& tile, std::span<const BakedTexel> texels) const {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
-  if (error) throw InputError(folder_.string(), "cannot be made", error.message());
+  if (error)
+    throw InputError(folder_.string(), "cannot be created (" + error.message() + ")",
+                     "check the permissions of its parent folder");
   std::string bytes(kMagic, sizeof(kMagic));
   for (const BakedTexel& t : texels) {
     char texel[kTexelBytes];

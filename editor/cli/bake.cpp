@@ -34,7 +34,7 @@ std::pair<int, int> parseShard(const std::string& text) {
         shards <= kMostShards)
       return {shard, shards};
   }
-  throw InputError("--shard", "'" + text + "' is no part such as 2/8",
+  throw InputError("--shard", "'" + text + "' is not a shard such as 2/8",
                    "give a number from 1 to n, a slash and n");
 }
 

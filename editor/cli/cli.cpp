@@ -50,7 +50,7 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
   } catch (const std::bad_alloc&) {
     return fail("out of memory; the scene or picture is too large for this machine");
   } catch (const std::exception& e) {
-    return fail(std::string(e.what()) + "; this is a fault of the program");
+    return fail(std::string(e.what()) + "; this is a bug of the program");
   }
 }
 

@@ -66,7 +66,7 @@ std::pair<int, int> parseSize(const std::string& text) {
     const bool fits = width >= 1 && height >= 1 && width <= kLargest && height <= kLargest;
     if (heightError == std::errc() && rest == end && fits) return {width, height};
   }
-  throw InputError("--size", "'" + text + "' is no size",
+  throw InputError("--size", "'" + text + "' is not a size",
                    "give WIDTHxHEIGHT, each from 1 to 16384, such as 1280x720");
 }
 
@@ -85,7 +85,7 @@ void setFromAssignment(Settings& settings, const MethodInfo& method,
                        const std::string& assignment) {
   const size_t equals = assignment.find('=');
   if (equals == std::string::npos) {
-    throw InputError("--set", "'" + assignment + "' is no assignment", "give name=value");
+    throw InputError("--set", "'" + assignment + "' is not an assignment", "give name=value");
   }
   setParameter(settings, method, assignment.substr(0, equals), assignment.substr(equals + 1));
 }
@@ -113,7 +113,7 @@ View chooseView(const Scene& scene, const std::string& camera, int width, int he
   std::string names;
   for (const Node* n : cameras) names += (names.empty() ? "'" : ", '") + n->name + "'";
   throw InputError("--camera", "the scene has no camera '" + camera + "'",
-                   cameras.empty() ? "it has none; leave the flag out to see all of the scene"
+                   cameras.empty() ? "it has none; omit the flag to see the whole scene"
                                    : "give one of " + names + " or a number from 0 to " +
                                          std::to_string(cameras.size() - 1));
 }
@@ -124,13 +124,14 @@ void requireWritable(const std::filesystem::path& file, const std::vector<std::s
       std::find(endings.begin(), endings.end(), file.extension().string()) == endings.end()) {
     std::string names;
     for (const std::string& e : endings) names += (names.empty() ? "" : " or ") + e;
-    throw InputError(file.string(), "ends in no known format", "name a file that ends in " + names);
+    throw InputError(file.string(), "has an unknown extension",
+                     "name a file that ends in " + names);
   }
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
-    throw InputError(file.string(), "its folder is not there",
-                     "make the folder first or name another");
+    throw InputError(file.string(), "its folder does not exist",
+                     "create the folder first or name another");
   }
   // Only creating a file tests everything: permissions, read-only file systems, too long names.
   const fs::path probe =
@@ -138,7 +139,7 @@ void requireWritable(const std::filesystem::path& file, const std::vector<std::s
   const bool made = !fs::is_directory(file, ignored) && std::ofstream(probe).is_open();
   fs::remove(probe, ignored);
   if (!made) {
-    throw InputError(file.string(), "cannot be written there",
+    throw InputError(file.string(), "cannot be written",
                      "name a file in a folder that you may write to");
   }
 }

@@ -86,9 +86,9 @@ std::string statsText(const RenderOptions& o, const View& view, const GiOutput& 
 
 // Throws InputError if an EXR cannot store the requested view.
 void requireRadiance(const RenderOptions& o, DebugView debugView) {
-  const std::string what = !isRadiance(debugView) ? "view " + o.view + " is no"
-                           : o.marks              ? "marks are no"
-                           : o.legend             ? "a legend is no"
+  const std::string what = !isRadiance(debugView) ? "view " + o.view + " is not"
+                           : o.marks              ? "marks are not"
+                           : o.legend             ? "a legend is not"
                                                   : "";
   if (!what.empty())
     throw InputError(o.output, what + " radiance and cannot be in an EXR",
@@ -99,7 +99,7 @@ void requireRadiance(const RenderOptions& o, DebugView debugView) {
 void requireView(const FrameRenderer& renderer, DebugView debugView, const RenderOptions& o) {
   const Inspection inspection = renderer.inspect();
   if (o.marks && inspection.lights.empty())
-    throw InputError("--marks", "there is no light sample", "leave it out, or use many_lights");
+    throw InputError("--marks", "there are no light samples", "omit it, or use many_lights");
   if (isRadiance(debugView)) return;
   const std::string problem = problemOf(debugView, inspection);
   if (!problem.empty()) throw InputError("--view " + o.view, problem, "or choose another view");
@@ -132,7 +132,7 @@ ViewSubject subjectOf(FrameRenderer& renderer, const View& view, const Inspectio
 void turnSky(Sky& sky, const RenderOptions& o) {
   if (!o.skyRotation && !o.skyScale) return;
   if (sky.kind != SkyKind::image) {
-    throw InputError(o.skyRotation ? "--sky-rotation" : "--sky-scale", "the sky is no picture",
+    throw InputError(o.skyRotation ? "--sky-rotation" : "--sky-scale", "the sky is not a picture",
                      "add --sky FILE");
   }
   if (o.skyRotation) sky.rotation = glm::radians(*o.skyRotation);
@@ -148,7 +148,7 @@ float exposureOf(const std::string& text, const Image& radiance) {
   if (error != std::errc() || end != text.data() + text.size() || !(ev >= -32.0f && ev <= 32.0f)) {
     throw InputError("--exposure",
                      "'" + text + "' is neither auto nor a number of EV from -32 to 32",
-                     "give one of them");
+                     "give auto or such a number");
   }
   return ev;
 }

@@ -12,7 +12,7 @@ namespace lamplighter {
 void ViewDisplay::choose(const Inspection& inspection, int index) {
   const auto count = static_cast<int>(inspection.lights.size());
   if (index < 0 || index >= count)
-    throw InputError("light sample " + std::to_string(index), "there is none of that number",
+    throw InputError("light sample " + std::to_string(index), "does not exist",
                      count == 0 ? "render with many_lights first"
                                 : "give one from 0 to " + std::to_string(count - 1));
   chosen_ = inspection.lights[static_cast<size_t>(index)].id;

@@ -38,7 +38,7 @@ vec3 colour(const std::string& text) {
   for (size_t c = 0; c < 3; ++c) {
     const auto v = number(parts[parts.size() == 1 ? 0 : std::min(c, parts.size() - 1)]);
     if ((parts.size() != 1 && parts.size() != 3) || !v || !(*v >= 0.0f && *v <= kMostRadiance)) {
-      throw InputError("sky", "'" + text + "' is no radiance",
+      throw InputError("sky", "'" + text + "' is not a radiance",
                        "give R,G,B in W/(m2 sr), each from 0 to 1e9");
     }
     out[static_cast<int>(c)] = *v;
@@ -67,7 +67,7 @@ Sky parseSky(const std::string& text, const std::filesystem::path& folder) {
   if (text.starts_with(kGradient)) {
     const std::vector<std::string> parts = split(text.substr(std::string(kGradient).size()), '/');
     if (parts.size() != 3) {
-      throw InputError("sky", "'" + text + "' is no gradient",
+      throw InputError("sky", "'" + text + "' is not a gradient",
                        "give gradient:R,G,B/R,G,B/R,G,B for zenith, horizon and ground");
     }
     return Sky::gradient(colour(parts[0]), colour(parts[1]), colour(parts[2]));

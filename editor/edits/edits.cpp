@@ -55,7 +55,7 @@ void requireRoomFor(const Scene& scene, size_t more) {
   constexpr size_t kMostNodes = 20000;
   if (more <= kMostNodes && scene.nodes.size() + more <= kMostNodes) return;
   throw InputError(std::to_string(more) + " more objects", "are too many for this level",
-                   "a level takes copies up to " + std::to_string(kMostNodes) + " objects");
+                   "copying works up to " + std::to_string(kMostNodes) + " objects");
 }
 
 void setNodes(Editing& editing, const std::string& label, std::vector<Node> nodes) {

@@ -47,7 +47,7 @@ const std::vector<ObjectProperty>& objectProperties() {
 const ObjectProperty& objectProperty(const std::string& name) {
   for (const ObjectProperty& p : objectProperties())
     if (name == p.name) return p;
-  throw InputError(name, "is no property of objects",
+  throw InputError(name, "is not a property of objects",
                    "give position, rotation or scale with .x, .y or .z");
 }
 
@@ -85,7 +85,8 @@ void editMaterials(Editing& editing, const std::string& label,
                    const std::function<void(Material&)>& change) {
   const std::vector<int> materials = selectedMaterials(editing.document());
   if (materials.empty())
-    throw InputError("materials", "nothing that is selected has a material", "select objects");
+    throw InputError("materials", "no selected object has a material",
+                     "select objects with a material");
   Transaction edit = editing.begin(label);
   for (const int i : materials) change(edit.material(i));
   edit.commit();
@@ -102,7 +103,7 @@ void editSelected(Editing& editing, const std::string& label,
     change(nodes.back());
   }
   if (nodes.empty())
-    throw InputError("objects", "nothing that is selected has it", "select others");
+    throw InputError("objects", "no selected object has this property", "select others");
   const std::string what =
       nodes.size() == 1 ? nodes[0].name : std::to_string(nodes.size()) + " objects";
   setNodes(editing, label + " of " + what, std::move(nodes));

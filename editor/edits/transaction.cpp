@@ -57,7 +57,7 @@ T& Transaction::recorded(ItemChanges<T> DocumentChange::*part, std::vector<T>& l
 Node& Transaction::node(NodeId id) {
   Scene& scene = document().scene;
   Node* node = scene.find(id);
-  if (node == nullptr) throw InputError("object", "it is not there any more", "select another");
+  if (node == nullptr) throw InputError("object", "it no longer exists", "select another");
   editing_->recordInAll([&](DocumentChange& c) { c.recordNode(scene, id); });
   return *node;
 }

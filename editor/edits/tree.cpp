@@ -22,16 +22,17 @@ void reparent(Editing& editing, const std::vector<NodeId>& ids, NodeId parent) {
   const Scene& scene = editing.document().scene;
   const Node* above = scene.find(parent);
   if (above == nullptr && parent != kNoNode)
-    throw InputError("object.reparent", "the parent is not there any more", "take another");
+    throw InputError("object.reparent", "the parent no longer exists", "choose another");
   const mat4 parentWorld = above == nullptr ? mat4(1.0f) : worldMatrix(scene, parent);
   if (!hasVolume(parentWorld))
-    throw InputError(above->name, "has no volume, so that nothing below it has a place",
+    throw InputError(above->name, "has a scale of 0, so it cannot be a parent",
                      "give it a scale other than 0");
   std::vector<Node> moved;
   std::vector<NodeId> movedIds;
   for (const NodeId id : topmost(scene, ids)) {
     if (parent != kNoNode && isWithin(scene, parent, id))
-      throw InputError(scene.find(id)->name, "cannot hang below itself", "take another parent");
+      throw InputError(scene.find(id)->name, "cannot be its own descendant",
+                       "choose another parent");
     Node n = *scene.find(id);
     if (n.parent == parent) continue;
     n.parent = parent;

@@ -52,7 +52,7 @@ const LightShare* Explainer::chosen() const {
 const LightShare& Explainer::row(int index) const {
   const size_t count = answer_ ? answer_->lights.size() : 0;
   if (index < 0 || static_cast<size_t>(index) >= count)
-    throw InputError("light " + std::to_string(index), "there is no such row",
+    throw InputError("light " + std::to_string(index), "does not exist",
                      count == 0 ? "point at a surface first, with explain.at X Y"
                                 : "give one from 0 to " + std::to_string(count - 1));
   return answer_->lights[static_cast<size_t>(index)];
@@ -63,10 +63,10 @@ void Explainer::choose(int index) { chosen_ = row(index).light; }
 NodeId Explainer::blocker(int index, int which) const {
   const LightShare& light = row(index);
   if (which < 0 || static_cast<size_t>(which) >= light.blockers.size())
-    throw InputError(
-        "blocker " + std::to_string(which) + " of " + light.name, "there is none of that number",
-        light.blockers.empty() ? "nothing stands before it"
-                               : "give one from 0 to " + std::to_string(light.blockers.size() - 1));
+    throw InputError("blocker " + std::to_string(which) + " of " + light.name, "does not exist",
+                     light.blockers.empty()
+                         ? "nothing blocks this light"
+                         : "give one from 0 to " + std::to_string(light.blockers.size() - 1));
   return light.blockers[static_cast<size_t>(which)].node;
 }
 

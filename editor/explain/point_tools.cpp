@@ -30,7 +30,7 @@ PickedPoint PointTools::pointAt(const Subject& s, const vec2& pixel) const {
   const auto point = surfaceAt(s.renderer.scene(), *s.renderer.rays(), s.view, pixel);
   if (!point)
     throw InputError("point " + threeDigits(pixel.x) + " " + threeDigits(pixel.y),
-                     "there is no surface", "point at one");
+                     "there is no surface", "point at a surface");
   return *point;
 }
 

@@ -36,9 +36,9 @@ std::vector<Checkpoint> Player::endFrame(bool settled) {
     if (!settled) {
       if (++waited_ > patience_) {
         throw InputError(recording_.path.string(),
-                         "checkpoint '" + checkpoint->name +
-                             "' never settles: " + std::to_string(patience_) + " frames",
-                         "look at what keeps changing there");
+                         "checkpoint '" + checkpoint->name + "' does not settle within " +
+                             std::to_string(patience_) + " frames",
+                         "find out what still changes there");
       }
       return reached;
     }

@@ -20,8 +20,8 @@ void Recorder::frame(const std::vector<InputEvent>& events) {
   if (!events.empty()) out_ << std::flush;
   ++frame_;
   if (!out_)
-    throw InputError(path_.string(), "cannot be written any more",
-                     "check the space left; recording has ended");
+    throw InputError(path_.string(), "cannot be written any more, so the recording has ended",
+                     "free some space and record again");
 }
 
 void Recorder::checkpoint(const Checkpoint& checkpoint) {

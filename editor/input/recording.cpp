@@ -45,7 +45,7 @@ const Json& fieldOf(const Json& j, const char* name) {
 
 std::string stringOf(const Json& j, const char* name) {
   const Json& field = fieldOf(j, name);
-  if (!field.is_string()) throw std::invalid_argument(fmt::format("\"{}\" is no text", name));
+  if (!field.is_string()) throw std::invalid_argument(fmt::format("\"{}\" is not a string", name));
   return field.get<std::string>();
 }
 
@@ -69,7 +69,7 @@ int64_t integerOf(const Json& j, const char* name, int64_t least, int64_t most) 
       field.get<int64_t>() >= least && field.get<int64_t>() <= most;
   if (!fits) {
     throw std::invalid_argument(
-        fmt::format("\"{}\" is no whole number from {} to {}", name, least, most));
+        fmt::format("\"{}\" is not a whole number from {} to {}", name, least, most));
   }
   return field.get<int64_t>();
 }
@@ -77,7 +77,7 @@ int64_t integerOf(const Json& j, const char* name, int64_t least, int64_t most) 
 float floatOf(const Json& value, const char* name) {
   const double v = value.is_number() ? value.get<double>() : std::nan("");
   if (!(std::abs(v) <= std::numeric_limits<float>::max()))
-    throw std::invalid_argument(fmt::format("\"{}\" holds what is no number", name));
+    throw std::invalid_argument(fmt::format("\"{}\" contains something other than numbers", name));
   return static_cast<float>(v);
 }
 
@@ -88,7 +88,7 @@ float floatOf(const Json& j, const char* name, float usual) {
 vec2 pairOf(const Json& j, const char* name) {
   const Json& field = fieldOf(j, name);
   if (!field.is_array() || field.size() != 2)
-    throw std::invalid_argument(fmt::format("\"{}\" is no pair of numbers", name));
+    throw std::invalid_argument(fmt::format("\"{}\" is not a pair of numbers", name));
   return {floatOf(field[0], name), floatOf(field[1], name)};
 }
 
@@ -104,23 +104,23 @@ ParameterValue valueOf(const std::string& method, const std::string& name, const
   for (const MethodInfo& other : methods()) {
     if (const auto value = from(other)) return *value;
   }
-  throw std::invalid_argument("'" + name + "' is no parameter of any method");
+  throw std::invalid_argument("'" + name + "' is not a parameter of any method");
 }
 
 RecordingHeader headerOf(const Json& j) {
-  if (!j.contains("lamplighter")) throw std::invalid_argument("is no header of a recording");
+  if (!j.contains("lamplighter")) throw std::invalid_argument("is not the header of a recording");
   if (j["lamplighter"] != kRecordingFormat)
-    throw std::invalid_argument("is of another format version");
+    throw std::invalid_argument("has another format version");
   RecordingHeader h;
   h.scene = stringOf(j, "scene", "");
   h.sceneHash = stringOf(j, "sceneHash", "");
   h.left = stringOf(j, "left", "");
   if (h.left.find_first_of("/\\") != std::string::npos || h.left.starts_with('.'))
-    throw std::invalid_argument("\"left\" is no name of a folder beside the recording");
+    throw std::invalid_argument("\"left\" is not the name of a folder beside the recording");
   if (j.contains("window")) {
     const Json& window = j["window"];
     if (!window.is_array() || window.size() != 2)
-      throw std::invalid_argument("\"window\" is no pair of numbers");
+      throw std::invalid_argument("\"window\" is not a pair of numbers");
     const Json size{{"width", window[0]}, {"height", window[1]}};
     h.width = static_cast<int>(integerOf(size, "width", 1, 16384));
     h.height = static_cast<int>(integerOf(size, "height", 1, 16384));
@@ -129,7 +129,7 @@ RecordingHeader headerOf(const Json& j) {
   h.render.method = findMethod(stringOf(j, "method", h.render.method)).name;
   h.render.exposureEv = floatOf(j, "exposure", 0.0f);
   if (j.contains("settings")) {
-    if (!j["settings"].is_object()) throw std::invalid_argument("\"settings\" is no object");
+    if (!j["settings"].is_object()) throw std::invalid_argument("\"settings\" is not an object");
     for (const auto& [name, value] : j["settings"].items())
       h.render.values.set(name, valueOf(h.render.method, name, value));
   }
@@ -174,7 +174,7 @@ Checkpoint checkpointOf(const Json& j) {
   c.sameAs = stringOf(j, "sameAs", "");
   c.max = floatOf(j, "max", c.max);
   c.mean = floatOf(j, "mean", c.mean);
-  if (c.max < 0.0f || c.mean < 0.0f) throw std::invalid_argument("allows less than no difference");
+  if (c.max < 0.0f || c.mean < 0.0f) throw std::invalid_argument("has a tolerance below 0");
   if (c.name.empty() || c.name.find_first_of("/\\") != std::string::npos)
     throw std::invalid_argument("has no usable name");
   return c;
@@ -210,7 +210,7 @@ Recording readRecording(const std::filesystem::path& path) {
     if (line.empty()) continue;
     try {
       const Json j = parseJson<Json>(line);
-      if (!j.is_object()) throw std::invalid_argument("is no JSON object");
+      if (!j.is_object()) throw std::invalid_argument("is not a JSON object");
       if (!hasHeader) {
         r.header = headerOf(j);
         hasHeader = true;
@@ -219,11 +219,11 @@ Recording readRecording(const std::filesystem::path& path) {
       RecordingLine l;
       l.frame = static_cast<uint32_t>(integerOf(j, "f", 0, kMostFrames));
       if (!r.lines.empty() && l.frame < r.lines.back().frame)
-        throw std::invalid_argument("goes back in time");
+        throw std::invalid_argument("has a frame number below the previous one");
       if (j.contains("check")) {
         Checkpoint c = checkpointOf(j);
         if (!checks.insert(c.name).second)
-          throw std::invalid_argument("checks under the name of an earlier line");
+          throw std::invalid_argument("has the checkpoint name of an earlier line");
         l.what = std::move(c);
       } else {
         l.what = eventOf(j);
@@ -311,7 +311,7 @@ std::string hashText(uint64_t hash) { return fmt::format("{:016x}", hash); }
 
 uint64_t fileHash(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path.string(), "cannot be read", "name a file that can");
+  if (!in) throw InputError(path.string(), "cannot be read", "name a readable file");
   uint64_t hash = kHashStart;
   std::array<char, 65536> block;
   while (in.read(block.data(), block.size()) || in.gcount() > 0)

@@ -57,7 +57,8 @@ ActionRegistry::Call ActionRegistry::parse(std::string_view text) const {
   if (words.empty()) throw InputError("action", "is empty", "give a name such as edit.undo");
   const Action* action = find(words.front());
   if (action == nullptr)
-    throw InputError(words.front(), "there is no such action", "look at the menus for their names");
+    throw InputError(words.front(), "there is no such action",
+                     "the command palette lists all actions");
   words.erase(words.begin());
   if (action->usage.empty() && !words.empty())
     throw InputError(action->name, "takes no arguments", "give the name alone");

@@ -35,15 +35,15 @@ KeyList parseKeys(std::string_view text, std::vector<std::string>& problems) {
   KeyList out;
   const Json j = parseJson<Json>(text);
   if (!j.is_object()) {
-    problems.emplace_back("is no JSON object of actions and keys; the default keys are taken");
+    problems.emplace_back("is not a JSON object of actions and keys; the default keys are used");
     return out;
   }
   for (const auto& [action, chord] : j.items()) {
     if (!chord.is_string() || action.size() > kLongest) {
-      problems.push_back(excerpt(action) + ": its key is no text; it is left out");
+      problems.push_back(excerpt(action) + ": its key is not a string; it is ignored");
     } else if (!parseChords(chord.get<std::string>())) {
       problems.push_back(excerpt(action) + ": " + excerpt(chord.get<std::string>()) +
-                         " is no key; write it as Ctrl+Shift+Z or F6");
+                         " is not a key; write it as Ctrl+Shift+Z or F6");
     } else {
       out.emplace_back(action, chord.get<std::string>());
     }
@@ -80,8 +80,8 @@ KeyMap resolveKeys(const ActionRegistry& registry, const KeyList& preset, const 
       const std::string owner = ownerOf(keys, c, text);
       if (owner.empty()) return false;
       if (std::find(bound.begin(), bound.end(), owner) != bound.end()) {
-        problems.push_back(excerpt(text) + ": " + chordText(c) + " is the key of " +
-                           excerpt(owner) + " already; give one of them another");
+        problems.push_back(excerpt(text) + ": " + chordText(c) + " is already the key of " +
+                           excerpt(owner) + "; give one of them another key");
         return true;
       }
       if (!ofFile.contains(owner) && keys.at(owner).size() == 1)

@@ -41,7 +41,7 @@ void checkValue(LightOperation operation, LightProperty property, double value) 
     throw InputError(
         "lights.set",
         std::string(info.name) + " must be from " + number(info.least) + " to " + number(info.most),
-        "give such a value");
+        "give a value in that range");
   }
 }
 
@@ -86,7 +86,8 @@ void editLights(Editing& editing, LightOperation operation, LightProperty proper
 void colourLights(Editing& editing, const vec3& colour) {
   const std::vector<LightSource> lights = requireLights(editing);
   if (!(std::min({colour.r, colour.g, colour.b}) >= 0.0f && luminance(colour) > 0.0f))
-    throw InputError("lights.colour", "a colour has no part below 0 and is not black",
+    throw InputError("lights.colour",
+                     "a colour needs components of at least 0 and must not be black",
                      "give three numbers from 0 to 1");
   LightEdit edit;
   for (const LightSource& light : lights) setColour(editing.document().scene, light, colour, edit);
@@ -132,7 +133,8 @@ void editLightGroup(Editing& editing, const std::string& label, const std::strin
   const auto it = std::find_if(groups.begin(), groups.end(),
                                [&](const LightGroup& g) { return g.name == name; });
   if (it == groups.end())
-    throw InputError(name, "there is no group of lights of that name", "look in the light table");
+    throw InputError(name, "there is no group of lights with this name",
+                     "the light table lists them");
   change(*it);
   edit.commit();
 }

@@ -45,7 +45,8 @@ void leaveOut(Editing& editing, const std::vector<NodeId>& lights,
   const std::string what = out ? "light.exclude" : "light.include";
   if (lights.empty()) throw InputError(what, "no light is selected", "select one or more");
   if (objects.empty())
-    throw InputError(what, "no object is given", "select some besides the lights, or name them");
+    throw InputError(what, "no object is given",
+                     "select objects in addition to the lights, or name them");
   const Scene& scene = editing.document().scene;
   const Node* object = scene.find(objects[0]);
   const std::string whose = objects.size() > 1  ? std::to_string(objects.size()) + " objects"
@@ -54,15 +55,15 @@ void leaveOut(Editing& editing, const std::vector<NodeId>& lights,
   Transaction edit = editing.begin((out ? "Leave out " : "Light again ") + whose);
   for (const NodeId id : lights) {
     if (id != kNoNode && scene.find(id) == nullptr)
-      throw InputError(what, "the light is not there any more", "select another");
+      throw InputError(what, "the light no longer exists", "select another");
     LightState& light = id == kNoNode ? edit.skyLight() : edit.node(id).light;
     change(light.leftOut, objects, out);
   }
   if (countLinks(scene) > kMostLinks) {
     throw InputError(what,
-                     "more than " + std::to_string(kMostLinks) +
-                         " lists of objects that differ are too many for one scene",
-                     "let lights leave out the same objects");
+                     "a scene can have at most " + std::to_string(kMostLinks) +
+                         " different lists of excluded objects",
+                     "let several lights exclude the same objects");
   }
   edit.commit();
 }

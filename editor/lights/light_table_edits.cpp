@@ -26,7 +26,7 @@ Typed typed(std::string text) {
   Typed out;
   out.value = std::strtod(begin, &end);
   if (end == begin || !std::isfinite(out.value))
-    throw InputError(text.empty() ? "the cell" : text, "is no number", "type one such as 800");
+    throw InputError(text.empty() ? "the cell" : text, "is not a number", "type one such as 800");
   std::istringstream rest(end);
   rest >> out.rest;
   return out;
@@ -99,7 +99,7 @@ void editLightTableCells(Editing& editing, LightColumn column, const std::string
   if (lights.empty()) throw InputError("lights", "no light is selected", "select one or more");
   switch (column) {
     case LightColumn::name:
-      if (text.empty()) throw InputError("a light", "must have a name", "type one");
+      if (text.empty()) throw InputError("a light", "must have a name", "type a name");
       return rename(editing, text);
     case LightColumn::group:
       return groupLights(editing, text);
@@ -116,13 +116,14 @@ void editLightTableCells(Editing& editing, LightColumn column, const std::string
               .unitOr(shown);
       if (!value.rest.empty()) {
         const auto named = unitNamed(value.rest);
-        if (!named) throw InputError(value.rest, "is no unit of light", "give lm, cd, nt, W or lx");
+        if (!named)
+          throw InputError(value.rest, "is not a unit of light", "give lm, cd, nt, W or lx");
         unit = *named;
       }
       return editLights(editing, LightOperation::set, LightProperty::intensity, value.value, unit);
     }
     default:
-      throw InputError("the column", "cannot be typed in", "type in another");
+      throw InputError("the column", "cannot be edited", "choose another column");
   }
 }
 

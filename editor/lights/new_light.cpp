@@ -78,7 +78,7 @@ Node newLight(const std::string& kind, float distance, float exposureEv) {
                          glm::angleAxis(0.3f, vec3(0, 1, 0));
       break;
     default:
-      throw InputError(kind, "is no kind of light",
+      throw InputError(kind, "is not a kind of light",
                        "give rectangle, disk, sphere, tube, spot, point or sun");
   }
   return n;

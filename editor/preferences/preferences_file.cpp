@@ -31,20 +31,19 @@ ParameterValue valueOf(const ParameterSpec& spec, const Json& j) {
   const bool isText = std::holds_alternative<std::string>(spec.defaultValue);
   const bool isFlag = std::holds_alternative<bool>(spec.defaultValue);
   const bool isKind = isText ? j.is_string() : isFlag ? j.is_boolean() : j.is_number();
-  if (!isKind)
-    throw InputError(spec.name, shown(j) + " is of the wrong kind", "its default is taken");
+  if (!isKind) throw InputError(spec.name, shown(j) + " has the wrong type", "the default is used");
   return Settings::parse(spec, isText ? j.get<std::string>() : j.dump());
 }
 
 void readValues(const Json& values, Preferences& out, std::vector<std::string>& problems) {
   if (!values.is_object()) {
-    problems.push_back("\"settings\" is no object; defaults are taken");
+    problems.push_back("\"settings\" is not an object; the defaults are used");
     return;
   }
   for (const auto& [name, value] : values.items()) {
     const ParameterSpec* spec = findPreference(name);
     if (spec == nullptr) {
-      problems.push_back(shown(name) + " is no setting; it is left out");
+      problems.push_back(shown(name) + " is not a setting; it is ignored");
       continue;
     }
     try {
@@ -67,7 +66,7 @@ std::vector<std::filesystem::path> pathsOf(const Json& j, const char* name,
     if (path.is_absolute()) out.push_back(path.lexically_normal());
   }
   if (isSound) return out;
-  problems.push_back(fmt::format("\"{}\" is no list of paths; it is left out", name));
+  problems.push_back(fmt::format("\"{}\" is not a list of paths; it is ignored", name));
   return {};
 }
 
@@ -83,11 +82,11 @@ Preferences parsePreferences(std::string_view text, std::vector<std::string>& pr
   Preferences out;
   const Json j = parseJson<Json>(text);
   if (!j.is_object()) {
-    problems.emplace_back("is no JSON object; defaults are taken");
+    problems.emplace_back("is not a JSON object; the defaults are used");
     return out;
   }
   if (!j.contains("lamplighter_settings") || j["lamplighter_settings"] != kSettingsFormat) {
-    problems.emplace_back("has not \"lamplighter_settings\": 1; defaults are taken");
+    problems.emplace_back("does not contain \"lamplighter_settings\": 1; the defaults are used");
     return out;
   }
   for (const auto& [name, value] : j.items()) {
@@ -103,7 +102,7 @@ Preferences parsePreferences(std::string_view text, std::vector<std::string>& pr
       const auto paths = pathsOf(Json::array({value}), "asset_folder", problems);
       if (!paths.empty()) out.assetFolder = paths.front();
     } else if (name != "lamplighter_settings") {
-      problems.push_back(shown(name) + " is not known; it is left out");
+      problems.push_back(shown(name) + " is unknown; it is ignored");
     }
   }
   return out;

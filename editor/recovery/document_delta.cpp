@@ -51,7 +51,7 @@ std::vector<T> assetsOf(const std::vector<T>& base, const Json& list, Read read)
       continue;
     }
     const auto index = wholeOf<size_t>(entry);
-    if (index >= base.size()) damagedJournal("the level has other meshes or textures");
+    if (index >= base.size()) damagedJournal("the level has different meshes or textures");
     out.push_back(base[index]);
   }
   return out;
@@ -132,7 +132,7 @@ void checkIndices(const Scene& s) {
     const bool fits = within(n.mesh, s.meshes.size()) && within(n.camera, s.cameras.size()) &&
                       (n.parent == kNoNode || before.contains(n.parent)) && n.id != kNoNode &&
                       n.id < s.nextId && !before.contains(n.id);
-    if (!fits) damagedJournal("an object refers to what is not there");
+    if (!fits) damagedJournal("an object refers to something that does not exist");
     before[n.id] = true;
   }
   for (const auto& mesh : s.meshes)
@@ -192,7 +192,7 @@ Json deltaOf(const Scene& base, const DocumentChange& change, const Document& af
 }
 
 void applyDelta(const Scene& base, Document& document, const Json& delta, Blobs& blobs) {
-  if (!delta.is_object()) damagedJournal("a line is no object");
+  if (!delta.is_object()) damagedJournal("a line is not an object");
   Scene scene = document.scene;
   RenderSettings render = document.render;
   const auto has = [&](const char* key) { return delta.contains(key); };

@@ -60,8 +60,8 @@ void Journal::start(const Document& document) {
     if (fs::create_directory(folder_, error)) break;
     if (error || i == 1000) {
       const std::string why = error ? error.message() : "its name is taken";
-      throw InputError(std::exchange(folder_, {}).string(), "cannot be made (" + why + ")",
-                       "until it can, save often: edits are not kept in a journal");
+      throw InputError(std::exchange(folder_, {}).string(), "cannot be created (" + why + ")",
+                       "save often, because edits are not recorded for recovery");
     }
   }
   lock_ = FileLock(folder_ / "lock");

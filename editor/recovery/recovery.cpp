@@ -54,7 +54,7 @@ int editsOf(const Json& header) {
   constexpr int kMost = 1'000'000'000;
   const int edits = wholeOf<int>(header.at("edits"));
   if (edits < 0 || edits > kMost)
-    throw InputError("journal", "has a number of edits that is none", "discard it");
+    throw InputError("journal", "has an invalid number of edits", "discard it");
   return edits;
 }
 
@@ -143,7 +143,7 @@ std::vector<Recoverable> findRecoverable(const fs::path& root) {
 
 Recovered recover(const fs::path& folder) {
   FileLock lock(folder / "lock");
-  if (!lock) cannot(folder, "another process is working with it");
+  if (!lock) cannot(folder, "another process is using it");
   try {
     Recovered out = read(folder);
     out.lock = std::move(lock);
@@ -158,8 +158,9 @@ void discard(const fs::path& folder) {
   std::error_code error;
   if (lock) fs::remove_all(folder, error);
   if (!lock || error)
-    throw InputError(folder.string(), "cannot be discarded",
-                     lock ? "check the folder" : "another process is working with it");
+    throw InputError(
+        folder.string(), "cannot be discarded",
+        lock ? "check the permissions of the folder" : "end the process that is using it first");
 }
 
 fs::path recoveryFolder() {

@@ -66,7 +66,7 @@ struct Writer {
   }
   Json put(const std::shared_ptr<const SkyImage>& v) {
     if (!v) return {};
-    if (!v->file) damagedJournal("the sky's picture came from no file");
+    if (!v->file) damagedJournal("the sky's picture has no file");
     return {{"name", v->name}, {"file", blobs.put(*v->file)}};
   }
   Json put(const std::shared_ptr<const Image8>& v) {
@@ -88,7 +88,7 @@ struct Reader {
   void get(const Json& j, T& v) {
     if constexpr (std::is_enum_v<T>) {
       const int i = wholeOf<int>(j);
-      if (i < 0 || i > 16) damagedJournal("a kind is none");
+      if (i < 0 || i > 16) damagedJournal("an enumeration value is unknown");
       v = static_cast<T>(i);
     } else if constexpr (std::is_floating_point_v<T>) {
       // NaN and infinity are written as null.
@@ -148,7 +148,7 @@ struct Reader {
     const bool fits = image->width > 0 && image->height > 0 &&
                       image->pixels.size() == 4ull * static_cast<size_t>(image->width) *
                                                   static_cast<size_t>(image->height);
-    if (!fits) damagedJournal("a picture has another size");
+    if (!fits) damagedJournal("a picture has the wrong size");
     v = std::move(image);
   }
   void get(const Json& j, std::vector<Primitive>& v) {

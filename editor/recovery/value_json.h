@@ -29,7 +29,7 @@ T wholeOf(const Json& json) {
   } else if (json.is_number_integer()) {
     if (const auto v = json.get<int64_t>(); std::in_range<T>(v)) return static_cast<T>(v);
   }
-  damagedJournal("a whole number is none");
+  damagedJournal("a value is not a whole number");
 }
 
 Json toJson(const Node& node, Blobs& blobs);

@@ -89,7 +89,7 @@ bool Session::runAction(std::string_view text) {
 template <typename Change>
 void Session::editNode(NodeId id, const std::string& verb, Change change) {
   const Node* now = document_.scene.find(id);
-  if (now == nullptr) throw InputError("object", "it is not there any more", "select another");
+  if (now == nullptr) throw InputError("object", "it no longer exists", "select another");
   Node node = *now;
   change(node);
   setNodes(editing_, verb + " " + node.name, {node});
@@ -160,7 +160,7 @@ void Session::redo() {
   finishDrag();
   const std::string label = history().redoLabel();
   editing_.redo();
-  if (!label.empty()) setStatus("Did again: " + label);
+  if (!label.empty()) setStatus("Redid: " + label);
 }
 
 void Session::goToStep(size_t position) {

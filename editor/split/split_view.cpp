@@ -32,7 +32,7 @@ SplitSide readSide(const std::string& text, const std::string& method) {
     const size_t equals = part.find('=');
     const ParameterSpec* spec = findParameter(all, part.substr(0, equals));
     if (equals == std::string::npos || !spec)
-      throw InputError(text, "'" + part + "' sets no parameter of the method",
+      throw InputError(text, "'" + part + "' does not set a parameter of the method",
                        "give live or a method, then ,NAME=VALUE for each parameter");
     side.values.set(spec->name, Settings::parse(*spec, part.substr(equals + 1)));
   }

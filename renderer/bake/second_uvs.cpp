@@ -75,8 +75,8 @@ Scene withLightMapUvs(const Scene& scene, const RenderScene& render, const Light
         if (p.material != kNone && usesSecondUvs(scene.materials[static_cast<size_t>(p.material)]))
           throw InputError(
               "material \"" + scene.materials[static_cast<size_t>(p.material)].name + "\"",
-              "a texture of it uses the second UV set, which light maps need",
-              "put it on the first");
+              "one of its textures uses the second UV set, which the light maps need",
+              "let the texture use the first UV set");
         if (!mesh) mesh = std::make_shared<Mesh>(was);
         page = charts->second.front()->page;
         mesh->primitives[primitive] = withUvs(p, render, o, charts->second, atlas.pageSize);

@@ -30,7 +30,7 @@ PendingFile::PendingFile(const fs::path& target, std::span<const uint8_t> bytes)
   std::error_code error;
   const fs::file_status status = fs::status(target_, error);
   if (fs::exists(status)) {
-    if (!fs::is_regular_file(status)) cannotWrite(target_, "it is no regular file");
+    if (!fs::is_regular_file(status)) cannotWrite(target_, "it is not a regular file");
     if ((status.permissions() & fs::perms::owner_write) == fs::perms::none)
       cannotWrite(target_, "it is write-protected");
   }

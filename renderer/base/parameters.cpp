@@ -30,8 +30,8 @@ T parseNumber(const ParameterSpec& spec, std::string_view text, const char* kind
       value >= static_cast<T>(spec.minimum) && value <= static_cast<T>(spec.maximum);
   if (error != std::errc() || end != text.data() + text.size() || !inRange) {
     throw InputError(spec.name,
-                     fmt::format("'{}' is no {} from {:g} to {:g}", shown(text), kind, spec.minimum,
-                                 spec.maximum),
+                     fmt::format("'{}' is not a {} from {:g} to {:g}", shown(text), kind,
+                                 spec.minimum, spec.maximum),
                      "give one in that range");
   }
   return value;
@@ -70,10 +70,10 @@ ParameterValue Settings::parse(const ParameterSpec& spec, std::string_view text)
     if (text == "true" || text == "on" || text == "1") return true;
     if (text == "false" || text == "off" || text == "0") return false;
     throw InputError(spec.name, fmt::format("'{}' is neither true nor false", shown(text)),
-                     "give one of them");
+                     "give true or false");
   }
   if (std::find(spec.choices.begin(), spec.choices.end(), text) == spec.choices.end()) {
-    throw InputError(spec.name, fmt::format("'{}' is none of its choices", shown(text)),
+    throw InputError(spec.name, fmt::format("'{}' is not one of its choices", shown(text)),
                      fmt::format("give one of: {}", fmt::join(spec.choices, ", ")));
   }
   return std::string(text);

@@ -139,7 +139,7 @@ const DebugViewInfo& findDebugView(std::string_view name) {
   if (found != views.end()) return *found;
   std::string names;
   for (const DebugViewInfo& v : views) names += (names.empty() ? "" : ", ") + v.name;
-  throw InputError("view", "'" + std::string(name) + "' is none", "give one of " + names);
+  throw InputError("view", "there is no view '" + std::string(name) + "'", "give one of " + names);
 }
 
 }  // namespace lamplighter

@@ -37,9 +37,9 @@ namespace {
 // Checks the data that the frame provides in addition to the inspection.
 std::string problemOf(DebugView view, const ViewSubject& in) {
   if (view == DebugView::shadowMap && in.shadowMap.empty())
-    return "the chosen light sample has no shadow map just now: none is looked up in this view";
+    return "the chosen light sample has no shadow map, because no visible pixel needs one";
   if (view == DebugView::edgeMask && in.interpolated.empty())
-    return "it needs block over 1, and the technique visibility or light_maps of many_lights";
+    return "it needs block above 1, and the technique visibility or light_maps of many_lights";
   if (view == DebugView::falseColour && in.radiance == nullptr) return "nothing is rendered yet";
   return "";
 }

@@ -94,8 +94,8 @@ HeadlessContext::HeadlessContext(bool debug) {
   }
   if (context_ == nullptr) {
     throw InputError("OpenGL",
-                     displays.empty() ? "EGL knows no way to render without a window"
-                                      : "no EGL device gives an OpenGL 4.5 core context",
+                     displays.empty() ? "EGL cannot render without a window on this machine"
+                                      : "no EGL device supports an OpenGL 4.5 core context",
                      kRemedy);
   }
   renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

@@ -66,8 +66,9 @@ void ComputeProgram::dispatch(const glm::uvec3& invocations, GLbitfield readers)
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, static_cast<GLuint>(i), &most);
     if (groups[i] > static_cast<uint32_t>(most)) {
       throw InputError("OpenGL",
-                       std::to_string(groups[i]) + " work groups are more than the " +
-                           std::to_string(most) + " that it takes here",
+                       "a dispatch of " + std::to_string(groups[i]) +
+                           " work groups exceeds the limit of this driver (" +
+                           std::to_string(most) + ")",
                        "use --backend cpu");
     }
   }

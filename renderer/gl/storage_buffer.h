@@ -74,8 +74,8 @@ class StorageBuffer {
   void allocate(size_t count, const T* values) {
     if (count > mostStorageBytes() / sizeof(T)) {
       throw InputError("OpenGL",
-                       std::to_string(count * sizeof(T) >> 20) +
-                           " MiB are more than shaders can access in a buffer here (" +
+                       "a buffer of " + std::to_string(count * sizeof(T) >> 20) +
+                           " MiB is larger than shaders can access with this driver (" +
                            std::to_string(mostStorageBytes() >> 20) + " MiB)",
                        "use --backend cpu");
     }

@@ -48,7 +48,7 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
   Opened opened;
   const char* format = formatOf(bytes);
   if (format == nullptr) {
-    why = bytes.empty() ? "is empty" : "is of no known image format";
+    why = bytes.empty() ? "is empty" : "has no known image format";
     return opened;
   }
   const std::string name = format;
@@ -81,7 +81,7 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
   }
   if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0 ||
       spec.nchannels > 16) {
-    why = "is no picture";
+    why = "is not a picture";
     return opened;
   }
   if (int64_t{spec.width} * spec.height > kMostPixels) {

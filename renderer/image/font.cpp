@@ -19,8 +19,8 @@ Font::Font(const std::filesystem::path& file, int size, const std::string& wante
   // OpenImageIO reports the reason only when drawing.
   OIIO::ImageBuf probe(OIIO::ImageSpec(8, 8, 4, OIIO::TypeDesc::UINT8));
   OIIO::ImageBufAlgo::render_text(probe, 0, 8, "x", size_, file_);
-  throw InputError(wantedBy, "nothing can be written: " + probe.geterror(),
-                   "install fonts-inter and an OpenImageIO with FreeType, or leave it out");
+  throw InputError(wantedBy, "text cannot be drawn: " + probe.geterror(),
+                   "install fonts-inter and an OpenImageIO with FreeType, or omit it");
 }
 
 float Font::width(const std::string& text) const {

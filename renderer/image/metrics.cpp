@@ -15,8 +15,8 @@ namespace {
 void requireSameSize(const Image& a, const Image& b, const std::string& what) {
   if (a.width == b.width && a.height == b.height) return;
   throw InputError(what,
-                   std::to_string(a.width) + "x" + std::to_string(a.height) + " and " +
-                       std::to_string(b.width) + "x" + std::to_string(b.height) +
+                   "pictures of " + std::to_string(a.width) + "x" + std::to_string(a.height) +
+                       " and " + std::to_string(b.width) + "x" + std::to_string(b.height) +
                        " pixels cannot be compared",
                    "render both at the same size");
 }
@@ -105,7 +105,8 @@ Metrics compareImages(const Image& a, const Image& b, const Image* mask) {
     }
   }
   if (n == 0)
-    throw InputError("compare", "no pixel counts", "give pictures and a mask that hold some");
+    throw InputError("compare", "there is no pixel to compare",
+                     "give pictures that are not empty and a mask with white pixels");
   m.meanA /= static_cast<double>(n);
   m.meanB /= static_cast<double>(n);
   const double epsilon = std::pow(0.05 * m.meanB, 2.0);

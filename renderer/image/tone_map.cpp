@@ -40,7 +40,8 @@ const ToneMapperInfo& findToneMapper(std::string_view name) {
   std::string names;
   for (const ToneMapperInfo& m : kMappers)
     names += (names.empty() ? "" : ", ") + std::string(m.name);
-  throw InputError("tone mapper", "'" + std::string(name) + "' is none", "give one of " + names);
+  throw InputError("tone mapper", "there is no tone mapper '" + std::string(name) + "'",
+                   "give one of " + names);
 }
 
 vec3 toneMapPixel(const vec3& radiance, float exposureEv, ToneMapper mapper) {

@@ -26,7 +26,7 @@ const MethodInfo& findMethod(const std::string& name) {
   if (it != all.end()) return *it;
   std::string names;
   for (const MethodInfo& m : all) names += (names.empty() ? "" : ", ") + m.name;
-  throw InputError("method", "there is no '" + name + "'", "give one of: " + names);
+  throw InputError("method", "there is no method '" + name + "'", "give one of: " + names);
 }
 
 void addMethod(MethodInfo method) {

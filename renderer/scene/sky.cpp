@@ -93,7 +93,7 @@ bool Sky::operator==(const Sky& o) const {
 
 std::shared_ptr<const SkyImage> makeSkyImage(Image pixels, std::string name,
                                              std::shared_ptr<const std::vector<uint8_t>> file) {
-  if (pixels.empty()) throw InputError(name, "is an empty picture", "name another");
+  if (pixels.empty()) throw InputError(name, "is an empty picture", "choose another picture");
   for (vec3& p : pixels.pixels) {
     for (int c = 0; c < 3; ++c) p[c] = p[c] > 0.0f ? std::min(p[c], kMostRadiance) : 0.0f;
   }

@@ -1,4 +1,4 @@
-// `lamplighter bake` as its callers use it.
+// The command `lamplighter bake`.
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ class BakeCommand : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(BakeCommand, WritesPagesAndACopyAndSaysHowFarItIs) {
+TEST_F(BakeCommand, WritesPagesAndACopyAndShowsProgress) {
   const ProcessResult r = run({});
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_NE(r.err.find("left"), std::string::npos) << r.err;
@@ -39,7 +39,7 @@ TEST_F(BakeCommand, WritesPagesAndACopyAndSaysHowFarItIs) {
   EXPECT_EQ(runLamplighter({"info", (folder_ / "cornell_style.gltf").string()}).code, 0);
 }
 
-TEST_F(BakeCommand, AShardLeavesItsPartAlone) {
+TEST_F(BakeCommand, AShardWritesOnlyItsPart) {
   EXPECT_EQ(run({"--shard", "1/2"}).code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "cornell_style-light-0.exr"));
   const ProcessResult early = run({"--merge"});
@@ -50,7 +50,7 @@ TEST_F(BakeCommand, AShardLeavesItsPartAlone) {
   EXPECT_TRUE(fs::exists(folder_ / "cornell_style-light-0.exr"));
 }
 
-TEST_F(BakeCommand, RefusesInOneLine) {
+TEST_F(BakeCommand, RefusesInvalidOptionsInOneLine) {
   for (const std::vector<std::string>& bad : {std::vector<std::string>{"--shard", "0/2"},
                                               {"--shard", "3/2"},
                                               {"--shard", "two"},

@@ -1,4 +1,4 @@
-// The command line as other programs call it.
+// The command line as other programs use it.
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -49,9 +49,9 @@ class CommandLine : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(CommandLine, TheSkyCanBeAnother) {
+TEST_F(CommandLine, TheSkyCanBeReplaced) {
   const std::string scene = file("dark.gltf");
-  std::ofstream(scene) << R"({"asset":{"version":"2.0"}})";  // nothing but sky to see
+  std::ofstream(scene) << R"({"asset":{"version":"2.0"}})";  // only the sky is visible
   const auto mean = [&](const std::vector<std::string>& more) {
     std::vector<std::string> call{"render", scene, "-o",    file("a.exr"), "--size",    "16x8",
                                   "--vpls", "8",   "--set", "antialias=1", "--backend", "cpu"};
@@ -74,12 +74,12 @@ TEST_F(CommandLine, TheSkyCanBeAnother) {
     call.insert(call.end(), more.begin(), more.end());
     expectOneError(runLamplighter(call), part);
   };
-  bad({"--sky", "1,2"}, "is no radiance");
-  bad({"--sky", "1,2,-3"}, "is no radiance");
-  bad({"--sky", "gradient:1,2,3"}, "is no gradient");
-  bad({"--sky", file("gone.exr")}, "is not there");
+  bad({"--sky", "1,2"}, "is not a radiance");
+  bad({"--sky", "1,2,-3"}, "is not a radiance");
+  bad({"--sky", "gradient:1,2,3"}, "is not a gradient");
+  bad({"--sky", file("gone.exr")}, "does not exist");
   bad({"--sky", scene}, "no known image format");
-  bad({"--sky", "1,1,1", "--sky-rotation", "90"}, "the sky is no picture");
+  bad({"--sky", "1,1,1", "--sky-rotation", "90"}, "the sky is not a picture");
   bad({"--sky", file("sky.exr"), "--sky-scale", "-1"}, "--sky-scale");
 }
 
@@ -88,11 +88,11 @@ TEST_F(CommandLine, BadUseIsOneLineAndCode2) {
   expectOneError(runLamplighter({"render", kScene}), "--output");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.jpg")}), ".exr or .png");
   expectOneError(runLamplighter({"render", kScene, "-o", file("none/a.png")}),
-                 "folder is not there");
+                 "folder does not exist");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "12"}),
-                 "is no size");
+                 "is not a size");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "0x5"}),
-                 "is no size");
+                 "is not a size");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--method", "magic"}),
                  "magic");
   expectOneError(runLamplighter({"render", kScene, "-o", file("a.png"), "--camera", "nobody"}),
@@ -111,7 +111,7 @@ TEST_F(CommandLine, BadUseIsOneLineAndCode2) {
   EXPECT_TRUE(fs::is_empty(folder_)) << "nothing may be half-written";
 }
 
-TEST_F(CommandLine, HelpAndVersionAreGood) {
+TEST_F(CommandLine, HelpAndVersionWork) {
   for (const char* sub : {"info", "render", "methods", "compare", "replay"}) {
     const ProcessResult r = runLamplighter({sub, "--help"});
     EXPECT_EQ(r.code, 0);
@@ -144,7 +144,7 @@ TEST_F(CommandLine, EveryFlagIsInTheDocs) {
   }
 }
 
-TEST_F(CommandLine, InfoCountsAndIsJson) {
+TEST_F(CommandLine, InfoWritesCountsAsJson) {
   const ProcessResult r = runLamplighter({"info", kScene, "--json"});
   ASSERT_EQ(r.code, 0) << r.err;
   const json j = json::parse(r.out);
@@ -195,7 +195,7 @@ TEST_F(CommandLine, EveryActionSaysWhatItDoesAndTheTableIsUpToDate) {
       << "run: lamplighter actions --markdown > docs/reference/actions.md";
 }
 
-// What the manual says is what the program says.
+// The committed manual equals the output of the program.
 TEST_F(CommandLine, ManualIsUpToDate) {
   const std::pair<const char*, const char*> kinds[] = {{"--markdown", "docs/reference/flags.md"},
                                                        {"--man", "docs/reference/lamplighter.1"}};
@@ -232,7 +232,7 @@ TEST_F(CommandLine, RendersEveryMethodToExrAndPng) {
   }
 }
 
-TEST_F(CommandLine, SetReachesADeclaredParameter) {
+TEST_F(CommandLine, SetChangesADeclaredParameter) {
   for (const auto& [assignment, wanted] : {std::pair{"vpls=17", 17}, std::pair{"vpls=40", 40}}) {
     ASSERT_EQ(
         runLamplighter({"render", kScene, "-o", file("a.exr"), "--size", "16x16", "--backend",
@@ -243,8 +243,8 @@ TEST_F(CommandLine, SetReachesADeclaredParameter) {
   }
 }
 
-TEST_F(CommandLine, EachShortcutIsTheParameterOfItsName) {
-  // --set stands before the scene: it takes one word only.
+TEST_F(CommandLine, EachShortcutFlagSetsTheParameterOfItsName) {
+  // --set is before the scene, which shows that it takes only one word.
   const auto pixels = [&](const std::string& flag, const std::string& assignment) {
     const ProcessResult r =
         runLamplighter({"render", "--set", assignment, kScene, "-o", file("a.exr"), "--size",
@@ -266,7 +266,7 @@ TEST_F(CommandLine, EachShortcutIsTheParameterOfItsName) {
   }
 }
 
-TEST_F(CommandLine, CamerasGoByNameAndNumber) {
+TEST_F(CommandLine, CamerasAreChosenByNameAndNumber) {
   const auto pixels = [&](std::vector<std::string> flags) {
     std::vector<std::string> words{"render",    kScene,  "-o",        file("a.exr"),
                                    "--size",    "24x16", "--backend", "cpu",
@@ -292,7 +292,7 @@ TEST_F(CommandLine, PngIsTheToneMappedExr) {
   EXPECT_EQ(text("c.png"), text("b.png"));
 }
 
-TEST_F(CommandLine, StatisticsNameWhatTheContractNames) {
+TEST_F(CommandLine, StatisticsHaveTheDocumentedNames) {
   ASSERT_EQ(
       runLamplighter({"render", kScene, "-o", file("a.png"), "--size", "24x16", "--backend", "cpu",
                       "--vpls", "16", "--set", "technique=visibility", "--stats", file("s.json")})
@@ -350,7 +350,7 @@ TEST_F(CommandLine, CompareMeasuresAndChecks) {
                  "cannot be compared");
 }
 
-TEST_F(CommandLine, WithoutADisplayTheEditorSaysSo) {
+TEST_F(CommandLine, WithoutADisplayTheEditorReportsAnError) {
   expectOneError(runLamplighter({kScene}), "display");
 }
 

@@ -1,4 +1,4 @@
-// Broken files given to the program itself: no crash, no hang, one line.
+// Malformed scenes given to the program: no crash, no hang, an error of one line.
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace lamplighter {
 namespace {
 
-TEST(MalformedScenes, AreOneLineOrLoad) {
+TEST(MalformedScenes, LoadOrAreRefusedInOneLine) {
   const std::filesystem::path folder = test::sharedScenes() / "malformed";
   if (!std::filesystem::exists(folder / "cases.tsv")) GTEST_SKIP() << "no " << folder;
   const auto cases = test::readTable(folder / "cases.tsv");
@@ -23,8 +23,8 @@ TEST(MalformedScenes, AreOneLineOrLoad) {
     if (r.code == 2) {
       EXPECT_EQ(test::lines(r.err), 1);
       EXPECT_TRUE(r.err.starts_with("error: " + file + ": "));
-      EXPECT_NE(r.err.find("; "), std::string::npos) << "what to do is missing";
-      EXPECT_TRUE(r.out.empty()) << "no partial scene";
+      EXPECT_NE(r.err.find("; "), std::string::npos) << "the remedy is missing";
+      EXPECT_TRUE(r.out.empty()) << "a partial scene was printed";
     } else {
       EXPECT_NE(r.out.find("triangles"), std::string::npos);
       EXPECT_EQ(("\n" + r.err).find("\nerror: "), std::string::npos);
@@ -32,7 +32,7 @@ TEST(MalformedScenes, AreOneLineOrLoad) {
   }
 }
 
-TEST(MalformedScenes, RenderNothing) {
+TEST(MalformedScenes, AreNotRendered) {
   const std::filesystem::path scene =
       test::sharedScenes() / "malformed" / "derived-cut-room" / "modern-hall-cut.glb";
   if (!std::filesystem::exists(scene)) GTEST_SKIP() << "no " << scene;

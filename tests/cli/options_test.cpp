@@ -1,4 +1,4 @@
-// What the subcommands make of their flags, without running the program.
+// Parsing of the flags of the subcommands, without running the program.
 #include "editor/cli/options.h"
 
 #include <filesystem>
@@ -34,11 +34,11 @@ TEST(ParseSize, TakesWidthAndHeight) {
 TEST(ParseSize, RefusesEverythingElse) {
   for (const char* text : {"", "x", "640", "640x", "x360", "640X360", "640x360x2", "640 x360",
                            "0x1", "1x0", "-4x4", "16385x1", "4.5x4", "99999999999x1", "1e3x10"}) {
-    EXPECT_NE(errorOf([&] { parseSize(text); }).find("is no size"), std::string::npos) << text;
+    EXPECT_NE(errorOf([&] { parseSize(text); }).find("is not a size"), std::string::npos) << text;
   }
 }
 
-TEST(Parameters, EveryDeclaredOneCanBeSetToItsLimitsAndNotPast) {
+TEST(Parameters, EachCanBeSetToItsLimitsButNotBeyond) {
   for (const MethodInfo& method : lamplighter::methods()) {
     for (const ParameterSpec& p : method.parameters) {
       Settings settings;
@@ -65,7 +65,7 @@ TEST(Parameters, EveryDeclaredOneCanBeSetToItsLimitsAndNotPast) {
   }
 }
 
-TEST(Parameters, AnUnknownNameListsTheKnownOnes) {
+TEST(Parameters, AnUnknownNameListsTheKnownNames) {
   for (const MethodInfo& method : lamplighter::methods()) {
     Settings settings;
     const std::string error = errorOf([&] { setFromAssignment(settings, method, "colour=red"); });
@@ -107,7 +107,7 @@ TEST(ChooseView, TakesCamerasByNameAndByNumber) {
   }
 }
 
-TEST(ChooseView, ASceneWithoutCamerasIsSeenWhole) {
+TEST(ChooseView, ASceneWithoutCamerasIsShownWhole) {
   Scene scene;
   test::addMesh(scene, test::boxMesh(vec3(4, 1, 2)), vec3(10, 0, 0));
   const View view = chooseView(scene, "", 64, 48);
@@ -124,7 +124,7 @@ TEST(ChooseView, ASceneWithoutCamerasIsSeenWhole) {
             std::string::npos);
 }
 
-TEST(RequireWritable, FindsOutBeforeAnyWorkAndLeavesNothing) {
+TEST(RequireWritable, ChecksInAdvanceAndLeavesNoFile) {
   const fs::path folder = fs::path(testing::TempDir()) / "lamplighter_writable";
   fs::remove_all(folder);
   fs::create_directories(folder / "folder.png");
@@ -145,7 +145,7 @@ TEST(RequireWritable, FindsOutBeforeAnyWorkAndLeavesNothing) {
   fs::remove_all(folder);
 }
 
-TEST(WriteText, ReplacesAFileWhole) {
+TEST(WriteText, ReplacesTheWholeFile) {
   const fs::path file = fs::path(testing::TempDir()) / "lamplighter_text.json";
   writeFile(file, "a longer text");
   writeFile(file, "short");

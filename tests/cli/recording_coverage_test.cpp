@@ -1,6 +1,6 @@
-// Every action is run by some recording, whatever starts it there: a menu, a key, the palette or
-// its own text. The recordings' tests leave reports of what they ran (tests/CMakeLists.txt), and
-// this one runs after them, as the test recording-coverage.
+// Every action is run by at least one recording, from a menu, a key, the palette or as text. The
+// tests of the recordings write reports of the actions that they ran (tests/CMakeLists.txt). This
+// test runs after them, as the test recording-coverage.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -26,14 +26,14 @@ std::set<std::string> allActions() {
   std::set<std::string> names;
   for (const json& action : json::parse(test::runLamplighter({"actions", "--json"}).out))
     names.insert(action["name"].get<std::string>());
-  // A view that a method draws is tested with the method.
+  // Views that a method draws are tested with the method.
   for (const DebugViewInfo& view : debugViews())
     if (!view.method.empty()) names.erase("view." + view.name);
   return names;
 }
 
-// NAME: reason, of uncovered.txt.
-std::map<std::string, std::string> excused() {
+// The lines "NAME: reason" of uncovered.txt.
+std::map<std::string, std::string> reasonsOfUncovered() {
   std::map<std::string, std::string> out;
   std::ifstream in(kRecordings / "uncovered.txt");
   for (std::string line; std::getline(in, line);) {
@@ -51,7 +51,7 @@ TEST(RecordingCoverage, EveryActionIsInARecording) {
   for (const auto& entry : fs::directory_iterator(kRecordings)) {
     if (entry.path().extension() != ".jsonl") continue;
     const fs::path report = fs::path(folder) / (entry.path().stem().string() + ".json");
-    // Those of scenes that are not here have none.
+    // Recordings of missing scenes have no report.
     if (!fs::exists(report)) continue;
     std::ifstream in(report);
     const json content = json::parse(in);
@@ -59,16 +59,18 @@ TEST(RecordingCoverage, EveryActionIsInARecording) {
   }
   ASSERT_FALSE(covered.empty()) << "there are no reports in " << folder;
   if (!fs::exists(test::sharedFolder() / "scenes"))
-    GTEST_SKIP() << "without ../shared/scenes not all recordings are played";
+    GTEST_SKIP() << "not all recordings are replayed, because ../shared/scenes is missing";
   const std::set<std::string> actions = allActions();
-  const std::map<std::string, std::string> without = excused();
+  const std::map<std::string, std::string> without = reasonsOfUncovered();
   for (const std::string& name : actions)
     EXPECT_TRUE(covered.contains(name) || without.contains(name))
         << name << ": no recording in tests/recordings runs it";
   for (const auto& [name, reason] : without) {
-    EXPECT_FALSE(reason.empty()) << name << " is excused without a reason";
-    EXPECT_TRUE(actions.contains(name)) << name << " is excused and no action";
-    EXPECT_FALSE(covered.contains(name)) << name << " is excused and covered";
+    EXPECT_FALSE(reason.empty()) << name << " is listed in uncovered.txt without a reason";
+    EXPECT_TRUE(actions.contains(name))
+        << name << " is listed in uncovered.txt, but is not an action";
+    EXPECT_FALSE(covered.contains(name))
+        << name << " is listed in uncovered.txt, but a recording runs it";
   }
 }
 

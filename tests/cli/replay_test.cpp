@@ -1,5 +1,5 @@
-// Replays as other programs call them: what a check compares, and that it can fail. The recordings
-// themselves are checked by a test each (tests/CMakeLists.txt).
+// The command `lamplighter replay`: what its checks compare, and that they can fail. The recordings
+// themselves have one test each (tests/CMakeLists.txt).
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -32,7 +32,7 @@ class Replay : public testing::Test {
                std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "recordings");
-    // As deep below the copied scenes as in the repository, so that relative paths hold.
+    // The relative paths of the recording need the folders of the repository.
     fs::create_directories(folder_ / "assets");
     fs::copy(test::sourceFolder() / "assets/scenes", folder_ / "assets/scenes",
              fs::copy_options::recursive);
@@ -77,7 +77,7 @@ TEST_F(Replay, GivesTheSameHashesAndBitsTwiceAndAtAnyNumberOfThreads) {
     const ProcessResult r = replay({"--threads", threads});
     ASSERT_EQ(r.code, 0) << r.err;
     std::map<std::string, std::string> seen = pictures();
-    // Pictures of the whole window show times, which differ.
+    // Pictures of the whole window show times, which differ between runs.
     std::erase_if(seen,
                   [](const auto& p) { return p.first.find(".window.") != std::string::npos; });
     EXPECT_EQ(seen.size(), 6u);
@@ -90,8 +90,8 @@ TEST_F(Replay, GivesTheSameHashesAndBitsTwiceAndAtAnyNumberOfThreads) {
   }
 }
 
-// With the clock of frames what the window tells of times is the same, too.
-TEST_F(Replay, GivesTheSamePicturesOfTheWindowTwiceByTheClockOfFrames) {
+// With the frame clock, the times that the window shows are equal, too.
+TEST_F(Replay, GivesTheSameWindowPicturesTwiceWithTheFrameClock) {
   std::map<std::string, std::string> first;
   for (const char* threads : {"1", "2"}) {
     const ProcessResult r = replay({"--frame-clock", "--threads", threads});
@@ -99,15 +99,15 @@ TEST_F(Replay, GivesTheSamePicturesOfTheWindowTwiceByTheClockOfFrames) {
     std::map<std::string, std::string> seen = pictures();
     std::erase_if(seen,
                   [](const auto& p) { return p.first.find(".window.") == std::string::npos; });
-    if (seen.empty()) GTEST_SKIP() << "without OpenGL there are no pictures of the window";
+    if (seen.empty()) GTEST_SKIP() << "there are no pictures of the window without OpenGL";
     EXPECT_EQ(seen.size(), 6u);
     if (first.empty()) first = seen;
     EXPECT_TRUE(seen == first);
   }
 }
 
-// Which frames are left out on the way makes no difference to where it leads.
-TEST_F(Replay, ComesToTheSamePicturesWithoutTheFramesBetween) {
+// Skipped frames do not change the result.
+TEST_F(Replay, GivesTheSamePicturesWithSkippedFrames) {
   const ProcessResult r = replay({"--frame-clock", "--check"});
   EXPECT_EQ(r.code, 0) << r.out << r.err;
 }
@@ -123,8 +123,8 @@ TEST_F(Replay, FailsACheckWhereTheDocumentDiffers) {
   EXPECT_NE(r.out.find("5 checks passed, 1 failed"), std::string::npos) << r.out;
 }
 
-TEST_F(Replay, FailsACheckWhereThePictureDiffersAndShowsWhere) {
-  // The picture without the light, for the one with it.
+TEST_F(Replay, FailsACheckWhereThePictureDiffersAndWritesTheDifference) {
+  // Replaces the picture with the light by the one without it.
   fs::copy_file(folder_ / "recordings/place_light.start.png",
                 folder_ / "recordings/place_light.moved.png", fs::copy_options::overwrite_existing);
   const ProcessResult r = replay({"--check"});
@@ -134,7 +134,7 @@ TEST_F(Replay, FailsACheckWhereThePictureDiffersAndShowsWhere) {
   EXPECT_TRUE(fs::exists(folder_ / "out/place_light.moved.difference.png"));
 }
 
-TEST_F(Replay, FailsACheckWithoutABaselineAndWritesItWhenTold) {
+TEST_F(Replay, FailsACheckWithoutABaselineAndWritesItOnRequest) {
   fs::remove(folder_ / "recordings/place_light.moved.png");
   EXPECT_EQ(replay({"--check"}).code, 1);
   const ProcessResult written = replay({"--update-baselines"});
@@ -144,7 +144,7 @@ TEST_F(Replay, FailsACheckWithoutABaselineAndWritesItWhenTold) {
             contents(kRecordings / "place_light.moved.png"));
 }
 
-TEST_F(Replay, ReportsItsChecksAndHowSoonEditsAreSeen) {
+TEST_F(Replay, ReportsChecksAndEditLatencies) {
   const ProcessResult r =
       replay({"--check", "--report", (folder_ / "report.json").string(), "--threads", "2"});
   ASSERT_EQ(r.code, 0) << r.err;
@@ -162,11 +162,11 @@ TEST_F(Replay, ReportsItsChecksAndHowSoonEditsAreSeen) {
     EXPECT_LE(most, edit["settled"]["frames"].get<int>());
     EXPECT_GT(edit["settled"]["milliseconds"].get<double>(), 0.0);
   }
-  EXPECT_GE(seen, 3);  // a light is placed, moved, and the steps are undone
+  EXPECT_GE(seen, 3);  // a light is placed and moved, and both steps are undone
   EXPECT_NE(r.out.find(" edits seen: 95% in "), std::string::npos) << r.out;
 }
 
-TEST_F(Replay, RefusesASceneThatIsNotTheRecordedOne) {
+TEST_F(Replay, RefusesAChangedScene) {
   std::ofstream(folder_ / "assets/scenes/cornell_style.gltf", std::ios::app) << "\n";
   const ProcessResult r = replay({"--check"});
   EXPECT_EQ(r.code, 2);

@@ -1,4 +1,4 @@
-// Scripts of actions as other programs run them.
+// The command `lamplighter script`, which runs actions from a file.
 #include <filesystem>
 #include <fstream>
 
@@ -39,7 +39,7 @@ class Script : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Script, RunsActionsOneALine) {
+TEST_F(Script, RunsOneActionPerLine) {
   const ProcessResult r =
       run("# a comment\n\n  render.set vpls=40   # and another\n"
           "select.name lamp\nlight.radiance 4 2 1\nscript.wait\n"

@@ -1,5 +1,5 @@
-// The user's files do nothing to replays and the other subcommands; and the page about them is up
-// to date.
+// The settings of the user do not change replays and subcommands, and their reference page is up to
+// date.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -21,11 +21,11 @@ std::string contents(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(UserSettings, AHostileFileDoesNotChangeAReplay) {
+TEST(UserSettings, SettingsDoNotChangeAReplay) {
   const fs::path folder = fs::path(testing::TempDir()) / "lamplighter_hostile_settings";
   fs::remove_all(folder);
   fs::create_directories(folder / "lamplighter");
-  // One that would change all it could, and one that is broken.
+  // A file that changes as much as possible, and a damaged one.
   const std::string hostile = R"({"lamplighter_settings":1,"settings":{"ui_scale":3,"keys":"grs",
     "tone_mapper":"linear","light_unit":"cd","preset":"draft","left_width":900,"right_width":900}})";
   const std::string keys = R"({"tool.move":"P","app.palette":"","edit.undo":"W"})";

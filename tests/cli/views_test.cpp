@@ -1,4 +1,4 @@
-// `render --view`: pictures of the engine's insides, and what is said where there is none.
+// `render --view`: pictures of internal data, and the errors of views that cannot be shown.
 #include <algorithm>
 #include <filesystem>
 
@@ -19,7 +19,7 @@ using test::runLamplighter;
 class RenderView : public testing::Test {
  protected:
   void SetUp() override {
-    // Tests run beside each other.
+    // Tests run in parallel.
     folder_ = fs::path(testing::TempDir()) /
               (std::string("lamplighter_views_") +
                testing::UnitTest::GetInstance()->current_test_info()->name());
@@ -49,7 +49,7 @@ class RenderView : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(RenderView, WritesEachAndTheyDiffer) {
+TEST_F(RenderView, WritesEveryViewAndAllDiffer) {
   std::vector<std::vector<vec3>> pictures;
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
@@ -68,7 +68,7 @@ TEST_F(RenderView, WritesEachAndTheyDiffer) {
     EXPECT_EQ(render("light.exr", {"--view", view}).code, 0) << view;
 }
 
-TEST_F(RenderView, ALegendStandsBelowThePicture) {
+TEST_F(RenderView, ALegendIsBelowThePicture) {
   for (const std::string view : {"occlusion", "partial_lights", "light_maps"}) {
     SCOPED_TRACE(view);
     ASSERT_EQ(render("bare.png", {"--view", view}).code, 0);
@@ -76,9 +76,10 @@ TEST_F(RenderView, ALegendStandsBelowThePicture) {
     ASSERT_EQ(r.code, 0) << r.err;
     const Image bare = readImage(folder_ / "bare.png"), with = readImage(folder_ / "legend.png");
     ASSERT_EQ(with.width, bare.width);
-    ASSERT_GT(with.height, bare.height + 40);  // a row for each of its parts, so narrow is it
+    ASSERT_GT(with.height,
+              bare.height + 40);  // the picture is so narrow that each part has its own row
     EXPECT_TRUE(std::equal(bare.pixels.begin(), bare.pixels.end(), with.pixels.begin()));
-    // Something is written: there is bright ink on a dark strip.
+    // There is bright text on the dark strip.
     float dark = 1.0f, bright = 0.0f;
     for (size_t i = bare.pixels.size(); i < with.pixels.size(); ++i) {
       dark = std::min(dark, with.pixels[i].g);
@@ -88,10 +89,10 @@ TEST_F(RenderView, ALegendStandsBelowThePicture) {
     EXPECT_GT(bright, 0.4f);
   }
   ASSERT_EQ(render("albedo.png", {"--view", "albedo", "--legend"}).code, 0);
-  EXPECT_EQ(readImage(folder_ / "albedo.png").height, 40);  // its colours need no words
+  EXPECT_EQ(readImage(folder_ / "albedo.png").height, 40);  // this view has no legend
 }
 
-TEST_F(RenderView, MarksLieOverAnyView) {
+TEST_F(RenderView, MarksCanBeDrawnOverAnyView) {
   for (const std::string view : {"lit", "flat"}) {
     SCOPED_TRACE(view);
     ASSERT_EQ(render("bare.png", {"--view", view}).code, 0);
@@ -106,9 +107,9 @@ TEST_F(RenderView, MarksLieOverAnyView) {
   }
 }
 
-TEST_F(RenderView, RefusesWhatItCannotShow) {
-  fails("a.png", {"--view", "colour"}, "'colour' is none; give one of lit, light_only");
-  fails("a.exr", {"--view", "albedo"}, "is no radiance");
+TEST_F(RenderView, RefusesViewsThatItCannotShow) {
+  fails("a.png", {"--view", "colour"}, "there is no view 'colour'; give one of lit, light_only");
+  fails("a.exr", {"--view", "albedo"}, "is not radiance");
   fails("a.png", {"--view", "occlusion", "--set", "technique=naive"},
         "needs patches: choose many_lights with the technique visibility or light_maps");
   fails("a.png", {"--view", "light_maps", "--set", "technique=visibility"},
@@ -118,11 +119,11 @@ TEST_F(RenderView, RefusesWhatItCannotShow) {
   fails("a.png", {"--view", "occlusion", "--set", "technique=visibility", "--view-vpl", "1000"},
         "there is no light sample 1000; give one from 0 to ");
   fails("a.png", {"--view", "prt_objects"}, "choose many_lights with prt");
-  fails("a.png", {"--view", "edge_mask", "--set", "block=1"}, "needs block over 1");
-  fails("a.exr", {"--view", "false_colour"}, "is no radiance");
-  fails("a.exr", {"--marks"}, "marks are no radiance");
-  fails("a.exr", {"--legend"}, "a legend is no radiance");
-  fails("a.png", {"--marks", "--method", "reference"}, "there is no light sample");
+  fails("a.png", {"--view", "edge_mask", "--set", "block=1"}, "needs block above 1");
+  fails("a.exr", {"--view", "false_colour"}, "is not radiance");
+  fails("a.exr", {"--marks"}, "marks are not radiance");
+  fails("a.exr", {"--legend"}, "a legend is not radiance");
+  fails("a.png", {"--marks", "--method", "reference"}, "there are no light samples");
 }
 
 }  // namespace

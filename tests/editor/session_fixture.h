@@ -1,4 +1,4 @@
-// A session on a floor with a box and a light, driven by pointer and keys as the ui drives it.
+// A session with a scene of a floor, a box and a light. Tests use pointer and keys as the ui does.
 #pragma once
 
 #include <functional>
@@ -21,9 +21,9 @@ class SessionFixture : public testing::Test {
  protected:
   Session session_{std::make_unique<FrameRenderer>(makeCpuBackend())};
   NodeId floor_ = 0, box_ = 0, light_ = 0;
-  ViewportInput input_;  // as of the last frame
+  ViewportInput input_;  // of the last frame
 
-  virtual void addMore(Scene&) {}  // nodes that a test wants besides
+  virtual void addMore(Scene&) {}  // adds further nodes of a test
 
   void SetUp() override {
     Scene scene;
@@ -50,14 +50,14 @@ class SessionFixture : public testing::Test {
     input_.hovered = true;
   }
 
-  // Changes the level by something that is not an edit: there is nothing to undo afterwards.
+  // Changes the level without an edit and clears the history.
   void change(const std::function<void(Scene&)>& f) {
     Document document = session_.document();
     f(document.scene);
     session_.editing().open(std::move(document));
   }
 
-  // Towards −Z, pitched by an angle in radians.
+  // Looks towards −Z, with a pitch in radians.
   void lookFrom(const vec3& eye, float pitch) {
     View view = session_.view();
     view.eye = eye;
@@ -71,7 +71,7 @@ class SessionFixture : public testing::Test {
   vec3 placeOf(NodeId id) const { return vec3(worldMatrix(session_.document().scene, id)[3]); }
   uint64_t hash() const { return documentHash(session_.document()); }
 
-  // The action is one step that can be taken back and made again.
+  // Expects that the action is one step with undo and redo.
   void expectOneStep(const std::string& action) {
     const uint64_t before = hash();
     const size_t steps = session_.history().position();
@@ -85,11 +85,11 @@ class SessionFixture : public testing::Test {
     EXPECT_EQ(hash(), after) << action;
   }
 
-  // Frames of a drag with a mouse button, one call each.
+  // One frame of a drag per call.
   void press(const vec2& at, int button = 0, Modifiers modifiers = {}) {
     input_.pointer = at;
     input_.modifiers = modifiers;
-    session_.viewport(input_);  // hovers
+    session_.viewport(input_);  // moves the pointer without a button
     input_.pressed[button] = input_.down[button] = true;
     frame();
   }
@@ -109,11 +109,11 @@ class SessionFixture : public testing::Test {
     input_.wheel = 0.0f;
   }
 
-  // World metres of a point on a handle of the gizmo at `origin`, `pixels` along.
+  // The length of `pixels` on the screen at `origin`, in metres. Finds points on gizmo handles.
   float along(const vec3& origin, float pixels = 60.0f) const {
     return pixels * metresPerPixel(session_.view(), origin);
   }
-  // Takes hold of the selection's X arrow.
+  // Presses the X arrow of the selection.
   void pressXArrow(Modifiers modifiers = {}) {
     const vec3 origin = placeOf(session_.document().active());
     press(pixelOf(origin + vec3(along(origin), 0, 0)), 0, modifiers);

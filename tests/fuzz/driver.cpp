@@ -1,5 +1,5 @@
-// Runs a fuzz target without libFuzzer, with any compiler: over the files of a corpus, and over
-// seeded random changes of them.
+// Runs a fuzz target without libFuzzer, with any compiler, on the files of a corpus and on seeded
+// random mutations of them.
 //   fuzz_NAME FILE|FOLDER... [--mutations N] [--seed S]
 #include <algorithm>
 #include <cstdint>
@@ -31,7 +31,8 @@ class Random {
   uint64_t state_;
 };
 
-// One to eight small changes: bytes, digits, parts left out, doubled or taken from another file.
+// Makes one to eight small changes: of bytes and numbers, and by parts that are removed, repeated
+// or copied from another file.
 Input changed(const std::vector<Input>& corpus, Random& random) {
   Input out = corpus[random.below(corpus.size())];
   static const std::string kTexts[] = {"0",    "-1", "4294967295", "1e39", "null",
@@ -59,7 +60,7 @@ Input changed(const std::vector<Input>& corpus, Random& random) {
       }
       case 4: {
         const std::string& text = kTexts[random.below(std::size(kTexts))];
-        // In place of a number, where there is one.
+        // Replaces the next number, if there is one.
         auto from = std::find_if(place, out.end(), [](uint8_t c) { return c >= '0' && c <= '9'; });
         auto to = std::find_if(from, out.end(), [](uint8_t c) { return c < '0' || c > '9'; });
         const auto index = from - out.begin();
@@ -111,7 +112,7 @@ int main(int argc, char** argv) {
   }
   if (corpus.empty()) corpus.emplace_back();
   Random random(seed);
-  const char* keep = std::getenv("LAMPLIGHTER_FUZZ_LAST");  // where a crash finds its input
+  const char* keep = std::getenv("LAMPLIGHTER_FUZZ_LAST");  // a file for the latest input
   for (size_t i = 0; i < mutations; ++i) {
     const Input input = changed(corpus, random);
     if (keep != nullptr)

@@ -12,7 +12,7 @@ void writeJpeg(const Image8& image, const std::filesystem::path& path) {
   spec.attribute("Compression", "jpeg:78");
   spec.attribute("jpeg:subsampling", "4:2:0");
   const auto out = oiio::ImageOutput::create(path.string());
-  // Three of the four channels of each pixel.
+  // Removes the alpha channel.
   if (!out || !out->open(path.string(), spec) ||
       !out->write_image(oiio::TypeDesc::UINT8, image.pixels.data(), 4) || !out->close())
     throw InputError(path.string(), "cannot be written: " + (out ? out->geterror() : "no JPEG"),

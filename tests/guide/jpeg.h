@@ -1,4 +1,4 @@
-// Pictures for pages: JPEG files, small and without seams in text.
+// Pictures for pages: small JPEG files with sharp text.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
-// What the guide names is there: actions, keys, flags, parameters and settings in backticks, flags
-// in commands, files and headings behind links; and each picture is in a page and each page's in
-// its folder. What steps press and type is told in the text beside them.
+// Checks that the names in the guide exist: actions, keys, flags, parameters and settings in
+// backticks, flags of commands, and targets of links. All pictures are used, and the text mentions
+// all keys and texts of the steps.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -35,7 +35,7 @@ std::vector<std::string> matches(const std::string& text, const char* pattern) {
 
 std::vector<std::string> ticked(const std::string& text) { return matches(text, "`([^`]+)`"); }
 
-// What the program knows, by the kinds of names.
+// All names that the program knows.
 class Program {
  public:
   Program() {
@@ -52,7 +52,7 @@ class Program {
     }
     for (const json& s : json::parse(runLamplighter({"settings", "--json"}).out))
       words_.insert(s["name"]);
-    // "## lamplighter bake", then its flags.
+    // A section of the manual begins with "## lamplighter bake" and lists the flags.
     std::istringstream manual(runLamplighter({"manual", "--markdown"}).out);
     std::string command;
     for (std::string line; std::getline(manual, line);) {
@@ -69,12 +69,12 @@ class Program {
   }
   bool isWord(const std::string& text) const { return words_.contains(text); }
   bool isFlag(const std::string& text) const { return allFlags_.contains(text); }
-  // Keys that are bound, keys of the flying camera, of fields and panels, and what is held.
+  // Bound keys, and keys of the camera, of fields and panels, and modifiers.
   bool isKey(const std::string& text) const {
     static const std::set<std::string> kOthers{"A", "D", "E", "W", "Ctrl", "Alt", "Shift", "Enter"};
     return keys_.contains(text) || kOthers.contains(text);
   }
-  // The first word of a command that is not known, "" where all are.
+  // The first unknown word of a command, or "".
   std::string unknownOf(const std::vector<std::string>& command) const {
     const bool hasSubcommand = command.size() > 1 && flags_.contains(command[1]);
     const auto& flags = flags_.at(hasSubcommand ? command[1] : "lamplighter");
@@ -112,7 +112,7 @@ bool isNumber(const std::string& text) {
   return text.find_first_not_of("-0123456789.") == std::string::npos;
 }
 
-// Why a text in backticks names nothing; "" where it does.
+// Returns why a text in backticks is not a known name, or "".
 std::string problemOf(const Page& page, const std::string& text) {
   std::set<std::string> typed{"settled", "door", "guide_tests"};
   for (const Section& section : page.sections)
@@ -121,8 +121,8 @@ std::string problemOf(const Page& page, const std::string& text) {
   for (const CodeBlock& block : page.blocks)
     for (const std::string& word : split(block.text)) typed.insert(word);
   if (typed.contains(text) || isFile(text)) return "";
-  if (isNumber(text)) return text.size() > 1 || program().isKey(text) ? "" : "is no key";
-  if (text.starts_with("--")) return program().isFlag(split(text)[0]) ? "" : "is no flag";
+  if (isNumber(text)) return text.size() > 1 || program().isKey(text) ? "" : "is not a key";
+  if (text.starts_with("--")) return program().isFlag(split(text)[0]) ? "" : "is not a flag";
   if (text.starts_with("lamplighter")) {
     const std::string unknown = program().unknownOf(split(text));
     return unknown.empty() ? "" : unknown + " is not known to lamplighter";
@@ -131,15 +131,16 @@ std::string problemOf(const Page& page, const std::string& text) {
     std::ifstream in(test::sourceFolder() / "dev");
     const std::string dev{std::istreambuf_iterator<char>(in), {}};
     return dev.find("\n  " + text.substr(6) + ")") != std::string::npos ? ""
-                                                                        : "is no command of dev";
+                                                                        : "is not a command of dev";
   }
-  if (text.find('.') != std::string::npos) return program().isAction(text) ? "" : "is no action";
+  if (text.find('.') != std::string::npos)
+    return program().isAction(text) ? "" : "is not an action";
   if (std::isupper(static_cast<unsigned char>(text[0])))
-    return program().isKey(text) ? "" : "is no key";
-  return program().isWord(text) ? "" : "is no parameter, method or setting";
+    return program().isKey(text) ? "" : "is not a key";
+  return program().isWord(text) ? "" : "is not a parameter, method or setting";
 }
 
-TEST(GuideNames, EverythingInBackticksIsThere) {
+TEST(GuideNames, EverythingInBackticksExists) {
   size_t count = 0;
   for (const Page& page : allPages()) {
     for (const Section& section : page.sections) {
@@ -152,7 +153,7 @@ TEST(GuideNames, EverythingInBackticksIsThere) {
   EXPECT_GT(count, 150u);
 }
 
-TEST(GuideNames, WhatIsNotThereIsFound) {
+TEST(GuideNames, UnknownNamesAreFound) {
   const Page page = readPage(pagesFolder() / "guide.md");
   for (const char* text : {"light.plaice", "--ssp", "Ctrl+J", "J", "vlps", "lamplighter rendre",
                            "lamplighter render --ssp", "./dev guid", "Shift+Ctrl+Alt"})
@@ -162,7 +163,7 @@ TEST(GuideNames, WhatIsNotThereIsFound) {
     EXPECT_EQ(problemOf(page, text), "") << text;
 }
 
-TEST(GuideNames, CommandsHaveTheFlagsThatTheyAreGiven) {
+TEST(GuideNames, FlagsOfCommandsExist) {
   size_t count = 0;
   for (const Page& page : allPages()) {
     for (const CodeBlock& block : page.blocks) {
@@ -178,7 +179,7 @@ TEST(GuideNames, CommandsHaveTheFlagsThatTheyAreGiven) {
 }
 
 // "*Light / Add light / Sun*": each part is the label of an action, one of its choices, or a menu.
-TEST(GuideNames, WaysThroughMenusLeadToActions) {
+TEST(GuideNames, MenuPathsLeadToActions) {
   std::set<std::string> known{"File",    "Edit",   "Light",  "Object",         "Tool",  "View",
                               "Inspect", "Render", "Camera", "Click to place", "Engine"};
   for (const json& a : json::parse(runLamplighter({"actions", "--json"}).out)) {
@@ -202,7 +203,7 @@ TEST(GuideNames, WaysThroughMenusLeadToActions) {
   EXPECT_GT(count, 20u);
 }
 
-// A heading's name in links: "How this page is made" is #how-this-page-is-made.
+// The anchor of a heading: "How this page is made" is #how-this-page-is-made.
 std::string anchorOf(const std::string& heading) {
   std::string out;
   for (const char c : heading) {
@@ -237,8 +238,8 @@ TEST(GuideLinks, LeadToFilesAndHeadings) {
   }
 }
 
-// Each picture is shown once, in the page whose steps make it, and after them.
-TEST(GuideLinks, PicturesAreThoseOfTheSteps) {
+// Each picture is shown once, in the page with its steps, and after them.
+TEST(GuideLinks, PicturesMatchTheSteps) {
   std::set<std::string> shown;
   for (const Page& page : allPages()) {
     std::vector<std::string> taken, linked;
@@ -250,16 +251,17 @@ TEST(GuideLinks, PicturesAreThoseOfTheSteps) {
   }
   uintmax_t bytes = 0;
   for (const auto& entry : fs::directory_iterator(pagesFolder() / "../images/guide")) {
-    EXPECT_TRUE(shown.contains(entry.path().filename())) << entry.path() << " is in no page";
+    EXPECT_TRUE(shown.contains(entry.path().filename()))
+        << entry.path() << " is not used in a page";
     bytes += entry.file_size();
   }
   EXPECT_LT(bytes, 3u << 20) << "all pictures together";
 }
 
-// What is pressed and typed stands in the text of the same section.
-TEST(GuideSteps, AreWhatTheTextSays) {
+// The text of a section mentions the keys and texts of its steps.
+TEST(GuideSteps, AreMentionedInTheText) {
   for (const Page& page : allPages()) {
-    bool knowsEnter = false;  // which ends every number that is typed
+    bool knowsEnter = false;  // Enter ends every typed number
     for (const Section& section : page.sections) {
       std::vector<std::string> told = ticked(section.text);
       knowsEnter |= std::find(told.begin(), told.end(), "Enter") != told.end();

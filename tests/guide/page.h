@@ -1,7 +1,6 @@
-// A page of the guide: text for a reader, and in its comments the steps by which the pictures in it
-// are made, so that neither can change without the other being beside it.
+// A page of the guide. Its comments contain the steps that produce its pictures.
 //
-//   <!-- play assets/tutorial/empty_room.gltf vpls=300 exposure=1.5 -->      once, at the head
+//   <!-- play assets/tutorial/empty_room.gltf vpls=300 exposure=1.5 -->      once, at the top
 //
 //   Press `Ctrl+P`, type `light.add spot` and press `Enter`.
 //   <!-- steps
@@ -23,17 +22,17 @@
 namespace lamplighter::test {
 
 struct Step {
-  int line = 0;  // of the page, from 1
+  int line = 0;  // in the page, from 1
   std::string verb;
-  std::vector<std::string> words;  // behind the verb; what is in double quotes is one word
-  std::string rest;                // the same as it stands there
+  std::vector<std::string> words;  // after the verb; text in double quotes is one word
+  std::string rest;                // the same as unparsed text
 };
 
-// What a heading is over.
+// A heading and the text below it.
 struct Section {
   int line = 0;
   std::string heading;
-  std::string text;  // what a reader sees, without code blocks
+  std::string text;  // the visible text, without code blocks
   std::vector<Step> steps;
 };
 
@@ -50,7 +49,7 @@ struct Link {
 
 struct Page {
   std::filesystem::path path;
-  std::string scene;                          // "": nothing is played
+  std::string scene;                          // "": the page has no steps
   std::map<std::string, std::string> values;  // of the play comment
   std::vector<Section> sections;
   std::vector<CodeBlock> blocks;
@@ -58,7 +57,7 @@ struct Page {
 
   std::string name() const { return path.stem().string(); }
   std::string at(int line) const { return path.filename().string() + ":" + std::to_string(line); }
-  // Of a picture's step, in the page's folder.
+  // The file of a picture, relative to the folder of the page.
   std::string pictureFile(const std::string& picture) const;
 };
 

@@ -1,6 +1,6 @@
-// The pictures in the guide are what the program shows after the steps that stand in its pages:
-// each page's steps are replayed without a window, and the pictures compared with those beside it.
-// `./dev guide` sets LAMPLIGHTER_UPDATE_GUIDE and so writes them anew.
+// Checks the pictures of the guide. The steps of each page are replayed without a window, and the
+// resulting pictures are compared with those of the page. `./dev guide` sets
+// LAMPLIGHTER_UPDATE_GUIDE to update them.
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Drivers of OpenGL round the edges of letters and the picture's colours otherwise, by a level or
-// two; a word that is not there makes 10 and more of its tile, and a panel that is wider by a pixel
-// moves all the text in it.
+// OpenGL drivers differ by one or two levels at the edges of letters and in colours. A missing word
+// changes the mean of its tile by 10 or more, and a panel that is wider by a pixel moves all its
+// text.
 constexpr double kMostMean = 0.5, kMostOfTile = 6.0;
 constexpr size_t kLargestFile = 120 * 1024;
 
@@ -62,26 +62,26 @@ void GuidePictures::compare(const std::string& picture) {
   writeJpeg(image, now);
   if (std::getenv("LAMPLIGHTER_UPDATE_GUIDE") != nullptr) {
     fs::create_directories(wanted.parent_path());
-    // What is as good as the same stays, so that only what changed is a change.
+    // Files of equal pictures are not replaced, so that the commit contains only real changes.
     const bool stays =
         fs::exists(wanted) && comparePictures(readPicture(now), readPicture(wanted)).none();
     if (!stays) fs::copy_file(now, wanted, fs::copy_options::overwrite_existing);
   }
   ASSERT_TRUE(fs::exists(wanted)) << wanted << " is missing; run ./dev guide";
   EXPECT_LE(fs::file_size(wanted), kLargestFile) << wanted;
-  // Both have been through JPEG, so that its loss is in both.
+  // Compares two JPEG files, so that both have the same compression errors.
   const Image8 a = readPicture(now), b = readPicture(wanted);
   const PictureDifference d = comparePictures(a, b);
   const bool isSame = d.sameSize && d.mean <= kMostMean && d.tile <= kMostOfTile;
   const fs::path heat = folder_ / (picture + ".difference.png");
   if (d.sameSize && !isSame) writePng(differencePicture(a, b), heat);
   EXPECT_TRUE(isSame) << wanted.filename() << ": " << d.text() << ", " << d.tile
-                      << " in the mean of a tile; see " << now << " and " << heat
-                      << "; if it is meant to, run ./dev guide and look at what it wrote";
+                      << " is the mean difference of a tile; see " << now << " and " << heat
+                      << "; if the change is intended, run ./dev guide and check the new pictures";
   RecordProperty(picture, std::to_string(d.mean) + " " + std::to_string(d.tile));
 }
 
-// The page's commands on what was saved: in the folder of the replay, where it saved to.
+// Runs the commands of the page in the folder of the replay, where the level was saved.
 void GuidePictures::runCommands() {
   ASSERT_TRUE(fs::exists(folder_ / "reading_room.gltf"));
   const fs::path before = fs::current_path();
@@ -101,7 +101,7 @@ void GuidePictures::runCommands() {
   EXPECT_TRUE(fs::exists(folder_ / "reading_room.png"));
 }
 
-TEST_P(GuidePictures, AreWhatTheProgramShows) {
+TEST_P(GuidePictures, MatchTheProgram) {
   ASSERT_NO_FATAL_FAILURE(replay());
   for (const std::string& picture : picturesOf(page_)) compare(picture);
   if (page_.name() == "tutorial") runCommands();

@@ -12,7 +12,7 @@ namespace lamplighter::test {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr uint32_t kAfterClick = 4;  // frames until what a click opened can be clicked
+constexpr uint32_t kAfterClick = 4;  // frames until a widget that a click opened can be clicked
 constexpr int kDragMoves = 8;
 
 class Writer {
@@ -41,7 +41,7 @@ class Writer {
                            const std::string& value) {
     for (const ParameterSpec& p : findMethod(render.method).parameters)
       if (p.name == name) return render.values.set(name, Settings::parse(p, value));
-    throw InputError(name, "is no parameter of " + render.method,
+    throw InputError(name, "is not a parameter of " + render.method,
                      "see docs/reference/parameters.md");
   }
   [[noreturn]] void fail(const Step& step, const std::string& what) const {
@@ -94,12 +94,12 @@ class Writer {
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const Key result = keyOf(name);
-    if (result == Key::none) fail(step, "'" + step.rest + "' is no key");
+    if (result == Key::none) fail(step, "'" + step.rest + "' is not a key");
     return result;
   }
   void chord(const Step& step) {
     const std::optional<Chord> chord = parseChord(step.rest);
-    if (!chord) fail(step, "'" + step.rest + "' is no key");
+    if (!chord) fail(step, "'" + step.rest + "' is not a key");
     std::vector<Key> keys;
     if (chord->modifiers.ctrl) keys.push_back(Key::ctrl);
     if (chord->modifiers.alt) keys.push_back(Key::alt);
@@ -124,10 +124,10 @@ class Writer {
     try {
       return std::stof(step.words[i]);
     } catch (const std::exception&) {
-      fail(step, "'" + step.words[i] + "' is no number");
+      fail(step, "'" + step.words[i] + "' is not a number");
     }
   }
-  // `i`: where the place begins among the words; the middle where there is none.
+  // `i`: index of the first word of the position. Default: the middle of the widget.
   void point(const Step& step, size_t i) {
     if (step.words.empty()) fail(step, "lacks the widget");
     InputEvent e;

@@ -1,19 +1,19 @@
-// Steps of a page as a recording of input.
+// Converts the steps of a page to a recording of input.
 //
-//   key CHORD              pressed and let go: Ctrl+Shift+S, F2, Enter
+//   key CHORD              press and release: Ctrl+Shift+S, F2, Enter
 //   hold KEY, release KEY  Shift, Ctrl, Alt
-//   type TEXT              into what has the keyboard
-//   point WIDGET [X Y]     the pointer goes there: shares of the widget, pixels of "viewport"
+//   type TEXT              into the widget with the keyboard focus
+//   point WIDGET [X Y]     moves the pointer: fractions of the widget, pixels of "viewport"
 //   click WIDGET [X Y]     point, then the left button
 //   double WIDGET [X Y]    twice in quick succession
 //   right WIDGET [X Y]     the right button
-//   drag WIDGET X Y X Y…   the left button held from the first place to the last
+//   drag WIDGET X Y X Y…   holds the left button from the first point to the last
 //   wheel NOTCHES
-//   setup ACTION           runs an action that a reader need not run
+//   setup ACTION           runs an action that the text does not mention
 //   wait FRAMES
-//   away                   the pointer goes where it points at nothing
-//   settle                 until the picture is settled
-//   picture NAME           of the window, once its picture is settled
+//   away                   moves the pointer away from all widgets
+//   settle                 waits until the picture is settled
+//   picture NAME           takes a picture of the window when it is settled
 #pragma once
 
 #include "editor/input/recording.h"
@@ -23,7 +23,7 @@ namespace lamplighter::test {
 
 // Throws InputError "PAGE:LINE: …".
 Recording recordingOf(const Page& page);
-// The names of its pictures, in order.
+// The names of the pictures of the page, in order.
 std::vector<std::string> picturesOf(const Page& page);
 
 }  // namespace lamplighter::test

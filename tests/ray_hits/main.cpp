@@ -1,5 +1,5 @@
-// What rays of a scene hit, a line each, for same_on_other_cpu.sh: rays at random, and rays aimed
-// at the middles of edges and at corners, where two or more triangles are equally far.
+// Prints the hits of rays in a scene, one per line, for same_on_other_cpu.sh: random rays, and rays
+// at the midpoints of edges and at corners, where several triangles have the same distance.
 //
 // The same rays in packets of eight, of which only the distance is asked, as shadow maps do.
 //
@@ -30,7 +30,7 @@ void print(char kind, const Hit& hit) {
               std::bit_cast<uint32_t>(hit.v));
 }
 
-// A number in [0, 1), the same with every standard library.
+// A random number in [0, 1), equal with every standard library.
 float share(std::mt19937& random) { return static_cast<float>(random() >> 8) * 0x1p-24f; }
 
 void castRays(const Scene& scene, uint32_t count) {

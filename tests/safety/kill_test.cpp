@@ -1,5 +1,5 @@
-// Kills a process that edits, with SIGKILL at random moments, and recovers its work: nothing that
-// was confirmed before the kill is lost. LAMPLIGHTER_KILLS says how many times.
+// Kills a process with SIGKILL at random moments while it edits, and recovers its work. All
+// confirmed steps must be recovered. LAMPLIGHTER_KILLS is the number of kills.
 #include <array>
 #include <csignal>
 #include <cstdlib>
@@ -37,8 +37,8 @@ std::unique_ptr<Session> editing(const fs::path& journal, const fs::path& level)
   return session;
 }
 
-// The process that is killed: tells each confirmed document's hash, and now and then saves, saves
-// itself aside or opens the level anew.
+// The process that is killed. It prints the hash of the document after each confirmed step, and
+// sometimes saves or autosaves the level.
 int editForEver(uint64_t seed, const fs::path& journal, const fs::path& level) {
   const auto session = editing(journal, level);
   RandomEdits edits(*session, seed, {60, false});
@@ -57,7 +57,7 @@ class Child {
   Child(uint64_t seed, const fs::path& journal, const fs::path& level) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-    // By another start of this program: a fork would inherit the threads' locks, not the threads.
+    // Starts this program again, because a fork would inherit locks without their threads.
     std::string number = std::to_string(seed), folder = journal.string(), file = level.string();
     std::string self = "/proc/self/exe", mode = "--edit-for-ever";
     char* arguments[] = {self.data(),   mode.data(), number.data(),
@@ -73,7 +73,7 @@ class Child {
   }
   ~Child() { ::close(pipe_); }
 
-  // Reads until so many lines have come, then waits so many microseconds, kills, reads the rest.
+  // Reads a number of lines, waits, kills the process, and reads the rest.
   std::vector<std::string> killAfter(size_t lines, int microseconds) {
     std::string text;
     const auto read = [&] {
@@ -90,7 +90,8 @@ class Child {
     }
     int status = 0;
     ::waitpid(process_, &status, 0);
-    EXPECT_TRUE(WIFSIGNALED(status)) << "it ended by itself with " << WEXITSTATUS(status);
+    EXPECT_TRUE(WIFSIGNALED(status))
+        << "the process ended before the kill with " << WEXITSTATUS(status);
     std::vector<std::string> out;
     for (size_t at = 0, end = text.find('\n'); end != std::string::npos;
          at = end + 1, end = text.find('\n', at))
@@ -105,10 +106,10 @@ class Child {
 
 struct Expected {
   std::string hash;
-  bool isModified = false;  // since it was saved
+  bool isModified = false;  // since the last save
 };
 
-// The documents that the same steps go through, to the one after those that were confirmed.
+// The documents after each of the same steps, including the step after the last confirmed one.
 std::vector<Expected> expectedWith(uint64_t seed, const fs::path& level, size_t confirmed) {
   saveGltf(loadGltf(levelFile()).scene, level);
   Session session(std::make_unique<FrameRenderer>(makeCpuBackend()));
@@ -138,36 +139,37 @@ TEST(Kill, NothingConfirmedIsLost) {
     random = random * 6364136223846793005ull + 1442695040888963407ull;
     const uint64_t seed = 1000 + static_cast<uint64_t>(k);
     Child child(seed, folder / "journal", level);
-    const std::vector<std::string> told =
+    const std::vector<std::string> hashes =
         child.killAfter(1 + (random >> 33) % 80, static_cast<int>((random >> 20) % 3000));
-    ASSERT_FALSE(told.empty());
-    confirmed += told.size();
+    ASSERT_FALSE(hashes.empty());
+    confirmed += hashes.size();
     const std::vector<Expected> expected =
-        expectedWith(seed, folder / "check" / "level.glb", told.size());
-    for (size_t i = 0; i < told.size(); ++i) ASSERT_EQ(told[i], expected[i].hash) << "step " << i;
+        expectedWith(seed, folder / "check" / "level.glb", hashes.size());
+    for (size_t i = 0; i < hashes.size(); ++i)
+      ASSERT_EQ(hashes[i], expected[i].hash) << "step " << i;
     const Expected& next = expected.back();
 
     const std::vector<Recoverable> found = findRecoverable(folder / "journal");
     if (found.empty()) {
-      // The level's file is the work.
-      EXPECT_FALSE(expected[told.size() - 1].isModified && next.isModified) << "kill " << k;
+      // All work was saved in the file of the level.
+      EXPECT_FALSE(expected[hashes.size() - 1].isModified && next.isModified) << "kill " << k;
       continue;
     }
     ASSERT_EQ(found.size(), 1u);
     const Recovered recovered = recover(found.front().folder);
     EXPECT_EQ(recovered.warning, "");
     const std::string now = hashText(documentHash(recovered.document));
-    // The confirmed one, or the one that was under way.
-    EXPECT_TRUE(now == told.back() || now == next.hash)
-        << "kill " << k << " after " << told.size() << " steps: recovered " << now << ", confirmed "
-        << told.back() << ", next " << next.hash;
-    ahead += now != told.back();
+    // The last confirmed step, or the step that was in progress.
+    EXPECT_TRUE(now == hashes.back() || now == next.hash)
+        << "kill " << k << " after " << hashes.size() << " steps: recovered " << now
+        << ", confirmed " << hashes.back() << ", next " << next.hash;
+    ahead += now != hashes.back();
     ++recoveries;
     fs::remove_all(folder);
   }
   fs::remove_all(root);
   std::cout << kills << " kills, " << confirmed << " confirmed steps, " << recoveries
-            << " recoveries, " << ahead << " of them with the step that was under way\n";
+            << " recoveries, " << ahead << " of them with the step that was in progress\n";
 }
 
 }  // namespace

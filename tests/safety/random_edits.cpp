@@ -11,8 +11,8 @@ namespace lamplighter::test {
 RandomEdits::RandomEdits(Session& session, uint64_t seed, Limits limits)
     : session_(session), state_(seed), limits_(limits) {}
 
-// splitmix64, http://prng.di.unimi.it/splitmix64.c (public domain): the same on every machine,
-// which the standard's distributions are not.
+// splitmix64, http://prng.di.unimi.it/splitmix64.c (public domain). Unlike the distributions of the
+// standard library, it gives the same numbers on every machine.
 uint32_t RandomEdits::below(uint32_t count) {
   uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -136,7 +136,7 @@ std::string RandomEdits::step() {
     case 3:
       return place();
     case 4:
-      // A level of nothing is not worth more than a while.
+      // An almost empty level would make the following steps useless.
       return act(nodes > 3 ? "edit.delete" : "edit.undo");
     case 5:
       return nodes < limits_.mostNodes ? copy("edit.duplicate") : act("edit.delete");

@@ -1,5 +1,5 @@
-// Random but seeded editing of any level, by the actions and edits that hands use: the kill test
-// and the soak work with it. The same seed, level and steps give the same document everywhere.
+// Seeded random edits of a level by the actions and edits of a user, for the kill test and the soak
+// test. The same seed, level and steps give the same document everywhere.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ namespace lamplighter::test {
 class RandomEdits {
  public:
   struct Limits {
-    size_t mostNodes = 200;       // beyond, things are deleted rather than added
-    bool changesMethods = false;  // renders: the soak's
+    size_t mostNodes = 200;       // above it, objects are deleted instead of added
+    bool changesMethods = false;  // whether steps may change the method; for the soak test
   };
   RandomEdits(Session& session, uint64_t seed, Limits limits);
 
-  // One step; what it was, for messages. Actions that do not fit the moment do nothing.
+  // Makes one step and returns its description. Actions that are not possible do nothing.
   std::string step();
 
   uint32_t below(uint32_t count);  // [0, count)
@@ -28,10 +28,10 @@ class RandomEdits {
  private:
   std::string act(const std::string& action);
   std::string chooseNode();
-  std::string drag();   // a transaction of many small changes, one step
-  std::string panel();  // what panels do without an action
-  // Adds copies and moves them off what they are copies of, as one step: of surfaces at the very
-  // same place which one a ray meets is left to the ray caster's tree, edited or fresh.
+  std::string drag();   // many small changes in one transaction
+  std::string panel();  // edits that panels make without an action
+  // Adds copies and moves them away from the originals, as one step. For coincident surfaces, the
+  // hit would depend on the structure of the ray caster's tree.
   std::string copy(const std::string& action);
   std::string place();
   std::string parameter();

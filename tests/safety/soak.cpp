@@ -1,5 +1,5 @@
-// Edits at random, but seeded, for as long as is asked for, and looks that memory does not grow,
-// that OpenGL has nothing to complain of, and that the light is that of a fresh start:
+// The soak test. Makes seeded random edits for a given time, and checks that memory does not grow,
+// that there is no OpenGL error, and that the picture equals that of a new renderer:
 //   lamplighter_soak [--backend cpu|gl] [--minutes N | --steps N] [--seed S] [--every STEPS]
 //                    [--trace STEP]
 #include <chrono>
@@ -31,8 +31,8 @@ struct Options {
   double minutes = 0.0;
   long steps = 300;
   uint64_t seed = 1;
-  long every = 50;   // steps between comparisons with a fresh start
-  long traced = -1;  // from which step on every step is named
+  long every = 50;   // steps between comparisons with a new renderer
+  long traced = -1;  // the first step that is printed
 };
 
 double residentMebibytes() {
@@ -146,12 +146,12 @@ void Soak::compareWithFreshStart() {
       live.pixels.size() == anew.pixels.size() &&
       std::memcmp(live.pixels.data(), anew.pixels.data(), live.pixels.size() * sizeof(vec3)) == 0;
   if (isSame) return;
-  // Without what the method keeps, but with the scene and the rays that were kept up to date.
+  // Resets the data of the method, but not the incrementally updated scene and ray caster.
   session_->renderer().restart();
   settle();
   const bool isOfMethod = session_->output().radiance->pixels().pixels == anew.pixels;
-  fail("the light is not that of a fresh start, by " + std::to_string(worst) +
-       (isOfMethod ? "; the method kept it" : "; the scene or its rays kept it"));
+  fail("the picture differs from that of a new renderer, by " + std::to_string(worst) +
+       (isOfMethod ? "; the method caused it" : "; the scene or its ray caster caused it"));
 }
 
 int Soak::run() {
@@ -161,7 +161,7 @@ int Soak::run() {
     return std::chrono::duration<double>(Clock::now() - start).count() / 60.0;
   };
   open();
-  // What a level needs comes and goes; growth is what the least of a quarter gains on the others.
+  // The memory of a level varies, so the maxima of the second and the last quarter are compared.
   std::vector<double> memory;
   const auto goesOn = [&] {
     return options_.minutes > 0.0 ? elapsed() < options_.minutes : step_ < options_.steps;
@@ -175,10 +175,10 @@ int Soak::run() {
   const size_t quarter = memory.size() / 4;
   double early = 0.0, late = 0.0;
   if (quarter > 0) {
-    // After a quarter of warming up.
+    // The first quarter is warm-up.
     early = *std::max_element(memory.begin() + quarter, memory.begin() + 2 * quarter);
     late = *std::max_element(memory.end() - quarter, memory.end());
-    // Allocators keep some; a leak of a picture a step would be far beyond.
+    // Allocators keep some memory. A leak of one picture per step would exceed this limit by far.
     if (late > 1.15 * early + 24.0) fail("memory grew");
   }
   std::printf(

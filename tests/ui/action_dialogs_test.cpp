@@ -1,5 +1,5 @@
-// Actions that ask for a file, a folder or a name open the dialog for it, from menus, panels, keys
-// and the command palette. Driven without a window.
+// Actions that ask for a file, a folder or a name open its dialog when run from menus, panels, keys
+// and the command palette. Runs without a window.
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -40,7 +40,7 @@ class ActionDialogs : public testing::Test, protected test::DrivenWindow {
     type(name);
     press(Key::enter);
   }
-  // Adds an action that no part of the ui knows, and returns what it received.
+  // Adds an action that the ui does not know, and returns the arguments that it receives.
   std::shared_ptr<std::vector<std::string>> addAction(ActionAsk asks) {
     auto received = std::make_shared<std::vector<std::string>>();
     session().actions().add(

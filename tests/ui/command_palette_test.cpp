@@ -1,4 +1,4 @@
-// Which actions the palette lists for what is typed.
+// The actions that the palette lists for a typed text.
 #include "ui/panels/command_palette.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class PaletteMatches : public testing::Test {
   ActionRegistry registry_;
 };
 
-TEST_F(PaletteMatches, NothingTypedListsAll) {
+TEST_F(PaletteMatches, AnEmptyTextListsAllActions) {
   EXPECT_EQ(names("").size(), registry_.all().size());
 }
 
@@ -31,14 +31,14 @@ TEST_F(PaletteMatches, EveryWordOccursInNameOrLabel) {
   EXPECT_EQ(found[0], "edit.duplicate_line");
 }
 
-TEST_F(PaletteMatches, WhatBeginsSoComesFirst) {
+TEST_F(PaletteMatches, ActionsThatBeginWithTheTextComeFirst) {
   const auto found = names("undo");
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0], "edit.undo");
   EXPECT_TRUE(names("no such action").empty());
 }
 
-TEST_F(PaletteMatches, ArgumentsLeaveTheActionThatIsNamed) {
+TEST_F(PaletteMatches, ArgumentsKeepTheNamedActionOnly) {
   const auto found = names("edit.duplicate_line 3 1 0 0");
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0], "edit.duplicate_line");

@@ -1,4 +1,4 @@
-// The editor's window without a display, driven as a hand would drive it.
+// The editor's window without a display. Tests send the input of a user.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ inline std::unique_ptr<Session> newSession() {
   return std::make_unique<Session>(std::make_unique<FrameRenderer>(makeCpuBackend()));
 }
 
-// A floor below a light, for frames that cost little.
+// A floor below a light, which renders quickly.
 inline Scene litFloor() {
   Scene scene;
   addMesh(scene, squareMesh(4.0f));
@@ -59,7 +59,7 @@ class DrivenWindow {
       app_.input().push(button);
       frames(2);
     }
-    frames(2);  // what is shown is known a frame later
+    frames(2);  // widgets are registered one frame later
   }
   void key(Key key, bool down) {
     InputEvent event{EventKind::key};

@@ -1,4 +1,4 @@
-// Toasts, the file dialog, settings and panels by keys alone, driven without a window.
+// Toasts, the file dialog, settings and panels, used by keys only. Runs without a window.
 #include <filesystem>
 #include <fstream>
 
@@ -72,7 +72,7 @@ class Home : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Home, AToastComesAndGoes) {
+TEST_F(Home, AToastAppearsAndDisappears) {
   frames(600);
   EXPECT_FALSE(has("toast/0"));
   session().setStatus("Something happened");
@@ -82,7 +82,7 @@ TEST_F(Home, AToastComesAndGoes) {
   EXPECT_FALSE(has("toast/0"));
   session().setStatus("It failed", NoticeKind::error);
   frames(4 * 60 + 5);
-  EXPECT_TRUE(has("toast/0")) << "errors stay twice as long";
+  EXPECT_TRUE(has("toast/0")) << "errors are shown twice as long";
   frames(4 * 60 + 5);
   EXPECT_FALSE(has("toast/0"));
   session().runAction("settings.set toasts=false");
@@ -91,15 +91,15 @@ TEST_F(Home, AToastComesAndGoes) {
   EXPECT_FALSE(has("toast/0"));
   session().runAction("panel.log");
   frames(3);
-  EXPECT_TRUE(has("log/line 2")) << "the log has them all";
+  EXPECT_TRUE(has("log/line 2")) << "the log contains all messages";
 }
 
-TEST_F(Home, TheFileDialogIsUsedByKeysAlone) {
+TEST_F(Home, TheFileDialogIsUsedByKeysOnly) {
   tap(Key::o, {Key::ctrl});
   ASSERT_TRUE(has("dialog/ok"));
   EXPECT_TRUE(has("dialog/old"));
   EXPECT_TRUE(has("dialog/attic.gltf"));
-  EXPECT_FALSE(has("dialog/notes.txt")) << "of another kind";
+  EXPECT_FALSE(has("dialog/notes.txt")) << "another kind of file";
   type("CELL");
   frames(2);
   EXPECT_TRUE(has("dialog/cellar.glb"));
@@ -109,10 +109,10 @@ TEST_F(Home, TheFileDialogIsUsedByKeysAlone) {
   EXPECT_EQ(session().document().path.filename(), "cellar.glb");
 }
 
-TEST_F(Home, TheFileDialogGoesThroughFoldersByKeys) {
+TEST_F(Home, KeysNavigateFoldersInTheFileDialog) {
   tap(Key::o, {Key::ctrl});
   tap(Key::down);
-  tap(Key::enter);  // into "old", which is first
+  tap(Key::enter);  // opens "old", the first entry
   EXPECT_TRUE(has("dialog/hall.gltf"));
   tap(Key::backspace);
   EXPECT_TRUE(has("dialog/attic.gltf"));
@@ -127,18 +127,18 @@ TEST_F(Home, TheFileDialogGoesThroughFoldersByKeys) {
   EXPECT_FALSE(has("dialog/ok"));
 }
 
-TEST_F(Home, AFavouriteFolderIsAPlace) {
+TEST_F(Home, FavouriteFoldersAreListed) {
   session().home().preferences.toggleFavourite(folder_ / "levels/old");
   tap(Key::o, {Key::ctrl});
   tap(Key::n1, {Key::ctrl});
   EXPECT_TRUE(has("dialog/hall.gltf"));
 }
 
-TEST_F(Home, KeysLeadThroughPanelsAndMenus) {
+TEST_F(Home, KeysNavigatePanelsAndMenus) {
   EXPECT_FALSE(ImGui::GetIO().NavVisible);
   tap(Key::f6);
   EXPECT_TRUE(ImGui::GetIO().NavVisible);
-  tap(Key::space);  // the first button of the toolbar, and not the reference
+  tap(Key::space);  // presses the first button of the toolbar and does not toggle the reference
   EXPECT_NE(session().document().render.method, "reference");
   tap(Key::f10);
   tap(Key::down);
@@ -158,7 +158,7 @@ TEST_F(Home, AnObjectIsSelectedByKeysInTheOutliner) {
   EXPECT_EQ(session().document().selection.size(), 1u);
 }
 
-TEST_F(Home, EnterRunsWhatIsMarkedInAMenu) {
+TEST_F(Home, EnterRunsTheMarkedMenuItem) {
   tap(Key::f10);
   for (int i = 0; i < 2; ++i) tap(Key::right);  // the menu Light
   tap(Key::down);
@@ -167,7 +167,7 @@ TEST_F(Home, EnterRunsWhatIsMarkedInAMenu) {
   EXPECT_TRUE(session().lighting().showsTable);
 }
 
-TEST_F(Home, SettingsAreKeptWhereThereIsAUser) {
+TEST_F(Home, SettingsAreSavedForAUser) {
   std::ofstream(folder_ / "keys.json") << R"({"tool.move": "P", "no.such": "Q"})";
   auto files = std::make_unique<UserFiles>(folder_);
   Preferences read = files->readPreferences();
@@ -199,14 +199,14 @@ TEST_F(Home, ShortcutsWithArgumentsRun) {
   EXPECT_EQ(session().view(), stored);
 }
 
-TEST_F(Home, TheUiScaleIsASettingOverTheScreens) {
+TEST_F(Home, TheUiScaleSettingMultipliesTheScaleOfTheScreen) {
   const float before = app_.widgets().find("toolbar/select")->rect.size().y;
   session().runAction("view.ui_scale 2");
   frames(3);
   EXPECT_NEAR(app_.widgets().find("toolbar/select")->rect.size().y, 2.0f * before, 3.0f);
 }
 
-TEST_F(Home, BordersThatAreSetMove) {
+TEST_F(Home, SettingsMoveTheBordersOfPanels) {
   session().runAction("settings.set left_width=300");
   frames(3);
   EXPECT_NEAR(app_.widgets().find("splitter/left")->rect.min.x, 300.0f, 1.0f);
@@ -215,14 +215,14 @@ TEST_F(Home, BordersThatAreSetMove) {
   EXPECT_NEAR(app_.widgets().find("splitter/left")->rect.min.x, 232.0f, 1.0f);
 }
 
-TEST_F(Home, TheSettingsPanelChangesThem) {
+TEST_F(Home, TheSettingsPanelOpensAndCloses) {
   tap(Key::comma, {Key::ctrl});
   ASSERT_TRUE(has("settings/ui_scale"));
   tap(Key::escape);
   EXPECT_FALSE(has("settings/ui_scale"));
 }
 
-TEST_F(Home, OnePanelHasTheRoomBelowTheView) {
+TEST_F(Home, OnlyOnePanelIsBelowTheView) {
   session().runAction("panel.assets");
   frames(3);
   EXPECT_TRUE(has("assets/folder"));

@@ -1,4 +1,4 @@
-// Labels upon the view keep within it and clear of panels.
+// Labels in the view stay within it and beside panels.
 #include "ui/viewport/label_placement.h"
 
 #include <gtest/gtest.h>
@@ -8,13 +8,13 @@ namespace {
 
 const Rect kArea{{100, 50}, {500, 450}};
 
-TEST(LabelPlace, StaysWhereItCanBeRead) {
+TEST(LabelPlace, StaysWhereNothingCoversIt) {
   const Rect label{{200, 200}, {260, 230}};
   EXPECT_EQ(clearPlace(label, kArea, {}).min, label.min);
   EXPECT_EQ(clearPlace(label, kArea, {{{300, 300}, {400, 400}}, {}}).min, label.min);
 }
 
-TEST(LabelPlace, KeepsWithinTheView) {
+TEST(LabelPlace, StaysWithinTheView) {
   const Rect placed = clearPlace({{480, 440}, {540, 470}}, kArea, {});
   EXPECT_EQ(placed.min, vec2(440, 420));
   EXPECT_EQ(placed.max, kArea.max);
@@ -33,7 +33,7 @@ TEST(LabelPlace, FindsACornerBetweenTwoPanels) {
   EXPECT_EQ(placed.min, vec2(140, 300));
 }
 
-TEST(LabelPlace, StaysInAViewThatIsCoveredWhole) {
+TEST(LabelPlace, StaysIfPanelsCoverTheWholeView) {
   EXPECT_EQ(clearPlace({{200, 200}, {260, 230}}, kArea, {kArea}).min, vec2(200, 200));
 }
 

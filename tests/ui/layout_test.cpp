@@ -1,4 +1,4 @@
-// How the window is divided, with and without what lies below the view.
+// The division of the window, with and without a panel below the view.
 #include "ui/app/layout.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace lamplighter {
 namespace {
 
-TEST(Layout, TheLightTableTakesFromOutlinerAndView) {
+TEST(Layout, TheLightTableTakesSpaceFromOutlinerAndView) {
   struct Window {
     vec2 size;
     float scale;
@@ -25,13 +25,13 @@ TEST(Layout, TheLightTableTakesFromOutlinerAndView) {
     EXPECT_EQ(split.bottom.max.y, split.status.min.y);
     EXPECT_EQ(split.bottom.max.x, split.view.max.x);
     EXPECT_EQ(split.view.min, plain.view.min);
-    // The right column is as it was.
+    // The right column does not change.
     EXPECT_EQ(split.render.max, plain.render.max);
     EXPECT_EQ(split.inspector.min, plain.inspector.min);
   }
 }
 
-TEST(Layout, AWindowThatWasSmallForgetsNothing) {
+TEST(Layout, SizesAreRestoredAfterASmallWindow) {
   Layout layout;
   layout.divide({1280, 720}, 24.0f, 1.0f, true);
   const Rect left = layout.left, inspector = layout.inspector, bottom = layout.bottom;

@@ -1,4 +1,4 @@
-// The worker beside the frames: what it traces is what is wanted, to the last edit.
+// The worker thread of the error meter. It traces the reference of the current document.
 #include "ui/app/meter_worker.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class MeterWorkerTest : public testing::Test {
     session_.renderFrame();
   }
   ErrorMeter& meter() { return session_.watch().meter; }
-  // However long that takes.
+  // Waits without a time limit.
   void waitFor(int samples) {
     while (!meter().reference() || meter().reference()->samples < samples) {
       worker_.exchange(meter());
@@ -40,7 +40,7 @@ class MeterWorkerTest : public testing::Test {
   MeterWorker worker_;
 };
 
-TEST_F(MeterWorkerTest, TracesWhatASamplerTraces) {
+TEST_F(MeterWorkerTest, TracesTheSamePictureAsASampler) {
   waitFor(3);
   const ReferenceHalves traced = *meter().reference();
   ReferenceSampler sampler;
@@ -52,7 +52,7 @@ TEST_F(MeterWorkerTest, TracesWhatASamplerTraces) {
   EXPECT_TRUE(meter().estimate());
 }
 
-TEST_F(MeterWorkerTest, BeginsAgainWithEachEdit) {
+TEST_F(MeterWorkerTest, RestartsAtEachEdit) {
   waitFor(1);
   for (int i = 0; i < 20; ++i) {
     AreaLight light = *session_.document().scene.find(light_)->area;
@@ -70,8 +70,8 @@ TEST_F(MeterWorkerTest, BeginsAgainWithEachEdit) {
   EXPECT_TRUE(test::sameBits(traced.first, fresh.halves().first));
 }
 
-TEST_F(MeterWorkerTest, EndsWhileItTraces) {
-  worker_.exchange(meter());  // and is gone at once
+TEST_F(MeterWorkerTest, CanBeDestroyedWhileItTraces) {
+  worker_.exchange(meter());  // the destructor runs immediately after
 }
 
 }  // namespace

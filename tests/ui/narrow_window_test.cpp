@@ -1,5 +1,5 @@
-// What gives way in windows that are too small for all: labels and ends of the toolbar, the less
-// important parts of the status line. Driven without a window.
+// Windows that are too small for everything leave out labels and tools of the toolbar, and the less
+// important parts of the status line. Runs without a window.
 #include <gtest/gtest.h>
 
 #include "renderer/base/error.h"
@@ -43,7 +43,7 @@ TEST(NarrowWindow, ToolsThatDoNotFitAreInAMenuThatWorks) {
   EXPECT_TRUE(editor.session().display().showsHistogram());
 }
 
-TEST(NarrowWindow, TheStatusLineKeepsWhatMattersMost) {
+TEST(NarrowWindow, TheStatusLineKeepsItsMostImportantParts) {
   Editor wide(1600, 1.0f), narrow(640, 2.0f);
   for (const char* part : {"status/settled", "status/time", "status/vpls", "status/backend"})
     EXPECT_TRUE(wide.shows(part)) << part;
@@ -75,11 +75,11 @@ TEST(NarrowWindow, DialogsFitTheWindow) {
   EXPECT_GE(editor.place("dialog/up")->rect.min.y, 0.0f);
 }
 
-TEST(ValueSlider, IsFilledAsFarAsTheValueGoes) {
+TEST(ValueSlider, IsFilledUpToTheValue) {
   EXPECT_FLOAT_EQ(sliderShare(5.0f, 0.0f, 10.0f, false, 0.1f), 0.5f);
   EXPECT_FLOAT_EQ(sliderShare(-16.0f, -16.0f, 16.0f, false, 0.1f), 0.0f);
   EXPECT_FLOAT_EQ(sliderShare(10.0f, 1.0f, 100.0f, true, 0.1f), 0.5f);
-  // From 0 a logarithm has no beginning: 0.1 stands for it.
+  // A logarithmic scale cannot start at 0, so it starts at 0.1.
   EXPECT_FLOAT_EQ(sliderShare(0.0f, 0.0f, 1000.0f, true, 0.1f), 0.0f);
   EXPECT_FLOAT_EQ(sliderShare(10.0f, 0.0f, 1000.0f, true, 0.1f), 0.5f);
   EXPECT_FLOAT_EQ(sliderShare(20.0f, 0.0f, 10.0f, false, 0.1f), 1.0f);

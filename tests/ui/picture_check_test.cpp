@@ -18,7 +18,7 @@ TEST(PictureCheck, EqualPicturesDoNotDiffer) {
   EXPECT_TRUE(d.within(0.0, 0.0));
 }
 
-TEST(PictureCheck, HalvingTakesTheMeanOfFourPixelsOrOfThoseThereAre) {
+TEST(PictureCheck, HalvingAveragesFourPixelsAndFewerAtTheBorder) {
   Image8 image = grey(5, 3);
   image.at(0, 0)[0] = 104;
   image.at(4, 2)[1] = 50;
@@ -30,8 +30,9 @@ TEST(PictureCheck, HalvingTakesTheMeanOfFourPixelsOrOfThoseThereAre) {
   EXPECT_EQ(half.at(2, 1)[1], 50);
 }
 
-// 2,000 pixels: two may be silhouettes.
-TEST(PictureCheck, LeavesOnePixelInAThousandOut) {
+// Silhouettes may differ by more: of 2,000 pixels, the two with the largest differences are
+// ignored.
+TEST(PictureCheck, IgnoresOnePixelInAThousand) {
   Image8 a = grey(40, 50);
   a.at(3, 4)[0] = 250;
   a.at(7, 9)[2] = 0;
@@ -48,7 +49,7 @@ TEST(PictureCheck, LeavesOnePixelInAThousandOut) {
   EXPECT_EQ(comparePictures(a, grey(40, 50)).largest, 100);
 }
 
-// A small thing that is not there: nothing in the mean, and less than a pixel in a thousand.
+// A small missing object. It hardly changes the mean, and has less than one pixel in a thousand.
 TEST(PictureCheck, FindsTheTileThatDiffersMost) {
   Image8 a = grey(640, 360);
   for (int y = 176; y < 192; ++y)

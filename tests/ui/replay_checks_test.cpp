@@ -23,7 +23,7 @@ class ReplayChecksTest : public testing::Test {
     options_.outputFolder = (folder_.path() / "out").string();
     checks_.begin({});
   }
-  // Whether it passed.
+  // Returns whether the check passed.
   bool take(const Checkpoint& checkpoint, const Image8& picture, const char* document = "1") {
     const int before = checks_.failed();
     checks_.take(checkpoint, document, picture);
@@ -37,7 +37,7 @@ class ReplayChecksTest : public testing::Test {
   const Checkpoint seen_{"seen", "", true, "", 16.0f, 0.5f}, unseen_{"unseen", "", false};
 };
 
-TEST_F(ReplayChecksTest, APictureMayBeOffItsBaselineByAPixelButNotByAPatch) {
+TEST_F(ReplayChecksTest, APictureMayDifferFromItsBaselineInAPixelButNotInABlock) {
   checks_.writeBaseline(seen_, grey(100));
   Image8 picture = grey(100);
   picture.at(10, 10)[0] = 104;
@@ -48,12 +48,12 @@ TEST_F(ReplayChecksTest, APictureMayBeOffItsBaselineByAPixelButNotByAPatch) {
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/a.seen.difference.png"));
 }
 
-TEST_F(ReplayChecksTest, ADocumentMustBeTheOneThatWasRecorded) {
+TEST_F(ReplayChecksTest, ADocumentMustEqualTheRecordedOne) {
   EXPECT_TRUE(take({"a", "1", false}, grey(1)));
   EXPECT_FALSE(take({"b", "2", false}, grey(1)));
 }
 
-TEST_F(ReplayChecksTest, WhatIsSameAsAnEarlierCheckpointHasItsBits) {
+TEST_F(ReplayChecksTest, SameAsRequiresTheBitsOfTheEarlierCheckpoint) {
   EXPECT_TRUE(take(unseen_, grey(100)));
   const Checkpoint undone{"undone", "", false, "unseen"};
   EXPECT_TRUE(take(undone, grey(100)));
@@ -63,7 +63,7 @@ TEST_F(ReplayChecksTest, WhatIsSameAsAnEarlierCheckpointHasItsBits) {
   EXPECT_FALSE(take({"other", "", false, "nowhere"}, grey(100)));
 }
 
-TEST_F(ReplayChecksTest, AnotherRunOnTheSameBackendHasTheSameBits) {
+TEST_F(ReplayChecksTest, AnotherRunOnTheSameBackendMustHaveTheSameBits) {
   take(unseen_, grey(100));
   checks_.begin({"threads=1", true, true});
   EXPECT_TRUE(take(unseen_, grey(100)));
@@ -74,7 +74,7 @@ TEST_F(ReplayChecksTest, AnotherRunOnTheSameBackendHasTheSameBits) {
   EXPECT_FALSE(take({"never", "", false}, grey(100)));
 }
 
-TEST_F(ReplayChecksTest, AnotherBackendIsWithinTheRecordingsTolerance) {
+TEST_F(ReplayChecksTest, AnotherBackendMustBeWithinTheToleranceOfTheRecording) {
   take(unseen_, grey(100));
   checks_.begin({"threads=1", true, true});
   take(unseen_, grey(100));

@@ -1,4 +1,4 @@
-// The dialogs that stand between the user and lost work, driven as a hand would, without a window.
+// The dialogs that prevent the loss of work. Runs without a window.
 #include <fstream>
 
 #include "renderer/scene/gltf/gltf_io.h"
@@ -20,7 +20,7 @@ class SafetyDialogs : public testing::Test, protected test::DrivenWindow {
     app().openNow(level_);
     frames(3);
   }
-  // What a process leaves that is killed after two edits.
+  // Leaves the journal of a process that was killed after two edits.
   void leaveWork() const {
     const auto killed = test::newSession();
     killed->keepJournal(state_, 1, [] { return int64_t{1'000'000'000}; });
@@ -34,12 +34,12 @@ class SafetyDialogs : public testing::Test, protected test::DrivenWindow {
   }
 };
 
-TEST_F(SafetyDialogs, NothingIsOfferedWhereNothingIsLeft) {
+TEST_F(SafetyDialogs, WithoutAJournalNothingIsOffered) {
   start();
   EXPECT_FALSE(shows("recovery/recover"));
 }
 
-TEST_F(SafetyDialogs, RecoverTakesTheWorkUp) {
+TEST_F(SafetyDialogs, RecoverRestoresTheWork) {
   leaveWork();
   start();
   click("recovery/recover");
@@ -48,7 +48,7 @@ TEST_F(SafetyDialogs, RecoverTakesTheWorkUp) {
   EXPECT_TRUE(session().modified());
 }
 
-TEST_F(SafetyDialogs, DiscardDeletesIt) {
+TEST_F(SafetyDialogs, DiscardDeletesTheJournal) {
   leaveWork();
   start();
   click("recovery/discard");
@@ -57,7 +57,7 @@ TEST_F(SafetyDialogs, DiscardDeletesIt) {
   EXPECT_EQ(session().document().scene.nodes.size(), 2u);
 }
 
-TEST_F(SafetyDialogs, LaterLeavesItForTheNextStart) {
+TEST_F(SafetyDialogs, LaterKeepsTheJournalForTheNextStart) {
   leaveWork();
   start();
   click("recovery/later");
@@ -67,7 +67,7 @@ TEST_F(SafetyDialogs, LaterLeavesItForTheNextStart) {
   EXPECT_EQ(findRecoverable(state_).size(), 1u);
 }
 
-TEST_F(SafetyDialogs, AChangedFileIsAskedAbout) {
+TEST_F(SafetyDialogs, AFileChangedByOthersNeedsConfirmation) {
   act("light.add disk");
   std::ofstream(level_, std::ios::app) << ' ';
   const std::string theirs = test::readText(level_);

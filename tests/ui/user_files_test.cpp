@@ -1,4 +1,4 @@
-// The user's files: read, kept, and put aside where they are broken.
+// The files of the user: read, written, and renamed if they are damaged.
 #include "ui/app/user_files.h"
 
 #include <filesystem>
@@ -31,7 +31,7 @@ class UserFilesTest : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(UserFilesTest, NothingIsMadeUntilSomethingIsSet) {
+TEST_F(UserFilesTest, NoFileIsCreatedBeforeTheFirstChange) {
   UserFiles files(folder_);
   Preferences p = files.readPreferences();
   for (int i = 0; i < 100; ++i) files.keep(p);
@@ -45,7 +45,7 @@ TEST_F(UserFilesTest, NothingIsMadeUntilSomethingIsSet) {
   EXPECT_TRUE(again.problems().empty());
 }
 
-TEST_F(UserFilesTest, WhatIsBeingChangedIsNotWrittenYet) {
+TEST_F(UserFilesTest, AValueIsNotWrittenWhileItChanges) {
   UserFiles files(folder_);
   Preferences p = files.readPreferences();
   for (int i = 0; i < 100; ++i) {
@@ -57,7 +57,7 @@ TEST_F(UserFilesTest, WhatIsBeingChangedIsNotWrittenYet) {
   EXPECT_TRUE(fs::exists(folder_ / "settings.json"));
 }
 
-TEST_F(UserFilesTest, ABrokenFileIsKeptAside) {
+TEST_F(UserFilesTest, ADamagedFileIsRenamed) {
   for (const char* aside : {"settings.json.broken-1", "settings.json.broken-2"}) {
     write("settings.json", "{ broken");
     UserFiles files(folder_);
@@ -72,8 +72,8 @@ TEST_F(UserFilesTest, ABrokenFileIsKeptAside) {
   }
 }
 
-TEST_F(UserFilesTest, AFileThatCannotBePutAsideIsNeverWritten) {
-  fs::create_directories(folder_ / "settings.json");  // a folder by that name
+TEST_F(UserFilesTest, ADamagedFileThatCannotBeRenamedIsNotOverwritten) {
+  fs::create_directories(folder_ / "settings.json");  // a folder with that name
   std::ofstream(folder_ / "settings.json/inside") << "kept";
   UserFiles files(folder_);
   Preferences p = files.readPreferences();
@@ -86,8 +86,8 @@ TEST_F(UserFilesTest, AFileThatCannotBePutAsideIsNeverWritten) {
   EXPECT_TRUE(isKept);
 }
 
-TEST_F(UserFilesTest, AFolderThatCannotBeMadeIsToldOnce) {
-  std::ofstream(folder_) << "a file where the folder would be";
+TEST_F(UserFilesTest, AFolderThatCannotBeCreatedIsReportedOnce) {
+  std::ofstream(folder_) << "a file in place of the folder";
   UserFiles files(folder_);
   Preferences p = files.readPreferences();
   p.setText("ui_scale", "2");

@@ -1,4 +1,4 @@
-// The menu View and its keys, driven as a hand would, without a window.
+// The menu View and its keys. Runs without a window.
 #include "tests/ui/driven_window.h"
 
 namespace lamplighter {
@@ -10,7 +10,7 @@ class ViewMenu : public testing::Test, protected test::DrivenWindow {
   DebugView view() { return session().display().view(); }
 };
 
-TEST_F(ViewMenu, ListsEveryViewAndSwitchesIt) {
+TEST_F(ViewMenu, EveryViewIsListedAndCanBeChosen) {
   for (const DebugViewInfo& info : debugViews()) {
     SCOPED_TRACE(info.name);
     click("menu/View");
@@ -19,7 +19,7 @@ TEST_F(ViewMenu, ListsEveryViewAndSwitchesIt) {
     EXPECT_EQ(view(), info.view);
     EXPECT_NE(shows("status/view"), info.view == DebugView::lit);
   }
-  // A narrow window has no room for what the last view says it lacks, and for this.
+  // A narrow status line has no space for both this and the problem of the last view.
   session().display().setView(DebugView::lit);
   click("menu/View");
   click("menu/view.vpls");

@@ -111,7 +111,7 @@ Image8 readPicture(const std::filesystem::path& path) {
   std::string why;
   const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
   std::optional<Image8> image = decodeImage8({data, bytes.size()}, why);
-  if (!image) throw InputError(path.string(), "is no picture: " + why, "write it anew");
+  if (!image) throw InputError(path.string(), "cannot be read: it " + why, "write it again");
   return std::move(*image);
 }
 

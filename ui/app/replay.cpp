@@ -40,7 +40,7 @@ class WriteFolder {
     if (!isOurs_) return;
     std::string name = (fs::temp_directory_path() / "lamplighter-replay-XXXXXX").string();
     if (::mkdtemp(name.data()) == nullptr)
-      throw InputError(name, "cannot be made", "check the folder and the space left");
+      throw InputError(name, "cannot be created", "check the folder and the space left");
     path_ = name;
   }
   ~WriteFolder() {
@@ -118,7 +118,7 @@ void Replay::keepJournal(Session& session) {
   fs::copy(left, journals_->path(), fs::copy_options::recursive, error);
   if (error)
     throw InputError(left.string(), "cannot be copied: " + error.message(),
-                     "put there what the recording finds, or take \"left\" out of it");
+                     "restore the folder, or remove \"left\" from the recording");
   session.keepJournal(journals_->path(), ::getpid(), [] { return int64_t{0}; });
 }
 

@@ -79,17 +79,17 @@ std::string ReplayChecks::baselineProblem(const Checkpoint& checkpoint,
 std::string ReplayChecks::sameAsProblem(const Checkpoint& checkpoint, const Image8& picture) const {
   if (checkpoint.sameAs.empty()) return "";
   const Seen* other = find(now_, checkpoint.sameAs);
-  if (other == nullptr) return "there was no checkpoint " + checkpoint.sameAs + " before it";
+  if (other == nullptr) return "there is no earlier checkpoint " + checkpoint.sameAs;
   const PictureDifference difference = comparePictures(picture, other->picture);
   if (difference.none()) return "";
-  return "not as at " + checkpoint.sameAs + ": " + difference.text() +
+  return "differs from " + checkpoint.sameAs + ": " + difference.text() +
          writeHeatMap(checkpoint, picture, other->picture);
 }
 
 std::string ReplayChecks::firstRunProblem(const Checkpoint& checkpoint, const std::string& document,
                                           const Image8& picture) const {
   const Seen* other = find(first_, checkpoint.name);
-  if (other == nullptr) return "the first run did not come to it";
+  if (other == nullptr) return "the first run did not reach it";
   std::string problem;
   if (other->document != document)
     problem = "the document is " + document + " and was " + other->document;

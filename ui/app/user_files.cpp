@@ -22,7 +22,7 @@ std::optional<std::string> contents(const fs::path& path, std::string& problem) 
   std::error_code error;
   if (!fs::exists(path, error)) return std::nullopt;
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kMostBytes || error) {
-    problem = "is no file of at most 1 MB";
+    problem = "is not a regular file, or is larger than 1 MB";
     return std::nullopt;
   }
   std::ifstream in(path, std::ios::binary);
@@ -46,7 +46,7 @@ bool UserFiles::putAside(const fs::path& file) {
     problems_.back() += "; the file is kept as " + aside.filename().string();
     return true;
   }
-  problems_.back() += "; it stays as it is, and settings are not saved";
+  problems_.back() += "; the file is not changed, and settings are not saved";
   return false;
 }
 
@@ -79,7 +79,7 @@ KeyList UserFiles::readKeys() {
   const std::optional<std::string> text = contents(path, problem);
   std::vector<std::string> wrong;
   const KeyList keys = text ? parseKeys(*text, wrong) : KeyList();
-  if (!problem.empty()) wrong.push_back(problem + "; the default keys are taken");
+  if (!problem.empty()) wrong.push_back(problem + "; the default keys are used");
   for (const std::string& line : wrong) problems_.push_back(path.string() + ": " + line);
   return keys;
 }

@@ -102,9 +102,11 @@ void grid(const PanelContext& ui, const std::vector<AssetFile>& files, Thumbnail
       const auto& thumbnail = thumbnails ? thumbnails->get(file.path, wanted) : kNone;
       drawThumbnail(thumbnail, low, side);
       caption(file.name, {low.x, low.y + side + ui.px(2)}, side);
-      tooltip(ui, thumbnail.problem.empty()
-                      ? file.name + ": click it, then where it is to stand; with Shift many times"
-                      : thumbnail.problem);
+      tooltip(ui,
+              thumbnail.problem.empty()
+                  ? file.name +
+                        ": click it, then click a surface to place it. Hold Shift to place several."
+                  : thumbnail.problem);
     }
   }
 }

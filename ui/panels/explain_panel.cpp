@@ -50,17 +50,19 @@ std::string stateHelp(const LightShare& l) {
     case LightArrival::off:
       return "It is hidden, or has no strength.";
     case LightArrival::unsampled:
-      return "Brighter lights take all light samples; a larger number of them reaches this one.";
+      return "Brighter lights use all light samples. With more light samples, this light gets "
+             "some, too.";
     case LightArrival::away:
-      return "The surface looks away from it, or is behind it or outside its cone.";
+      return "The surface faces away from the light, or is behind it or outside its cone.";
     default:
       break;
   }
   std::string text =
       fmt::format("{} of the {} light samples that face the point reach it.", l.seen, l.facing);
-  if (l.withheld > 0.0f) text += fmt::format(" {} are kept away.", luxText(l.withheld));
+  if (l.withheld > 0.0f) text += fmt::format(" {} are blocked.", luxText(l.withheld));
   if (l.bouncedFacing > 0)
-    text += fmt::format(" Of its bounces {} of {} do.", l.bouncedSeen, l.bouncedFacing);
+    text += fmt::format(" Of its bounced light samples, {} of {} reach it.", l.bouncedSeen,
+                        l.bouncedFacing);
   return text;
 }
 

@@ -15,7 +15,7 @@ float parseUiScale(const std::string& text) {
   char* end = nullptr;
   const float scale = std::strtof(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !(scale >= kLeastUiScale && scale <= kMostUiScale))
-    throw InputError(kVariable, "'" + text + "' is no number from 0.5 to 4",
+    throw InputError(kVariable, "'" + text + "' is not a number from 0.5 to 4",
                      "set it to 2 for a user interface twice as large, or unset it");
   return scale;
 }

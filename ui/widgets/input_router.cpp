@@ -14,7 +14,8 @@ vec2 InputRouter::windowPosition(const InputEvent& event) const {
   if (event.target.empty()) return event.position;
   const WidgetMap::Place* place = widgets_.find(event.target);
   if (!place)
-    throw InputError("no widget '" + event.target + "' is on the screen; open what it is in first");
+    throw InputError("widget '" + event.target +
+                     "' is not on the screen; open the panel or menu that contains it first");
   if (event.target == kViewportTarget) return place->rect.min + event.position;
   return place->rect.min + event.position * place->rect.size();
 }

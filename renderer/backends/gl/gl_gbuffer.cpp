@@ -63,7 +63,7 @@ void GlGBuffer::resize(int width, int height) {
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
   if (std::max(width, height) > limit) {
     throw InputError("OpenGL",
-                     "pictures have " + std::to_string(limit) + " pixels a side at most here",
+                     "this driver supports at most " + std::to_string(limit) + " pixels per side",
                      "render a smaller one or use --backend cpu");
   }
   width_ = width;

@@ -96,7 +96,7 @@ void GlScene::uploadGeometry() {
   const RenderScene& s = *scene_;
   if (std::max(s.positions.size(), s.indices.size() / 3) * sizeof(vec3) > mostStorageBytes()) {
     throw InputError(
-        "scene", std::to_string(s.triangleCount()) + " triangles are more than OpenGL takes here",
+        "scene", std::to_string(s.triangleCount()) + " triangles exceed the limit of this driver",
         "use --backend cpu");
   }
   bytes_ = 0;

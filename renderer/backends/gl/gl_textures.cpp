@@ -32,7 +32,7 @@ GLuint TextureCache::get(const lamplighter::Texture& source, bool srgb) {
   if (std::max(image.width, image.height) > limit) {
     throw InputError("texture " + source.name,
                      std::to_string(image.width) + "x" + std::to_string(image.height) +
-                         " is larger than OpenGL takes here (" + std::to_string(limit) + ")",
+                         " texels exceed the limit of this driver (" + std::to_string(limit) + ")",
                      "make it smaller or use --backend cpu");
   }
   entry.image = source.image;

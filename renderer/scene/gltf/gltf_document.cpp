@@ -42,7 +42,7 @@ const Json& listOf(const GltfDocument& document, const char* name) {
   const Json* list = owner == nullptr ? nullptr : member(*owner, name + (dot + 1));
   if (list == nullptr) return kEmpty;
   if (!list->is_array()) {
-    document.fail(std::string("\"") + name + "\" is no array", kExportAgain);
+    document.fail(std::string("\"") + name + "\" is not an array", kExportAgain);
   }
   return *list;
 }
@@ -168,7 +168,7 @@ GltfDocument readGltfJson(const std::filesystem::path& path) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // byte order mark
     const size_t first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{') {
-      document.fail("is no glTF: it begins neither with { nor with the mark of a .glb",
+      document.fail("is not glTF: it begins neither with { nor with the magic number of a .glb",
                     "name a .gltf or .glb file");
     }
   }
@@ -188,7 +188,7 @@ GltfDocument readGltfJson(const std::filesystem::path& path) {
     document.fail("has JSON that cannot be read (" + printable(reason) + ")",
                   "copy or export it again");
   }
-  if (!document.json.is_object()) document.fail("has JSON that is no object", kExportAgain);
+  if (!document.json.is_object()) document.fail("has JSON that is not an object", kExportAgain);
   if (glb.binary) {
     // In place: a copy would be as long as the file.
     const auto begin = bytes->begin() + (glb.binary->data() - bytes->data());

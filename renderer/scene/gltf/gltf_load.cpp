@@ -23,7 +23,7 @@ void checkSize(const GltfDocument& document, const Scene& scene) {
   for (const Node& node : scene.nodes) {
     if (node.mesh != kNone) total += triangles[static_cast<size_t>(node.mesh)];
     if (total > kMostTriangles) {
-      document.fail("shows more than 100 million triangles, instances counted",
+      document.fail("shows more than 100 million triangles, including instances",
                     "split the level, or reduce its meshes");
     }
   }
@@ -65,7 +65,7 @@ LoadedScene loadScene(const std::filesystem::path& path, const LoadProgress& pro
   } else if (!hasLight(scene)) {
     scene.sky = kDefaultSky;
     scene.skyIsDefault = true;
-    document.warn("no light in it; shown under a plain sky, which is not saved");
+    document.warn("has no light; it is shown under a uniform sky, which is not saved");
   }
   source->meshes = scene.meshes;
   source->textures = scene.textures;
@@ -92,12 +92,12 @@ LoadedScene loadGltf(const std::filesystem::path& path, const LoadProgress& prog
     return loadScene(path, progress);
   } catch (const Json::exception& e) {
     // Errors that the checks missed: a member of an unexpected type.
-    throw InputError(path.string(), "breaks the rules of glTF (" + printable(e.what()) + ")",
+    throw InputError(path.string(), "is not valid glTF (" + printable(e.what()) + ")",
                      kExportAgain);
   } catch (const std::bad_alloc&) {
-    throw InputError(path.string(), "needs more memory than there is", "split the level");
+    throw InputError(path.string(), "needs more memory than is available", "split the level");
   } catch (const std::length_error&) {
-    throw InputError(path.string(), "needs more memory than there is", "split the level");
+    throw InputError(path.string(), "needs more memory than is available", "split the level");
   }
 }
 

@@ -180,7 +180,7 @@ class EntryCheck {
     if (rest.starts_with('.')) return walk(value, rest.substr(1), m);
     const bool isArray = rest.starts_with("[]");
     if (isArray ? !value.is_array() : !value.is_object()) {
-      wrongType(value, key, isArray ? "array" : "object");
+      wrongType(value, key, isArray ? "an array" : "an object");
     }
     rest.remove_prefix(2);
     for (const auto& [name, entry] : value.items()) {
@@ -213,7 +213,7 @@ class EntryCheck {
         break;
       }
       case Type::number:
-        if (!isFinite(value)) wrongType(value, key, "finite number");
+        if (!isFinite(value)) wrongType(value, key, "a finite number");
         break;
       case Type::numbers:
         if (!value.is_array() || value.size() != m.length ||
@@ -225,10 +225,10 @@ class EntryCheck {
         if (!value.is_boolean()) wrongType(value, key, "true or false");
         break;
       case Type::text:
-        if (!value.is_string()) wrongType(value, key, "text");
+        if (!value.is_string()) wrongType(value, key, "a string");
         break;
       case Type::array:
-        if (!value.is_array()) wrongType(value, key, "array");
+        if (!value.is_array()) wrongType(value, key, "an array");
         break;
       case Type::textureInfo:
         for (const Member& part : kTextureInfo) walk(value, part.path, part);
@@ -237,7 +237,7 @@ class EntryCheck {
 
   size_t size(const Json& value, std::string_view key) const {
     const auto number = sizeOf(value);
-    if (!number) wrongType(value, key, "count or index");
+    if (!number) wrongType(value, key, "a count or an index");
     return *number;
   }
 
@@ -256,7 +256,7 @@ class EntryCheck {
     doc_.fail(at_,
               "has \"" + printable(key) +
                   "\": " + printable(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
-                  ", which is no " + expected,
+                  ", which is not " + expected,
               kExportAgain);
   }
 

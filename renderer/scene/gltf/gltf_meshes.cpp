@@ -101,7 +101,7 @@ class MeshReader {
     };
     warn(counts_.notTriangles, " primitives are points or lines, which are not shown");
     warn(counts_.mendedNormals, " vertices have no usable normal; it was computed from the faces");
-    warn(counts_.mendedUvs, " vertices have texture coordinates that are no numbers; 0 was used");
+    warn(counts_.mendedUvs, " vertices have texture coordinates that are not numbers; 0 was used");
     warn(counts_.deformed, " meshes have morph targets, which are shown without effect");
   }
 
@@ -123,7 +123,8 @@ class MeshReader {
     for (const vec3& v : p.positions) {
       if (!isFinite(v) ||
           std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > kFarthestPlace) {
-        doc_.fail(at, "has a vertex at no finite place, or farther than 1e9 m", kExportAgain);
+        doc_.fail(at, "has a vertex position that is not finite, or farther than 1e9 m",
+                  kExportAgain);
       }
     }
     p.indices = asTriangles(indices(source.indices, at, p.positions.size()), source.mode);

@@ -47,7 +47,7 @@ Camera readCamera(const GltfDocument& document, size_t index) {
   camera.zfar = static_cast<float>(lens.zfar);
   if (!(camera.yfov > 0.0f && camera.yfov < kPi) || camera.aspect < 0.0f ||
       !(camera.znear > 0.0f) || camera.zfar < 0.0f) {
-    document.fail({"cameras", index}, "has a lens that is none", kExportAgain);
+    document.fail({"cameras", index}, "has invalid lens parameters", kExportAgain);
   }
   return camera;
 }
@@ -76,7 +76,7 @@ Transform readTransform(const GltfDocument& document, size_t node) {
     if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f) {
       document.fail(at, "has a matrix whose last row is not 0 0 0 1", kExportAgain);
     }
-    if (!isReasonable(m)) document.fail(at, "has a matrix beyond 1e9", kExportAgain);
+    if (!isReasonable(m)) document.fail(at, "has a matrix with values beyond 1e9", kExportAgain);
     return decompose(m);
   }
   t.translation = vec3Or(source.translation, t.translation);
@@ -87,7 +87,7 @@ Transform readTransform(const GltfDocument& document, size_t node) {
                  static_cast<float>(r[2]));
     const float square = glm::dot(q, q);
     if (!(square > 1e-12f) || !std::isfinite(square)) {
-      document.fail(at, "has a rotation that is none", kExportAgain);
+      document.fail(at, "has a rotation that is not a quaternion", kExportAgain);
     }
     // Those that are unit but for rounding stay as they are, so that saving gives them back.
     t.rotation = std::abs(square - 1.0f) > 1e-5f ? glm::normalize(q) : q;
@@ -135,8 +135,8 @@ std::vector<Node> readNodes(GltfDocument& document) {
     for (size_t i = 0; i < list.size(); ++i) {
       if (!isChild[i]) roots.push_back(static_cast<int>(i));
     }
-    document.warn(list.empty() ? "holds no scene and no nodes; shown empty"
-                               : "holds no scene; all of its nodes are shown");
+    document.warn(list.empty() ? "has no scene and no nodes; it is shown empty"
+                               : "has no scene; all of its nodes are shown");
   }
 
   // Depth first, a stack of its own: levels of a hundred thousand nodes one below the other exist.
@@ -157,8 +157,8 @@ std::vector<Node> readNodes(GltfDocument& document) {
     Node node = readNode(document, next.node);
     const mat4 world = next.parentWorld * toMatrix(node.local);
     if (!isReasonable(world)) {
-      document.fail({"nodes", next.node}, "lies at no finite place, or farther than 1e9 m",
-                    kExportAgain);
+      document.fail({"nodes", next.node},
+                    "has a position that is not finite, or farther than 1e9 m", kExportAgain);
     }
     node.id = static_cast<NodeId>(nodes.size() + 1);
     node.parent = next.parent;

@@ -17,7 +17,7 @@ struct Malformed {
 };
 
 double numberOf(const Json& value, const std::string& name, double least, double most) {
-  if (!value.is_number()) throw Malformed{"has a " + name + " that is no number"};
+  if (!value.is_number()) throw Malformed{"has a " + name + " that is not a number"};
   const double v = value.get<double>();
   if (!(v >= least && v <= most)) throw Malformed{"has a " + name + " out of range"};
   return v;

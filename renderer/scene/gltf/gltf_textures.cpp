@@ -168,7 +168,7 @@ std::vector<Texture> readTextures(GltfDocument& document, const std::vector<Mate
     }
     if (encoded[i].why.empty() || (!needed[i] && unneeded.contains(i))) continue;
     document.warn("images[" + std::to_string(i) + "] " + encoded[i].why +
-                  (needed[i] ? "; a placeholder is shown" : "; nothing shows it"));
+                  (needed[i] ? "; a placeholder is shown" : "; no visible material uses it"));
   }
 
   const auto white = std::make_shared<const Image8>(1, 1);

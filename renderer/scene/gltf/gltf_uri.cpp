@@ -15,12 +15,12 @@ NewBytes readWholeFile(const fs::path& path, std::string& why) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) {
-    why = "is not there";
+    why = "does not exist";
     return nullptr;
   }
   // Devices and pipes could be read for ever.
   if (error || status.type() != fs::file_type::regular) {
-    why = status.type() == fs::file_type::directory ? "is a folder" : "is no regular file";
+    why = status.type() == fs::file_type::directory ? "is a folder" : "is not a regular file";
     return nullptr;
   }
   const uintmax_t size = fs::file_size(path, error);
@@ -133,7 +133,7 @@ bool isWithin(const fs::path& folder, const fs::path& path) {
 NewBytes readUri(const GltfDocument& document, const std::string& uri, std::string& why) {
   if (uri.starts_with("data:")) return dataUri(uri, why);
   if (hasScheme(uri)) {
-    why = "is an address outside of the file's folder, and nothing is fetched from elsewhere";
+    why = "is an address outside of the file's folder, which is not read";
     return nullptr;
   }
   if (uri.empty()) {
@@ -145,7 +145,7 @@ NewBytes readUri(const GltfDocument& document, const std::string& uri, std::stri
   // Names with a bare % are not escaped by every exporter.
   for (const std::string& name : {percentDecoded(uri), uri}) {
     if (name.find('\0') != std::string::npos) {
-      why = "is no file name";
+      why = "is not a file name";
       return nullptr;
     }
     const fs::path relative(name);

@@ -68,7 +68,7 @@ std::vector<std::string> extensionNames(const GltfDocument& document, const char
   std::vector<std::string> names;
   for (const Json& entry : listOf(document, key)) {
     if (!entry.is_string()) {
-      document.fail("\"" + std::string(key) + "\" holds no names", kExportAgain);
+      document.fail("\"" + std::string(key) + "\" is not a list of names", kExportAgain);
     }
     names.push_back(entry.get<std::string>());
   }
@@ -142,7 +142,7 @@ class StructureCheck {
                              "scenes", "animations", kPunctualLights, kAreaLights}) {
       const Json& list = listOf(doc_, name);
       if (!std::all_of(list.begin(), list.end(), [](const Json& e) { return e.is_object(); })) {
-        doc_.fail(std::string("\"") + name + "\" is no array of objects", kExportAgain);
+        doc_.fail(std::string("\"") + name + "\" is not an array of objects", kExportAgain);
       }
       for (size_t i = 0; i < list.size(); ++i) objectMember(list[i], "extensions", {name, i});
     }
@@ -160,7 +160,7 @@ class StructureCheck {
   void objectMember(const Json& object, const char* key, At at) {
     const Json* value = member(object, key);
     if (value != nullptr && !value->is_object()) {
-      doc_.fail(at, std::string("has \"") + key + "\" that are no object", kExportAgain);
+      doc_.fail(at, std::string("has \"") + key + "\" that are not an object", kExportAgain);
     }
   }
 
@@ -225,7 +225,7 @@ class StructureCheck {
     if (replaced > count) doc_.fail(at, "has more sparse data than elements", kExportAgain);
     const size_t indexType = sizeIn(where, "componentType");
     if (!isUnsigned(indexType)) {
-      doc_.fail(at, "has sparse indices that are no unsigned integers", kExportAgain);
+      doc_.fail(at, "has sparse indices that are not unsigned integers", kExportAgain);
     }
     // tinygltf holds these in an int.
     if (std::max({replaced, sizeIn(where, "byteOffset"), sizeIn(values, "byteOffset")}) > INT_MAX) {
@@ -282,11 +282,11 @@ class StructureCheck {
   void indices(size_t accessor) {
     const Json& json = accessors_[accessor];
     if (!isUnsigned(sizeIn(json, "componentType")) || json["type"] != "SCALAR") {
-      doc_.fail({"accessors", accessor}, "holds indices that are no unsigned integers",
+      doc_.fail({"accessors", accessor}, "has indices that are not unsigned integers",
                 kExportAgain);
     }
     if (member(json, "bufferView") == nullptr) {
-      doc_.fail({"accessors", accessor}, "holds indices without a bufferView", kExportAgain);
+      doc_.fail({"accessors", accessor}, "has indices without a bufferView", kExportAgain);
     }
   }
 

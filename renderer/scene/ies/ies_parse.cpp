@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kMostBytes = 16u << 20;
 constexpr double kMostCandela = 1e12;
-constexpr const char* kRemedy = "give an IES file (LM-63) as its maker publishes it";
+constexpr const char* kRemedy = "give an unchanged IES file (LM-63) of the manufacturer";
 
 class Parser {
  public:
@@ -33,7 +33,7 @@ class Parser {
     const double multiplier = number("a candela multiplier");
     const size_t rows = count("vertical angles"), columns = count("horizontal angles");
     const double type = number("a photometric type");
-    if (type != 1.0 && type != 2.0) fail("has photometry that is neither of type B nor C");
+    if (type != 1.0 && type != 2.0) fail("has photometry of neither type B nor type C");
     out->isTypeB = type == 2.0;
     for (const char* what : {"units", "a width", "a length", "a height"}) number(what);
     const double ballast = number("a ballast factor");
@@ -41,21 +41,22 @@ class Parser {
     const double lamp = number("a ballast-lamp factor");
     number("watts");
     const double factor = multiplier * ballast * lamp;
-    if (!(factor > 0.0 && factor < kMostCandela)) fail("has factors that are not above 0");
+    if (!(factor > 0.0 && factor < kMostCandela))
+      fail("has a multiplier or ballast factor that is not above 0");
     // A number and its separator take at least two characters.
     if (rows + columns + rows * columns > (text_.size() - at_ + 1) / 2 + 1)
-      fail("promises more numbers than it has");
+      fail("contains fewer numbers than it declares");
     out->vertical = angles(rows, "vertical angles");
     out->horizontal = angles(columns, "horizontal angles");
     checkAngles(*out);
     std::vector<double> candela(rows * columns);
     for (double& c : candela) {
       c = number("candela");
-      if (c < 0.0) fail("has candela below 0");
+      if (c < 0.0) fail("has a candela value below 0");
     }
     const double most = *std::max_element(candela.begin(), candela.end());
-    if (!(most > 0.0)) fail("gives no light");
-    if (most * factor > kMostCandela) fail("has candela beyond 1e12");
+    if (!(most > 0.0)) fail("has no candela value above 0");
+    if (most * factor > kMostCandela) fail("has a candela value above 1e12");
     out->peak = static_cast<float>(most * factor);
     for (const double c : candela) out->values.push_back(static_cast<float>(c / most));
     return out;
@@ -81,20 +82,20 @@ class Parser {
       if (line.starts_with("TILT=")) {
         const std::string_view what = line.substr(5);
         if (what == "NONE") return;
-        if (what != "INCLUDE") fail("has its tilt in another file");
-        const double geometry = number("a lamp's geometry");
+        if (what != "INCLUDE") fail("refers to another file for its tilt data");
+        const double geometry = number("the lamp-to-luminaire geometry");
         if (geometry != 1.0 && geometry != 2.0 && geometry != 3.0)
-          fail("has a lamp's geometry that is neither 1, 2 nor 3");
+          fail("has a lamp-to-luminaire geometry other than 1, 2 or 3");
         const size_t pairs = count("tilt angles");
-        if (pairs > (text_.size() - at_) / 4 + 1) fail("promises more numbers than it has");
+        if (pairs > (text_.size() - at_) / 4 + 1) fail("contains fewer numbers than it declares");
         out.tiltAngles = angles(pairs, "tilt angles");
         for (size_t i = 0; i < pairs; ++i) {
           const double factor = number("tilt factors");
-          if (!(factor >= 0.0 && factor <= 1000.0)) fail("has tilt factors that are none");
+          if (!(factor >= 0.0 && factor <= 1000.0)) fail("has a tilt factor outside of 0 to 1000");
           out.tiltFactors.push_back(static_cast<float>(factor));
         }
         if (*std::max_element(out.tiltFactors.begin(), out.tiltFactors.end()) <= 0.0f)
-          fail("gives no light at any tilt");
+          fail("has no tilt factor above 0");
         return;
       }
       if (end == kEnd) fail("has no line TILT=");
@@ -106,7 +107,7 @@ class Parser {
       return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == ',';
     };
     while (at_ < text_.size() && parts(text_[at_])) ++at_;
-    if (at_ == text_.size()) fail(std::string("ends where it should have ") + what);
+    if (at_ == text_.size()) fail(std::string("ends before ") + what);
     const char* begin = text_.data() + at_;
     if (*begin == '+') ++begin;
     double value = 0.0;
@@ -114,14 +115,14 @@ class Parser {
     at_ = static_cast<size_t>(end - text_.data());
     const bool isParted = at_ == text_.size() || parts(text_[at_]);
     if (error != std::errc() || !isParted || !std::isfinite(value))
-      fail(std::string("has something else where it should have ") + what);
+      fail(std::string("has text or an invalid number instead of ") + what);
     return value;
   }
 
   size_t count(const char* what) {
     const double value = number(what);
     if (!(value >= 1.0 && value <= 100'000.0) || value != std::floor(value))
-      fail(std::string("has no sound number of ") + what);
+      fail(std::string("has an invalid number of ") + what);
     return static_cast<size_t>(value);
   }
 
@@ -132,7 +133,7 @@ class Parser {
       const double angle = number(what);
       if (std::abs(angle) > 360.0) fail(std::string("has ") + what + " beyond 360 degrees");
       if (!out.empty() && !(static_cast<float>(angle) > out.back()))
-        fail(std::string("has ") + what + " that do not grow");
+        fail(std::string("has ") + what + " that do not increase");
       out.push_back(static_cast<float>(angle));
     }
     return out;
@@ -150,7 +151,7 @@ class Parser {
       const bool planes = h0 == 0.0f && (h1 == 0.0f || h1 == 90.0f || h1 == 180.0f || h1 == 360.0f);
       sound = v0 >= 0.0f && v1 <= 180.0f && p.vertical.size() > 1 && (half || planes);
     }
-    if (!sound) fail("has angles that its type of photometry does not have");
+    if (!sound) fail("has angles outside of the range of its photometric type");
   }
 
   static constexpr size_t kEnd = std::string_view::npos;
@@ -191,7 +192,7 @@ std::shared_ptr<const IesProfile> parseIes(std::string_view text, const std::str
   integrate(*out);
   out->lobes = fitLobes([&](const vec3& direction) { return out->at(direction); });
   if (out->lobes.empty())
-    throw InputError(file, "gives no light but in a direction or two", kRemedy);
+    throw InputError(file, "gives light in one or two directions only", kRemedy);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// Bookmarks, cameras of the level, and steps of the camera by keys.
+// Camera bookmarks, the cameras of the level, and camera steps by keys.
 #include <filesystem>
 #include <fstream>
 
@@ -24,7 +24,7 @@ class CameraActions : public test::SessionFixture {
   }
 };
 
-TEST_F(CameraActions, ABookmarkBringsTheViewBack) {
+TEST_F(CameraActions, ABookmarkRestoresTheView) {
   const View before = session_.view();
   const uint64_t was = hash();
   ASSERT_TRUE(session_.runAction("bookmark.store 3"));
@@ -54,7 +54,7 @@ TEST_F(CameraActions, BookmarksAreSavedWithTheLevel) {
     const LoadedScene loaded = loadGltf(folder / file);
     EXPECT_TRUE(loaded.warnings.empty());
     EXPECT_EQ(loaded.scene.bookmarks, session_.document().scene.bookmarks);
-    // Saved again after they were cleared they are gone.
+    // Saving without bookmarks removes them from the file.
     Scene without = loaded.scene;
     without.bookmarks.clear();
     saveGltf(without, folder / file);
@@ -63,7 +63,7 @@ TEST_F(CameraActions, BookmarksAreSavedWithTheLevel) {
   fs::remove_all(folder);
 }
 
-TEST_F(CameraActions, MalformedBookmarksAreLeftOutWithAWarning) {
+TEST_F(CameraActions, MalformedBookmarksAreIgnoredWithAWarning) {
   const fs::path file = fs::path(testing::TempDir()) / "lamplighter_bad_bookmarks.gltf";
   const std::string good = R"({"slot":2,"eye":[1,2,3],"rotation":[0,0,0,1],"yfov":0.9})";
   const auto load = [&](const std::string& bookmarks) {
@@ -99,12 +99,12 @@ TEST_F(CameraActions, NumbersOutOfRangeAreRefused) {
   EXPECT_EQ(hash(), was);
 }
 
-TEST_F(CameraActions, DigitsAreTheKeysOfBookmarks) {
+TEST_F(CameraActions, DigitKeysStoreAndRecallBookmarks) {
   EXPECT_EQ(session_.actions().textForKey(Key::n7, {.ctrl = true}), "bookmark.store 7");
   EXPECT_EQ(session_.actions().textForKey(Key::n7, {}), "bookmark.go 7");
 }
 
-TEST_F(CameraActions, TheLevelsCamerasAreListedAndLookedThrough) {
+TEST_F(CameraActions, CamerasOfTheLevelAreListedAndUsed) {
   const Action& action = *session_.actions().find("camera.go");
   const std::vector<ActionChoice> choices = action.choices(session_);
   ASSERT_EQ(choices.size(), 1u);
@@ -114,15 +114,15 @@ TEST_F(CameraActions, TheLevelsCamerasAreListedAndLookedThrough) {
   EXPECT_FLOAT_EQ(session_.view().yfov, 0.5f);
 }
 
-TEST_F(CameraActions, StepsGoAlongTheView) {
+TEST_F(CameraActions, CameraStepsAreRelativeToTheView) {
   const View before = session_.view();
   ASSERT_TRUE(session_.runAction("camera.move 0 0 2"));
-  const vec3 way = session_.view().eye - before.eye;
-  EXPECT_NEAR(glm::dot(glm::normalize(way), before.forward()), 1.0f, 1e-5f);
-  EXPECT_NEAR(glm::length(way), 0.5f * session_.cameraSpeed(), 1e-4f);
+  const vec3 step = session_.view().eye - before.eye;
+  EXPECT_NEAR(glm::dot(glm::normalize(step), before.forward()), 1.0f, 1e-5f);
+  EXPECT_NEAR(glm::length(step), 0.5f * session_.cameraSpeed(), 1e-4f);
   ASSERT_TRUE(session_.runAction("camera.turn 90 0"));
   EXPECT_NEAR(glm::dot(session_.view().forward(), -before.right()), std::cos(0.25f), 0.02f);
-  // It never turns over.
+  // The camera never turns upside down.
   for (int i = 0; i < 20; ++i) session_.runAction("camera.turn 0 45");
   EXPECT_GT(session_.view().up().y, 0.0f);
 }

@@ -1,4 +1,4 @@
-// Files that are dropped: levels, skies, profiles of lights; and recent files.
+// Files dropped on the window (levels, skies, light profiles), and recent files.
 #include <filesystem>
 #include <fstream>
 
@@ -40,7 +40,7 @@ TEST_F(Drop, APictureBecomesTheSkyAsOneStep) {
   EXPECT_EQ(hash(), was);
 }
 
-TEST_F(Drop, AProfileGoesToTheSelectedLights) {
+TEST_F(Drop, AProfileIsSetOnTheSelectedLights) {
   session_.runAction("light.add point");
   const NodeId a = session_.document().active();
   session_.runAction("light.add spot");
@@ -54,7 +54,7 @@ TEST_F(Drop, AProfileGoesToTheSelectedLights) {
   EXPECT_EQ(hash(), was);
 }
 
-TEST_F(Drop, AProfileWithoutALightMakesOneUnderThePointer) {
+TEST_F(Drop, AProfileWithoutASelectedLightAddsALightUnderThePointer) {
   session_.select({box_});
   const size_t before = session_.document().scene.nodes.size();
   input_.pointer = pixelOf(vec3(2, 0, 0));
@@ -69,7 +69,7 @@ TEST_F(Drop, AProfileWithoutALightMakesOneUnderThePointer) {
   EXPECT_EQ(session_.document().scene.nodes.size(), before);
 }
 
-TEST_F(Drop, WhatIsNoneOfTheseIsRefusedInOneLine) {
+TEST_F(Drop, OtherFilesAreRefusedInOneLine) {
   const uint64_t was = hash();
   for (const char* file : {"notes.txt", "/nowhere/at all.ies", "/nowhere/sky.hdr", ""}) {
     EXPECT_FALSE(drop(file)) << file;

@@ -1,4 +1,4 @@
-// Clicking to place, rows and grids of copies, aligning, and what a move snaps to.
+// Placing by click, rows and grids of copies, aligning, and snapping.
 #include <cmath>
 
 #include "renderer/base/error.h"
@@ -9,7 +9,7 @@ namespace {
 
 using PlacingTools = test::SessionFixture;
 
-TEST_F(PlacingTools, AClickPutsALightOnTheSurfaceFacingOut) {
+TEST_F(PlacingTools, AClickPlacesALightOnTheSurfaceFacingOutwards) {
   const uint64_t before = hash();
   session_.perform("place.start light.add disk");
   EXPECT_EQ(hash(), before);
@@ -22,7 +22,7 @@ TEST_F(PlacingTools, AClickPutsALightOnTheSurfaceFacingOut) {
   EXPECT_NEAR(placeOf(added.id).y, 0.01f, 1e-3f);
   EXPECT_NEAR((added.local.rotation * vec3(0, 0, -1)).y, 1.0f, 1e-4f);
   EXPECT_EQ(session_.document().active(), added.id);
-  // One step, and the next click selects again.
+  // It is one undo step, and the next click selects again.
   const uint64_t placed = hash();
   press(pixelOf(vec3(0, 0.5f, 0.5f)));
   release();
@@ -33,7 +33,7 @@ TEST_F(PlacingTools, AClickPutsALightOnTheSurfaceFacingOut) {
   EXPECT_EQ(hash(), placed);
 }
 
-TEST_F(PlacingTools, WhatWasCopiedIsPlacedInOneStepToo) {
+TEST_F(PlacingTools, CopiedObjectsArePlacedInOneStep) {
   session_.select({box_});
   session_.perform("edit.copy");
   const uint64_t before = hash();
@@ -47,7 +47,7 @@ TEST_F(PlacingTools, WhatWasCopiedIsPlacedInOneStepToo) {
   EXPECT_EQ(hash(), before);
 }
 
-TEST_F(PlacingTools, WithShiftTheNextClickPlacesToo) {
+TEST_F(PlacingTools, WithShiftPlacingContinues) {
   session_.perform("place.start light.add rectangle");
   Modifiers shift;
   shift.shift = true;
@@ -59,14 +59,14 @@ TEST_F(PlacingTools, WithShiftTheNextClickPlacesToo) {
   EXPECT_FALSE(session_.placing());
 }
 
-TEST_F(PlacingTools, EscapeLeavesPlacing) {
+TEST_F(PlacingTools, EscapeCancelsPlacing) {
   session_.perform("place.start light.add rectangle");
   session_.perform("select.none");
   EXPECT_FALSE(session_.placing());
   EXPECT_THROW(session_.perform("place.start no.such"), InputError);
 }
 
-TEST_F(PlacingTools, ARowOfCopiesIsEvenAndOneStep) {
+TEST_F(PlacingTools, ARowOfCopiesIsEvenlySpacedAndOneStep) {
   session_.select({box_});
   const uint64_t before = hash();
   session_.perform("edit.duplicate_line 3 1.5 0 -0.5");
@@ -89,7 +89,7 @@ TEST_F(PlacingTools, AGridFillsItsCells) {
     if (n.area) farthest = glm::max(farthest, placeOf(n.id) - placeOf(light_));
   EXPECT_LT(glm::length(farthest - vec3(2, 2, 4)), 1e-5f);
   EXPECT_THROW(session_.perform("edit.duplicate_grid 100 100 2 1 1 1"), InputError);
-  // Cells are many or few by what is in each: the whole level has to be one that can be worked in.
+  // The limit counts all objects of the level, not only the copies of one action.
   const size_t nodes = session_.document().scene.nodes.size();
   session_.select({light_});
   session_.perform("edit.duplicate_line 9000 1 0 0");
@@ -114,7 +114,7 @@ TEST_F(PlacingTools, AlignTurnsAnObjectUprightOnTheSurface) {
   EXPECT_EQ(local(box_).translation, tilted.local.translation);
 }
 
-// The corner of the box that is nearest to the pointer, to the digit.
+// The light moves exactly to the corner of the box that is nearest to the pointer.
 TEST_F(PlacingTools, AMoveSnapsToVertices) {
   session_.select({light_});
   session_.perform("tool.move");

@@ -1,4 +1,4 @@
-// The sky as the user changes it: by actions, undone and done again.
+// Actions that change the sky, with undo and redo.
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ TEST_F(SkyActions, SetUndoAndRedo) {
   EXPECT_TRUE(sky().isBlack());
 }
 
-TEST_F(SkyActions, PicturesAreTurnedAndScaled) {
+TEST_F(SkyActions, PicturesAreRotatedAndScaled) {
   const test::TemporaryFolder folder;
   test::throughFile(test::cloudySky().image->pixels, folder.path() / "the sky.exr");
   const std::string file = "\"" + (folder.path() / "the sky.exr").string() + "\"";
@@ -49,7 +49,7 @@ TEST_F(SkyActions, PicturesAreTurnedAndScaled) {
   EXPECT_EQ(sky().scale, 2.0f);
   session_.renderFrame();
   EXPECT_EQ(session_.renderError(), "");
-  // Another picture keeps both.
+  // A new picture keeps the rotation and the scale.
   ASSERT_TRUE(session_.runAction("sky.image " + file));
   EXPECT_EQ(sky().scale, 2.0f);
   session_.runAction("edit.undo");
@@ -67,12 +67,12 @@ TEST_F(SkyActions, BadInputChangesNothing) {
     EXPECT_EQ(session_.status().find('\n'), std::string::npos) << action;
     EXPECT_EQ(hash(), before) << action;
   }
-  EXPECT_TRUE(session_.runAction("sky.rotate 10"));  // disabled: there is no picture to turn
+  EXPECT_TRUE(session_.runAction("sky.rotate 10"));  // disabled: there is no picture to rotate
   EXPECT_EQ(hash(), before);
 }
 
-// The plain sky of a scene without light is the user's once changed, and undoing gives it back.
-TEST_F(SkyActions, TheDefaultSkyIsTakenOver) {
+// A change turns the default sky of a scene without light into an ordinary sky. Undo restores it.
+TEST_F(SkyActions, AnEditEndsTheDefaultSky) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(1.0f));
   scene.sky = kDefaultSky;

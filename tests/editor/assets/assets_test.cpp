@@ -1,4 +1,4 @@
-// Props placed from other files: many times, with one mesh.
+// Assets: props placed from other files. All copies of a prop share its meshes.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -31,7 +31,7 @@ class Assets : public test::SessionFixture {
     fs::create_directories(folder_ / "kit/deep");
     saveGltf(prop(vec3(1, 0, 0)), folder_ / "kit/crate.glb");
     saveGltf(prop(vec3(0, 1, 0)), folder_ / "kit/deep/green crate.gltf");
-    std::ofstream(folder_ / "kit/notes.txt") << "no prop";
+    std::ofstream(folder_ / "kit/notes.txt") << "not a prop";
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -68,14 +68,14 @@ TEST_F(Assets, AreListedAndSearched) {
   EXPECT_THROW(listAssets(folder_ / "gone"), InputError);
 }
 
-TEST_F(Assets, ArePlacedManyTimesWithOneMesh) {
+TEST_F(Assets, CopiesShareTheirMeshes) {
   const uint64_t was = hash();
   const Scene before = scene();
   for (int i = 0; i < 50; ++i) ASSERT_TRUE(place("crate.glb")) << session_.status();
   EXPECT_EQ(scene().meshes.size(), before.meshes.size() + 2);
   EXPECT_EQ(scene().materials.size(), before.materials.size() + 1);
   EXPECT_EQ(scene().textures.size(), before.textures.size() + 1);
-  // A group of two for each.
+  // Each copy is a group with two objects.
   EXPECT_EQ(scene().nodes.size(), before.nodes.size() + 150);
   for (int i = 0; i < 50; ++i) session_.undo();
   EXPECT_EQ(hash(), was);
@@ -84,14 +84,14 @@ TEST_F(Assets, ArePlacedManyTimesWithOneMesh) {
   EXPECT_EQ(scene().meshes.size(), before.meshes.size() + 2);
 }
 
-TEST_F(Assets, ShareWhatOtherFilesHaveAlike) {
+TEST_F(Assets, EqualTexturesOfDifferentFilesAreShared) {
   ASSERT_TRUE(place("crate.glb"));
   const size_t textures = scene().textures.size();
   ASSERT_TRUE(place("deep/green crate.gltf"));
-  EXPECT_EQ(scene().textures.size(), textures) << "the same pixels";
+  EXPECT_EQ(scene().textures.size(), textures) << "both files have the same pixels";
 }
 
-TEST_F(Assets, StandOnTheSurfaceThatIsClicked) {
+TEST_F(Assets, StandOnTheClickedSurface) {
   ASSERT_TRUE(session_.runAction("asset.folder \"" + (folder_ / "kit").string() + "\""));
   EXPECT_EQ(session_.home().assetFiles.size(), 2u);
   ASSERT_TRUE(session_.runAction("place.start asset.place crate.glb"));
@@ -113,8 +113,8 @@ TEST_F(Assets, AreSavedOnceWithTheLevel) {
   for (int i = 0; i < 30; ++i) ASSERT_TRUE(place("crate.glb"));
   session_.save(folder_ / "level/many.gltf");
   const auto bytes = [&](const char* name) { return fs::file_size(folder_ / "level" / name); };
-  EXPECT_EQ(bytes("three.bin"), bytes("many.bin")) << "geometry and pixels are there once";
-  // The kit may be gone: the level has all it needs.
+  EXPECT_EQ(bytes("three.bin"), bytes("many.bin")) << "geometry and pixels are stored once";
+  // The saved level does not need the asset folder.
   fs::remove_all(folder_ / "kit");
   const LoadedScene loaded = loadGltf(folder_ / "level/many.gltf");
   EXPECT_EQ(loaded.scene.meshes.size(), scene().meshes.size());
@@ -123,9 +123,9 @@ TEST_F(Assets, AreSavedOnceWithTheLevel) {
   EXPECT_EQ(loaded.scene.textures.back().image->pixels, scene().textures.back().image->pixels);
 }
 
-TEST_F(Assets, WhatCannotBeReadLeavesTheLevelAlone) {
+TEST_F(Assets, UnreadableFilesDoNotChangeTheLevel) {
   const uint64_t was = hash();
-  std::ofstream(folder_ / "kit/broken.glb") << "no glTF";
+  std::ofstream(folder_ / "kit/broken.glb") << "not glTF";
   std::ofstream(folder_ / "kit/empty.gltf") << R"({"asset":{"version":"2.0"}})";
   for (const char* file : {"broken.glb", "gone.glb", "empty.gltf", "notes.txt"})
     EXPECT_FALSE(place(file)) << file;
@@ -133,7 +133,7 @@ TEST_F(Assets, WhatCannotBeReadLeavesTheLevelAlone) {
   EXPECT_EQ(hash(), was);
 }
 
-TEST_F(Assets, AFileThatChangedIsReadAnew) {
+TEST_F(Assets, AChangedFileIsReadAgain) {
   ASSERT_TRUE(place("crate.glb"));
   const size_t materials = scene().materials.size();
   saveGltf(prop(vec3(0, 0, 1)), folder_ / "kit/crate.glb");
@@ -143,29 +143,29 @@ TEST_F(Assets, AFileThatChangedIsReadAnew) {
   EXPECT_EQ(scene().materials.size(), materials + 1);
 }
 
-TEST_F(Assets, ThumbnailsShowThePropUponNothingAndAreKept) {
+TEST_F(Assets, ThumbnailsHaveATransparentBackgroundAndAreCached) {
   const fs::path file = folder_ / "kit/crate.glb";
   const Image8 image = renderThumbnail(file, 48);
   ASSERT_EQ(image.width, 48);
   EXPECT_EQ(image.at(0, 0)[3], 0);
   const uint8_t* middle = image.at(24, 24);
   EXPECT_EQ(middle[3], 255);
-  EXPECT_GT(middle[0], middle[1] + 40) << "it is red";
+  EXPECT_GT(middle[0], middle[1] + 40) << "the prop is red";
   const fs::path cache = folder_ / "cache";
   EXPECT_EQ(cachedThumbnail(file, 48, cache).pixels, image.pixels);
   ASSERT_EQ(std::distance(fs::directory_iterator(cache), fs::directory_iterator()), 1);
-  // By what is in the file: a copy finds it, wherever it lies.
+  // The key of the cache is the content, so a copy of the file uses the same thumbnail.
   fs::copy_file(file, folder_ / "kit/copy.glb");
   cachedThumbnail(folder_ / "kit/copy.glb", 48, cache);
   EXPECT_EQ(std::distance(fs::directory_iterator(cache), fs::directory_iterator()), 1);
-  // One that was broken is made anew.
-  std::ofstream(fs::directory_iterator(cache)->path()) << "no picture";
+  // A damaged thumbnail is rendered again.
+  std::ofstream(fs::directory_iterator(cache)->path()) << "not a picture";
   EXPECT_EQ(cachedThumbnail(file, 48, cache).pixels, image.pixels);
   EXPECT_THROW(cachedThumbnail(folder_ / "kit/notes.txt", 48, cache), InputError);
 }
 
-// The .gltf stays as it is when a texture beside it is painted over.
-TEST_F(Assets, OfAFolderAreReadAnewWhenAFileBesideThemChanges) {
+// The .gltf file itself does not change when a texture file changes.
+TEST_F(Assets, AreReadAgainWhenAReferencedFileChanges) {
   const fs::path file = folder_ / "kit/deep/green crate.gltf";
   const std::vector<FileStamp> beside = referencedFiles(file);
   ASSERT_FALSE(beside.empty());

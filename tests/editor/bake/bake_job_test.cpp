@@ -1,4 +1,4 @@
-// A bake as files: whole, in shards, cancelled and gone on with.
+// Baking to files: at once, in shards, and resumed after a cancellation.
 #include "editor/bake/bake_job.h"
 
 #include <cmath>
@@ -49,7 +49,7 @@ class BakeJob : public testing::Test {
     o.name = "room";
     return o;
   }
-  // The pages' bytes, and those of the scene.
+  // The bytes of the pages and of the scene, by file name.
   std::map<std::string, std::string> filesOf(const std::string& name) const {
     std::map<std::string, std::string> files;
     for (const fs::directory_entry& e : fs::directory_iterator(folder_ / name))
@@ -61,7 +61,7 @@ class BakeJob : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(BakeJob, ShardsTogetherAreTheWholeBitForBit) {
+TEST_F(BakeJob, MergedShardsEqualTheWholeBakeBitForBit) {
   const BakeReport whole = bake(scene_, options("whole"), {});
   EXPECT_TRUE(whole.isWhole);
   EXPECT_EQ(whole.found, whole.tiles);
@@ -85,16 +85,16 @@ TEST_F(BakeJob, ShardsTogetherAreTheWholeBitForBit) {
   merge.mergeOnly = true;
   EXPECT_EQ(bake(scene_, merge, {}).found, 0);
   EXPECT_EQ(filesOf("whole"), filesOf("parts"));
-  EXPECT_FALSE(fs::exists(folder_ / "parts" / "parts")) << "parts are cleared away";
+  EXPECT_FALSE(fs::exists(folder_ / "parts" / "parts")) << "merging deletes the parts";
 }
 
-TEST_F(BakeJob, GoesOnWhereItWasCancelled) {
+TEST_F(BakeJob, ResumesAfterACancellation) {
   const BakeReport whole = bake(scene_, options("whole"), {});
   const BakeReport first = bake(scene_, options("again"), [](int done, int) { return done < 3; });
   EXPECT_TRUE(first.isCancelled);
   EXPECT_EQ(first.found, 3);
   EXPECT_TRUE(filesOf("again").empty());
-  // A tile that was torn is found again.
+  // A truncated tile is computed again.
   for (const fs::directory_entry& e : fs::recursive_directory_iterator(folder_ / "again")) {
     if (!e.is_regular_file()) continue;
     fs::resize_file(e.path(), fs::file_size(e.path()) / 2);
@@ -106,7 +106,7 @@ TEST_F(BakeJob, GoesOnWhereItWasCancelled) {
   EXPECT_EQ(filesOf("whole"), filesOf("again"));
 }
 
-TEST_F(BakeJob, PartsOfAnotherSceneDoNotCount) {
+TEST_F(BakeJob, TilesOfAnotherSceneAreNotReused) {
   bake(scene_, options("one"), [](int done, int) { return done < 3; });
   scene_.nodes[1].local.translation.x += 0.1f;
   EXPECT_EQ(bake(scene_, options("one"), {}).taken, 0);
@@ -116,9 +116,9 @@ TEST_F(BakeJob, RefusesASceneWithoutSurfaces) {
   EXPECT_THROW(bake(Scene(), options("empty"), {}), InputError);
 }
 
-// What a game would show: albedo/π × light map, looked up by the copy's second UV set, against the
-// path tracer.
-TEST_F(BakeJob, ShowsTheScene) {
+// Renders the baked scene as a game would (albedo/π × light map, looked up by the second UV set of
+// the copy) and compares it with the path tracer.
+TEST_F(BakeJob, TheBakedSceneMatchesThePathTracer) {
   BakeJobOptions o = options("shown");
   o.atlas = {16.0f, 256};
   o.light.reference = true;

@@ -1,4 +1,4 @@
-// What the panel says of each budget.
+// The texts that the panel shows for each budget.
 #include "editor/budgets/budget_costs.h"
 
 #include "renderer/methods/many_lights/statistics.h"
@@ -16,7 +16,7 @@ std::string measured(const char* budget, const Timeline& timeline, const ManyLig
       ->measured;
 }
 
-TEST(BudgetCosts, EveryBudgetHasOne) {
+TEST(BudgetCosts, EveryBudgetHasACost) {
   for (const MethodInfo& method : methods()) {
     for (const ParameterSpec& spec : method.parameters) {
       const auto cost = costOf(spec, method, {}, {});
@@ -26,7 +26,7 @@ TEST(BudgetCosts, EveryBudgetHasOne) {
   }
 }
 
-TEST(BudgetCosts, AreMeansOverTheFramesThatDrewUponThem) {
+TEST(BudgetCosts, AreMeansOverTheFramesThatUsedTheBudget) {
   Timeline timeline;
   ManyLightsStats stats;
   const auto add = [&](uint32_t frame, double begin, double end) {
@@ -40,14 +40,14 @@ TEST(BudgetCosts, AreMeansOverTheFramesThatDrewUponThem) {
   stats.mapRays = 3000;
   stats.stageSeconds = {{"shadow maps", 0.020}};
   add(2, 0.02, 0.05);
-  timeline.add(3, 0.05, 0.06, {});  // at rest
+  timeline.add(3, 0.05, 0.06, {});  // an idle frame
   EXPECT_EQ(measured("max_shadow_maps", timeline, {}), "25 maps, 15 ms (600 \u00b5s each)");
   EXPECT_EQ(measured("max_rays", timeline, {}), "2500 rays, 15 ms (6 \u00b5s each)");
   EXPECT_EQ(measured("max_paths", timeline, {}), "idle");
   EXPECT_EQ(measured("frame_time", timeline, {}), "20 ms a frame, 30 ms at most");
 }
 
-TEST(BudgetCosts, MapsTakeTheMemoryThatTheyHave) {
+TEST(BudgetCosts, ShadowMapsShowTheirMemory) {
   ManyLightsStats stats;
   stats.mapsHeld = 12;
   stats.mapBytes = 3 << 20;
@@ -56,7 +56,7 @@ TEST(BudgetCosts, MapsTakeTheMemoryThatTheyHave) {
   EXPECT_EQ(measured("map_memory", {}, stats), "12 maps, 3 MiB, 2 without room");
 }
 
-TEST(BudgetCosts, SayWhatHasNoRoom) {
+TEST(BudgetCosts, SayWhatDoesNotFit) {
   ManyLightsStats stats;
   EXPECT_EQ(measured("light_map_memory", {}, stats), "none");
   EXPECT_EQ(measured("prt_memory", {}, stats), "none");

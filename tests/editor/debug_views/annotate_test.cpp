@@ -1,4 +1,4 @@
-// What is drawn into pictures: shapes, text, legends; and where marks of light samples lie.
+// Shapes, text and legends that are drawn into pictures, and the positions of light sample marks.
 #include "editor/debug_views/annotate.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Image8 black(int width, int height) {
   return image;
 }
 
-TEST(Annotate, AFilledShapeCoversItsAreaEitherWayRound) {
+TEST(Annotate, AFilledShapeCoversItsAreaInBothOrientations) {
   for (const bool clockwise : {true, false}) {
     Image8 image = black(40, 30);
     OverlayShape shape{{{5.25f, 4.0f}, {25.25f, 4.0f}, {25.25f, 14.0f}, {5.25f, 14.0f}},
@@ -44,7 +44,7 @@ TEST(Annotate, AFilledShapeCoversItsAreaEitherWayRound) {
   }
 }
 
-TEST(Annotate, LinesAreBlendedOnceAndCutAtTheEdges) {
+TEST(Annotate, LinesAreBlendedOnceAndClippedAtTheEdges) {
   Image8 image = black(40, 30);
   OverlayShape line{{{-1e7f, 10.0f}, {20.0f, 10.0f}, {20.0f, 1e7f}}, false, false, vec4(0.5f)};
   line.thickness = 4.0f;
@@ -54,19 +54,19 @@ TEST(Annotate, LinesAreBlendedOnceAndCutAtTheEdges) {
   EXPECT_EQ(brightness(image, 30, 10), 0);
 }
 
-TEST(Annotate, WithoutAFontItSaysSo) {
+TEST(Annotate, AMissingFontIsAnError) {
   try {
     const Font font("/nowhere/none.otf", 15, "--legend");
     FAIL();
   } catch (const InputError& e) {
     const std::string what = e.what();
-    EXPECT_TRUE(what.starts_with("--legend: nothing can be written: ")) << what;
+    EXPECT_TRUE(what.starts_with("--legend: text cannot be drawn: ")) << what;
     EXPECT_NE(what.find("/nowhere/none.otf"), std::string::npos) << what;
     EXPECT_NE(what.find("install fonts-inter"), std::string::npos) << what;
   }
 }
 
-TEST(Annotate, ALegendIsAsWideAsItMayBe) {
+TEST(Annotate, ALegendFitsTheAvailableWidth) {
   ViewPicture picture;
   picture.legend.title = "Title";
   picture.legend.swatches = {{vec3(1, 0, 0), "red"}, {vec3(0, 1, 0), "green"}};
@@ -80,7 +80,7 @@ TEST(Annotate, ALegendIsAsWideAsItMayBe) {
   ASSERT_EQ(row.overlay.texts.size(), 3u);
   for (size_t i = 0; i + 1 < 3; ++i)
     EXPECT_LT(row.overlay.texts[i].position.x, row.overlay.texts[i + 1].position.x);
-  // As much width as it took is enough.
+  // The width that it used is sufficient.
   EXPECT_NEAR(layOutLegend(picture, style, row.size.x).size.y, 16.0f, 1e-3f);
   EXPECT_GT(layOutLegend(picture, style, row.size.x - 1.0f).size.y, 30.0f);
   picture.problem = "it cannot";
@@ -88,7 +88,7 @@ TEST(Annotate, ALegendIsAsWideAsItMayBe) {
   EXPECT_EQ(layOutLegend({}, style, 0.0f).size, vec2(0.0f));
 }
 
-TEST(Annotate, MarksOfParallelLightLieWhereItLands) {
+TEST(Annotate, MarksOfParallelLightLieOnTheLitSurface) {
   Scene scene;
   test::addMesh(scene, test::squareMesh(10.0f, test::addMaterial(scene, vec3(0.5f))));
   const test::LitScene lit(scene);
@@ -98,7 +98,7 @@ TEST(Annotate, MarksOfParallelLightLieWhereItLands) {
   view.orientation = glm::angleAxis(-0.3f, vec3(1, 0, 0));
   LightSample sun;
   sun.isLive = true;
-  // Its square lies about a point below the floor.
+  // The centre of its square is below the floor.
   sun.vpl = test::makeVpl(vec3(1, -2, 0), vec3(0, 1, 0), shared::kVplDirectional);
   sun.vpl.normal.w = 20.0f;
   Inspection inspection;
@@ -112,8 +112,8 @@ TEST(Annotate, MarksOfParallelLightLieWhereItLands) {
                                  [](const OverlayShape& s) { return s.filled; });
   ASSERT_NE(mark, overlay.shapes.end());
   ASSERT_EQ(mark->points.size(), 4u);
-  EXPECT_NEAR(mark->points[0].y, mark->points[3].y, 1e-3f);  // a square, no diamond
-  EXPECT_EQ(mark->colour.a, 1.0f);                           // and nothing hides it
+  EXPECT_NEAR(mark->points[0].y, mark->points[3].y, 1e-3f);  // a square, not a diamond
+  EXPECT_EQ(mark->colour.a, 1.0f);                           // not faded, since nothing occludes it
 }
 
 TEST(Annotate, PointsAndLinksOfAMethodAreMarked) {
@@ -138,7 +138,7 @@ TEST(Annotate, PointsAndLinksOfAMethodAreMarked) {
         {vec3(0), vec3(1, 0, 0), 2.0f}, {vec3(0), vec3(1), 1.0f}, {vec3(0), vec3(2), 0.0f}};
   };
   drawVpls(overlay, view, inspection, *lit.rays, kNone);
-  ASSERT_EQ(overlay.shapes.size(), 2u) << "what carries nothing is not drawn";
+  ASSERT_EQ(overlay.shapes.size(), 2u) << "links without light are not drawn";
   EXPECT_FLOAT_EQ(overlay.shapes[0].colour.a, 2.0f * overlay.shapes[1].colour.a);
 }
 

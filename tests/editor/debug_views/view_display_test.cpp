@@ -1,4 +1,4 @@
-// Views of a session: switched by name and key, the chosen light sample, marks of the samples.
+// The views of a session: switching by name and key, the chosen light sample, light sample marks.
 #include "editor/debug_views/view_display.h"
 
 #include "editor/input/recording.h"
@@ -25,7 +25,7 @@ class ViewDisplayTest : public test::SessionFixture {
   const ViewPicture* shown() const { return session_.display().picture().get(); }
 };
 
-TEST_F(ViewDisplayTest, EveryViewIsAnActionThatIsRecordedByName) {
+TEST_F(ViewDisplayTest, EveryViewHasAnAction) {
   const uint64_t before = hash();
   setTechnique("light_maps");
   ASSERT_TRUE(session_.runAction("render.set prt=true"));
@@ -45,16 +45,17 @@ TEST_F(ViewDisplayTest, EveryViewIsAnActionThatIsRecordedByName) {
     const Image8 picture = session_.picture();
     EXPECT_EQ(picture.width, 320);
     if (shown() != nullptr) {
-      EXPECT_EQ(shown()->problem.empty(), info.method.empty()) << "a view of another method";
+      EXPECT_EQ(shown()->problem.empty(), info.method.empty())
+          << "views of other methods have a problem";
       EXPECT_EQ(picture.pixels, shown()->image.pixels);
     }
   }
-  session_.undo();  // transfer and the technique; views are no steps
+  session_.undo();  // transfer and the technique; views are not undo steps
   session_.undo();
   EXPECT_EQ(hash(), before);
 }
 
-TEST_F(ViewDisplayTest, KeysAreThoseOfTheTable) {
+TEST_F(ViewDisplayTest, KeysMatchTheTable) {
   for (const auto& [key, name] : {std::pair{Key::n1, "view.lit"},
                                   {Key::n2, "view.light_only"},
                                   {Key::n3, "view.albedo"},
@@ -66,7 +67,7 @@ TEST_F(ViewDisplayTest, KeysAreThoseOfTheTable) {
   }
 }
 
-TEST_F(ViewDisplayTest, APictureIsMadeAnewOnlyWhenSomethingChanged) {
+TEST_F(ViewDisplayTest, APictureIsRedrawnOnlyAfterAChange) {
   session_.runAction("view.flat");
   settle();
   const auto first = session_.display().picture();
@@ -83,7 +84,7 @@ TEST_F(ViewDisplayTest, APictureIsMadeAnewOnlyWhenSomethingChanged) {
   EXPECT_NE(session_.display().picture()->image.pixels, nearer->image.pixels);
 }
 
-TEST_F(ViewDisplayTest, TheStatusSaysWhatAViewNeeds) {
+TEST_F(ViewDisplayTest, TheStatusShowsWhatAViewNeeds) {
   EXPECT_EQ(session_.display().viewText(), "");
   setTechnique("naive");
   session_.runAction("view.light_maps");
@@ -101,7 +102,7 @@ TEST_F(ViewDisplayTest, ALightSampleIsChosenByNumber) {
   const auto text = [&] { return session_.display().vplText(scene, session_.inspect()); };
   EXPECT_TRUE(text().starts_with("VPL 0 of 16, light, direct")) << text();
   const auto first = session_.picture().pixels;
-  int below = 0;  // a bounce, which shows another picture
+  int below = 0;  // an indirect sample, which shows another picture
   const auto lights = session_.inspect().lights;
   while (lights[static_cast<size_t>(below)].id.bounce == 0) ++below;
   ASSERT_TRUE(session_.runAction("view.choose_vpl " + std::to_string(below)));
@@ -114,9 +115,9 @@ TEST_F(ViewDisplayTest, ALightSampleIsChosenByNumber) {
   }
 }
 
-TEST_F(ViewDisplayTest, AClickOnAMarkChoosesItsLightSampleAndNothingElse) {
+TEST_F(ViewDisplayTest, AClickOnAMarkOnlyChoosesItsLightSample) {
   const auto lights = session_.inspect().lights;
-  size_t target = lights.size();  // one whose mark is seen from here
+  size_t target = lights.size();  // a sample whose mark is visible
   for (size_t i = 1; i < lights.size(); ++i) {
     const vec3 position(lights[i].vpl.position);
     if (lights[i].id.bounce > 0 && position.y < 0.1f && position.z > 1.0f) target = i;
@@ -125,7 +126,7 @@ TEST_F(ViewDisplayTest, AClickOnAMarkChoosesItsLightSampleAndNothingElse) {
   const vec2 at = pixelOf(vec3(lights[target].vpl.position));
   press(at);
   release();
-  EXPECT_TRUE(session_.document().isSelected(floor_));  // marks that are not shown are not clicked
+  EXPECT_TRUE(session_.document().isSelected(floor_));  // hidden marks cannot be clicked
   EXPECT_EQ(session_.display().chosen(session_.inspect()), 0);
   session_.select({});
 
@@ -139,7 +140,7 @@ TEST_F(ViewDisplayTest, AClickOnAMarkChoosesItsLightSampleAndNothingElse) {
   EXPECT_GE(marks, session_.overlay().shapes.size() + 3 * lights.size() / 2);
 }
 
-TEST_F(ViewDisplayTest, WaitingSamplesAreMarked) {
+TEST_F(ViewDisplayTest, PendingSamplesAreMarked) {
   session_.runAction("view.vpls");
   const size_t settled = session_.overlay().shapes.size();
   session_.runAction("render.set updates=1");
@@ -151,8 +152,9 @@ TEST_F(ViewDisplayTest, WaitingSamplesAreMarked) {
   EXPECT_GT(session_.overlay().shapes.size(), settled + 2);
 }
 
-// Each frame says how many are left, and is right when all do the same work.
-TEST_F(ViewDisplayTest, TheFramesUntilSettledComeTrue) {
+// Each frame estimates the number of frames until the picture is settled. The estimate is exact if
+// all frames do the same work.
+TEST_F(ViewDisplayTest, TheEstimateOfFramesUntilSettledIsExact) {
   for (const int antialias : {1, 4}) {
     session_.runAction("render.set antialias=" + std::to_string(antialias));
     session_.runAction("render.set updates=3");
@@ -163,7 +165,7 @@ TEST_F(ViewDisplayTest, TheFramesUntilSettledComeTrue) {
     session_.setNodeTransform(light_, up);
     const int told = session_.renderFrame().stats.framesUntilSettled;
     EXPECT_GT(told, 2);
-    // Bounced light is exchanged path by path, whose lengths are not known before.
+    // Indirect samples are replaced path by path, and the path lengths are not known in advance.
     int came = 0;
     for (int left = told; !session_.output().settled; ++came) {
       ASSERT_LT(came, 1000);
@@ -190,7 +192,7 @@ TEST_F(ViewDisplayTest, AToneMapperIsASettingOfTheDisplay) {
   EXPECT_EQ(session_.display().toneMapper(), ToneMapper::linear);
   EXPECT_EQ(hash(), before);
   EXPECT_FALSE(session_.editing().canUndo());
-  // The histogram is of what is shown.
+  // The histogram describes the displayed picture.
   ASSERT_TRUE(session_.runAction("view.histogram"));
   EXPECT_TRUE(session_.display().showsHistogram());
   const auto counted = [&] {
@@ -202,7 +204,7 @@ TEST_F(ViewDisplayTest, AToneMapperIsASettingOfTheDisplay) {
   EXPECT_GT(counted().white, white);
 }
 
-TEST_F(ViewDisplayTest, FalseColourTakesUnitAndRange) {
+TEST_F(ViewDisplayTest, FalseColourHasAUnitAndARange) {
   ASSERT_TRUE(session_.runAction("view.false_colour"));
   settle();
   ASSERT_NE(shown(), nullptr);
@@ -222,11 +224,11 @@ TEST_F(ViewDisplayTest, FalseColourTakesUnitAndRange) {
   EXPECT_EQ(session_.display().falseColour().high, 0.0f);
 }
 
-TEST_F(ViewDisplayTest, OcclusionOfALightFollowsWhatIsSelected) {
+TEST_F(ViewDisplayTest, TheChosenLightFollowsTheSelection) {
   setTechnique("light_maps");
   const Inspection inspection = session_.inspect();
-  EXPECT_EQ(session_.display().chosenLight(inspection), light_);  // of the first sample
-  ASSERT_TRUE(session_.runAction("view.choose_light box"));       // no light: as before
+  EXPECT_EQ(session_.display().chosenLight(inspection), light_);  // the light of the first sample
+  ASSERT_TRUE(session_.runAction("view.choose_light box"));       // not a light: nothing changes
   EXPECT_EQ(session_.display().chosenLight(inspection), light_);
   session_.select({light_});
   session_.renderFrame();

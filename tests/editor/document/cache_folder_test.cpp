@@ -1,4 +1,4 @@
-// Where the program keeps what it can compute again.
+// The folder of cached data.
 #include "editor/document/cache_folder.h"
 
 #include <cstdlib>
@@ -10,7 +10,7 @@
 namespace lamplighter {
 namespace {
 
-// Sets a variable of the environment, or unsets it, and puts it back.
+// Sets or unsets an environment variable, and restores it at the end.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) {
@@ -33,7 +33,7 @@ class Variable {
   std::optional<std::string> before_;
 };
 
-TEST(TransferFolder, IsWhereTheSpecificationSays) {
+TEST(TransferFolder, FollowsTheXdgSpecification) {
   const Variable home("HOME", "/home/someone");
   {
     const Variable cache("XDG_CACHE_HOME", "/var/cache/someone");
@@ -45,7 +45,7 @@ TEST(TransferFolder, IsWhereTheSpecificationSays) {
   }
 }
 
-TEST(TransferFolder, IsNoneWithoutAHome) {
+TEST(TransferFolder, IsEmptyWithoutAHomeFolder) {
   const Variable home("HOME", nullptr), cache("XDG_CACHE_HOME", nullptr);
   EXPECT_EQ(transferFolder(), "");
 }

@@ -1,4 +1,5 @@
-// Random edits: what a step tells the renderer is what a comparison of the scenes finds.
+// Random edits: the changes reported to the renderer equal those that a comparison of the scenes
+// finds.
 #include <random>
 
 #include <gtest/gtest.h>
@@ -88,7 +89,7 @@ class RandomEditing : public testing::TestWithParam<uint32_t> {
       default:
         reparent(editing_, {id}, anyNode());
     }
-    if (below(5) > 0) t.commit();  // else it is rolled back
+    if (below(5) > 0) t.commit();  // otherwise the destructor rolls it back
   }
   void step() {
     try {
@@ -100,12 +101,12 @@ class RandomEditing : public testing::TestWithParam<uint32_t> {
       else
         edit();
     } catch (const InputError&) {
-      // A node cannot be below itself: rolled back.
+      // A node cannot be its own descendant: the edit is rolled back.
     }
   }
 };
 
-TEST_P(RandomEditing, TellsWhatAComparisonFinds) {
+TEST_P(RandomEditing, ReportsTheChangesThatAComparisonFinds) {
   const uint64_t opened = documentHash(editing_.document());
   for (int frame = 0; frame < 100; ++frame) {
     const Scene before = scene();

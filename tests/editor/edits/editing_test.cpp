@@ -76,7 +76,7 @@ const std::vector<Edit>& edits() {
       },
       [](Fixture& f, Transaction&) { reparent(f.editing, {f.parent}, f.light); },
       [](Fixture& f, Transaction& t) { add(t, pasteInto(f.editing, texturedBox(), false)); },
-      [](Fixture& f, Transaction& t) {  // all at once
+      [](Fixture& f, Transaction& t) {  // several edits in one step
         t.removeNodes({f.child});
         t.node(f.parent).name = "group";
         add(t, pasteInto(f.editing, texturedBox(), false));
@@ -97,7 +97,7 @@ class EveryEdit : public testing::TestWithParam<size_t> {
   }
 };
 
-TEST_P(EveryEdit, DoesUndoesAndRedoes) {
+TEST_P(EveryEdit, IsDoneUndoneAndRedone) {
   const uint64_t before = f_.hash();
   make().commit();
   const uint64_t after = f_.hash();
@@ -112,7 +112,7 @@ TEST_P(EveryEdit, DoesUndoesAndRedoes) {
   }
 }
 
-TEST_P(EveryEdit, IsRolledBackWhenAnExceptionPasses) {
+TEST_P(EveryEdit, IsRolledBackOnAnException) {
   const uint64_t before = f_.hash();
   const size_t meshes = f_.document().scene.meshes.size();
   const auto fails = [&] {
@@ -128,7 +128,7 @@ TEST_P(EveryEdit, IsRolledBackWhenAnExceptionPasses) {
   EXPECT_FALSE(f_.editing.inTransaction());
 }
 
-TEST_P(EveryEdit, UpdatesWhatAComparisonOfTheScenesFinds) {
+TEST_P(EveryEdit, ReportsTheChangesThatAComparisonFinds) {
   f_.editing.takeChanges();
   const auto expectCompared = [&](const Scene& before, const char* what) {
     const SceneChanges taken = f_.editing.takeChanges();
@@ -166,7 +166,7 @@ TEST(Editing, ADragIsOneStep) {
   EXPECT_EQ(f.document().scene.find(f.child)->local.translation, vec3(10.0f));
 }
 
-TEST(Editing, ACancelledDragLeavesNothing) {
+TEST(Editing, ACancelledDragChangesNothing) {
   Fixture f;
   const uint64_t before = f.hash();
   f.editing.hold("Move");
@@ -176,7 +176,7 @@ TEST(Editing, ACancelledDragLeavesNothing) {
   EXPECT_FALSE(f.editing.canUndo());
 }
 
-TEST(Editing, ADragBackToTheStartIsNoStep) {
+TEST(Editing, ADragBackToTheStartIsNotAStep) {
   Fixture f;
   f.editing.hold("Move");
   f.move(f.child, vec3(4.0f));
@@ -187,7 +187,7 @@ TEST(Editing, ADragBackToTheStartIsNoStep) {
   EXPECT_FALSE(f.editing.canUndo());
 }
 
-TEST(Editing, ANewStepForgetsWhatWasUndone) {
+TEST(Editing, ANewStepClearsTheRedoSteps) {
   Fixture f;
   f.move(f.child, vec3(1.0f));
   f.editing.undo();
@@ -195,7 +195,7 @@ TEST(Editing, ANewStepForgetsWhatWasUndone) {
   EXPECT_FALSE(f.editing.canRedo());
 }
 
-TEST(Editing, UndoChangesExactlyWhatDoChanged) {
+TEST(Editing, UndoReportsTheSameChangesAsTheEdit) {
   Fixture f;
   EXPECT_TRUE(f.editing.takeChanges().everything);
   EXPECT_TRUE(f.editing.takeChanges().none());
@@ -204,7 +204,7 @@ TEST(Editing, UndoChangesExactlyWhatDoChanged) {
   EXPECT_EQ(done.moved, (std::vector<NodeId>{f.parent, f.child}));
   f.editing.undo();
   EXPECT_EQ(f.editing.takeChanges().moved, done.moved);
-  // Done and undone between two frames: nothing to update.
+  // An edit that is undone before the next frame needs no update.
   f.editing.redo();
   f.editing.undo();
   EXPECT_TRUE(f.editing.takeChanges().none());
@@ -223,10 +223,10 @@ TEST(Editing, ANestedEditRollsBackOnItsOwn) {
   EXPECT_EQ(f.document().scene.find(f.child)->name, "child");
   outer.commit();
   EXPECT_EQ(f.editing.history().last(), 1u);
-  EXPECT_EQ(f.editing.history().undoLabel(), "Move") << "that of the first edit inside";
+  EXPECT_EQ(f.editing.history().undoLabel(), "Move") << "the label of the first nested edit";
 }
 
-TEST(Editing, ATransactionThatSomethingElseEndedDoesNothing) {
+TEST(Editing, AnEndedTransactionDoesNothing) {
   Fixture f;
   Transaction edit = f.editing.begin("Move");
   edit.node(f.child).local.translation = vec3(1.0f);
@@ -238,7 +238,7 @@ TEST(Editing, ATransactionThatSomethingElseEndedDoesNothing) {
   EXPECT_EQ(f.editing.history().position(), 1u);
 }
 
-TEST(Editing, TheListenerGetsWhatChangedSinceItTookTheLast) {
+TEST(Editing, TheListenerGetsTheChangesSinceItsLastCall) {
   Fixture f;
   bool takes = false;
   Document copy = f.document();
@@ -261,7 +261,7 @@ TEST(Editing, TheListenerGetsWhatChangedSinceItTookTheLast) {
   EXPECT_EQ(documentHash(copy), f.hash());
 }
 
-TEST(Editing, UndoDeselectsWhatIsGone) {
+TEST(Editing, UndoDeselectsRemovedObjects) {
   Fixture f;
   const Copies copies = copyNodes(f.editing, {f.light});
   addNodes(f.editing, "Add", copies.nodes);

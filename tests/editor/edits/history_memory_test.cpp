@@ -1,4 +1,4 @@
-// The history's budget, and going to any step.
+// The memory budget of the history, and jumps to any step.
 #include "editor/edits/edits.h"
 #include "renderer/base/error.h"
 #include "tests/editor/session_fixture.h"
@@ -68,7 +68,7 @@ TEST_F(HistorySteps, ForgetsTheOldestBeyondTheBudget) {
   EXPECT_EQ(local(box_).translation.x, 50.0f);
 }
 
-TEST_F(HistorySteps, TheNewestStepIsNeverForgotten) {
+TEST_F(HistorySteps, TheNewestStepIsAlwaysKept) {
   session_.editing().setBudget(1);
   move(1.0f);
   move(2.0f);
@@ -79,7 +79,7 @@ TEST_F(HistorySteps, TheNewestStepIsNeverForgotten) {
   EXPECT_EQ(local(box_).translation.x, 2.0f);
 }
 
-TEST_F(HistorySteps, WhatIsDroppedFromRedoFreesItsMemory) {
+TEST_F(HistorySteps, DroppedRedoStepsFreeTheirMemory) {
   move(1.0f);
   const size_t one = history().bytes();
   for (int i = 2; i <= 9; ++i) move(static_cast<float>(i));
@@ -100,11 +100,11 @@ TEST_F(HistorySteps, TheBudgetHasAUnitAndARange) {
   EXPECT_EQ(history().budget(), size_t{16} << 20);
 }
 
-TEST_F(HistorySteps, UndoBringsTheLightBackBitForBit) {
+TEST_F(HistorySteps, UndoRestoresThePictureBitForBit) {
   const auto settled = [&] {
     for (int i = 0; i < 2000; ++i)
       if (session_.renderFrame().settled) return session_.output().radiance->pixels().pixels;
-    ADD_FAILURE() << "it does not settle";
+    ADD_FAILURE() << "the picture does not settle";
     return std::vector<vec3>();
   };
   session_.runAction("render.set vpls=64");

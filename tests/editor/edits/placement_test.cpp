@@ -1,4 +1,4 @@
-// Copying, pasting, and putting objects on surfaces.
+// Copy and paste, and placing objects on surfaces.
 #include <cmath>
 
 #include "tests/editor/session_fixture.h"
@@ -8,7 +8,7 @@ namespace {
 
 using Clipboard = test::SessionFixture;
 
-TEST_F(Clipboard, PastedNodesAreNewOnesInTheSamePlaceAndOneStep) {
+TEST_F(Clipboard, PastedNodesHaveTheSamePositionAndAreOneStep) {
   session_.select({box_, light_});
   const uint64_t before = hash();
   session_.perform("edit.copy");
@@ -22,11 +22,11 @@ TEST_F(Clipboard, PastedNodesAreNewOnesInTheSamePlaceAndOneStep) {
   EXPECT_TRUE(node(selection[1]).area);
   session_.undo();
   EXPECT_EQ(session_.document().scene.nodes.size(), 3u);
-  session_.undo();  // nothing is left to undo
+  session_.undo();  // there is no further step
   EXPECT_EQ(session_.document().scene.nodes.size(), 3u);
 }
 
-TEST_F(Clipboard, CutNodesComeBackByPastingOrByUndoing) {
+TEST_F(Clipboard, CutNodesAreRestoredByPasteOrUndo) {
   session_.select({box_});
   session_.perform("edit.cut");
   EXPECT_EQ(session_.document().scene.find(box_), nullptr);
@@ -38,7 +38,7 @@ TEST_F(Clipboard, CutNodesComeBackByPastingOrByUndoing) {
   EXPECT_NE(session_.document().scene.find(box_), nullptr);
 }
 
-// What hangs below a copied node goes along, once.
+// Descendants of a copied node are copied with it, once.
 TEST_F(Clipboard, CopiesATreeOnce) {
   Scene scene = session_.document().scene;
   scene.find(light_)->parent = box_;
@@ -54,8 +54,8 @@ TEST_F(Clipboard, CopiesATreeOnce) {
   EXPECT_EQ(placeOf(child.id), placeOf(light_));
 }
 
-// What is pasted into another level brings its mesh and material along, stands where it stood, and
-// is gone without a trace when it is undone.
+// Pasting into another level copies the mesh and the material and keeps the position. Undo removes
+// all of them.
 TEST_F(Clipboard, PastesIntoAnotherLevel) {
   Scene scene = session_.document().scene;
   scene.find(floor_)->local.translation = vec3(0, -1, 0);
@@ -94,14 +94,14 @@ TEST_F(Clipboard, PastesIntoAnotherLevel) {
   session_.renderFrame();
   session_.redo();
   EXPECT_EQ(hash(), pasted);
-  // Again: what it is made of is there already.
+  // A second paste reuses the mesh and the material.
   session_.perform("edit.paste");
   EXPECT_EQ(session_.document().scene.materials.size(), 2u);
 }
 
 using Placing = test::SessionFixture;
 
-// The active object is put down; the others keep their places beside it.
+// The active object is placed on the surface; the others keep their positions relative to it.
 TEST_F(Placing, DroppingAGroupKeepsItTogetherAsOneStep) {
   session_.select({light_, box_});
   const vec3 offset = placeOf(light_) - placeOf(box_);
@@ -109,14 +109,14 @@ TEST_F(Placing, DroppingAGroupKeepsItTogetherAsOneStep) {
   frame();
   session_.perform("object.drop");
   EXPECT_NEAR(placeOf(box_).x, 1.5f, 0.02f);
-  EXPECT_NEAR(placeOf(box_).y, 0.5f, 1e-3f);  // it stands on the floor
+  EXPECT_NEAR(placeOf(box_).y, 0.5f, 1e-3f);  // the box stands on the floor
   EXPECT_NEAR(glm::length(placeOf(light_) - placeOf(box_) - offset), 0.0f, 1e-4f);
   session_.undo();
   EXPECT_EQ(placeOf(box_), vec3(0, 0.5f, 0));
   EXPECT_EQ(placeOf(light_), vec3(0, 4, 0));
 }
 
-TEST_F(Placing, WhileShiftIsHeldADragFollowsTheSurfaces) {
+TEST_F(Placing, ADragWithShiftFollowsTheSurfaces) {
   session_.select({box_});
   session_.perform("tool.move");
   Modifiers shift;

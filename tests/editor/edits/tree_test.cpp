@@ -1,4 +1,5 @@
-// The tree of objects and edits of many of them: places stay, locks hold, one step each.
+// The tree of objects and edits of several objects: world positions stay, locks hold, and each edit
+// is one step.
 #include "editor/edits/tree.h"
 
 #include <gmock/gmock.h>
@@ -36,10 +37,10 @@ class Tree : public test::SessionFixture {
   }
 };
 
-TEST_F(Tree, WhatHangsElsewhereStaysInItsPlace) {
+TEST_F(Tree, ReparentingKeepsTheWorldPosition) {
   const mat4 box = worldMatrix(scene(), box_), floor = worldMatrix(scene(), floor_);
   session_.select({floor_, box_});
-  expectOneStep("object.reparent inner");  // which stands behind them in the list
+  expectOneStep("object.reparent inner");  // which is after them in the list
   EXPECT_EQ(node(box_).parent, inner_);
   expectParentsFirst();
   const auto near = [](const mat4& a, const mat4& b) {
@@ -55,21 +56,21 @@ TEST_F(Tree, WhatHangsElsewhereStaysInItsPlace) {
   expectParentsFirst();
 }
 
-TEST_F(Tree, WhatCannotHangThereStaysAsItIs) {
+TEST_F(Tree, AnInvalidParentIsRefused) {
   const uint64_t before = hash();
   session_.select({group_});
   EXPECT_FALSE(session_.runAction("object.reparent inner"));
   EXPECT_FALSE(session_.runAction("object.reparent group"));
   EXPECT_FALSE(session_.runAction("object.reparent nobody"));
   EXPECT_EQ(hash(), before);
-  // Where it hangs already nothing is to be done.
+  // The current parent changes nothing.
   session_.select({inner_});
   EXPECT_TRUE(session_.runAction("object.reparent group"));
   EXPECT_EQ(hash(), before);
   EXPECT_FALSE(session_.editing().canUndo());
 }
 
-TEST_F(Tree, TheLivePictureFollows) {
+TEST_F(Tree, ThePictureFollows) {
   session_.select({box_});
   ASSERT_TRUE(session_.runAction("object.reparent group"));
   while (!session_.renderFrame().settled) {
@@ -93,8 +94,8 @@ TEST_F(Tree, LockedObjectsAreNeitherPickedNorMoved) {
   session_.select({});
   press(onBox);
   release();
-  EXPECT_THAT(session_.document().selection, ElementsAre(floor_));  // what is behind it
-  // Selected in the list it has no handles, and is not dropped.
+  EXPECT_THAT(session_.document().selection, ElementsAre(floor_));  // the object behind it
+  // If selected in the list, it has no handles and cannot be dropped.
   session_.select({box_});
   session_.setTool(ToolMode::move);
   const vec3 place = placeOf(box_);
@@ -103,7 +104,7 @@ TEST_F(Tree, LockedObjectsAreNeitherPickedNorMoved) {
   release();
   session_.select({box_});
   EXPECT_FALSE(session_.runAction("object.drop"));
-  // Beside another it stays where it is.
+  // In a selection with other objects it does not move.
   session_.select({box_, bulb_});
   pressXArrow();
   EXPECT_TRUE(session_.dragging());
@@ -115,7 +116,7 @@ TEST_F(Tree, LockedObjectsAreNeitherPickedNorMoved) {
   EXPECT_FALSE(isLocked(scene(), box_));
 }
 
-TEST_F(Tree, LocksGoDownTheTreeAndAreSaved) {
+TEST_F(Tree, LocksApplyToDescendantsAndAreSaved) {
   session_.select({group_});
   ASSERT_TRUE(session_.runAction("object.lock"));
   EXPECT_TRUE(isLocked(scene(), inner_));
@@ -131,7 +132,7 @@ TEST_F(Tree, LocksGoDownTheTreeAndAreSaved) {
   EXPECT_EQ(locked, 1);
 }
 
-TEST_F(Tree, NumbersOfManyAreSetAtOnce) {
+TEST_F(Tree, NumbersOfSeveralObjectsAreSetTogether) {
   session_.select({box_, bulb_, group_});
   const ObjectProperty& y = objectProperty("position.y");
   EXPECT_FALSE(commonNumber(session_.document(), y));
@@ -148,7 +149,7 @@ TEST_F(Tree, NumbersOfManyAreSetAtOnce) {
   EXPECT_EQ(hash(), before);
 }
 
-TEST_F(Tree, MaterialsAndKindsOfManyAreSetAtOnce) {
+TEST_F(Tree, MaterialsAndKindsOfSeveralObjectsAreSetTogether) {
   session_.select({box_, floor_, bulb_});
   EXPECT_EQ(selectedMaterials(session_.document()).size(), 1u);
   expectOneStep("materials.roughness 0.3");
@@ -167,8 +168,7 @@ TEST_F(Tree, MaterialsAndKindsOfManyAreSetAtOnce) {
   EXPECT_EQ(hash(), before);
 }
 
-// What is typed in cells of the light table.
-TEST_F(Tree, CellsOfTheLightTable) {
+TEST_F(Tree, CellsOfTheLightTableAreEdited) {
   session_.select({bulb_, light_});
   expectOneStep("lights.edit strength \"700 lm\"");
   expectOneStep("lights.edit strength 1,200");
@@ -189,7 +189,7 @@ TEST_F(Tree, CellsOfTheLightTable) {
         "lights.edit size \"1 x wide\"", "lights.edit name \"\"", "lights.edit samples 5"})
     EXPECT_FALSE(session_.runAction(bad)) << bad;
   session_.select({bulb_});
-  EXPECT_FALSE(session_.runAction("lights.edit size 2"));  // it has none
+  EXPECT_FALSE(session_.runAction("lights.edit size 2"));  // this light has no size
   EXPECT_EQ(hash(), before);
 }
 

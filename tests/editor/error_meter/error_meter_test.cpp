@@ -1,4 +1,4 @@
-// The error meter: what it says of pictures whose error is known.
+// The error meter, tested with pictures whose error is known.
 #include "editor/error_meter/error_meter.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSide = 24;
 
-// A truth of uneven brightness.
+// The true picture, with varying brightness.
 Image truth() {
   Image image(kSide, kSide);
   for (int y = 0; y < kSide; ++y)
@@ -23,7 +23,7 @@ Image truth() {
   return image;
 }
 
-// A picture that is off by a known amount, in a part of it more than elsewhere.
+// A picture with an error of known size, larger on the left.
 Image offBy(const Image& truth, float amount) {
   Image image = truth;
   for (int y = 0; y < kSide; ++y)
@@ -43,8 +43,8 @@ double relRmse(const Image& a, const Image& b) {
   return std::sqrt(sum / n) / (mean / n);
 }
 
-// The truth as a path tracer would see it: `samples` draws a pixel and half, each all the light or
-// none, as shadow rays are, the same for all channels.
+// The true picture with the noise of a path tracer. Each half has `samples` samples per pixel. Like
+// a shadow ray, a sample gets all of the light or none.
 ReferenceHalves noisy(const Image& truth, int samples, uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -59,7 +59,7 @@ ReferenceHalves noisy(const Image& truth, int samples, uint32_t seed) {
   return halves;
 }
 
-// Over many references: right on the mean, and as far off as it says, neither more nor much less.
+// Over many references, the estimate is right on average, and its spread matches its uncertainty.
 TEST(ErrorEstimate, IsRightWithinItsStatedUncertainty) {
   const Image real = truth();
   for (const float amount : {0.05f, 0.2f}) {
@@ -82,7 +82,7 @@ TEST(ErrorEstimate, IsRightWithinItsStatedUncertainty) {
       }
       EXPECT_GE(within, kTrials * 90 / 100);
       if (known < kTrials) continue;
-      // Unbiased once the noise does not reach zero; the figure's own spread is the stated one.
+      // Where the error is above the noise, the estimate is unbiased and its spread as stated.
       EXPECT_NEAR(std::sqrt(squares / kTrials), error, 0.02 * error);
       EXPECT_GT(std::sqrt(sum / kTrials), 0.6);
       EXPECT_LT(std::sqrt(sum / kTrials), 1.4);
@@ -90,11 +90,11 @@ TEST(ErrorEstimate, IsRightWithinItsStatedUncertainty) {
   }
 }
 
-TEST(ErrorEstimate, NoiseOfTheReferenceIsNoErrorOfThePicture) {
+TEST(ErrorEstimate, NoiseOfTheReferenceIsSubtracted) {
   const Image real = truth();
   const ReferenceHalves halves = noisy(real, 16, 7);
   const ErrorEstimate e = estimateError(real, halves);
-  EXPECT_GT(relRmse(halves.mean(), real), 0.2);  // what comparing as it is would call its error
+  EXPECT_GT(relRmse(halves.mean(), real), 0.2);  // the error without subtracting the noise
   EXPECT_LT(e.error, 0.2 * relRmse(halves.mean(), real) + 2.0 * e.uncertainty);
   EXPECT_LT(e.atMost, relRmse(halves.mean(), real));
 }
@@ -108,7 +108,7 @@ TEST(ErrorEstimate, TextHasAsManyDigitsAsAreKnown) {
   EXPECT_EQ(e.text(), "below 5.2%");
 }
 
-TEST(ErrorEstimate, BlocksAreMeansAndLeaveOutWhatFillsNone) {
+TEST(ErrorEstimate, BlocksAreMeansAndIncompleteBlocksAreIgnored) {
   Image image(5, 4);
   for (int i = 0; i < 20; ++i) image.pixels[static_cast<size_t>(i)] = vec3(static_cast<float>(i));
   const Image blocks = averageBlocks(image, 2);
@@ -126,8 +126,8 @@ class ErrorMeterTest : public test::SessionFixture {
   }
 };
 
-// Both halves and both sizes of blocks show what the path tracer shows.
-TEST_F(ErrorMeterTest, TheReferenceIsThatOfThePathTracer) {
+// Both halves agree with the path tracer at both block sizes.
+TEST_F(ErrorMeterTest, TheReferenceMatchesThePathTracer) {
   session_.resizeViewport(48, 32);
   const Image truth = test::renderReference(session_.document().scene, session_.view(), 512, 5, 9);
   for (const int block : {1, 4}) {
@@ -143,8 +143,8 @@ TEST_F(ErrorMeterTest, TheReferenceIsThatOfThePathTracer) {
   }
 }
 
-// A picture of this very scene with an error put in: a third of it brighter by 30%.
-TEST_F(ErrorMeterTest, TellsAnErrorThatWasPutIntoARealPicture) {
+// A reference picture of the scene with a known error: a third of it is 30% brighter.
+TEST_F(ErrorMeterTest, MeasuresAKnownErrorOfARenderedPicture) {
   session_.resizeViewport(48, 32);
   Image picture = test::renderReference(session_.document().scene, session_.view(), 2048, 5, 9);
   const Image real = averageBlocks(picture, 2);
@@ -160,8 +160,8 @@ TEST_F(ErrorMeterTest, TellsAnErrorThatWasPutIntoARealPicture) {
   EXPECT_LT(e.uncertainty, 0.25 * e.error);
 }
 
-// A lamp in view is as bright as it is; its outline must not drown what it lights.
-TEST_F(ErrorMeterTest, LampsInViewAreLeftOut) {
+// Visible lamps are excluded, because errors at their bright outlines would dominate.
+TEST_F(ErrorMeterTest, VisibleLampsAreExcluded) {
   session_.resizeViewport(48, 32);
   View view = session_.view();
   view.eye = vec3(0, 1, 5);
@@ -186,7 +186,7 @@ TEST_F(ErrorMeterTest, LampsInViewAreLeftOut) {
   EXPECT_LT(estimateError(picture, halves).error, 0.1);
 }
 
-TEST_F(ErrorMeterTest, AfterAnEditTheReferenceIsAsIfMadeAnew) {
+TEST_F(ErrorMeterTest, AfterAnEditTheReferenceStartsFromNothing) {
   session_.resizeViewport(24, 16);
   ReferenceSampler kept, fresh;
   kept.begin(subject(2));
@@ -204,7 +204,7 @@ TEST_F(ErrorMeterTest, AfterAnEditTheReferenceIsAsIfMadeAnew) {
   EXPECT_TRUE(test::sameBits(kept.halves().second, fresh.halves().second));
 }
 
-TEST_F(ErrorMeterTest, BeginsAgainWithEachEditAndIsMeasuredByAnAction) {
+TEST_F(ErrorMeterTest, RestartsAtEachEditAndIsMeasuredByAnAction) {
   ErrorMeter& meter = session_.watch().meter;
   EXPECT_EQ(meter.text(), "");
   ASSERT_TRUE(session_.runAction("error.block 8")) << session_.status();
@@ -220,7 +220,7 @@ TEST_F(ErrorMeterTest, BeginsAgainWithEachEditAndIsMeasuredByAnAction) {
   light.radiance *= 2.0f;
   session_.setAreaLight(light_, light);
   session_.renderFrame();
-  EXPECT_FALSE(meter.estimate());  // it would be of what was before
+  EXPECT_FALSE(meter.estimate());  // the old estimate is invalid after the edit
   session_.undo();
   session_.runAction("error.measure 2");
   session_.renderFrame();
@@ -236,7 +236,7 @@ TEST_F(ErrorMeterTest, BeginsAgainWithEachEditAndIsMeasuredByAnAction) {
   EXPECT_FALSE(session_.runAction("error.block 3"));
 }
 
-TEST_F(ErrorMeterTest, WhatAWorkerTracedOfAnotherSubjectIsDropped) {
+TEST_F(ErrorMeterTest, ReferencesOfAnOldSubjectAreDropped) {
   ErrorMeter& meter = session_.watch().meter;
   session_.runAction("error.meter");
   session_.renderFrame();

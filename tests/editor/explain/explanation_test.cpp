@@ -1,4 +1,5 @@
-// What lights give a point, against closed forms: a small lamp over a floor, and a plate between.
+// The light that each light source gives to a point, compared with closed forms: a small lamp above
+// a floor, and a plate between them.
 #include "editor/explain/explanation.h"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ class Explaining : public testing::TestWithParam<const char*> {
     scene_.find(id)->name = "plate";
     return id;
   }
-  // Of the point of the floor.
+  // Explains the light at a point of the floor.
   Explanation explainAt(const vec3& floorPoint) {
     const std::string method = GetParam();
     GiOutput out = render(method, SceneChanges::all());
@@ -66,7 +67,7 @@ class Explaining : public testing::TestWithParam<const char*> {
   FrameRenderer renderer_{makeCpuBackend()};
 };
 
-TEST_P(Explaining, ALampOverAFloorGivesTheInverseSquare) {
+TEST_P(Explaining, ALampAboveAFloorFollowsTheInverseSquareLaw) {
   const Explanation e = explainAt(vec3(0));
   EXPECT_EQ(e.object, "floor");
   ASSERT_EQ(e.lights.size(), 1u);
@@ -76,7 +77,7 @@ TEST_P(Explaining, ALampOverAFloorGivesTheInverseSquare) {
   EXPECT_EQ(lamp.state, LightArrival::lit);
   EXPECT_EQ(lamp.seen, lamp.samples);
   EXPECT_NEAR(lamp.direct / kUnder, 1.0f, 2e-3f);
-  EXPECT_EQ(lamp.bounced, 0.0f);  // all is black
+  EXPECT_EQ(lamp.bounced, 0.0f);  // all surfaces are black
   EXPECT_EQ(lamp.withheld, 0.0f);
   EXPECT_TRUE(lamp.blockers.empty());
   EXPECT_FLOAT_EQ(e.shareOf(lamp), 1.0f);
@@ -84,7 +85,7 @@ TEST_P(Explaining, ALampOverAFloorGivesTheInverseSquare) {
   EXPECT_NEAR(explainAt(vec3(kHeight, 0, 0)).irradiance / kUnder, 0.25f, 2e-3f);
 }
 
-TEST_P(Explaining, APlateBetweenIsNamedWithWhatItKeepsAway) {
+TEST_P(Explaining, APlateInBetweenIsNamedWithTheLightThatItBlocks) {
   const NodeId plate = addPlate(vec3(0, 1, 0), vec3(1.0f, 0.1f, 1.0f));
   const Explanation e = explainAt(vec3(0));
   const LightShare& lamp = shareOf(e, lamp_);
@@ -102,7 +103,7 @@ TEST_P(Explaining, APlateBetweenIsNamedWithWhatItKeepsAway) {
 }
 
 // The plate's edge is under the middle of the lamp, so half of it is hidden.
-TEST_P(Explaining, APlateThatHidesHalfOfALampLeavesHalf) {
+TEST_P(Explaining, APlateThatHidesHalfOfALampBlocksHalfOfItsLight) {
   addPlate(vec3(0.5f, 1, 0), vec3(1.0f, 0.001f, 1.0f));
   const LightShare lamp = shareOf(explainAt(vec3(0)), lamp_);
   EXPECT_EQ(lamp.state, LightArrival::partly);
@@ -112,14 +113,14 @@ TEST_P(Explaining, APlateThatHidesHalfOfALampLeavesHalf) {
   EXPECT_LT(lamp.seen, lamp.facing);
 }
 
-TEST_P(Explaining, SaysOfEachOtherLightWhyItGivesNothing) {
+TEST_P(Explaining, GivesTheReasonForEachLightThatDoesNotArrive) {
   const NodeId below = test::addRectangleLight(scene_, vec3(0, -1, 0), vec2(0.1f), vec3(kRadiance));
   const NodeId hidden = test::addRectangleLight(scene_, vec3(1, 2, 0), vec2(0.1f), vec3(kRadiance));
   scene_.find(hidden)->visible = false;
   const NodeId black = test::addRectangleLight(scene_, vec3(1, 2, 0), vec2(0.1f), vec3(0.0f));
   const Explanation e = explainAt(vec3(0));
   ASSERT_EQ(e.lights.size(), 4u);
-  EXPECT_EQ(e.lights[0].light, lamp_);  // what gives most is first
+  EXPECT_EQ(e.lights[0].light, lamp_);  // sorted by contribution
   EXPECT_EQ(shareOf(e, below).state, LightArrival::away);
   EXPECT_EQ(shareOf(e, hidden).state, LightArrival::off);
   EXPECT_EQ(shareOf(e, black).state, LightArrival::off);
@@ -137,9 +138,9 @@ TEST_P(Explaining, ASunAndASkyAreParallelLight) {
   EXPECT_NEAR(sky.direct / (kPi * 0.5f), 1.0f, 0.05f);  // E = π L
 }
 
-TEST_P(Explaining, BouncedLightIsThatOfTheLightItCameFrom) {
+TEST_P(Explaining, BouncedLightIsCountedForItsSource) {
   settings_.set("vpls", 2000);
-  // The lamp shines on a white wall beside the plate that hides it from the point.
+  // The plate hides the lamp from the point, and a white wall reflects the light of the lamp.
   scene_.find(lamp_)->area->radiance = vec3(8000.0f);
   addPlate(vec3(0, 1, 0), vec3(0.5f, 0.01f, 0.5f));
   NodeId ceiling =

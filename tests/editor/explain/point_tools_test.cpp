@@ -1,4 +1,4 @@
-// The tools that tell of a point, by action, key and click.
+// The tools that examine a point of the picture, used by action, key and click.
 #include "editor/explain/point_tools.h"
 
 #include "renderer/image/image.h"
@@ -39,7 +39,7 @@ class PointToolsTest : public test::SessionFixture {
   const vec3 open_{-1.5f, 0.0f, 1.0f};
 };
 
-TEST_F(PointToolsTest, ExplainAtAnswersWithoutAStepAndSelectsBlockers) {
+TEST_F(PointToolsTest, ExplainAtIsNotAStepAndSelectsBlockers) {
   const uint64_t before = hash();
   ASSERT_TRUE(run("explain.at", open_)) << session_.status();
   ASSERT_NE(answer(), nullptr);
@@ -47,12 +47,12 @@ TEST_F(PointToolsTest, ExplainAtAnswersWithoutAStepAndSelectsBlockers) {
   EXPECT_NEAR(glm::length(answer()->point.position - open_), 0.0f, 0.05f);
   EXPECT_GT(answer()->irradiance, 0.0f);
   EXPECT_EQ(answer()->lights.front().light, light_);
-  EXPECT_FALSE(session_.runAction("explain.blocker 0"));  // nothing stands before it
-  EXPECT_NE(session_.status().find("nothing stands before it"), std::string::npos);
+  EXPECT_FALSE(session_.runAction("explain.blocker 0"));  // no object blocks this light
+  EXPECT_NE(session_.status().find("nothing blocks this light"), std::string::npos);
   EXPECT_FALSE(session_.runAction("explain.blocker 7"));
   EXPECT_FALSE(session_.runAction("explain.light 0.5"));
 
-  // Between box and light.
+  // Move the plate between the box and the light.
   change([&](Scene& s) { s.find(plate_)->local.translation = vec3(-1.1f, 2.0f, 0.75f); });
   settle();
   ASSERT_NE(answer(), nullptr);
@@ -67,7 +67,7 @@ TEST_F(PointToolsTest, ExplainAtAnswersWithoutAStepAndSelectsBlockers) {
   EXPECT_EQ(hash(), before);
 }
 
-TEST_F(PointToolsTest, TheAnswerFollowsItsObjectAndEdits) {
+TEST_F(PointToolsTest, TheExplanationFollowsTheObjectAndEdits) {
   ASSERT_TRUE(run("explain.at", vec3(0, 1, 0.3f)));
   ASSERT_EQ(answer()->object, "box");
   const float lux = answer()->irradiance;
@@ -83,15 +83,15 @@ TEST_F(PointToolsTest, TheAnswerFollowsItsObjectAndEdits) {
   EXPECT_EQ(answer(), nullptr);
 }
 
-TEST_F(PointToolsTest, ClicksAskWhileTheToolIsTakenUpAndSelectOtherwise) {
+TEST_F(PointToolsTest, ClicksExplainWhileTheToolIsActiveAndSelectOtherwise) {
   click(vec3(0, 0.5f, 0.5f));
   EXPECT_EQ(session_.document().active(), box_);
   ASSERT_TRUE(session_.runAction("tool.explain"));
   click(open_);
   ASSERT_NE(answer(), nullptr);
   EXPECT_EQ(answer()->object, "floor");
-  EXPECT_EQ(session_.document().active(), box_);   // still
-  ASSERT_TRUE(session_.runAction("select.none"));  // Escape puts the tool down first
+  EXPECT_EQ(session_.document().active(), box_);   // the selection stays
+  ASSERT_TRUE(session_.runAction("select.none"));  // Escape ends the tool first
   EXPECT_EQ(session_.points().tool(), PointTool::none);
   EXPECT_EQ(session_.document().active(), box_);
   click(open_);
@@ -113,7 +113,7 @@ TEST_F(PointToolsTest, ExplainsUnderThePointerByKey) {
   EXPECT_EQ(answer()->object, "floor");
 }
 
-TEST_F(PointToolsTest, WhereNothingIsHitASentenceSaysSo) {
+TEST_F(PointToolsTest, WithoutASurfaceTheStatusSaysSo) {
   EXPECT_FALSE(session_.runAction("explain.at 160 1"));
   EXPECT_NE(session_.status().find("there is no surface"), std::string::npos);
   EXPECT_EQ(answer(), nullptr);
@@ -123,8 +123,9 @@ TEST_F(PointToolsTest, WhereNothingIsHitASentenceSaysSo) {
   EXPECT_EQ(session_.status(), "sky: 0 nt");
 }
 
-// On a matt floor L = ρ E / π; the method's E is that of its maps, the probe's that of its rays.
-TEST_F(PointToolsTest, ProbeReadsBothOfAMattSurface) {
+// On a diffuse floor, L = ρ E / π. The method uses shadow maps and the probe uses rays, so they
+// differ slightly.
+TEST_F(PointToolsTest, ProbeShowsIlluminanceAndLuminanceOfADiffuseSurface) {
   for (const char* method : {"many_lights", "reference"}) {
     SCOPED_TRACE(method);
     ASSERT_TRUE(session_.runAction(std::string("render.method ") + method));
@@ -140,7 +141,7 @@ TEST_F(PointToolsTest, ProbeReadsBothOfAMattSurface) {
   ASSERT_TRUE(session_.runAction("view.light_only"));
   settle();
   ASSERT_TRUE(run("probe.at", open_));
-  EXPECT_FALSE(session_.points().reading()->nits);  // the picture is of white surfaces
+  EXPECT_FALSE(session_.points().reading()->nits);  // this view shows white surfaces
 }
 
 TEST_F(PointToolsTest, ProbeFollowsThePointer) {
@@ -171,14 +172,14 @@ TEST_F(PointToolsTest, TwoClicksMeasure) {
   EXPECT_FALSE(m.isComplete());
   const vec3 other{2.0f, 0.0f, 2.0f};
   dragTo(pixelOf(other));
-  ASSERT_TRUE(m.offset());  // follows the pointer
+  ASSERT_TRUE(m.offset());  // the second point follows the pointer
   EXPECT_NEAR(glm::length(*m.offset() - (other - open_)), 0.0f, 1e-3f);
   click(other);
   ASSERT_TRUE(m.isComplete());
   EXPECT_EQ(m.text(), "3.640 m  (dx +3.500  dy +0.000  dz +1.000 m)");
   EXPECT_FALSE(session_.overlay().texts.empty());
   click(open_);
-  EXPECT_FALSE(m.isComplete());  // anew
+  EXPECT_FALSE(m.isComplete());  // a third click starts a new measurement
   ASSERT_TRUE(session_.runAction("measure.clear"));
   EXPECT_FALSE(m.hasBegun());
   ASSERT_TRUE(run("measure.at", open_));

@@ -1,5 +1,5 @@
-// Recordings are cut and merged by hand, and come from anywhere: whatever stands in one, reading it
-// gives values that the program can work with, or one line that says what is wrong.
+// Recordings may be edited by hand and may come from anywhere. Reading one gives either valid
+// values or an error of one line.
 #include <cmath>
 #include <fstream>
 
@@ -38,14 +38,14 @@ class RecordingRobustness : public testing::Test {
   }
 };
 
-TEST_F(RecordingRobustness, NumbersThatMeanNothingAreRefused) {
+TEST_F(RecordingRobustness, InvalidNumbersAreRefused) {
   for (const char* line : {
            R"({"f":-1,"text":"x"})",
            R"({"f":1.5,"text":"x"})",
-           R"({"f":4294967295,"text":"x"})",  // years of frames
+           R"({"f":4294967295,"text":"x"})",  // a frame number that would take years
            R"({"f":99999999999,"text":"x"})",
            R"({"f":"1","text":"x"})",
-           R"({"f":1,"pointer":[1e39,0]})",  // infinite as a float
+           R"({"f":1,"pointer":[1e39,0]})",  // beyond the range of float
            R"({"f":1,"pointer":[1,"x"]})",
            R"({"f":1,"pointer":[1]})",
            R"({"f":1,"pointer":{"x":1}})",
@@ -70,7 +70,7 @@ TEST_F(RecordingRobustness, NumbersThatMeanNothingAreRefused) {
   }
 }
 
-TEST_F(RecordingRobustness, HeadersThatMeanNothingAreRefused) {
+TEST_F(RecordingRobustness, InvalidHeadersAreRefused) {
   for (const char* header : {
            R"({"lamplighter":1,"window":[1e30,600]})",
            R"({"lamplighter":1,"window":[0,600]})",
@@ -91,34 +91,34 @@ TEST_F(RecordingRobustness, HeadersThatMeanNothingAreRefused) {
   }
 }
 
-TEST_F(RecordingRobustness, NothingButBracketsIsRefused) {
+TEST_F(RecordingRobustness, DeeplyNestedJsonIsRefused) {
   const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
   EXPECT_NE(complaint(kHeader + "{\"f\":1,\"text\":" + deep + "}\n").find(":2: "),
             std::string::npos);
 }
 
-TEST_F(RecordingRobustness, TwoChecksOfOneNameAreRefused) {
-  // They would share a baseline.
+TEST_F(RecordingRobustness, TwoCheckpointsWithTheSameNameAreRefused) {
+  // They would share one baseline.
   const std::string check = "{\"f\":1,\"check\":\"end\"}\n";
   EXPECT_NE(complaint(kHeader + check + check).find(":3: "), std::string::npos);
 }
 
-TEST_F(RecordingRobustness, LineEndsOfOtherSystemsAreRead) {
+TEST_F(RecordingRobustness, WindowsLineEndingsAreAccepted) {
   const Recording r = read("{\"lamplighter\":1}\r\n\r\n{\"f\":2,\"text\":\"x\"}\r\n");
   ASSERT_EQ(r.lines.size(), 1u);
   EXPECT_EQ(std::get<InputEvent>(r.lines[0].what).text, "x");
 }
 
-TEST_F(RecordingRobustness, SettingsOfAnotherMethodSurviveTheHeader) {
+TEST_F(RecordingRobustness, SettingsOfAnotherMethodAreKeptInTheHeader) {
   RecordingHeader header;
   header.render.method = "reference";
-  header.render.values.set("vpls", 77);  // set while many_lights was on
+  header.render.values.set("vpls", 77);  // a parameter of many_lights
   header.render.values.set("samples_per_pixel", 4);
   { Recorder recorder(path_, header); }
   EXPECT_EQ(readRecording(path_).header.render, header.render);
 }
 
-TEST_F(RecordingRobustness, FloatsComeBackToTheBit) {
+TEST_F(RecordingRobustness, FloatsAreRestoredBitForBit) {
   const float values[] = {0.1f, 1.0f / 3.0f, 16777217.0f, 1e-7f, 123.456f, -0.5f, 3.0e7f};
   {
     Recorder recorder(path_, {});
@@ -133,8 +133,8 @@ TEST_F(RecordingRobustness, FloatsComeBackToTheBit) {
     EXPECT_EQ(std::get<InputEvent>(r.lines[i].what).position, vec2(values[i], -values[i]));
 }
 
-TEST_F(RecordingRobustness, PlayedBackItIsWhatWasRecorded) {
-  // Frames with nothing, with several events, and with a checkpoint between them.
+TEST_F(RecordingRobustness, PlaybackGivesTheRecordedEvents) {
+  // Frames without events, frames with several events, and a checkpoint between frames.
   std::vector<std::vector<InputEvent>> frames(12);
   InputEvent press{EventKind::button};
   press.down = true;
@@ -156,7 +156,7 @@ TEST_F(RecordingRobustness, PlayedBackItIsWhatWasRecorded) {
     ASSERT_LT(rendered, 100u);
     const uint32_t f = player.frame();
     const auto events = player.beginFrame();
-    EXPECT_EQ(events, frames[f]) << f;  // frame 9, where the check waits, has none
+    EXPECT_EQ(events, frames[f]) << f;  // frame 9 waits for the checkpoint and has no events
     const bool settled = f == 9 ? --waits < 0 : false;
     for (const Checkpoint& c : player.endFrame(settled)) {
       EXPECT_EQ(c.name, "middle");

@@ -48,7 +48,7 @@ std::vector<InputEvent> oneOfEach() {
   return {pointer, button, wheel, key, text, action};
 }
 
-TEST_F(RecordingFile, WhatWasRecordedIsReadBack) {
+TEST_F(RecordingFile, ARecordingIsWrittenAndReadBack) {
   RecordingHeader header;
   header.scene = "scene.gltf";
   header.left = "left_behind";
@@ -78,7 +78,7 @@ TEST_F(RecordingFile, WhatWasRecordedIsReadBack) {
   EXPECT_EQ(readRecording(path_).lines.size(), r.lines.size());
 }
 
-TEST_F(RecordingFile, PointerEventsInARowAreOne) {
+TEST_F(RecordingFile, ConsecutivePointerEventsAreMerged) {
   {
     Recorder recorder(path_, {});
     InputEvent a{EventKind::pointer, "", vec2(1.0f)}, b{EventKind::pointer, "", vec2(2.0f)};
@@ -89,13 +89,13 @@ TEST_F(RecordingFile, PointerEventsInARowAreOne) {
   EXPECT_EQ(std::get<InputEvent>(r.lines[0].what).position, vec2(2.0f));
 }
 
-TEST_F(RecordingFile, BadLinesAreNamed) {
+TEST_F(RecordingFile, ErrorsNameTheLine) {
   const std::string header = "{\"lamplighter\":1}\n";
   EXPECT_NE(complaint("").find("is empty"), std::string::npos);
   EXPECT_NE(complaint("{\"lamplighter\":2}\n").find(":1: "), std::string::npos);
   EXPECT_NE(complaint("nonsense\n").find(":1: "), std::string::npos);
   EXPECT_NE(complaint(header + "{\"f\":1,\"key\":\"w\",\"down\":true}\n{\"f\":0,\"text\":\"x\"}\n")
-                .find(":3: goes back"),
+                .find(":3: has a frame number below"),
             std::string::npos);
   EXPECT_NE(complaint(header + "{\"f\":1,\"key\":\"hyper\",\"down\":true}\n").find("no known key"),
             std::string::npos);
@@ -119,7 +119,7 @@ Recording threeLines() {
   return r;
 }
 
-TEST(Player, TheClockStandsWhileACheckpointWaits) {
+TEST(Player, TheClockStopsWhileACheckpointWaits) {
   Player p(threeLines());
   EXPECT_TRUE(p.beginFrame().empty());  // frame 0
   EXPECT_TRUE(p.endFrame(false).empty());
@@ -133,7 +133,7 @@ TEST(Player, TheClockStandsWhileACheckpointWaits) {
   EXPECT_TRUE(p.beginFrame().empty());
   EXPECT_EQ(p.endFrame(true).size(), 1u);
   EXPECT_FALSE(p.finished());
-  EXPECT_EQ(p.beginFrame().size(), 1u);  // what stood behind it
+  EXPECT_EQ(p.beginFrame().size(), 1u);  // the event after the checkpoint
   p.endFrame(false);
   EXPECT_TRUE(p.finished());
 }

@@ -1,4 +1,4 @@
-// What actions declare that they ask the user for, and that no answer is needed elsewhere.
+// The questions that actions declare for the user, and that scripts need no answer.
 #include "renderer/base/error.h"
 #include "tests/editor/session_fixture.h"
 
@@ -12,7 +12,7 @@ class ActionAsks : public test::SessionFixture {
   const Action& action(const std::string& name) const { return *session_.actions().find(name); }
 };
 
-TEST_F(ActionAsks, EachHasATitleAndKnowsItsFiles) {
+TEST_F(ActionAsks, EachHasATitleAndFileTypes) {
   size_t count = 0;
   for (const auto& [name, action] : session_.actions().all()) {
     SCOPED_TRACE(name);
@@ -58,7 +58,7 @@ TEST_F(ActionAsks, RenameSuggestsTheNameOfTheActiveObject) {
   EXPECT_THROW(asks.suggested(session_), InputError);
 }
 
-// A script has nobody to ask.
+// A script cannot ask the user.
 TEST_F(ActionAsks, WithoutAWindowAnArgumentIsRequired) {
   const uint64_t before = hash();
   for (const char* name : {"file.open", "file.save_as", "sky.image", "edit.rename"})

@@ -1,4 +1,4 @@
-// Keys bound anew: presets, the user's file, and what is told of conflicts.
+// Key bindings: presets, the file of the user, and reports of conflicts.
 #include "editor/keys/key_bindings.h"
 
 #include <map>
@@ -34,7 +34,7 @@ TEST_F(KeyBindings, EveryDefaultKeyBelongsToOneAction) {
   }
 }
 
-TEST_F(KeyBindings, ChordsAreReadAsTheyAreWritten) {
+TEST_F(KeyBindings, ChordsAreParsedAndFormatted) {
   for (const char* text : {"G", "Ctrl+Shift+Z", "F6", "Alt+Left", "Ctrl+Page_up", "Delete"}) {
     ASSERT_TRUE(parseChord(text)) << text;
     EXPECT_EQ(parseChord(chordText(*parseChord(text))), parseChord(text)) << text;
@@ -50,13 +50,13 @@ TEST_F(KeyBindings, PresetsMoveTheTools) {
   EXPECT_EQ(at(Key::s), "tool.scale");
   EXPECT_EQ(at(Key::w), "");
   EXPECT_EQ(registry_.find("tool.move")->shortcut, "G");
-  EXPECT_NE(registry_.find("tool.snap")->shortcut, "") << "what S did has another key";
+  EXPECT_NE(registry_.find("tool.snap")->shortcut, "") << "the action of S gets another key";
   bind(keysOfPreset("wer"), "{}");
   EXPECT_EQ(at(Key::w), "tool.move");
   EXPECT_TRUE(problems_.empty());
 }
 
-TEST_F(KeyBindings, TheFileIsOverThePreset) {
+TEST_F(KeyBindings, TheFileOverridesThePreset) {
   bind(keysOfPreset("grs"),
        R"({"tool.move": "Ctrl+M", "light.add disk": "Ctrl+Shift+D", "view.vpls": ""})");
   EXPECT_TRUE(problems_.empty()) << problems_[0];
@@ -72,7 +72,7 @@ TEST_F(KeyBindings, TheFileIsOverThePreset) {
 TEST_F(KeyBindings, ProblemsAreOneLineEach) {
   bind({}, R"({"tool.mvoe": "G", "tool.move": "Ctrl+Foo", "tool.scale": 3})");
   ASSERT_EQ(problems_.size(), 3u);
-  EXPECT_NE(problems_[0].find("\"tool.move\": \"Ctrl+Foo\" is no key"), std::string::npos);
+  EXPECT_NE(problems_[0].find("\"tool.move\": \"Ctrl+Foo\" is not a key"), std::string::npos);
   EXPECT_NE(problems_[1].find("tool.scale"), std::string::npos);
   EXPECT_NE(problems_[2].find("\"tool.mvoe\": there is no such action"), std::string::npos);
   EXPECT_EQ(at(Key::w), "tool.move");
@@ -80,16 +80,16 @@ TEST_F(KeyBindings, ProblemsAreOneLineEach) {
   EXPECT_EQ(problems_.size(), 1u);
 }
 
-TEST_F(KeyBindings, ConflictsAreTold) {
+TEST_F(KeyBindings, ConflictsAreReported) {
   bind({}, R"({"tool.move": "G", "tool.scale": "G"})");
   ASSERT_EQ(problems_.size(), 1u);
-  EXPECT_NE(problems_[0].find("G is the key of \"tool.move\" already"), std::string::npos)
+  EXPECT_NE(problems_[0].find("G is already the key of \"tool.move\""), std::string::npos)
       << problems_[0];
   EXPECT_EQ(at(Key::g), "tool.move");
   bind({}, R"({"tool.move": "L"})");
   ASSERT_EQ(problems_.size(), 1u);
   EXPECT_NE(problems_[0].find("takes L from \"panel.lights\""), std::string::npos) << problems_[0];
-  // Both are named, so it is meant.
+  // The file binds both actions, so the conflict is intended and not reported.
   bind({}, R"({"tool.move": "L", "panel.lights": "G"})");
   EXPECT_TRUE(problems_.empty());
   EXPECT_EQ(at(Key::l), "tool.move");

@@ -1,5 +1,5 @@
-// Edit latency: counted from the edit to the settled picture, by pictures that approach it at a
-// known pace.
+// Edit latency, from the edit to the settled picture, tested with pictures that approach the
+// settled one at a known rate.
 #include "editor/latency/edit_latency.h"
 
 #include "tests/editor/session_fixture.h"
@@ -9,7 +9,7 @@ namespace {
 
 class EditLatencyTest : public testing::Test {
  protected:
-  // A frame that lasts 10 ms and shows one grey.
+  // A frame of 10 ms that shows a uniform grey.
   void show(float grey, bool settled, bool edited = false) {
     const double begin = clock_;
     clock_ += 0.01;
@@ -25,7 +25,7 @@ class EditLatencyTest : public testing::Test {
 
 TEST_F(EditLatencyTest, CountsFramesAndMillisecondsToEachShare) {
   rest();
-  // The distance to 0 is 100% before, then 60, 40, 20, 4, 2, 0.5, 0.
+  // The difference from the settled picture falls from 100% to 60, 40, 20, 4, 2, 0.5 and 0%.
   show(0.6f, false, true);
   EXPECT_TRUE(latency_.running());
   for (const float grey : {0.4f, 0.2f, 0.04f, 0.02f, 0.005f}) show(grey, false);
@@ -45,8 +45,8 @@ TEST_F(EditLatencyTest, CountsFramesAndMillisecondsToEachShare) {
   EXPECT_FALSE(latency_.running());
 }
 
-// A picture that is near for a moment and leaves again was not there yet.
-TEST_F(EditLatencyTest, CountsWhenItIsNearForGood) {
+// A picture that is close for one frame only does not count.
+TEST_F(EditLatencyTest, CountsWhenThePictureStaysClose) {
   rest();
   show(0.01f, false, true);
   show(0.7f, false);
@@ -65,12 +65,12 @@ TEST_F(EditLatencyTest, TheLastEditOfADragCounts) {
   show(0.0f, true);
   ASSERT_EQ(latency_.results().size(), 1u);
   const LatencyResult& r = latency_.results().back();
-  EXPECT_EQ(r.settled.frames, 2);    // since the third
-  EXPECT_EQ(r.within[0].frames, 1);  // from 0.8, which was shown before it, to 0.1
+  EXPECT_EQ(r.settled.frames, 2);    // since the third edit
+  EXPECT_EQ(r.within[0].frames, 1);  // from 0.8, shown before the edit, to 0.1
   EXPECT_EQ(r.within[1].frames, 2);
 }
 
-TEST_F(EditLatencyTest, AMovingCameraEndsIt) {
+TEST_F(EditLatencyTest, ACameraMovementEndsTheMeasurement) {
   rest();
   show(0.5f, false, true);
   view_.eye.x += 1.0f;
@@ -80,7 +80,7 @@ TEST_F(EditLatencyTest, AMovingCameraEndsIt) {
   EXPECT_TRUE(latency_.results().empty());
 }
 
-TEST_F(EditLatencyTest, AnEditThatIsNotSeenSaysSo) {
+TEST_F(EditLatencyTest, AnInvisibleEditIsReported) {
   rest();
   show(1.0f, false, true);
   show(1.0f, true);
@@ -89,8 +89,8 @@ TEST_F(EditLatencyTest, AnEditThatIsNotSeenSaysSo) {
   EXPECT_EQ(latencyText(r, false), "not seen, settled in 2 frames");
 }
 
-// More frames than copies are kept of: the figures stay right to within what is left out.
-TEST_F(EditLatencyTest, LongOnesAreThinnedOut) {
+// With more frames than stored pictures, the results are exact to within the dropped frames.
+TEST_F(EditLatencyTest, LongMeasurementsAreThinnedOut) {
   rest();
   constexpr int kFrames = 3000;
   for (int i = 1; i < kFrames; ++i) show(1.0f - static_cast<float>(i) / kFrames, false, i == 1);
@@ -103,7 +103,7 @@ TEST_F(EditLatencyTest, LongOnesAreThinnedOut) {
 
 class SessionLatency : public test::SessionFixture {};
 
-// The whole way: an edit of a real scene, by counts alone.
+// End to end: an edit of a real scene, measured in frames only.
 TEST_F(SessionLatency, EditsOfASessionAreMeasured) {
   for (int i = 0; i < 200 && !session_.renderFrame().settled; ++i) {
   }
@@ -125,7 +125,7 @@ TEST_F(SessionLatency, EditsOfASessionAreMeasured) {
   EXPECT_LE(r.within[2].frames, r.settled.frames);
   EXPECT_EQ(r.settled.milliseconds, 0.0);  // no clock was given
 
-  session_.runAction("render.exposure 1");  // another look at the same picture
+  session_.runAction("render.exposure 1");  // changes only the display of the same radiance
   session_.renderFrame();
   EXPECT_EQ(latency.measured(), before + 1);
   EXPECT_FALSE(latency.running());

@@ -1,4 +1,4 @@
-// Edits of many lights: one step each, undone and done again; bad ones change nothing.
+// Edits of several lights. Each is one step with undo and redo. Invalid edits change nothing.
 #include "editor/lights/light_edits.h"
 
 #include <gtest/gtest.h>
@@ -35,14 +35,14 @@ class LightEdits : public test::SessionFixture {
   }
 };
 
-TEST_F(LightEdits, SetsManyKindsAtOnce) {
+TEST_F(LightEdits, SetsSeveralKindsTogether) {
   session_.select({light_, point_, glow_});
   EXPECT_TRUE(common(LightProperty::intensity).isMixed);
   expectOneStep("lights.set intensity 500 lm");
   for (const NodeId id : {light_, point_, glow_})
     EXPECT_NEAR(value(id, LightProperty::intensity), 500.0, 0.01);
   EXPECT_FALSE(common(LightProperty::intensity).isMixed);
-  // Colours stay.
+  // The colours do not change.
   const vec3 e =
       scene().materials[static_cast<size_t>(emissiveMaterials(scene(), node(glow_))[0])].emissive;
   EXPECT_NEAR(e.r / e.b, 4.0f, 1e-4f);
@@ -57,7 +57,7 @@ TEST_F(LightEdits, MultipliesAndOffsets) {
   EXPECT_NEAR(value(point_, LightProperty::intensity), 2.0 * bulb, 1e-3);
   expectOneStep("lights.offset intensity -10 lm");
   EXPECT_NEAR(value(point_, LightProperty::intensity), 2.0 * bulb - 10.0, 1e-3);
-  // Nothing shines less than not at all.
+  // An intensity cannot become negative.
   expectOneStep("lights.offset intensity -1e6 lm");
   EXPECT_EQ(value(point_, LightProperty::intensity), 0.0);
 }
@@ -79,16 +79,16 @@ TEST_F(LightEdits, TemperaturesKeepBrightness) {
   EXPECT_NEAR(value(point_, LightProperty::temperature), 3000.0, 10.0);
 }
 
-TEST_F(LightEdits, WithoutAUnitTheOneThatIsShown) {
+TEST_F(LightEdits, TheDefaultUnitIsTheDisplayedUnit) {
   session_.runAction("light.add sun");
   const NodeId sun = session_.document().active();
-  expectOneStep("lights.set intensity 7");  // lux, whatever is shown of others
+  expectOneStep("lights.set intensity 7");  // lux, whatever the unit of other lights
   EXPECT_NEAR(value(sun, LightProperty::intensity, LightUnit::lux), 7.0, 1e-3);
   session_.select({point_, spot_});
   session_.runAction("lights.unit cd");
   expectOneStep("lights.set intensity 8");
   EXPECT_NEAR(value(spot_, LightProperty::intensity, LightUnit::candela), 8.0, 1e-3);
-  session_.select({point_, sun});  // of two units: the one that was chosen, and the sun stays
+  session_.select({point_, sun});  // the unit is cd, which the sun does not have
   expectOneStep("lights.set intensity 9");
   EXPECT_NEAR(value(point_, LightProperty::intensity, LightUnit::candela), 9.0, 1e-3);
   EXPECT_NEAR(value(sun, LightProperty::intensity, LightUnit::lux), 7.0, 1e-3);
@@ -107,7 +107,7 @@ TEST_F(LightEdits, OtherProperties) {
   EXPECT_NEAR(luminance(c), 10.0f, 1e-3f);
 }
 
-TEST_F(LightEdits, BadOnesChangeNothing) {
+TEST_F(LightEdits, InvalidEditsChangeNothing) {
   const uint64_t before = hash();
   EXPECT_FALSE(session_.runAction("lights.set intensity 5 lm"));  // nothing is selected
   session_.select({light_, box_});
@@ -143,7 +143,7 @@ TEST_F(LightEdits, StatesAndGroups) {
   session_.select({light_});
   expectOneStep("lights.group hall");
   session_.select({point_});
-  expectOneStep("lights.ungroup");  // the last of its group: the group goes
+  expectOneStep("lights.ungroup");  // the group had one light left, so it is removed
   ASSERT_EQ(scene().lightGroups.size(), 1u);
   EXPECT_EQ(scene().lightGroups[0].name, "hall");
   session_.runAction("sky.set 0.5");
@@ -151,7 +151,7 @@ TEST_F(LightEdits, StatesAndGroups) {
   expectOneStep("sky.solo true");
 }
 
-TEST_F(LightEdits, NewLightsOfEveryKindShowUp) {
+TEST_F(LightEdits, NewLightsOfEveryKindAreListed) {
   for (const char* kind : {"rectangle", "disk", "sphere", "tube", "spot", "point", "sun"}) {
     expectOneStep(std::string("light.add ") + kind);
     session_.select({scene().nodes.back().id});
@@ -164,8 +164,8 @@ TEST_F(LightEdits, NewLightsOfEveryKindShowUp) {
   }
 }
 
-// A floor straight below a new lamp is lit to mid-grey and not to white or black.
-TEST_F(LightEdits, NewLightsSuitThePlace) {
+// A new light illuminates the floor below it to about mid-grey.
+TEST_F(LightEdits, NewLightsHaveASuitableIntensity) {
   lookFrom(vec3(3, 3, 3), -1.2f);
   for (const char* kind : {"rectangle", "disk", "sphere", "tube", "spot", "point"}) {
     session_.runAction(std::string("light.add ") + kind);
@@ -180,7 +180,7 @@ TEST_F(LightEdits, NewLightsSuitThePlace) {
   }
 }
 
-TEST_F(LightEdits, ProfilesComeFromFiles) {
+TEST_F(LightEdits, ProfilesAreReadFromFiles) {
   const std::string folder = (test::sourceFolder() / "assets/profiles/").string();
   session_.select({point_});
   const double lumens = value(point_, LightProperty::intensity);
@@ -200,7 +200,7 @@ TEST_F(LightEdits, ProfilesComeFromFiles) {
   EXPECT_FALSE(session_.runAction("light.ies " + folder + "downlight.ies"));  // an area light
 }
 
-TEST_F(LightEdits, TheWorkLightIsInNoDocument) {
+TEST_F(LightEdits, TheWorkLightIsNotPartOfTheDocument) {
   session_.runAction("select.all");
   session_.runAction("lights.on false");
   for (int i = 0; i < 400; ++i) session_.renderFrame();
@@ -218,7 +218,7 @@ TEST_F(LightEdits, TheWorkLightIsInNoDocument) {
   EXPECT_EQ(hash(), before);
   EXPECT_EQ(session_.history().position(), steps);
   EXPECT_EQ(session_.document().scene.find(kWorkLight), nullptr);
-  // It goes along with the camera.
+  // It moves with the camera.
   lookFrom(vec3(0, 2, 5), -0.3f);
   session_.renderFrame();
   EXPECT_EQ(session_.renderScene().punctuals.back().position, vec3(0, 2, 5));

@@ -1,5 +1,4 @@
-// Leaving objects out of lights and pictures on lights, as actions: one step each, undone and done
-// again.
+// Actions for light linking and for pictures on lights. Each is one step with undo and redo.
 #include "editor/lights/light_links.h"
 
 #include <fstream>
@@ -30,7 +29,7 @@ class LightLinks_ : public test::SessionFixture {
   const std::vector<NodeId>& leftOut(NodeId id) const { return node(id).light.leftOut; }
 };
 
-TEST_F(LightLinks_, ObjectsAreLeftOutAndLitAgain) {
+TEST_F(LightLinks_, ObjectsAreExcludedAndIncludedAgain) {
   session_.select({box_, bulb_, light_});
   expectOneStep("light.exclude");
   EXPECT_THAT(leftOut(light_), ElementsAre(box_));
@@ -48,7 +47,7 @@ TEST_F(LightLinks_, ObjectsAreLeftOutAndLitAgain) {
   EXPECT_THAT(session_.document().selection, ElementsAre(box_));
 }
 
-TEST_F(LightLinks_, TheSkyLeavesOutToo) {
+TEST_F(LightLinks_, TheSkyExcludesObjectsToo) {
   session_.setSky(Sky(vec3(0.5f)));
   session_.select({box_});
   expectOneStep("sky.exclude");
@@ -57,15 +56,15 @@ TEST_F(LightLinks_, TheSkyLeavesOutToo) {
   expectOneStep("sky.include");
 }
 
-TEST_F(LightLinks_, WhatCannotBeIsRefusedAndChangesNothing) {
+TEST_F(LightLinks_, InvalidLinksAreRefusedAndChangeNothing) {
   const uint64_t before = hash();
   session_.select({light_});
-  EXPECT_FALSE(session_.runAction("light.exclude"));  // nothing besides
+  EXPECT_FALSE(session_.runAction("light.exclude"));  // no object in addition to the light
   EXPECT_FALSE(session_.runAction("light.exclude nobody"));
   EXPECT_EQ(hash(), before);
 }
 
-TEST_F(LightLinks_, MoreListsThanThereAreBitsAreRefused) {
+TEST_F(LightLinks_, TooManyDifferentListsAreRefused) {
   Scene scene = session_.document().scene;
   std::vector<NodeId> lamps;
   for (uint32_t i = 0; i <= kMostLinks; ++i) {
@@ -82,8 +81,8 @@ TEST_F(LightLinks_, MoreListsThanThereAreBitsAreRefused) {
   EXPECT_TRUE(session_.runAction("light.exclude \"thing 3\"")) << session_.status();
 }
 
-// A copy of a light and of what it leaves out leaves out both.
-TEST_F(LightLinks_, CopiesKeepWhatTheyLeaveOut) {
+// If a light and an excluded object are copied together, the new light excludes both objects.
+TEST_F(LightLinks_, CopiesKeepTheirExcludedObjects) {
   session_.select({box_, light_});
   ASSERT_TRUE(session_.runAction("light.exclude"));
   ASSERT_TRUE(session_.runAction("edit.copy"));
@@ -95,7 +94,7 @@ TEST_F(LightLinks_, CopiesKeepWhatTheyLeaveOut) {
   EXPECT_THAT(leftOut(light_), ElementsAre(box_));
 }
 
-TEST_F(LightLinks_, TheReasonForTheDarkIsTold) {
+TEST_F(LightLinks_, TheExplanationNamesTheExclusion) {
   session_.select({light_});
   ASSERT_TRUE(session_.runAction("light.exclude floor"));
   session_.renderFrame();
@@ -117,7 +116,7 @@ TEST_F(LightLinks_, TheReasonForTheDarkIsTold) {
   EXPECT_TRUE(isTold);
 }
 
-TEST_F(LightLinks_, APictureKeepsTheLumens) {
+TEST_F(LightLinks_, APictureKeepsTheFlux) {
   const test::TemporaryFolder folder;
   Image8 image(4, 4);
   for (size_t i = 0; i < image.pixels.size(); i += 4) image.pixels[i + 1] = 90;

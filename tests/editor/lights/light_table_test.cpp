@@ -1,4 +1,4 @@
-// The rows of the light table: what the document says, and what the method says.
+// The rows of the light table: properties from the document and figures from the method.
 #include "editor/lights/light_table.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +58,7 @@ TEST_F(LightTableTest, SortsStably) {
   EXPECT_EQ(names(all), (Names{"Sky", "bulb", "ceiling", "ember"}));
   sortRows(all, LightColumn::name, false);
   EXPECT_EQ(names(all), (Names{"ember", "ceiling", "bulb", "Sky"}));
-  // Those without a group come last both ways, in the order they were in.
+  // Lights without a group come last in both directions, in their previous order.
   all = rows();
   all[2].state.group = "a";
   all[1].state.group = "b";
@@ -66,7 +66,7 @@ TEST_F(LightTableTest, SortsStably) {
   EXPECT_EQ(names(all), (Names{"ember", "bulb", "ceiling", "Sky"}));
   sortRows(all, LightColumn::group, false);
   EXPECT_EQ(names(all), (Names{"bulb", "ember", "ceiling", "Sky"}));
-  sortRows(all, LightColumn::strength, true);  // lumens together, then nits
+  sortRows(all, LightColumn::strength, true);  // first all values in lumens, then those in nits
   EXPECT_EQ(names(all).back(), "Sky");
   EXPECT_EQ(names(all)[1], "ceiling");
 }
@@ -100,7 +100,7 @@ TEST_F(LightTableTest, FiguresComeFromTheMethod) {
   EXPECT_GE(all[0].figures.work, static_cast<uint64_t>(all[0].figures.patches));
 }
 
-TEST_F(LightTableTest, TimeIsSharedByWork) {
+TEST_F(LightTableTest, TimeIsDividedByWork) {
   for (int i = 0; i < 400 && !session_.output().settled; ++i) session_.renderFrame();
   const auto figures = lightFigures(session_.inspect(), 0.010);
   double all = 0.0;
@@ -108,7 +108,7 @@ TEST_F(LightTableTest, TimeIsSharedByWork) {
   EXPECT_NEAR(all, 10.0, 1e-9);
 }
 
-TEST_F(LightTableTest, WhatWaitsIsCounted) {
+TEST_F(LightTableTest, PendingShadowMapsAreCounted) {
   for (int i = 0; i < 400 && !session_.output().settled; ++i) session_.renderFrame();
   RenderSettings settings = session_.document().render;
   settings.values.set("updates", 1);

@@ -1,4 +1,4 @@
-// Units and temperatures by closed forms and published values.
+// Units and colour temperatures, compared with closed forms and published values.
 #include <gtest/gtest.h>
 
 #include "editor/lights/colour_temperature.h"
@@ -23,7 +23,7 @@ struct Lamp {
   double in(LightUnit unit) const { return unitsPerRadiance(lightsOf(scene).at(0).measure, unit); }
 };
 
-TEST(LightUnits, SurfacesByTheirArea) {
+TEST(LightUnits, AreaLightsUseTheirArea) {
   const Lamp square(AreaShape::rectangle, {2.0f, 0.5f});
   EXPECT_NEAR(square.in(LightUnit::nits), 1.0, 1e-6);
   EXPECT_NEAR(square.in(LightUnit::lumens), kPiD, 1e-5);  // Φ = π L A of a Lambertian emitter
@@ -33,27 +33,27 @@ TEST(LightUnits, SurfacesByTheirArea) {
   EXPECT_NEAR(disk.in(LightUnit::lumens), kPiD * kPiD, 1e-4);
   const Lamp ball(AreaShape::sphere, vec2(2.0f));
   EXPECT_NEAR(ball.in(LightUnit::lumens), 4.0 * kPiD * kPiD, 1e-4);
-  EXPECT_NEAR(ball.in(LightUnit::candela), kPiD, 1e-5);  // its circle: Φ / 4π
+  EXPECT_NEAR(ball.in(LightUnit::candela), kPiD, 1e-5);  // its disk seen from anywhere: Φ / 4π
   const Lamp tube(AreaShape::tube, {3.0f, 0.2f});
   EXPECT_NEAR(tube.in(LightUnit::lumens), kPiD * kPiD * 0.2 * 3.0, 1e-4);
   EXPECT_NEAR(tube.in(LightUnit::candela), 0.6, 1e-6);  // length × diameter
 }
 
-TEST(LightUnits, TakeTheScaleOfTheNode) {
+TEST(LightUnits, IncludeTheScaleOfTheNode) {
   EXPECT_NEAR(Lamp(AreaShape::rectangle, {1, 1}, {2, 3, 7}).in(LightUnit::candela), 6.0, 1e-5);
   EXPECT_NEAR(Lamp(AreaShape::tube, {1, 1}, {2, 3, 3}).in(LightUnit::candela), 6.0, 1e-5);
 }
 
-TEST(LightUnits, PunctualLightsByTheirSolidAngle) {
+TEST(LightUnits, PunctualLightsUseTheirSolidAngle) {
   const Lamp point({PunctualKind::point, vec3(1)});
   EXPECT_NEAR(point.in(LightUnit::candela), 1.0, 1e-9);
   EXPECT_NEAR(point.in(LightUnit::lumens), 4.0 * kPiD, 1e-6);
   EXPECT_EQ(point.in(LightUnit::nits), 0.0);
-  // Without falloff between the cones: the cap, 2π (1 − cos).
+  // Without falloff between the cones, the solid angle is that of a cap: 2π (1 − cos).
   PunctualLight spot{PunctualKind::spot, vec3(1)};
   spot.innerCone = spot.outerCone = 0.5f;
   EXPECT_NEAR(Lamp(spot).in(LightUnit::lumens), 2.0 * kPiD * (1.0 - std::cos(0.5)), 1e-6);
-  spot.innerCone = 0.0f;  // squares of a line from 0 to 1 have the mean 1/3
+  spot.innerCone = 0.0f;  // the squared linear falloff has the mean 1/3
   EXPECT_NEAR(Lamp(spot).in(LightUnit::lumens), 2.0 / 3.0 * kPiD * (1.0 - std::cos(0.5)), 1e-6);
   const Lamp sun({PunctualKind::directional, vec3(1)});
   EXPECT_EQ(sun.in(LightUnit::lux), 1.0);
@@ -62,7 +62,7 @@ TEST(LightUnits, PunctualLightsByTheirSolidAngle) {
   EXPECT_EQ(unitFor({LightKind::sky}, LightUnit::lumens), LightUnit::nits);
 }
 
-TEST(LightUnits, MeshesByBothSides) {
+TEST(LightUnits, MeshesUseBothSides) {
   for (const bool bothSides : {false, true}) {
     Scene scene;
     const int glow = test::addMaterial(scene, vec3(0), vec3(3));
@@ -77,7 +77,7 @@ TEST(LightUnits, MeshesByBothSides) {
   }
 }
 
-TEST(LightUnits, AreNamed) {
+TEST(LightUnits, HaveNames) {
   EXPECT_EQ(unitNamed("nits"), LightUnit::nits);
   EXPECT_EQ(unitNamed("lm"), LightUnit::lumens);
   EXPECT_EQ(unitNamed("LM"), std::nullopt);
@@ -91,7 +91,7 @@ vec2 chromaticity(const vec3& rgb) {
 }
 
 // CIE 15: standard illuminant A is a black body of 2856 K (2848 K on the scale of its time).
-TEST(ColourTemperature, KnownPlacesOfTheLocus) {
+TEST(ColourTemperature, KnownPointsOfThePlanckianLocus) {
   const vec2 a = chromaticity(planckianColour(2856.0f));
   EXPECT_NEAR(a.x, 0.4476f, 5e-4f);
   EXPECT_NEAR(a.y, 0.4075f, 5e-4f);
@@ -99,16 +99,16 @@ TEST(ColourTemperature, KnownPlacesOfTheLocus) {
   EXPECT_NEAR(day.x, 0.3135f, 1e-3f);
   EXPECT_NEAR(day.y, 0.3237f, 1e-3f);
   EXPECT_NEAR(luminance(planckianColour(1200.0f)), 1.0f, 1e-5f);
-  EXPECT_EQ(planckianColour(1200.0f).b, 0.0f);  // out of the gamut
+  EXPECT_EQ(planckianColour(1200.0f).b, 0.0f);  // outside of the gamut
 }
 
-TEST(ColourTemperature, ThereAndBack) {
+TEST(ColourTemperature, RoundTrip) {
   for (const float kelvin : {1100.0f, 1900.0f, 2700.0f, 4000.0f, 6500.0f, 12000.0f}) {
     const auto back = temperatureOf(7.0f * planckianColour(kelvin));
     ASSERT_TRUE(back) << kelvin;
     EXPECT_NEAR(*back, kelvin, 0.002f * kelvin);
   }
-  EXPECT_NEAR(*temperatureOf(vec3(1.0f)), 6504.0f, 60.0f);  // D65, a little off the locus
+  EXPECT_NEAR(*temperatureOf(vec3(1.0f)), 6504.0f, 60.0f);  // D65 is close to the locus
   EXPECT_FALSE(temperatureOf(vec3(0, 1, 0)));
   EXPECT_FALSE(temperatureOf(vec3(0)));
   const vec3 warm = withTemperature(vec3(0.2f, 0.4f, 0.9f), 2700.0f);

@@ -1,4 +1,4 @@
-// What happened, as it is told.
+// Notices: the messages that the user sees.
 #include "editor/notices/notices.h"
 
 #include "editor/session/user_state.h"
@@ -7,7 +7,7 @@
 namespace lamplighter {
 namespace {
 
-TEST(Notices, TheSameAgainIsCounted) {
+TEST(Notices, RepeatedNoticesAreCounted) {
   Notices notices;
   notices.add(NoticeKind::info, "Saved");
   notices.add(NoticeKind::info, "Saved");
@@ -18,22 +18,22 @@ TEST(Notices, TheSameAgainIsCounted) {
   EXPECT_LT(notices.all()[0].id, notices.all()[1].id);
 }
 
-TEST(Notices, AHintGoesOnceAnythingElseIsTold) {
+TEST(Notices, AHintIsReplacedByTheNextNotice) {
   Notices notices;
   notices.add(NoticeKind::info, "Opened");
   notices.add(NoticeKind::hint, "Click there");
   const uint64_t first = notices.all().back().id;
   notices.add(NoticeKind::hint, "Click there");
   ASSERT_EQ(notices.all().size(), 2u);
-  EXPECT_EQ(notices.all().back().count, 1) << "nobody needs to know how often";
-  EXPECT_GT(notices.all().back().id, first) << "but it is shown anew";
+  EXPECT_EQ(notices.all().back().count, 1) << "repeated hints are not counted";
+  EXPECT_GT(notices.all().back().id, first) << "but it is shown again";
   notices.add(NoticeKind::info, "Placed");
   ASSERT_EQ(notices.all().size(), 2u);
   EXPECT_EQ(notices.all().front().text, "Opened");
   EXPECT_EQ(notices.all().back().text, "Placed");
 }
 
-TEST(Notices, AreOneLineAndNotWithoutEnd) {
+TEST(Notices, AreOneLineEachAndLimitedInNumber) {
   Notices notices;
   for (int i = 0; i < 3000; ++i) notices.add(NoticeKind::info, std::to_string(i) + "\nmore");
   EXPECT_LE(notices.all().size(), 1000u);
@@ -42,13 +42,13 @@ TEST(Notices, AreOneLineAndNotWithoutEnd) {
 
 using SessionNotices = test::SessionFixture;
 
-TEST_F(SessionNotices, TellWhatWasUndoneAndWhatFailed) {
+TEST_F(SessionNotices, ReportUndoneStepsAndErrors) {
   session_.runAction("select.name box");
   session_.runAction("object.move 1 2 3");
   session_.runAction("edit.undo");
   EXPECT_EQ(session_.home().notices.all().back().text.rfind("Undid: ", 0), 0u);
   session_.runAction("edit.redo");
-  EXPECT_EQ(session_.home().notices.all().back().text.rfind("Did again: ", 0), 0u);
+  EXPECT_EQ(session_.home().notices.all().back().text.rfind("Redid: ", 0), 0u);
   session_.runAction("object.move nowhere");
   EXPECT_EQ(session_.home().notices.all().back().kind, NoticeKind::error);
   EXPECT_EQ(session_.home().notices.all().back().text, session_.status());

@@ -1,4 +1,4 @@
-// Settings as text: what comes back, and what hostile files do.
+// Settings as text: round trips and malformed files.
 #include "editor/preferences/preferences.h"
 
 #include <set>
@@ -14,7 +14,7 @@
 namespace lamplighter {
 namespace {
 
-TEST(Preferences, ComeBackAsTheyWere) {
+TEST(Preferences, AreRestored) {
   Preferences p;
   p.setText("ui_scale", "1.25");
   p.setText("toasts", "false");
@@ -30,14 +30,14 @@ TEST(Preferences, ComeBackAsTheyWere) {
   EXPECT_EQ(p.recentFiles.front(), "/levels/\"a\" ü.glb");
 }
 
-TEST(Preferences, KeepNoDefaults) {
+TEST(Preferences, DefaultsAreNotStored) {
   Preferences p;
   p.setText("ui_scale", "2");
   p.setText("ui_scale", "1");
   EXPECT_EQ(p, Preferences());
 }
 
-TEST(Preferences, AreDeclaredOnceEachWithAllThatPanelsAndDocsNeed) {
+TEST(Preferences, HaveUniqueNamesLabelsAndHelp) {
   std::set<std::string> names;
   for (const PreferenceSection& section : preferenceSections()) {
     EXPECT_FALSE(section.label.empty());
@@ -45,13 +45,13 @@ TEST(Preferences, AreDeclaredOnceEachWithAllThatPanelsAndDocsNeed) {
       EXPECT_TRUE(names.insert(spec.name).second) << spec.name;
       EXPECT_FALSE(spec.label.empty()) << spec.name;
       EXPECT_FALSE(spec.help.empty()) << spec.name;
-      // The default is one of the values that can be given.
+      // The default is a valid value.
       EXPECT_NO_THROW(Settings::parse(spec, Settings::format(spec.defaultValue))) << spec.name;
     }
   }
 }
 
-TEST(Preferences, RecentFilesAreFewAndEachOnce) {
+TEST(Preferences, RecentFilesAreLimitedAndUnique) {
   Preferences p;
   for (int i = 0; i < 30; ++i) p.addRecent("/a/" + std::to_string(i) + ".gltf");
   p.addRecent("/a/25.gltf");
@@ -61,7 +61,7 @@ TEST(Preferences, RecentFilesAreFewAndEachOnce) {
   EXPECT_EQ(p.recentFolders(), std::vector<std::filesystem::path>{"/a"});
 }
 
-TEST(Preferences, OfABrokenFileAreTheDefaults) {
+TEST(Preferences, AMalformedFileGivesTheDefaults) {
   for (const char* text : {"", "{", "[]", "null", "{\"lamplighter_settings\": 2}", "\xff\xfe",
                            "{\"settings\": {\"ui_scale\": 2}}"}) {
     std::vector<std::string> problems;
@@ -70,7 +70,7 @@ TEST(Preferences, OfABrokenFileAreTheDefaults) {
   }
 }
 
-TEST(Preferences, TellOfAnyTextInOneLine) {
+TEST(Preferences, ProblemsArePrintableAndOneLine) {
   std::vector<std::string> problems;
   parsePreferences(R"({"lamplighter_settings": 1, "settings": {"keys": "a\r\nb\u001b[2J"}})",
                    problems);
@@ -78,8 +78,8 @@ TEST(Preferences, TellOfAnyTextInOneLine) {
   for (const char c : problems[0]) EXPECT_GE(static_cast<unsigned char>(c), 0x20) << problems[0];
 }
 
-// As many brackets as the file may have bytes: no value that is copied or shown recursively.
-TEST(Preferences, OfNothingButBracketsAreTheDefaults) {
+// Copying or printing such a deeply nested value recursively would overflow the stack.
+TEST(Preferences, DeeplyNestedJsonGivesTheDefaults) {
   const std::string deep = std::string(500'000, '[') + std::string(500'000, ']');
   for (const char* name : {"asset_folder", "recent_files", "settings", "other"}) {
     std::vector<std::string> problems;
@@ -91,7 +91,7 @@ TEST(Preferences, OfNothingButBracketsAreTheDefaults) {
   }
 }
 
-TEST(Preferences, TakeWhatIsSoundAndTellOfTheRest) {
+TEST(Preferences, ValidEntriesAreUsedAndOthersReported) {
   std::vector<std::string> problems;
   const Preferences p = parsePreferences(R"({"lamplighter_settings": 1, "settings":
     {"ui_scale": 1e9, "toasts": "yes", "thumbnail_size": 64, "keys": "qwertz", "frobnicate": 1,
@@ -112,14 +112,14 @@ TEST(Preferences, TakeWhatIsSoundAndTellOfTheRest) {
 
 using SettingsActions = test::SessionFixture;
 
-TEST_F(SettingsActions, ChangeWhatTheSessionGoesBy) {
+TEST_F(SettingsActions, ChangeTheSession) {
   ASSERT_TRUE(session_.runAction("settings.set light_unit=cd"));
   EXPECT_EQ(session_.lighting().unit, LightUnit::candela);
   ASSERT_TRUE(session_.runAction("settings.set keys=grs"));
   EXPECT_EQ(session_.actions().forKey(Key::g, {})->name, "tool.move");
   ASSERT_TRUE(session_.runAction("view.ui_scale 1.5"));
   EXPECT_FLOAT_EQ(session_.home().preferences.settings().uiScale, 1.5f);
-  // What was changed elsewhere is kept by it.
+  // Another action changed the unit; settings.set keeps that change.
   ASSERT_TRUE(session_.runAction("lights.unit nits"));
   ASSERT_TRUE(session_.runAction("settings.set toasts=false"));
   EXPECT_EQ(session_.lighting().unit, LightUnit::nits);
@@ -128,10 +128,10 @@ TEST_F(SettingsActions, ChangeWhatTheSessionGoesBy) {
   ASSERT_TRUE(session_.runAction("settings.reset"));
   EXPECT_EQ(session_.lighting().unit, LightUnit::lumens);
   EXPECT_TRUE(session_.home().preferences.values.values().empty());
-  EXPECT_FALSE(session_.editing().canUndo()) << "settings are no part of the level";
+  EXPECT_FALSE(session_.editing().canUndo()) << "settings are not part of the level";
 }
 
-TEST_F(SettingsActions, RefuseWhatIsNoValue) {
+TEST_F(SettingsActions, RefuseInvalidValues) {
   for (const char* bad : {"settings.set ui_scale=9", "settings.set nothing=1", "settings.set",
                           "settings.set ui_scale", "settings.reset nothing", "view.ui_scale x"}) {
     EXPECT_FALSE(session_.runAction(bad)) << bad;

@@ -1,4 +1,4 @@
-// Presets: one step each, all of what they set and nothing else.
+// Presets: each is one step that sets exactly its parameters.
 #include "editor/presets/presets.h"
 
 #include "renderer/registry/registry.h"
@@ -9,7 +9,7 @@ namespace {
 
 class Presets : public test::SessionFixture {};
 
-TEST_F(Presets, AreOneStepEachThatCanBeUndoneAndRedone) {
+TEST_F(Presets, AreOneStepWithUndoAndRedo) {
   session_.runAction("render.set seed=7");
   session_.renderFrame();
   for (const Preset& preset : presets()) {
@@ -33,7 +33,7 @@ TEST_F(Presets, AreOneStepEachThatCanBeUndoneAndRedone) {
   }
 }
 
-TEST_F(Presets, SetValuesThatTheirParametersTake) {
+TEST_F(Presets, SetValidValues) {
   for (const Preset& preset : presets()) {
     for (const auto& [name, value] : preset.values.values()) {
       bool found = false;

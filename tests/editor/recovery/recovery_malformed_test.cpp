@@ -1,4 +1,4 @@
-// Journals of nonsense are not offered, and refused in one line.
+// Malformed journals are not offered for recovery, and are refused with one line.
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -28,14 +28,14 @@ class MalformedJournal : public testing::Test {
   fs::path session_ = folder_.path() / "root" / "session";
 };
 
-TEST_F(MalformedJournal, WholeNumbersThatAreNoneOrBeyondAnInt) {
+TEST_F(MalformedJournal, InvalidWholeNumbers) {
   for (const char* edits : {"1e300", "-1e300", "2147483647", "1.5", "-5", "99999999999", "null"})
     expectRefused(std::string("\"files\":[],\"edits\":") + edits, R"({"label":"","time":1})");
   expectRefused(R"("files":[],"edits":2)", R"({"label":"","time":1e300})");
 }
 
-// What walks values recursively would run over the stack.
-TEST_F(MalformedJournal, NothingButBrackets) {
+// Recursive functions would overflow the stack.
+TEST_F(MalformedJournal, DeeplyNestedJson) {
   const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']');
   expectRefused("\"edits\":2,\"files\":" + deep, deep);
 }

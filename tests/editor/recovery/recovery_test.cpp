@@ -44,7 +44,7 @@ class Recovery : public testing::Test {
   void act(const std::string& text) {
     ASSERT_TRUE(session_->runAction(text)) << session_->status();
   }
-  // The process dies: nothing is closed, only the lock is gone.
+  // Simulates a crash: nothing is closed, and only the lock disappears.
   Recovered killAndRecover() {
     const Document was = session_->document();
     session_.reset();
@@ -67,7 +67,7 @@ TEST_F(Recovery, WritesNothingUntilSomethingIsEdited) {
   EXPECT_TRUE(findRecoverable(root_).empty());
 }
 
-TEST_F(Recovery, GivesBackEveryCommittedEdit) {
+TEST_F(Recovery, RestoresEveryCommittedEdit) {
   act("light.add sphere");
   act("edit.rename \"hall \\\"north\\\"\"");
   act("object.move 1 2 3");
@@ -104,7 +104,7 @@ TEST_F(Recovery, KeepsTheTreeAndItsOrder) {
   EXPECT_EQ(killAndRecover().edits, 10);
 }
 
-TEST_F(Recovery, ADragIsOneEditOnceItIsDone) {
+TEST_F(Recovery, ADragIsOneEditWhenItEnds) {
   const NodeId id = session_->document().scene.nodes.back().id;
   Transform t = session_->document().scene.nodes.back().local;
   session_->editing().hold("Drag");
@@ -117,7 +117,7 @@ TEST_F(Recovery, ADragIsOneEditOnceItIsDone) {
   EXPECT_EQ(killAndRecover().edits, 1);
 }
 
-TEST_F(Recovery, ATornLastLineDoesNotCount) {
+TEST_F(Recovery, AnIncompleteLastLineIsIgnored) {
   act("light.add disk");
   const uint64_t before = documentHash(session_->document());
   act("light.add sphere");
@@ -136,14 +136,14 @@ TEST_F(Recovery, ATornLastLineDoesNotCount) {
   }
 }
 
-TEST_F(Recovery, AProcessThatLivesIsNotOffered) {
+TEST_F(Recovery, ARunningProcessIsNotOffered) {
   act("light.add disk");
   EXPECT_TRUE(findRecoverable(root_).empty());
   EXPECT_THROW(recover(session_->crashRecovery().journal()->folder()), InputError);
   EXPECT_THROW(discard(session_->crashRecovery().journal()->folder()), InputError);
 }
 
-TEST_F(Recovery, NothingIsLeftOfASessionThatEnds) {
+TEST_F(Recovery, ASessionThatEndsRemovesItsJournal) {
   act("light.add disk");
   session_->crashRecovery().close();
   EXPECT_TRUE(fs::is_empty(root_));
@@ -155,14 +155,14 @@ TEST_F(Recovery, OpeningAnotherLevelEndsTheJournal) {
   EXPECT_TRUE(fs::is_empty(root_));
 }
 
-TEST_F(Recovery, IsNotOfferedWhatWasSaved) {
+TEST_F(Recovery, SavedWorkIsNotOffered) {
   act("light.add disk");
   act("file.save");
   session_.reset();
   EXPECT_TRUE(findRecoverable(root_).empty());
 }
 
-TEST_F(Recovery, GoesOnAfterASaveOverTheFileThatWasOpened) {
+TEST_F(Recovery, ContinuesAfterASaveToTheOpenedFile) {
   act("light.add disk");
   act("select.name floor");
   act("edit.delete");
@@ -173,13 +173,13 @@ TEST_F(Recovery, GoesOnAfterASaveOverTheFileThatWasOpened) {
   EXPECT_TRUE(r.hasLevel);
 }
 
-TEST_F(Recovery, GoesOnAfterASaveBeforeTheFirstEdit) {
+TEST_F(Recovery, ContinuesAfterASaveBeforeTheFirstEdit) {
   act("file.save");
   act("light.add sphere");
   EXPECT_TRUE(killAndRecover().hasLevel);
 }
 
-TEST_F(Recovery, RefusesALevelThatWasChangedMeanwhile) {
+TEST_F(Recovery, RefusesALevelThatHasBeenChangedSince) {
   act("light.add sphere");
   const fs::path state = session_->crashRecovery().journal()->folder();
   session_.reset();
@@ -192,7 +192,7 @@ TEST_F(Recovery, RefusesALevelThatWasChangedMeanwhile) {
   }
 }
 
-TEST_F(Recovery, AnAutosaveStandsOnItsOwn) {
+TEST_F(Recovery, AnAutosaveNeedsNoOtherFile) {
   act("light.add sphere");
   act("recovery.autosave");
   act("edit.rename after");
@@ -202,12 +202,12 @@ TEST_F(Recovery, AnAutosaveStandsOnItsOwn) {
   fs::remove(folder_.path() / "level.bin");
   const Recovered r = killAndRecover();
   EXPECT_EQ(r.edits, 2);
-  EXPECT_EQ(r.labels.size(), 1u);  // the journal began anew
+  EXPECT_EQ(r.labels.size(), 1u);  // the autosave restarted the journal
   const LoadedScene autosave = loadGltf(state / "autosave.glb");
   EXPECT_EQ(autosave.scene.nodes.size(), 3u);
 }
 
-TEST_F(Recovery, TheActionTakesTheWorkUpAndGoesOn) {
+TEST_F(Recovery, TheActionRecoversTheWorkAndContinuesTheJournal) {
   act("light.add sphere");
   act("edit.rename mine");
   const Document was = session_->document();
@@ -225,7 +225,7 @@ TEST_F(Recovery, TheActionTakesTheWorkUpAndGoesOn) {
   EXPECT_EQ(r.edits, 3);
 }
 
-TEST_F(Recovery, WhatIsRecoveredCanBeSaved) {
+TEST_F(Recovery, RecoveredWorkCanBeSaved) {
   act("light.add sphere");
   session_.reset();
   session_ = sessionWith(root_, 8);
@@ -235,7 +235,7 @@ TEST_F(Recovery, WhatIsRecoveredCanBeSaved) {
   EXPECT_EQ(loadGltf(level_).scene.nodes.size(), 3u);
 }
 
-TEST_F(Recovery, DoesNotThrowAwayWorkOfThisSession) {
+TEST_F(Recovery, KeepsTheWorkOfThisSession) {
   act("light.add sphere");
   session_.reset();
   session_ = sessionWith(root_, 8);
@@ -255,7 +255,7 @@ TEST_F(Recovery, DiscardDeletesIt) {
                !session_->crashRecovery().found().empty());
 }
 
-TEST_F(Recovery, KeepsWhatWasPastedFromAnotherLevel) {
+TEST_F(Recovery, KeepsObjectsPastedFromAnotherLevel) {
   Scene other;
   const int red = addMaterial(other, vec3(0.6f, 0.1f, 0.1f));
   auto image = std::make_shared<Image8>(3, 2);
@@ -276,7 +276,7 @@ TEST_F(Recovery, KeepsWhatWasPastedFromAnotherLevel) {
   EXPECT_EQ(s.meshes.back()->primitives[0].indices, was.primitives[0].indices);
 }
 
-TEST_F(Recovery, KeepsProfilesOfAnyBytes) {
+TEST_F(Recovery, KeepsProfilesWithAnyBytes) {
   const char* text =
       "IESNA:LM-63-1995\n[LUMINAIRE] Stra\xdf"
       "e\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 50\n0 45 90\n0\n100 60 10\n";
@@ -289,7 +289,7 @@ TEST_F(Recovery, KeepsProfilesOfAnyBytes) {
   EXPECT_EQ(r.document.scene.nodes.back().punctual->profile->text, text);
 }
 
-TEST_F(Recovery, AJournalOfNonsenseIsRefused) {
+TEST_F(Recovery, ADamagedJournalIsRefused) {
   act("light.add sphere");
   const fs::path file = journal();
   session_.reset();
@@ -300,7 +300,7 @@ TEST_F(Recovery, AJournalOfNonsenseIsRefused) {
     damaged[at] = damaged[at] == '1' ? '9' : '1';
     std::ofstream(file, std::ios::binary) << damaged;
     try {
-      recover(file.parent_path());  // some damage does no harm, or is warned of
+      recover(file.parent_path());  // some damage has no effect or only causes a warning
     } catch (const InputError&) {
     }
   }

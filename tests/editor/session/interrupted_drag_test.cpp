@@ -1,5 +1,5 @@
-// What happens to a drag of the gizmo when something else comes in between: it must end as a whole
-// step or leave nothing, never go on writing into another step or another document.
+// A drag of the gizmo that another action interrupts. It must end as a complete step or change
+// nothing. It must not write into another step or another document.
 #include "renderer/base/error.h"
 #include "tests/editor/session_fixture.h"
 
@@ -20,18 +20,18 @@ class InterruptedDrag : public test::SessionFixture {
   uint64_t before_ = 0;
 };
 
-TEST_F(InterruptedDrag, UndoTakesTheDragBackAndEndsIt) {
+TEST_F(InterruptedDrag, UndoRevertsAndEndsTheDrag) {
   ASSERT_TRUE(session_.runAction("edit.undo"));
   EXPECT_EQ(hash(), before_);
   dragTo(input_.pointer + vec2(20, 0));
   dragTo(input_.pointer + vec2(20, 0));
   release();
-  EXPECT_EQ(hash(), before_) << "the drag has ended; moving on drags nothing";
+  EXPECT_EQ(hash(), before_) << "the drag has ended, so further movement changes nothing";
   EXPECT_FALSE(session_.editing().canUndo());
 }
 
-TEST_F(InterruptedDrag, EscapeAsAnActionTakesItBackAndKeepsTheSelection) {
-  // A tap so short that the key is up again before the viewport looks.
+TEST_F(InterruptedDrag, TheActionOfEscapeRevertsTheDragAndKeepsTheSelection) {
+  // The key is pressed and released before the viewport reads it.
   ASSERT_TRUE(session_.runAction("select.none"));
   release();
   EXPECT_EQ(hash(), before_);
@@ -40,7 +40,7 @@ TEST_F(InterruptedDrag, EscapeAsAnActionTakesItBackAndKeepsTheSelection) {
   EXPECT_TRUE(session_.document().selection.empty());
 }
 
-TEST_F(InterruptedDrag, AnotherEditIsAStepOfItsOwn) {
+TEST_F(InterruptedDrag, AnotherEditIsASeparateStep) {
   const float x = local(box_).translation.x;
   ASSERT_TRUE(session_.runAction("edit.duplicate"));
   dragTo(input_.pointer + vec2(20, 0));
@@ -54,7 +54,7 @@ TEST_F(InterruptedDrag, AnotherEditIsAStepOfItsOwn) {
   EXPECT_EQ(hash(), before_);
 }
 
-TEST_F(InterruptedDrag, DeletingWhatIsDraggedLeavesTwoSteps) {
+TEST_F(InterruptedDrag, DeletingTheDraggedObjectLeavesTwoSteps) {
   ASSERT_TRUE(session_.runAction("edit.delete"));
   dragTo(input_.pointer + vec2(20, 0));
   release();
@@ -64,10 +64,11 @@ TEST_F(InterruptedDrag, DeletingWhatIsDraggedLeavesTwoSteps) {
   EXPECT_EQ(hash(), before_);
 }
 
-TEST_F(InterruptedDrag, OpeningAnotherLevelForgetsIt) {
+TEST_F(InterruptedDrag, OpeningAnotherLevelEndsTheDrag) {
   Scene other;
   test::addMesh(other, test::squareMesh(4.0f));
-  test::addMesh(other, test::boxMesh(vec3(1.0f)), vec3(0, 0.5f, 0));  // has the dragged one's id
+  test::addMesh(other, test::boxMesh(vec3(1.0f)),
+                vec3(0, 0.5f, 0));  // has the id of the dragged object
   ASSERT_NE(other.find(box_), nullptr);
   session_.open(std::move(other), "other.gltf", {});
   const uint64_t opened = hash();

@@ -1,5 +1,5 @@
-// The hall is lit anew by a script of actions and by a recording of mouse and keys: the same
-// document both ways.
+// The hall is relit by a script of actions and by a recording of mouse and keys. Both give the same
+// document.
 #include <filesystem>
 #include <fstream>
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 const fs::path kTests = test::sourceFolder() / "tests";
 
-// The header of the recording, and the hash of its last check.
+// The header of the recording, and the document hash of its last checkpoint.
 std::pair<nlohmann::json, std::string> recorded() {
   std::ifstream in(kTests / "recordings/relight_modern_hall.jsonl");
   std::string line, hash;

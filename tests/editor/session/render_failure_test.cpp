@@ -1,4 +1,4 @@
-// A frame that cannot be rendered must cost neither the work nor the picture.
+// If a frame cannot be rendered, the document and the last picture stay.
 #include "renderer/backends/cpu/many_lights/cpu_many_lights.h"
 #include "renderer/base/error.h"
 #include "tests/editor/session_fixture.h"
@@ -6,7 +6,7 @@
 namespace lamplighter {
 namespace {
 
-// The kernels of the cpu backend on a device whose memory holds maps of 32² texels at most.
+// Kernels of the cpu backend that have no memory for shadow maps of more than 32² texels.
 class SmallKernels final : public ManyLightsKernels {
  public:
   explicit SmallKernels(std::unique_ptr<ManyLightsKernels> inner) : inner_(std::move(inner)) {}
@@ -83,13 +83,13 @@ TEST_F(RenderFailure, KeepsTheLastPictureAndSaysWhy) {
   EXPECT_TRUE(session_.renderError().empty());
 }
 
-TEST_F(RenderFailure, WhatChangedMeanwhileShowsAfterwards) {
+TEST_F(RenderFailure, ChangesDuringTheFailureAreShownLater) {
   ASSERT_TRUE(session_.runAction("render.set map_resolution=16"));
   settle();
   ASSERT_TRUE(session_.runAction("render.set map_resolution=64"));
   session_.select({light_});
   ASSERT_TRUE(session_.runAction("object.move 2 1 0"));
-  settle();  // fails, and has taken the change
+  settle();  // these frames fail, but receive the change
   ASSERT_TRUE(session_.runAction("render.set map_resolution=16"));
   const auto after = settle();
 
@@ -103,13 +103,13 @@ TEST_F(RenderFailure, WhatChangedMeanwhileShowsAfterwards) {
   EXPECT_EQ(after, fresh.output().radiance->pixels().pixels);
 }
 
-TEST_F(RenderFailure, OfTheVeryFirstFrameGivesABlackPicture) {
+TEST_F(RenderFailure, OfTheFirstFrameGivesABlackPicture) {
   ASSERT_TRUE(session_.runAction("render.set map_resolution=64"));
   ASSERT_NE(session_.renderFrame().radiance, nullptr);
   EXPECT_EQ(session_.output().radiance->pixels().pixels, std::vector<vec3>(32 * 24, vec3(0.0f)));
 }
 
-TEST_F(RenderFailure, RenderSettingsAreNoReasonToSave) {
+TEST_F(RenderFailure, RenderSettingsDoNotModifyTheLevel) {
   EXPECT_FALSE(session_.modified());
   ASSERT_TRUE(session_.runAction("render.exposure 2"));
   EXPECT_TRUE(session_.editing().canUndo());

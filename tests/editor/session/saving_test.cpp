@@ -1,5 +1,4 @@
-// Saving when the disk is full, the folder is read-only, or others have changed the level
-// meanwhile.
+// Saving when the disk is full, the folder is read-only, or another program has changed the level.
 #include <csignal>
 #include <fstream>
 
@@ -21,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Files cannot grow beyond so many bytes: writing fails as on a full disk, without one.
+// Limits the size of files to a number of bytes, so that writing fails as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -40,7 +39,7 @@ class FullDisk {
   rlimit limit_{};
 };
 
-// A folder that nobody may write to; root, whom rights do not hold, becomes nobody.
+// Makes a folder read-only. Root ignores permissions, so it becomes the user nobody.
 class ReadOnly {
  public:
   explicit ReadOnly(fs::path folder) : folder_(std::move(folder)) {
@@ -83,7 +82,7 @@ class Saving : public testing::Test {
     std::sort(names.begin(), names.end());
     return names;
   }
-  // Nothing has happened but a message.
+  // Expects a message and no other effect.
   void expectRefused(const std::string& action, const std::string& message) {
     const std::vector<std::string> before = files();
     const std::string text = readText(level_);
@@ -98,7 +97,7 @@ class Saving : public testing::Test {
   }
 };
 
-TEST_F(Saving, AFullDiskIsAMessage) {
+TEST_F(Saving, AFullDiskIsReported) {
   {
     const FullDisk full(100);
     expectRefused("file.save", "cannot be written");
@@ -108,7 +107,7 @@ TEST_F(Saving, AFullDiskIsAMessage) {
   EXPECT_FALSE(session_.modified());
 }
 
-TEST_F(Saving, AReadOnlyFolderIsAMessage) {
+TEST_F(Saving, AReadOnlyFolderIsReported) {
   const fs::path inner = folder_.path() / "inner";
   fs::create_directory(inner);
   fs::permissions(folder_.path(), fs::perms::all);
@@ -117,12 +116,12 @@ TEST_F(Saving, AReadOnlyFolderIsAMessage) {
   expectRefused("file.save_as " + (inner / "x.glb").string(), "cannot be written");
 }
 
-TEST_F(Saving, AFolderThatIsNotThereIsAMessage) {
+TEST_F(Saving, AMissingFolderIsReported) {
   expectRefused("file.save_as " + (folder_.path() / "none" / "x.gltf").string(),
                 "cannot be written");
 }
 
-TEST_F(Saving, AllOtherFilesAreWholeOrNotThereToo) {
+TEST_F(Saving, OtherFilesAreWrittenCompletelyOrNotAtAll) {
   const fs::path picture = folder_.path() / "p.png", exr = folder_.path() / "p.exr";
   const fs::path text = folder_.path() / "t.json";
   writeFile(text, "before");
@@ -155,7 +154,7 @@ TEST_F(Saving, TheJournalCatchesUpWhenThereIsSpaceAgain) {
     EXPECT_EQ(session_.document().scene.nodes.size(), 4u);
   }
   act("edit.rename last");
-  // Read beside the process that lives.
+  // Reads a copy, because the process still holds the lock.
   fs::copy(session_.crashRecovery().journal()->folder(), root / "copy");
   const Recovered r = recover(root / "copy");
   EXPECT_EQ(documentHash(r.document), documentHash(session_.document()));
@@ -165,7 +164,7 @@ TEST_F(Saving, NoticesThatTheFileWasChanged) {
   std::ofstream(level_, std::ios::app) << ' ';
   expectRefused("file.save", "another program has changed");
   EXPECT_EQ(session_.changedOnDisk(level_), std::vector{level_});
-  // Under another name nothing of theirs is lost.
+  // Saving under another name overwrites nothing.
   EXPECT_TRUE(act("file.save_as " + (folder_.path() / "mine.gltf").string())) << session_.status();
 }
 
@@ -175,11 +174,11 @@ TEST_F(Saving, NoticesThatABufferWasChangedOrRemoved) {
   expectRefused("file.save_as " + (folder_.path() / "mine.gltf").string(), "level.bin");
   fs::remove(bin_);
   expectRefused("file.save", "level.bin");
-  // With all bytes in it, it refers to none of theirs.
+  // A .glb contains all data and does not use the changed buffer.
   EXPECT_TRUE(act("file.save_as " + (folder_.path() / "mine.glb").string())) << session_.status();
 }
 
-TEST_F(Saving, ForceOverwritesWithWhatWasLoaded) {
+TEST_F(Saving, ForceOverwritesWithTheLoadedData) {
   const Mesh mesh = *session_.document().scene.meshes[0];
   std::ofstream(bin_, std::ios::binary) << std::string(fs::file_size(bin_), 'x');
   EXPECT_FALSE(act("file.save"));
@@ -191,7 +190,7 @@ TEST_F(Saving, ForceOverwritesWithWhatWasLoaded) {
   EXPECT_EQ(again.meshes[0]->primitives[0].positions, mesh.primitives[0].positions);
 }
 
-TEST_F(Saving, ItsOwnSavesAreNoChangeOfOthers) {
+TEST_F(Saving, ItsOwnSavesDoNotCountAsChanges) {
   for (int i = 0; i < 3; ++i) {
     act("select.name floor");
     act("object.move 0 0 " + std::to_string(i + 1));
@@ -200,7 +199,7 @@ TEST_F(Saving, ItsOwnSavesAreNoChangeOfOthers) {
   }
   const fs::path other = folder_.path() / "other.gltf";
   EXPECT_TRUE(act("file.save_as " + other.string()));
-  std::ofstream(level_, std::ios::app) << ' ';  // not ours any more
+  std::ofstream(level_, std::ios::app) << ' ';  // no longer the file of this session
   act("light.add disk");
   EXPECT_TRUE(act("file.save")) << session_.status();
   std::ofstream(other, std::ios::app) << ' ';

@@ -1,4 +1,4 @@
-// The session as the ui drives it: pointer and keys in, document and picture out.
+// The session as used by the ui: input of pointer and keys, output of document and picture.
 #include "editor/session/session.h"
 
 #include <cmath>
@@ -56,12 +56,12 @@ class SessionTest : public testing::Test {
     in.released[0] = true;
     session_.viewport(in);
   }
-  // Presses `button` at the first place and lets go at the last.
+  // Presses `button` at the first point and releases it at the last.
   void drag(const std::vector<vec2>& way, int button = 0, Modifiers modifiers = {},
             std::set<Key> keysAtEnd = {}) {
     ViewportInput in = at(way.front());
     in.modifiers = modifiers;
-    session_.viewport(in);  // hovers
+    session_.viewport(in);  // moves the pointer without a button
     in.pressed[button] = in.down[button] = true;
     session_.viewport(in);
     in.pressed[button] = false;
@@ -77,19 +77,19 @@ class SessionTest : public testing::Test {
   const Transform& local(NodeId id) const { return session_.document().scene.find(id)->local; }
 };
 
-TEST_F(SessionTest, AClickSelectsWhatIsSeenThere) {
+TEST_F(SessionTest, AClickSelectsTheVisibleObject) {
   click(pixelOf(vec3(0, 0.9f, 0.5f)));
   EXPECT_EQ(session_.document().selection, std::vector<NodeId>{box_});
   click(pixelOf(vec3(3, 0, 1)), {.shift = true});
   EXPECT_EQ(session_.document().selection, (std::vector<NodeId>{box_, floor_}));
   click(pixelOf(vec3(0, 0.9f, 0.5f)), {.ctrl = true});
   EXPECT_EQ(session_.document().selection, std::vector<NodeId>{floor_});
-  click(vec2(2, 2));  // the void
+  click(vec2(2, 2));  // outside of all objects
   EXPECT_TRUE(session_.document().selection.empty());
-  EXPECT_FALSE(session_.editing().canUndo()) << "selecting is no change";
+  EXPECT_FALSE(session_.editing().canUndo()) << "a selection is not an edit";
 }
 
-TEST_F(SessionTest, APunctualLightIsPickedByItsMark) {
+TEST_F(SessionTest, APunctualLightIsPickedByItsIcon) {
   Document document = session_.document();
   const NodeId id = test::addNode(document.scene, "lamp", kNoNode, vec3(2, 1.5f, 1));
   document.scene.find(id)->punctual = PunctualLight{};
@@ -122,7 +122,7 @@ TEST_F(SessionTest, CtrlSnapsToTheGrid) {
   EXPECT_EQ(local(box_).translation.x, 0.75f);
 }
 
-TEST_F(SessionTest, EscapeTakesADragBack) {
+TEST_F(SessionTest, EscapeRevertsADrag) {
   session_.select({box_});
   session_.setTool(ToolMode::move);
   const float reach = 60.0f * metresPerPixel(session_.view(), vec3(0, 0.5f, 0));
@@ -133,7 +133,7 @@ TEST_F(SessionTest, EscapeTakesADragBack) {
   EXPECT_FALSE(session_.editing().canUndo());
 }
 
-TEST_F(SessionTest, TheRingTurnsAboutItsAxisAndNothingElse) {
+TEST_F(SessionTest, TheRingRotatesAboutItsAxisOnly) {
   session_.select({box_});
   session_.setTool(ToolMode::rotate);
   const vec3 centre(0, 0.5f, 0);
@@ -156,7 +156,7 @@ TEST_F(SessionTest, TheScaleHandleScalesOneAxis) {
   EXPECT_EQ(local(box_).scale.y, 1.0f);
 }
 
-TEST_F(SessionTest, AGroupMovesTogetherAndChildrenOnce) {
+TEST_F(SessionTest, AGroupMovesTogetherAndDescendantsOnce) {
   Document document = session_.document();
   const NodeId child = test::addNode(document.scene, "child", box_, vec3(1, 0, 0));
   session_.editing().open(std::move(document));
@@ -168,7 +168,7 @@ TEST_F(SessionTest, AGroupMovesTogetherAndChildrenOnce) {
   EXPECT_NEAR(local(box_).translation.x, 1.0f, 0.02f);
   EXPECT_NEAR(local(light_).translation.x, 1.0f, 0.02f);
   EXPECT_EQ(local(child).translation, vec3(1, 0, 0))
-      << "it hangs below the box and has moved with it";
+      << "it is a descendant of the box and has moved with it";
 }
 
 TEST_F(SessionTest, OrbitingKeepsTheDistanceToThePivot) {
@@ -200,7 +200,7 @@ TEST_F(SessionTest, FlyingFollowsKeysAndTime) {
   EXPECT_FALSE(session_.flying());
 }
 
-TEST_F(SessionTest, FramingShowsTheWholeSelection) {
+TEST_F(SessionTest, FramingShowsTheSelection) {
   session_.select({box_});
   ASSERT_TRUE(session_.runAction("view.frame_selection"));
   for (int i = 0; i < 8; ++i) {
@@ -225,7 +225,7 @@ TEST_F(SessionTest, DropPutsAnObjectOnTheFloorAndALightFacingAway) {
   EXPECT_NEAR(local(light_).translation.y, 0.01f, 1e-4f);
 }
 
-TEST_F(SessionTest, ANewLightIsSelectedAndUndoTakesItAway) {
+TEST_F(SessionTest, ANewLightIsSelectedAndUndoRemovesIt) {
   const size_t nodes = session_.document().scene.nodes.size();
   for (const char* shape : {"rectangle", "disk", "sphere"}) {
     ASSERT_TRUE(session_.runAction(std::string("light.add ") + shape));
@@ -239,7 +239,7 @@ TEST_F(SessionTest, ANewLightIsSelectedAndUndoTakesItAway) {
   }
 }
 
-TEST_F(SessionTest, WhatDoesNotFitChangesNothingAndSaysSo) {
+TEST_F(SessionTest, InvalidActionsChangeNothingAndAreReported) {
   const uint64_t before = documentHash(session_.document());
   for (const char* action :
        {"light.add cube", "light.add", "no.such", "object.move 1 2", "object.move 1 2 x",
@@ -253,7 +253,7 @@ TEST_F(SessionTest, WhatDoesNotFitChangesNothingAndSaysSo) {
   EXPECT_FALSE(session_.editing().canUndo());
 }
 
-TEST_F(SessionTest, SpaceShowsTheReferenceAndGoesBack) {
+TEST_F(SessionTest, SpaceTogglesTheReference) {
   const Action* action = session_.actions().forKey(Key::space, {});
   ASSERT_NE(action, nullptr);
   session_.perform(action->name);
@@ -278,7 +278,7 @@ TEST_F(SessionTest, EveryKeyHasOneAction) {
   EXPECT_EQ(session_.actions().forKey(Key::z, {}), nullptr);
 }
 
-TEST_F(SessionTest, MovingALightAndUndoingItBringsTheVeryPictureBack) {
+TEST_F(SessionTest, UndoingTheMoveOfALightRestoresThePictureBitForBit) {
   const auto settle = [&] {
     while (!session_.renderFrame().settled) {
     }

@@ -1,4 +1,4 @@
-// The split view: two pictures of one view, the divider, and the heat map of their difference.
+// The split view: two pictures of the same view, the divider, and the heat map of the difference.
 #include "editor/split/split_view.h"
 
 #include "editor/split/heat_map.h"
@@ -50,10 +50,10 @@ TEST_F(SplitViewTest, ShowsEachSideOnItsSideOfTheDivider) {
   EXPECT_EQ(session_.picture().pixels, alone.pixels);
   run("split.off");
   EXPECT_EQ(session_.picture().pixels, alone.pixels);
-  EXPECT_EQ(hash(), before);  // it is no part of the work
+  EXPECT_EQ(hash(), before);  // the split view is not part of the document
 }
 
-// What the second side shows is what a session of its own would show.
+// The second side shows the same picture as a separate session.
 TEST_F(SplitViewTest, TheSecondSideFollowsEveryEdit) {
   run("split.on live many_lights,vpls=40");
   Transform moved = local(box_);
@@ -82,8 +82,8 @@ TEST_F(SplitViewTest, EitherSideMayBeTheReference) {
   EXPECT_FALSE(session_.split().heat());
 }
 
-// What a worker has traced for the error meter is shown, block by block, and not traced again.
-TEST_F(SplitViewTest, TheErrorMetersReferenceIsTaken) {
+// The reference that a worker traced for the error meter is shown, and not traced again.
+TEST_F(SplitViewTest, TheReferenceOfTheErrorMeterIsUsed) {
   session_.runAction("error.meter");
   session_.runAction("split.show heat");
   session_.renderFrame();
@@ -121,12 +121,12 @@ TEST_F(SplitViewTest, TheDividerIsDragged) {
   release();
   dragTo(vec2(10, 90));
   EXPECT_FLOAT_EQ(session_.split().position(), 0.75f);
-  EXPECT_TRUE(session_.document().selection.empty());  // it was no click on the level
+  EXPECT_TRUE(session_.document().selection.empty());  // the drag did not select anything
   EXPECT_TRUE(session_.view() == view);
 }
 
-// A second side that cannot be made is given up with a word; the first stays as it is.
-TEST_F(SplitViewTest, ASecondSideThatFailsLeavesTheFirst) {
+// If the second side cannot be created, the split ends with a message and the first side stays.
+TEST_F(SplitViewTest, AFailedSecondSideKeepsTheFirst) {
   const Image8 alone = session_.picture();
   session_.split().setRenderer([]() -> std::unique_ptr<FrameRenderer> {
     throw InputError("no room for a second renderer");
@@ -139,7 +139,7 @@ TEST_F(SplitViewTest, ASecondSideThatFailsLeavesTheFirst) {
   EXPECT_EQ(session_.picture().pixels, alone.pixels);
 }
 
-TEST_F(SplitViewTest, BadSidesAreRefusedAndChangeNothing) {
+TEST_F(SplitViewTest, InvalidSidesAreRefusedAndChangeNothing) {
   run("split.on live many_lights,vpls=40");
   for (const char* bad :
        {"split.on live", "split.on live nothing", "split.on live many_lights,vpls",
@@ -150,7 +150,7 @@ TEST_F(SplitViewTest, BadSidesAreRefusedAndChangeNothing) {
   EXPECT_EQ(session_.split().position(), 0.5f);
 }
 
-TEST(HeatMap, ColoursTellTheDifferenceAsAShareOfTheMean) {
+TEST(HeatMap, ColoursShowTheDifferenceRelativeToTheMean) {
   Image a(4, 2, vec3(1.0f)), b(4, 2, vec3(1.0f));
   a.at(1, 0).g = 1.25f;
   a.at(2, 0).b = 0.5f;
@@ -161,11 +161,11 @@ TEST(HeatMap, ColoursTellTheDifferenceAsAShareOfTheMean) {
     const uint8_t* p = heat.image.at(x, y);
     return std::vector<int>{p[0], p[1], p[2]};
   };
-  EXPECT_EQ(pixel(2, 0), pixel(3, 1));  // each block is as large as in the picture
+  EXPECT_EQ(pixel(2, 0), pixel(3, 1));  // a block covers several pixels
   EXPECT_EQ(pixel(0, 0), pixel(7, 3));
   EXPECT_NE(pixel(0, 0), pixel(2, 0));
   EXPECT_NE(pixel(2, 0), pixel(4, 0));
-  EXPECT_EQ(pixel(4, 0), pixel(6, 0));  // both beyond the ramp's end
+  EXPECT_EQ(pixel(4, 0), pixel(6, 0));  // both are beyond the end of the colour scale
   EXPECT_EQ(heat.legend.high, "50% of the mean");
 }
 

@@ -65,7 +65,7 @@ TEST(Timeline, KnowsEveryStageOfTheEngine) {
   }
 }
 
-TEST(Timeline, KeepsTheLastSecondsAlone) {
+TEST(Timeline, KeepsOnlyTheLastSeconds) {
   Timeline timeline;
   for (int i = 0; i < 300; ++i)
     timeline.add(static_cast<uint32_t>(i), 0.1 * i, 0.1 * i + 0.05, statsOf(0.01, 0.02));
@@ -74,7 +74,7 @@ TEST(Timeline, KeepsTheLastSecondsAlone) {
   for (int i = 0; i < 5000; ++i) timeline.add(0, 40.0 + 1e-4 * i, 40.0 + 1e-4 * i + 5e-5, {});
   EXPECT_EQ(timeline.frames().size(), 2000u);
   timeline.clear();
-  timeline.add(1, 3.0, 3.0, {});  // no clock
+  timeline.add(1, 3.0, 3.0, {});  // without a clock
   EXPECT_TRUE(timeline.frames().empty());
 }
 
@@ -147,8 +147,8 @@ class TimelineExport : public test::SessionFixture {
   }
 };
 
-TEST_F(TimelineExport, WritesBothKindsOrSaysWhyNot) {
-  EXPECT_FALSE(session_.runAction(action("a.json")));  // nothing was timed
+TEST_F(TimelineExport, WritesBothFormatsAndReportsErrors) {
+  EXPECT_FALSE(session_.runAction(action("a.json")));  // no frame was measured
   EXPECT_TRUE(session_.status().starts_with("timeline: ")) << session_.status();
   session_.setClock([t = 0.0]() mutable { return t += 0.001; });
   session_.renderFrame();
@@ -160,7 +160,7 @@ TEST_F(TimelineExport, WritesBothKindsOrSaysWhyNot) {
   for (const auto& entry : fs::directory_iterator(folder_))
     names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"a.csv", "a.json"}));  // and nothing half done
+  EXPECT_EQ(names, (std::vector<std::string>{"a.csv", "a.json"}));  // and no partial files
 }
 
 }  // namespace

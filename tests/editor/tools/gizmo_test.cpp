@@ -1,5 +1,5 @@
-// The gizmo where geometry is awkward: parents that scale, mirror or collapse, rings seen from the
-// side, pointers beyond the horizon.
+// The gizmo in difficult cases: parents that scale, mirror or collapse, rings seen from the side,
+// pointers beyond the horizon.
 #include <cmath>
 
 #include "tests/editor/session_fixture.h"
@@ -27,7 +27,8 @@ class GizmoTest : public test::SessionFixture {
   }
   mat3 worldAxes(NodeId id) const { return mat3(worldMatrix(session_.document().scene, id)); }
 
-  // Turns the selection about the world's Y by dragging along the near half of that ring.
+  // Rotates the selection about the Y axis of the world by dragging along the near half of the
+  // ring.
   void turnAboutY(NodeId id, float from, float to) {
     session_.select({id});
     session_.setTool(ToolMode::rotate);
@@ -43,7 +44,7 @@ void expectNear(const mat3& a, const mat3& b, float tolerance) {
   for (int i = 0; i < 3; ++i) EXPECT_LT(glm::length(a[i] - b[i]), tolerance) << "axis " << i;
 }
 
-TEST_F(GizmoTest, MovesInTheWorldUnderAnyParent) {
+TEST_F(GizmoTest, MovesInWorldSpaceUnderAnyParent) {
   for (const NodeId id : {inDoubled_, inMirrored_}) {
     session_.select({id});
     session_.setTool(ToolMode::move);
@@ -55,7 +56,7 @@ TEST_F(GizmoTest, MovesInTheWorldUnderAnyParent) {
   }
 }
 
-TEST_F(GizmoTest, TurnsInTheWorldUnderAnyParentAndKeepsTheShape) {
+TEST_F(GizmoTest, RotatesInWorldSpaceUnderAnyParentAndKeepsTheShape) {
   for (const NodeId id : {inDoubled_, inMirrored_}) {
     const mat3 was = worldAxes(id);
     const vec3 place = placeOf(id);
@@ -63,15 +64,15 @@ TEST_F(GizmoTest, TurnsInTheWorldUnderAnyParentAndKeepsTheShape) {
     expectNear(worldAxes(id), mat3(glm::mat4_cast(glm::angleAxis(0.5f, vec3(0, 1, 0)))) * was,
                0.15f);  // a pixel of the drag is 0.01 rad, the longest axis 6 m
     EXPECT_LT(glm::length(placeOf(id) - place), 1e-4f);
-    EXPECT_EQ(local(id).scale, vec3(1, 2, 3)) << "a turn is no new scale";
+    EXPECT_EQ(local(id).scale, vec3(1, 2, 3)) << "a rotation does not change the scale";
     EXPECT_EQ(local(id).shear, vec3(0.0f));
   }
 }
 
-TEST_F(GizmoTest, DragsNothingUnderAParentThatHasNoVolume) {
+TEST_F(GizmoTest, DoesNothingUnderAParentWithAScaleOfZero) {
   const uint64_t before = hash();
   for (const ToolMode mode : {ToolMode::move, ToolMode::rotate, ToolMode::scale}) {
-    session_.select({inFlat_});  // a press that takes nothing picks what is there
+    session_.select({inFlat_});  // a press without a handle selects an object
     session_.setTool(mode);
     const vec3 o = placeOf(inFlat_);
     press(pixelOf(o + vec3(along(o, mode == ToolMode::rotate ? 92.0f : 60.0f), 0, 0)));
@@ -83,18 +84,18 @@ TEST_F(GizmoTest, DragsNothingUnderAParentThatHasNoVolume) {
   EXPECT_TRUE(std::isfinite(glm::length(local(inFlat_).translation)));
 }
 
-TEST_F(GizmoTest, ARingSeenFromTheSideTurnsWithThePointer) {
-  lookFrom(vec3(0, 0.5f, 6), 0.0f);  // the ring about Y is a level line
+TEST_F(GizmoTest, ARingSeenFromTheSideFollowsThePointer) {
+  lookFrom(vec3(0, 0.5f, 6), 0.0f);  // the ring about Y appears as a horizontal line
   session_.select({box_});
   session_.setTool(ToolMode::rotate);
   press(pixelOf(vec3(0, 0.5f, 0)) + vec2(3, 0));
-  ASSERT_TRUE(session_.editing().inTransaction()) << "the ring is there to be taken";
+  ASSERT_TRUE(session_.editing().inTransaction()) << "the ring can be dragged";
   float last = 0.0f;
   for (int i = 1; i <= 6; ++i) {
     dragTo(input_.pointer + vec2(12, 0));
     const Transform& t = local(box_);
     const float angle = 2.0f * std::atan2(t.rotation.y, t.rotation.w);
-    EXPECT_GT(angle, last + 0.05f) << "step " << i;  // to the right turns the near side right
+    EXPECT_GT(angle, last + 0.05f) << "step " << i;  // dragging right moves the near side right
     EXPECT_LT(angle, last + 0.5f) << "step " << i;
     last = angle;
   }
@@ -102,10 +103,10 @@ TEST_F(GizmoTest, ARingSeenFromTheSideTurnsWithThePointer) {
   EXPECT_NEAR(local(box_).rotation.x, 0.0f, 1e-5f);
 }
 
-TEST_F(GizmoTest, BeyondTheHorizonItStaysWhereItWas) {
+TEST_F(GizmoTest, BeyondTheHorizonTheObjectStays) {
   session_.select({box_});
   session_.setTool(ToolMode::move);
-  // The square of the plane of X and Z lies towards both axes.
+  // The square that moves in the XZ plane lies between both axes.
   const float s = 0.39f * along(vec3(0, 0.5f, 0), 92.0f);
   press(pixelOf(vec3(s, 0.5f, s)));
   ASSERT_TRUE(session_.editing().inTransaction());
@@ -126,7 +127,7 @@ TEST_F(GizmoTest, BeyondTheHorizonItStaysWhereItWas) {
 TEST_F(GizmoTest, PastTheVanishingPointAnAxisDoesNotJumpBehindTheEye) {
   session_.select({box_});
   session_.setTool(ToolMode::move);
-  View view = session_.view();  // looks along −Z, a little aside, so that Z runs into the picture
+  View view = session_.view();  // looks almost along −Z, so that the Z axis runs into the picture
   view.eye = vec3(2, 1.5f, 5);
   view.orientation = glm::angleAxis(0.3f, vec3(0, 1, 0)) * glm::angleAxis(-0.1f, vec3(1, 0, 0));
   session_.setView(view);
@@ -136,7 +137,9 @@ TEST_F(GizmoTest, PastTheVanishingPointAnAxisDoesNotJumpBehindTheEye) {
   const vec2 from = input_.pointer;
   const vec2 vanishing = pixelOf(vec3(0, 0.5f, -1e5f));
   for (int i = 1; i <= 40; ++i) {
-    dragTo(glm::mix(from, vanishing, 0.05f * static_cast<float>(i)));  // to twice as far
+    dragTo(glm::mix(
+        from, vanishing,
+        0.05f * static_cast<float>(i)));  // up to twice the distance to the vanishing point
     EXPECT_LE(local(box_).translation.z, 0.01f) << i;
   }
   release();
@@ -154,7 +157,7 @@ TEST_F(GizmoTest, TheUniformHandleScalesAllAxesAlike) {
   EXPECT_EQ(session_.history().undoLabel(), "Scale box");
 }
 
-TEST_F(GizmoTest, TheRightButtonTakesADragBack) {
+TEST_F(GizmoTest, TheRightButtonRevertsADrag) {
   session_.select({box_});
   session_.setTool(ToolMode::move);
   const uint64_t before = hash();
@@ -167,7 +170,7 @@ TEST_F(GizmoTest, TheRightButtonTakesADragBack) {
   EXPECT_FALSE(session_.editing().canUndo());
 }
 
-TEST_F(GizmoTest, TurningSnapsToFifteenDegrees) {
+TEST_F(GizmoTest, RotationSnapsToFifteenDegrees) {
   session_.select({box_});
   session_.setTool(ToolMode::rotate);
   session_.setSnapping(true);
@@ -178,7 +181,7 @@ TEST_F(GizmoTest, TurningSnapsToFifteenDegrees) {
 TEST_F(GizmoTest, HandlesKeepTheirSizeOnTheScreen) {
   session_.select({box_});
   session_.setTool(ToolMode::move);
-  // The arrow along X, sideways to the view: 92 px at any distance.
+  // The arrow along X is perpendicular to the view: 92 px long at any distance.
   for (const float distance : {4.0f, 6.0f, 40.0f}) {
     lookFrom(vec3(0, 0.5f, distance), 0.0f);
     float furthest = 0.0f;

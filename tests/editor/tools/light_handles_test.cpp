@@ -1,4 +1,4 @@
-// The handles that size and aim the active light.
+// The handles for the size and direction of the active light.
 #include "editor/tools/light_handles.h"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ class LightHandlesTest : public test::SessionFixture {
   NodeId spot_ = 0;
 };
 
-TEST_F(LightHandlesTest, AnEdgeLeavesTheOtherWhereItIs) {
+TEST_F(LightHandlesTest, DraggingAnEdgeKeepsTheOppositeEdge) {
   lookFrom(vec3(0, 1, 6), 0.4f);  // from below, where the light shines
   session_.select({light_});
   const uint64_t before = hash();
@@ -64,7 +64,7 @@ TEST_F(LightHandlesTest, WithShiftBothEdgesMove) {
   EXPECT_EQ(placeOf(light_), middle);
 }
 
-TEST_F(LightHandlesTest, SnappedSizesAreWholeSteps) {
+TEST_F(LightHandlesTest, SnappedSizesAreMultiplesOfTheStep) {
   lookFrom(vec3(0, 1, 6), 0.4f);
   session_.select({light_});
   Modifiers ctrl;
@@ -76,7 +76,7 @@ TEST_F(LightHandlesTest, SnappedSizesAreWholeSteps) {
   EXPECT_GT(node(light_).area->size.x, 1.01f);
 }
 
-TEST_F(LightHandlesTest, TheRimIsADisksDiameter) {
+TEST_F(LightHandlesTest, TheRimSetsTheDiameterOfADisk) {
   AreaLight disk = *node(light_).area;
   disk.shape = AreaShape::disk;
   session_.setAreaLight(light_, disk);
@@ -87,7 +87,7 @@ TEST_F(LightHandlesTest, TheRimIsADisksDiameter) {
   EXPECT_NEAR(node(light_).area->size.x, 1.4f, 0.03f);
 }
 
-TEST_F(LightHandlesTest, ATubeHasALengthAndADiameter) {
+TEST_F(LightHandlesTest, ATubeHasHandlesForLengthAndDiameter) {
   AreaLight tube;
   tube.shape = AreaShape::tube;
   tube.size = vec2(2.0f, 0.2f);
@@ -106,7 +106,7 @@ TEST_F(LightHandlesTest, ATubeHasALengthAndADiameter) {
   EXPECT_NEAR(node(light_).area->size.x, 2.5f, 0.03f);
 }
 
-TEST_F(LightHandlesTest, ALightIsAimedAtWhatIsUnderThePointer) {
+TEST_F(LightHandlesTest, ALightIsAimedAtThePointUnderThePointer) {
   session_.select({spot_});
   const uint64_t before = hash();
   const vec3 target(-1.5f, 0.0f, 1.0f);
@@ -117,7 +117,7 @@ TEST_F(LightHandlesTest, ALightIsAimedAtWhatIsUnderThePointer) {
   EXPECT_EQ(hash(), before);
 }
 
-TEST_F(LightHandlesTest, ConesStayOneInTheOther) {
+TEST_F(LightHandlesTest, TheInnerConeStaysWithinTheOuterCone) {
   session_.select({spot_});
   const vec3 origin = placeOf(spot_), aim(0, -1, 0);
   const vec3 outer = handle(Kind::outerCone);
@@ -131,7 +131,7 @@ TEST_F(LightHandlesTest, ConesStayOneInTheOther) {
   EXPECT_EQ(node(spot_).punctual->innerCone, node(spot_).punctual->outerCone);
 }
 
-TEST_F(LightHandlesTest, EscapeTakesADragBack) {
+TEST_F(LightHandlesTest, EscapeRevertsADrag) {
   lookFrom(vec3(0, 1, 6), 0.4f);
   session_.select({light_});
   const uint64_t before = hash();

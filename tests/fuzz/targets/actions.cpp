@@ -1,5 +1,5 @@
-// Text of actions, a line each, as scripts, recordings and the palette hand it in: an error in the
-// status line or an edit that can be undone.
+// Actions as text, one per line, as in scripts, recordings and the palette. Each gives an error in
+// the status line or an edit that can be undone.
 #include <memory>
 #include <sstream>
 
@@ -24,7 +24,7 @@ constexpr const char* kLevel = R"({"asset":{"version":"2.0"},"scene":0,"scenes":
 
 constexpr size_t kHistoryBudget = size_t{256} << 20;
 
-// Long work, and files elsewhere than in the scratch folder.
+// Actions that take long or use files outside of the scratch folder.
 bool isLeftOut(const std::string& line) {
   return line.find('/') != std::string::npos || line.find("script.wait") != std::string::npos ||
          line.find("error.measure") != std::string::npos;
@@ -52,12 +52,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   s.takeOpenRequest();
   s.takeScreenshotRequest();
   s.requestQuit(false);
-  // With less memory than that, as history.memory has it, the first steps may be forgotten.
+  // With less memory (history.memory), the first steps may have been dropped.
   if (s.history().first() > 0) return 0;
   s.editing().goTo(0);
-  // An exposure that was found from the picture is nobody's edit.
+  // The automatic exposure is not an edit.
   Document undone = s.document();
   undone.render.exposureEv = 0.0f;
-  if (documentHash(undone) != before) fuzz::broken("undo of all is as it was");
+  if (documentHash(undone) != before) fuzz::broken("undoing all steps restores the document");
   return 0;
 }

@@ -1,4 +1,4 @@
-// The command line, an argument a line: an exit code of 0, 1 or 2 and nothing else.
+// The command line, one argument per line. The exit code must be 0, 1 or 2.
 #include <iostream>
 #include <sstream>
 #include <vector>
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::istringstream lines{std::string(fuzz::textOf(data, size))};
   std::vector<std::string> words{"lamplighter"};
   for (std::string line; std::getline(lines, line) && words.size() < 20;) {
-    // Files of the scratch folder only.
+    // Only files of the scratch folder are allowed.
     if (line.find('/') == std::string::npos && line.find('\0') == std::string::npos)
       words.push_back(line);
   }
@@ -36,12 +36,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   std::cerr.rdbuf(wasErr);
   if (code < 0 || code > 2) fuzz::broken("an exit code of 0, 1 or 2");
   const std::string said = err.str();
-  // Errors repeat what was given; the fuzzer finds these words, too.
-  constexpr std::string_view kFault = "fault of the program";
+  // Errors repeat the input, and the fuzzer may find these words.
+  constexpr std::string_view kFault = "bug of the program";
   if (said.find(kFault) != std::string::npos &&
       fuzz::textOf(data, size).find(kFault) == std::string_view::npos)
     fuzz::broken(said);
   if (code == 2 && (!said.starts_with("error: ") && said.find("\nerror: ") == std::string::npos))
-    fuzz::broken("an error that says so: " + said);
+    fuzz::broken("errors begin with \"error: \": " + said);
   return 0;
 }

@@ -1,5 +1,5 @@
-// .gltf and .glb: either an InputError of one line or a scene that is sound, can be drawn, saved
-// and loaded again.
+// .gltf and .glb files give either an InputError of one line or a valid scene that can be rendered,
+// saved and loaded again.
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "renderer/scene/render_scene.h"
@@ -42,9 +42,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     saveGltf(loaded.scene, again);
   } catch (const InputError&) {
-    return 0;  // an odd source may be refused; what is there stays
+    return 0;  // saving a scene with a malformed source may be refused
   }
-  const LoadedScene second = loadGltf(again);  // an error is a crash here
+  const LoadedScene second = loadGltf(again);  // an exception here is a bug
   if (second.scene.nodes.size() != loaded.scene.nodes.size()) fuzz::broken("as many nodes again");
   return 0;
 }

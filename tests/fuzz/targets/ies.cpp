@@ -1,5 +1,5 @@
-// IES profiles as they are read: an InputError, or intensities in [0, 1] in every direction. What
-// is computed from them is for ies_fit.
+// Reading of IES profiles gives an InputError, or intensities in [0, 1] in every direction. ies_fit
+// tests the values that are computed from them.
 #include <cmath>
 
 #include "renderer/base/error.h"

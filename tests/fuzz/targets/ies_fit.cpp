@@ -1,5 +1,5 @@
-// What is computed from IES profiles: an InputError, or lobes of finite strength and a solid angle
-// within the sphere's.
+// Processing of IES profiles gives an InputError, or lobes of finite strength and a solid angle of
+// at most the whole sphere.
 #include <cmath>
 
 #include "renderer/base/error.h"

@@ -1,4 +1,4 @@
-// What a killed process left: an InputError, or a sound document.
+// The journal of a killed process gives an InputError or a valid document.
 #include "editor/recovery/recovery.h"
 #include "renderer/base/error.h"
 #include "renderer/scene/render_scene.h"

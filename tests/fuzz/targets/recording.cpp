@@ -1,4 +1,4 @@
-// Recordings: an InputError, or lines that are the same when they are written and read again.
+// Recordings give an InputError, or events that stay the same when written and read again.
 #include "editor/input/recording.h"
 
 #include "renderer/base/error.h"

@@ -16,7 +16,7 @@ Scratch::Scratch() : process_(::getpid()) {
       (fs::is_directory("/dev/shm", error) ? "/dev/shm" : "/tmp") + std::string("/fuzz-XXXXXX");
   if (::mkdtemp(name.data()) == nullptr || ::chdir(name.c_str()) != 0) broken("no scratch folder");
   path_ = name;
-  // What scenes name; the smallest there are.
+  // Minimal files that the scenes of the corpus refer to.
   write("square.bin", std::string(84, '\x3f'));
   write("lamp.ies",
         "IESNA:LM-63-1995\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 50\n0 45 90\n0\n100 60 10\n");

@@ -1,5 +1,5 @@
-// A folder of its own for a fuzzed process, in memory where there is such a place: what is fuzzed
-// reads files. The process works in it, and what it names elsewhere is not there.
+// A temporary folder for the files of a fuzzed process, in memory if possible. It becomes the
+// working folder.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ class Scratch {
   int process_;
 };
 
-// Made by the first call; the working folder from then on.
+// The first call creates the folder and makes it the working folder.
 const Scratch& scratch();
 
 inline std::string_view textOf(const uint8_t* data, size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
-// Says what does not hold, and stops the process as a crash does.
+// Prints the violated condition and aborts, which the fuzzer reports as a crash.
 [[noreturn]] void broken(const std::string& what);
 
 }  // namespace lamplighter::fuzz

@@ -1,5 +1,5 @@
-// settings.json and keys.json, which hold whatever a hand wrote: both take what is sound, tell of
-// the rest in lines, and what they took comes back.
+// settings.json and keys.json, which users edit by hand. Valid entries are used, others are
+// reported in one line each, and the used entries stay the same when written and read again.
 #include <algorithm>
 
 #include "editor/keys/key_bindings.h"

@@ -170,8 +170,8 @@ void GlLighting::takePatches(const GlScene& scene, const GlGBuffer& gbuffer, con
   if (std::max({lists.ranges().size_bytes(), lists.entries().size_bytes(),
                 lists.hardPlaces().size_bytes()}) > mostStorageBytes()) {
     throw InputError("many_lights",
-                     "the light lists of what is seen are more than OpenGL takes here",
-                     "lower vpls, take the technique naive, or use --backend cpu");
+                     "the light lists of the visible pixels exceed the limit of this driver",
+                     "lower vpls, use the technique naive, or use --backend cpu");
   }
   patches_->ranges.set(lists.ranges());
   patches_->entries.set(lists.entries());

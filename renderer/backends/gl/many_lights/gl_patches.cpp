@@ -97,7 +97,7 @@ void GlPatches::allocate() {
   if (light > mostStorageBytes()) {
     throw InputError("many_lights",
                      std::to_string(total_.vertices) +
-                         " vertices lit by transfer are more than OpenGL takes here",
+                         " vertices lit by transfer exceed the limit of this driver",
                      "lower prt_memory, switch prt off or use --backend cpu");
   }
   roots_ = makeBuffer(total_.triangles, sizeof(uint32_t));

@@ -81,9 +81,10 @@ void GlShadowMaps::reserve(int slots, const MapRoom& coarse, const MapRoom& fine
   slots_.clear();
   for (Pool& pool : pools_) pool = {};
   if (std::max(coarse.resolution, fine.resolution) > maxSize) {
-    throw InputError("many_lights",
-                     "OpenGL takes shadow maps of " + std::to_string(maxSize) + "² texels at most",
-                     "lower map_resolution");
+    throw InputError(
+        "many_lights",
+        "this driver supports shadow maps of at most " + std::to_string(maxSize) + "² texels",
+        "lower map_resolution");
   }
   poolOf(MapSize::coarse).room = coarse;
   poolOf(MapSize::fine).room = fine;

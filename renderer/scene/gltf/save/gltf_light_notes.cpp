@@ -61,7 +61,8 @@ std::shared_ptr<const IesProfile> readProfile(GltfDocument& document, const std:
   std::string why;
   const Bytes bytes = readUri(document, uri, why);
   if (bytes == nullptr) {
-    document.warn("a light's profile \"" + printable(uri) + "\" " + why + "; it shines without");
+    document.warn("a light's profile \"" + printable(uri) + "\" " + why +
+                  "; the light shines without it");
     return nullptr;
   }
   const std::string name = std::filesystem::path(percentDecoded(uri)).filename().string();
@@ -79,7 +80,8 @@ std::shared_ptr<const LightPicture> readPicture(GltfDocument& document, const st
   const std::string name = std::filesystem::path(percentDecoded(uri)).filename().string();
   auto picture = bytes == nullptr ? nullptr : decodeLightPicture(bytes, name, why);
   if (picture == nullptr)
-    document.warn("a light's picture \"" + printable(uri) + "\" " + why + "; it shines without");
+    document.warn("a light's picture \"" + printable(uri) + "\" " + why +
+                  "; the light shines without it");
   return picture;
 }
 

@@ -29,7 +29,8 @@ GltfOutput::GltfOutput(const Scene& savedScene, const std::filesystem::path& tar
       json(source.document.json) {
   const std::string ending = lowerCase(path.extension().string());
   if (ending != ".gltf" && ending != ".glb") {
-    throw InputError(path.string(), "ends neither in .gltf nor in .glb", "give it such an ending");
+    throw InputError(path.string(), "has an unknown extension",
+                     "give a name that ends in .gltf or .glb");
   }
   isBinary = ending == ".glb";
   if (!json.is_object()) json = {{"asset", {{"version", "2.0"}, {"generator", "Lamplighter"}}}};
@@ -140,12 +141,12 @@ std::vector<std::filesystem::path> saveGltf(const Scene& scene, const std::files
   try {
     return save(scene, path, besideSource);
   } catch (const Json::exception& e) {
-    throw InputError(
-        path.string(),
-        "cannot be written: the file that the scene came from is odd (" + printable(e.what()) + ")",
-        "nothing was changed; export the source again");
+    throw InputError(path.string(),
+                     "cannot be written: the source file of the scene is malformed (" +
+                         printable(e.what()) + ")",
+                     "nothing was changed; export the source again");
   } catch (const std::bad_alloc&) {
-    throw InputError(path.string(), "needs more memory to write than there is",
+    throw InputError(path.string(), "cannot be written: not enough memory",
                      "nothing was changed; close other programs");
   }
 }

@@ -193,7 +193,7 @@ std::vector<GltfOutput::File> GltfOutput::finish() {
     pad(buffer_, 4, 0);
     const size_t total = 20 + text.size() + (buffer_.empty() ? 0 : 8 + buffer_.size());
     if (total > UINT32_MAX) {
-      throw InputError(path.string(), "would be larger than the 4 GiB that a .glb can be",
+      throw InputError(path.string(), "would exceed the largest size of a .glb, 4 GiB",
                        "save it as .gltf");
     }
     main.bytes.reserve(total);

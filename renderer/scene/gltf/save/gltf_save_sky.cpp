@@ -20,8 +20,8 @@ std::string pictureUri(GltfOutput& out, const SkyImage& image) {
     return noteOf(scenes[index], kSkyNote)->at("uri").get<std::string>();
   }
   if (image.file == nullptr) {
-    throw InputError(out.path.string(), "has a sky whose picture came from no file",
-                     "take a picture that is in a file");
+    throw InputError(out.path.string(), "cannot be written: the picture of the sky has no file",
+                     "choose a picture file for the sky");
   }
   return uriOfFile(out, image.name.empty() ? "sky.exr" : image.name, *image.file);
 }

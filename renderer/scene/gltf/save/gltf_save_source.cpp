@@ -12,9 +12,10 @@ void saveSource(const Scene& scene, const std::filesystem::path& glb) {
     out.carryImages();
     writeFilesAtomically(out.finish());
   } catch (const Json::exception& e) {
-    throw InputError(glb.string(),
-                     "cannot be written: its source is odd (" + printable(e.what()) + ")",
-                     "save the level");
+    throw InputError(
+        glb.string(),
+        "cannot be written: its source file is malformed (" + printable(e.what()) + ")",
+        "save the level");
   }
 }
 

@@ -172,11 +172,11 @@ TEST_F(BrokenScene, NamesWhatIsWrong) {
       {"/accessors/3",
        {{"componentType", 5123}, {"type", "SCALAR"}, {"count", 6}},
        "indices without a bufferView"},
-      {"/materials/0/name", 7, "materials[0] has \"name\": 7, which is no text"},
+      {"/materials/0/name", 7, "materials[0] has \"name\": 7, which is not a string"},
       {"/materials/0/normalTexture", {{"index", 0}, {"scale", "x"}}, "\"scale\""},
       {"/materials/0/doubleSided", 1, "true or false"},
       {"/meshes/0/primitives", {{"attributes", 0}}, "meshes[0]"},
-      {"/meshes/0/primitives/0/attributes", Json::array({0}), "which is no object"},
+      {"/meshes/0/primitives/0/attributes", Json::array({0}), "which is not an object"},
       {"/nodes/0/extras/lamplighter/light", {{"leaves_out", {99}}}, "leaves_out"},
       {"/extensions/KHR_lights_punctual/lights/0", 3, "KHR_lights_punctual.lights"},
       {"/extensions/KHR_lights_punctual/lights/0/color", {1, 2}, "KHR_lights_punctual.lights[0]"},
@@ -415,10 +415,10 @@ TEST(BrokenJson, DeepNestingIsRejected) {
 TEST(BrokenJson, OtherFilesAreRejected) {
   const test::TemporaryFolder folder;
   EXPECT_THAT(refusal(folder.path()), HasSubstr("folder"));
-  EXPECT_THAT(refusal(folder.path() / "none.glb"), HasSubstr("is not there"));
-  EXPECT_THAT(refusal(folder.write("text.gltf", "hello")), HasSubstr("no glTF"));
+  EXPECT_THAT(refusal(folder.path() / "none.glb"), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal(folder.write("text.gltf", "hello")), HasSubstr("not glTF"));
   EXPECT_THAT(refusal(folder.write("half.gltf", R"({"asset":{"vers)")), HasSubstr("JSON"));
-  EXPECT_THAT(refusal("/dev/zero"), HasSubstr("no regular file"));
+  EXPECT_THAT(refusal("/dev/zero"), HasSubstr("not a regular file"));
 }
 
 // A chain of a hundred thousand nodes is valid. Recursion would overflow the stack.

@@ -382,7 +382,7 @@ TEST_F(EditedScene, InvalidTargetsAreRejected) {
   EXPECT_THAT(refusal(scene_, folder_.path() / "none" / "level.gltf"), HasSubstr("No such file"));
   EXPECT_THAT(refusal(scene_, path_ / "level.glb"), HasSubstr("Not a directory"));
   fs::create_directory(folder_.path() / "folder.glb");
-  EXPECT_THAT(refusal(scene_, folder_.path() / "folder.glb"), HasSubstr("no regular file"));
+  EXPECT_THAT(refusal(scene_, folder_.path() / "folder.glb"), HasSubstr("not a regular file"));
   fs::permissions(path_, fs::perms::owner_read);
   EXPECT_THAT(refusal(scene_, path_), HasSubstr("write-protected"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 3)

@@ -142,18 +142,18 @@ TEST_F(SavedSky, MalformedOnesAreIgnoredWithOneWarning) {
       {R"({"type":"cubemap"})", "no known type"},
       {R"({"type":"constant"})", "no radiance of three numbers"},
       {R"({"type":"constant","radiance":[1,2]})", "no radiance of three numbers"},
-      {R"({"type":"constant","radiance":[1,2,"3"]})", "radiance that is no number"},
+      {R"({"type":"constant","radiance":[1,2,"3"]})", "radiance that is not a number"},
       {R"({"type":"constant","radiance":[1,2,-3]})", "radiance out of range"},
       {R"({"type":"constant","radiance":[1,2,1e30]})", "radiance out of range"},
       {R"({"type":"gradient","zenith":[1,1,1],"horizon":[1,1,1]})", "no ground"},
       {R"({"type":"image"})", "names no picture"},
       {R"({"type":"image","uri":7})", "names no picture"},
-      {R"({"type":"image","uri":"gone.exr"})", "is not there"},
+      {R"({"type":"image","uri":"gone.exr"})", "does not exist"},
       {R"({"type":"image","uri":"text.exr"})", "no known image format"},
       {R"({"type":"image","uri":"../fine.exr"})", "outside"},
       {R"({"type":"image","uri":"/etc/passwd"})", "outside"},
       {R"({"type":"image","uri":"http://example.com/sky.exr"})", "outside"},
-      {R"({"type":"image","uri":"fine.exr","rotation":"much"})", "rotation that is no number"},
+      {R"({"type":"image","uri":"fine.exr","rotation":"much"})", "rotation that is not a number"},
       {R"({"type":"image","uri":"fine.exr","scale":-1})", "scale out of range"},
   };
   for (const auto& [note, what] : cases) {
@@ -170,7 +170,7 @@ TEST_F(SavedSky, MalformedOnesAreIgnoredWithOneWarning) {
 TEST(SkyFile, ThatIsNoPictureIsRejected) {
   const test::TemporaryFolder folder;
   for (const auto& [name, what] :
-       {std::pair("gone.exr", "is not there"), {"text.hdr", "no known image format"}}) {
+       {std::pair("gone.exr", "does not exist"), {"text.hdr", "no known image format"}}) {
     folder.write("text.hdr", "no picture");
     try {
       readSkyImage(folder.path() / name);
