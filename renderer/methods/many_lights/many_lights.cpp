@@ -265,28 +265,26 @@ int ManyLights::refreshLights(const Options& options) {
 // Finds again which maps the view needs, if anything changed that affects this.
 void ManyLights::updateMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats) {
   const auto slots = static_cast<size_t>(lights_.slots());
-  if (!visibility_) {
-    wanted_.assign(slots, 1);
-  } else if (lights_.changed() || !in.changes.none() || in.view != view_ ||
-             wanted_.size() != slots || options.useVisibility() != options_.useVisibility() ||
-             options.speculars != options_.speculars) {
-    wanted_ = shadowMapDemand(*visibility_, in.scene, in.view);
-  }
-  if (visibility_ && options.speculars && kernels_->traits().specularsTakeAllMaps &&
-      hasGlossy(in.scene))
-    std::fill(wanted_.begin(), wanted_.end(), uint8_t{1});
+  const bool needsAll =
+      !visibility_ ||
+      (options.speculars && kernels_->traits().specularsTakeAllMaps && hasGlossy(in.scene));
+  if (needsAll)
+    lights_.needMaps(std::vector<uint8_t>(slots, 1));
+  else if (lights_.changed() || !in.changes.none() || in.view != view_ ||
+           options.useVisibility() != options_.useVisibility() ||
+           options.speculars != options_.speculars)
+    lights_.needMaps(shadowMapDemand(*visibility_, in.scene, in.view));
   // A path is refreshed as a whole, even if it has more VPLs than the budget.
   const int maps = std::max(mapsAFrame(kernels_->traits(), options, 1), stats.updates);
   const int refining = Refinement::slots(options.refinement());
   stats.mapsRendered =
-      lights_.updateMaps(*kernels_, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
+      lights_.updateMaps(*kernels_, {std::max(options.mostMaps() - refining, 1), maps});
   if (kernels_->traits().tracesShadowMaps) {
     const auto side = static_cast<uint64_t>(options.mapResolution);
     stats.mapRays = side * side * static_cast<uint64_t>(stats.mapsRendered);
   }
   if (visibility_)
-    lightProxies_.update(lights_.table(), wanted_,
-                         groupsOf(in, options.groupShare, lights_.slots()));
+    lightProxies_.update(lights_.table(), groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 // Only when all other work is done: the frame after an edit is busy enough.
@@ -297,8 +295,8 @@ void ManyLights::sharpenMaps(const Options& options, ManyLightsStats& stats) {
                       paths_.isAtRest() && choiceIsCurrent_;
   if (isDone)
     stats.mapsSharpened =
-        lights_.sharpenMaps(*kernels_, wanted_, mapsAFrame(kernels_->traits(), options, scale));
-  stats.mapsToSharpen = lights_.coarse(wanted_);
+        lights_.sharpenMaps(*kernels_, mapsAFrame(kernels_->traits(), options, scale));
+  stats.mapsToSharpen = lights_.coarse();
 }
 
 std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Options& options,
@@ -348,7 +346,7 @@ LightSampleTable ManyLights::takePart(const FrameInputs& in, const Options& opti
   lights.sumOnly([&](const LightSample& l) { return (l.id.bounce == 0) == isDirect; });
   if (visibility_ && isNew)
     partLights_.update(in.scene, *visibility_, lights,
-                       {options.useLightMaps(), lightMapOptions(options)}, wanted_,
+                       {options.useLightMaps(), lightMapOptions(options)},
                        groupsOf(in, options.groupShare, lights_.slots()));
   return lights;
 }
@@ -400,7 +398,7 @@ void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages
 
 Inspection ManyLights::inspect() const {
   Inspection out;
-  out.lights = lights_.table().samplesInOrder();
+  out.lights = lights_.table().samples;
   if (visibility_) out.patches = std::make_shared<DatabasePatches>(*visibility_);
   if (visibility_ && lightMaps_)
     out.texels = std::make_shared<LightMapTexels>(*visibility_, *lightMaps_);

@@ -71,7 +71,6 @@ class ManyLights final : public GiMethod {
   std::unique_ptr<VisibilityDatabase> visibility_;  // if enabled
   size_t visibilityNeeds_ = 0;                      // bytes, lower bound of the last attempt
   int neededFor_ = 0;                               // number of slots of that attempt
-  std::vector<uint8_t> wanted_;                     // by slot: its map is read
   LightProxies lightProxies_;                       // for VPLs without a map
   std::unique_ptr<LightMaps> lightMaps_;            // if enabled
   std::unique_ptr<PrtLights> prt_;                  // if enabled

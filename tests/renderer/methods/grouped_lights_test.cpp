@@ -94,22 +94,20 @@ std::vector<shared::Vpl> row(int count, const vec3& step) {
   return vpls;
 }
 
-LightSampleTable tableOf(std::span<const shared::Vpl> vpls, const std::vector<uint8_t>& hasMap) {
+LightSampleTable tableOf(std::span<const shared::Vpl> vpls, std::vector<uint8_t> hasMap,
+                         std::vector<uint8_t> needsMap) {
   LightSampleTable table;
-  table.samples.resize(vpls.size());
+  for (const shared::Vpl& vpl : vpls) table.samples.emplace_back().vpl = vpl;
   table.summed.assign(vpls.begin(), vpls.end());
-  for (size_t slot = 0; slot < vpls.size(); ++slot) {
-    table.samples[slot].vpl = vpls[slot];
-    table.samples[slot].hasMap = hasMap[slot] != 0;
-    table.order.push_back(static_cast<int>(slot));
-  }
+  table.hasMap = std::move(hasMap);
+  table.needsMap = std::move(needsMap);
   return table;
 }
 
 TEST(LightProxies, OneWithoutMapLooksUpThatOfItsNeighbour) {
   const auto vpls = row(4, vec3(1, 0, 0));
   LightProxies lightProxies;
-  lightProxies.update(tableOf(vpls, {1, 0, 1, 0}), {1, 0, 1, 1}, {.share = 0.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 0, 1, 0}, {1, 0, 1, 1}), {.share = 0.0f, .sees = {}});
   ASSERT_EQ(lightProxies.lights().size(), 1u);  // nothing looks up that of light 1
   const int slot = lightProxies.lights()[0].slot;
   EXPECT_EQ(lightProxies.mapSlot(slot), 2);
@@ -129,7 +127,7 @@ TEST(LightProxies, OneWithoutMapLooksUpThatOfItsNeighbour) {
 TEST(LightProxies, AGroupIsLookedUpOnceWhereItIsFar) {
   const auto vpls = row(4, vec3(0.01f, 0, 0));
   LightProxies lightProxies;
-  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}, {1, 1, 1, 1}), {.share = 1.0f, .sees = {}});
   ASSERT_GE(lightProxies.groups(), 1u);
   const shared::Vpl group = lightProxies.lights()[0];
   const auto slot = static_cast<size_t>(group.slot);
@@ -151,7 +149,7 @@ TEST(LightProxies, AGroupIsLookedUpOnceWhereItIsFar) {
     EXPECT_EQ(uses[slot], ShadowMode::skip);
     EXPECT_EQ(uses[0], ShadowMode::subtractShadow);
   }
-  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1},
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}, {1, 1, 1, 1}),
                       {.share = 0.3f, .sees = {}});  // too bright
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
@@ -161,7 +159,7 @@ TEST(LightProxies, AGroupIsOneLightForWideLobes) {
   auto vpls = row(4, vec3(0.1f, 0, 0));
   for (shared::Vpl& vpl : vpls) vpl.footprint.x = 0.25f;
   LightProxies lightProxies;
-  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}, {1, 1, 1, 1}), {.share = 1.0f, .sees = {}});
   const auto groupUse = [&](float alpha, ShadowMode use) {
     std::vector<ShadowMode> uses(lightProxies.slots(), ShadowMode::skip);
     std::fill_n(uses.begin(), 4, use);
@@ -203,13 +201,13 @@ TEST(LightProxies, WhatDoesNotSeeEachOtherIsNoGroup) {
   const auto wallAt = [](float x) {
     return [x](const vec3& a, const vec3& b) { return (a.x < x) == (b.x < x); };
   };
-  lightProxies.update(tableOf(vpls, all), all, {.share = 1.0f, .sees = wallAt(0.025f)});
+  lightProxies.update(tableOf(vpls, all, all), {.share = 1.0f, .sees = wallAt(0.025f)});
   EXPECT_EQ(lightProxies.groups(), 0u);
   // It is gone, and back.
-  lightProxies.update(tableOf(vpls, all), all,
+  lightProxies.update(tableOf(vpls, all, all),
                       {.share = 1.0f, .sees = wallAt(9.0f), .sceneChanged = true});
   EXPECT_GE(lightProxies.groups(), 1u);
-  lightProxies.update(tableOf(vpls, all), all,
+  lightProxies.update(tableOf(vpls, all, all),
                       {.share = 1.0f, .sees = wallAt(0.025f), .sceneChanged = true});
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
@@ -220,10 +218,10 @@ TEST(LightProxies, AFewBrightLightsAreNoMeasure) {
   const std::vector<uint8_t> all(8, 1);
   vpls[7].position += vec4(50.0f, 0, 0, 0);
   LightProxies lightProxies;
-  lightProxies.update(tableOf(vpls, all), all, {.share = 0.2f, .sees = {}});
+  lightProxies.update(tableOf(vpls, all, all), {.share = 0.2f, .sees = {}});
   EXPECT_EQ(lightProxies.groups(), 0u);
   vpls[7].intensity = vec3(1e4f);
-  lightProxies.update(tableOf(vpls, all), all, {.share = 0.15f, .sees = {}});
+  lightProxies.update(tableOf(vpls, all, all), {.share = 0.15f, .sees = {}});
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
 
