@@ -33,7 +33,7 @@ const ParameterTable<Parameters>& parameterTable() {
        "root: "
        "more with its distance, and all at the radius.",
        {{"none", Falloff::none}, {"linear", Falloff::linear}, {"root", Falloff::root}}},
-      {&P::seed, "seed", "Seed", "", "Selects another set of random numbers.", {0, 1000000}},
+      seedParameters(),
       sampleParameters()};
   return table;
 }
