@@ -30,10 +30,7 @@ std::string costOfWork(const StatisticSpec& work, const Timeline& timeline) {
     if (count <= 0.0) continue;
     counted += count;
     ++frames;
-    for (const std::string& stage : work.stages) {
-      const auto found = f.stats.stageSeconds.find(stage);
-      if (found != f.stats.stageSeconds.end()) seconds += found->second;
-    }
+    for (const StageSpec& stage : work.stages) seconds += f.stats.secondsOf(stage);
   }
   if (frames == 0) return "idle";
   return fmt::format("{} {}, {:.3g} ms ({} each)", brief(counted / frames), work.unit,

@@ -71,14 +71,18 @@ void printMethodsJson() {
                                  {"unit", s.unit},
                                  {"kind", kindOf(s)},
                                  {"meaning", s.meaning}});
+    j["stages"] = nlohmann::ordered_json::array();
+    for (const StageSpec& s : m.stages)
+      j["stages"].push_back({{"name", s.name}, {"label", s.label}, {"meaning", s.meaning}});
     all.push_back(j);
   }
   std::cout << all.dump(2) << '\n';
 }
 
 void printMethodsMarkdown() {
-  std::cout << "# Parameters and statistics\n\nWritten by `lamplighter methods --markdown`. "
-               "Parameters are set with `--set name=value`.\n";
+  std::cout
+      << "# Parameters, statistics and stages\n\nWritten by `lamplighter methods --markdown`. "
+         "Parameters are set with `--set name=value`.\n";
   for (const MethodInfo& m : lamplighter::methods()) {
     std::cout << fmt::format("\n## {}: {}\n\n{}\n\n- Needs: {}.\n", m.name, m.label, m.citation,
                              join(needsOf(m)));
@@ -97,6 +101,10 @@ void printMethodsMarkdown() {
                  "the work of all frames.\n\n| name | kind | unit | |\n| --- | --- | --- | --- |\n";
     for (const StatisticSpec& s : m.statistics)
       std::cout << fmt::format("| `{}` | {} | {} | {} |\n", s.name, kindOf(s), s.unit, s.meaning);
+    std::cout << "\nStages of a frame, whose times are in the timeline and in `stages` of the same "
+                 "JSON.\n\n| name | |\n| --- | --- |\n";
+    for (const StageSpec& s : m.stages)
+      std::cout << fmt::format("| `{}` | {} |\n", s.name, s.meaning);
   }
 }
 

@@ -194,7 +194,7 @@ int render(const RenderOptions& o, const Frontend& frontend) {
     ++totals.frames;
     accumulate(totals.statistics, out.stats.declared);
     for (const auto& [stage, seconds] : out.stats.stageSeconds)
-      totals.stageSeconds[stage] += seconds;
+      totals.stageSeconds[std::string(stage.name)] += seconds;
     std::string line = fmt::format("{}: frame {}", o.method, totals.frames);
     for (const StatusText& text : statusTexts(out.stats.declared)) line += ", " + text.text;
     progress.show(line);

@@ -18,7 +18,7 @@ uint64_t countOf(const FrameTiming& frame, const StatisticSpec& counter) {
 }
 
 // A complete event ("X") of the Trace Event Format.
-Json span(const std::string& name, double begin, double seconds) {
+Json span(std::string_view name, double begin, double seconds) {
   return {{"name", name},
           {"ph", "X"},
           {"pid", 1},
@@ -38,10 +38,10 @@ std::string chromeTrace(const Timeline& timeline) {
     frame["args"] = {{"frame", f.frame}};
     events.push_back(std::move(frame));
     double at = f.begin - origin;
-    for (size_t i = 0; i < f.stageSeconds.size(); ++i) {
-      if (f.stageSeconds[i] <= 0.0) continue;
-      events.push_back(span(Timeline::stages()[i], at, f.stageSeconds[i]));
-      at += f.stageSeconds[i];
+    for (const auto& [stage, seconds] : f.stats.stageSeconds) {
+      if (seconds <= 0.0) continue;
+      events.push_back(span(stage.name, at, seconds));
+      at += seconds;
     }
     for (const StatisticSpec* counter : counters)
       events.push_back({{"name", counter->name},
@@ -55,19 +55,22 @@ std::string chromeTrace(const Timeline& timeline) {
 
 std::string timelineCsv(const Timeline& timeline) {
   std::string text = "frame,begin_s,frame_ms";
-  const auto column = [](std::string name) {
-    for (char& c : name)
+  const auto column = [](std::string_view name) {
+    std::string out(name);
+    for (char& c : out)
       if (c == ' ' || c == '-') c = '_';
-    return name;
+    return out;
   };
-  for (const std::string& stage : Timeline::stages()) text += "," + column(stage) + "_ms";
+  const std::vector<StageSpec> stages = timeline.stages();
+  for (const StageSpec& stage : stages) text += "," + column(stage.name) + "_ms";
   const auto counters = timeline.counters();
   for (const StatisticSpec* counter : counters) text += "," + counter->name;
   text += '\n';
   const double origin = timeline.frames().empty() ? 0.0 : timeline.frames().front().begin;
   for (const FrameTiming& f : timeline.frames()) {
     text += fmt::format("{},{:.6f},{:.4f}", f.frame, f.begin - origin, 1e3 * f.seconds());
-    for (const double seconds : f.stageSeconds) text += fmt::format(",{:.4f}", 1e3 * seconds);
+    for (const StageSpec& stage : stages)
+      text += fmt::format(",{:.4f}", 1e3 * f.stats.secondsOf(stage));
     for (const StatisticSpec* counter : counters) text += fmt::format(",{}", countOf(f, *counter));
     text += '\n';
   }

@@ -10,12 +10,14 @@
 
 namespace lamplighter {
 
+// The rest of a frame, after the stages of the method.
+inline constexpr StageSpec kOtherStage{
+    "other", "Other", "The rest of the frame: updating the scene, drawing, measuring."};
+
 struct FrameTiming {
   uint32_t frame = 0;             // number of the frame in the session
   double begin = 0.0, end = 0.0;  // seconds of the caller's clock
-  // in the order of Timeline::stages(); missing stages took no time
-  std::vector<double> stageSeconds;
-  GiStats stats;  // without times; they are above
+  GiStats stats;                  // its stages are those of the method, then kOtherStage
   double seconds() const { return end - begin; }
 };
 
@@ -27,13 +29,14 @@ class Timeline {
 
   // Oldest first: the last ten seconds, at most 2000 frames.
   const std::deque<FrameTiming>& frames() const { return frames_; }
-  // In the order of a frame. The last one, "other", is the remaining time.
-  static const std::vector<std::string>& stages();
+  // The stages of all kept frames, in declared order, kOtherStage last. A frame without one of them
+  // spent no time in it.
+  std::vector<StageSpec> stages() const;
   // The counters of all kept frames, in declared order. A frame without one of them did none of its
   // work.
   std::vector<const StatisticSpec*> counters() const;
   // Mean seconds of a stage over the kept frames in which it took time.
-  double meanOf(size_t stage) const;
+  double meanOf(const StageSpec& stage) const;
 
  private:
   std::deque<FrameTiming> frames_;

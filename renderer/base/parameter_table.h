@@ -135,6 +135,13 @@ class ParameterTable {
     return row;
   }
 
+  // This table with all parameters in another group.
+  ParameterTable inGroup(ParameterGroup group) const {
+    ParameterTable moved = *this;
+    for (ParameterSpec& spec : moved.specs_) spec.group = group;
+    return moved;
+  }
+
   // Members whose parameter is not set have their default value.
   Options read(const Settings& settings) const {
     Options options;

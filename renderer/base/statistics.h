@@ -25,6 +25,21 @@
 
 namespace lamplighter {
 
+// A stage of a frame: work whose time is measured by itself. A method declares its stages as
+// constants, lists them in MethodInfo and measures them with a StageTimer
+// (renderer/methods/stage_timer.h). Stages are the same if their names are.
+struct StageSpec {
+  std::string_view name{};     // as in --stats and in exports of the timeline
+  std::string_view label{};    // as in the timeline
+  std::string_view meaning{};  // one sentence
+  bool operator==(const StageSpec& other) const { return name == other.name; }
+};
+
+struct StageTime {
+  StageSpec stage;
+  double seconds = 0.0;
+};
+
 enum class StatisticKind {
   state,    // of the picture or of the data behind it
   work,     // done in this frame
@@ -46,7 +61,7 @@ struct StatisticSpec {
 
   std::string budget{};  // the parameter that limits it, if any
   // Of work: the stages whose time it takes. The cost of the budget is this time.
-  std::vector<std::string> stages{};
+  std::vector<StageSpec> stages{};
   // Of a state: its text in the cost of the budget, as `status`. It is left out if the value is 0.
   std::string cost{};
 

@@ -102,20 +102,17 @@ struct LightProxies::Numbers {
   }
 };
 
-void LightProxies::update(const LightSampleTable& table, const std::vector<uint8_t>& isWanted,
-                          const Groups& groups) {
+void LightProxies::update(const LightSampleTable& table, const Groups& groups) {
   std::vector<shared::Vpl> shown = table.summedInOrder();
-  std::vector<uint8_t> hasMap;
-  for (const LightSample& sample : table.samples) hasMap.push_back(sample.hasMap ? 1 : 0);
   const size_t slots = table.slots();
   const bool seeOthers = groups.sceneChanged && groups.share > 0.0f;
-  if (!seeOthers && slots == slots_ && hasMap == hasMap_ && isWanted == isWanted_ &&
+  if (!seeOthers && slots == slots_ && table.hasMap == hasMap_ && table.needsMap == needsMap_ &&
       groups.share == groupShare_ && sameBits(shown, shown_))
     return;
   shown_ = std::move(shown);
   slots_ = slots;
-  hasMap_ = std::move(hasMap);
-  isWanted_ = isWanted;
+  hasMap_ = table.hasMap;
+  needsMap_ = table.needsMap;
   groupShare_ = groups.share;
   lights_.clear();
   groups_.clear();
@@ -154,7 +151,7 @@ void LightProxies::addSingleProxies(Numbers& numbers) {
     const auto slot = static_cast<size_t>(vpl.slot);
     if (hasMap_[slot] != 0)
       with.push_back(&vpl);
-    else if (isWanted_[slot] != 0)
+    else if (needsMap_[slot] != 0)
       without.push_back(&vpl);
   }
   std::vector<const shared::Vpl*> nearest(without.size(), nullptr);

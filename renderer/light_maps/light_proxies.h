@@ -36,9 +36,8 @@ class LightProxies {
   struct Lobes {
     float alpha = 0.0f;  // lower bound of the squared roughness
   };
-  // For the lights to sum. isWanted: by slot, whether the view needs its map.
-  void update(const LightSampleTable& lights, const std::vector<uint8_t>& isWanted,
-              const Groups& groups);
+  // For the lights to sum.
+  void update(const LightSampleTable& lights, const Groups& groups);
 
   size_t slots() const { return slots_ + room_; }  // of VPLs and proxies
   // The order depends only on what is shown.
@@ -72,8 +71,9 @@ class LightProxies {
   void add(Numbers& numbers, uint64_t key, const shared::Vpl& at, const vec3& intensity,
            bool isGroup);
 
+  // Of the table at the last update.
   std::vector<shared::Vpl> shown_;
-  std::vector<uint8_t> hasMap_, isWanted_;  // by slot
+  std::vector<uint8_t> hasMap_, needsMap_;  // by slot
   float groupShare_ = 0.0f;
   size_t slots_ = 0, room_ = 0;
   std::vector<shared::Vpl> lights_;

@@ -4,22 +4,23 @@ namespace lamplighter {
 
 using enum ParameterGroup;
 
+const ParameterTable<SeedParameters>& seedParameters() {
+  static const ParameterTable<SeedParameters> table{
+      &SeedParameters::seed, "seed", "Seed", "", "Selects another set of random numbers.",
+      {0, 1000000}};
+  return table;
+}
+
 const ParameterTable<PathParameters>& pathParameters() {
-  using P = PathParameters;
-  static const ParameterTable<P> table{{&P::bounces,
-                                        "bounces",
-                                        "Bounces",
-                                        "",
-                                        "Number of indirect bounces. 0: direct light only.",
-                                        {0, 64},
-                                        lightSamples},
-                                       {&P::seed,
-                                        "seed",
-                                        "Seed",
-                                        "",
-                                        "Selects another set of random numbers.",
-                                        {0, 1000000},
-                                        lightSamples}};
+  static const ParameterTable<PathParameters> table{
+      {&PathParameters::bounces,
+       "bounces",
+       "Bounces",
+       "",
+       "Number of indirect bounces. 0: direct light only.",
+       {0, 64},
+       lightSamples},
+      seedParameters().inGroup(lightSamples)};
   return table;
 }
 

@@ -6,9 +6,16 @@
 
 namespace lamplighter {
 
-struct PathParameters {
-  int bounces = 2;  // indirect; 0: direct light only
+// Of methods that use random numbers.
+struct SeedParameters {
   int seed = 1;
+  bool operator==(const SeedParameters&) const = default;
+};
+const ParameterTable<SeedParameters>& seedParameters();
+
+// Of methods that trace light paths.
+struct PathParameters : SeedParameters {
+  int bounces = 2;  // indirect; 0: direct light only
   bool operator==(const PathParameters&) const = default;
 };
 const ParameterTable<PathParameters>& pathParameters();

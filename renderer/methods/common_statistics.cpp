@@ -5,6 +5,11 @@
 
 namespace lamplighter {
 
+double GiStats::secondsOf(const StageSpec& stage) const {
+  const auto it = std::ranges::find(stageSeconds, stage, &StageTime::stage);
+  return it == stageSeconds.end() ? 0.0 : it->seconds;
+}
+
 std::optional<double> GiStats::find(std::string_view name) const {
   const auto it = std::find_if(declared.begin(), declared.end(),
                                [&](const Statistic& s) { return s.spec->name == name; });

@@ -1,4 +1,4 @@
-// Statistics that every method has, and how a method returns its own.
+// Statistics and stages that methods share, and how a method returns its own statistics.
 #pragma once
 
 #include "renderer/methods/gi_method.h"
@@ -6,6 +6,9 @@
 namespace lamplighter {
 
 const StatisticTable<GiStats>& commonStatistics();
+
+// The stage of methods that trace paths for each pixel.
+inline constexpr StageSpec kPathsStage{"paths", "Paths", "Tracing paths for each pixel."};
 
 // The statistics of a frame as GiOutput has them.
 template <std::derived_from<GiStats> Stats>

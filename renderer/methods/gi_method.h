@@ -2,9 +2,9 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,9 +47,11 @@ struct GiStats {
   // wait for it; items by which the settled picture was refined, at most refineUpdates.
   int updates = 0, pending = 0, refineUpdates = 0;
   int samplesPerPixel = 0;
-  uint64_t raysTraced = 0;                     // in this frame, by the method
-  std::map<std::string, double> stageSeconds;  // by stage name
-  std::vector<Statistic> declared;             // in the order of MethodInfo::statistics
+  uint64_t raysTraced = 0;              // in this frame, by the method
+  std::vector<StageTime> stageSeconds;  // as MethodInfo::stages; empty: not measured
+  std::vector<Statistic> declared;      // in the order of MethodInfo::statistics
+
+  double secondsOf(const StageSpec& stage) const;  // 0 if it was not measured
 
   // The value of a declared statistic. Throws std::out_of_range if the method has none of that
   // name.
@@ -111,6 +113,7 @@ struct MethodInfo {
   std::string citation;  // of the paper
   std::vector<ParameterSpec> parameters;
   std::vector<StatisticSpec> statistics;
+  std::span<const StageSpec> stages;  // a constant table, in the order of a frame
   // The method on this backend, which must meet its needs and outlive it.
   std::function<std::unique_ptr<GiMethod>(Backend&)> make;
   MethodNeeds needs = {};

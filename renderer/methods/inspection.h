@@ -84,7 +84,7 @@ struct InspectedLink {
 // Valid until the method's next render() or reset(). Capabilities that a method does not have are
 // null or empty.
 struct Inspection {
-  std::vector<LightSample> lights;  // in an order that does not change with edits
+  std::span<const LightSample> lights;  // in an order that does not change with edits
   std::shared_ptr<const PatchView> patches;
   std::shared_ptr<const TexelView> texels;
   std::function<TransferState(uint32_t object)> transfer;

@@ -82,5 +82,32 @@ TEST_F(SafetyDialogs, AFileChangedByOthersNeedsConfirmation) {
   EXPECT_EQ(loadGltf(level_).scene.nodes.size(), 3u);
 }
 
+// Cancelling the save dialog cancels what waited for the save: quitting asks again, and saving
+// later does not quit.
+TEST_F(SafetyDialogs, CancellingTheSaveDialogCancelsQuitting) {
+  session().open(test::litFloor(), "", {});
+  act("light.add disk");
+  const auto quit = [&] {
+    act("app.quit");
+    frames(3);  // the question is drawn after the action
+  };
+  quit();
+  click("dialog/save");
+  ASSERT_TRUE(shows("dialog/file"));
+  click("dialog/cancel");
+  EXPECT_FALSE(shows("dialog/file"));
+  quit();
+  ASSERT_TRUE(shows("dialog/discard"));
+  click("dialog/save");
+  ASSERT_TRUE(shows("dialog/file"));
+  key(Key::escape, true);
+  key(Key::escape, false);
+  frames(3);
+  EXPECT_FALSE(shows("dialog/file"));
+  act("file.save_as " + (folder_.path() / "new.gltf").string());
+  EXPECT_FALSE(session().modified());
+  EXPECT_FALSE(app().finished());
+}
+
 }  // namespace
 }  // namespace lamplighter

@@ -293,6 +293,7 @@ void Application::drawDialogs(PanelContext ui) {
   if (std::exchange(session_->home().opensPalette, false)) palette_.open();
   for (const std::string& action : {fileDialog_.draw(ui), nameDialog_.draw(ui), palette_.draw(ui)})
     if (!action.empty()) runAction(action);
+  if (fileDialog_.cancelled()) pending_ = Pending::none;
   if (!loader_.running()) {
     const std::string action = recoveryDialog_.draw(ui);
     if (!action.empty() && !session_->runAction(action)) showError(session_->status());

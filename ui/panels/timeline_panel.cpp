@@ -11,16 +11,18 @@
 namespace lamplighter {
 namespace {
 
-// In the order of Timeline::stages(). Neighbours differ in hue and in lightness.
+// Of the stages of a method, in their order. Neighbours differ in hue and in lightness.
 constexpr unsigned kStageColours[] = {0xd9b44a, 0x4f80c8, 0x9fc25b, 0x376c8a, 0xa0558a,
                                       0x5fb6a6, 0x8d8f98, 0xe2793f, 0x3f6b59, 0xc7a3d8,
-                                      0xb5534c, 0x7fb7e6, 0xd58bbb, 0x4a4e57};
+                                      0xb5534c, 0x7fb7e6, 0xd58bbb};
+constexpr unsigned kOtherColour = 0x4a4e57;
 
 // Shorter stages are not listed [s]: they would read 0.0 ms.
 constexpr double kSeen = 5e-5;
 
-unsigned colourOf(size_t stage) {
-  return kStageColours[std::min(stage, std::size(kStageColours) - 1)];
+// `index`: of the stage in the list of its method.
+unsigned colourOf(const StageSpec& stage, size_t index) {
+  return stage == kOtherStage ? kOtherColour : kStageColours[index % std::size(kStageColours)];
 }
 
 std::string milliseconds(double seconds) {
@@ -48,18 +50,18 @@ double rangeOf(const Timeline& timeline, size_t bars, double budget) {
 void stageTooltip(const PanelContext& ui, const FrameTiming& frame, size_t hovered) {
   ImGui::BeginTooltip();
   ImGui::Text("frame %u: %s", frame.frame, milliseconds(frame.seconds()).c_str());
-  for (size_t i = 0; i < frame.stageSeconds.size(); ++i) {
-    if (frame.stageSeconds[i] < kSeen) continue;
+  for (size_t i = 0; i < frame.stats.stageSeconds.size(); ++i) {
+    const auto& [stage, seconds] = frame.stats.stageSeconds[i];
+    if (seconds < kSeen) continue;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float side = ImGui::GetTextLineHeight();
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + ui.px(2)},
                                               {at.x + side - ui.px(4), at.y + side - ui.px(2)},
-                                              theme::colour(colourOf(i)), ui.px(2));
+                                              theme::colour(colourOf(stage, i)), ui.px(2));
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side);
     const unsigned colour = i == hovered ? theme::kAccent : theme::kText;
     ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(colour));
-    ImGui::Text("%s  %s", Timeline::stages()[i].c_str(),
-                milliseconds(frame.stageSeconds[i]).c_str());
+    ImGui::TextUnformatted((std::string(stage.label) + "  " + milliseconds(seconds)).c_str());
     ImGui::PopStyleColor();
   }
   ImGui::EndTooltip();
@@ -85,13 +87,15 @@ void drawBars(const PanelContext& ui, const Timeline& timeline, const Graph& gra
     const float left = right - graph.bar;
     const bool isUnder = hovered && mouse.x >= left && mouse.x < right;
     double below = 0.0;
-    size_t under = frame->stageSeconds.size();
-    for (size_t i = 0; i < frame->stageSeconds.size(); ++i) {
-      if (frame->stageSeconds[i] <= 0.0) continue;
-      const float bottom = graph.yOf(below), top = graph.yOf(below + frame->stageSeconds[i]);
-      list.AddRectFilled({left, top}, {right - gap, bottom}, theme::colour(colourOf(i)));
+    const std::vector<StageTime>& times = frame->stats.stageSeconds;
+    size_t under = times.size();
+    for (size_t i = 0; i < times.size(); ++i) {
+      const auto& [stage, seconds] = times[i];
+      if (seconds <= 0.0) continue;
+      const float bottom = graph.yOf(below), top = graph.yOf(below + seconds);
+      list.AddRectFilled({left, top}, {right - gap, bottom}, theme::colour(colourOf(stage, i)));
       if (isUnder && mouse.y >= top && mouse.y < bottom) under = i;
-      below += frame->stageSeconds[i];
+      below += seconds;
     }
     if (isUnder) {
       list.AddRect({left - gap, graph.yOf(below) - gap}, {right, graph.high.y},
@@ -145,26 +149,31 @@ void drawGraph(const PanelContext& ui, TimelineState& state) {
   list.PopClipRect();
 }
 
-// A square and a name for each stage with its mean time, in two columns. Stages that took no time
-// are dimmed and not removed, so that the items below do not move.
+// A square and a label for each stage of the method with its mean time, in two columns. Stages that
+// took no time are dimmed and not removed, so that the items below do not move.
 void drawLegend(const PanelContext& ui) {
   const Timeline& timeline = ui.session.watch().timeline;
   if (!ImGui::BeginTable("##stages", 2, ImGuiTableFlags_SizingStretchSame)) return;
-  for (size_t i = 0; i < Timeline::stages().size(); ++i) {
-    const double mean = timeline.meanOf(i);
+  const auto declared = findMethod(ui.session.document().render.method).stages;
+  std::vector<StageSpec> stages(declared.begin(), declared.end());
+  stages.push_back(kOtherStage);
+  for (size_t i = 0; i < stages.size(); ++i) {
+    const StageSpec& stage = stages[i];
+    const double mean = timeline.meanOf(stage);
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float side = ImGui::GetTextLineHeight();
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + ui.px(3)},
                                               {at.x + side - ui.px(6), at.y + side - ui.px(3)},
-                                              theme::colour(colourOf(i)), ui.px(2));
+                                              theme::colour(colourOf(stage, i)), ui.px(2));
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side);
     const bool took = mean >= kSeen;
     ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(took ? theme::kText : theme::kTextDim));
     ImGui::TextUnformatted(
-        (Timeline::stages()[i] + (took ? "  " + milliseconds(mean) : "")).c_str());
+        (std::string(stage.label) + (took ? "  " + milliseconds(mean) : "")).c_str());
     ImGui::PopStyleColor();
-    tooltip(ui, "Mean of the frames in which it took any time: " + milliseconds(mean) + ".");
+    tooltip(ui, std::string(stage.meaning) +
+                    " Mean of the frames in which it took any time: " + milliseconds(mean) + ".");
   }
   ImGui::EndTable();
 }

@@ -8,6 +8,7 @@
 // at the radius.
 #pragma once
 
+#include "renderer/methods/common_parameters.h"
 #include "renderer/raycast/ray_caster.h"
 
 namespace lamplighter {
@@ -19,10 +20,9 @@ enum class Falloff : uint8_t {
         // 2003)
 };
 
-struct AccessibilityOptions {
+struct AccessibilityOptions : SeedParameters {
   float radius = 1.0f;  // [m]
   Falloff falloff = Falloff::root;
-  int seed = 1;
   bool operator==(const AccessibilityOptions&) const = default;
 };
 

@@ -9,6 +9,7 @@
 #include "renderer/methods/ambient_occlusion/accessibility.h"
 #include "renderer/methods/common_parameters.h"
 #include "renderer/methods/common_statistics.h"
+#include "renderer/methods/stage_timer.h"
 
 namespace lamplighter {
 namespace {
@@ -33,10 +34,12 @@ const ParameterTable<Parameters>& parameterTable() {
        "root: "
        "more with its distance, and all at the radius.",
        {{"none", Falloff::none}, {"linear", Falloff::linear}, {"root", Falloff::root}}},
-      {&P::seed, "seed", "Seed", "", "Selects another set of random numbers.", {0, 1000000}},
+      seedParameters(),
       sampleParameters()};
   return table;
 }
+
+constexpr StageSpec kAmbientOcclusionStages[] = {kPathsStage};
 
 struct AmbientOcclusionStats : GiStats {
   int samples = 0;  // per pixel, in this frame
@@ -52,7 +55,7 @@ const StatisticTable<AmbientOcclusionStats>& statisticTable() {
         .kind = StatisticKind::work,
         .inTimeline = true,
         .budget = "samples_per_frame",
-        .stages = {"paths"}}},
+        .stages = {kPathsStage}}},
       commonStatistics()};
   return table;
 }
@@ -63,7 +66,8 @@ constexpr char kView[] = "accessibility";
 class AmbientOcclusion final : public GiMethod {
  public:
   GiOutput render(const FrameInputs& in) override {
-    const double begin = in.stopwatch ? in.stopwatch() : 0.0;
+    AmbientOcclusionStats stats;
+    StageTimer timer(in, kAmbientOcclusionStages, stats);
     const Parameters parameters = parameterTable().read(in.settings);
     const bool isSame = !sum_.empty() && in.changes.none() && in.view == view_ &&
                         AccessibilityOptions(parameters) == options_ &&
@@ -74,7 +78,6 @@ class AmbientOcclusion final : public GiMethod {
       sum_.assign(static_cast<size_t>(view_.width) * static_cast<size_t>(view_.height), 0.0f);
       samples_ = 0;
     }
-    AmbientOcclusionStats stats;
     const int until = std::min(parameters.samplesPerPixel, samples_ + parameters.samplesPerFrame);
     const bool isMore = until > samples_;
     if (!isSame) in.backend.renderGBuffer(in.view, vec2(0.0f));
@@ -88,7 +91,7 @@ class AmbientOcclusion final : public GiMethod {
     stats.framesUntilSettled =
         (parameters.samplesPerPixel - samples_ + parameters.samplesPerFrame - 1) /
         parameters.samplesPerFrame;
-    if (in.stopwatch) stats.stageSeconds["paths"] = in.stopwatch() - begin;
+    timer.end(kPathsStage);
 
     GiOutput out;
     out.radiance = picture_;
@@ -175,6 +178,7 @@ MethodInfo ambientOcclusionInfo() {
           "Rendering Workshop 1998.",
           parameterTable().specs(),
           statisticTable().specs(),
+          kAmbientOcclusionStages,
           [](Backend&) { return std::make_unique<AmbientOcclusion>(); },
           {{Service::rays}},
           {},

@@ -19,8 +19,8 @@ void LiveBiasCompensation::goOn(const FrameInputs& in, const LightSampleTable& l
                                 BiasCompensation::Options options) {
   const View& view = in.view;
   std::vector<SceneVpl> vpls;
-  for (const int slot : lights.order)
-    if (lights[slot].isLive) vpls.push_back(lights[slot]);
+  for (const LightSample& sample : lights.samples)
+    if (sample.isLive) vpls.push_back(sample);
   const BiasCompensation biasCompensation(in.scene, in.services.rays(), vpls, options);
   pixels_.resize(static_cast<size_t>(view.width) * static_cast<size_t>(view.height));
   const int end = std::min(view.height, rows_ + std::max(1, kPixelsAFrame / view.width));

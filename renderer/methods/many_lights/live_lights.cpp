@@ -44,7 +44,7 @@ void LiveLights::fitSlots(size_t wanted) {
   slots_ = fitting;
   loseMaps();
   holds_.assign(static_cast<size_t>(slots_), 0);
-  lastMarked_.assign(static_cast<size_t>(slots_), 0);
+  lastNeeded_.assign(static_cast<size_t>(slots_), 0);
   for (Entry& e : entries_) e.slot = -1;
 }
 
@@ -238,7 +238,8 @@ void LiveLights::pairUp(std::vector<Group>& groups) const {
 int LiveLights::refresh(ManyLightsKernels& kernels, const RefreshBudget& budget,
                         const RefreshWork& moved, const RefreshWork& stale) {
   refresh(budget, moved, stale);
-  return updateMaps(kernels, std::vector<uint8_t>(static_cast<size_t>(slots_), 1), {});
+  needMaps(std::vector<uint8_t>(static_cast<size_t>(slots_), 1));
+  return updateMaps(kernels, {});
 }
 
 int LiveLights::refresh(const RefreshBudget& budget, const RefreshWork& moved,
@@ -292,18 +293,15 @@ std::vector<uint32_t> LiveLights::spreadTurns() const {
   return turns;
 }
 
-int LiveLights::updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked,
-                           const MapLimits& limits) {
-  tableIsCurrent_ = false;
+int LiveLights::updateMaps(ManyLightsKernels& kernels, const MapLimits& limits) {
   ++calls_;
   // A stale VPL waits for its refresh, but keeps its map.
   std::vector<Entry*> wants;
   for (Entry& e : entries_) {
-    const bool isMarked = e.isLive && marked[static_cast<size_t>(e.slot)] != 0;
     e.lacksMap = e.hasNoRoom = false;
-    if (!isMarked || ((e.moves() || e.mapIsStale) && !e.hasMap)) continue;
+    if (!e.isLive || !needsMap(e) || ((e.moves() || e.mapIsStale) && !e.hasMap)) continue;
     wants.push_back(&e);
-    lastMarked_[static_cast<size_t>(e.slot)] = calls_;
+    lastNeeded_[static_cast<size_t>(e.slot)] = calls_;
   }
   const auto room = static_cast<size_t>(std::max(limits.held, 0));
   if (wants.size() > std::min(room, static_cast<size_t>(std::max(limits.rendered, 0)))) {
@@ -328,7 +326,7 @@ int LiveLights::updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t
       continue;
     keeps[static_cast<size_t>(e->slot)] = 1;
   }
-  // First drops the maps of VPLs that no longer exist; then, if memory is short, those marked least
+  // First drops the maps of VPLs that no longer exist; then, if memory is short, those needed least
   // recently.
   std::vector<int> dropped, spare;
   size_t held = static_cast<size_t>(std::count(keeps.begin(), keeps.end(), 1));
@@ -337,7 +335,7 @@ int LiveLights::updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t
     (mayKeep[slot] != 0 ? spare : dropped).push_back(static_cast<int>(slot));
   }
   std::stable_sort(spare.begin(), spare.end(), [&](int a, int b) {
-    return lastMarked_[static_cast<size_t>(a)] > lastMarked_[static_cast<size_t>(b)];
+    return lastNeeded_[static_cast<size_t>(a)] > lastNeeded_[static_cast<size_t>(b)];
   });
   for (const int slot : spare) {
     if (held < room)
@@ -356,19 +354,23 @@ int LiveLights::updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t
   }
   if (!dropped.empty()) kernels.dropShadowMaps(dropped);
   if (!maps.empty()) kernels.renderShadowMaps(maps);
+  // If only VPLs with maps are shown, the sums change, too.
+  if (onlyMapped_)
+    tableIsCurrent_ = false;
+  else if (tableIsCurrent_)
+    setMapColumns();
   return static_cast<int>(maps.size());
 }
 
-int LiveLights::coarse(const std::vector<uint8_t>& marked) const {
-  return static_cast<int>(std::count_if(entries_.begin(), entries_.end(),
-                                        [&](const Entry& e) { return isCoarse(e, marked); }));
+int LiveLights::coarse() const {
+  return static_cast<int>(
+      std::count_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return isCoarse(e); }));
 }
 
-int LiveLights::sharpenMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked,
-                            int most) {
+int LiveLights::sharpenMaps(ManyLightsKernels& kernels, int most) {
   std::vector<Entry*> next;
   for (Entry& e : entries_)
-    if (isCoarse(e, marked)) next.push_back(&e);
+    if (isCoarse(e)) next.push_back(&e);
   std::stable_sort(next.begin(), next.end(), [](const Entry* a, const Entry* b) {
     return brightness(a->current) > brightness(b->current);
   });
@@ -397,28 +399,34 @@ int LiveLights::withoutMap() const {
 
 const LightSampleTable& LiveLights::table() const {
   if (tableIsCurrent_) return table_;
-  const auto slots = static_cast<size_t>(slots_);
-  table_.samples.assign(slots, {});
-  table_.summed.assign(slots, {});
-  table_.order.clear();
+  table_.samples.clear();
+  table_.samples.reserve(entries_.size());
   for (const Entry& e : entries_) {
-    LightSample& sample = table_.samples[static_cast<size_t>(e.slot)];
+    LightSample& sample = table_.samples.emplace_back();
     static_cast<SceneVpl&>(sample) = e.wanted;
     if (e.isLive) sample.vpl = e.current;
     sample.vpl.slot = e.slot;
     sample.isLive = e.isLive;
     sample.isUpToDate = !e.moves() && !e.mapIsStale;
-    sample.isStale = e.isPending();
-    sample.hasMap = e.hasMap;
     sample.framesWaiting = e.framesWaiting;
-    table_.order.push_back(e.slot);
   }
-  sumShown(table_);
+  sumShown();
+  setMapColumns();
   tableIsCurrent_ = true;
   return table_;
 }
 
-void LiveLights::sumShown(LightSampleTable& table) const {
+// What updateMaps() changes.
+void LiveLights::setMapColumns() const {
+  table_.hasMap.assign(static_cast<size_t>(slots_), 0);
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    const Entry& e = entries_[i];
+    table_.samples[i].isStale = e.isPending();
+    if (e.hasMap) table_.hasMap[static_cast<size_t>(e.slot)] = 1;
+  }
+}
+
+void LiveLights::sumShown() const {
   struct Set {
     float share = 0.0f;
     float missing = 0.0f;  // brightness of samples that will still come
@@ -436,9 +444,10 @@ void LiveLights::sumShown(LightSampleTable& table) const {
       set.lacks = set.lacks || e.hasNoRoom;
     }
   }
+  table_.summed.assign(static_cast<size_t>(slots_), {});
   for (const Entry& e : entries_) {
     if (!isShown(e)) continue;
-    shared::Vpl& vpl = table.summed[static_cast<size_t>(e.slot)] = e.current;
+    shared::Vpl& vpl = table_.summed[static_cast<size_t>(e.slot)] = e.current;
     const Set& set = sets[e.wanted.id.set()];
     if ((set.missing <= kSmallShare && !set.lacks) || !(set.share > 0.0f)) continue;
     vpl.intensity /= set.share;

@@ -46,16 +46,17 @@ class LiveLights {
     int held = std::numeric_limits<int>::max();      // maps in memory
     int rendered = std::numeric_limits<int>::max();  // in this call
   };
-  // Renders maps for the VPLs in the marked slots. If they do not all fit, or many are new, the
-  // maps are spread over all of them. If memory is short, maps are taken from the VPLs that were
-  // not marked for the longest time. Returns the number of rendered maps.
-  int updateMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked,
-                 const MapLimits& limits);
-  // When nothing is pending: renders fine maps for up to `most` marked VPLs, brightest first. A
-  // refreshed VPL gets a coarse map again. Returns the number of rendered maps.
-  int sharpenMaps(ManyLightsKernels& kernels, const std::vector<uint8_t>& marked, int most);
+  // Sets the slots whose maps the view reads, until the next call.
+  void needMaps(std::vector<uint8_t> bySlot) { table_.needsMap = std::move(bySlot); }
+  // Renders the needed maps. If they do not all fit, or many are new, the maps are spread over all
+  // VPLs that need one. If memory is short, maps are taken from the VPLs that have not needed
+  // theirs for the longest time. Returns the number of rendered maps.
+  int updateMaps(ManyLightsKernels& kernels, const MapLimits& limits);
+  // When nothing is pending: renders fine maps for up to `most` VPLs that need one, brightest
+  // first. A refreshed VPL gets a coarse map again. Returns the number of rendered maps.
+  int sharpenMaps(ManyLightsKernels& kernels, int most);
   // The number of fine maps that an unlimited call would render.
-  int coarse(const std::vector<uint8_t>& marked) const;
+  int coarse() const;
   // Whether VPLs without a map are not shown at all (naive).
   void showOnlyMapped(bool onlyMapped);
 
@@ -64,12 +65,13 @@ class LiveLights {
               const RefreshWork& moved = {}, const RefreshWork& stale = {});
 
   int mapsHeld() const { return static_cast<int>(std::count(holds_.begin(), holds_.end(), 1)); }
-  // The number of marked VPLs without a map because of the memory limit.
+  // The number of needed maps that do not exist because of the memory limit.
   int withoutMap() const;
 
   // All VPLs. While more than a twentieth of a set is missing, the sum of the present VPLs carries
   // the flux of the whole set, so that the brightness neither jumps nor accumulates when a light is
-  // added or the number of samples changes. Built at most once between two changes.
+  // added or the number of samples changes. Built once a frame, at the first call after refresh();
+  // updateMaps() then sets what depends on maps.
   const LightSampleTable& table() const;
 
   int pending() const;
@@ -93,7 +95,7 @@ class LiveLights {
     bool hasMap = false;      // of `current`
     bool isFine = false;      // the kind of its map
     bool lacksMap = false;    // it waits for a map
-    bool hasNoRoom = false;   // it is marked, but no memory is left
+    bool hasNoRoom = false;   // it needs a map, but no memory is left
     int framesWaiting = 0;
     shared::Vpl current{};
     bool moves() const;  // it is not at its wanted position
@@ -109,13 +111,13 @@ class LiveLights {
   void pairUp(std::vector<Group>& groups) const;
   void keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const;
   void giveSlots();
-  void sumShown(LightSampleTable& table) const;
+  void setMapColumns() const;
+  void sumShown() const;
   static void takeBrightness(Entry& entry);
   void fitSlots(size_t wanted);
   std::vector<uint32_t> spreadTurns() const;
-  bool isCoarse(const Entry& e, const std::vector<uint8_t>& marked) const {
-    return e.hasMap && !e.isFine && marked[static_cast<size_t>(e.slot)] != 0;
-  }
+  bool needsMap(const Entry& e) const { return table_.needsMap[static_cast<size_t>(e.slot)] != 0; }
+  bool isCoarse(const Entry& e) const { return e.hasMap && !e.isFine && needsMap(e); }
   bool isShown(const Entry& e) const { return e.isLive && (e.hasMap || !onlyMapped_); }
 
   std::vector<Entry> entries_;  // in the order of the wanted ones, then unwanted ones
@@ -124,11 +126,11 @@ class LiveLights {
   int slots_ = 0;
   bool changed_ = true;
   bool onlyMapped_ = true;
-  mutable LightSampleTable table_;
+  mutable LightSampleTable table_;  // its rows in the order of entries_
   mutable bool tableIsCurrent_ = false;
-  // By slot: the kernels have a map in it (of any light); the call in which it was last marked.
+  // By slot: the kernels have a map in it (of any light); the call in which it was last needed.
   std::vector<uint8_t> holds_;
-  std::vector<uint64_t> lastMarked_;
+  std::vector<uint64_t> lastNeeded_;
   uint64_t calls_ = 0;  // number of updateMaps() calls
 };
 

@@ -4,6 +4,7 @@
 
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/many_lights/inspected_surfaces.h"
+#include "renderer/methods/many_lights/stages.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/sun_shadow_tiles.h"
 #include "renderer/sampling/view_importance.h"
@@ -68,30 +69,10 @@ constexpr uint32_t kCornerPaths = 1;
 
 }  // namespace
 
-// Measures each stage with the caller's stopwatch, if there is one.
-class ManyLights::Stages {
- public:
-  Stages(const FrameInputs& in, GiStats& stats) : in_(in), stats_(stats) {
-    if (in_.stopwatch) last_ = in_.stopwatch();
-  }
-  void end(const char* name) {
-    if (!in_.stopwatch) return;
-    in_.backend.finish();
-    const double now = in_.stopwatch();
-    stats_.stageSeconds[name] += now - last_;
-    last_ = now;
-  }
-
- private:
-  const FrameInputs& in_;
-  GiStats& stats_;
-  double last_ = 0.0;
-};
-
 GiOutput ManyLights::render(const FrameInputs& in) {
   GiOutput out;
   ManyLightsStats stats;
-  Stages stages(in, stats);
+  StageTimer stages(in, kManyLightsStages, stats);
   Options options(in.settings, in.services.budget().refineUpdates > 0);
   const bool wantsVisibility = options.useVisibility();
   if (in.changes.rebuilt || lights_.slots() != neededFor_) visibilityNeeds_ = 0;
@@ -100,23 +81,23 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   // 1. Find which VPLs the scene requires, and which shown ones are out of date.
   takeScene(in, options);
   updateLights(in, options, stats);
-  stages.end("light samples");
+  stages.end(kLightSamplesStage);
 
   // 2. Refresh some of them completely: position, intensity, where their maps are needed,
   stats.updates = refreshLights(options);
   updateVisibility(in, options, stats);
-  stages.end("visibility");
+  stages.end(kVisibilityStage);
 
   // 3. their maps, if the view needs them, and their unshadowed light.
   updateMaps(in, options, stats);
-  stages.end("shadow maps");
+  stages.end(kShadowMapsStage);
   sharpenMaps(options, stats);
-  stages.end("finer maps");
+  stages.end(kFinerMapsStage);
   updateLightMaps(in, options, stats);
-  stages.end("light maps");
+  stages.end(kLightMapsStage);
   const bool prtChanged = updatePrt(in, options, stats);
   if (visibility_) visibility_->clearChanged();
-  stages.end("transfer");
+  stages.end(kTransferStage);
 
   // 4. Render the picture, if anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
@@ -265,28 +246,26 @@ int ManyLights::refreshLights(const Options& options) {
 // Finds again which maps the view needs, if anything changed that affects this.
 void ManyLights::updateMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats) {
   const auto slots = static_cast<size_t>(lights_.slots());
-  if (!visibility_) {
-    wanted_.assign(slots, 1);
-  } else if (lights_.changed() || !in.changes.none() || in.view != view_ ||
-             wanted_.size() != slots || options.useVisibility() != options_.useVisibility() ||
-             options.speculars != options_.speculars) {
-    wanted_ = shadowMapDemand(*visibility_, in.scene, in.view);
-  }
-  if (visibility_ && options.speculars && kernels_->traits().specularsTakeAllMaps &&
-      hasGlossy(in.scene))
-    std::fill(wanted_.begin(), wanted_.end(), uint8_t{1});
+  const bool needsAll =
+      !visibility_ ||
+      (options.speculars && kernels_->traits().specularsTakeAllMaps && hasGlossy(in.scene));
+  if (needsAll)
+    lights_.needMaps(std::vector<uint8_t>(slots, 1));
+  else if (lights_.changed() || !in.changes.none() || in.view != view_ ||
+           options.useVisibility() != options_.useVisibility() ||
+           options.speculars != options_.speculars)
+    lights_.needMaps(shadowMapDemand(*visibility_, in.scene, in.view));
   // A path is refreshed as a whole, even if it has more VPLs than the budget.
   const int maps = std::max(mapsAFrame(kernels_->traits(), options, 1), stats.updates);
   const int refining = Refinement::slots(options.refinement());
   stats.mapsRendered =
-      lights_.updateMaps(*kernels_, wanted_, {std::max(options.mostMaps() - refining, 1), maps});
+      lights_.updateMaps(*kernels_, {std::max(options.mostMaps() - refining, 1), maps});
   if (kernels_->traits().tracesShadowMaps) {
     const auto side = static_cast<uint64_t>(options.mapResolution);
     stats.mapRays = side * side * static_cast<uint64_t>(stats.mapsRendered);
   }
   if (visibility_)
-    lightProxies_.update(lights_.table(), wanted_,
-                         groupsOf(in, options.groupShare, lights_.slots()));
+    lightProxies_.update(lights_.table(), groupsOf(in, options.groupShare, lights_.slots()));
 }
 
 // Only when all other work is done: the frame after an edit is busy enough.
@@ -297,16 +276,16 @@ void ManyLights::sharpenMaps(const Options& options, ManyLightsStats& stats) {
                       paths_.isAtRest() && choiceIsCurrent_;
   if (isDone)
     stats.mapsSharpened =
-        lights_.sharpenMaps(*kernels_, wanted_, mapsAFrame(kernels_->traits(), options, scale));
-  stats.mapsToSharpen = lights_.coarse(wanted_);
+        lights_.sharpenMaps(*kernels_, mapsAFrame(kernels_->traits(), options, scale));
+  stats.mapsToSharpen = lights_.coarse();
 }
 
 std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Options& options,
-                                                 vec2 jitter, Stages& stages) {
+                                                 vec2 jitter, StageTimer& stages) {
   const bool isMiddle = jitter == vec2(0.0f);
   if (!isMiddle || !gbufferIsCurrent_) in.backend.renderGBuffer(in.view, jitter);
   gbufferIsCurrent_ = isMiddle;
-  stages.end("g-buffer");
+  stages.end(kGBufferStage);
   const shared::ShadingParams params{
       vec4(options.clampDistance, options.shadowBias, 0.0f,
            static_cast<float>(options.lightsPerPass)),
@@ -331,13 +310,13 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   passesSaved_ = static_cast<int>(after.passesSaved - before.passesSaved);
   interpolatedShare_ = static_cast<float>(after.pixelsInterpolated - before.pixelsInterpolated) /
                        static_cast<float>(in.view.width * in.view.height);
-  stages.end("light sums");
+  stages.end(kLightSumsStage);
   std::shared_ptr<RadianceImage> image = kernels_->compose(in.lightOnly);
   if (in.part == LightPart::indirect) {
     kernels_->sumVpls({}, params, nullptr);
     image = without(*kernels_->compose(in.lightOnly), *image);
   }
-  stages.end("composition");
+  stages.end(kCompositionStage);
   return image;
 }
 
@@ -348,12 +327,12 @@ LightSampleTable ManyLights::takePart(const FrameInputs& in, const Options& opti
   lights.sumOnly([&](const LightSample& l) { return (l.id.bounce == 0) == isDirect; });
   if (visibility_ && isNew)
     partLights_.update(in.scene, *visibility_, lights,
-                       {options.useLightMaps(), lightMapOptions(options)}, wanted_,
+                       {options.useLightMaps(), lightMapOptions(options)},
                        groupsOf(in, options.groupShare, lights_.slots()));
   return lights;
 }
 
-void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& stages,
+void ManyLights::refine(const FrameInputs& in, const Options& options, StageTimer& stages,
                         GiOutput& out, ManyLightsStats& stats) {
   if (options.refine == 0) return;
   gbufferIsCurrent_ = false;
@@ -364,12 +343,12 @@ void ManyLights::refine(const FrameInputs& in, const Options& options, Stages& s
   if (refinement_.image()) out.radiance = refinement_.image();
   stats.vplsRefined = refinement_.vpls();
   stats.vplsToRefine = options.refine;
-  stages.end("refinement");
+  stages.end(kRefinementStage);
 }
 
 std::shared_ptr<RadianceImage> ManyLights::fillCorners(
     const FrameInputs& in, const Options& options, const std::shared_ptr<RadianceImage>& picture,
-    bool isSmooth, Stages& stages) {
+    bool isSmooth, StageTimer& stages) {
   if (isSmooth && !corners_.isWhole(in.view)) {
     const auto reflecting =
         prt_ && in.part == LightPart::all ? prt_->reflecting() : std::vector<uint8_t>();
@@ -380,12 +359,12 @@ std::shared_ptr<RadianceImage> ManyLights::fillCorners(
          options.clampDistance, kCornerPaths, static_cast<uint32_t>(options.seed), 0, in.lightOnly,
          options.speculars, options.leastRoughness, reflecting});
     if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
-    stages.end("corners");
+    stages.end(kCornersStage);
   }
   return isSmooth && corners_.isWhole(in.view) ? whole_ : corners_.scale(picture);
 }
 
-void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages& stages) {
+void ManyLights::addSample(const FrameInputs& in, const Options& options, StageTimer& stages) {
   const auto picture = shade(in, options, jitterOf(samples_, options.antialias), stages);
   const Image& sample = picture->pixels();
   if (samples_ == 0) sum_ = Image(sample.width, sample.height);
@@ -395,12 +374,12 @@ void ManyLights::addSample(const FrameInputs& in, const Options& options, Stages
     for (vec3& p : sum_.pixels) p *= weight;
     mean_ = std::make_shared<HostImage>(std::move(sum_));
   }
-  stages.end("antialiasing");
+  stages.end(kAntialiasingStage);
 }
 
 Inspection ManyLights::inspect() const {
   Inspection out;
-  out.lights = lights_.table().samplesInOrder();
+  out.lights = lights_.table().samples;
   if (visibility_) out.patches = std::make_shared<DatabasePatches>(*visibility_);
   if (visibility_ && lightMaps_)
     out.texels = std::make_shared<LightMapTexels>(*visibility_, *lightMaps_);
@@ -426,6 +405,7 @@ MethodInfo manyLightsInfo() {
           "Barczak, Interactive Illumination Using Large Sets of Point Lights, 2006, chapter 4",
           manyLightsParameters().specs(),
           manyLightsStatistics().specs(),
+          kManyLightsStages,
           [](Backend& backend) {
             return std::make_unique<ManyLights>(backend.kernels<ManyLightsKernels>("many_lights"));
           },

@@ -15,6 +15,7 @@
 #include "renderer/methods/many_lights/part_lights.h"
 #include "renderer/methods/many_lights/refinement.h"
 #include "renderer/methods/many_lights/statistics.h"
+#include "renderer/methods/stage_timer.h"
 #include "renderer/prt/prt_lights.h"
 #include "renderer/sampling/light_paths.h"
 #include "renderer/sampling/point_visibility.h"
@@ -31,14 +32,12 @@ class ManyLights final : public GiMethod {
   Inspection inspect() const override;
 
  private:
-  class Stages;
-
   using Options = ManyLightsOptions;
 
   void takeScene(const FrameInputs& in, const Options& options);
   void updateLights(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> shade(const FrameInputs& in, const Options& options, vec2 jitter,
-                                       Stages& stages);
+                                       StageTimer& stages);
   LightSampleTable takePart(const FrameInputs& in, const Options& options, bool isNew);
   int refreshLights(const Options& options);
   void updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats);
@@ -47,12 +46,12 @@ class ManyLights final : public GiMethod {
   LightMaps::Options lightMapOptions(const Options& options) const;
   void updateLightMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
-  void refine(const FrameInputs& in, const Options& options, Stages& stages, GiOutput& out,
+  void refine(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
               ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
                                              const std::shared_ptr<RadianceImage>& picture,
-                                             bool isSmooth, Stages& stages);
-  void addSample(const FrameInputs& in, const Options& options, Stages& stages);
+                                             bool isSmooth, StageTimer& stages);
+  void addSample(const FrameInputs& in, const Options& options, StageTimer& stages);
 
   ManyLightsKernels* kernels_;  // of the backend
   bool started_ = false, lightOnly_ = false;
@@ -71,7 +70,6 @@ class ManyLights final : public GiMethod {
   std::unique_ptr<VisibilityDatabase> visibility_;  // if enabled
   size_t visibilityNeeds_ = 0;                      // bytes, lower bound of the last attempt
   int neededFor_ = 0;                               // number of slots of that attempt
-  std::vector<uint8_t> wanted_;                     // by slot: its map is read
   LightProxies lightProxies_;                       // for VPLs without a map
   std::unique_ptr<LightMaps> lightMaps_;            // if enabled
   std::unique_ptr<PrtLights> prt_;                  // if enabled

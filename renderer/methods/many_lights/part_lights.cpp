@@ -4,8 +4,8 @@ namespace lamplighter {
 
 void PartLights::update(const RenderScene& scene, const VisibilityDatabase& visibility,
                         const LightSampleTable& lights, const Maps& maps,
-                        const std::vector<uint8_t>& isWanted, const LightProxies::Groups& groups) {
-  lightProxies_.update(lights, isWanted, groups);
+                        const LightProxies::Groups& groups) {
+  lightProxies_.update(lights, groups);
   maps_.reset();
   if (!maps.used) return;
   maps_ = std::make_unique<LightMaps>();

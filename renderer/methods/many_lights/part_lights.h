@@ -18,10 +18,9 @@ class PartLights {
     LightMaps::Options options;
   };
   // Recomputes everything: these views are used while little changes. `lights`: those of the part
-  // are summed. `isWanted`: as for LightProxies.
+  // are summed.
   void update(const RenderScene& scene, const VisibilityDatabase& visibility,
-              const LightSampleTable& lights, const Maps& maps,
-              const std::vector<uint8_t>& isWanted, const LightProxies::Groups& groups);
+              const LightSampleTable& lights, const Maps& maps, const LightProxies::Groups& groups);
   void forget() { *this = PartLights(); }
 
   const LightMaps* maps() const { return maps_.get(); }

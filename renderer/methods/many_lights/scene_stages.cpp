@@ -1,4 +1,6 @@
 // The stages of ManyLights that bring visibility, light maps and transfer up to date.
+#include <functional>
+
 #include "renderer/methods/many_lights/many_lights.h"
 
 namespace lamplighter {
@@ -30,9 +32,10 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, ManyL
   const uint64_t before = visibility_->tests();
   visibility_->setLights(in.scene, lights.summed);
   // Lights whose maps still show a mover at its old position wait.
+  const std::vector<bool> upToDate = lights.where(std::mem_fn(&LightSample::isUpToDate));
   std::vector<int> slots;
   for (int slot = 0; slot < lights_.slots(); ++slot)
-    if (lights[slot].isUpToDate) slots.push_back(slot);
+    if (upToDate[static_cast<size_t>(slot)]) slots.push_back(slot);
   visibility_->refresh(in.scene, slots);
   stats.visibilityTests = visibility_->tests() - before;
 }
@@ -75,11 +78,10 @@ bool ManyLights::updatePrt(const FrameInputs& in, const Options& options, ManyLi
   const auto isLast = [&](const LightSample& l) {
     return static_cast<int>(l.id.bounce) >= options.bounces;
   };
-  const bool changed =
-      prt_->update(in.scene, changes, in.services.rays(), *visibility_,
-                   {lights.summed, lights.where([](const LightSample& l) { return l.isUpToDate; }),
-                    lights.where(isLast)},
-                   options.transfer(), !in.services.budget().inBackground);
+  const bool changed = prt_->update(
+      in.scene, changes, in.services.rays(), *visibility_,
+      {lights.summed, lights.where(std::mem_fn(&LightSample::isUpToDate)), lights.where(isLast)},
+      options.transfer(), !in.services.budget().inBackground);
   stats.raysTraced += prt_->rays() - before;
   const Transfers::Progress progress = prt_->progress();
   stats.transfersPending = static_cast<int>(progress.pending);

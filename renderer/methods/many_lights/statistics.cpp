@@ -1,6 +1,7 @@
 #include "renderer/methods/many_lights/statistics.h"
 
 #include "renderer/methods/common_parameters.h"
+#include "renderer/methods/many_lights/stages.h"
 
 namespace lamplighter {
 
@@ -25,7 +26,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .kind = work,
         .inTimeline = true,
         .budget = kUpdates,
-        .stages = {"light samples", "visibility", "shadow maps", "light maps"}}},
+        .stages = {kLightSamplesStage, kVisibilityStage, kShadowMapsStage, kLightMapsStage}}},
       {&S::pending,
        {.name = "vpls_pending",
         .label = "Pending",
@@ -115,7 +116,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .kind = work,
         .inTimeline = true,
         .budget = "max_shadow_maps",
-        .stages = {"shadow maps"}}},
+        .stages = {kShadowMapsStage}}},
       {&S::mapRays,
        {.name = "map_rays",
         .label = "Rays of maps",
@@ -123,7 +124,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .meaning = "Rays traced for these shadow maps (cpu backend).",
         .kind = work,
         .budget = "max_rays",
-        .stages = {"shadow maps"}}},
+        .stages = {kShadowMapsStage}}},
       {&S::mapsSharpened,
        {.name = "maps_sharpened",
         .label = "Finer maps rendered",
@@ -174,7 +175,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .kind = work,
         .inTimeline = true,
         .budget = "max_visibility_tests",
-        .stages = {"visibility"}}},
+        .stages = {kVisibilityStage}}},
       {&S::visibilityBytes,
        {.name = "visibility_bytes",
         .label = "Memory of visibility",
@@ -199,7 +200,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .kind = work,
         .inTimeline = true,
         .budget = "max_light_map_texels",
-        .stages = {"light maps"}}},
+        .stages = {kLightMapsStage}}},
       {&S::lightMapBytes,
        {.name = "light_map_bytes",
         .label = "Memory of light maps",
@@ -243,7 +244,7 @@ const StatisticTable<ManyLightsStats>& manyLightsStatistics() {
         .kind = work,
         .inTimeline = true,
         .budget = "max_paths",
-        .stages = {"light samples"}}},
+        .stages = {kLightSamplesStage}}},
       {&S::pathsReplaced,
        {.name = "paths_replaced",
         .label = "Paths replaced",

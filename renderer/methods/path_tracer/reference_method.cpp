@@ -8,10 +8,13 @@
 
 #include "renderer/methods/common_statistics.h"
 #include "renderer/methods/path_tracer/parameters.h"
+#include "renderer/methods/stage_timer.h"
 
 namespace lamplighter {
 
 namespace {
+
+constexpr StageSpec kPathTracerStages[] = {kPathsStage};
 
 struct PathTracerStats : GiStats {
   int paths = 0;  // per pixel, in this frame
@@ -26,7 +29,7 @@ const StatisticTable<PathTracerStats>& pathTracerStatistics() {
         .meaning = "Paths that were traced for each pixel.",
         .kind = StatisticKind::work,
         .budget = "samples_per_frame",
-        .stages = {"paths"}}},
+        .stages = {kPathsStage}}},
       commonStatistics()};
   return table;
 }
@@ -35,7 +38,8 @@ const StatisticTable<PathTracerStats>& pathTracerStatistics() {
 class ReferenceMethod final : public GiMethod {
  public:
   GiOutput render(const FrameInputs& in) override {
-    const double begin = in.stopwatch ? in.stopwatch() : 0.0;
+    PathTracerStats stats;
+    StageTimer timer(in, kPathTracerStages, stats);
     const PathTracerParameters parameters = pathTracerParameters().read(in.settings);
     const bool sameScene = in.changes.none() && sum_.width != 0;
     if (!sameScene) lights_ = LightSet(in.scene, lights_);
@@ -52,7 +56,6 @@ class ReferenceMethod final : public GiMethod {
       samples_ = 0;
     }
 
-    PathTracerStats stats;
     const int next = std::min(wanted, samples_ + parameters.samplesPerFrame);
     if (next > samples_) {
       stats.paths = next - samples_;
@@ -66,7 +69,7 @@ class ReferenceMethod final : public GiMethod {
     stats.samplesPerPixel = samples_;
     const int aFrame = std::max(1, parameters.samplesPerFrame);
     stats.framesUntilSettled = (std::max(0, wanted - samples_) + aFrame - 1) / aFrame;
-    if (in.stopwatch) stats.stageSeconds["paths"] = in.stopwatch() - begin;
+    timer.end(kPathsStage);
     out.stats = published(stats, pathTracerStatistics());
     return out;
   }
@@ -126,6 +129,7 @@ MethodInfo referenceInfo() {
           "Optimally combining sampling techniques for Monte Carlo rendering. SIGGRAPH 1995.",
           pathTracerParameters().specs(),
           pathTracerStatistics().specs(),
+          kPathTracerStages,
           [](Backend&) { return std::make_unique<ReferenceMethod>(); },
           {{Service::rays}}};
 }

@@ -1,6 +1,7 @@
 // The texts that the panel shows for each budget.
 #include "editor/budgets/budget_costs.h"
 
+#include "renderer/methods/many_lights/stages.h"
 #include "renderer/methods/many_lights/statistics.h"
 #include "renderer/registry/registry.h"
 #include "tests/editor/session_fixture.h"
@@ -34,11 +35,11 @@ TEST(BudgetCosts, AreMeansOverTheFramesThatUsedTheBudget) {
   };
   stats.mapsRendered = 20;
   stats.mapRays = 2000;
-  stats.stageSeconds = {{"shadow maps", 0.010}};
+  stats.stageSeconds = {{kShadowMapsStage, 0.010}};
   add(1, 0.00, 0.02);
   stats.mapsRendered = 30;
   stats.mapRays = 3000;
-  stats.stageSeconds = {{"shadow maps", 0.020}};
+  stats.stageSeconds = {{kShadowMapsStage, 0.020}};
   add(2, 0.02, 0.05);
   timeline.add(3, 0.05, 0.06, {});  // an idle frame
   EXPECT_EQ(measured("max_shadow_maps", timeline, {}), "25 maps, 15 ms (600 \u00b5s each)");

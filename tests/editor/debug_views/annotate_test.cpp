@@ -102,7 +102,7 @@ TEST(Annotate, MarksOfParallelLightLieOnTheLitSurface) {
   sun.vpl = test::makeVpl(vec3(1, -2, 0), vec3(0, 1, 0), shared::kVplDirectional);
   sun.vpl.normal.w = 20.0f;
   Inspection inspection;
-  inspection.lights = {sun};
+  inspection.lights = {&sun, 1};
   const vec2 landed(view.project(vec3(1, 0, 0)));
   EXPECT_EQ(pickVpl(view, inspection, *lit.rays, landed), 0);
   EXPECT_EQ(pickVpl(view, inspection, *lit.rays, vec2(view.project(vec3(1, -2, 0)))), kNone);

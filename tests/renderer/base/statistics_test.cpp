@@ -133,5 +133,20 @@ TEST(Statistics, OfMethodsAreDeclaredCompletely) {
   }
 }
 
+TEST(Statistics, EachStageOfAMethodIsDeclaredWholly) {
+  for (const MethodInfo& method : methods()) {
+    EXPECT_FALSE(method.stages.empty()) << method.name;
+    std::set<std::string_view> names;
+    for (const StageSpec& stage : method.stages) {
+      EXPECT_TRUE(names.insert(stage.name).second) << stage.name;
+      EXPECT_FALSE(stage.label.empty()) << stage.name;
+      EXPECT_TRUE(stage.meaning.ends_with('.')) << stage.name;
+    }
+    for (const StatisticSpec& spec : method.statistics)
+      for (const StageSpec& stage : spec.stages)
+        EXPECT_TRUE(names.contains(stage.name)) << spec.name << ": " << stage.name;
+  }
+}
+
 }  // namespace
 }  // namespace lamplighter

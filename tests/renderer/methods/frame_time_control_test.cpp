@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/methods/many_lights/stages.h"
+
 namespace lamplighter {
 namespace {
 
@@ -14,9 +16,9 @@ struct Machine {
     const int vpls = std::min(allowed, pending);
     GiStats stats;
     stats.updates = vpls;
-    stats.stageSeconds = {{"shadow maps", 0.5 * perVpl * vpls},
-                          {"light sums", 0.5 * perVpl * vpls + 0.6 * constant},
-                          {"g-buffer", 0.4 * constant}};
+    stats.stageSeconds = {{kShadowMapsStage, 0.5 * perVpl * vpls},
+                          {kLightSumsStage, 0.5 * perVpl * vpls + 0.6 * constant},
+                          {kGBufferStage, 0.4 * constant}};
     return stats;
   }
 };

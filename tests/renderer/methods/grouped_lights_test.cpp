@@ -94,22 +94,20 @@ std::vector<shared::Vpl> row(int count, const vec3& step) {
   return vpls;
 }
 
-LightSampleTable tableOf(std::span<const shared::Vpl> vpls, const std::vector<uint8_t>& hasMap) {
+LightSampleTable tableOf(std::span<const shared::Vpl> vpls, std::vector<uint8_t> hasMap,
+                         std::vector<uint8_t> needsMap) {
   LightSampleTable table;
-  table.samples.resize(vpls.size());
+  for (const shared::Vpl& vpl : vpls) table.samples.emplace_back().vpl = vpl;
   table.summed.assign(vpls.begin(), vpls.end());
-  for (size_t slot = 0; slot < vpls.size(); ++slot) {
-    table.samples[slot].vpl = vpls[slot];
-    table.samples[slot].hasMap = hasMap[slot] != 0;
-    table.order.push_back(static_cast<int>(slot));
-  }
+  table.hasMap = std::move(hasMap);
+  table.needsMap = std::move(needsMap);
   return table;
 }
 
 TEST(LightProxies, ALightWithoutAMapUsesThatOfItsNeighbour) {
   const auto vpls = row(4, vec3(1, 0, 0));
   LightProxies lightProxies;
-  lightProxies.update(tableOf(vpls, {1, 0, 1, 0}), {1, 0, 1, 1}, {.share = 0.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 0, 1, 0}, {1, 0, 1, 1}), {.share = 0.0f, .sees = {}});
   ASSERT_EQ(lightProxies.lights().size(), 1u);  // light 1 is skipped, so it needs no proxy
   const int slot = lightProxies.lights()[0].slot;
   EXPECT_EQ(lightProxies.mapSlot(slot), 2);
@@ -129,7 +127,7 @@ TEST(LightProxies, ALightWithoutAMapUsesThatOfItsNeighbour) {
 TEST(LightProxies, AGroupIsLookedUpOnceAtADistance) {
   const auto vpls = row(4, vec3(0.01f, 0, 0));
   LightProxies lightProxies;
-  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}, {1, 1, 1, 1}), {.share = 1.0f, .sees = {}});
   ASSERT_GE(lightProxies.groups(), 1u);
   const shared::Vpl group = lightProxies.lights()[0];
   const auto slot = static_cast<size_t>(group.slot);
@@ -152,7 +150,7 @@ TEST(LightProxies, AGroupIsLookedUpOnceAtADistance) {
     EXPECT_EQ(uses[slot], ShadowMode::skip);
     EXPECT_EQ(uses[0], ShadowMode::subtractShadow);
   }
-  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1},
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}, {1, 1, 1, 1}),
                       {.share = 0.3f, .sees = {}});  // its share of the light exceeds the limit
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
@@ -163,7 +161,7 @@ TEST(LightProxies, AGroupActsAsOneLightForWideLobes) {
   auto vpls = row(4, vec3(0.1f, 0, 0));
   for (shared::Vpl& vpl : vpls) vpl.footprint.x = 0.25f;
   LightProxies lightProxies;
-  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}), {1, 1, 1, 1}, {.share = 1.0f, .sees = {}});
+  lightProxies.update(tableOf(vpls, {1, 1, 1, 1}, {1, 1, 1, 1}), {.share = 1.0f, .sees = {}});
   const auto groupUse = [&](float alpha, ShadowMode use) {
     std::vector<ShadowMode> uses(lightProxies.slots(), ShadowMode::skip);
     std::fill_n(uses.begin(), 4, use);
@@ -205,13 +203,13 @@ TEST(LightProxies, LightsThatDoNotSeeEachOtherFormNoGroup) {
   const auto wallAt = [](float x) {
     return [x](const vec3& a, const vec3& b) { return (a.x < x) == (b.x < x); };
   };
-  lightProxies.update(tableOf(vpls, all), all, {.share = 1.0f, .sees = wallAt(0.025f)});
+  lightProxies.update(tableOf(vpls, all, all), {.share = 1.0f, .sees = wallAt(0.025f)});
   EXPECT_EQ(lightProxies.groups(), 0u);
   // The wall is removed and put back.
-  lightProxies.update(tableOf(vpls, all), all,
+  lightProxies.update(tableOf(vpls, all, all),
                       {.share = 1.0f, .sees = wallAt(9.0f), .sceneChanged = true});
   EXPECT_GE(lightProxies.groups(), 1u);
-  lightProxies.update(tableOf(vpls, all), all,
+  lightProxies.update(tableOf(vpls, all, all),
                       {.share = 1.0f, .sees = wallAt(0.025f), .sceneChanged = true});
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
@@ -223,10 +221,10 @@ TEST(LightProxies, AFewBrightLightsDoNotRaiseTheLimit) {
   const std::vector<uint8_t> all(8, 1);
   vpls[7].position += vec4(50.0f, 0, 0, 0);
   LightProxies lightProxies;
-  lightProxies.update(tableOf(vpls, all), all, {.share = 0.2f, .sees = {}});
+  lightProxies.update(tableOf(vpls, all, all), {.share = 0.2f, .sees = {}});
   EXPECT_EQ(lightProxies.groups(), 0u);
   vpls[7].intensity = vec3(1e4f);
-  lightProxies.update(tableOf(vpls, all), all, {.share = 0.15f, .sees = {}});
+  lightProxies.update(tableOf(vpls, all, all), {.share = 0.15f, .sees = {}});
   EXPECT_EQ(lightProxies.groups(), 0u);
 }
 

@@ -3,6 +3,7 @@
 #include "renderer/methods/many_lights/live_lights.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 
 #include <gtest/gtest.h>
@@ -141,8 +142,9 @@ TEST_F(LiveLightsTest, BrightVplsGetFineMapsFirst) {
   while (lights.pending() > 0) lights.refresh(kernels, {20});
   std::vector<uint8_t> marked(static_cast<size_t>(lights.slots()), 1);
   marked[0] = 0;
-  EXPECT_EQ(lights.coarse(marked), 19);
-  EXPECT_EQ(lights.sharpenMaps(kernels, marked, 5), 5);
+  lights.needMaps(marked);
+  EXPECT_EQ(lights.coarse(), 19);
+  EXPECT_EQ(lights.sharpenMaps(kernels, 5), 5);
   float coarse = 0.0f, fine = 1e30f;
   for (const auto& [slot, vpl] : kernels.maps) {
     const bool isFine = kernels.sizes[slot] == MapSize::fine;
@@ -155,14 +157,41 @@ TEST_F(LiveLightsTest, BrightVplsGetFineMapsFirst) {
     }
   }
   EXPECT_GT(fine, coarse);
-  EXPECT_EQ(lights.coarse(marked), 14);
-  EXPECT_EQ(lights.sharpenMaps(kernels, marked, 100), 14);
-  EXPECT_EQ(lights.sharpenMaps(kernels, marked, 100), 0);
+  EXPECT_EQ(lights.coarse(), 14);
+  EXPECT_EQ(lights.sharpenMaps(kernels, 100), 14);
+  EXPECT_EQ(lights.sharpenMaps(kernels, 100), 0);
   // Moved VPLs have coarse maps again.
   for (size_t i = 0; i < 3; ++i) wanted[5 + i].vpl.position.x += 1.0f;
   lights.want(wanted);
   lights.refresh(kernels, {20});
-  EXPECT_EQ(lights.coarse(marked), 3);
+  lights.needMaps(marked);
+  EXPECT_EQ(lights.coarse(), 3);
+}
+
+// A frame reads the table both before and after its shadow maps are rendered.
+TEST_F(LiveLightsTest, TheTableFollowsTheMaps) {
+  lights.showOnlyMapped(false);
+  lights.want(samples(1, 20, 5.0f, 0.0f));
+  lights.refresh({20});
+  const auto maps = [&] {
+    const std::vector<uint8_t>& hasMap = lights.table().hasMap;
+    return std::count(hasMap.begin(), hasMap.end(), 1);
+  };
+  const auto stale = [&] {
+    const std::vector<LightSample>& all = lights.table().samples;
+    return std::count_if(all.begin(), all.end(), std::mem_fn(&LightSample::isStale));
+  };
+  EXPECT_EQ(maps(), 0);
+  EXPECT_EQ(lights.table().summedInOrder().size(), 20u);
+  std::vector<uint8_t> needed(static_cast<size_t>(lights.slots()), 1);
+  for (int slot = 0; slot < 5; ++slot) needed[static_cast<size_t>(slot)] = 0;
+  lights.needMaps(needed);
+  EXPECT_EQ(lights.updateMaps(kernels, {.rendered = 12}), 12);
+  EXPECT_EQ(maps(), 12);
+  EXPECT_EQ(stale(), 3);
+  EXPECT_EQ(lights.updateMaps(kernels, {}), 3);
+  EXPECT_EQ(maps(), 15);
+  EXPECT_EQ(stale(), 0);
 }
 
 TEST_F(LiveLightsTest, ChangingTheNumberOfSamplesKeepsTheBrightness) {

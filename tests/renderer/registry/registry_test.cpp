@@ -58,6 +58,43 @@ TEST(Registry, MethodsUseOnlyDeclaredServicesAndDrawTheirViews) {
   }
 }
 
+TEST(Registry, MethodsMeasureTheStagesThatTheyDeclare) {
+  const Scene scene = floorUnderALamp();
+  const View view = test::lookAt(vec3(0, 2, 4), vec3(0), 32, 24);
+  Settings settings;
+  settings.set("vpls", 8);
+  settings.set("refine", 64);
+  for (const MethodInfo& method : methods()) {
+    SCOPED_TRACE(method.name);
+    FrameRenderer renderer(makeCpuBackend(), [t = 0.0]() mutable { return t += 0.001; });
+    if (!problemOf(method, renderer.backend()).empty()) continue;
+    std::vector<StageTime> measured;
+    SceneChanges changes = SceneChanges::all();
+    for (int i = 0; i < 40; ++i) {
+      const GiStats stats =
+          renderer.render({scene, changes, view, method.name, settings, false, false, 8}).stats;
+      ASSERT_TRUE(std::ranges::equal(stats.stageSeconds, method.stages, {}, &StageTime::stage));
+      measured.insert(measured.end(), stats.stageSeconds.begin(), stats.stageSeconds.end());
+      changes = {};
+    }
+    for (const StageSpec& stage : method.stages)
+      EXPECT_TRUE(std::ranges::any_of(measured, [&](const StageTime& time) {
+        return time.stage == stage && time.seconds > 0.0;
+      })) << stage.name;
+  }
+}
+
+TEST(Registry, WithoutAStopwatchNoStageIsMeasured) {
+  const Scene scene = floorUnderALamp();
+  const View view = test::lookAt(vec3(0, 2, 4), vec3(0), 32, 24);
+  const Settings settings;
+  FrameRenderer renderer(makeCpuBackend());
+  const GiOutput out =
+      renderer.render({scene, SceneChanges::all(), view, "ambient_occlusion", settings});
+  EXPECT_TRUE(out.stats.stageSeconds.empty());
+  EXPECT_EQ(out.stats.secondsOf(findMethod("ambient_occlusion").stages.front()), 0.0);
+}
+
 TEST(Registry, ViewNamesAreUnique) {
   std::set<std::string> names;
   std::set<DebugView> ids;

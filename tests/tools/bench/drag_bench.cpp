@@ -88,7 +88,8 @@ void drag(benchmark::State& state, const Case& c) {
     kept += out.stats.of("paths_kept");
     replaced += out.stats.of("paths_replaced");
     pending += out.stats.of("vpls_pending");
-    for (const auto& [name, time] : out.stats.stageSeconds) stages[name] += time;
+    for (const auto& [stage, time] : out.stats.stageSeconds)
+      stages[std::string(stage.name)] += time;
   }
   std::vector<Image> after;
   for (int i = 0; i < 5; ++i) after.push_back(frame({}).radiance->pixels());

@@ -10,6 +10,7 @@
 
 #include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
+#include "renderer/methods/many_lights/stages.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/tools/bench/backend_benches.h"
 
@@ -93,7 +94,7 @@ void againstVpls(benchmark::State& state, const std::string& path, const MakeBac
   for (auto _ : state) {
     const GiStats stats = level.moveCamera();
     for (const auto& [stage, time] : stats.stageSeconds) all += time;
-    sums += stats.stageSeconds.at("light sums");
+    sums += stats.secondsOf(kLightSumsStage);
     maps = stats.of("maps_held");
   }
   state.counters["sums_percent"] = 100.0 * sums / all;
@@ -149,8 +150,8 @@ void againstVertices(benchmark::State& state, const MakeBackend& make) {
   double maps = 0.0, visibility = 0.0;
   for (auto _ : state) {
     const GiStats stats = level.moveObject();
-    maps += stats.stageSeconds.at("shadow maps");
-    visibility += stats.stageSeconds.at("visibility");
+    maps += stats.secondsOf(kShadowMapsStage);
+    visibility += stats.secondsOf(kVisibilityStage);
   }
   const auto frames = static_cast<double>(state.iterations());
   state.counters["vertices"] = static_cast<double>(mesh->primitives[0].positions.size());
@@ -166,7 +167,7 @@ void stages(benchmark::State& state, const std::string& path, const MakeBackend&
   double all = 0.0;
   for (auto _ : state) {
     for (const auto& [stage, time] : level.moveObject().stageSeconds) {
-      shares[stage] += time;
+      shares[std::string(stage.name)] += time;
       all += time;
     }
   }

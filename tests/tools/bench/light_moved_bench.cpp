@@ -79,7 +79,8 @@ void lightMoved(benchmark::State& state) {
       isFirst = false;
       if (std::isnan(to10) && error <= 0.1) to10 = sinceEdit;
       if (std::isnan(to5) && error <= 0.05) to5 = sinceEdit;
-      for (const auto& [stage, time] : out.stats.stageSeconds) stages[stage] += time;
+      for (const auto& [stage, time] : out.stats.stageSeconds)
+        stages[std::string(stage.name)] += time;
     } while (!out.settled);
     state.SetIterationTime(sinceEdit);
   }

@@ -8,6 +8,7 @@
 #include "renderer/backends/many_lights_kernels.h"
 #include "renderer/base/data_folder.h"
 #include "renderer/frame/frame.h"
+#include "renderer/methods/many_lights/stages.h"
 #include "renderer/scene/gltf/gltf_io.h"
 #include "tests/tools/bench/backend_benches.h"
 
@@ -102,9 +103,9 @@ void kernels(benchmark::State& state, const std::string& name, const MakeBackend
   for (auto _ : state) {
     level.scene.find(level.mover)->local.translation.x += 0.001f;
     GiOutput out = renderer.render({level.scene, moved, level.view, "many_lights", settings});
-    sum += out.stats.stageSeconds["light sums"];
-    maps += out.stats.stageSeconds["shadow maps"];
-    gbuffer += out.stats.stageSeconds["g-buffer"];
+    sum += out.stats.secondsOf(kLightSumsStage);
+    maps += out.stats.secondsOf(kShadowMapsStage);
+    gbuffer += out.stats.secondsOf(kGBufferStage);
   }
   const ManyLightsCounts after = kernels.lightCounts();
   state.counters["ns_per_light_pixel"] =

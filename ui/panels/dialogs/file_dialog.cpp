@@ -190,6 +190,7 @@ std::string FileDialog::answer() const {
 }
 
 std::string FileDialog::draw(PanelContext ui) {
+  cancelled_ = false;
   ui.prefix = "dialog/";
   const std::string title = asks_.title + "###file";
   if (opening_) ImGui::OpenPopup(title.c_str());
@@ -222,7 +223,7 @@ std::string FileDialog::draw(PanelContext ui) {
   if (pressKeys(ui, shown, entered)) done = true;
   const float width = ui.px(96);
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2 * width - ui.px(7));
-  if (ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
+  const bool refused = ImGui::Button("Cancel", {width, 0}) || pressed(ImGuiKey_Escape);
   ui.name("cancel");
   ImGui::SameLine(0, ui.px(7));
   ImGui::BeginDisabled(file_.empty() && !choosesFolder());
@@ -231,7 +232,8 @@ std::string FileDialog::draw(PanelContext ui) {
   ui.name("ok");
   ImGui::EndDisabled();
   done = done && (!file_.empty() || choosesFolder());
-  if (done) ImGui::CloseCurrentPopup();
+  cancelled_ = refused && !done;
+  if (done || refused) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
   return done ? answer() : "";
 }

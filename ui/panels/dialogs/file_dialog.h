@@ -19,6 +19,8 @@ class FileDialog {
   void open(const std::string& action, const ActionAsk& asks, const std::filesystem::path& start);
   // The text of the action with the chosen file or folder, once; "": none yet.
   std::string draw(PanelContext ui);
+  // Whether the last draw() closed the dialog without an answer.
+  bool cancelled() const { return cancelled_; }
 
  private:
   bool writes() const { return asks_.kind == ActionAsk::Kind::saveFile; }
@@ -34,7 +36,7 @@ class FileDialog {
 
   std::string action_;
   ActionAsk asks_;
-  bool opening_ = false, takesFocus_ = false, scrolls_ = false;
+  bool opening_ = false, takesFocus_ = false, scrolls_ = false, cancelled_ = false;
   std::filesystem::path folder_;
   std::string file_;      // the text line
   bool filters_ = false;  // the user typed in the line: it filters the list
