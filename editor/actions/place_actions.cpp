@@ -88,15 +88,11 @@ void align(Session& s) {
 }  // namespace
 
 void addPlaceActions(ActionRegistry& r) {
-  r.add({"place.start",
-         "Click to place",
-         "ACTION [ARGUMENT]…",
+  r.add({"place.start", "Click to place", "ACTION [ARGUMENT]…",
          "The next click in the viewport runs an action that adds an object, such as light.add "
          "disk, and puts the object on the clicked surface, facing away from it. With Shift, the "
          "tool stays active.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 100, "place.start ACTION [ARGUMENT]…");
+         "", [](Session& s, const Arguments& a) {
            if (s.actions().find(a[0]) == nullptr)
              throw InputError(a[0], "there is no such action", "give one such as light.add disk");
            std::string text;
@@ -106,20 +102,12 @@ void addPlaceActions(ActionRegistry& r) {
            }
            s.startPlacing(text);
            s.setStatus("Click where it is to be; Esc leaves it", NoticeKind::hint);
-         },
-         {}});
+         }});
   const std::string kinds = r.find("light.add")->usage;
-  r.add({"light.place",
-         "Click to place a light",
-         kinds,
+  r.add({"light.place", "Click to place a light", kinds,
          "The next click in the viewport adds a light on the clicked surface, facing away from it. "
          "With Shift, the tool stays active.",
-         "",
-         [kinds](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "light.place " + kinds);
-           s.runAction("place.start light.add " + a[0]);
-         },
-         {}});
+         "", [](Session& s, const Arguments& a) { s.runAction("place.start light.add " + a[0]); }});
   r.add({"place.stop", "Place nothing", "", "Ends placing: clicks select again.", "",
          [](Session& s, const Arguments&) { s.startPlacing(""); },
          [](const Session& s) { return s.placing(); }});
@@ -132,7 +120,6 @@ void addPlaceActions(ActionRegistry& r) {
          "the next, in metres.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 4, 4, "edit.duplicate_line COPIES X Y Z");
            const vec3 step = vectorOf(a, 1);
            duplicateInGrid(s, {countOf(a[0]) + 1, 1, 1}, mat3(step, vec3(0.0f), vec3(0.0f)),
                            "Duplicate along a line");
@@ -143,7 +130,6 @@ void addPlaceActions(ActionRegistry& r) {
          "X, Y and Z are the spacing in metres.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 6, 6, "edit.duplicate_grid COLUMNS ROWS LAYERS X Y Z");
            const vec3 step = vectorOf(a, 3);
            duplicateInGrid(s, {countOf(a[0]), countOf(a[2]), countOf(a[1])},
                            mat3(vec3(step.x, 0, 0), vec3(0, step.y, 0), vec3(0, 0, step.z)),
@@ -151,14 +137,8 @@ void addPlaceActions(ActionRegistry& r) {
          },
          hasSelection});
   const auto addSnap = [&](const char* name, const char* label, const char* help, SnapTo target) {
-    r.add({name,
-           label,
-           "",
-           help,
-           "",
-           [target](Session& s, const Arguments&) { s.setSnapTo(target); },
-           {},
-           true,
+    r.add({name, label, "", help, "",
+           [target](Session& s, const Arguments&) { s.setSnapTo(target); }, nullptr, true,
            [target](const Session& s) { return s.snapTo() == target; }});
   };
   addSnap("tool.snap_grid", "Snap to steps", "Snaps positions to a grid of 25 cm.", SnapTo::grid);
