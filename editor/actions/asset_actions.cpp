@@ -7,7 +7,6 @@
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
 #include "editor/session/user_state.h"
-#include "renderer/base/error.h"
 
 namespace lamplighter {
 

@@ -1,5 +1,4 @@
 // Actions for external files: dropped on the window, or opened recently.
-#include <algorithm>
 #include <filesystem>
 
 #include "editor/actions/arguments.h"

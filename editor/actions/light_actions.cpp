@@ -3,7 +3,6 @@
 
 #include "editor/actions/arguments.h"
 #include "editor/edits/edits.h"
-#include "editor/lights/light_list.h"
 #include "editor/lights/light_profile.h"
 #include "editor/lights/new_light.h"
 #include "editor/session/register_actions.h"

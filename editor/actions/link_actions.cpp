@@ -4,7 +4,6 @@
 #include "editor/lights/light_list.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
-#include "renderer/base/error.h"
 
 namespace lamplighter {
 

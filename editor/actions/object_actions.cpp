@@ -34,14 +34,14 @@ void drop(Session& s) {
                      "give that one a scale other than 0");
   }
   std::vector<Node> nodes{*scene.find(leader)};
-  const mat4 above = nodes[0].parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, nodes[0].parent);
+  const mat4 above = worldMatrix(scene, nodes[0].parent);
   const vec3 way =
       vec3(above * vec4(local->translation, 1.0f)) - vec3(worldMatrix(scene, leader)[3]);
   nodes[0].local = *local;
   for (const NodeId id : roots) {
     if (id == leader || isLocked(scene, id)) continue;
     Node n = *scene.find(id);
-    const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, n.parent);
+    const mat4 parent = worldMatrix(scene, n.parent);
     if (!hasVolume(parent)) continue;
     n.local.translation += glm::inverse(mat3(parent)) * way;
     nodes.push_back(std::move(n));

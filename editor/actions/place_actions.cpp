@@ -1,5 +1,4 @@
 // Actions that place objects: by a click, in rows and grids, along surfaces.
-#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
@@ -47,7 +46,7 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
         const std::unordered_set<NodeId> isRoot(copies.roots.begin(), copies.roots.end());
         for (Node& n : copies.nodes) {
           if (!isRoot.contains(n.id)) continue;
-          const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, n.parent);
+          const mat4 parent = worldMatrix(scene, n.parent);
           if (!hasVolume(parent)) continue;
           n.local.translation += glm::inverse(mat3(parent)) * way;
         }
@@ -73,7 +72,7 @@ void align(Session& s) {
     throw InputError("object.align", "there is no surface under the pointer", "point at one");
   Node node = active;
   const Scene& scene = s.document().scene;
-  const mat4 parent = node.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, node.parent);
+  const mat4 parent = worldMatrix(scene, node.parent);
   if (!hasVolume(parent))
     throw InputError(node.name, "hangs below an object that has no volume",
                      "give that one a scale other than 0");

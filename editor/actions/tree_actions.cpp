@@ -1,5 +1,4 @@
 // Actions of the object tree, and edits of several objects.
-#include <algorithm>
 #include <cmath>
 
 #include "editor/actions/arguments.h"
