@@ -9,14 +9,6 @@
 
 namespace lamplighter {
 
-void requireArguments(const Arguments& arguments, size_t least, size_t most,
-                      const std::string& usage) {
-  if (arguments.size() >= least && arguments.size() <= most) return;
-  throw InputError(usage,
-                   "the number of arguments is wrong (" + std::to_string(arguments.size()) + ")",
-                   "give them as shown");
-}
-
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {

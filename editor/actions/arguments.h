@@ -13,9 +13,6 @@ class Session;
 
 using Arguments = std::vector<std::string>;
 
-// Throws InputError unless there are `least` to `most` arguments.
-void requireArguments(const Arguments& arguments, size_t least, size_t most,
-                      const std::string& usage);
 // Quotes a text so that the parser reads it as one argument.
 std::string quoted(const std::string& text);
 float numberOf(const std::string& text);

@@ -7,7 +7,6 @@
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
 #include "editor/session/user_state.h"
-#include "renderer/base/error.h"
 
 namespace lamplighter {
 
@@ -33,13 +32,9 @@ fs::path foundAsset(const Session& s, const std::string& name) {
 }  // namespace
 
 void addAssetActions(ActionRegistry& r) {
-  r.add({"asset.folder",
-         "Folder of assets",
-         "FOLDER",
-         "Shows the glTF files of a folder in the asset browser.",
-         "",
+  r.add({"asset.folder", "Folder of assets", "FOLDER",
+         "Shows the glTF files of a folder in the asset browser.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "asset.folder FOLDER");
            std::error_code error;
            const fs::path beside = s.document().path.parent_path() / a[0];
            const fs::path folder =
@@ -53,23 +48,15 @@ void addAssetActions(ActionRegistry& r) {
            s.setStatus("Found " + std::to_string(s.home().assetFiles.size()) + " assets in " +
                        folder.filename().string());
          },
-         {},
-         true})
+         nullptr, true})
       .asks = {.kind = ActionAsk::Kind::folder,
                .title = "Choose a folder of assets",
                .suggested = [](const Session& s) { return assetFolderOf(s).string(); }};
-  r.add({"asset.place",
-         "Place an asset",
-         "FILE",
+  r.add({"asset.place", "Place an asset", "FILE",
          "Adds the objects of a glTF file to the level, on the surface in the middle of the view "
          "or, with place.start, on the clicked surface. Copies share their meshes and need little "
          "memory.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "asset.place FILE");
-           placeAsset(s, foundAsset(s, a[0]));
-         },
-         {}})
+         "", [](Session& s, const Arguments& a) { placeAsset(s, foundAsset(s, a[0])); }})
       .asks = {.title = "Place an asset",
                .extensions = kSceneExtensions,
                .suggested = [](const Session& s) { return (assetFolderOf(s) / "").string(); }};

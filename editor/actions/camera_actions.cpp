@@ -89,17 +89,10 @@ void addBookmarkActions(ActionRegistry& r) {
   const auto add = [&](const char* name, const char* label, const char* help,
                        void (*run)(Session&, int), const char* keys,
                        std::vector<ActionChoice> (*choices)(const Session&)) {
-    Action action{name,
-                  label,
-                  "1…9",
-                  help,
-                  "",
-                  [run, name](Session& s, const Arguments& a) {
-                    requireArguments(a, 1, 1, std::string(name) + " 1…9");
-                    run(s, slotOf(a[0]));
-                  },
-                  {},
-                  true};
+    Action action{name, label, "1…9",
+                  help, "",    [run](Session& s, const Arguments& a) {
+                    run(s, slotOf(a[0])); },
+                  {},   true};
     action.choices = choices;
     r.add(std::move(action));
     for (int slot = 1; keys != nullptr && slot <= kCameraBookmarks; ++slot) {
@@ -123,7 +116,6 @@ void addCameraActions(ActionRegistry& r) {
                 "Sets the view to one of the level's cameras.",
                 "",
                 [](Session& s, const Arguments& a) {
-                  requireArguments(a, 1, 1, "camera.go NAME");
                   const Node& n = nodeNamed(s.document(), a[0]);
                   if (n.camera == kNone)
                     throw InputError(a[0], "is not a camera", "give the name of a camera");
@@ -135,28 +127,18 @@ void addCameraActions(ActionRegistry& r) {
                 true};
   camera.choices = cameras;
   r.add(std::move(camera));
-  r.add({"camera.move",
-         "Move the camera",
-         "RIGHT UP FORWARD",
-         "Moves the camera by steps of a quarter second's flight.",
-         "",
+  r.add({"camera.move", "Move the camera", "RIGHT UP FORWARD",
+         "Moves the camera by steps of a quarter second's flight.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 3, 3, "camera.move RIGHT UP FORWARD");
            const vec3 way = glm::clamp(vectorOf(a, 0), vec3(-1e4f), vec3(1e4f));
            View view = s.view();
            view.eye += kStepSeconds * s.cameraSpeed() *
                        (way.x * view.right() + way.y * vec3(0, 1, 0) + way.z * view.forward());
            s.setView(view);
          },
-         {},
-         true});
-  r.add({"camera.turn",
-         "Turn the camera",
-         "LEFT UP",
-         "Turns the camera by angles in degrees.",
-         "",
+         nullptr, true});
+  r.add({"camera.turn", "Turn the camera", "LEFT UP", "Turns the camera by angles in degrees.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 2, 2, "camera.turn LEFT UP");
            View view = s.view();
            const float pitch = std::asin(std::clamp(view.forward().y, -1.0f, 1.0f));
            const float limit = glm::radians(89.0f);  // beyond it the picture would be upside down
@@ -168,8 +150,7 @@ void addCameraActions(ActionRegistry& r) {
                                              glm::angleAxis(up, view.right()) * view.orientation);
            s.setView(view);
          },
-         {},
-         true});
+         nullptr, true});
   r.addKey("camera.turn 10 0", "Alt+Left");
   r.addKey("camera.turn -10 0", "Alt+Right");
   r.addKey("camera.turn 0 10", "Alt+Up");

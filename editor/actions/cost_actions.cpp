@@ -23,88 +23,56 @@ int wholeNumberOf(const std::string& text, int least, int most) {
 }  // namespace
 
 void addCostActions(ActionRegistry& r) {
-  r.add({"error.meter",
-         "Error meter",
-         "",
+  r.add({"error.meter", "Error meter", "",
          "Traces a reference in the background and shows the error of the live picture. It uses "
          "processor time while it is on.",
-         "",
-         [](Session& s, const Arguments&) { s.watch().meter.setOn(!s.watch().meter.on()); },
-         {},
-         true,
-         [](const Session& s) { return s.watch().meter.on(); }});
-  r.add({"error.measure",
-         "Measure the error",
-         "PATHS",
+         "", [](Session& s, const Arguments&) { s.watch().meter.setOn(!s.watch().meter.on()); },
+         nullptr, true, [](const Session& s) { return s.watch().meter.on(); }});
+  r.add({"error.measure", "Measure the error", "PATHS",
          "Traces this number of paths per block of pixels for each half of the reference, waits "
          "until they are done, and shows the error of the picture.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "error.measure PATHS");
            s.watch().meter.measureAtOnce(wholeNumberOf(a[0], 1, 65536));
          },
-         {},
-         true,
-         {}});
-  r.add({"error.block",
-         "Compare by blocks",
-         "1|2|4|8",
+         nullptr, true});
+  r.add({"error.block", "Compare by blocks", "1|2|4|8",
          "Width in pixels of the blocks that the error meter compares. Larger blocks have less "
          "noise after the same time; smaller blocks show finer errors.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "error.block 1|2|4|8");
            const int block = wholeNumberOf(a[0], 1, 8);
            if ((block & (block - 1)) != 0)
              throw InputError(a[0], "is not a block size", "give 1, 2, 4 or 8");
            s.watch().meter.setBlock(block);
          },
-         {},
-         true,
-         {}});
-  r.add({"timeline.export",
-         "Export the timeline",
-         "FILE",
+         nullptr, true});
+  r.add({"timeline.export", "Export the timeline", "FILE",
          "Writes the timings of the last seconds' frames: a Chrome trace for a name ending in "
          ".json, a table for .csv.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "timeline.export FILE");
            const std::string file = s.writablePath(a[0]).string();
            exportTimeline(s.watch().timeline, file);
            s.setStatus("Wrote " + file);
          },
-         {},
-         true,
-         {}})
+         nullptr, true})
       .asks = {.kind = ActionAsk::Kind::saveFile,
                .title = "Export the timeline",
                .extensions = kTimelineExtensions,
                .suggested = [](const Session& s) {
                  return (s.document().path.parent_path() / "timeline.json").string();
                }};
-  r.add({"timeline.clear",
-         "Clear the timeline",
-         "",
-         "Deletes the recorded frame times.",
-         "",
-         [](Session& s, const Arguments&) { s.watch().timeline.clear(); },
-         {},
-         true,
-         {}});
+  r.add({"timeline.clear", "Clear the timeline", "", "Deletes the recorded frame times.", "",
+         [](Session& s, const Arguments&) { s.watch().timeline.clear(); }, nullptr, true});
   for (const Preset& preset : presets()) {
-    r.add({"preset." + preset.name,
-           preset.label,
-           "",
-           preset.help,
-           "",
+    r.add({"preset." + preset.name, preset.label, "", preset.help, "",
            [&preset](Session& s, const Arguments&) {
              Transaction edit = s.editing().begin("Preset " + preset.label);
              edit.render() = withPreset(s.document().render, preset);
              edit.commit();
            },
-           {},
-           false,
+           nullptr, false,
            [&preset](const Session& s) { return hasPreset(s.document().render, preset); }});
   }
 }

@@ -1,5 +1,4 @@
 // Actions for external files: dropped on the window, or opened recently.
-#include <algorithm>
 #include <filesystem>
 
 #include "editor/actions/arguments.h"
@@ -97,18 +96,11 @@ std::vector<ActionChoice> recent(const Session& s) {
 }  // namespace
 
 void addDropActions(ActionRegistry& r) {
-  r.add({"file.drop",
-         "Take a file in",
-         "FILE [FILE]…",
+  r.add({"file.drop", "Take a file in", "FILE [FILE]…",
          "Handles files that are dropped on the window: opens a level, sets a .hdr or .exr picture "
          "as the sky, and assigns an .ies profile to the selected lights or to a new light under "
          "the pointer.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1000, "file.drop FILE [FILE]…");
-           drop(s, a);
-         },
-         {}})
+         "", [](Session& s, const Arguments& a) { drop(s, a); }})
       .asks = {.title = "Take a file in", .extensions = kDropped};
   Action again{"file.open_recent",
                "Open recent",
@@ -116,7 +108,6 @@ void addDropActions(ActionRegistry& r) {
                "Opens a recent level. 1 is the most recent.",
                "",
                [](Session& s, const Arguments& a) {
-                 requireArguments(a, 1, 1, "file.open_recent N");
                  const auto& files = s.home().preferences.recentFiles;
                  const float n = numberOf(a[0]);
                  for (size_t i = 0; i < files.size(); ++i)

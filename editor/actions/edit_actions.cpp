@@ -76,44 +76,25 @@ void addEditActions(ActionRegistry& r) {
          [](const Session& s) { return !s.clipboard().empty(); }});
   r.add({"edit.duplicate", "Duplicate", "", "Adds a copy of the selection at the same position.",
          "Ctrl+D", [](Session& s, const Arguments&) { duplicate(s); }, hasSelection});
-  r.add({"edit.rename",
-         "Rename",
-         "NAME",
-         "Renames the active object.",
-         "F2",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "edit.rename NAME");
-           s.setName(activeNode(s.document()).id, a[0]);
-         },
-         {}})
+  r.add({"edit.rename", "Rename", "NAME", "Renames the active object.", "F2",
+         [](Session& s, const Arguments& a) { s.setName(activeNode(s.document()).id, a[0]); }})
       .asks = {.kind = ActionAsk::Kind::name, .title = "Rename", .suggested = [](const Session& s) {
                  return activeNode(s.document()).name;
                }};
-  r.add({"select.name",
-         "Select by name",
-         "NAME [NAME]…",
-         "Selects the objects of these names.",
-         "",
+  r.add({"select.name", "Select by name", "NAME [NAME]…", "Selects the objects of these names.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1000000, "select.name NAME [NAME]…");
            std::vector<NodeId> ids;
            for (const std::string& name : a) ids.push_back(nodeNamed(s.document(), name).id);
            s.select(std::move(ids));
-         },
-         {}});
-  r.add({"select.all",
-         "Select all",
-         "",
-         "Selects every object and light.",
-         "Ctrl+A",
+         }});
+  r.add({"select.all", "Select all", "", "Selects every object and light.", "Ctrl+A",
          [](Session& s, const Arguments&) {
            std::vector<NodeId> ids;
            for (const Node& n : s.document().scene.nodes) {
              if (n.mesh != kNone || n.area || n.punctual) ids.push_back(n.id);
            }
            s.select(std::move(ids));
-         },
-         {}});
+         }});
   r.add({"select.none", "Deselect", "",
          "Cancels a drag, ends placing or ends a tool that uses clicks; otherwise clears the "
          "selection.",

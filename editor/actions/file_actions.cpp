@@ -29,31 +29,18 @@ ActionAsk askForFileToSave() {
 }  // namespace
 
 void addFileActions(ActionRegistry& r) {
-  r.add({"file.open",
-         "Open",
-         "FILE",
-         "Opens a glTF level.",
-         "Ctrl+O",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "file.open FILE");
-           s.requestOpen(a[0]);
-         },
-         {}})
+  r.add({"file.open", "Open", "FILE", "Opens a glTF level.", "Ctrl+O",
+         [](Session& s, const Arguments& a) { s.requestOpen(a[0]); }})
       .asks = {.title = "Open a scene", .extensions = kSceneExtensions};
   Action& save = r.add(
-      {"file.save",
-       "Save",
-       "[force]",
+      {"file.save", "Save", "[force]",
        "Saves the level to its file. With force, also if another program has changed the file "
        "since.",
-       "Ctrl+S",
-       [](Session& s, const Arguments& a) {
-         requireArguments(a, 0, 1, "file.save [force]");
+       "Ctrl+S", [](Session& s, const Arguments& a) {
          if (!hasFile(s))
            throw InputError("file.save", "the level has no file yet", "use file.save_as FILE");
          s.save(s.document().path, isForced(a, 0));
-       },
-       {}});
+       }});
   save.asks = askForFileToSave();
   save.asks->when = [](const Session& s) { return !hasFile(s); };
   save.asks->answeredBy = "file.save_as";
@@ -61,59 +48,32 @@ void addFileActions(ActionRegistry& r) {
     return a.empty() ? s.document().path : "";
   };
   Action& saveAs = r.add(
-      {"file.save_as",
-       "Save as",
-       "FILE [force]",
+      {"file.save_as", "Save as", "FILE [force]",
        "Saves the level to another .gltf or .glb file. With force, also if another program has "
        "changed the file since.",
-       "Ctrl+Shift+S",
-       [](Session& s, const Arguments& a) {
-         requireArguments(a, 1, 2, "file.save_as FILE [force]");
-         s.save(a[0], isForced(a, 1));
-       },
-       {}});
+       "Ctrl+Shift+S", [](Session& s, const Arguments& a) { s.save(a[0], isForced(a, 1)); }});
   saveAs.asks = askForFileToSave();
   saveAs.saves = [](const Session&, const Arguments& a) {
     return a.size() == 1 ? std::filesystem::path(a[0]) : "";
   };
-  r.add({"app.screenshot",
-         "Screenshot",
-         "[FILE]",
-         "Writes the window as a PNG file.",
-         "F12",
+  r.add({"app.screenshot", "Screenshot", "[FILE]", "Writes the window as a PNG file.", "F12",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 0, 1, "app.screenshot [FILE]");
            s.requestScreenshot(s.writablePath(a.empty() ? "screenshot.png" : a[0]));
-         },
-         {}});
-  r.add({"app.palette",
-         "Command palette",
-         "",
-         "Lists all actions by name, to be chosen and run.",
-         "Ctrl+P",
-         [](Session& s, const Arguments&) { s.home().opensPalette = true; },
-         {},
+         }});
+  r.add({"app.palette", "Command palette", "", "Lists all actions by name, to be chosen and run.",
+         "Ctrl+P", [](Session& s, const Arguments&) { s.home().opensPalette = true; }, nullptr,
          true});
-  r.add({"script.wait",
-         "Wait until settled",
-         "",
-         "Renders frames until the picture no longer changes. For scripts.",
-         "",
+  r.add({"script.wait", "Wait until settled", "",
+         "Renders frames until the picture no longer changes. For scripts.", "",
          [](Session& s, const Arguments&) {
            constexpr int kPatience = 100000;  // frames
            for (int i = 0; i < kPatience; ++i)
              if (s.renderFrame().settled) return;
            throw InputError("script.wait", "the picture does not settle",
                             "use fewer light samples");
-         },
-         {}});
-  r.add({"app.quit",
-         "Quit",
-         "",
-         "Quits the program.",
-         "Ctrl+Q",
-         [](Session& s, const Arguments&) { s.requestQuit(); },
-         {}});
+         }});
+  r.add({"app.quit", "Quit", "", "Quits the program.", "Ctrl+Q",
+         [](Session& s, const Arguments&) { s.requestQuit(); }});
 }
 
 }  // namespace lamplighter

@@ -3,7 +3,6 @@
 
 #include "editor/actions/arguments.h"
 #include "editor/edits/edits.h"
-#include "editor/lights/light_list.h"
 #include "editor/lights/light_profile.h"
 #include "editor/lights/new_light.h"
 #include "editor/session/register_actions.h"
@@ -51,42 +50,28 @@ std::string fileBeside(const Document& document, const std::string& name) {
 }  // namespace
 
 void addLightActions(ActionRegistry& r) {
-  r.add({"light.add",
-         "Add light",
-         "rectangle|disk|sphere|tube|spot|point|sun",
+  r.add({"light.add", "Add light", "rectangle|disk|sphere|tube|spot|point|sun",
          "Adds a light in front of the camera, facing down, with an intensity that suits its "
          "distance and the exposure.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "light.add rectangle|disk|sphere|tube|spot|point|sun");
-           addLight(s, a[0]);
-         },
-         {}});
-  r.add({"light.ies",
-         "Set profile",
-         "FILE",
+         "", [](Session& s, const Arguments& a) { addLight(s, a[0]); }});
+  r.add({"light.ies", "Set profile", "FILE",
          "Assigns an IES file to the active point or spot light; none removes it. The luminous "
          "flux stays the same.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "light.ies FILE");
            const Node& n = activeNode(s.document());
            if (!takesProfile(n))
              throw InputError(n.name, "is neither a point nor a spot light",
                               "select a point or spot light");
            const auto profile = a[0] == "none" ? nullptr : readIes(fileBeside(s.document(), a[0]));
            s.setPunctualLight(n.id, withProfile(s.document().scene, n, profile));
-         },
-         {}})
+         }})
       .asks = {.title = "Open a profile of a light", .extensions = kProfileExtensions};
-  r.add({"light.picture",
-         "Set picture",
-         "FILE",
+  r.add({"light.picture", "Set picture", "FILE",
          "Assigns a PNG or JPEG picture to the active rectangle or disk light: its pixels scale "
          "the radiance. none removes it. The luminous flux stays the same.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "light.picture FILE");
            const Node& n = activeAreaLight(s);
            if (n.area->shape != AreaShape::rectangle && n.area->shape != AreaShape::disk)
              throw InputError(n.name, "is neither a rectangle nor a disk",
@@ -98,29 +83,19 @@ void addLightActions(ActionRegistry& r) {
            const float is = luminance(meanFactor(light) * light.radiance);
            if (was > 0.0f && is > 0.0f) light.radiance *= was / is;
            s.setAreaLight(n.id, light);
-         },
-         {}})
+         }})
       .asks = {.title = "Open a picture of a light", .extensions = kLightPictureExtensions};
-  r.add({"light.radiance",
-         "Set radiance",
-         "R G B",
-         "Sets the active area light's radiance in W/(m² sr).",
-         "",
+  r.add({"light.radiance", "Set radiance", "R G B",
+         "Sets the active area light's radiance in W/(m² sr).", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 3, 3, "light.radiance R G B");
            const Node& n = activeAreaLight(s);
            AreaLight light = *n.area;
            light.radiance = glm::max(vectorOf(a, 0), vec3(0.0f));
            s.setAreaLight(n.id, light);
-         },
-         {}});
-  r.add({"light.size",
-         "Set size",
-         "WIDTH [HEIGHT]",
-         "Sets the active area light's size, or its diameter, in metres.",
-         "",
+         }});
+  r.add({"light.size", "Set size", "WIDTH [HEIGHT]",
+         "Sets the active area light's size, or its diameter, in metres.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 2, "light.size WIDTH [HEIGHT]");
            const Node& n = activeAreaLight(s);
            AreaLight light = *n.area;
            light.size.x = numberOf(a[0]);
@@ -128,8 +103,7 @@ void addLightActions(ActionRegistry& r) {
            if (light.size.x <= 0.0f || light.size.y <= 0.0f)
              throw InputError("light.size", "a size must be above 0", "give a size in metres");
            s.setAreaLight(n.id, light);
-         },
-         {}});
+         }});
 }
 
 }  // namespace lamplighter

@@ -21,31 +21,16 @@ bool flagOf(const std::string& text) {
 // A switch of the selected lights or of the sky. With one argument: true or false.
 void addSwitch(ActionRegistry& r, const std::string& name, const char* label, const char* help,
                std::function<void(Session&, bool)> run) {
-  r.add({name,
-         label,
-         kTrueFalse,
-         help,
-         "",
-         [name, run](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, name + " " + kTrueFalse);
-           run(s, flagOf(a[0]));
-         },
-         {}});
+  r.add({name, label, kTrueFalse, help, "",
+         [run](Session& s, const Arguments& a) { run(s, flagOf(a[0])); }});
 }
 
 void addGroupSwitch(ActionRegistry& r, const std::string& name, const char* label, const char* help,
                     bool LightGroup::*flag) {
-  r.add({name,
-         label,
-         "NAME true|false",
-         help,
-         "",
-         [name, label, flag](Session& s, const Arguments& a) {
-           requireArguments(a, 2, 2, name + " NAME true|false");
+  r.add({name, label, "NAME true|false", help, "", [label, flag](Session& s, const Arguments& a) {
            const bool value = flagOf(a[1]);
            editLightGroup(s.editing(), label, a[0], [&](LightGroup& g) { g.*flag = value; });
-         },
-         {}});
+         }});
 }
 
 // Chooses the intensity for the current view.
@@ -88,29 +73,17 @@ void addLightStateActions(ActionRegistry& r) {
          "Switches all lights on and clears every solo and mute.", "",
          [](Session& s, const Arguments&) { shineAll(s.editing()); },
          [](const Session& s) { return anyLightDark(s.document().scene); }});
-  r.add({"lights.group",
-         "Group lights",
-         "NAME",
-         "Adds the selected lights to a group. The group is created if it does not exist.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "lights.group NAME");
-           groupLights(s.editing(), a[0]);
-         },
-         {}})
+  r.add({"lights.group", "Group lights", "NAME",
+         "Adds the selected lights to a group. The group is created if it does not exist.", "",
+         [](Session& s, const Arguments& a) { groupLights(s.editing(), a[0]); }})
       .asks = {.kind = ActionAsk::Kind::name,
                .title = "Group lights",
                .suggested = [](const Session& s) { return activeNode(s.document()).light.group; }};
   r.add({"lights.ungroup", "Ungroup lights", "", "Removes the selected lights from their groups.",
          "", [](Session& s, const Arguments&) { groupLights(s.editing(), ""); },
          [](const Session& s) { return !selectedLights(s.document()).empty(); }});
-  r.add({"lights.select_group",
-         "Select group",
-         "NAME",
-         "Selects the lights of a group.",
-         "",
+  r.add({"lights.select_group", "Select group", "NAME", "Selects the lights of a group.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "lights.select_group NAME");
            std::vector<NodeId> ids;
            for (const Node& n : s.document().scene.nodes) {
              if (n.light.group == a[0]) ids.push_back(n.id);
@@ -119,33 +92,21 @@ void addLightStateActions(ActionRegistry& r) {
              throw InputError(a[0], "there is no group of lights with this name",
                               "the light table lists them");
            s.select(std::move(ids));
-         },
-         {}});
+         }});
   addGroupSwitch(r, "lights.mute_group", "Mute group",
                  "Mutes a group of lights, or unmutes it. Lights of a muted group do not emit.",
                  &LightGroup::muted);
   addGroupSwitch(r, "lights.solo_group", "Solo group",
                  "Only the lights of this group and of other solo groups emit.", &LightGroup::solo);
-  r.add({"panel.lights",
-         "Light table",
-         "",
-         "Shows a table of all lights, below the view.",
-         "L",
+  r.add({"panel.lights", "Light table", "", "Shows a table of all lights, below the view.", "L",
          [](Session& s, const Arguments&) {
            s.lighting().showsTable = !s.lighting().showsTable;
            s.home().bottom = BottomPanel::none;
          },
-         {},
-         true,
-         [](const Session& s) { return s.lighting().showsTable; }});
-  r.add({"view.work_light",
-         "Work light",
-         "",
+         nullptr, true, [](const Session& s) { return s.lighting().showsTable; }});
+  r.add({"view.work_light", "Work light", "",
          "A lamp at the camera, for dark levels. It is not part of the level and is not saved.",
-         "Shift+L",
-         [](Session& s, const Arguments&) { toggleWorkLight(s); },
-         {},
-         true,
+         "Shift+L", [](Session& s, const Arguments&) { toggleWorkLight(s); }, nullptr, true,
          [](const Session& s) { return s.lighting().workLight > 0.0f; }});
 }
 

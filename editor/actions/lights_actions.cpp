@@ -26,8 +26,7 @@ LightUnit unitOf(const std::string& name) {
 }
 
 // PROPERTY VALUE [UNIT]
-void edit(Session& s, const Arguments& a, LightOperation operation, const std::string& usage) {
-  requireArguments(a, 2, operation == LightOperation::multiply ? 2 : 3, usage);
+void edit(Session& s, const Arguments& a, LightOperation operation) {
   const LightProperty property = propertyNamed(a[0]);
   // Without a unit the value is in the displayed unit; a sun uses lux.
   const LightUnit shown = s.lighting().unit;
@@ -48,15 +47,8 @@ bool anySelected(const Session& s) { return !selectedLights(s.document()).empty(
 void addLightsActions(ActionRegistry& r) {
   const auto add = [&](const char* name, const char* label, const char* usage, const char* help,
                        LightOperation operation) {
-    r.add({name,
-           label,
-           usage,
-           help,
-           "",
-           [=](Session& s, const Arguments& a) {
-             edit(s, a, operation, std::string(name) + " " + usage);
-           },
-           {}});
+    r.add({name, label, usage, help, "",
+           [operation](Session& s, const Arguments& a) { edit(s, a, operation); }});
   };
   add("lights.set", "Set of lights", "PROPERTY VALUE [UNIT]",
       "Sets a property of all selected lights: intensity, temperature (K), width or height (m), "
@@ -66,22 +58,14 @@ void addLightsActions(ActionRegistry& r) {
       "Multiplies a property of all selected lights.", LightOperation::multiply);
   add("lights.offset", "Offset of lights", "PROPERTY VALUE [UNIT]",
       "Adds to a property of all selected lights.", LightOperation::offset);
-  r.add({"lights.colour",
-         "Colour of lights",
-         "R G B",
-         "Sets the linear colour of all selected lights. Their luminous flux stays the same.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 3, 3, "lights.colour R G B");
-           colourLights(s.editing(), vectorOf(a, 0));
-         },
-         {}});
+  r.add({"lights.colour", "Colour of lights", "R G B",
+         "Sets the linear colour of all selected lights. Their luminous flux stays the same.", "",
+         [](Session& s, const Arguments& a) { colourLights(s.editing(), vectorOf(a, 0)); }});
   r.add({"lights.edit", "Edit cells of lights", "name|strength|temperature|size|group VALUE",
          "Sets a column of the light table for all selected lights, from text: a name, 800 lm, "
          "2700 K, 1.2 x 0.6, a group.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 2, 2, "lights.edit name|strength|temperature|size|group VALUE");
            for (const LightColumn column :
                 {LightColumn::name, LightColumn::strength, LightColumn::temperature,
                  LightColumn::size, LightColumn::group}) {
@@ -92,23 +76,12 @@ void addLightsActions(ActionRegistry& r) {
                             "give name, strength, temperature, size or group");
          },
          anySelected});
-  r.add({"lights.unit",
-         "Unit of light",
-         "lm|cd|nits|W",
+  r.add({"lights.unit", "Unit of light", "lm|cd|nits|W",
          "Sets the unit in which the strength of lights is shown and typed. Lights for which it is "
          "not defined keep their own unit.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "lights.unit lm|cd|nits|W");
-           s.lighting().unit = unitOf(a[0]);
-         },
-         {},
+         "", [](Session& s, const Arguments& a) { s.lighting().unit = unitOf(a[0]); }, nullptr,
          true});
-  r.add({"lights.select",
-         "Select all lights",
-         "",
-         "Selects every light that is not hidden.",
-         "",
+  r.add({"lights.select", "Select all lights", "", "Selects every light that is not hidden.", "",
          [](Session& s, const Arguments&) {
            const Scene& scene = s.document().scene;
            const std::vector<bool> visible = visibleNodes(scene);
@@ -117,8 +90,7 @@ void addLightsActions(ActionRegistry& r) {
              if (light.node != kNoNode && visible[light.index]) ids.push_back(light.node);
            }
            s.select(std::move(ids));
-         },
-         {}});
+         }});
   r.add({"lights.brighter", "Double intensity", "", "Doubles the intensity of the selected lights.",
          "",
          [](Session& s, const Arguments&) {

@@ -4,7 +4,6 @@
 #include "editor/lights/light_list.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session.h"
-#include "renderer/base/error.h"
 
 namespace lamplighter {
 
@@ -53,15 +52,11 @@ void addLinkActions(ActionRegistry& r) {
          "Selects the objects that are excluded from the selected lights.", "",
          [](Session& s, const Arguments&) { s.select(leftOutBySelection(s.document())); },
          hasLeftOut});
-  r.add({"sky.exclude",
-         "Leave objects out of the sky",
-         kObjects,
-         "Excludes the selected or named objects and their children from the light of the sky.",
-         "",
+  r.add({"sky.exclude", "Leave objects out of the sky", kObjects,
+         "Excludes the selected or named objects and their children from the light of the sky.", "",
          [](Session& s, const Arguments& a) {
            leaveOut(s.editing(), {kNoNode}, objectsOf(s, a, {}), true);
-         },
-         {}});
+         }});
   r.add({"sky.include", "Light objects by the sky again", kObjects,
          "Ends the exclusion of the selected or named objects from the light of the sky. With "
          "neither, of all objects.",

@@ -34,14 +34,14 @@ void drop(Session& s) {
                      "give the parent a scale other than 0");
   }
   std::vector<Node> nodes{*scene.find(leader)};
-  const mat4 above = nodes[0].parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, nodes[0].parent);
+  const mat4 above = worldMatrix(scene, nodes[0].parent);
   const vec3 way =
       vec3(above * vec4(local->translation, 1.0f)) - vec3(worldMatrix(scene, leader)[3]);
   nodes[0].local = *local;
   for (const NodeId id : roots) {
     if (id == leader || isLocked(scene, id)) continue;
     Node n = *scene.find(id);
-    const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, n.parent);
+    const mat4 parent = worldMatrix(scene, n.parent);
     if (!hasVolume(parent)) continue;
     n.local.translation += glm::inverse(mat3(parent)) * way;
     nodes.push_back(std::move(n));
@@ -56,42 +56,26 @@ void addObjectActions(ActionRegistry& r) {
   r.add({"object.drop", "Drop under the cursor", "",
          "Puts the selection on the surface under the pointer.", "Ctrl+T",
          [](Session& s, const Arguments&) { drop(s); }, hasSelection});
-  r.add({"object.move",
-         "Move to",
-         "X Y Z",
-         "Sets the position of the active object, in metres, in its parent's space.",
-         "",
+  r.add({"object.move", "Move to", "X Y Z",
+         "Sets the position of the active object, in metres, in its parent's space.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 3, 3, "object.move X Y Z");
            Node n = activeNode(s.document());
            n.local.translation = vectorOf(a, 0);
            s.setNodeTransform(n.id, n.local);
-         },
-         {}});
-  r.add({"object.rotate",
-         "Rotate to",
-         "X Y Z",
-         "Sets the rotation of the active object about X, Y and Z, in degrees.",
-         "",
+         }});
+  r.add({"object.rotate", "Rotate to", "X Y Z",
+         "Sets the rotation of the active object about X, Y and Z, in degrees.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 3, 3, "object.rotate X Y Z");
            Node n = activeNode(s.document());
            n.local.rotation = quat(glm::radians(vectorOf(a, 0)));
            s.setNodeTransform(n.id, n.local);
-         },
-         {}});
-  r.add({"object.scale",
-         "Scale to",
-         "X Y Z",
-         "Scales the active object along its own axes.",
-         "",
+         }});
+  r.add({"object.scale", "Scale to", "X Y Z", "Scales the active object along its own axes.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 3, 3, "object.scale X Y Z");
            Node n = activeNode(s.document());
            n.local.scale = vectorOf(a, 0);
            s.setNodeTransform(n.id, n.local);
-         },
-         {}});
+         }});
   r.add({"object.hide", "Hide or show", "", "Hides the selection, or shows it again.", "H",
          [](Session& s, const Arguments&) {
            const bool visible = !activeNode(s.document()).visible;

@@ -1,5 +1,4 @@
 // Actions that place objects: by a click, in rows and grids, along surfaces.
-#include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
@@ -47,7 +46,7 @@ void duplicateInGrid(Session& s, const glm::ivec3& count, const mat3& steps,
         const std::unordered_set<NodeId> isRoot(copies.roots.begin(), copies.roots.end());
         for (Node& n : copies.nodes) {
           if (!isRoot.contains(n.id)) continue;
-          const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, n.parent);
+          const mat4 parent = worldMatrix(scene, n.parent);
           if (!hasVolume(parent)) continue;
           n.local.translation += glm::inverse(mat3(parent)) * way;
         }
@@ -73,7 +72,7 @@ void align(Session& s) {
     throw InputError("object.align", "there is no surface under the pointer", "point at a surface");
   Node node = active;
   const Scene& scene = s.document().scene;
-  const mat4 parent = node.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, node.parent);
+  const mat4 parent = worldMatrix(scene, node.parent);
   if (!hasVolume(parent))
     throw InputError(node.name, "has a parent with a scale of 0",
                      "give the parent a scale other than 0");
@@ -88,15 +87,11 @@ void align(Session& s) {
 }  // namespace
 
 void addPlaceActions(ActionRegistry& r) {
-  r.add({"place.start",
-         "Click to place",
-         "ACTION [ARGUMENT]…",
+  r.add({"place.start", "Click to place", "ACTION [ARGUMENT]…",
          "The next click in the viewport runs an action that adds an object, such as light.add "
          "disk, and puts the object on the clicked surface, facing away from it. With Shift, the "
          "tool stays active.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 100, "place.start ACTION [ARGUMENT]…");
+         "", [](Session& s, const Arguments& a) {
            if (s.actions().find(a[0]) == nullptr)
              throw InputError(a[0], "there is no such action", "give one such as light.add disk");
            std::string text;
@@ -106,20 +101,12 @@ void addPlaceActions(ActionRegistry& r) {
            }
            s.startPlacing(text);
            s.setStatus("Click a surface to place it; Esc cancels", NoticeKind::hint);
-         },
-         {}});
+         }});
   const std::string kinds = r.find("light.add")->usage;
-  r.add({"light.place",
-         "Click to place a light",
-         kinds,
+  r.add({"light.place", "Click to place a light", kinds,
          "The next click in the viewport adds a light on the clicked surface, facing away from it. "
          "With Shift, the tool stays active.",
-         "",
-         [kinds](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "light.place " + kinds);
-           s.runAction("place.start light.add " + a[0]);
-         },
-         {}});
+         "", [](Session& s, const Arguments& a) { s.runAction("place.start light.add " + a[0]); }});
   r.add({"place.stop", "Place nothing", "", "Ends placing: clicks select again.", "",
          [](Session& s, const Arguments&) { s.startPlacing(""); },
          [](const Session& s) { return s.placing(); }});
@@ -132,7 +119,6 @@ void addPlaceActions(ActionRegistry& r) {
          "the next, in metres.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 4, 4, "edit.duplicate_line COPIES X Y Z");
            const vec3 step = vectorOf(a, 1);
            duplicateInGrid(s, {countOf(a[0]) + 1, 1, 1}, mat3(step, vec3(0.0f), vec3(0.0f)),
                            "Duplicate along a line");
@@ -143,7 +129,6 @@ void addPlaceActions(ActionRegistry& r) {
          "X, Y and Z are the spacing in metres.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 6, 6, "edit.duplicate_grid COLUMNS ROWS LAYERS X Y Z");
            const vec3 step = vectorOf(a, 3);
            duplicateInGrid(s, {countOf(a[0]), countOf(a[2]), countOf(a[1])},
                            mat3(vec3(step.x, 0, 0), vec3(0, step.y, 0), vec3(0, 0, step.z)),
@@ -151,14 +136,8 @@ void addPlaceActions(ActionRegistry& r) {
          },
          hasSelection});
   const auto addSnap = [&](const char* name, const char* label, const char* help, SnapTo target) {
-    r.add({name,
-           label,
-           "",
-           help,
-           "",
-           [target](Session& s, const Arguments&) { s.setSnapTo(target); },
-           {},
-           true,
+    r.add({name, label, "", help, "",
+           [target](Session& s, const Arguments&) { s.setSnapTo(target); }, nullptr, true,
            [target](const Session& s) { return s.snapTo() == target; }});
   };
   addSnap("tool.snap_grid", "Snap to steps", "Snaps positions to a grid of 25 cm.", SnapTo::grid);

@@ -19,32 +19,22 @@ void apply(Session& s) {
 
 void addPanel(ActionRegistry& r, const char* name, const char* label, const char* help,
               const char* shortcut, BottomPanel panel) {
-  r.add({name,
-         label,
-         "",
-         help,
-         shortcut,
+  r.add({name, label, "", help, shortcut,
          [panel](Session& s, const Arguments&) {
            BottomPanel& shown = s.home().bottom;
            shown = shown == panel ? BottomPanel::none : panel;
            // there is room for only one of them
            if (shown != BottomPanel::none) s.lighting().showsTable = false;
          },
-         {},
-         true,
-         [panel](const Session& s) { return s.home().bottom == panel; }});
+         nullptr, true, [panel](const Session& s) { return s.home().bottom == panel; }});
 }
 
 }  // namespace
 
 void addPreferenceActions(ActionRegistry& r) {
-  r.add({"settings.set",
-         "Change setting",
-         "NAME=VALUE",
-         "Changes one of the user's settings (docs/reference/settings.md).",
-         "",
+  r.add({"settings.set", "Change setting", "NAME=VALUE",
+         "Changes one of the user's settings (docs/reference/settings.md).", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "settings.set NAME=VALUE");
            const size_t equals = a[0].find('=');
            if (equals == std::string::npos)
              throw InputError(a[0], "does not change a setting", "give NAME=VALUE");
@@ -52,15 +42,10 @@ void addPreferenceActions(ActionRegistry& r) {
            s.home().preferences.setText(a[0].substr(0, equals), a[0].substr(equals + 1));
            apply(s);
          },
-         {},
-         true});
-  r.add({"settings.reset",
-         "Reset settings",
-         "[NAME]",
-         "Resets one setting, or all of them, to the default.",
-         "",
+         nullptr, true});
+  r.add({"settings.reset", "Reset settings", "[NAME]",
+         "Resets one setting, or all of them, to the default.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 0, 1, "settings.reset [NAME]");
            takePreferences(s);
            Preferences& p = s.home().preferences;
            if (a.empty())
@@ -69,37 +54,17 @@ void addPreferenceActions(ActionRegistry& r) {
              p.values.reset(preferenceNamed(a[0]).name);
            apply(s);
          },
-         {},
-         true});
-  r.add({"settings.show",
-         "Settings\u2026",
-         "",
-         "Shows the user's settings.",
-         "Ctrl+Comma",
-         [](Session& s, const Arguments&) { s.home().showsSettings = true; },
-         {},
-         true});
-  r.add({"view.ui_scale",
-         "UI scale",
-         "0.75|1|1.25|1.5|2|3",
+         nullptr, true});
+  r.add({"settings.show", "Settings\u2026", "", "Shows the user's settings.", "Ctrl+Comma",
+         [](Session& s, const Arguments&) { s.home().showsSettings = true; }, nullptr, true});
+  r.add({"view.ui_scale", "UI scale", "0.75|1|1.25|1.5|2|3",
          "Sets the size of the user interface, relative to the scale of the screen, from 0.5 to 4.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "view.ui_scale FACTOR");
-           s.home().preferences.setText("ui_scale", a[0]);
-         },
-         {},
-         true});
+         "", [](Session& s, const Arguments& a) { s.home().preferences.setText("ui_scale", a[0]); },
+         nullptr, true});
   const auto addFocus = [&](const char* name, const char* label, const char* help,
                             const char* shortcut, int step) {
-    r.add({name,
-           label,
-           "",
-           help,
-           shortcut,
-           [step](Session& s, const Arguments&) { s.home().focusStep = step; },
-           {},
-           true});
+    r.add({name, label, "", help, shortcut,
+           [step](Session& s, const Arguments&) { s.home().focusStep = step; }, nullptr, true});
   };
   addFocus("panel.next", "Next panel",
            "Moves the keyboard focus to the next panel. Arrow keys move within it.", "F6, Ctrl+Tab",

@@ -9,12 +9,11 @@ namespace lamplighter {
 namespace {
 
 // Starts at 0. Without an argument: the newest.
-size_t numberFrom(const Session& s, const Arguments& a, const std::string& usage) {
-  requireArguments(a, 0, 1, usage);
+size_t numberFrom(const Session& s, const Arguments& a) {
   const size_t count = s.crashRecovery().found().size();
   const float n = a.empty() ? 1.0f : numberOf(a[0]);
   if (n >= 1.0f && n <= static_cast<float>(count)) return static_cast<size_t>(n) - 1;
-  throw InputError(usage, "there is no such level to recover",
+  throw InputError("recovery", "there is no such level to recover",
                    count == 0 ? "nothing is left to recover"
                               : "give a number from 1 to " + std::to_string(count));
 }
@@ -26,19 +25,11 @@ void addRecoveryActions(ActionRegistry& r) {
   r.add(
       {"recovery.recover", "Recover", "[NUMBER]",
        "Opens the autosaved level of a session that did not exit normally. The newest is number 1.",
-       "",
-       [](Session& s, const Arguments& a) {
-         s.recoverWork(numberFrom(s, a, "recovery.recover [NUMBER]"));
-       },
-       hasFound});
+       "", [](Session& s, const Arguments& a) { s.recoverWork(numberFrom(s, a)); }, hasFound});
   r.add({"recovery.discard", "Discard recoverable work", "[NUMBER]",
          "Deletes the autosaved level of a session that did not exit normally. The newest is "
          "number 1.",
-         "",
-         [](Session& s, const Arguments& a) {
-           s.discardWork(numberFrom(s, a, "recovery.discard [NUMBER]"));
-         },
-         hasFound});
+         "", [](Session& s, const Arguments& a) { s.discardWork(numberFrom(s, a)); }, hasFound});
   r.add({"recovery.autosave", "Autosave now", "",
          "Writes the level to a recovery file in the user's state folder. The level's own file "
          "does not change.",

@@ -10,40 +10,21 @@
 namespace lamplighter {
 
 void addRenderActions(ActionRegistry& r) {
-  r.add({"render.method",
-         "Method",
-         "NAME",
-         "Renders with another method.",
-         "",
+  r.add({"render.method", "Method", "NAME", "Renders with another method.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "render.method NAME");
            RenderSettings settings = s.document().render;
            settings.method = runnableMethod(a[0], s.renderer().backend()).name;
            s.setRender(settings);
-         },
-         {}});
-  r.add({"render.reference",
-         "Reference",
-         "",
+         }});
+  r.add({"render.reference", "Reference", "",
          "Switches between the path-traced reference and the previous method. The reference needs "
          "many frames to converge.",
-         "Space",
-         [](Session& s, const Arguments&) { s.toggleReference(); },
-         {}});
-  r.add({"render.reload_shaders",
-         "Reload shaders",
-         "",
-         "Reloads and compiles the shaders of the gl backend.",
-         "F5",
-         [](Session& s, const Arguments&) { s.requestShaders(); },
-         {}});
-  r.add({"render.set",
-         "Set parameter",
-         "NAME=VALUE",
-         "Sets a parameter of the method.",
-         "",
+         "Space", [](Session& s, const Arguments&) { s.toggleReference(); }});
+  r.add({"render.reload_shaders", "Reload shaders", "",
+         "Reloads and compiles the shaders of the gl backend.", "F5",
+         [](Session& s, const Arguments&) { s.requestShaders(); }});
+  r.add({"render.set", "Set parameter", "NAME=VALUE", "Sets a parameter of the method.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "render.set NAME=VALUE");
            const size_t equals = a[0].find('=');
            const std::string name = a[0].substr(0, equals);
            const auto& all = findMethod(s.document().render.method).parameters;
@@ -55,20 +36,13 @@ void addRenderActions(ActionRegistry& r) {
            RenderSettings settings = s.document().render;
            settings.values.set(name, Settings::parse(*spec, a[0].substr(equals + 1)));
            s.setRender(settings);
-         },
-         {}});
-  r.add({"render.exposure",
-         "Exposure",
-         "EV",
-         "Sets the exposure in EV.",
-         "",
+         }});
+  r.add({"render.exposure", "Exposure", "EV", "Sets the exposure in EV.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "render.exposure EV");
            RenderSettings settings = s.document().render;
            settings.exposureEv = std::clamp(numberOf(a[0]), -16.0f, 16.0f);
            s.setRender(settings);
-         },
-         {}});
+         }});
   r.add({"render.auto_exposure", "Automatic exposure", "",
          "Sets the exposure so that the log-average luminance of the picture is middle grey.", "",
          [](Session& s, const Arguments&) {

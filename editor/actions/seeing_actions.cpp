@@ -9,10 +9,7 @@
 namespace lamplighter {
 namespace {
 
-vec2 pixelOf(const Arguments& a, const std::string& usage) {
-  requireArguments(a, 2, 2, usage);
-  return {numberOf(a[0]), numberOf(a[1])};
-}
+vec2 pixelOf(const Arguments& a) { return {numberOf(a[0]), numberOf(a[1])}; }
 
 int rowOf(const std::string& text) {
   const float number = numberOf(text);
@@ -29,42 +26,22 @@ vec2 pointerOf(const Session& s) {
 void explainAt(Session& s, const vec2& pixel) { s.points().explainAt(s.pointSubject(), pixel); }
 
 void addExplain(ActionRegistry& r) {
-  r.add({"explain.at",
-         "Why is it dark at",
-         "X Y",
-         "Lists the contribution of each light at a viewport pixel, and its occluders.",
-         "",
-         [](Session& s, const Arguments& a) { explainAt(s, pixelOf(a, "explain.at X Y")); },
-         {}});
+  r.add({"explain.at", "Why is it dark at", "X Y",
+         "Lists the contribution of each light at a viewport pixel, and its occluders.", "",
+         [](Session& s, const Arguments& a) { explainAt(s, pixelOf(a)); }});
   r.add(
-      {"explain.pointer",
-       "Why is it dark here?",
-       "",
+      {"explain.pointer", "Why is it dark here?", "",
        "Lists the contribution of each light at the surface under the pointer, and its occluders.",
-       "Y",
-       [](Session& s, const Arguments&) { explainAt(s, pointerOf(s)); },
-       {}});
-  r.add({"explain.light",
-         "Show light's rays",
-         "ROW",
-         "Draws the rays between the explained point and a light, by its row from 0.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "explain.light ROW");
-           s.points().explainer().choose(rowOf(a[0]));
-         },
-         {}});
+       "Y", [](Session& s, const Arguments&) { explainAt(s, pointerOf(s)); }});
+  r.add({"explain.light", "Show light's rays", "ROW",
+         "Draws the rays between the explained point and a light, by its row from 0.", "",
+         [](Session& s, const Arguments& a) { s.points().explainer().choose(rowOf(a[0])); }});
   r.add(
-      {"explain.blocker",
-       "Select what stands before a light",
-       "ROW [INDEX]",
+      {"explain.blocker", "Select what stands before a light", "ROW [INDEX]",
        "Selects an occluder between the explained point and a light. Rows and indices start at 0.",
-       "",
-       [](Session& s, const Arguments& a) {
-         requireArguments(a, 1, 2, "explain.blocker ROW [INDEX]");
+       "", [](Session& s, const Arguments& a) {
          s.select({s.points().explainer().blocker(rowOf(a[0]), a.size() > 1 ? rowOf(a[1]) : 0)});
-       },
-       {}});
+       }});
   r.add({"explain.close", "Close the explanation", "",
          "Closes the list of light contributions and occluders.", "",
          [](Session& s, const Arguments&) { s.points().explainer().close(); },
@@ -73,62 +50,39 @@ void addExplain(ActionRegistry& r) {
 
 void addTool(ActionRegistry& r, const char* name, const char* label, const char* help,
              const char* key, PointTool tool) {
-  r.add({name,
-         label,
-         "",
-         help,
-         key,
+  r.add({name, label, "", help, key,
          [tool](Session& s, const Arguments&) {
            s.points().setTool(s.points().tool() == tool ? PointTool::none : tool);
          },
-         {},
-         false,
-         [tool](const Session& s) { return s.points().tool() == tool; }});
+         nullptr, false, [tool](const Session& s) { return s.points().tool() == tool; }});
 }
 
 void addProbe(ActionRegistry& r) {
-  r.add({"probe.at",
-         "Probe at",
-         "X Y",
-         "Shows illuminance and luminance at a viewport pixel in the status line.",
-         "",
+  r.add({"probe.at", "Probe at", "X Y",
+         "Shows illuminance and luminance at a viewport pixel in the status line.", "",
          [](Session& s, const Arguments& a) {
-           const vec2 pixel = pixelOf(a, "probe.at X Y");
+           const vec2 pixel = pixelOf(a);
            s.setStatus(readingText(s.points().probeAt(s.pointSubject(), pixel)));
-         },
-         {}});
-  r.add({"view.probe",
-         "Probe",
-         "",
-         "Shows illuminance (lx) and luminance (nt) under the pointer.",
+         }});
+  r.add({"view.probe", "Probe", "", "Shows illuminance (lx) and luminance (nt) under the pointer.",
          "I",
          [](Session& s, const Arguments&) { s.points().probePointer(!s.points().probesPointer()); },
-         {},
-         true,
-         [](const Session& s) { return s.points().probesPointer(); }});
+         nullptr, true, [](const Session& s) { return s.points().probesPointer(); }});
 }
 
 void addMeasure(ActionRegistry& r) {
-  r.add({"measure.start",
-         "Measure from here on",
-         "",
-         "Starts the measuring tool: two clicks on surfaces measure a distance.",
-         "",
+  r.add({"measure.start", "Measure from here on", "",
+         "Starts the measuring tool: two clicks on surfaces measure a distance.", "",
          [](Session& s, const Arguments&) {
            s.points().setTool(PointTool::measure);
            s.points().measurement().clear();
-         },
-         {}});
-  r.add({"measure.at",
-         "Measure at",
-         "X Y",
-         "Sets the next end point of the measured distance at a viewport pixel.",
-         "",
+         }});
+  r.add({"measure.at", "Measure at", "X Y",
+         "Sets the next end point of the measured distance at a viewport pixel.", "",
          [](Session& s, const Arguments& a) {
-           s.points().measureAt(s.pointSubject(), pixelOf(a, "measure.at X Y"));
+           s.points().measureAt(s.pointSubject(), pixelOf(a));
            if (s.points().measurement().isComplete()) s.setStatus(s.points().measurement().text());
-         },
-         {}});
+         }});
   r.add({"measure.clear", "Clear the measurement", "",
          "Removes the measured distance from the viewport.", "",
          [](Session& s, const Arguments&) { s.points().measurement().clear(); },

@@ -26,34 +26,22 @@ bool isPicture(const Session& s) { return s.document().scene.sky.kind == SkyKind
 }  // namespace
 
 void addSkyActions(ActionRegistry& r) {
-  r.add({"sky.set",
-         "Set sky",
-         kSkyUsage,
-         "Sets the sky: none, a radiance in W/(m² sr), a gradient or a picture.",
-         "",
-         [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, std::string("sky.set ") + kSkyUsage);
-           s.setSky(parseSky(a[0], folderOf(s)));
-         },
-         {}});
-  r.add({"sky.image",
-         "Sky picture",
-         "FILE",
+  r.add({"sky.set", "Set sky", kSkyUsage,
+         "Sets the sky: none, a radiance in W/(m² sr), a gradient or a picture.", "",
+         [](Session& s, const Arguments& a) { s.setSky(parseSky(a[0], folderOf(s))); }});
+  r.add({"sky.image", "Sky picture", "FILE",
          "Sets an equirectangular picture as the sky. It keeps the rotation and brightness of the "
          "previous picture.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "sky.image FILE");
            const Sky& before = s.document().scene.sky;
            s.setSky(Sky::picture(findSkyImage(a[0], folderOf(s)), before.rotation, before.scale));
-         },
-         {}})
+         }})
       .asks = {.title = "Open a picture of the sky", .extensions = kSkyExtensions};
   r.add({"sky.rotate", "Turn sky", "DEGREES",
          "Rotates the sky's picture about the vertical axis, counter-clockwise seen from above.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "sky.rotate DEGREES");
            Sky sky = pictureOf(s, "sky.rotate");
            sky.rotation = glm::radians(std::fmod(numberOf(a[0]), 360.0f));
            s.setSky(sky);
@@ -62,7 +50,6 @@ void addSkyActions(ActionRegistry& r) {
   r.add({"sky.scale", "Scale sky", "FACTOR",
          "Sets the factor for the radiance of the sky's picture.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "sky.scale FACTOR");
            Sky sky = pictureOf(s, "sky.scale");
            sky.scale = numberOf(a[0]);
            if (!(sky.scale >= 0.0f && sky.scale <= 1e9f))

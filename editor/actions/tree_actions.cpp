@@ -1,5 +1,4 @@
 // Actions of the object tree, and edits of several objects.
-#include <algorithm>
 #include <cmath>
 
 #include "editor/actions/arguments.h"
@@ -35,7 +34,6 @@ void addTreeActions(ActionRegistry& r) {
          "transform stays the same.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "object.reparent PARENT|none");
            activeNode(s.document());
            reparent(s.editing(), s.document().selection,
                     a[0] == "none" ? kNoNode : nodeNamed(s.document(), a[0]).id);
@@ -57,7 +55,6 @@ void addTreeActions(ActionRegistry& r) {
          "as in position.y 2, relative to their parents.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 2, 2, "objects.set PROPERTY VALUE");
            const ObjectProperty& property = objectProperty(a[0]);
            const float value = numberOf(a[1]);
            if (!(std::abs(value) <= 1e6f))
@@ -70,7 +67,6 @@ void addTreeActions(ActionRegistry& r) {
          "in each frame, light maps cost memory.",
          "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "objects.lit_as automatic|simple|complex");
            const MeshKind kind = a[0] == "simple"    ? MeshKind::simple
                                  : a[0] == "complex" ? MeshKind::complex
                                                      : MeshKind::automatic;
@@ -85,7 +81,6 @@ void addTreeActions(ActionRegistry& r) {
   r.add({"materials.roughness", "Roughness of objects", "VALUE",
          "Sets the roughness of all materials of the selected objects, from 0 to 1.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "materials.roughness VALUE");
            const float value = shareOf(a[0]);
            editMaterials(s.editing(), "Change roughness",
                          [&](Material& m) { m.roughness = value; });
@@ -94,7 +89,6 @@ void addTreeActions(ActionRegistry& r) {
   r.add({"materials.metallic", "Metallic of objects", "VALUE",
          "Sets the metallic value of all materials of the selected objects, from 0 to 1.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "materials.metallic VALUE");
            const float value = shareOf(a[0]);
            editMaterials(s.editing(), "Change metallic", [&](Material& m) { m.metallic = value; });
          },
@@ -102,7 +96,6 @@ void addTreeActions(ActionRegistry& r) {
   r.add({"materials.colour", "Colour of objects", "R G B",
          "Sets the linear base colour of all materials of the selected objects.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 3, 3, "materials.colour R G B");
            const vec3 colour = glm::clamp(vectorOf(a, 0), 0.0f, 1.0f);
            editMaterials(s.editing(), "Change colour",
                          [&](Material& m) { m.baseColor = vec4(colour, m.baseColor.a); });

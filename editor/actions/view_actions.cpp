@@ -10,116 +10,61 @@ namespace lamplighter {
 void addViewActions(ActionRegistry& r) {
   const auto tool = [&](const char* name, const char* label, const char* help, const char* key,
                         ToolMode mode) {
-    r.add({name,
-           label,
-           "",
-           help,
-           key,
-           [mode](Session& s, const Arguments&) { s.setTool(mode); },
-           {}});
+    r.add({name, label, "", help, key, [mode](Session& s, const Arguments&) { s.setTool(mode); }});
   };
   tool("tool.select", "Select", "Clicks select objects.", "Q", ToolMode::select);
   tool("tool.move", "Move", "Shows handles that move the selection.", "W", ToolMode::move);
   tool("tool.rotate", "Rotate", "Shows handles that rotate the selection.", "E", ToolMode::rotate);
   tool("tool.scale", "Scale", "Shows handles that scale the selection.", "R", ToolMode::scale);
-  r.add({"tool.snap",
-         "Snap",
-         "",
-         "Switches snapping on or off. Ctrl inverts it during a drag.",
-         "S",
-         [](Session& s, const Arguments&) { s.setSnapping(!s.snapping()); },
-         {},
-         true});
-  r.add({"view.frame_selection",
-         "Frame selection",
-         "",
+  r.add({"tool.snap", "Snap", "", "Switches snapping on or off. Ctrl inverts it during a drag.",
+         "S", [](Session& s, const Arguments&) { s.setSnapping(!s.snapping()); }, nullptr, true});
+  r.add({"view.frame_selection", "Frame selection", "",
          "Moves the camera so that the selection is visible, or the whole level if nothing is "
          "selected.",
-         "F",
-         [](Session& s, const Arguments&) { s.frameSelection(); },
-         {}});
-  r.add({"view.frame_all",
-         "Frame all",
-         "",
-         "Moves the camera so that the whole level is visible.",
-         "Home",
-         [](Session& s, const Arguments&) { s.frameAll(); },
-         {}});
+         "F", [](Session& s, const Arguments&) { s.frameSelection(); }});
+  r.add({"view.frame_all", "Frame all", "", "Moves the camera so that the whole level is visible.",
+         "Home", [](Session& s, const Arguments&) { s.frameAll(); }});
   for (const DebugViewInfo& info : debugViews()) {
-    r.add({std::string("view.") + info.name,
-           info.label,
-           "",
-           info.help,
-           info.key,
-           [view = info.view](Session& s, const Arguments&) { s.display().setView(view); },
-           {},
-           true,
-           [view = info.view](const Session& s) { return s.display().view() == view; },
-           {},
-           [view = info.view](const Session& s) { return problemOf(view, s.inspect()); }});
+    r.add({std::string("view.") + info.name, info.label, "", info.help, info.key,
+           [view = info.view](Session& s, const Arguments&) { s.display().setView(view); }, nullptr,
+           true, [view = info.view](const Session& s) { return s.display().view() == view; },
+           nullptr, [view = info.view](const Session& s) { return problemOf(view, s.inspect()); }});
   }
-  r.add({"view.vpls",
-         "Light samples",
-         "",
+  r.add({"view.vpls", "Light samples", "",
          "Marks the position of each light sample. A click on a mark chooses it for the view "
          "Occlusion.",
-         "V",
-         [](Session& s, const Arguments&) { s.display().showVpls(!s.display().showsVpls()); },
-         {},
-         true,
-         [](const Session& s) { return s.display().showsVpls(); }});
-  r.add({"view.choose_vpl",
-         "Choose light sample",
-         "INDEX",
-         "Chooses the light sample of the view Occlusion, by its index from 0.",
-         "",
+         "V", [](Session& s, const Arguments&) { s.display().showVpls(!s.display().showsVpls()); },
+         nullptr, true, [](const Session& s) { return s.display().showsVpls(); }});
+  r.add({"view.choose_vpl", "Choose light sample", "INDEX",
+         "Chooses the light sample of the view Occlusion, by its index from 0.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "view.choose_vpl INDEX");
            const float index = numberOf(a[0]);
            if (index != std::floor(index) || std::abs(index) > 1e6f)
              throw InputError(a[0], "is not a whole number", "give one such as 12");
            s.display().choose(s.inspect(), static_cast<int>(index));
          },
-         {},
-         true,
-         {}});
-  r.add({"view.choose_light",
-         "Choose light",
-         "NAME",
-         "Chooses the light of the view Occlusion of a light. Selecting a light does so too.",
-         "",
+         nullptr, true});
+  r.add({"view.choose_light", "Choose light", "NAME",
+         "Chooses the light of the view Occlusion of a light. Selecting a light does so too.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "view.choose_light NAME");
            s.display().chooseLight(nodeNamed(s.document(), a[0]).id);
          },
-         {},
-         true,
-         {}});
-  r.add({"view.false_colour_unit",
-         "False colour of",
-         "lux|nits",
-         "Shows illuminance (lux) or luminance (nits) in the view False colour.",
-         "",
+         nullptr, true});
+  r.add({"view.false_colour_unit", "False colour of", "lux|nits",
+         "Shows illuminance (lux) or luminance (nits) in the view False colour.", "",
          [](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "view.false_colour_unit lux|nits");
            if (a[0] != "lux" && a[0] != "nits")
              throw InputError(a[0], "is not a unit of light", "give lux or nits");
            FalseColour f = s.display().falseColour();
            f.isLux = a[0] == "lux";
            s.display().setFalseColour(f);
          },
-         {},
-         true,
-         {}});
-  r.add({"view.false_colour_range",
-         "Automatic range of false colour",
-         "[LOW HIGH]",
+         nullptr, true});
+  r.add({"view.false_colour_range", "Automatic range of false colour", "[LOW HIGH]",
          "Sets the values at both ends of the colour scale, in the unit shown. Without numbers, "
          "the range of the picture.",
          "",
          [](Session& s, const Arguments& a) {
-           if (a.size() == 1) requireArguments(a, 2, 2, "view.false_colour_range LOW HIGH");
-           requireArguments(a, 0, 2, "view.false_colour_range LOW HIGH");
            FalseColour f = s.display().falseColour();
            f.low = a.empty() ? 0.0f : numberOf(a[0]);
            f.high = a.empty() ? 0.0f : numberOf(a[1]);
@@ -128,36 +73,24 @@ void addViewActions(ActionRegistry& r) {
                               "give two numbers above 0, the smaller first");
            s.display().setFalseColour(f);
          },
-         {},
-         true,
-         {}});
+         nullptr, true});
   std::string mappers;
   for (const ToneMapperInfo& m : toneMappers())
     mappers += (mappers.empty() ? "" : "|") + std::string(m.name);
-  r.add({"view.tone_mapper",
-         "Tone mapper",
-         mappers,
+  r.add({"view.tone_mapper", "Tone mapper", mappers,
          "How radiance is mapped to the display. It does not change the lighting, and is not part "
          "of the level.",
          "",
-         [mappers](Session& s, const Arguments& a) {
-           requireArguments(a, 1, 1, "view.tone_mapper " + mappers);
+         [](Session& s, const Arguments& a) {
            s.display().setToneMapper(findToneMapper(a[0]).mapper);
          },
-         {},
-         true,
-         {}});
-  r.add({"view.histogram",
-         "Histogram",
-         "",
-         "Shows the luminance histogram of the picture, with exposure and tone mapper.",
-         "N",
+         nullptr, true});
+  r.add({"view.histogram", "Histogram", "",
+         "Shows the luminance histogram of the picture, with exposure and tone mapper.", "N",
          [](Session& s, const Arguments&) {
            s.display().showHistogram(!s.display().showsHistogram());
          },
-         {},
-         true,
-         [](const Session& s) { return s.display().showsHistogram(); }});
+         nullptr, true, [](const Session& s) { return s.display().showsHistogram(); }});
 }
 
 }  // namespace lamplighter

@@ -5,7 +5,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include "editor/document/write_file.h"
 #include "editor/input/recording.h"
 #include "renderer/base/error.h"
 #include "renderer/base/hash.h"

@@ -1,8 +1,6 @@
 #include "editor/bake/bake_job.h"
 
-#include <algorithm>
 #include <bit>
-#include <cstring>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>

@@ -1,6 +1,5 @@
 #include "editor/cli/cli.h"
 
-#include <algorithm>
 #include <iostream>
 #include <new>
 

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -6,7 +5,6 @@
 
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
-#include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 

@@ -17,28 +17,10 @@ using Json = nlohmann::ordered_json;
 Json toJson(const vec3& v) { return {v.x, v.y, v.z}; }
 
 std::string kindOf(const Node& node, bool emissiveMesh) {
-  if (node.area) {
-    switch (node.area->shape) {
-      case AreaShape::rectangle:
-        return "rectangle";
-      case AreaShape::disk:
-        return "disk";
-      case AreaShape::sphere:
-        return "sphere";
-      case AreaShape::tube:
-        return "tube";
-    }
-  }
-  if (node.punctual) {
-    switch (node.punctual->kind) {
-      case PunctualKind::point:
-        return "point";
-      case PunctualKind::spot:
-        return "spot";
-      case PunctualKind::directional:
-        return "directional";
-    }
-  }
+  static constexpr const char* kShapes[] = {"rectangle", "disk", "sphere", "tube"};
+  static constexpr const char* kPunctual[] = {"point", "spot", "directional"};
+  if (node.area) return kShapes[static_cast<size_t>(node.area->shape)];
+  if (node.punctual) return kPunctual[static_cast<size_t>(node.punctual->kind)];
   return emissiveMesh ? "mesh" : "";
 }
 

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <fstream>
 #include <iostream>
-#include <limits>
 
 #include <spdlog/fmt/fmt.h>
 #include <unistd.h>

@@ -111,18 +111,7 @@ void requireView(const FrameRenderer& renderer, DebugView debugView, const Rende
 
 ViewSubject subjectOf(FrameRenderer& renderer, const View& view, const Inspection& inspection,
                       DebugView debugView, int chosen, float ev, RadianceImage& radiance) {
-  ViewSubject subject{renderer.scene(),
-                      *renderer.rays(),
-                      view,
-                      inspection,
-                      chosen,
-                      ev,
-                      ToneMapper::filmic,
-                      {},
-                      {},
-                      {},
-                      {},
-                      {}};
+  ViewSubject subject{renderer.scene(), *renderer.rays(), view, inspection, chosen, ev};
   subject.chosenNode = nodeOfSample(inspection, chosen);
   takeFromBackend(debugView, renderer.backend(), radiance, subject);
   return subject;

@@ -4,7 +4,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "editor/cli/cli.h"
 #include "editor/cli/options.h"

@@ -59,18 +59,9 @@ void ViewDisplay::update(FrameRenderer& renderer, RadianceImage& radiance, const
           chosenLight(inspection)};
   if (picture_ && !changed && key == key_) return;
   key_ = std::move(key);
-  ViewSubject subject{renderer.scene(),
-                      *renderer.rays(),
-                      camera,
-                      inspection,
-                      std::max(key_.chosen, 0),
-                      settings.exposureEv,
-                      toneMapper_,
-                      key_.light,
-                      falseColour_,
-                      nullptr,
-                      {},
-                      {}};
+  ViewSubject subject{
+      renderer.scene(),    *renderer.rays(), camera,     inspection,  std::max(key_.chosen, 0),
+      settings.exposureEv, toneMapper_,      key_.light, falseColour_};
   takeFromBackend(view_, renderer.backend(), radiance, subject);
   picture_ = std::make_shared<ViewPicture>(drawView(view_, subject));
 }

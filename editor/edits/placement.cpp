@@ -67,7 +67,7 @@ float standOff(const Scene& scene, NodeId id, const vec3& n) {
 
 std::optional<Transform> placedOn(const Scene& scene, NodeId id, const SurfacePoint& at) {
   const Node& node = *scene.find(id);
-  const mat4 parent = node.parent == kNoNode ? mat4(1.0f) : worldMatrix(scene, node.parent);
+  const mat4 parent = worldMatrix(scene, node.parent);
   if (!hasVolume(parent)) return std::nullopt;
   Transform local = node.local;
   float off = 0.0f;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/scene/light_linking.h"

@@ -18,7 +18,6 @@
 #pragma once
 
 #include <filesystem>
-#include <iosfwd>
 #include <string>
 #include <variant>
 #include <vector>

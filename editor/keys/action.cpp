@@ -33,7 +33,21 @@ std::vector<std::string> split(std::string_view text) {
   return words;
 }
 
+size_t wordsIn(std::string_view text) {
+  size_t words = 0;
+  for (size_t i = 0; i < text.size(); ++i)
+    if (text[i] != ' ' && (i == 0 || text[i - 1] == ' ')) ++words;
+  return words;
+}
+
 }  // namespace
+
+bool Action::takes(size_t arguments) const {
+  const std::string_view all = usage;
+  const size_t required = wordsIn(all.substr(0, all.find('['))), most = wordsIn(all);
+  return arguments == required || arguments == most ||
+         (all.ends_with("]…") && arguments > required);
+}
 
 Action& ActionRegistry::add(Action action) {
   const std::string name = action.name;

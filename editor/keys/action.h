@@ -40,7 +40,7 @@ struct ActionAsk {
 struct Action {
   std::string name;      // "light.add"
   std::string label;     // "Add area light"
-  std::string usage;     // arguments: "rectangle|disk|sphere"
+  std::string usage;     // arguments: "rectangle|disk|sphere", "WIDTH [HEIGHT]", "FILE [FILE]…"
   std::string help;      // one sentence
   std::string shortcut;  // current shortcut: "Ctrl+D"; "" for none
   std::function<void(Session&, const std::vector<std::string>& arguments)> run;
@@ -60,6 +60,9 @@ struct Action {
       saves;
 
   bool needsArguments() const { return !usage.empty() && usage.front() != '['; }
+  // Whether that many arguments fit the usage: its words, with all of "[A B]" or none, and any
+  // number of "[FILE]…".
+  bool takes(size_t arguments) const;
   // Whether a call without arguments now asks the user.
   bool asksIn(const Session& session) const {
     return asks && (!enabled || enabled(session)) && (!asks->when || asks->when(session));

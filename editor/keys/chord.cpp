@@ -1,6 +1,5 @@
 #include "editor/keys/chord.h"
 
-#include <algorithm>
 #include <cctype>
 
 #include "renderer/base/text.h"

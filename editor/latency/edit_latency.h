@@ -48,7 +48,6 @@ class EditLatency {
   void frame(const Frame& frame);
 
   bool running() const { return running_; }
-  int framesSoFar() const { return frames_; }
   // Newest last. The number of kept results is limited.
   const std::deque<LatencyResult>& results() const { return results_; }
   size_t measured() const { return measured_; }  // since the session began

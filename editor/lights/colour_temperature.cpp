@@ -1,7 +1,6 @@
 #include "editor/lights/colour_temperature.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 namespace lamplighter {

@@ -1,7 +1,6 @@
 #include "editor/lights/light_edits.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/base/error.h"
 

@@ -1,6 +1,5 @@
 #include "editor/lights/light_table_edits.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -75,22 +74,13 @@ bool isTyped(LightColumn column) {
 }
 
 const char* columnName(LightColumn column) {
-  switch (column) {
-    case LightColumn::name:
-      return "name";
-    case LightColumn::strength:
-      return "strength";
-    case LightColumn::temperature:
-      return "temperature";
-    case LightColumn::size:
-      return "size";
-    case LightColumn::group:
-      return "group";
-    case LightColumn::colour:
-      return "colour";
-    default:
-      return "";
-  }
+  static constexpr std::pair<LightColumn, const char*> kNames[] = {
+      {LightColumn::name, "name"},   {LightColumn::strength, "strength"},
+      {LightColumn::size, "size"},   {LightColumn::temperature, "temperature"},
+      {LightColumn::group, "group"}, {LightColumn::colour, "colour"}};
+  for (const auto& [named, name] : kNames)
+    if (named == column) return name;
+  return "";
 }
 
 void editLightTableCells(Editing& editing, LightColumn column, const std::string& text,

@@ -59,28 +59,19 @@ Node newLight(const std::string& kind, float distance, float exposureEv) {
   Node n;
   // Face down: map the light's −Z to the world's −Y.
   n.local.rotation = glm::angleAxis(-0.5f * kPi, vec3(1, 0, 0));
-  switch (index) {
-    case 0:
-    case 1:
-    case 2:
-    case 3:
-      n.area = areaLight(static_cast<AreaShape>(index), distance, exposureEv);
-      break;
-    case 4:
-      n.punctual = punctualLight(PunctualKind::spot, distance, exposureEv);
-      break;
-    case 5:
-      n.punctual = punctualLight(PunctualKind::point, distance, exposureEv);
-      break;
-    case 6:
-      n.punctual = punctualLight(PunctualKind::directional, distance, exposureEv);
-      n.local.rotation = glm::angleAxis(-0.5f * kPi + kSunTilt, vec3(1, 0, 0)) *
-                         glm::angleAxis(0.3f, vec3(0, 1, 0));
-      break;
-    default:
-      throw InputError(kind, "is not a kind of light",
-                       "give rectangle, disk, sphere, tube, spot, point or sun");
+  if (index < 4) {
+    n.area = areaLight(static_cast<AreaShape>(index), distance, exposureEv);
+  } else if (index < static_cast<ptrdiff_t>(kinds.size())) {
+    static constexpr PunctualKind kPunctual[] = {PunctualKind::spot, PunctualKind::point,
+                                                 PunctualKind::directional};
+    n.punctual = punctualLight(kPunctual[index - 4], distance, exposureEv);
+  } else {
+    throw InputError(kind, "is not a kind of light",
+                     "give rectangle, disk, sphere, tube, spot, point or sun");
   }
+  if (kind == "sun")
+    n.local.rotation =
+        glm::angleAxis(-0.5f * kPi + kSunTilt, vec3(1, 0, 0)) * glm::angleAxis(0.3f, vec3(0, 1, 0));
   return n;
 }
 

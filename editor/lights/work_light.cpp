@@ -1,6 +1,5 @@
 #include "editor/lights/work_light.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lamplighter {

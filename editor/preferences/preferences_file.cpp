@@ -1,7 +1,5 @@
 #include "editor/preferences/preferences_file.h"
 
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 

@@ -1,6 +1,5 @@
 #include "editor/recovery/blobs.h"
 
-#include <algorithm>
 #include <fstream>
 
 #include "editor/document/write_file.h"

@@ -4,8 +4,6 @@
 #include <type_traits>
 #include <unordered_map>
 
-#include "renderer/base/error.h"
-
 namespace lamplighter {
 
 namespace {

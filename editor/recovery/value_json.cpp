@@ -159,44 +159,42 @@ struct Reader {
 // The members of each type, listed by structured bindings: a new member does not compile until it
 // is added here, so the journal cannot miss an edit. `A` writes or reads.
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, Transform>
+// A value, const to be written.
+template <typename T, typename Value>
+concept Is = std::same_as<std::remove_const_t<T>, Value>;
+
+template <typename A, Is<Transform> T>
 void fields(A& a, T& v) {
   auto& [translation, rotation, scale, shear] = v;
   a("t", translation), a("r", rotation), a("s", scale), a("h", shear);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, PunctualLight>
+template <typename A, Is<PunctualLight> T>
 void fields(A& a, T& v) {
   auto& [kind, intensity, range, innerCone, outerCone, profile] = v;
   a("kind", kind), a("intensity", intensity), a("range", range), a("inner", innerCone);
   a("outer", outerCone), a("profile", profile);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, AreaLight>
+template <typename A, Is<AreaLight> T>
 void fields(A& a, T& v) {
   auto& [shape, radiance, size, picture] = v;
   a("shape", shape), a("radiance", radiance), a("size", size), a("picture", picture);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, LightState>
+template <typename A, Is<LightState> T>
 void fields(A& a, T& v) {
   auto& [on, solo, group, leftOut] = v;
   a("on", on), a("solo", solo), a("group", group), a("leftOut", leftOut);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, LightGroup>
+template <typename A, Is<LightGroup> T>
 void fields(A& a, T& v) {
   auto& [name, muted, solo] = v;
   a("name", name), a("muted", muted), a("solo", solo);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, Node>
+template <typename A, Is<Node> T>
 void fields(A& a, T& v) {
   auto& [id, name, parent, local, mesh, camera, punctual, area, visible, locked, light, meshKind,
          sourceNode] = v;
@@ -206,16 +204,14 @@ void fields(A& a, T& v) {
   a("light", light), a("meshKind", meshKind), a("sourceNode", sourceNode);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, TextureRef>
+template <typename A, Is<TextureRef> T>
 void fields(A& a, T& v) {
   auto& [texture, texCoord, offset, rotation, scale] = v;
   a("texture", texture), a("texCoord", texCoord), a("offset", offset), a("rotation", rotation);
   a("scale", scale);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, Material>
+template <typename A, Is<Material> T>
 void fields(A& a, T& v) {
   auto& [name, baseColor, baseColorTexture, normalTexture, normalScale, emissive, emissiveTexture,
          metallic, roughness, metallicRoughnessTexture, transmission, alphaMode, alphaCutoff,
@@ -227,47 +223,36 @@ void fields(A& a, T& v) {
   a("alphaMode", alphaMode), a("alphaCutoff", alphaCutoff), a("doubleSided", doubleSided);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, Texture>
+template <typename A, Is<Texture> T>
 void fields(A& a, T& v) {
   auto& [name, image, wrapS, wrapT, nearest, placeholder] = v;
   a("name", name), a("image", image), a("wrapS", wrapS), a("wrapT", wrapT);
   a("nearest", nearest), a("placeholder", placeholder);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, Mesh>
+template <typename A, Is<Mesh> T>
 void fields(A& a, T& v) {
   auto& [name, primitives] = v;
   a("name", name), a("primitives", primitives);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, Camera>
+template <typename A, Is<Camera> T>
 void fields(A& a, T& v) {
   auto& [name, yfov, aspect, znear, zfar] = v;
   a("name", name), a("yfov", yfov), a("aspect", aspect), a("znear", znear), a("zfar", zfar);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, Sky>
+template <typename A, Is<Sky> T>
 void fields(A& a, T& v) {
   auto& [kind, radiance, zenith, horizon, ground, image, rotation, scale] = v;
   a("kind", kind), a("radiance", radiance), a("zenith", zenith), a("horizon", horizon);
   a("ground", ground), a("image", image), a("rotation", rotation), a("scale", scale);
 }
 
-template <typename A, typename T>
-requires std::is_same_v<std::remove_const_t<T>, CameraBookmark>
+template <typename A, Is<CameraBookmark> T>
 void fields(A& a, T& v) {
   auto& [slot, eye, orientation, yfov] = v;
   a("slot", slot), a("eye", eye), a("orientation", orientation), a("yfov", yfov);
-}
-
-template <typename T>
-Json written(const T& value, Blobs& blobs) {
-  Json json = Json::object();
-  return Writer{json, blobs}.put(value);
 }
 
 }  // namespace
@@ -276,25 +261,35 @@ void damagedJournal(const std::string& what) {
   throw InputError("journal", what, "it is damaged; use the autosave beside it");
 }
 
-Json toJson(const Node& v, Blobs& b) { return written(v, b); }
-Json toJson(const Material& v, Blobs& b) { return written(v, b); }
-Json toJson(const Texture& v, Blobs& b) { return written(v, b); }
-Json toJson(const Mesh& v, Blobs& b) { return written(v, b); }
-Json toJson(const Camera& v, Blobs& b) { return written(v, b); }
-Json toJson(const Sky& v, Blobs& b) { return written(v, b); }
-Json toJson(const LightState& v, Blobs& b) { return written(v, b); }
-Json toJson(const LightGroup& v, Blobs& b) { return written(v, b); }
-Json toJson(const CameraBookmark& v, Blobs& b) { return written(v, b); }
+template <typename T>
+Json toJson(const T& value, Blobs& blobs) {
+  Json json;
+  return Writer{json, blobs}.put(value);
+}
 
-void fromJson(const Json& j, Blobs& b, Node& v) { Reader{j, b}.get(j, v); }
-void fromJson(const Json& j, Blobs& b, Material& v) { Reader{j, b}.get(j, v); }
-void fromJson(const Json& j, Blobs& b, Texture& v) { Reader{j, b}.get(j, v); }
-void fromJson(const Json& j, Blobs& b, Mesh& v) { Reader{j, b}.get(j, v); }
-void fromJson(const Json& j, Blobs& b, Camera& v) { Reader{j, b}.get(j, v); }
-void fromJson(const Json& j, Blobs& b, CameraBookmark& v) { Reader{j, b}.get(j, v); }
-void fromJson(const Json& j, Blobs& b, Sky& v) { Reader{j, b}.get(j, v); }
-void fromJson(const Json& j, Blobs& b, LightState& v) { Reader{j, b}.get(j, v); }
-void fromJson(const Json& j, Blobs& b, LightGroup& v) { Reader{j, b}.get(j, v); }
+template <typename T>
+void fromJson(const Json& json, Blobs& blobs, T& value) {
+  Reader{json, blobs}.get(json, value);
+}
+
+template Json toJson(const Node&, Blobs&);
+template void fromJson(const Json&, Blobs&, Node&);
+template Json toJson(const Material&, Blobs&);
+template void fromJson(const Json&, Blobs&, Material&);
+template Json toJson(const Texture&, Blobs&);
+template void fromJson(const Json&, Blobs&, Texture&);
+template Json toJson(const Mesh&, Blobs&);
+template void fromJson(const Json&, Blobs&, Mesh&);
+template Json toJson(const Camera&, Blobs&);
+template void fromJson(const Json&, Blobs&, Camera&);
+template Json toJson(const Sky&, Blobs&);
+template void fromJson(const Json&, Blobs&, Sky&);
+template Json toJson(const LightState&, Blobs&);
+template void fromJson(const Json&, Blobs&, LightState&);
+template Json toJson(const LightGroup&, Blobs&);
+template void fromJson(const Json&, Blobs&, LightGroup&);
+template Json toJson(const CameraBookmark&, Blobs&);
+template void fromJson(const Json&, Blobs&, CameraBookmark&);
 
 // Each value with a letter for its type, because JSON does not distinguish 1 and 1.0.
 Json toJson(const RenderSettings& render, Blobs&) {

@@ -32,26 +32,13 @@ T wholeOf(const Json& json) {
   damagedJournal("a value is not a whole number");
 }
 
-Json toJson(const Node& node, Blobs& blobs);
-Json toJson(const Material& material, Blobs& blobs);
-Json toJson(const Texture& texture, Blobs& blobs);
-Json toJson(const Mesh& mesh, Blobs& blobs);
-Json toJson(const Camera& camera, Blobs& blobs);
-Json toJson(const Sky& sky, Blobs& blobs);
-Json toJson(const LightState& state, Blobs& blobs);
-Json toJson(const LightGroup& group, Blobs& blobs);
-Json toJson(const CameraBookmark& bookmark, Blobs& blobs);
-Json toJson(const RenderSettings& render, Blobs& blobs);
+// Of a node, material, texture, mesh, camera, sky, state or group of lights, or bookmark.
+template <typename T>
+Json toJson(const T& value, Blobs& blobs);
+template <typename T>
+void fromJson(const Json& json, Blobs& blobs, T& value);
 
-void fromJson(const Json& json, Blobs& blobs, Node& node);
-void fromJson(const Json& json, Blobs& blobs, Material& material);
-void fromJson(const Json& json, Blobs& blobs, Texture& texture);
-void fromJson(const Json& json, Blobs& blobs, Mesh& mesh);
-void fromJson(const Json& json, Blobs& blobs, Camera& camera);
-void fromJson(const Json& json, Blobs& blobs, Sky& sky);
-void fromJson(const Json& json, Blobs& blobs, LightState& state);
-void fromJson(const Json& json, Blobs& blobs, LightGroup& group);
-void fromJson(const Json& json, Blobs& blobs, CameraBookmark& bookmark);
+Json toJson(const RenderSettings& render, Blobs& blobs);
 void fromJson(const Json& json, Blobs& blobs, RenderSettings& render);
 
 }  // namespace lamplighter

@@ -72,6 +72,10 @@ void Session::perform(std::string_view text) {
   const auto [action, arguments] = actions_.parse(text);
   if (!action.duringDrag) finishDrag();
   if (action.enabled && !action.enabled(*this)) return;
+  if (!action.takes(arguments.size()))
+    throw InputError(action.name + " " + action.usage,
+                     std::to_string(arguments.size()) + " arguments do not fit",
+                     "give them as shown");
   action.run(*this, arguments);
   home_->ran.insert(action.name);
 }

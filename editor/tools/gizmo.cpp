@@ -45,14 +45,6 @@ std::optional<float> nearestOnAxis(const vec3& origin, const vec3& axis, const L
   return t;
 }
 
-std::optional<vec3> onPlane(const vec3& origin, const vec3& normal, const Line& ray) {
-  const float along = glm::dot(normal, ray.direction);
-  if (std::abs(along) < 1e-4f) return std::nullopt;
-  const float t = glm::dot(normal, origin - ray.origin) / along;
-  if (t <= 0.0f) return std::nullopt;
-  return ray.origin + t * ray.direction;
-}
-
 // The rotation in a matrix that rotates, scales uniformly and may mirror; none for other matrices.
 // A mirroring matrix is minus a rotation. The minus cancels when a rotation is transformed by it.
 std::optional<quat> turnOf(const mat3& a) {
@@ -68,9 +60,9 @@ std::optional<quat> turnOf(const mat3& a) {
 
 float snapped(float value, float step) { return std::round(value / step) * step; }
 
-bool insideQuad(const vec2& p, const vec2 (&q)[4]) {
+bool insideQuad(const vec2& p, const std::vector<vec2>& q) {
   bool positive = false, negative = false;
-  for (int i = 0; i < 4; ++i) {
+  for (size_t i = 0; i < 4; ++i) {
     const vec2 e = q[(i + 1) % 4] - q[i], d = p - q[i];
     const float cross = e.x * d.y - e.y * d.x;
     (cross > 0.0f ? positive : negative) = true;
@@ -92,6 +84,18 @@ std::optional<Gizmo::Axes> Gizmo::axesOf(const View& view, const Document& docum
   if (mode == ToolMode::scale) a.axes = glm::mat3_cast(decompose(world).rotation);
   a.size = kReach * metresPerPixel(view, a.origin);
   return a;
+}
+
+// The square between two axes that moves in their plane, in pixels; fewer than 4 points if a part
+// of it is behind the eye. `normal`: index of the third axis.
+std::vector<vec2> Gizmo::planeSquare(const View& view, const Axes& axes, int normal) {
+  const vec3 u = axes.size * axes.axes[(normal + 1) % 3],
+             v = axes.size * axes.axes[(normal + 2) % 3];
+  std::vector<vec2> square;
+  for (const vec2& t : {vec2(kPlaneFrom, kPlaneFrom), vec2(kPlaneTo, kPlaneFrom),
+                        vec2(kPlaneTo, kPlaneTo), vec2(kPlaneFrom, kPlaneTo)})
+    if (const auto p = projectPoint(view, axes.origin + t.x * u + t.y * v)) square.push_back(*p);
+  return square;
 }
 
 Gizmo::Handle Gizmo::handleAt(const View& view, const Axes& axes, const vec2& pointer) const {
@@ -130,19 +134,8 @@ Gizmo::Handle Gizmo::handleAt(const View& view, const Axes& axes, const vec2& po
   }
   if (best != Handle::none || mode == ToolMode::scale) return best;
   for (int i = 0; i < 3; ++i) {
-    const vec3 u = axes.size * axes.axes[(i + 1) % 3], v = axes.size * axes.axes[(i + 2) % 3];
-    vec2 q[4];
-    bool visible = true;
-    const vec2 corners[4] = {{kPlaneFrom, kPlaneFrom},
-                             {kPlaneTo, kPlaneFrom},
-                             {kPlaneTo, kPlaneTo},
-                             {kPlaneFrom, kPlaneTo}};
-    for (int k = 0; k < 4; ++k) {
-      const auto p = projectPoint(view, axes.origin + corners[k].x * u + corners[k].y * v);
-      visible = visible && p;
-      if (p) q[k] = *p;
-    }
-    if (visible && insideQuad(pointer, q))
+    const std::vector<vec2> quad = planeSquare(view, axes, i);
+    if (quad.size() == 4 && insideQuad(pointer, quad))
       return static_cast<Handle>(static_cast<int>(Handle::yz) + i);
   }
   return Handle::none;
@@ -150,22 +143,16 @@ Gizmo::Handle Gizmo::handleAt(const View& view, const Axes& axes, const vec2& po
 
 std::optional<vec3> Gizmo::gripOf(const View& view, const Axes& a, Handle handle,
                                   const vec2& pointer) const {
-  const Line ray = pointerRay(view, pointer);
   const int index = (static_cast<int>(handle) - 1) % 3;
   std::optional<vec3> point;
   if (handle == Handle::screen) {
-    point = onPlane(a.origin, view.forward(), ray);
+    point = onPlane(view, pointer, a.origin, view.forward());
   } else if (mode == ToolMode::rotate || handle >= Handle::yz) {
-    point = onPlane(a.origin, a.axes[index], ray);
-  } else if (const auto t = nearestOnAxis(a.origin, a.axes[index], ray)) {
+    point = onPlane(view, pointer, a.origin, a.axes[index]);
+  } else if (const auto t = nearestOnAxis(a.origin, a.axes[index], pointerRay(view, pointer))) {
     return *t * a.axes[index];
   }
-  // Near the horizon one pixel spans kilometres.
-  constexpr float kFarthest = 100.0f;  // multiple of the distance to the eye
-  if (!point || glm::length(*point - view.eye) > kFarthest * glm::length(a.origin - view.eye)) {
-    return std::nullopt;
-  }
-  return *point - a.origin;
+  return point ? std::optional(*point - a.origin) : std::nullopt;
 }
 
 // For a ring seen nearly edge-on, the intersection of the ray with its plane is useless. Instead,
@@ -194,7 +181,7 @@ void Gizmo::begin(const View& view, const Axes& axes, Handle handle, const vec2&
   for (const NodeId id : topmost(document.scene, document.selection)) {
     const Node& n = *document.scene.find(id);
     if (isLocked(document.scene, id)) continue;
-    const mat4 parent = n.parent == kNoNode ? mat4(1.0f) : worldMatrix(document.scene, n.parent);
+    const mat4 parent = worldMatrix(document.scene, n.parent);
     if (!hasVolume(parent)) continue;
     d.nodes.push_back(n);
     d.parents.push_back(parent);
@@ -386,12 +373,7 @@ void Gizmo::draw(Overlay& overlay, const View& view, const Document& document) c
     }
     if (mode == ToolMode::move) {
       const Handle plane = static_cast<Handle>(static_cast<int>(Handle::yz) + i);
-      const vec3 u = axes->size * axes->axes[(i + 1) % 3], v = axes->size * axes->axes[(i + 2) % 3];
-      std::vector<vec2> quad;
-      for (const vec2& t : {vec2(kPlaneFrom, kPlaneFrom), vec2(kPlaneTo, kPlaneFrom),
-                            vec2(kPlaneTo, kPlaneTo), vec2(kPlaneFrom, kPlaneTo)}) {
-        if (const auto p = projectPoint(view, axes->origin + t.x * u + t.y * v)) quad.push_back(*p);
-      }
+      const std::vector<vec2> quad = planeSquare(view, *axes, i);
       if (quad.size() == 4)
         overlay.shapes.push_back(
             {quad, true, true, colour(plane, kAxisColours[i]) * vec4(1, 1, 1, 0.45f), 1.0f});

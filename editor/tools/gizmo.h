@@ -59,6 +59,7 @@ class Gizmo {
   };
 
   std::optional<Axes> axesOf(const View& view, const Document& document) const;
+  static std::vector<vec2> planeSquare(const View& view, const Axes& axes, int normal);
   Handle handleAt(const View& view, const Axes& axes, const vec2& pointer) const;
   std::optional<vec3> gripOf(const View& view, const Axes& axes, Handle handle,
                              const vec2& pointer) const;

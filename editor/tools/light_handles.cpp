@@ -47,19 +47,6 @@ vec3 sideOf(const View& view, const vec3& aim) {
   return glm::length(side) > 1e-3f ? glm::normalize(side) : view.right();
 }
 
-// The point where the pointer's ray hits a plane. None behind the eye or parallel to the plane.
-std::optional<vec3> onPlane(const View& view, const vec2& pointer, const vec3& origin,
-                            const vec3& normal) {
-  const vec3 direction = view.rayDirection(pointer.x, pointer.y);
-  const float along = glm::dot(normal, direction);
-  if (std::abs(along) < 1e-4f) return std::nullopt;
-  const float t = glm::dot(normal, origin - view.eye) / along;
-  // multiple of the light's distance; beyond it one pixel spans too much
-  constexpr float kFarthest = 100.0f;
-  if (t <= 0.0f || t > kFarthest * glm::length(origin - view.eye)) return std::nullopt;
-  return view.eye + t * direction;
-}
-
 float snappedUp(float value, float step) { return std::max(step, std::round(value / step) * step); }
 
 // A circle or a square.
@@ -164,8 +151,7 @@ bool LightHandles::update(const View& view, const ViewportInput& in, Editing& ed
   }
   if (hovered_ == Kind::none || !in.pressed[0]) return false;
   const Node& node = *document.scene.find(document.active());
-  const mat4 parent =
-      node.parent == kNoNode ? mat4(1.0f) : worldMatrix(document.scene, node.parent);
+  const mat4 parent = worldMatrix(document.scene, node.parent);
   editing.commit();
   drag_ = Drag{hovered_, node, parent * toMatrix(node.local), parent, editing.begin("")};
   return true;

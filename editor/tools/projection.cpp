@@ -26,6 +26,17 @@ float metresPerPixel(const View& view, const vec3& p) {
   return 2.0f * std::tan(0.5f * view.yfov) * depth / static_cast<float>(view.height);
 }
 
+std::optional<vec3> onPlane(const View& view, const vec2& pixel, const vec3& origin,
+                            const vec3& normal) {
+  const vec3 direction = view.rayDirection(pixel.x, pixel.y);
+  const float along = glm::dot(normal, direction);
+  if (std::abs(along) < 1e-4f) return std::nullopt;
+  const float t = glm::dot(normal, origin - view.eye) / along;
+  constexpr float kFarthest = 100.0f;  // multiple of the distance from the eye to the origin
+  if (t <= 0.0f || t > kFarthest * glm::length(origin - view.eye)) return std::nullopt;
+  return view.eye + t * direction;
+}
+
 float distanceToSegment(const vec2& p, const vec2& a, const vec2& b) {
   const vec2 d = b - a;
   const float length2 = glm::dot(d, d);

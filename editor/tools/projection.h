@@ -19,6 +19,11 @@ std::optional<vec2> projectPoint(const View& view, const vec3& p);
 // The world-space size [m] of a pixel at the distance of p.
 float metresPerPixel(const View& view, const vec3& p);
 
+// The point where the ray through a pixel hits a plane with a unit normal. None behind the eye,
+// parallel to the plane, or so near the horizon that a pixel spans kilometres.
+std::optional<vec3> onPlane(const View& view, const vec2& pixel, const vec3& origin,
+                            const vec3& normal);
+
 float distanceToSegment(const vec2& p, const vec2& a, const vec2& b);
 
 // Adds a world-space line or closed loop to an overlay, clipped at the eye.

@@ -1,7 +1,5 @@
 #include "renderer/bake/baked_light.h"
 
-#include <array>
-
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
 #include "renderer/sampling/light_paths.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/base/error.h"
+#include "renderer/debug_views/debug_views.h"
 #include "renderer/registry/registry.h"
 
 namespace lamplighter {
@@ -10,6 +11,9 @@ namespace {
 
 const std::vector<DebugViewInfo>& fixedViews() {
   using enum Capability;
+  using Needs = std::vector<Capability>;
+  const Needs ofPatches{patches}, ofLights{lights}, ofPatchesAndLights{patches, lights},
+      ofTexels{texels}, ofTransfer{transfer};
   static const std::vector<DebugViewInfo> views = {
       {DebugView::lit, "lit", "Lit", "Alt+1", "The picture as it is."},
       {DebugView::lightOnly, "light_only", "Light only", "Alt+2",
@@ -19,90 +23,55 @@ const std::vector<DebugViewInfo>& fixedViews() {
       {DebugView::indirect, "indirect", "Indirect light", "",
        "Indirect illumination only. The sum with the view Direct light is the lit picture."},
       {DebugView::falseColour, "false_colour", "False colour", "",
-       "Illuminance in lux or luminance in nits in false colour, with a legend."},
-      {DebugView::albedo, "albedo", "Albedo", "Alt+3",
-       "The albedo of surfaces, textures included."},
+       "Illuminance in lux or luminance in nits in false colour, with a legend.",
+       views::falseColour},
+      {DebugView::albedo, "albedo", "Albedo", "Alt+3", "The albedo of surfaces, textures included.",
+       views::albedo},
       {DebugView::normals, "normals", "Normals", "Alt+4",
-       "Shading normals: x, y, z from -1 to 1 as red, green, blue from 0 to 1."},
+       "Shading normals: x, y, z from -1 to 1 as red, green, blue from 0 to 1.", views::normals},
       {DebugView::flat, "flat", "Flat", "Alt+5",
-       "Surfaces lit by a lamp at the camera instead of the level's lights."},
-      {DebugView::patches,
-       "patches",
-       "Patches",
-       "",
+       "Surfaces lit by a lamp at the camera instead of the level's lights.", views::flat},
+      {DebugView::patches, "patches", "Patches", "",
        "The surface patches for which the visibility of each light is stored. Grey ones are "
        "bounding boxes of non-planar geometry.",
-       {patches}},
-      {DebugView::patchLevels,
-       "patch_levels",
-       "Patch levels",
-       "",
+       views::patches, ofPatches},
+      {DebugView::patchLevels, "patch_levels", "Patch levels", "",
        "The subdivision level of patches: higher where many lights are partially occluded.",
-       {patches}},
-      {DebugView::occlusion,
-       "occlusion",
-       "Occlusion",
-       "",
+       views::patchLevels, ofPatches},
+      {DebugView::occlusion, "occlusion", "Occlusion", "",
        "The visibility of one light sample from every patch: visible, partially occluded or "
        "occluded.",
-       {patches, lights}},
-      {DebugView::lightOcclusion,
-       "light_occlusion",
-       "Occlusion of a light",
-       "",
+       views::occlusion, ofPatchesAndLights},
+      {DebugView::lightOcclusion, "light_occlusion", "Occlusion of a light", "",
        "For every patch, the fraction of the chosen light's samples that are surely unoccluded.",
-       {patches, lights}},
-      {DebugView::partialLights,
-       "partial_lights",
-       "Partial lights",
-       "",
+       views::lightOcclusion, ofPatchesAndLights},
+      {DebugView::partialLights, "partial_lights", "Partial lights", "",
        "The number of light samples that need a shadow map lookup, for every patch.",
-       {patches}},
-      {DebugView::lightsPerPatch,
-       "lights_per_patch",
-       "Lights per patch",
-       "",
-       "The number of light samples that reach a part of each patch.",
-       {patches}},
-      {DebugView::lightMaps,
-       "light_maps",
-       "Light maps",
-       "",
-       "The light maps alone: unshadowed light, with a grid of their texels.",
-       {texels}},
-      {DebugView::lightMapDensity,
-       "light_map_density",
-       "Light-map density",
-       "",
-       "The distance between texels of light maps, on the surface.",
-       {texels}},
-      {DebugView::mapAge,
-       "map_age",
-       "Map age",
-       "",
+       views::partialLights, ofPatches},
+      {DebugView::lightsPerPatch, "lights_per_patch", "Lights per patch", "",
+       "The number of light samples that reach a part of each patch.", views::lightsPerPatch,
+       ofPatches},
+      {DebugView::lightMaps, "light_maps", "Light maps", "",
+       "The light maps alone: unshadowed light, with a grid of their texels.", views::lightMaps,
+       ofTexels},
+      {DebugView::lightMapDensity, "light_map_density", "Light-map density", "",
+       "The distance between texels of light maps, on the surface.", views::lightMapDensity,
+       ofTexels},
+      {DebugView::mapAge, "map_age", "Map age", "",
        "The mean number of frames since the light samples that reach a point were updated.",
-       {lights}},
-      {DebugView::pendingPatches,
-       "pending_patches",
-       "Pending patches",
-       "",
+       views::mapAge, ofLights},
+      {DebugView::pendingPatches, "pending_patches", "Pending patches", "",
        "For every patch, the number of light samples that reach it and are not updated yet.",
-       {patches}},
-      {DebugView::shadowMap,
-       "shadow_map",
-       "Shadow map",
-       "",
-       "The shadow map of the chosen light sample, coloured by distance.",
-       {lights}},
+       views::pendingPatches, ofPatches},
+      {DebugView::shadowMap, "shadow_map", "Shadow map", "",
+       "The shadow map of the chosen light sample, coloured by distance.", views::shadowMap,
+       ofLights},
       {DebugView::edgeMask, "edge_mask", "Edge mask", "",
        "Where the low-resolution pass interpolates, and where geometric edges need a sum at every "
-       "pixel."},
-      {DebugView::prtObjects,
-       "prt_objects",
-       "Transfer objects",
-       "",
-       "Which objects are lit by precomputed transfer.",
-       {transfer}},
+       "pixel.",
+       views::edgeMask},
+      {DebugView::prtObjects, "prt_objects", "Transfer objects", "",
+       "Which objects are lit by precomputed transfer.", views::prtObjects, ofTransfer},
   };
   return views;
 }
@@ -116,7 +85,7 @@ std::vector<DebugViewInfo> allViews() {
     for (const MethodView& view : method.views) {
       const auto id = static_cast<DebugView>(kFirstOfMethods + static_cast<int>(all.size()) -
                                              static_cast<int>(fixedViews().size()));
-      all.push_back({id, view.name, view.label, "", view.help, {}, method.name});
+      all.push_back({id, view.name, view.label, "", view.help, nullptr, {}, method.name});
     }
   }
   return all;

@@ -37,12 +37,17 @@ enum class DebugView {
   prtObjects
 };
 
+struct ViewPicture;
+struct ViewSubject;
+
 struct DebugViewInfo {
   DebugView view;
-  std::string name;                    // for --view, and for actions after "view."
-  std::string label;                   // in the menu
-  std::string key;                     // "" for none; rebindable
-  std::string help;                    // one sentence
+  std::string name;   // for --view, and for actions after "view."
+  std::string label;  // in the menu
+  std::string key;    // "" for none; rebindable
+  std::string help;   // one sentence
+  // Null: the picture is radiance, or the method draws it.
+  ViewPicture (*draw)(const ViewSubject& subject) = nullptr;
   std::vector<Capability> needs = {};  // of the method
   std::string method = {};             // that draws the view; "": it is no view of a method
 };

@@ -1,11 +1,14 @@
-// The views of patches and of light; each is a function of the subject. The others are in
-// view_picture.cpp. The data that a view needs must exist (see problemOf).
+// The views that are no radiance and not drawn by a method; each is a function of the subject. The
+// data that a view needs must exist (see problemOf).
 #pragma once
 
 #include "renderer/debug_views/view_picture.h"
 
 namespace lamplighter::views {
 
+ViewPicture albedo(const ViewSubject& subject);
+ViewPicture normals(const ViewSubject& subject);
+ViewPicture flat(const ViewSubject& subject);
 ViewPicture patches(const ViewSubject& subject);
 ViewPicture patchLevels(const ViewSubject& subject);
 ViewPicture occlusion(const ViewSubject& subject);

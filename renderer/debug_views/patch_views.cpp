@@ -1,6 +1,5 @@
 // Views of patch data: the patches themselves, and the visibility of lights on them.
 #include <array>
-#include <cmath>
 
 #include "renderer/debug_views/debug_views.h"
 #include "renderer/debug_views/painter.h"

@@ -20,11 +20,19 @@ vec3 flatColour(const Seen& s) {
   return encoded(s.surface.albedo * (0.15f + 0.85f * s.facing));
 }
 
-ViewPicture flat(const ViewSubject& in) {
-  return {Painter(in).paint([](const Seen& s, size_t) { return flatColour(s); }), {}, ""};
+}  // namespace
+
+ViewPicture views::albedo(const ViewSubject& in) {
+  return {Painter(in).paint([](const Seen& s, size_t) { return encoded(s.surface.albedo); })};
 }
 
-}  // namespace
+ViewPicture views::normals(const ViewSubject& in) {
+  return {Painter(in).paint([](const Seen& s, size_t) { return 0.5f + 0.5f * s.normal; })};
+}
+
+ViewPicture views::flat(const ViewSubject& in) {
+  return {Painter(in).paint([](const Seen& s, size_t) { return flatColour(s); })};
+}
 
 NodeId nodeOfSample(const Inspection& inspection, int chosenLight) {
   if (inspection.lights.empty()) return kNoNode;
@@ -43,10 +51,6 @@ std::string problemOf(DebugView view, const ViewSubject& in) {
   if (view == DebugView::falseColour && in.radiance == nullptr) return "nothing is rendered yet";
   return "";
 }
-
-}  // namespace
-
-namespace {
 
 // "it needs texels: many_lights with the technique light_maps".
 std::string whoShows(Capability capability) {
@@ -86,54 +90,13 @@ ViewPicture drawView(DebugView view, const ViewSubject& in) {
   std::string problem = problemOf(view, in.inspection);
   if (problem.empty()) problem = problemOf(view, in);
   if (!problem.empty()) {
-    ViewPicture out = flat(in);
+    ViewPicture out = views::flat(in);
     out.problem = problem;
     return out;
   }
-  switch (view) {
-    case DebugView::albedo:
-      return {Painter(in).paint([](const Seen& s, size_t) { return encoded(s.surface.albedo); }),
-              {},
-              ""};
-    case DebugView::normals:
-      return {
-          Painter(in).paint([](const Seen& s, size_t) { return 0.5f + 0.5f * s.normal; }), {}, ""};
-    case DebugView::patches:
-      return views::patches(in);
-    case DebugView::patchLevels:
-      return views::patchLevels(in);
-    case DebugView::occlusion:
-      return views::occlusion(in);
-    case DebugView::partialLights:
-      return views::partialLights(in);
-    case DebugView::lightMaps:
-      return views::lightMaps(in);
-    case DebugView::falseColour:
-      return views::falseColour(in);
-    case DebugView::lightOcclusion:
-      return views::lightOcclusion(in);
-    case DebugView::lightsPerPatch:
-      return views::lightsPerPatch(in);
-    case DebugView::pendingPatches:
-      return views::pendingPatches(in);
-    case DebugView::lightMapDensity:
-      return views::lightMapDensity(in);
-    case DebugView::shadowMap:
-      return views::shadowMap(in);
-    case DebugView::edgeMask:
-      return views::edgeMask(in);
-    case DebugView::prtObjects:
-      return views::prtObjects(in);
-    case DebugView::mapAge:
-      return views::mapAge(in);
-    case DebugView::lit:
-    case DebugView::lightOnly:
-    case DebugView::direct:
-    case DebugView::indirect:
-    case DebugView::flat:
-      return flat(in);
-  }
-  return in.inspection.pictures.at(infoOf(view).name)();  // of a method
+  const DebugViewInfo& info = infoOf(view);
+  if (info.draw != nullptr) return info.draw(in);
+  return isRadiance(view) ? views::flat(in) : in.inspection.pictures.at(info.name)();
 }
 
 }  // namespace lamplighter

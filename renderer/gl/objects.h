@@ -14,8 +14,8 @@ class Object {
  public:
   Object() = default;  // holds no object
   template <typename... Arguments>
-  requires(sizeof...(Arguments) > 0 || !Kind::kNeedsArguments) static Object
-      make(Arguments... arguments) {
+  requires requires(Arguments... arguments) { Kind::create(arguments...); }
+  static Object make(Arguments... arguments) {
     Object o;
     o.name_ = Kind::create(arguments...);
     return o;
@@ -36,65 +36,46 @@ class Object {
   GLuint name_ = 0;
 };
 
+// The name from a function of OpenGL that creates several objects.
+template <typename Create, typename... Arguments>
+GLuint created(Create create, Arguments... arguments) {
+  GLuint name = 0;
+  create(arguments..., 1, &name);
+  return name;
+}
+
 struct BufferKind {
-  static constexpr bool kNeedsArguments = false;
-  static GLuint create() {
-    GLuint name = 0;
-    glCreateBuffers(1, &name);
-    return name;
-  }
+  static GLuint create() { return created(glCreateBuffers); }
   static void destroy(GLuint name) { glDeleteBuffers(1, &name); }
 };
 
 struct TextureKind {
-  static constexpr bool kNeedsArguments = true;
-  static GLuint create(GLenum target) {
-    GLuint name = 0;
-    glCreateTextures(target, 1, &name);
-    return name;
-  }
+  static GLuint create(GLenum target) { return created(glCreateTextures, target); }
   static void destroy(GLuint name) { glDeleteTextures(1, &name); }
 };
 
 struct FramebufferKind {
-  static constexpr bool kNeedsArguments = false;
-  static GLuint create() {
-    GLuint name = 0;
-    glCreateFramebuffers(1, &name);
-    return name;
-  }
+  static GLuint create() { return created(glCreateFramebuffers); }
   static void destroy(GLuint name) { glDeleteFramebuffers(1, &name); }
 };
 
 struct VertexArrayKind {
-  static constexpr bool kNeedsArguments = false;
-  static GLuint create() {
-    GLuint name = 0;
-    glCreateVertexArrays(1, &name);
-    return name;
-  }
+  static GLuint create() { return created(glCreateVertexArrays); }
   static void destroy(GLuint name) { glDeleteVertexArrays(1, &name); }
 };
 
 struct ShaderKind {
-  static constexpr bool kNeedsArguments = true;
   static GLuint create(GLenum stage) { return glCreateShader(stage); }
   static void destroy(GLuint name) { glDeleteShader(name); }
 };
 
 struct ProgramKind {
-  static constexpr bool kNeedsArguments = false;
   static GLuint create() { return glCreateProgram(); }
   static void destroy(GLuint name) { glDeleteProgram(name); }
 };
 
 struct QueryKind {
-  static constexpr bool kNeedsArguments = true;
-  static GLuint create(GLenum kind) {
-    GLuint name = 0;
-    glCreateQueries(kind, 1, &name);
-    return name;
-  }
+  static GLuint create(GLenum kind) { return created(glCreateQueries, kind); }
   static void destroy(GLuint name) { glDeleteQueries(1, &name); }
 };
 

@@ -1,13 +1,9 @@
 // Decodes encoded images in memory with OpenImageIO's readers.
-#include <array>
-#include <cmath>
-#include <cstring>
 #include <string_view>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include "renderer/base/error.h"
 #include "renderer/base/text.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/open_picture.h"
@@ -93,6 +89,17 @@ Opened open(std::span<const uint8_t> bytes, std::string& why) {
   return opened;
 }
 
+// The samples of all channels; empty if they cannot be read.
+template <typename Sample>
+std::vector<Sample> samplesOf(const Opened& opened, OIIO::TypeDesc type, std::string& why) {
+  if (opened.input == nullptr) return {};
+  const OIIO::ImageSpec& spec = opened.input->spec();
+  std::vector<Sample> samples(spec.image_pixels() * static_cast<size_t>(spec.nchannels));
+  if (opened.input->read_image(0, 0, 0, spec.nchannels, type, samples.data())) return samples;
+  why = "cannot be decoded (" + oneLine(opened.input->geterror()) + ")";
+  return {};
+}
+
 }  // namespace
 
 bool checkImageHeader(std::span<const uint8_t> bytes, std::string& why) {
@@ -101,15 +108,10 @@ bool checkImageHeader(std::span<const uint8_t> bytes, std::string& why) {
 
 std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& why) {
   const Opened opened = open(bytes, why);
-  if (opened.input == nullptr) return std::nullopt;
+  const auto raw = samplesOf<uint8_t>(opened, OIIO::TypeDesc::UINT8, why);
+  if (raw.empty()) return std::nullopt;
   const OIIO::ImageSpec& spec = opened.input->spec();
-  const size_t channels = static_cast<size_t>(spec.nchannels);
-  const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
-  std::vector<uint8_t> raw(pixels * channels);
-  if (!opened.input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, raw.data())) {
-    why = "cannot be decoded (" + oneLine(opened.input->geterror()) + ")";
-    return std::nullopt;
-  }
+  const size_t channels = static_cast<size_t>(spec.nchannels), pixels = raw.size() / channels;
   Image8 image(spec.width, spec.height);
   const bool isGray = channels <= 2, hasAlpha = channels == 2 || channels >= 4;
   for (size_t i = 0; i < pixels; ++i) {
@@ -125,15 +127,10 @@ std::optional<Image8> decodeImage8(std::span<const uint8_t> bytes, std::string& 
 
 std::optional<Image> decodeImage(std::span<const uint8_t> bytes, std::string& why) {
   const Opened opened = open(bytes, why);
-  if (opened.input == nullptr) return std::nullopt;
+  const auto raw = samplesOf<float>(opened, OIIO::TypeDesc::FLOAT, why);
+  if (raw.empty()) return std::nullopt;
   const OIIO::ImageSpec& spec = opened.input->spec();
-  const size_t channels = static_cast<size_t>(spec.nchannels);
-  const size_t pixels = static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height);
-  std::vector<float> raw(pixels * channels);
-  if (!opened.input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, raw.data())) {
-    why = "cannot be decoded (" + oneLine(opened.input->geterror()) + ")";
-    return std::nullopt;
-  }
+  const size_t channels = static_cast<size_t>(spec.nchannels), pixels = raw.size() / channels;
   const bool isEncoded = spec.format.basetype == OIIO::TypeDesc::UINT8 ||
                          spec.format.basetype == OIIO::TypeDesc::UINT16;
   Image image(spec.width, spec.height);

@@ -1,7 +1,5 @@
 #include "renderer/image/image_io.h"
 
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include <OpenImageIO/filesystem.h>

@@ -1,7 +1,5 @@
 #include "renderer/light_maps/patch_lights.h"
 
-#include <algorithm>
-
 namespace lamplighter {
 
 void PatchLights::uses(uint32_t object, int leaf, bool mapped, std::span<ShadowMode> bySlot) const {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "renderer/prt/incident_light_points.h"
-#include "renderer/prt/transfer.h"
 
 namespace lamplighter {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "renderer/base/low_discrepancy.h"
 #include "shaders/shared/vpl_shading.h"

@@ -1,7 +1,5 @@
 #include "renderer/sampling/direct_vpls.h"
 
-#include <algorithm>
-
 #include "renderer/base/random.h"
 #include "renderer/scene/ies/ies_profile.h"
 

@@ -1,7 +1,5 @@
 #include "renderer/sampling/directional_origins.h"
 
-#include <algorithm>
-
 #include "renderer/base/random.h"
 
 namespace lamplighter {

@@ -1,6 +1,5 @@
 #include "renderer/scene/light_linking.h"
 
-#include <algorithm>
 #include <map>
 
 #include "renderer/scene/scene.h"

@@ -1,7 +1,6 @@
 #include "renderer/scene/sky.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "renderer/base/error.h"
 #include "renderer/base/hash.h"

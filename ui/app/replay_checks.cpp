@@ -4,7 +4,6 @@
 #include <iostream>
 #include <utility>
 
-#include "renderer/base/error.h"
 #include "renderer/image/image_io.h"
 #include "ui/app/picture_check.h"
 

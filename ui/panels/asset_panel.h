@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "editor/assets/asset_folder.h"
 #include "ui/widgets/widgets.h"

@@ -1,7 +1,6 @@
 #include "ui/panels/command_palette.h"
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 
 #include <imgui_stdlib.h>
@@ -106,16 +105,12 @@ std::string CommandPalette::draw(PanelContext ui) {
     ui.name(action.name);
     if (i == chosen_ && (down || up)) ImGui::SetScrollHereY();
     ImGui::SameLine(0, 0);
-    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(enabled ? theme::kText : theme::kTextDim));
-    ImGui::TextUnformatted(label.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
+    colouredText(label, enabled ? theme::kText : theme::kTextDim);
     ImGui::SameLine(ui.px(250));
-    ImGui::TextUnformatted(action.name.c_str());
+    colouredText(action.name, theme::kTextDim);
     const float width = ImGui::CalcTextSize(action.shortcut.c_str()).x;
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
-    ImGui::TextUnformatted(action.shortcut.c_str());
-    ImGui::PopStyleColor();
+    colouredText(action.shortcut, theme::kTextDim);
     ImGui::PopID();
   }
   if (found.empty()) note("No action with this name.");

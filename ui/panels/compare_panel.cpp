@@ -30,16 +30,10 @@ std::optional<std::string> sideCombo(const PanelContext& ui, const char* label,
   labelledRow(ui, label,
               "live: the picture as it is set here. Others can be had by the action split.on, with "
               "parameters of their own.");
-  std::optional<std::string> chosen;
-  const bool open = ImGui::BeginCombo(("##" + widget).c_str(), current.c_str());
-  ui.name(widget);
-  if (!open) return chosen;
-  for (const std::string& side : sides()) {
-    if (ImGui::Selectable(side.c_str(), side == current) && side != current) chosen = side;
-    ui.name(widget + "/" + side);
-  }
-  ImGui::EndCombo();
-  return chosen;
+  const std::vector<std::string> all = sides();
+  const int chosen = combo(ui, widget, current, all);
+  if (chosen == kNone || all[static_cast<size_t>(chosen)] == current) return std::nullopt;
+  return all[static_cast<size_t>(chosen)];
 }
 
 void errorRow(const PanelContext& ui, Requests& requests) {
@@ -78,14 +72,9 @@ void shownRow(const PanelContext& ui, Requests& requests) {
   for (const Choice& choice : kChoices) {
     if (&choice != &kChoices.front()) ImGui::SameLine(0, gap);
     const bool holds = choice.shown ? split.on() && split.shown() == *choice.shown : !split.on();
-    if (holds) {
-      ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
-      ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
-    }
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.px(2), ui.px(4)});
-    const bool clicked = ImGui::Button(choice.label, {width, 0});
+    const bool clicked = toggleButton(choice.label, holds, {width, 0});
     ImGui::PopStyleVar();
-    if (holds) ImGui::PopStyleColor(2);
     ui.name(std::string("show/") + choice.widget);
     tooltip(ui, choice.help);
     if (clicked && !holds) requests.actions.push_back(std::string("split.show ") + choice.widget);

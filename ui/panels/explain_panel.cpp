@@ -27,19 +27,6 @@ unsigned colourOf(LightArrival state) {
   }
 }
 
-void coloured(const std::string& text, unsigned colour) {
-  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(colour));
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
-}
-
-// Right-aligned in its column.
-void number(const std::string& text, unsigned colour = theme::kText) {
-  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-  if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
-  coloured(text, colour);
-}
-
 std::string stateText(const LightShare& l) {
   const std::string name = nameOf(l.state);
   return l.state == LightArrival::partly ? fmt::format("{} {}/{}", name, l.seen, l.facing) : name;
@@ -76,9 +63,10 @@ void header(const PanelContext& ui, const Explanation& e, Requests& requests) {
   ui.name("close");
   tooltip(ui, "Close");
   const vec3& p = e.point.position;
-  coloured(fmt::format("{}  at {:.2f}, {:.2f}, {:.2f}", e.object, p.x, p.y, p.z), theme::kTextDim);
+  colouredText(fmt::format("{}  at {:.2f}, {:.2f}, {:.2f}", e.object, p.x, p.y, p.z),
+               theme::kTextDim);
   ImGui::SameLine(0, ui.px(14));
-  coloured(luxText(e.irradiance), theme::kAccent);
+  colouredText(luxText(e.irradiance), theme::kAccent);
   ui.name("irradiance");
   tooltip(ui, "Light that falls on the surface, of all lights and bounces together.");
 }
@@ -114,15 +102,15 @@ void lightRow(const PanelContext& ui, const Explanation& e, int row, bool chosen
   ui.name("row." + std::to_string(row));
   tooltip(ui, l.name + ": " + stateHelp(l));
   ImGui::TableNextColumn();
-  coloured(stateText(l), colourOf(l.state));
+  colouredText(stateText(l), colourOf(l.state));
   ImGui::TableNextColumn();
-  number(l.direct > 0.0f ? threeDigits(l.direct) : "\u2013",
-         gives ? theme::kText : theme::kTextDim);
+  rightAligned(l.direct > 0.0f ? threeDigits(l.direct) : "\u2013",
+               gives ? theme::kText : theme::kTextDim);
   ImGui::TableNextColumn();
-  number(l.bounced > 0.0f ? threeDigits(l.bounced) : "\u2013",
-         gives ? theme::kText : theme::kTextDim);
+  rightAligned(l.bounced > 0.0f ? threeDigits(l.bounced) : "\u2013",
+               gives ? theme::kText : theme::kTextDim);
   ImGui::TableNextColumn();
-  number(percentText(e.shareOf(l)), gives ? theme::kText : theme::kTextDim);
+  rightAligned(percentText(e.shareOf(l)), gives ? theme::kText : theme::kTextDim);
   ImGui::TableNextColumn();
   if (!l.blockers.empty()) blockers(ui, l, row, requests);
   ImGui::PopID();
@@ -156,12 +144,7 @@ Rect explainPanel(PanelContext ui, const Rect& view, Requests& requests) {
   const float tableHeight = std::ceil(rows * (rowHeight + ui.px(1)) + ui.px(4));
   ImGui::SetNextWindowPos({std::max(view.max.x - gap - width, 0.0f), view.min.y + gap});
   ImGui::SetNextWindowSize({width, 0.0f});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-  ImGui::Begin(
-      "##explain", nullptr,
-      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PopStyleVar(2);
+  beginOverlay(ui, "##explain");
   header(ui, *answer, requests);
   if (answer->lights.empty()) {
     note("The level has no light.");

@@ -80,16 +80,12 @@ void exposureField(const PanelContext& ui, Requests& requests) {
 void mapperCombo(const PanelContext& ui, Requests& requests) {
   const ToneMapperInfo& now = infoOf(ui.session.display().toneMapper());
   labelledRow(ui, "Tone mapper", now.help);
-  const bool open = ImGui::BeginCombo("##mapper", now.label);
-  ui.name("tone_mapper");
-  if (!open) return;
-  for (const ToneMapperInfo& m : toneMappers()) {
-    if (ImGui::Selectable(m.label, m.mapper == now.mapper))
-      requests.actions.push_back(std::string("view.tone_mapper ") + m.name);
-    ui.name(std::string("tone_mapper/") + m.name);
-    tooltip(ui, m.help);
-  }
-  ImGui::EndCombo();
+  std::vector<ComboItem> items;
+  for (const ToneMapperInfo& m : toneMappers()) items.push_back({m.name, m.label, m.help});
+  const int chosen =
+      combo(ui, "tone_mapper", now.label, items, static_cast<int>(&now - toneMappers().data()));
+  if (chosen != kNone)
+    requests.actions.push_back("view.tone_mapper " + items[static_cast<size_t>(chosen)].name);
 }
 
 }  // namespace
@@ -103,12 +99,7 @@ Rect histogramPanel(PanelContext ui, const Rect& view, Requests& requests) {
                                ui.px(kLeastHistogramWidth));
   ImGui::SetNextWindowPos({view.max.x - gap, view.max.y - gap}, ImGuiCond_Always, {1.0f, 1.0f});
   ImGui::SetNextWindowSize({width, 0.0f});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-  ImGui::Begin(
-      "##histogram", nullptr,
-      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PopStyleVar(2);
+  beginOverlay(ui, "##histogram");
   const Histogram& h =
       session.display().histogram(session.output().radiance, session.document().render.exposureEv);
   // If space is short, first the fields are hidden, because the render panel and the menu also have

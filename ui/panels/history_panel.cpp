@@ -32,12 +32,7 @@ Rect historyPanel(PanelContext ui, const Rect& view, Requests& requests) {
       std::min(std::min(count, kRows) * row + rest, std::max(view.size().y - 2.0f * gap, row));
   ImGui::SetNextWindowPos({view.min.x + gap, view.max.y - gap}, ImGuiCond_Always, {0.0f, 1.0f});
   ImGui::SetNextWindowSize({std::min(ui.px(kHistoryWidth), view.size().x - 2.0f * gap), height});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
-  ImGui::Begin(
-      "##history", nullptr,
-      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PopStyleVar(2);
+  beginOverlay(ui, "##history");
   ImGui::TextUnformatted("History");
   ImGui::BeginChild("##steps", {0, -row});
   const size_t now = history.position();

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <set>
 #include <sstream>
 
 #include "editor/actions/arguments.h"
@@ -22,52 +20,25 @@ constexpr const char *kEngineMenu = ">Engine", *kSplitMenu = ">Compare";
 
 std::vector<std::string> viewActions() {
   std::vector<std::string> names;
-  const auto add = [&](bool engine) {
+  const auto add = [&](std::initializer_list<const char*> more) {
+    names.insert(names.end(), more.begin(), more.end());
+  };
+  const auto addViews = [&](bool engine) {
     for (const DebugViewInfo& info : debugViews())
       if (isOfEngine(info.view) == engine) names.push_back(std::string("view.") + info.name);
   };
-  add(false);
-  names.emplace_back(kEngineMenu);
-  add(true);
-  names.insert(names.end(), {"view.choose_light",
-                             "view.choose_vpl",
-                             "<",
-                             "-",
-                             "view.false_colour_unit",
-                             "view.false_colour_range",
-                             "-",
-                             "view.vpls",
-                             "view.probe",
-                             "view.histogram",
-                             "view.tone_mapper",
-                             "-",
-                             "split.on",
-                             kSplitMenu,
-                             "split.show",
-                             "split.toggle",
-                             "split.heat",
-                             "split.heat_scale",
-                             "split.position",
-                             "split.off",
-                             "<",
-                             "-",
-                             ">Camera",
-                             "view.frame_all",
-                             "view.frame_selection",
-                             "-",
-                             "camera.go",
-                             "bookmark.go",
-                             "bookmark.store",
-                             "bookmark.clear",
-                             "<",
-                             ">Window",
-                             "panel.assets",
-                             "panel.log",
-                             "panel.next",
-                             "panel.previous",
-                             "view.ui_scale",
-                             "<",
-                             "view.work_light"});
+  addViews(false);
+  add({kEngineMenu});
+  addViews(true);
+  add({"view.choose_light", "view.choose_vpl", "<", "-"});
+  add({"view.false_colour_unit", "view.false_colour_range", "-"});
+  add({"view.vpls", "view.probe", "view.histogram", "view.tone_mapper", "-", "split.on"});
+  add({kSplitMenu, "split.show", "split.toggle", "split.heat", "split.heat_scale"});
+  add({"split.position", "split.off", "<", "-"});
+  add({">Camera", "view.frame_all", "view.frame_selection", "-", "camera.go"});
+  add({"bookmark.go", "bookmark.store", "bookmark.clear", "<"});
+  add({">Window", "panel.assets", "panel.log", "panel.next", "panel.previous"});
+  add({"view.ui_scale", "<", "view.work_light"});
   return names;
 }
 

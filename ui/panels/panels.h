@@ -2,7 +2,6 @@
 // placed.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +42,11 @@ void areaLightFields(PanelContext ui, const Node& node, Requests& requests);
 void punctualLightFields(PanelContext ui, const Node& node, Requests& requests);
 void profileFields(const PanelContext& ui, const Node& node, Requests& requests);  // for IES files
 void pictureFields(const PanelContext& ui, const Node& node, Requests& requests);
+// A button that chooses a file by an action and, if there is one, a button that removes it. `what`:
+// prefix of the widgets. `file`: null if there is none. Returns whether there is one.
+bool fileButtons(const PanelContext& ui, const std::string& what, const std::string& action,
+                 const std::string* file, Requests& requests);
+std::span<const ComboItem> meshKindItems();  // in the order of MeshKind
 // The objects that a light, or the sky (kNoNode), excludes by light linking; and the same for all
 // selected lights.
 void linkFields(const PanelContext& ui, NodeId light, InspectorState& state);
@@ -57,6 +61,10 @@ struct TimelineState {
 void renderPanel(PanelContext ui, TimelineState& state, Requests& requests);
 void compareSection(const PanelContext& ui, Requests& requests);
 void timelineSection(const PanelContext& ui, TimelineState& state, Requests& requests);
+// The field of a parameter, from its declaration. `tracks`: a drag is one undo step of the
+// document. Returns the new value if it changed.
+std::optional<ParameterValue> parameterField(const PanelContext& ui, const ParameterSpec& spec,
+                                             const Settings& settings, bool tracks);
 // The method's parameters of a group, under a collapsible header. Draws nothing if the group is
 // empty.
 void parameterSection(const PanelContext& ui, const MethodInfo& method, ParameterGroup group);

@@ -25,48 +25,34 @@ std::string formatOf(const ParameterSpec& spec, const char* number) {
   return format;
 }
 
-// Draws a field from the declaration of the parameter. Returns the new value if it changed.
+}  // namespace
+
 std::optional<ParameterValue> parameterField(const PanelContext& ui, const ParameterSpec& spec,
-                                             const Settings& settings) {
+                                             const Settings& settings, bool tracks) {
   const std::string id = "##" + spec.name;
-  const std::string step = "Change " + spec.label;
   if (std::holds_alternative<bool>(spec.defaultValue)) {
     bool value = settings.boolean(spec);
     const bool changed = ImGui::Checkbox(id.c_str(), &value);
     ui.name(spec.name);
     return changed ? std::optional<ParameterValue>(value) : std::nullopt;
   }
-  if (std::holds_alternative<int>(spec.defaultValue)) {
-    int value = settings.integer(spec);
-    const auto low = static_cast<int>(spec.minimum), high = static_cast<int>(spec.maximum);
-    const bool changed =
-        valueSlider(id.c_str(), value, low, high, formatOf(spec, "%d").c_str(), sliderFlags(spec));
-    ui.name(spec.name);
-    trackEdit(ui, step);
-    return changed ? std::optional<ParameterValue>(std::clamp(value, low, high)) : std::nullopt;
-  }
-  if (std::holds_alternative<float>(spec.defaultValue)) {
-    float value = settings.real(spec);
-    const auto low = static_cast<float>(spec.minimum), high = static_cast<float>(spec.maximum);
-    const bool changed = valueSlider(id.c_str(), value, low, high, formatOf(spec, "%.3g").c_str(),
+  const auto number = [&](auto value, const char* format) {
+    const auto low = static_cast<decltype(value)>(spec.minimum),
+               high = static_cast<decltype(value)>(spec.maximum);
+    const bool changed = valueSlider(id.c_str(), value, low, high, formatOf(spec, format).c_str(),
                                      sliderFlags(spec));
     ui.name(spec.name);
-    trackEdit(ui, step);
+    if (tracks) trackEdit(ui, "Change " + spec.label);
     return changed ? std::optional<ParameterValue>(std::clamp(value, low, high)) : std::nullopt;
-  }
-  const std::string value = settings.choice(spec);
-  std::optional<ParameterValue> chosen;
-  const bool open = ImGui::BeginCombo(id.c_str(), value.c_str());
-  ui.name(spec.name);
-  if (open) {
-    for (const std::string& choice : spec.choices) {
-      if (ImGui::Selectable(choice.c_str(), choice == value)) chosen = choice;
-      ui.name(spec.name + "/" + choice);
-    }
-    ImGui::EndCombo();
-  }
-  return chosen;
+  };
+  if (std::holds_alternative<int>(spec.defaultValue)) return number(settings.integer(spec), "%d");
+  if (std::holds_alternative<float>(spec.defaultValue)) return number(settings.real(spec), "%.3g");
+  const int chosen = combo(ui, spec.name, settings.choice(spec), spec.choices);
+  if (chosen == kNone) return std::nullopt;
+  return spec.choices[static_cast<size_t>(chosen)];
 }
+
+namespace {
 
 // A right-click menu that resets a parameter to its default.
 bool resetMenu(const PanelContext& ui, const ParameterSpec& spec, bool isSet) {
@@ -83,21 +69,16 @@ bool resetMenu(const PanelContext& ui, const ParameterSpec& spec, bool isSet) {
 void costLine(const PanelContext& ui, const MethodInfo& method, const ParameterSpec& spec) {
   const auto cost = costOf(spec, method, ui.session.watch().timeline, ui.session.output().stats);
   if (!cost) return;
-  const float start = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
-  const float width = ImGui::CalcTextSize(cost->measured.c_str()).x;
-  // Right-aligned with the field, because some texts are too long to start at its left edge.
-  ImGui::SetCursorPosX(start + std::max(room - width, 0.0f));
-  // Always one line, so that the items below do not move when the text changes.
-  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
-  ImGui::TextUnformatted(cost->measured.c_str());
-  ImGui::PopStyleColor();
+  // Right-aligned with the field, because some texts are too long to start at its left edge. Always
+  // one line, so that the items below do not move when the text changes.
+  rightAligned(cost->measured, theme::kTextDim);
   ui.name(spec.name + "/cost");
   tooltip(ui, "Mean of the frames of the last seconds that drew upon this budget. " + cost->buys);
 }
 
 void parameterRow(const PanelContext& ui, const MethodInfo& method, const ParameterSpec& spec) {
   labelledRow(ui, spec.label.c_str(), spec.help.c_str());
-  const auto value = parameterField(ui, spec, ui.session.document().render.values);
+  const auto value = parameterField(ui, spec, ui.session.document().render.values, true);
   tooltip(ui, spec.help + " Ctrl+click to type a value, right-click to reset it.");
   RenderSettings render = ui.session.document().render;
   if (value) {

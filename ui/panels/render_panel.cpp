@@ -11,22 +11,19 @@ namespace {
 
 void methodCombo(const PanelContext& ui, const MethodInfo& current) {
   labelledRow(ui, "Method", current.citation.c_str());
-  const bool open = ImGui::BeginCombo("##method", current.label.c_str());
-  ui.name("method");
-  if (!open) return;
+  std::vector<ComboItem> items;
+  int now = kNone;
   for (const MethodInfo& method : methods()) {
+    if (method.name == current.name) now = static_cast<int>(items.size());
     const std::string problem = problemOf(method, ui.session.renderer().backend());
-    const auto flags = problem.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
-    if (ImGui::Selectable(method.label.c_str(), method.name == current.name, flags) &&
-        method.name != current.name) {
-      RenderSettings render = ui.session.document().render;
-      render.method = method.name;
-      ui.session.setRender(render);
-    }
-    ui.name("method/" + method.name);
-    tooltip(ui, problem.empty() ? method.citation : problem);
+    items.push_back(
+        {method.name, method.label, problem.empty() ? method.citation : problem, problem.empty()});
   }
-  ImGui::EndCombo();
+  const int chosen = combo(ui, "method", current.label, items, now);
+  if (chosen == kNone || chosen == now) return;
+  RenderSettings render = ui.session.document().render;
+  render.method = items[static_cast<size_t>(chosen)].name;
+  ui.session.setRender(render);
 }
 
 // Preset buttons side by side. The active preset is highlighted.
@@ -38,12 +35,7 @@ void presetRow(const PanelContext& ui, Requests& requests) {
   for (const Preset& preset : presets()) {
     if (&preset != &presets().front()) ImGui::SameLine(0, gap);
     const bool holds = hasPreset(ui.session.document().render, preset);
-    if (holds) {
-      ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
-      ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
-    }
-    const bool clicked = ImGui::Button(preset.label.c_str(), {width, 0});
-    if (holds) ImGui::PopStyleColor(2);
+    const bool clicked = toggleButton(preset.label, holds, {width, 0});
     ui.name("preset/" + preset.name);
     tooltip(ui, preset.help);
     if (clicked) requests.actions.push_back("preset." + preset.name);

@@ -7,71 +7,19 @@
 #include "editor/session/user_state.h"
 #include "ui/panels/panels.h"
 #include "ui/panels/user_panels.h"
-#include "ui/widgets/theme.h"
 #include "ui/widgets/value_slider.h"
 
 namespace lamplighter {
 namespace {
 
-std::string withUnit(const char* number, const ParameterSpec& spec) {
-  return spec.unit.empty() ? number : std::string(number) + " " + spec.unit;
-}
-
-// Returns the new value as text if it changed.
-std::optional<std::string> field(const PanelContext& ui, const ParameterSpec& spec,
-                                 const Settings& settings) {
-  const std::string id = "##" + spec.name;
-  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
-  if (std::holds_alternative<bool>(spec.defaultValue)) {
-    bool value = settings.boolean(spec);
-    const bool changed = ImGui::Checkbox(id.c_str(), &value);
-    ui.name(spec.name);
-    return changed ? std::optional<std::string>(value ? "true" : "false") : std::nullopt;
-  }
-  if (std::holds_alternative<int>(spec.defaultValue)) {
-    int value = settings.integer(spec);
-    const auto low = static_cast<int>(spec.minimum), high = static_cast<int>(spec.maximum);
-    const bool changed =
-        valueSlider(id.c_str(), value, low, high, withUnit("%d", spec).c_str(), flags);
-    ui.name(spec.name);
-    return changed ? std::optional(Settings::format(std::clamp(value, low, high))) : std::nullopt;
-  }
-  if (std::holds_alternative<float>(spec.defaultValue)) {
-    float value = settings.real(spec);
-    const auto low = static_cast<float>(spec.minimum), high = static_cast<float>(spec.maximum);
-    const bool changed =
-        valueSlider(id.c_str(), value, low, high, withUnit("%.3g", spec).c_str(), flags);
-    ui.name(spec.name);
-    return changed ? std::optional(Settings::format(std::clamp(value, low, high))) : std::nullopt;
-  }
-  const std::string value = settings.choice(spec);
-  std::optional<std::string> chosen;
-  const bool open = ImGui::BeginCombo(id.c_str(), value.c_str());
-  ui.name(spec.name);
-  if (!open) return chosen;
-  for (const std::string& choice : spec.choices) {
-    if (ImGui::Selectable(choice.c_str(), choice == value)) chosen = choice;
-    ui.name(spec.name + "/" + choice);
-  }
-  ImGui::EndCombo();
-  return chosen;
-}
-
 // Changing the scale during the drag would move the slider away from the pointer.
 bool waitsForRelease(const ParameterSpec& spec) { return spec.name == "ui_scale"; }
 
 void uiScaleRow(const PanelContext& ui, const ParameterSpec& spec, Requests& requests) {
-  static constexpr const char* kScales[] = {"0.75", "1", "1.25", "1.5", "2", "3"};
+  static const std::string kScales[] = {"0.75", "1", "1.25", "1.5", "2", "3"};
   const std::string now = Settings::format(ui.session.home().preferences.values.real(spec));
-  const bool open = ImGui::BeginCombo("##ui_scale", now.c_str());
-  ui.name(spec.name);
-  if (!open) return;
-  for (const char* scale : kScales) {
-    if (ImGui::Selectable(scale, now == scale))
-      requests.actions.push_back(std::string("view.ui_scale ") + scale);
-    ui.name(spec.name + "/" + scale);
-  }
-  ImGui::EndCombo();
+  const int chosen = combo(ui, spec.name, now, kScales);
+  if (chosen != kNone) requests.actions.push_back("view.ui_scale " + kScales[chosen]);
 }
 
 void values(const PanelContext& ui, Requests& requests) {
@@ -82,8 +30,8 @@ void values(const PanelContext& ui, Requests& requests) {
       labelledRow(ui, spec.label.c_str(), spec.help.c_str());
       if (waitsForRelease(spec)) {
         uiScaleRow(ui, spec, requests);
-      } else if (const auto value = field(ui, spec, settings)) {
-        requests.actions.push_back("settings.set " + spec.name + "=" + *value);
+      } else if (const auto value = parameterField(ui, spec, settings, false)) {
+        requests.actions.push_back("settings.set " + spec.name + "=" + Settings::format(*value));
       }
       tooltip(ui, spec.help);
     }

@@ -47,9 +47,7 @@ unsigned colourOf(const StatusText& text) {
 }
 
 void draw(const PanelContext& ui, const Part& p) {
-  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(p.colour));
-  ImGui::TextUnformatted(p.text.c_str());
-  ImGui::PopStyleColor();
+  colouredText(p.text, p.colour);
   ui.name(p.widget);
   tooltip(ui, p.help);
   ImGui::SameLine(0, ui.px(kGap));

@@ -182,19 +182,12 @@ void drawCounters(const PanelContext& ui) {
   const auto& frames = ui.session.watch().timeline.frames();
   const GiStats& now = ui.session.output().stats;
   if (!ImGui::BeginTable("##counters", 3, ImGuiTableFlags_SizingStretchProp)) return;
-  const auto right = [](const std::string& text) {
-    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-    if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
-    ImGui::TextUnformatted(text.c_str());
-  };
-  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
   ImGui::TableNextColumn();
-  ImGui::TextUnformatted("Counts");
-  ImGui::TableNextColumn();
-  right("this frame");
-  ImGui::TableNextColumn();
-  right("most in one");
-  ImGui::PopStyleColor();
+  colouredText("Counts", theme::kTextDim);
+  for (const char* heading : {"this frame", "most in one"}) {
+    ImGui::TableNextColumn();
+    rightAligned(heading, theme::kTextDim);
+  }
   for (const StatisticSpec& spec : findMethod(ui.session.document().render.method).statistics) {
     if (!spec.inTimeline) continue;
     const double count = now.find(spec.name).value_or(0.0);
@@ -205,9 +198,9 @@ void drawCounters(const PanelContext& ui) {
     ImGui::TextUnformatted(spec.label.c_str());
     tooltip(ui, spec.meaning);
     ImGui::TableNextColumn();
-    right(valueText(spec, count));
+    rightAligned(valueText(spec, count), theme::kText);
     ImGui::TableNextColumn();
-    right(valueText(spec, most));
+    rightAligned(valueText(spec, most), theme::kText);
   }
   ImGui::EndTable();
 }

@@ -76,14 +76,9 @@ void choices(const PanelContext& ui, const Item& item) {
 }
 
 void button(const PanelContext& ui, const Item& item, int step) {
-  if (item.on) {
-    ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
-    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
-  }
   ImGui::BeginDisabled(!item.enabled);
-  const bool clicked = ImGui::Button((textOf(item, step) + "##" + item.widget).c_str());
+  const bool clicked = toggleButton(textOf(item, step) + "##" + item.widget, item.on);
   ImGui::EndDisabled();
-  if (item.on) ImGui::PopStyleColor(2);
   ui.name(item.widget);
   tooltip(ui, showsLabel(item, step) ? item.help : std::string(item.label) + ": " + item.help);
   if (item.choices.empty()) {

@@ -1,10 +1,45 @@
 #include "ui/platform/glfw_keys.h"
 
+#include <utility>
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace lamplighter {
 namespace {
+
+constexpr std::pair<int, Key> kNamedKeys[] = {{GLFW_KEY_ESCAPE, Key::escape},
+                                              {GLFW_KEY_ENTER, Key::enter},
+                                              {GLFW_KEY_KP_ENTER, Key::enter},
+                                              {GLFW_KEY_TAB, Key::tab},
+                                              {GLFW_KEY_BACKSPACE, Key::backspace},
+                                              {GLFW_KEY_INSERT, Key::insert},
+                                              {GLFW_KEY_DELETE, Key::del},
+                                              {GLFW_KEY_LEFT, Key::left},
+                                              {GLFW_KEY_RIGHT, Key::right},
+                                              {GLFW_KEY_UP, Key::up},
+                                              {GLFW_KEY_DOWN, Key::down},
+                                              {GLFW_KEY_PAGE_UP, Key::pageUp},
+                                              {GLFW_KEY_PAGE_DOWN, Key::pageDown},
+                                              {GLFW_KEY_HOME, Key::home},
+                                              {GLFW_KEY_END, Key::end},
+                                              {GLFW_KEY_SPACE, Key::space},
+                                              {GLFW_KEY_MINUS, Key::minus},
+                                              {GLFW_KEY_KP_SUBTRACT, Key::minus},
+                                              {GLFW_KEY_EQUAL, Key::equal},
+                                              {GLFW_KEY_COMMA, Key::comma},
+                                              {GLFW_KEY_PERIOD, Key::period},
+                                              {GLFW_KEY_KP_DECIMAL, Key::period},
+                                              {GLFW_KEY_SLASH, Key::slash},
+                                              {GLFW_KEY_KP_DIVIDE, Key::slash},
+                                              {GLFW_KEY_LEFT_SHIFT, Key::shift},
+                                              {GLFW_KEY_RIGHT_SHIFT, Key::shift},
+                                              {GLFW_KEY_LEFT_CONTROL, Key::ctrl},
+                                              {GLFW_KEY_RIGHT_CONTROL, Key::ctrl},
+                                              {GLFW_KEY_LEFT_ALT, Key::alt},
+                                              {GLFW_KEY_RIGHT_ALT, Key::alt},
+                                              {GLFW_KEY_LEFT_SUPER, Key::super},
+                                              {GLFW_KEY_RIGHT_SUPER, Key::super}};
 
 Key offset(Key first, int by) { return static_cast<Key>(static_cast<int>(first) + by); }
 
@@ -15,66 +50,9 @@ Key keyOfGlfw(int key) {
   if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return offset(Key::n0, key - GLFW_KEY_0);
   if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return offset(Key::n0, key - GLFW_KEY_KP_0);
   if (key >= GLFW_KEY_F1 && key <= GLFW_KEY_F12) return offset(Key::f1, key - GLFW_KEY_F1);
-  switch (key) {
-    case GLFW_KEY_ESCAPE:
-      return Key::escape;
-    case GLFW_KEY_ENTER:
-    case GLFW_KEY_KP_ENTER:
-      return Key::enter;
-    case GLFW_KEY_TAB:
-      return Key::tab;
-    case GLFW_KEY_BACKSPACE:
-      return Key::backspace;
-    case GLFW_KEY_INSERT:
-      return Key::insert;
-    case GLFW_KEY_DELETE:
-      return Key::del;
-    case GLFW_KEY_LEFT:
-      return Key::left;
-    case GLFW_KEY_RIGHT:
-      return Key::right;
-    case GLFW_KEY_UP:
-      return Key::up;
-    case GLFW_KEY_DOWN:
-      return Key::down;
-    case GLFW_KEY_PAGE_UP:
-      return Key::pageUp;
-    case GLFW_KEY_PAGE_DOWN:
-      return Key::pageDown;
-    case GLFW_KEY_HOME:
-      return Key::home;
-    case GLFW_KEY_END:
-      return Key::end;
-    case GLFW_KEY_SPACE:
-      return Key::space;
-    case GLFW_KEY_MINUS:
-    case GLFW_KEY_KP_SUBTRACT:
-      return Key::minus;
-    case GLFW_KEY_EQUAL:
-      return Key::equal;
-    case GLFW_KEY_COMMA:
-      return Key::comma;
-    case GLFW_KEY_PERIOD:
-    case GLFW_KEY_KP_DECIMAL:
-      return Key::period;
-    case GLFW_KEY_SLASH:
-    case GLFW_KEY_KP_DIVIDE:
-      return Key::slash;
-    case GLFW_KEY_LEFT_SHIFT:
-    case GLFW_KEY_RIGHT_SHIFT:
-      return Key::shift;
-    case GLFW_KEY_LEFT_CONTROL:
-    case GLFW_KEY_RIGHT_CONTROL:
-      return Key::ctrl;
-    case GLFW_KEY_LEFT_ALT:
-    case GLFW_KEY_RIGHT_ALT:
-      return Key::alt;
-    case GLFW_KEY_LEFT_SUPER:
-    case GLFW_KEY_RIGHT_SUPER:
-      return Key::super;
-    default:
-      return Key::none;
-  }
+  for (const auto& [glfw, ours] : kNamedKeys)
+    if (glfw == key) return ours;
+  return Key::none;
 }
 
 }  // namespace lamplighter

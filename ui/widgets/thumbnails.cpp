@@ -1,6 +1,5 @@
 #include "ui/widgets/thumbnails.h"
 
-#include <algorithm>
 #include <exception>
 
 #include <tbb/task_arena.h>

@@ -29,9 +29,7 @@ float labelWidth(const PanelContext& ui) { return ui.px(112); }
 void labelledRow(const PanelContext& ui, const char* label, const char* help) {
   ImGui::AlignTextToFramePadding();
   const float start = ImGui::GetCursorPosX();
-  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
-  ImGui::TextUnformatted(label);
-  ImGui::PopStyleColor();
+  colouredText(label, theme::kTextDim);
   if (help) tooltip(ui, help);
   ImGui::SameLine(start + labelWidth(ui));
   ImGui::SetNextItemWidth(-FLT_MIN);
@@ -85,6 +83,27 @@ std::string endOf(const std::string& text, float room) {
   return shown;
 }
 
+void colouredText(const std::string& text, unsigned colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(colour));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopStyleColor();
+}
+
+void rightAligned(const std::string& text, unsigned colour) {
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  if (room > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+  colouredText(text, colour);
+}
+
+void beginOverlay(const PanelContext& ui, const char* id) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.px(5));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+  ImGui::Begin(
+      id, nullptr,
+      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleVar(2);
+}
+
 void note(const std::string& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
   ImGui::PushTextWrapPos(0.0f);
@@ -132,6 +151,44 @@ bool dragVector(const PanelContext& ui, const std::string& widget, const std::st
                                               ImDrawFlags_RoundCornersLeft);
   }
   return changed;
+}
+
+int combo(const PanelContext& ui, const std::string& widget, const std::string& shown,
+          std::span<const ComboItem> items, int current) {
+  const bool open = ImGui::BeginCombo(("##" + widget).c_str(), shown.c_str());
+  ui.name(widget);
+  int chosen = kNone;
+  if (!open) return chosen;
+  for (int i = 0; i < static_cast<int>(items.size()); ++i) {
+    const ComboItem& item = items[static_cast<size_t>(i)];
+    ImGui::PushID(i);
+    if (ImGui::Selectable(item.label.c_str(), i == current,
+                          item.enabled ? 0 : ImGuiSelectableFlags_Disabled))
+      chosen = i;
+    ImGui::PopID();
+    ui.name(widget + "/" + item.name);
+    tooltip(ui, item.help);
+  }
+  ImGui::EndCombo();
+  return chosen;
+}
+
+int combo(const PanelContext& ui, const std::string& widget, const std::string& shown,
+          std::span<const std::string> choices) {
+  std::vector<ComboItem> items;
+  for (const std::string& choice : choices) items.push_back({choice, choice});
+  const auto current = std::find(choices.begin(), choices.end(), shown);
+  return combo(ui, widget, shown, items, static_cast<int>(current - choices.begin()));
+}
+
+bool toggleButton(const std::string& label, bool on, const ImVec2& size) {
+  if (on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, theme::colour(theme::kAccent, 60));
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kAccent));
+  }
+  const bool clicked = ImGui::Button(label.c_str(), size);
+  if (on) ImGui::PopStyleColor(2);
+  return clicked;
 }
 
 vec3 linearToSrgb(const vec3& c) {

@@ -1,7 +1,9 @@
 // Building blocks of panels: named widgets, labelled rows, and fields whose drag is one undo step.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -37,6 +39,11 @@ Rect windowRect();
 bool beginBorderedModal(const char* title, ImGuiWindowFlags flags);
 // Removes as much of the beginning of `text` as needed to fit: "…/scenes/halls".
 std::string endOf(const std::string& text, float room);
+// One line of text in a colour of the theme, at the cursor or at the right edge.
+void colouredText(const std::string& text, unsigned colour);
+void rightAligned(const std::string& text, unsigned colour);
+// Begins a panel over the view, at the next window's position and size.
+void beginOverlay(const PanelContext& ui, const char* id);
 // Dimmed text with line wrapping.
 void note(const std::string& text);
 // "icon  label", or only the label if there is no icon font.
@@ -56,6 +63,20 @@ bool dragVector(const PanelContext& ui, const std::string& widget, const std::st
 // Colours are linear in the document and sRGB-encoded on the screen.
 vec3 linearToSrgb(const vec3& c);
 vec3 srgbToLinear(const vec3& c);
+
+// A combo box, named WIDGET; its items are named WIDGET/NAME. `shown` is its text. Returns the
+// index of the item that the user chose in this frame, or kNone.
+struct ComboItem {
+  std::string name, label, help = {};
+  bool enabled = true;
+};
+int combo(const PanelContext& ui, const std::string& widget, const std::string& shown,
+          std::span<const ComboItem> items, int current);
+// The same for choices that are their own labels.
+int combo(const PanelContext& ui, const std::string& widget, const std::string& shown,
+          std::span<const std::string> choices);
+// A button that is highlighted while what it switches is on.
+bool toggleButton(const std::string& label, bool on, const ImVec2& size = {0, 0});
 
 // "1,234,567"
 std::string grouped(long long value);

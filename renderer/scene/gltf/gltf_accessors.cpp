@@ -29,7 +29,8 @@ struct AccessorView {
   size_t stride = 0;
 };
 
-AccessorView viewOf(const GltfDocument& document, int bufferView, size_t offset, size_t elementBytes) {
+AccessorView viewOf(const GltfDocument& document, int bufferView, size_t offset,
+                    size_t elementBytes) {
   if (bufferView < 0) return {};
   const tinygltf::BufferView& view = document.model->bufferViews[static_cast<size_t>(bufferView)];
   return {document.buffers[static_cast<size_t>(view.buffer)]->data() + view.byteOffset + offset,
@@ -66,8 +67,8 @@ void convert(const AccessorView& view, size_t n, size_t count, bool normalized, 
   }
 }
 
-void convertAny(const tinygltf::Accessor& accessor, const AccessorView& view, size_t n, size_t count,
-                size_t components, float* out) {
+void convertAny(const tinygltf::Accessor& accessor, const AccessorView& view, size_t n,
+                size_t count, size_t components, float* out) {
   const auto as = [&]<typename T>(T) {
     convert<T>(view, n, count, accessor.normalized, components, out);
   };
@@ -114,7 +115,8 @@ void forEachSparse(const GltfDocument& document, size_t index, Replace replace) 
   // Sparse data is packed, whatever its view says.
   const auto packed = [&](const auto& part, int type, int componentType) {
     const size_t bytes = layoutOf(type, componentType).bytes;
-    AccessorView view = viewOf(document, part.bufferView, static_cast<size_t>(part.byteOffset), bytes);
+    AccessorView view =
+        viewOf(document, part.bufferView, static_cast<size_t>(part.byteOffset), bytes);
     view.stride = bytes;
     return view;
   };
@@ -126,10 +128,9 @@ void forEachSparse(const GltfDocument& document, size_t index, Replace replace) 
   AccessorView value = packed(sparse.values, accessor.type, accessor.componentType);
   for (const uint32_t element : elements) {
     if (element >= accessor.count) {
-      document.fail({"accessors", index},
-                    "replaces element " + std::to_string(element) + " of " +
-                        std::to_string(accessor.count) + " by its sparse data",
-                    kExportAgain);
+      document.fail(At{"accessors", index}, "replaces element " + std::to_string(element) + " of " +
+                                                std::to_string(accessor.count) +
+                                                " by its sparse data");
     }
     replace(element, value);
     value.data += value.stride;
@@ -147,7 +148,8 @@ std::vector<Vec> readVectors(const GltfDocument& document, size_t index) {
   if (kComponents == 4) lacking[kComponents - 1] = 1.0f;
   std::vector<Vec> out(accessor.count, n < kComponents ? lacking : Vec(0.0f));
   if (out.empty()) return out;
-  const AccessorView view = viewOf(document, accessor.bufferView, accessor.byteOffset, layout.bytes);
+  const AccessorView view =
+      viewOf(document, accessor.bufferView, accessor.byteOffset, layout.bytes);
   if (view.data != nullptr) {
     convertAny(accessor, view, n, accessor.count, kComponents, &out[0][0]);
   }

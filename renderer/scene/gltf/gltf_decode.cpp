@@ -124,7 +124,7 @@ bool readBuffer(std::vector<unsigned char>* out, std::string*, const std::string
     // any bytes, for loaders that know it.
     if (at.index == 0) bytes = std::move(document.binaryChunk);
     if (bytes == nullptr) {
-      document.fail(at, "has neither a uri nor the binary chunk of a .glb", kExportAgain);
+      document.fail(at, "has neither a uri nor the binary chunk of a .glb");
     }
   } else {
     std::string why;
@@ -160,7 +160,7 @@ void decodeModel(GltfDocument& document) {
   std::string error, warning;
   if (!reader.LoadASCIIFromString(&model, &error, &warning, text.c_str(),
                                   static_cast<unsigned>(text.size()), "", tinygltf::NO_REQUIRE)) {
-    document.fail("cannot be decoded (" + printable(error) + ")", kExportAgain);
+    document.fail("cannot be decoded (" + printable(error) + ")");
   }
   for (tinygltf::Buffer& buffer : model.buffers) {
     document.buffers.push_back(

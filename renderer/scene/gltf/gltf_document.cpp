@@ -1,7 +1,6 @@
 #include "renderer/scene/gltf/gltf_document.h"
 
 #include <algorithm>
-#include <cstring>
 #include <span>
 
 #include "renderer/base/error.h"
@@ -42,7 +41,7 @@ const Json& listOf(const GltfDocument& document, const char* name) {
   const Json* list = owner == nullptr ? nullptr : member(*owner, name + (dot + 1));
   if (list == nullptr) return kEmpty;
   if (!list->is_array()) {
-    document.fail(std::string("\"") + name + "\" is not an array", kExportAgain);
+    document.fail(std::string("\"") + name + "\" is not an array");
   }
   return *list;
 }
@@ -174,8 +173,7 @@ GltfDocument readGltfJson(const std::filesystem::path& path) {
   }
 
   if (nestingDepth(text) > kDeepestJson) {
-    document.fail("has JSON that nests deeper than " + std::to_string(kDeepestJson) + " levels",
-                  kExportAgain);
+    document.fail("has JSON that nests deeper than " + std::to_string(kDeepestJson) + " levels");
   }
   try {
     document.json = Json::parse(text);
@@ -188,7 +186,7 @@ GltfDocument readGltfJson(const std::filesystem::path& path) {
     document.fail("has JSON that cannot be read (" + printable(reason) + ")",
                   "copy or export it again");
   }
-  if (!document.json.is_object()) document.fail("has JSON that is not an object", kExportAgain);
+  if (!document.json.is_object()) document.fail("has JSON that is not an object");
   if (glb.binary) {
     // In place: a copy would be as long as the file.
     const auto begin = bytes->begin() + (glb.binary->data() - bytes->data());

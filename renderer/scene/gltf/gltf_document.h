@@ -63,6 +63,10 @@ struct At {
   std::string text() const { return std::string(list) + "[" + std::to_string(index) + "]"; }
 };
 
+// What to do about a file that breaks the rules of glTF.
+inline constexpr const char* kExportAgain =
+    "export it again, or mend it (a glTF validator says more)";
+
 struct GltfDocument {
   std::filesystem::path path;
   Json json;
@@ -77,17 +81,14 @@ struct GltfDocument {
   std::shared_ptr<std::vector<FileStamp>> files = std::make_shared<std::vector<FileStamp>>();
   std::vector<std::string> warnings;
 
-  [[noreturn]] void fail(const std::string& wrong, const std::string& remedy) const;
-  [[noreturn]] void fail(const At& at, const std::string& wrong, const std::string& remedy) const {
+  [[noreturn]] void fail(const std::string& wrong, const std::string& remedy = kExportAgain) const;
+  [[noreturn]] void fail(const At& at, const std::string& wrong,
+                         const std::string& remedy = kExportAgain) const {
     fail(at.text() + " " + wrong, remedy);
   }
   void warn(const std::string& text);
   bool usesExtension(const char* name) const;
 };
-
-// What to do about a file that breaks the rules of glTF.
-inline constexpr const char* kExportAgain =
-    "export it again, or mend it (a glTF validator says more)";
 
 // Control characters out, long texts cut: for use in a message of one line.
 std::string printable(std::string_view text);

@@ -24,7 +24,7 @@ vec3 colored(const GltfDocument& document, const std::vector<double>& color, dou
   for (int c = 0; c < 3; ++c) {
     const double share = color.empty() ? 1.0 : color[static_cast<size_t>(c)];
     const double value = std::max(share * intensity, 0.0);
-    if (value > 1e30) document.fail(at, "is brighter than a float can hold", kExportAgain);
+    if (value > 1e30) document.fail(at, "is brighter than a float can hold");
     out[c] = static_cast<float>(value);
   }
   return out;
@@ -43,7 +43,7 @@ std::optional<AreaLight> readNoted(const GltfDocument& document, const Json& nod
   const double diameter = numberIn(*light, "diameter", 1.0);
   const double length = shape == "tube" ? numberIn(*light, "length", 1.0) : 1.0;
   if (!(diameter > 0.0 && diameter < 1e9 && length > 0.0 && length < 1e9)) {
-    document.fail(at, "has a " + shape + " light with an invalid size", kExportAgain);
+    document.fail(at, "has a " + shape + " light with an invalid size");
   }
   area.size = vec2(static_cast<float>(diameter));
   if (area.shape == AreaShape::tube) area.size.x = static_cast<float>(length);
@@ -72,8 +72,7 @@ std::optional<PunctualLight> readPunctual(const GltfDocument& document, size_t n
   constexpr double kWidest = 1.57079632679;
   const double outer = source.spot.outerConeAngle, inner = source.spot.innerConeAngle;
   if (!(outer > 0.0) || outer > kWidest + 1e-4 || inner < 0.0 || inner > outer) {
-    document.fail(at, "has invalid cone angles: 0 <= inner <= outer <= pi/2 is required",
-                  kExportAgain);
+    document.fail(at, "has invalid cone angles: 0 <= inner <= outer <= pi/2 is required");
   }
   light.outerCone = static_cast<float>(outer);
   light.innerCone = static_cast<float>(inner);
@@ -103,7 +102,7 @@ std::optional<AreaLight> readArea(const GltfDocument& document, size_t node,
     aspect = numberIn(*rect, "aspect", 1.0);
   }
   if (!(size > 0.0 && size < 1e9 && aspect > 0.0 && aspect < 1e9 && size * aspect < 1e9)) {
-    document.fail(at, "has an invalid size or aspect", kExportAgain);
+    document.fail(at, "has an invalid size or aspect");
   }
   const AxisRatios s = areaScale(worldScale);
   area.size = vec2(static_cast<float>(size * aspect * s.x), static_cast<float>(size * s.y));

@@ -58,7 +58,7 @@ Material readMaterial(const GltfDocument& document, size_t index) {
   for (int c = 0; c < 3; ++c) {
     const double value = std::max(source.emissiveFactor[static_cast<size_t>(c)] * strength, 0.0);
     if (value > 1e30) {
-      document.fail({"materials", index}, "emits more than a float can hold", kExportAgain);
+      document.fail(At{"materials", index}, "emits more than a float can hold");
     }
     m.emissive[c] = static_cast<float>(value);
   }

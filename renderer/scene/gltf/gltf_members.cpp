@@ -1,6 +1,5 @@
 // The members that are read, as a table: what type each must have, and what it refers to.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -169,7 +168,7 @@ class EntryCheck {
     const Json* value = object.is_object() ? find(object, key) : nullptr;
     std::string_view rest = path.substr(end);
     if (value == nullptr) {
-      if (m.isRequired) doc_.fail(at_, "has no \"" + std::string(key) + "\"", kExportAgain);
+      if (m.isRequired) doc_.fail(at_, "has no \"" + std::string(key) + "\"");
       return;
     }
     step(*value, key, rest, m);
@@ -205,10 +204,8 @@ class EntryCheck {
       case Type::index: {
         const size_t count = listOf(doc_, m.list).size();
         if (const size_t i = size(value, key); i >= count) {
-          doc_.fail(at_,
-                    "has \"" + printable(key) + "\": " + std::to_string(i) + ", but there are " +
-                        std::to_string(count),
-                    kExportAgain);
+          doc_.fail(at_, "has \"" + printable(key) + "\": " + std::to_string(i) +
+                             ", but there are " + std::to_string(count));
         }
         break;
       }
@@ -245,19 +242,16 @@ class EntryCheck {
     const size_t count = listOf(doc_, m.list).size();
     const auto number = sizeOf(value);
     if (number && *number < count) return;
-    doc_.fail(at_,
-              "has " + printable(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
-                  " among its \"" + std::string(key) + "\", but there are " + std::to_string(count),
-              kExportAgain);
+    doc_.fail(at_, "has " + printable(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
+                       " among its \"" + std::string(key) + "\", but there are " +
+                       std::to_string(count));
   }
 
   [[noreturn]] void wrongType(const Json& value, std::string_view key,
                               const std::string& expected) const {
-    doc_.fail(at_,
-              "has \"" + printable(key) +
-                  "\": " + printable(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
-                  ", which is not " + expected,
-              kExportAgain);
+    doc_.fail(at_, "has \"" + printable(key) + "\": " +
+                       printable(value.dump(-1, ' ', false, Json::error_handler_t::replace)) +
+                       ", which is not " + expected);
   }
 
   const GltfDocument& doc_;

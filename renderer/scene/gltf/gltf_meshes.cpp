@@ -123,8 +123,7 @@ class MeshReader {
     for (const vec3& v : p.positions) {
       if (!isFinite(v) ||
           std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > kFarthestPlace) {
-        doc_.fail(at, "has a vertex position that is not finite, or farther than 1e9 m",
-                  kExportAgain);
+        doc_.fail(at, "has a vertex position that is not finite, or farther than 1e9 m");
       }
     }
     p.indices = asTriangles(indices(source.indices, at, p.positions.size()), source.mode);
@@ -156,10 +155,8 @@ class MeshReader {
       std::vector<uint32_t> out = readIndices(doc_, spend(accessor));
       for (const uint32_t i : out) {
         if (i >= vertices) {
-          doc_.fail(at,
-                    "has the vertex index " + std::to_string(i) + ", but there are " +
-                        std::to_string(vertices) + " vertices",
-                    kExportAgain);
+          doc_.fail(at, "has the vertex index " + std::to_string(i) + ", but there are " +
+                            std::to_string(vertices) + " vertices");
         }
       }
       return out;
@@ -184,7 +181,7 @@ class MeshReader {
     if (kept_ > kAlwaysGood + kProportion * doc_.bytesRead) refuseAmount();
   }
   [[noreturn]] void refuseAmount() const {
-    doc_.fail("describes more vertices than its size accounts for", kExportAgain);
+    doc_.fail("describes more vertices than its size accounts for");
   }
 
   GltfDocument& doc_;

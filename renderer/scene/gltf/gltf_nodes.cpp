@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include <tiny_gltf.h>
@@ -47,7 +46,7 @@ Camera readCamera(const GltfDocument& document, size_t index) {
   camera.zfar = static_cast<float>(lens.zfar);
   if (!(camera.yfov > 0.0f && camera.yfov < kPi) || camera.aspect < 0.0f ||
       !(camera.znear > 0.0f) || camera.zfar < 0.0f) {
-    document.fail({"cameras", index}, "has invalid lens parameters", kExportAgain);
+    document.fail(At{"cameras", index}, "has invalid lens parameters");
   }
   return camera;
 }
@@ -74,9 +73,9 @@ Transform readTransform(const GltfDocument& document, size_t node) {
     for (int i = 0; i < 16; ++i)
       m[i / 4][i % 4] = static_cast<float>(source.matrix[static_cast<size_t>(i)]);
     if (m[0][3] != 0.0f || m[1][3] != 0.0f || m[2][3] != 0.0f || m[3][3] != 1.0f) {
-      document.fail(at, "has a matrix whose last row is not 0 0 0 1", kExportAgain);
+      document.fail(at, "has a matrix whose last row is not 0 0 0 1");
     }
-    if (!isReasonable(m)) document.fail(at, "has a matrix with values beyond 1e9", kExportAgain);
+    if (!isReasonable(m)) document.fail(at, "has a matrix with values beyond 1e9");
     return decompose(m);
   }
   t.translation = vec3Or(source.translation, t.translation);
@@ -87,7 +86,7 @@ Transform readTransform(const GltfDocument& document, size_t node) {
                  static_cast<float>(r[2]));
     const float square = glm::dot(q, q);
     if (!(square > 1e-12f) || !std::isfinite(square)) {
-      document.fail(at, "has a rotation that is not a quaternion", kExportAgain);
+      document.fail(at, "has a rotation that is not a quaternion");
     }
     // Those that are unit but for rounding stay as they are, so that saving gives them back.
     t.rotation = std::abs(square - 1.0f) > 1e-5f ? glm::normalize(q) : q;
@@ -157,8 +156,8 @@ std::vector<Node> readNodes(GltfDocument& document) {
     Node node = readNode(document, next.node);
     const mat4 world = next.parentWorld * toMatrix(node.local);
     if (!isReasonable(world)) {
-      document.fail({"nodes", next.node},
-                    "has a position that is not finite, or farther than 1e9 m", kExportAgain);
+      document.fail(At{"nodes", next.node},
+                    "has a position that is not finite, or farther than 1e9 m");
     }
     node.id = static_cast<NodeId>(nodes.size() + 1);
     node.parent = next.parent;

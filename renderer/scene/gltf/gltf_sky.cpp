@@ -1,6 +1,4 @@
 // The sky in the extras of a scene: extras.lamplighter.sky (docs/reference/gltf.md).
-#include <array>
-#include <cmath>
 
 #include "renderer/base/error.h"
 #include "renderer/scene/gltf/gltf_content.h"

@@ -68,7 +68,7 @@ std::vector<std::string> extensionNames(const GltfDocument& document, const char
   std::vector<std::string> names;
   for (const Json& entry : listOf(document, key)) {
     if (!entry.is_string()) {
-      document.fail("\"" + std::string(key) + "\" is not a list of names", kExportAgain);
+      document.fail("\"" + std::string(key) + "\" is not a list of names");
     }
     names.push_back(entry.get<std::string>());
   }
@@ -142,7 +142,7 @@ class StructureCheck {
                              "scenes", "animations", kPunctualLights, kAreaLights}) {
       const Json& list = listOf(doc_, name);
       if (!std::all_of(list.begin(), list.end(), [](const Json& e) { return e.is_object(); })) {
-        doc_.fail(std::string("\"") + name + "\" is not an array of objects", kExportAgain);
+        doc_.fail(std::string("\"") + name + "\" is not an array of objects");
       }
       for (size_t i = 0; i < list.size(); ++i) objectMember(list[i], "extensions", {name, i});
     }
@@ -160,7 +160,7 @@ class StructureCheck {
   void objectMember(const Json& object, const char* key, At at) {
     const Json* value = member(object, key);
     if (value != nullptr && !value->is_object()) {
-      doc_.fail(at, std::string("has \"") + key + "\" that are not an object", kExportAgain);
+      doc_.fail(at, std::string("has \"") + key + "\" that are not an object");
     }
   }
 
@@ -170,17 +170,13 @@ class StructureCheck {
                  offset = sizeIn(views_[i], "byteOffset"),
                  whole = sizeIn(buffers_[buffer], "byteLength");
     if (offset > whole || length > whole - offset) {
-      doc_.fail(at,
-                "ends past the " + std::to_string(whole) + " bytes of buffers[" +
-                    std::to_string(buffer) + "]",
-                kExportAgain);
+      doc_.fail(at, "ends past the " + std::to_string(whole) + " bytes of buffers[" +
+                        std::to_string(buffer) + "]");
     }
     const size_t stride = sizeIn(views_[i], "byteStride", 4);
     if (stride < 4 || stride > 252 || stride % 4 != 0) {
-      doc_.fail(
-          at,
-          "has the byteStride " + std::to_string(stride) + ", not a multiple of 4 from 4 to 252",
-          kExportAgain);
+      doc_.fail(at, "has the byteStride " + std::to_string(stride) +
+                        ", not a multiple of 4 from 4 to 252");
     }
   }
 
@@ -191,15 +187,13 @@ class StructureCheck {
     const size_t length = sizeIn(views_[index], "byteLength");
     const size_t stride = strided ? sizeIn(views_[index], "byteStride", size) : size;
     if (stride < size) {
-      doc_.fail(at, "has elements that overlap: byteStride is less than their size", kExportAgain);
+      doc_.fail(at, "has elements that overlap: byteStride is less than their size");
     }
     // Without overflow: (count − 1) · stride + size ≤ length − offset.
     if (count > 0 && (offset > length || length - offset < size ||
                       (length - offset - size) / stride < count - 1)) {
-      doc_.fail(at,
-                "has " + std::to_string(count) + " elements, more than fit in bufferViews[" +
-                    std::to_string(index) + "]",
-                kExportAgain);
+      doc_.fail(at, "has " + std::to_string(count) + " elements, more than fit in bufferViews[" +
+                        std::to_string(index) + "]");
     }
   }
 
@@ -210,26 +204,25 @@ class StructureCheck {
     const ElementLayout layout =
         elementLayout(json["type"].get_ref<const std::string&>(), sizeIn(json, "componentType"));
     if (layout.components == 0) {
-      doc_.fail(at, "has an unknown type or componentType", kExportAgain);
+      doc_.fail(at, "has an unknown type or componentType");
     }
     if (member(json, "bufferView") != nullptr) {
       inView(json, at, count, layout.bytes, true);
     } else if (count > std::max<size_t>(65536, doc_.bytesRead)) {
-      doc_.fail(at, "has " + std::to_string(count) + " elements but no bytes for them",
-                kExportAgain);
+      doc_.fail(at, "has " + std::to_string(count) + " elements but no bytes for them");
     }
     const Json* sparse = member(json, "sparse");
     if (sparse == nullptr) return;
     const Json &where = (*sparse)["indices"], &values = (*sparse)["values"];
     const size_t replaced = sizeIn(*sparse, "count");
-    if (replaced > count) doc_.fail(at, "has more sparse data than elements", kExportAgain);
+    if (replaced > count) doc_.fail(at, "has more sparse data than elements");
     const size_t indexType = sizeIn(where, "componentType");
     if (!isUnsigned(indexType)) {
-      doc_.fail(at, "has sparse indices that are not unsigned integers", kExportAgain);
+      doc_.fail(at, "has sparse indices that are not unsigned integers");
     }
     // tinygltf holds these in an int.
     if (std::max({replaced, sizeIn(where, "byteOffset"), sizeIn(values, "byteOffset")}) > INT_MAX) {
-      doc_.fail(at, "has sparse data beyond 2 GiB", kExportAgain);
+      doc_.fail(at, "has sparse data beyond 2 GiB");
     }
     inView(where, at, replaced, elementLayout("SCALAR", indexType).bytes, false);
     inView(values, at, replaced, layout.bytes, false);
@@ -243,10 +236,8 @@ class StructureCheck {
     for (const auto& [name, value] : object.items()) {
       const size_t n = sizeIn(accessors_[value.get<size_t>()], "count");
       if (count && n != *count) {
-        doc_.fail(at,
-                  "has " + std::to_string(n) + " of attribute " + printable(name) + " but " +
-                      std::to_string(*count) + " of another",
-                  kExportAgain);
+        doc_.fail(at, "has " + std::to_string(n) + " of attribute " + printable(name) + " but " +
+                          std::to_string(*count) + " of another");
       }
       count = n;
     }
@@ -259,7 +250,7 @@ class StructureCheck {
     if (primitives == nullptr) return;
     for (const Json& primitive : *primitives) {
       const Json* attribs = member(primitive, "attributes");
-      if (attribs == nullptr) doc_.fail(at, "has a primitive without attributes", kExportAgain);
+      if (attribs == nullptr) doc_.fail(at, "has a primitive without attributes");
       // Draco data may be there although the file does not require it, with nothing to fall back
       // to.
       if (const Json* position = member(*attribs, "POSITION");
@@ -274,7 +265,7 @@ class StructureCheck {
       }
       if (member(primitive, "indices") != nullptr) indices(sizeIn(primitive, "indices"));
       if (sizeIn(primitive, "mode") > 6) {
-        doc_.fail(at, "has a primitive of an unknown mode", kExportAgain);
+        doc_.fail(at, "has a primitive of an unknown mode");
       }
     }
   }
@@ -282,11 +273,10 @@ class StructureCheck {
   void indices(size_t accessor) {
     const Json& json = accessors_[accessor];
     if (!isUnsigned(sizeIn(json, "componentType")) || json["type"] != "SCALAR") {
-      doc_.fail({"accessors", accessor}, "has indices that are not unsigned integers",
-                kExportAgain);
+      doc_.fail(At{"accessors", accessor}, "has indices that are not unsigned integers");
     }
     if (member(json, "bufferView") == nullptr) {
-      doc_.fail({"accessors", accessor}, "has indices without a bufferView", kExportAgain);
+      doc_.fail(At{"accessors", accessor}, "has indices without a bufferView");
     }
   }
 
@@ -298,10 +288,8 @@ class StructureCheck {
       const size_t count = samplers == nullptr ? 0 : samplers->size();
       for (const Json& channel : *channels) {
         if (const size_t sampler = sizeIn(channel, "sampler"); sampler >= count) {
-          doc_.fail({"animations", i},
-                    "has a channel of samplers[" + std::to_string(sampler) + "], but there are " +
-                        std::to_string(count),
-                    kExportAgain);
+          doc_.fail(At{"animations", i}, "has a channel of samplers[" + std::to_string(sampler) +
+                                             "], but there are " + std::to_string(count));
         }
       }
     }
@@ -315,12 +303,11 @@ class StructureCheck {
       const At at{"nodes", i};
       children[i] = indicesIn(nodes_[i], "children");
       for (const size_t child : children[i]) {
-        if (child == i) doc_.fail(at, "is its own child", kExportAgain);
+        if (child == i) doc_.fail(at, "is its own child");
         if (parent[child] != kNoParent) {
-          doc_.fail({"nodes", child},
-                    "is a child of nodes[" + std::to_string(parent[child]) + "] and of nodes[" +
-                        std::to_string(i) + "]; a node has one parent",
-                    kExportAgain);
+          doc_.fail(At{"nodes", child}, "is a child of nodes[" + std::to_string(parent[child]) +
+                                            "] and of nodes[" + std::to_string(i) +
+                                            "]; a node has one parent");
         }
         parent[child] = i;
       }
@@ -339,9 +326,8 @@ class StructureCheck {
     }
     const auto lost = std::find(reached.begin(), reached.end(), false);
     if (lost != reached.end()) {
-      doc_.fail({"nodes", static_cast<size_t>(lost - reached.begin())},
-                "is in a cycle: it is its own descendant, or a descendant of such a node",
-                kExportAgain);
+      doc_.fail(At{"nodes", static_cast<size_t>(lost - reached.begin())},
+                "is in a cycle: it is its own descendant, or a descendant of such a node");
     }
     isChild_.resize(nodes_.size());
     for (size_t i = 0; i < nodes_.size(); ++i) isChild_[i] = parent[i] != kNoParent;
@@ -352,18 +338,15 @@ class StructureCheck {
     const size_t shown = sizeIn(doc_.json, "scene");
     if (!scenes_.empty() && shown >= scenes_.size()) {
       doc_.fail("names the scene " + std::to_string(shown) + ", but there are " +
-                    std::to_string(scenes_.size()),
-                kExportAgain);
+                std::to_string(scenes_.size()));
     }
     for (size_t i = 0; i < scenes_.size(); ++i) {
       const At at{"scenes", i};
       std::set<size_t> seen;
       for (const size_t root : indicesIn(scenes_[i], "nodes")) {
         if (isChild_[root] || !seen.insert(root).second) {
-          doc_.fail(at,
-                    "lists nodes[" + std::to_string(root) +
-                        "], which is a child of another or listed twice",
-                    kExportAgain);
+          doc_.fail(at, "lists nodes[" + std::to_string(root) +
+                            "], which is a child of another or listed twice");
         }
       }
     }

@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 
 #include "renderer/base/error.h"
 #include "renderer/scene/ies/ies_profile.h"

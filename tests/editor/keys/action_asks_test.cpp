@@ -66,6 +66,22 @@ TEST_F(ActionAsks, WithoutAWindowAnArgumentIsRequired) {
   EXPECT_EQ(hash(), before);
 }
 
+TEST_F(ActionAsks, TheUsageSaysHowManyArgumentsFit) {
+  const auto fitting = [](const char* usage) {
+    std::string counts;
+    for (size_t n = 0; n < 6; ++n)
+      if (Action{.usage = usage}.takes(n)) counts += std::to_string(n);
+    return counts;
+  };
+  EXPECT_EQ(fitting(""), "0");
+  EXPECT_EQ(fitting("X Y Z"), "3");
+  EXPECT_EQ(fitting("rectangle|disk"), "1");
+  EXPECT_EQ(fitting("1…9"), "1");
+  EXPECT_EQ(fitting("FILE [force]"), "12");
+  EXPECT_EQ(fitting("[LOW HIGH]"), "02");
+  EXPECT_EQ(fitting("NAME [NAME]…"), "12345");
+}
+
 TEST_F(ActionAsks, ADisabledActionDoesNotAsk) {
   Action disabled{.name = "test.disabled", .asks = ActionAsk{.kind = Kind::name, .title = "Name"}};
   EXPECT_TRUE(disabled.asksIn(session_));

@@ -1,13 +1,19 @@
 #include <cmath>
-#include <utility>
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include "ui/panels/panels.h"
-#include "ui/widgets/theme.h"
 
 namespace lamplighter {
+
+std::span<const ComboItem> meshKindItems() {
+  static const ComboItem kKinds[] = {{"automatic", "Automatic"},
+                                     {"simple", "Simple: light maps"},
+                                     {"complex", "Complex: each pixel"}};
+  return kKinds;
+}
+
 namespace {
 
 const char* kindOf(const Node& node) {
@@ -39,29 +45,15 @@ void nameField(const PanelContext& ui, const Node& node, InspectorState& state) 
 }
 
 void meshKindField(const PanelContext& ui, const Node& node) {
-  struct Choice {
-    MeshKind kind;
-    const char* name;
-    const char* label;
-  };
-  static constexpr Choice kChoices[] = {{MeshKind::automatic, "automatic", "Automatic"},
-                                        {MeshKind::simple, "simple", "Simple: light maps"},
-                                        {MeshKind::complex, "complex", "Complex: each pixel"}};
   labelledRow(ui, "Lit as",
               "Simple: planar parts get light maps and exact visibility, which costs memory. "
               "Complex: curved meshes or many small triangles are lit per pixel, which costs time "
               "in each frame. Automatic decides for each part of the mesh.");
-  const auto current = static_cast<size_t>(node.meshKind);
-  const bool open = ImGui::BeginCombo("##mesh_kind", kChoices[current].label);
-  ui.name("mesh_kind");
-  if (!open) return;
-  for (const Choice& choice : kChoices) {
-    if (ImGui::Selectable(choice.label, choice.kind == node.meshKind) &&
-        choice.kind != node.meshKind)
-      ui.session.setMeshKind(node.id, choice.kind);
-    ui.name(std::string("mesh_kind/") + choice.name);
-  }
-  ImGui::EndCombo();
+  const auto current = static_cast<int>(node.meshKind);
+  const auto kinds = meshKindItems();
+  const int chosen = combo(ui, "mesh_kind", kinds[current].label, kinds, current);
+  if (chosen != kNone && chosen != current)
+    ui.session.setMeshKind(node.id, static_cast<MeshKind>(chosen));
 }
 
 }  // namespace

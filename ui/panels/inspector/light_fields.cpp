@@ -9,24 +9,14 @@
 namespace lamplighter {
 namespace {
 
-constexpr std::array kShapeNames = {"Rectangle", "Disk", "Sphere", "Tube"};
-
 bool shapeCombo(const PanelContext& ui, AreaLight& light) {
   labelledRow(ui, "Shape", "Shape of the emitting surface.");
-  const auto current = static_cast<size_t>(light.shape);
-  bool changed = false;
-  const bool open = ImGui::BeginCombo("##shape", kShapeNames[current]);
-  ui.name("shape");
-  if (!open) return false;
-  for (size_t i = 0; i < kShapeNames.size(); ++i) {
-    if (ImGui::Selectable(kShapeNames[i], i == current) && i != current) {
-      light.shape = static_cast<AreaShape>(i);
-      changed = true;
-    }
-    ui.name(std::string("shape/") + kShapeNames[i]);
-  }
-  ImGui::EndCombo();
-  return changed;
+  static const std::string kShapes[] = {"Rectangle", "Disk", "Sphere", "Tube"};
+  const auto current = static_cast<int>(light.shape);
+  const int chosen = combo(ui, "shape", kShapes[current], kShapes);
+  if (chosen == kNone || chosen == current) return false;
+  light.shape = static_cast<AreaShape>(chosen);
+  return true;
 }
 
 // Shows the temperature of the nearest black-body colour. An edit sets the colour of another
@@ -131,6 +121,23 @@ void stateFields(const PanelContext& ui, const Node& node) {
 }
 
 }  // namespace
+
+bool fileButtons(const PanelContext& ui, const std::string& what, const std::string& action,
+                 const std::string* file, Requests& requests) {
+  const float width = ui.px(30);
+  const float room =
+      file == nullptr ? -FLT_MIN : ImGui::GetContentRegionAvail().x - width - ui.px(5);
+  const std::string label = (file == nullptr ? "Choose\u2026" : *file) + "##" + what;
+  if (ImGui::Button(label.c_str(), {room, 0})) requests.actions.push_back(action);
+  ui.name(what + "/choose");
+  if (file == nullptr) return false;
+  ImGui::SameLine(0, ui.px(5));
+  if (ImGui::Button(("\u00d7##" + what).c_str(), {width, 0}))
+    ui.session.runAction(action + " none");
+  ui.name(what + "/remove");
+  tooltip(ui, "Removes the " + what + ".");
+  return true;
+}
 
 void areaLightFields(PanelContext ui, const Node& node, Requests& requests) {
   AreaLight light = *node.area;

@@ -8,7 +8,6 @@
 #include "editor/lights/light_links.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/icons.h"
-#include "ui/widgets/theme.h"
 
 namespace lamplighter {
 namespace {

@@ -52,18 +52,10 @@ void materialFields(PanelContext ui, const Node& node, InspectorState& state) {
   if (materials.size() == 1) {
     ImGui::TextUnformatted(nameOf(scene, index).c_str());
   } else {
-    const bool open = ImGui::BeginCombo("##slot", nameOf(scene, index).c_str());
-    ui.name("material");
-    if (open) {
-      for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
-        ImGui::PushID(i);
-        const std::string name = nameOf(scene, materials[static_cast<size_t>(i)]);
-        if (ImGui::Selectable(name.c_str(), i == state.slot)) state.slot = i;
-        ui.name("material/" + name);
-        ImGui::PopID();
-      }
-      ImGui::EndCombo();
-    }
+    std::vector<ComboItem> items;
+    for (const int m : materials) items.push_back({nameOf(scene, m), nameOf(scene, m)});
+    const int chosen = combo(ui, "material", nameOf(scene, index), items, state.slot);
+    if (chosen != kNone) state.slot = chosen;
   }
 
   Material material = scene.materials[static_cast<size_t>(index)];

@@ -11,7 +11,6 @@
 #include "editor/edits/object_edits.h"
 #include "editor/edits/tree.h"
 #include "editor/lights/light_edits.h"
-#include "editor/lights/light_links.h"
 #include "renderer/base/error.h"
 #include "ui/panels/panels.h"
 #include "ui/widgets/colour_fields.h"
@@ -170,9 +169,6 @@ void materialFields(const PanelContext& ui, const std::vector<int>& materials) {
 }
 
 void meshKindField(const PanelContext& ui) {
-  static constexpr const char* kNames[] = {"automatic", "simple", "complex"};
-  static constexpr const char* kLabels[] = {"Automatic", "Simple: light maps",
-                                            "Complex: each pixel"};
   const Document& document = ui.session.document();
   std::optional<MeshKind> common;
   bool isMixed = false, any = false;
@@ -187,16 +183,10 @@ void meshKindField(const PanelContext& ui) {
   labelledRow(ui, "Lit as",
               "Simple: light maps, which cost memory. Complex: per pixel, which costs time in each "
               "frame. Automatic decides for each part of a mesh.");
-  const bool open =
-      ImGui::BeginCombo("##lit_as", isMixed ? "mixed" : kLabels[static_cast<size_t>(*common)]);
-  ui.name("lit_as");
-  if (!open) return;
-  for (size_t i = 0; i < 3; ++i) {
-    if (ImGui::Selectable(kLabels[i], !isMixed && static_cast<size_t>(*common) == i))
-      ui.session.runAction(std::string("objects.lit_as ") + kNames[i]);
-    ui.name(std::string("lit_as/") + kNames[i]);
-  }
-  ImGui::EndCombo();
+  const auto kinds = meshKindItems();
+  const int current = isMixed ? kNone : static_cast<int>(*common);
+  const int chosen = combo(ui, "lit_as", isMixed ? "mixed" : kinds[current].label, kinds, current);
+  if (chosen != kNone) ui.session.runAction("objects.lit_as " + kinds[chosen].name);
 }
 
 }  // namespace

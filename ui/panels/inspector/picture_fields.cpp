@@ -51,21 +51,8 @@ void pictureFields(const PanelContext& ui, const Node& node, Requests& requests)
   labelledRow(
       ui, "Picture",
       "A PNG or JPEG picture whose pixels scale the radiance: for a screen, a window or a sign.");
-  if (!picture) {
-    if (ImGui::Button("Choose\u2026##picture", {-FLT_MIN, 0}))
-      requests.actions.emplace_back("light.picture");
-    ui.name("picture/choose");
+  if (!fileButtons(ui, "picture", "light.picture", picture ? &picture->file : nullptr, requests))
     return;
-  }
-  const float width = ui.px(30);
-  if (ImGui::Button((picture->file + "##picture").c_str(),
-                    {ImGui::GetContentRegionAvail().x - width - ui.px(5), 0}))
-    requests.actions.emplace_back("light.picture");
-  ui.name("picture/choose");
-  ImGui::SameLine(0, ui.px(5));
-  if (ImGui::Button("\u00d7##picture", {width, 0})) ui.session.runAction("light.picture none");
-  ui.name("picture/remove");
-  tooltip(ui, "Removes the picture.");
   if (shownPicture(*node.area) == nullptr) {
     note("Only rectangles and disks can show a picture.");
     return;

@@ -54,21 +54,8 @@ void profileFields(const PanelContext& ui, const Node& node, Requests& requests)
   const auto profile = node.punctual->profile;
   labelledRow(ui, "Profile",
               "Angular distribution of the luminaire's intensity: an IES file (LM-63).");
-  if (!profile) {
-    if (ImGui::Button("Choose\u2026##profile", {-FLT_MIN, 0}))
-      requests.actions.emplace_back("light.ies");
-    ui.name("profile/choose");
+  if (!fileButtons(ui, "profile", "light.ies", profile ? &profile->file : nullptr, requests))
     return;
-  }
-  const float width = ui.px(30);
-  if (ImGui::Button((profile->file + "##profile").c_str(),
-                    {ImGui::GetContentRegionAvail().x - width - ui.px(5), 0}))
-    requests.actions.emplace_back("light.ies");
-  ui.name("profile/choose");
-  ImGui::SameLine(0, ui.px(5));
-  if (ImGui::Button("\u00d7##profile", {width, 0})) ui.session.runAction("light.ies none");
-  ui.name("profile/remove");
-  tooltip(ui, "Removes the profile.");
   polarPlot(ui, *profile);
   const float measured = profile->peak * profile->solidAngle;
   if (ImGui::Button("As measured", {-FLT_MIN, 0})) {

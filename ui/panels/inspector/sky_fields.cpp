@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "ui/panels/panels.h"
 #include "ui/widgets/colour_fields.h"
 
@@ -35,27 +33,20 @@ Sky asGradient(const Sky& sky) {
 }
 
 void kindField(const PanelContext& ui, const Sky& sky, Requests& requests) {
-  const char* kNames[] = {"None", "Colour", "Gradient", "Picture"};
-  const char* kWidgets[] = {"none", "constant", "gradient", "image"};
+  static const ComboItem kKinds[] = {
+      {"none", "None"}, {"constant", "Colour"}, {"gradient", "Gradient"}, {"image", "Picture"}};
   const int current =
       sky.isBlack() && sky.kind == SkyKind::constant ? 0 : static_cast<int>(sky.kind) + 1;
   labelledRow(ui, "Kind",
               "The environment, which lights the scene from all directions. It takes a part of the "
               "light samples.");
-  const bool open = ImGui::BeginCombo("##kind", kNames[current]);
-  ui.name("kind");
-  if (!open) return;
-  for (int i = 0; i < 4; ++i) {
-    const bool chosen = ImGui::Selectable(kNames[i], i == current) && i != current;
-    ui.name(std::string("kind/") + kWidgets[i]);
-    if (!chosen) continue;
-    if (i == 0) ui.session.setSky(Sky());
-    if (i == 1) ui.session.setSky(asConstant(sky));
-    if (i == 2) ui.session.setSky(asGradient(sky));
-    if (i == 3)
-      requests.actions.emplace_back("sky.image");  // becomes a picture sky when a file is chosen
-  }
-  ImGui::EndCombo();
+  const int chosen = combo(ui, "kind", kKinds[current].label, kKinds, current);
+  if (chosen == current) return;
+  if (chosen == 0) ui.session.setSky(Sky());
+  if (chosen == 1) ui.session.setSky(asConstant(sky));
+  if (chosen == 2) ui.session.setSky(asGradient(sky));
+  if (chosen == 3)
+    requests.actions.emplace_back("sky.image");  // becomes a picture sky when a file is chosen
 }
 
 bool pictureFields(const PanelContext& ui, Sky& sky, Requests& requests) {

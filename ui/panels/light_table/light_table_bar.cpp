@@ -79,16 +79,12 @@ class Bar {
   void propertyCombo() {
     const auto& all = lightProperties();
     ImGui::SetNextItemWidth(ui_.px(130));
-    const bool open = ImGui::BeginCombo("##property", lightPropertyInfo(property_).label);
-    ui_.name("property");
-    if (open) {
-      for (size_t i = 0; i < all.size(); ++i) {
-        if (ImGui::Selectable(all[i].label, all[i].property == property_))
-          state_.property = static_cast<int>(i);
-        ui_.name(std::string("property/") + all[i].name);
-      }
-      ImGui::EndCombo();
-    }
+    std::vector<ComboItem> items;
+    for (const LightPropertyInfo& info : all) items.push_back({info.name, info.label});
+    const LightPropertyInfo& now = lightPropertyInfo(property_);
+    const int chosen =
+        combo(ui_, "property", now.label, items, static_cast<int>(&now - all.data()));
+    if (chosen != kNone) state_.property = chosen;
     gap();
   }
 
@@ -127,17 +123,12 @@ class Bar {
 
   void unitCombo(LightUnit unit) {
     ImGui::SetNextItemWidth(ui_.px(54));
-    const bool open = ImGui::BeginCombo("##unit", unitSymbol(unit));
-    ui_.name("unit");
+    static const std::string kUnits[] = {unitSymbol(LightUnit::lumens),
+                                         unitSymbol(LightUnit::candela),
+                                         unitSymbol(LightUnit::nits), unitSymbol(LightUnit::watts)};
+    const int chosen = combo(ui_, "unit", unitSymbol(unit), kUnits);
     tooltip(ui_, "Unit of the strength of lights, here and in the inspector.");
-    if (!open) return;
-    for (const LightUnit u :
-         {LightUnit::lumens, LightUnit::candela, LightUnit::nits, LightUnit::watts}) {
-      if (ImGui::Selectable(unitSymbol(u), u == unit))
-        requests_.actions.push_back(std::string("lights.unit ") + unitSymbol(u));
-      ui_.name(std::string("unit/") + unitSymbol(u));
-    }
-    ImGui::EndCombo();
+    if (chosen != kNone) requests_.actions.push_back("lights.unit " + kUnits[chosen]);
   }
 
   void colour() {
@@ -188,9 +179,7 @@ class Bar {
       if (stateOf(scene, l).group != common) common = "mixed";
     }
     ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
-    ImGui::TextUnformatted("Groups");
-    ImGui::PopStyleColor();
+    colouredText("Groups", theme::kTextDim);
     ImGui::SameLine(ui_.px(128));
     ImGui::BeginDisabled(!any);
     ImGui::SetNextItemWidth(ui_.px(130));

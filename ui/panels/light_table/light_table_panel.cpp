@@ -53,12 +53,6 @@ constexpr float kLeastTableHeight = 84.0f;  // design pixels
 // design pixels; largest extra width of the names in a wide window
 constexpr float kMostSpare = 160.0f;
 
-void rightAligned(const std::string& text) {
-  const float left = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-  if (left > 0.0f) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + left);
-  ImGui::TextUnformatted(text.c_str());
-}
-
 class Table {
  public:
   Table(const PanelContext& ui, LightTableState& state)
@@ -145,17 +139,18 @@ class Table {
              by.SortDirection == ImGuiSortDirection_Ascending);
   }
 
+  static bool isDim(const LightRow& r) { return !r.visible || !r.shines; }
+
   void row(const LightRow& r) {
     ImGui::PushID(static_cast<int>(r.source.node));
     ImGui::TableNextRow();
-    const bool isDim = !r.visible || !r.shines;
-    if (isDim) ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
+    if (isDim(r)) ImGui::PushStyleColor(ImGuiCol_Text, theme::colour(theme::kTextDim));
     for (size_t i = 0; i < kColumns.size(); ++i) {
       if (!ImGui::TableSetColumnIndex(static_cast<int>(i))) continue;
       cell(r, kColumns[i]);
       cells_.cell(r, kColumns[i].column, widgetOf(r));
     }
-    if (isDim) ImGui::PopStyleColor();
+    if (isDim(r)) ImGui::PopStyleColor();
     ImGui::PopID();
   }
 
@@ -177,7 +172,7 @@ class Table {
         return;
       default:
         if (c.isNumber)
-          rightAligned(cellText(r, c.column));
+          rightAligned(cellText(r, c.column), isDim(r) ? theme::kTextDim : theme::kText);
         else
           ImGui::TextUnformatted(cellText(r, c.column).c_str());
     }

@@ -1,6 +1,5 @@
 #include "renderer/backends/cpu/irradiance/light_kernel.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "renderer/backends/cpu/irradiance/simd_light.h"

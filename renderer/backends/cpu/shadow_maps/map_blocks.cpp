@@ -1,6 +1,5 @@
 #include "renderer/backends/cpu/shadow_maps/map_blocks.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "renderer/base/simd.h"

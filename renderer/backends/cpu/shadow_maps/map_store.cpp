@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <new>
-#include <stdexcept>
 #include <string>
 
 #include <tbb/parallel_for.h>

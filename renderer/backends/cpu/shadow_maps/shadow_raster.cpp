@@ -1,9 +1,7 @@
 #include "renderer/backends/cpu/shadow_maps/shadow_raster.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #include "renderer/backends/cpu/shadow_maps/shadow_maps.h"

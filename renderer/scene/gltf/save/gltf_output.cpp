@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
-#include <cstdlib>
 #include <new>
 
 #include "renderer/base/error.h"

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "renderer/base/error.h"
-#include "renderer/scene/gltf/gltf_lights.h"
 #include "renderer/scene/gltf/save/gltf_output.h"
 
 namespace lamplighter {

@@ -2,7 +2,6 @@
 #include <optional>
 #include <vector>
 
-#include "renderer/scene/gltf/gltf_content.h"
 #include "renderer/scene/gltf/gltf_lights.h"
 #include "renderer/scene/gltf/save/gltf_output.h"
 

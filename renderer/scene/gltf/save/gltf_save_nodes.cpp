@@ -1,6 +1,5 @@
 // Saves the nodes of a scene. Nodes of the source keep their JSON, patched. Deleted nodes are
 // removed, and all node indices in the file are updated.
-#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <unordered_map>
