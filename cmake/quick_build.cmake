@@ -5,7 +5,7 @@ set(LAMPLIGHTER_UNITY_BATCH 8 CACHE STRING "How many at most")
 
 option(LAMPLIGHTER_PRECOMPILE "Precompile what most sources include" OFF)
 
-# The target `owner` precompiles the header; others with its flags share the result.
+# In targets with the flags of `owner`, and more definitions, sources begin with what `owner` precompiled.
 function(lamplighter_precompile target owner header)
   if(target STREQUAL owner)
     # In <>, since CMake would write the absolute path of "", which ccache could not share.
@@ -17,12 +17,24 @@ function(lamplighter_precompile target owner header)
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
 endfunction()
 
+# For the libraries: a target that has nothing else, since a precompiled header is of use only where
+# all definitions of its own target hold.
+function(lamplighter_precompile_for_libraries)
+  if(NOT LAMPLIGHTER_PRECOMPILE)
+    return()
+  endif()
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp CONTENT "")
+  add_library(precompiled OBJECT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
+  target_link_libraries(precompiled PRIVATE ${ARGN})
+  lamplighter_precompile(precompiled precompiled renderer/base/precompiled.h)
+endfunction()
+
 # For a target whose sources are all known, after their properties are set. A batch ends with its
 # folder where it can, so that a new file changes few of them. CMake's UNITY_BUILD writes absolute
 # paths, which no two working trees have in common: ccache could not share what one has compiled.
 function(lamplighter_quick_build target)
   if(LAMPLIGHTER_PRECOMPILE)
-    lamplighter_precompile(${target} renderer renderer/base/precompiled.h)
+    lamplighter_precompile(${target} precompiled renderer/base/precompiled.h)
   endif()
   if(NOT LAMPLIGHTER_UNITY)
     return()

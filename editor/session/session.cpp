@@ -74,7 +74,7 @@ void Session::perform(std::string_view text) {
   if (action.enabled && !action.enabled(*this)) return;
   if (!action.takes(arguments.size()))
     throw InputError(action.name + " " + action.usage,
-                     std::to_string(arguments.size()) + " arguments do not fit",
+                     "the number of arguments is wrong (" + std::to_string(arguments.size()) + ")",
                      "give them as shown");
   action.run(*this, arguments);
   home_->ran.insert(action.name);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fstream>
 
+#include <spdlog/fmt/fmt.h>
+
 #include "renderer/base/error.h"
 #include "renderer/scene/ies/ies_profile.h"
 #include "renderer/scene/ies/ies_table.h"
@@ -121,7 +123,7 @@ class Parser {
   size_t count(const char* what) {
     const double value = number(what);
     if (!(value >= 1.0 && value <= 100'000.0) || value != std::floor(value))
-      fail(std::string("has an invalid number of ") + what);
+      fail(fmt::format("has an invalid number of {}", what));
     return static_cast<size_t>(value);
   }
 
