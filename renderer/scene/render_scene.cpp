@@ -1,6 +1,7 @@
 #include "renderer/scene/render_scene.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "renderer/scene/ies/ies_profile.h"
@@ -243,26 +244,34 @@ void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& ch
   }
 }
 
-// Updates the materials derived from the scene: of area lights, and dark copies. Returns whether
-// one changed.
-bool takeEmitters(RenderScene& render, const Scene& scene) {
+// Replaces a material, and adds to `out` what changed: of an area light's surface, which reflects
+// nothing, and of a material that emits before and after, perhaps only the emission.
+void takeMaterial(RenderScene& render, size_t index, Material now, bool isOfAreaLight,
+                  RenderSceneChanges& out) {
+  Material& material = render.materials[index];
+  if (material == now) return;
+  std::swap(material, now);
+  const bool emitted = now.emits();
+  now.emissive = material.emissive;
+  if ((isOfAreaLight || emitted == material.emits()) && now == material)
+    out.emissions.push_back(static_cast<int>(index));
+  else
+    out.materials = true;
+}
+
+// Updates the materials derived from the scene: of area lights, and dark copies.
+void takeEmitters(RenderScene& render, const Scene& scene, RenderSceneChanges& out) {
   size_t next = scene.materials.size() + 1;
-  bool changed = false;
-  const auto take = [&](Material m) {
-    if (!(render.materials[next] == m)) {
-      render.materials[next] = std::move(m);
-      changed = true;
-    }
-    ++next;
-  };
   const std::vector<bool> shining = shiningLights(scene).nodes;
   const Pictures pictures(scene);
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     if (scene.nodes[i].area)
-      take(emitterMaterial(*scene.nodes[i].area, shining[i], pictures.ofNode[i]));
+      takeMaterial(render, next++,
+                   emitterMaterial(*scene.nodes[i].area, shining[i], pictures.ofNode[i]), true,
+                   out);
   }
-  for (const int material : render.darkMaterials) take(darkCopy(scene.materials[material]));
-  return changed;
+  for (const int material : render.darkMaterials)
+    takeMaterial(render, next++, darkCopy(scene.materials[material]), false, out);
 }
 
 }  // namespace
@@ -275,8 +284,13 @@ void RenderSceneChanges::merge(const RenderSceneChanges& later) {
   if (rebuilt) {
     movedObjects.clear();
     movedBounds.clear();
+    emissions.clear();
     return;
   }
+  std::vector<int> both;
+  std::set_union(emissions.begin(), emissions.end(), later.emissions.begin(), later.emissions.end(),
+                 std::back_inserter(both));
+  emissions = std::move(both);
   for (size_t i = 0; i < later.movedObjects.size(); ++i) {
     const uint32_t object = later.movedObjects[i];
     // An object that moved before keeps its first bounds.
@@ -294,11 +308,9 @@ RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneCh
     out.rebuilt = true;
   } else {
     if (!changes.moved.empty() || !changes.lights.empty()) moveObjects(render, scene, changes, out);
-    for (const int i : changes.materials) {
-      render.materials[i] = scene.materials[i];
-      out.materials = true;
-    }
-    out.materials |= takeEmitters(render, scene);
+    for (const int i : changes.materials)
+      takeMaterial(render, static_cast<size_t>(i), scene.materials[i], false, out);
+    takeEmitters(render, scene, out);
   }
   const Sky sky = shiningLights(scene).sky ? scene.sky : Sky();
   out.sky = render.sky != sky || out.rebuilt;

@@ -75,11 +75,15 @@ struct RenderSceneChanges {
   std::vector<Bounds> movedBounds;     // bounds of each moved object before the move, in the order
                                        // of movedObjects
   bool materials = false;              // parameters of materials changed (not the number of
-                                       // materials)
-  bool lights = false;                 // punctual lights changed or moved
+                                       // materials), beyond the radiance that they emit
+  std::vector<int> emissions;  // sorted; materials of which only the emitted radiance changed
+  bool lights = false;         // punctual lights changed or moved
   bool sky = false;
 
-  bool none() const { return !rebuilt && movedObjects.empty() && !materials && !lights && !sky; }
+  bool none() const { return !surfaces() && emissions.empty() && !lights && !sky; }
+  // Whether anything that receives, reflects or blocks light changed, and not just the light that
+  // is emitted.
+  bool surfaces() const { return rebuilt || !movedObjects.empty() || materials; }
   // Adds the changes of a later update().
   void merge(const RenderSceneChanges& later);
 };

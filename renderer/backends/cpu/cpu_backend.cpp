@@ -1,5 +1,7 @@
 #include "renderer/backends/cpu/cpu_backend.h"
 
+#include <algorithm>
+
 #include <tbb/parallel_for.h>
 
 #include "renderer/backends/cpu/composition.h"
@@ -30,6 +32,10 @@ void CpuBackend::takeScene(const RenderScene& scene, const RenderSceneChanges& c
   }
   moves_.insert(moves_.end(), changes.movedBounds.begin(), changes.movedBounds.end());
   for (const uint32_t i : changes.movedObjects) moves_.push_back(scene.objects[i].bounds);
+  // The G-buffer has the emission of surfaces.
+  for (const RenderObject& o : scene.objects)
+    if (std::binary_search(changes.emissions.begin(), changes.emissions.end(), o.material))
+      moves_.push_back(o.bounds);
 }
 
 void CpuBackend::drawGBuffer(const View& view, vec2 jitter) {

@@ -89,7 +89,7 @@ void GlScene::update(const RenderScene& scene, const RenderSceneChanges& changes
   } else {
     for (const uint32_t i : changes.movedObjects) uploadObject(scene.objects[i]);
   }
-  if (all || changes.materials) uploadMaterials();
+  if (all || changes.materials || !changes.emissions.empty()) uploadMaterials();
 }
 
 void GlScene::uploadGeometry() {

@@ -45,7 +45,7 @@ LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
           [&rays = in.services.rays()](const vec3& a, const vec3& b) {
             return !rays.occluded({a, 0.0f, b - a, 1.0f});
           },
-          !in.changes.none()};
+          in.changes.surfaces()};
 }
 
 // Maps per frame, for maps `scale` times finer than coarse ones. With traced maps (cpu), texels
@@ -183,10 +183,10 @@ GiOutput ManyLights::render(const FrameInputs& in) {
 
 void ManyLights::updateLights(const FrameInputs& in, const Options& options,
                               ManyLightsStats& stats) {
-  const bool sceneChanged = !started_ || !in.changes.none();
+  const bool surfacesChanged = !started_ || in.changes.surfaces();
   const RayCaster& rays = in.services.rays();
   std::span<const MoverFinder::Mover> movers;
-  if (sceneChanged) {
+  if (surfacesChanged) {
     movers = in.services.movers();
     pointVisibility_.outdate(in.changes, movers);
   }
@@ -211,7 +211,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options,
   stats.pathsReplaced = work.replaced;
   stats.pathsKept = work.kept;
   stats.pathsPending = work.pending;
-  if (sceneChanged) {
+  if (surfacesChanged) {
     std::function<bool(const shared::Vpl&)> isSpared;
     if (visibility_ && visibility_->moversFound() == movers.size())
       isSpared = [&](const shared::Vpl& vpl) { return visibility_->moversAreHidden(vpl); };
@@ -251,7 +251,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, ManyL
       (options.speculars && kernels_->traits().specularsTakeAllMaps && hasGlossy(in.scene));
   if (needsAll)
     lights_.needMaps(std::vector<uint8_t>(slots, 1));
-  else if (lights_.changed() || !in.changes.none() || in.view != view_ ||
+  else if (lights_.changed() || in.changes.surfaces() || in.view != view_ ||
            options.useVisibility() != options_.useVisibility() ||
            options.speculars != options_.speculars)
     lights_.needMaps(shadowMapDemand(*visibility_, in.scene, in.view));

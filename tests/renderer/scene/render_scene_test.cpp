@@ -39,7 +39,8 @@ TEST(RenderScene, MovingEqualsRebuilding) {
   const RenderSceneChanges c = update(render, moved, compare(scene, moved));
   EXPECT_FALSE(c.rebuilt);
   EXPECT_EQ(c.movedObjects, (std::vector<uint32_t>{0, 2}));
-  EXPECT_TRUE(c.materials);
+  EXPECT_FALSE(c.materials);
+  EXPECT_EQ(c.emissions, (std::vector<int>{2}));
 
   RenderScene fresh;
   update(fresh, moved, SceneChanges::all());
@@ -51,6 +52,41 @@ TEST(RenderScene, MovingEqualsRebuilding) {
   EXPECT_EQ(render.bounds.max, fresh.bounds.max);
 }
 
+TEST(RenderScene, AChangeOfBrightnessIsAChangeOfEmissionOnly) {
+  Scene scene;
+  const int wall = addMaterial(scene, vec3(0.5f)), lamp = addMaterial(scene, vec3(0.5f));
+  scene.materials[static_cast<size_t>(lamp)].emissive = vec3(2.0f);
+  addMesh(scene, test::boxMesh(vec3(1.0f), wall));
+  addMesh(scene, test::boxMesh(vec3(1.0f), lamp), vec3(0, 2, 0));
+  const NodeId light = addRectangleLight(scene, vec3(0, 3, 0), vec2(1.0f), vec3(5.0f));
+  RenderScene render;
+  update(render, scene, SceneChanges::all());
+  const auto changesBy = [&](auto&& edit) {
+    Scene after = scene;
+    edit(after);
+    RenderScene changed = render;
+    return update(changed, after, compare(scene, after));
+  };
+  const auto brighter = changesBy([&](Scene& s) {
+    s.materials[static_cast<size_t>(lamp)].emissive = vec3(3.0f);
+    s.find(light)->area->radiance = vec3(0.5f);
+  });
+  EXPECT_FALSE(brighter.surfaces());
+  EXPECT_EQ(brighter.emissions, (std::vector<int>{lamp, 3}));
+  EXPECT_FALSE(brighter.none());
+  const auto off = changesBy([&](Scene& s) { s.find(light)->area->radiance = vec3(0.0f); });
+  EXPECT_FALSE(off.surfaces());
+  EXPECT_EQ(off.emissions, (std::vector<int>{3}));
+  // A mesh that begins to emit, or reflects differently, changes as a surface.
+  EXPECT_TRUE(changesBy([&](Scene& s) {
+                s.materials[static_cast<size_t>(wall)].emissive = vec3(1.0f);
+              }).materials);
+  EXPECT_TRUE(changesBy([&](Scene& s) {
+                s.materials[static_cast<size_t>(lamp)].emissive = vec3(3.0f);
+                s.materials[static_cast<size_t>(lamp)].baseColor = vec4(0.1f);
+              }).materials);
+}
+
 TEST(RenderScene, MergedChangesKeepTheFirstBounds) {
   RenderSceneChanges changes, later;
   changes.movedObjects = {2};
@@ -59,7 +95,10 @@ TEST(RenderScene, MergedChangesKeepTheFirstBounds) {
   later.movedBounds.emplace_back().add(vec3(5.0f));
   later.movedBounds.emplace_back().add(vec3(9.0f));
   later.sky = true;
+  changes.emissions = {1, 4};
+  later.emissions = {2, 4};
   changes.merge(later);
+  EXPECT_EQ(changes.emissions, (std::vector<int>{1, 2, 4}));
   EXPECT_EQ(changes.movedObjects, (std::vector<uint32_t>{2, 3}));
   EXPECT_EQ(changes.movedBounds[0].min, vec3(1.0f));
   EXPECT_EQ(changes.movedBounds[1].min, vec3(5.0f));
@@ -69,6 +108,7 @@ TEST(RenderScene, MergedChangesKeepTheFirstBounds) {
   EXPECT_TRUE(changes.rebuilt);
   EXPECT_TRUE(changes.movedObjects.empty());
   EXPECT_TRUE(changes.movedBounds.empty());
+  EXPECT_TRUE(changes.emissions.empty());
 }
 
 TEST(RenderScene, AMirroredBoxStillFacesOutwards) {
