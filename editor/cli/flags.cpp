@@ -63,18 +63,26 @@ void addMethodFlags(CLI::App& sub, MethodFlags& o, const char* samples) {
       ->allow_extra_args(false);  // one value per flag: the next word may be the scene
 }
 
+void addMethodName(CLI::App& sub, std::string& method) {
+  sub.add_option("--method", method, "See 'lamplighter methods'")
+      ->type_name("NAME")
+      ->capture_default_str();
+}
+
+void addView(CLI::App& sub, std::string& camera, std::string& size) {
+  sub.add_option("--camera", camera, "Name or number of a camera [the first, or a view of all]")
+      ->type_name("NAME|INDEX");
+  sub.add_option("--size", size, "WxH in pixels")->type_name("WxH")->capture_default_str();
+}
+
 void renderFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
   auto o = std::make_shared<RenderOptions>();
   sub.add_option("SCENE", o->scene, ".gltf or .glb file")->type_name("FILE")->required();
   sub.add_option("-o,--output", o->output, "EXR (linear radiance) or PNG (tone-mapped)")
       ->type_name("FILE")
       ->required();
-  sub.add_option("--method", o->method, "See 'lamplighter methods'")
-      ->type_name("NAME")
-      ->capture_default_str();
-  sub.add_option("--camera", o->camera, "Name or number of a camera [the first, or a view of all]")
-      ->type_name("NAME|INDEX");
-  sub.add_option("--size", o->size, "WxH in pixels")->type_name("WxH")->capture_default_str();
+  addMethodName(sub, o->method);
+  addView(sub, o->camera, o->size);
   addMethodFlags(sub, *o, "Samples a pixel");
   addBackend(sub, o->backend);
   sub.add_option("--sky", o->sky, "Another sky; radiance in W/(m2 sr), or a picture")
@@ -130,6 +138,33 @@ void compareFlags(CLI::App& sub, Run& run, const Frontend&) {
       "relRMSE = sqrt(mean((A-B)^2)) / mean(B); bias = mean A / mean B\nExample: lamplighter "
       "compare live.exr reference.exr --heatmap where.png");
   sub.callback([=, &run] { run = [=] { return compare(*o); }; });
+}
+
+void convergeFlags(CLI::App& sub, Run& run, const Frontend& frontend) {
+  auto o = std::make_shared<ConvergeOptions>();
+  sub.add_option("FROM", o->from, ".gltf or .glb file")->type_name("FILE")->required();
+  sub.add_option("TO", o->to,
+                 "Another state of it, whose places and lights it gets when it has settled [none: "
+                 "opening is measured]")
+      ->type_name("FILE");
+  sub.add_option("--against", o->against, "The reference: a picture of the settled state")
+      ->type_name("FILE")
+      ->required();
+  sub.add_option("--mask", o->mask, "Only pixels over 0.5 in this image count")->type_name("FILE");
+  addMethodName(sub, o->method);
+  addView(sub, o->camera, o->size);
+  addMethodFlags(sub, *o, "Samples a pixel");
+  sub.add_option("--seconds", o->seconds,
+                 "Measure for this time, with refinement at rest [until the picture is settled]")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+  addBackend(sub, o->backend);
+  addThreads(sub, o->threads);
+  sub.add_flag("--json", o->json, "As JSON");
+  sub.footer(
+      "Times are from the edit to the end of a frame, without comparing; errors are relRMSE\n"
+      "Example: lamplighter converge level.glb moved.glb --against moved.exr --json");
+  sub.callback([=, &run, &frontend] { run = [=, &frontend] { return converge(*o, frontend); }; });
 }
 
 void tonemapFlags(CLI::App& sub, Run& run, const Frontend&) {
@@ -256,6 +291,7 @@ constexpr Subcommand kSubcommands[] = {
     {"actions", "Every action of the editor, its arguments and key", actionsFlags},
     {"settings", "Every setting of the editor, its range and default", settingsFlags},
     {"compare", "How far picture A is from the reference B", compareFlags},
+    {"converge", "How fast the live picture approaches a reference after an edit", convergeFlags},
     {"tonemap", "A radiance image as the editor would show it", tonemapFlags},
     {"replay", "Play a recording of input", replayFlags},
     {"script", "Run a file of actions on a scene, without a window", scriptFlags},

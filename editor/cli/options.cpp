@@ -21,15 +21,7 @@ bool has(const MethodInfo& method, const std::string& name) {
 
 }  // namespace
 
-Settings settingsOf(const MethodFlags& o, const MethodInfo& method) {
-  Settings settings;
-  // Nobody sees the frames in between, so each frame does all updates. The settled picture is the
-  // same.
-  if (has(method, "updates")) settings.set("updates", kAllAtOnce);
-  // Refinement of a settled picture takes time, so it is off unless it is requested.
-  if (has(method, "refine")) settings.set("refine", 0);
-  if (has(method, "samples_per_frame")) settings.set("samples_per_frame", 16);
-
+void applyFlags(Settings& settings, const MethodFlags& o, const MethodInfo& method) {
   struct Shortcut {
     const char* flag;
     const std::string& value;
@@ -52,6 +44,17 @@ Settings settingsOf(const MethodFlags& o, const MethodInfo& method) {
                                method.name);
   }
   for (const std::string& a : o.assignments) setFromAssignment(settings, method, a);
+}
+
+Settings settingsOf(const MethodFlags& flags, const MethodInfo& method) {
+  Settings settings;
+  // Nobody sees the frames in between, so each frame does all updates. The settled picture is the
+  // same.
+  if (has(method, "updates")) settings.set("updates", kAllAtOnce);
+  // Refinement of a settled picture takes time, so it is off unless it is requested.
+  if (has(method, "refine")) settings.set("refine", 0);
+  if (has(method, "samples_per_frame")) settings.set("samples_per_frame", 16);
+  applyFlags(settings, flags, method);
   return settings;
 }
 

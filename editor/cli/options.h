@@ -31,8 +31,10 @@ struct MethodFlags {
   std::string vpls, directShare, bounces, seed, spp;  // shortcuts
   std::vector<std::string> assignments;               // "name=value"
 };
-// Settings for a non-interactive run. Throws InputError. Prints a warning to standard error for a
-// shortcut whose parameter the method does not have.
+// Sets the parameters that the flags name. Throws InputError. Prints a warning to standard error
+// for a shortcut whose parameter the method does not have.
+void applyFlags(Settings& settings, const MethodFlags& flags, const MethodInfo& method);
+// Settings for a non-interactive run, with the flags applied.
 Settings settingsOf(const MethodFlags& flags, const MethodInfo& method);
 
 // The camera with that name or index. "": the first camera, or a view of the whole scene if it has

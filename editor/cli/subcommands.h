@@ -53,6 +53,17 @@ struct CompareOptions {
 };
 int compare(const CompareOptions& options);
 
+struct ConvergeOptions : MethodFlags {
+  std::string from, to;  // to "": measures from opening `from`
+  std::string against, mask;
+  std::string method = "many_lights";
+  std::string camera, size = "1280x720", backend = "auto";
+  std::optional<double> seconds;  // none: until the picture is settled
+  int threads = 0;
+  bool json = false;
+};
+int converge(const ConvergeOptions& options, const Frontend& frontend);
+
 struct TonemapOptions {
   std::string input, output, exposure = "0";
 };

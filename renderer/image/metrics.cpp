@@ -89,44 +89,75 @@ vec3 heatColour(float t) {
           std::clamp(4.0f * t - 3.0f, 0.0f, 1.0f)};
 }
 
-}  // namespace
+// The pixels that a mask selects; all without a mask.
+struct MaskedPixels {
+  const Image* mask;
+  bool operator()(size_t i) const { return mask == nullptr || mask->pixels[i].r > 0.5f; }
+};
 
-Metrics compareImages(const Image& a, const Image& b, const Image* mask) {
+// Over the channels of the pixels that count.
+struct ErrorSums {
+  size_t count = 0;
+  double a = 0.0, b = 0.0, squares = 0.0;  // squares: of A−B
+
+  double meanA() const { return a / static_cast<double>(count); }
+  double meanB() const { return b / static_cast<double>(count); }
+  double relRmse() const {
+    return squares == 0.0 ? 0.0 : std::sqrt(squares / static_cast<double>(count)) / meanB();
+  }
+};
+
+ErrorSums sumsOf(const Image& a, const Image& b, const Image* mask) {
   requireSameSize(a, b, "compare");
   if (mask != nullptr) requireSameSize(*mask, b, "mask");
-  const auto counts = [&](size_t i) { return mask == nullptr || mask->pixels[i].r > 0.5f; };
-  Metrics m;
-  size_t n = 0;
+  const MaskedPixels counts{mask};
+  ErrorSums sums;
   for (size_t i = 0; i < a.pixels.size(); ++i) {
     if (!counts(i)) continue;
-    for (int c = 0; c < 3; ++c, ++n) {
-      m.meanA += static_cast<double>(a.pixels[i][c]);
-      m.meanB += static_cast<double>(b.pixels[i][c]);
+    for (int c = 0; c < 3; ++c, ++sums.count) {
+      const double va = static_cast<double>(a.pixels[i][c]),
+                   vb = static_cast<double>(b.pixels[i][c]);
+      sums.a += va;
+      sums.b += vb;
+      sums.squares += (va - vb) * (va - vb);
     }
   }
-  if (n == 0)
+  if (sums.count == 0)
     throw InputError("compare", "there is no pixel to compare",
                      "give pictures that are not empty and a mask with white pixels");
-  m.meanA /= static_cast<double>(n);
-  m.meanB /= static_cast<double>(n);
+  return sums;
+}
+
+}  // namespace
+
+double relRmse(const Image& a, const Image& b, const Image* mask) {
+  return sumsOf(a, b, mask).relRmse();
+}
+
+Metrics compareImages(const Image& a, const Image& b, const Image* mask) {
+  const ErrorSums sums = sumsOf(a, b, mask);
+  const MaskedPixels counts{mask};
+  Metrics m;
+  m.meanA = sums.meanA();
+  m.meanB = sums.meanB();
   const double epsilon = std::pow(0.05 * m.meanB, 2.0);
-  double squares = 0.0, relative = 0.0;
+  double relative = 0.0;
   for (size_t i = 0; i < a.pixels.size(); ++i) {
     if (!counts(i)) continue;
     for (int c = 0; c < 3; ++c) {
       const double r = static_cast<double>(b.pixels[i][c]),
                    d = static_cast<double>(a.pixels[i][c]) - r;
-      squares += d * d;
       // Two black pixels are equal.
       if (d != 0.0) relative += d * d / (r * r + epsilon);
       if (!(std::abs(d) <= m.max)) m.max = std::abs(d);  // keeps NaN
     }
   }
-  if (std::isnan(squares)) m.max = std::numeric_limits<double>::quiet_NaN();
-  m.relRmse = squares == 0.0 ? 0.0 : std::sqrt(squares / static_cast<double>(n)) / m.meanB;
-  m.relMse = relative / static_cast<double>(n);
+  const bool isNan = std::isnan(sums.squares);
+  if (isNan) m.max = std::numeric_limits<double>::quiet_NaN();
+  m.relRmse = sums.relRmse();
+  m.relMse = relative / static_cast<double>(sums.count);
   m.bias = m.meanA == m.meanB ? 1.0 : m.meanA / m.meanB;
-  m.ssim = std::isnan(squares) ? std::numeric_limits<double>::quiet_NaN() : ssim(a, b, counts);
+  m.ssim = isNan ? std::numeric_limits<double>::quiet_NaN() : ssim(a, b, counts);
   return m;
 }
 

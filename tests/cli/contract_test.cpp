@@ -129,8 +129,8 @@ TEST_F(CommandLine, AnErrorNamesTheHelpOfItsSubcommand) {
 TEST_F(CommandLine, EveryFlagIsInTheDocs) {
   std::ifstream in(test::sourceFolder() / "docs/reference/cli.md");
   const std::string docs{std::istreambuf_iterator<char>(in), {}};
-  for (const char* sub :
-       {"info", "render", "methods", "actions", "settings", "compare", "tonemap", "replay"}) {
+  for (const char* sub : {"info", "render", "methods", "actions", "settings", "compare", "converge",
+                          "tonemap", "replay"}) {
     const std::string help = runLamplighter({sub, "--help"}).out;
     EXPECT_NE(help.find("Example: lamplighter " + std::string(sub)), std::string::npos) << sub;
     const size_t from = docs.find("\n## " + std::string(sub) + "\n");

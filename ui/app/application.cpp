@@ -11,7 +11,6 @@
 #include "renderer/base/error.h"
 #include "renderer/image/exposure.h"
 #include "renderer/image/image_io.h"
-#include "renderer/methods/common_parameters.h"
 
 namespace lamplighter {
 namespace {
@@ -31,13 +30,6 @@ void beginPanel(const char* id, const Rect& rect, bool scrolls = true) {
   ImGuiWindowFlags flags = kPanelFlags;
   if (scrolls) flags &= ~ImGuiWindowFlags_NoScrollbar;
   ImGui::Begin(id, nullptr, flags);
-}
-
-// Reports the refinement work of a frame as if it were refreshes. Its cost per item differs, so its
-// rate is controlled separately.
-GiStats refinementOf(GiStats stats) {
-  stats.updates = stats.refineUpdates;
-  return stats;
 }
 
 }  // namespace
@@ -89,9 +81,11 @@ void Application::frame() {
   if (!replaying_) meterWorker_.exchange(session_->watch().meter);
   const bool renders = rendersFrame();
   if (renders) {
-    session_->renderFrame(updatesWithinTime(), refineUpdates());
-    frameTime_.measured(session_->output().stats);
-    refineTime_.measured(refinementOf(session_->output().stats));
+    // With a fixed time step, as in recordings, counts limit the work of a frame instead of time.
+    if (timeStep_ > 0.0f)
+      session_->renderFrame();
+    else
+      pacer_.renderFrame(*session_);
     logLatency();
     followExposure();
     present();
@@ -218,22 +212,6 @@ bool Application::asksToOverwrite(const std::string& text, const std::filesystem
   overwriting_ = text + " force";
   overwriteQuestion_.ask(changed.front().filename().string());
   return true;
-}
-
-// With a fixed time step, as in recordings, the work per frame is limited by counts instead of
-// time.
-std::optional<int> Application::updatesWithinTime() {
-  const auto budget = frameBudgetParameters().read(session_->document().render.values);
-  if (timeStep_ > 0.0f || budget.frameTime == 0.0f) return std::nullopt;
-  return std::min(budget.updates, frameTime_.updatesWithin(1e-3 * budget.frameTime));
-}
-
-// At rest, the same time is used to refine the picture, but not if work is limited by counts.
-int Application::refineUpdates() {
-  if (timeStep_ > 0.0f) return 0;
-  const auto budget = frameBudgetParameters().read(session_->document().render.values);
-  if (budget.frameTime == 0.0f) return budget.updates;
-  return std::min(budget.updates, refineTime_.updatesWithin(1e-3 * budget.frameTime));
 }
 
 // Call after the frame was rendered, so that the text describes the current picture.

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "editor/session/frame_pacer.h"
 #include "editor/session/session.h"
-#include "renderer/methods/frame_time_control.h"
 #include "ui/app/autosave_worker.h"
 #include "ui/app/imgui_layer.h"
 #include "ui/app/input_queue.h"
@@ -87,8 +87,6 @@ class Application {
   bool rendersFrame();
   void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
-  std::optional<int> updatesWithinTime();
-  int refineUpdates();
   void present();
   void logLatency();
   void takeLoaded();
@@ -150,7 +148,7 @@ class Application {
   float timeStep_ = 0.0f;
   double lastSeconds_ = 0.0;
   double frameSeconds_ = 0.0;
-  FrameTimeControl frameTime_, refineTime_;
+  FramePacer pacer_;
   float dt_ = 1.0f / 60.0f;
   bool frameClock_ = false;
   uint64_t frames_ = 0;

@@ -21,6 +21,7 @@ TEST(Metrics, AreWhatTheFormulasSay) {
   EXPECT_NEAR(m.relMse, (1.0 + 4.0) / 2.0 / (4.0 + 0.01), 1e-12);
   EXPECT_NEAR(m.bias, 1.25, 1e-12);
   EXPECT_EQ(m.max, 2.0);
+  EXPECT_EQ(relRmse(a, b), m.relRmse);
 }
 
 TEST(Metrics, ThePictureItselfHasNoError) {

@@ -7,9 +7,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include "editor/convergence/convergence_meter.h"
+#include "editor/convergence/scene_move.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/base/data_folder.h"
-#include "renderer/frame/frame.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/metrics.h"
 #include "renderer/scene/gltf/gltf_io.h"
@@ -19,10 +20,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kWidth = 512, kHeight = 384;
-
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+RenderSettings settingsOf(int vpls) {
+  RenderSettings render;
+  render.values.set("vpls", vpls);
+  render.values.set("updates", vpls);
+  render.values.set("frame_time", 0.0f);
+  render.values.set("refine", 0);
+  render.values.set("bounces", 5);
+  // There is one lamp. It needs few direct samples; most samples are bounces.
+  render.values.set("direct_share", 0.15f);
+  render.values.set("importance", 2);
+  render.values.set("clamp_distance", 1.0f);
+  return render;
 }
 
 void lightMoved(benchmark::State& state) {
@@ -35,59 +48,26 @@ void lightMoved(benchmark::State& state) {
   const Image mask = readImage(folder / "refs/cornell_lightmoved_mask.exr");
   const Scene from = loadGltf(folder / "scenes/cornell.gltf").scene;
   const Scene to = loadGltf(folder / "scenes/cornell_lightmoved.gltf").scene;
-  View view;
-  for (const Node& node : from.nodes)
-    if (node.camera != kNone) view = viewOfCamera(from, node, kWidth, kHeight);
+  const SceneMove move = moveTo(from, to);
 
-  const auto vpls = static_cast<int>(state.range(0));
-  Settings settings;
-  settings.set("vpls", vpls);
-  settings.set("updates", vpls);
-  settings.set("bounces", 5);
-  // There is one lamp. It needs few direct samples; most samples are bounces.
-  settings.set("direct_share", 0.15f);
-  settings.set("importance", 2);
-  settings.set("clamp_distance", 1.0f);
-
-  double to10 = 0.0, to5 = 0.0, error = 0.0, firstError = 0.0;
+  Convergence moved;
   std::map<std::string, double> stages;
   for (auto _ : state) {
-    FrameRenderer renderer(makeCpuBackend(), seconds);
-    Scene scene = from;
-    const auto frame = [&](const SceneChanges& changes) {
-      GiOutput out = renderer.render({scene, changes, view, "many_lights", settings});
-      renderer.backend().finish();
-      return out;
-    };
-    GiOutput out = frame(SceneChanges::all());
-    while (!out.settled) out = frame({});
-
-    to10 = to5 = std::numeric_limits<double>::quiet_NaN();
-    for (Node& node : scene.nodes)
-      for (const Node& there : to.nodes)
-        if (there.name == node.name) node.local = there.local;
-    SceneChanges changes = compare(from, scene);
-    double sinceEdit = 0.0;
-    bool isFirst = true;
-    do {
-      const double start = seconds();
-      out = frame(changes);
-      sinceEdit += seconds() - start;
-      changes = {};
-      error = compareImages(out.radiance->pixels(), truth, &mask).relRmse;
-      if (isFirst) firstError = error;
-      isFirst = false;
-      if (std::isnan(to10) && error <= 0.1) to10 = sinceEdit;
-      if (std::isnan(to5) && error <= 0.05) to5 = sinceEdit;
-      for (const auto& [stage, time] : out.stats.stageSeconds)
-        stages[std::string(stage.name)] += time;
-    } while (!out.settled);
-    state.SetIterationTime(sinceEdit);
+    Session session(std::make_unique<FrameRenderer>(makeCpuBackend(), seconds));
+    session.resizeViewport(truth.width, truth.height);
+    session.editing().setInitialRender(settingsOf(static_cast<int>(state.range(0))));
+    ConvergenceMeter meter(session, seconds);
+    meter.measure([&] { session.open(from, {}, {}); }, nullptr);
+    moved = meter.measure([&] { applyMove(session.editing(), move); },
+                          [&](const Image& picture) { return relRmse(picture, truth, &mask); });
+    for (const auto& [stage, time] : moved.stageSeconds) stages[stage] += time;
+    state.SetIterationTime(*moved.settled);
   }
-  state.counters["s_to_10%"] = to10;
-  state.counters["s_to_5%"] = to5;
-  state.counters["first_error%"] = 100.0 * firstError;
-  state.counters["error%"] = 100.0 * error;
+  constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
+  state.counters["s_to_10%"] = moved.secondsToStayBelow(0.1).value_or(kNever);
+  state.counters["s_to_5%"] = moved.secondsToStayBelow(0.05).value_or(kNever);
+  state.counters["first_error%"] = 100.0 * moved.curve.front().error;
+  state.counters["error%"] = 100.0 * moved.curve.back().error;
   for (const auto& [stage, time] : stages)
     state.counters["ms " + stage] = 1e3 * time / static_cast<double>(state.iterations());
 }

@@ -1,0 +1,31 @@
+// An edit that takes over from another state of a level where its objects are and how its lights
+// shine.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "editor/edits/editing.h"
+
+namespace lamplighter {
+
+// Nodes and materials of both scenes correspond if they have the same name; of several with one
+// name, the first corresponds to the first, and so on.
+struct SceneMove {
+  size_t common = 0;                        // nodes of the scene that have a counterpart
+  std::vector<Node> nodes;                  // with another transform or other values of their light
+  std::vector<std::pair<int, vec3>> glows;  // materials with another emission [W/(m² sr)]
+  std::optional<Sky> sky;                   // if it is another
+
+  bool none() const { return nodes.empty() && glows.empty() && !sky; }
+};
+
+// What must change in `from`. Objects that only one of the scenes has, and everything but
+// transforms and light, stay as they are.
+SceneMove moveTo(const Scene& from, const Scene& to);
+
+// One step of the history, or joins the open one. `move` belongs to the scene of the document.
+void applyMove(Editing& editing, const SceneMove& move);
+
+}  // namespace lamplighter
