@@ -140,7 +140,9 @@ TEST_P(Interoperates, WithTinygltf) {
 
 INSTANTIATE_TEST_SUITE_P(All, Interoperates,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
+                         [](const auto& scene) {
+                           return test::testNameOf(scene.param.at("file"));
+                         });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Interoperates);
 
 }  // namespace

@@ -37,7 +37,9 @@ TEST_P(SavedScene, LoadsAsTheSameSceneFromAnotherFolder) {
 
 INSTANTIATE_TEST_SUITE_P(All, SavedScene,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
+                         [](const auto& scene) {
+                           return test::testNameOf(scene.param.at("file"));
+                         });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SavedScene);
 
 TEST(SavedOddScene, LoadsAsTheSameScene) {

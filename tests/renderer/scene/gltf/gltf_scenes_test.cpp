@@ -83,7 +83,9 @@ TEST_P(SharedScene, HasUsableNormalsEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(All, SharedScene,
                          testing::ValuesIn(test::readTable(test::sharedScenes() / "scenes.tsv")),
-                         [](const auto& info) { return test::testNameOf(info.param.at("file")); });
+                         [](const auto& scene) {
+                           return test::testNameOf(scene.param.at("file"));
+                         });
 // There are no instances if the scenes are missing.
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedScene);
 
