@@ -1,12 +1,11 @@
 #include "editor/cli/cli.h"
 
 #include <iostream>
-#include <new>
 
 #include <CLI/CLI.hpp>
 
 #include "editor/cli/flags.h"
-#include "renderer/base/error.h"
+#include "editor/notices/failure_text.h"
 #include "renderer/base/text.h"
 
 namespace lamplighter {
@@ -26,8 +25,8 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
   CLI::App app("Lamplighter: a lighting editor for level designers", "lamplighter");
   app.set_version_flag("--version", "lamplighter " LAMPLIGHTER_VERSION);
   app.footer(
-      "Exit codes: 0 good, 1 a check failed, 2 bad use or bad input.\nExample: lamplighter "
-      "level.glb");
+      "Exit codes: 0 good, 1 a check failed, 2 bad use, bad input or a failure.\n"
+      "Example: lamplighter level.glb");
   cli::Run run;
   EditorOptions editor;
   cli::declareFlags(app, {argv, static_cast<size_t>(argc)}, editor, run, frontend);
@@ -44,12 +43,8 @@ int runCommandLine(int argc, const char* const* argv, const Frontend& frontend) 
     std::string help = "lamplighter ";
     for (const CLI::App* sub : app.get_subcommands()) help += sub->get_name() + " ";
     return fail(std::string(e.what()) + "; see '" + help + "--help'");
-  } catch (const InputError& e) {
-    return fail(e.what());
-  } catch (const std::bad_alloc&) {
-    return fail("out of memory; the scene or picture is too large for this machine");
   } catch (const std::exception& e) {
-    return fail(std::string(e.what()) + "; this is a bug of the program");
+    return fail(failureText(e));
   }
 }
 

@@ -47,8 +47,8 @@ struct Frontend {
   int process = 0;                    // process id
 };
 
-// Returns the exit code: 0 success, 1 a check failed, 2 wrong usage or bad input (with one line on
-// standard error).
+// Returns the exit code: 0 success, 1 a check failed, 2 wrong usage, bad input or any exception
+// (with one line on standard error).
 int runCommandLine(int argc, const char* const* argv, const Frontend& frontend);
 
 }  // namespace lamplighter

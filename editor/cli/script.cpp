@@ -6,6 +6,7 @@
 
 #include "editor/cli/options.h"
 #include "editor/cli/subcommands.h"
+#include "editor/notices/failure_text.h"
 #include "editor/session/session.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
@@ -46,11 +47,16 @@ void open(Session& session, const std::string& path) {
   session.open(std::move(loaded.scene), path, loaded.warnings);
 }
 
+void show(Session& session) {
+  session.renderFrame();
+  if (!session.renderError().empty()) throw InputError(session.renderError());
+}
+
 // Answers the requests of actions, as the window does after their frame.
 void answer(Session& session) {
   if (const auto path = session.takeOpenRequest()) {
     open(session, path->string());
-    session.renderFrame();
+    show(session);
   }
   if (const auto path = session.takeScreenshotRequest()) {
     writePng(session.picture(), *path);
@@ -63,8 +69,7 @@ void runLine(Session& session, const std::string& text) {
   session.setStatus("");
   session.perform(text);
   session.editing().commit();
-  session.renderFrame();
-  if (!session.renderError().empty()) throw InputError(session.renderError());
+  show(session);
   answer(session);
   if (!session.status().empty()) std::cout << session.status() << '\n';
 }
@@ -86,12 +91,12 @@ int script(const ScriptOptions& options, const Frontend& frontend) {
   if (!options.journal.empty())
     session.keepJournal(options.journal, frontend.process, frontend.unixTime);
   if (!options.scene.empty()) open(session, options.scene);
-  session.renderFrame();
+  show(session);
   for (const Line& line : lines) {
     try {
       runLine(session, line.text);
-    } catch (const InputError& e) {
-      throw InputError(fmt::format("{}:{}: {}", options.script, line.number, e.what()));
+    } catch (const std::exception& e) {
+      throw InputError(fmt::format("{}:{}: {}", options.script, line.number, failureText(e)));
     }
     if (session.quitRequested()) break;
   }

@@ -33,10 +33,10 @@ void Editing::cancel() {
 void Editing::commit(uint64_t id) {
   if (!isOpen(id)) return;
   while (open_.back().id != id) open_.pop_back();
+  if (open_.size() > 1) return open_.pop_back();
+  open_.back().change.complete(document_);
   Open done = std::move(open_.back());
   open_.pop_back();
-  if (!open_.empty()) return;
-  done.change.complete(document_);
   if (done.change.empty()) return;
   history_.push(std::move(done.label), std::move(done.change));
   tell(history_.undoLabel());
@@ -45,10 +45,11 @@ void Editing::commit(uint64_t id) {
 void Editing::cancel(uint64_t id) {
   if (!isOpen(id)) return;
   while (open_.back().id != id) open_.pop_back();
-  DocumentChange change = std::move(open_.back().change);
-  open_.pop_back();
+  // It is closed last: after an exception it can be cancelled again.
+  DocumentChange& change = open_.back().change;
   change.complete(document_);
   put(change, &DocumentChange::revert);
+  open_.pop_back();
 }
 
 void Editing::put(const DocumentChange& change, void (DocumentChange::*side)(Document&) const) {

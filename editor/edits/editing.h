@@ -56,8 +56,6 @@ class Editing {
 
   // What changed since the last call.
   SceneChanges takeChanges();
-  // The last changes did not arrive: the next ones are everything.
-  void showAll() { showsAll_ = true; }
 
  private:
   friend class Transaction;

@@ -1,6 +1,7 @@
 #include "editor/edits/transaction.h"
 
 #include <iterator>
+#include <new>
 
 #include "editor/edits/editing.h"
 #include "editor/edits/edits.h"
@@ -23,8 +24,17 @@ std::vector<Node> takeOut(std::vector<Node>& nodes, const std::vector<bool>& fla
 
 bool Transaction::isOpen() const { return editing_ != nullptr && editing_->isOpen(id_); }
 
+Transaction::~Transaction() {
+  try {
+    cancel();
+  } catch (const std::bad_alloc&) {
+    // The edit stays open: Editing::cancel() undoes it when there is memory again.
+  }
+}
+
 void Transaction::commit() {
-  if (editing_ != nullptr) std::exchange(editing_, nullptr)->commit(id_);
+  if (editing_ != nullptr) editing_->commit(id_);
+  editing_ = nullptr;
 }
 
 void Transaction::cancel() {

@@ -21,7 +21,7 @@ class Transaction {
   Transaction(Transaction&& other) noexcept
       : editing_(std::exchange(other.editing_, nullptr)), id_(other.id_) {}
   Transaction& operator=(Transaction&& other) noexcept;
-  ~Transaction() { cancel(); }
+  ~Transaction();
 
   Node& node(NodeId id);  // throws InputError if it does not exist
   Material& material(int index);
@@ -46,7 +46,7 @@ class Transaction {
 
   // False if it was committed or cancelled, or if something else ended it: an undo, for example.
   bool isOpen() const;
-  void commit();  // if it is open
+  void commit();  // if it is open; if that throws, it can still be cancelled
   void cancel();  // if it is open: undoes its changes
 
  private:

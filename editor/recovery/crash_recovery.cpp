@@ -1,6 +1,6 @@
 #include "editor/recovery/crash_recovery.h"
 
-#include "renderer/base/error.h"
+#include "editor/notices/failure_text.h"
 
 namespace lamplighter {
 
@@ -14,19 +14,19 @@ void CrashRecovery::start(std::filesystem::path root, int process, Journal::Cloc
 
 void CrashRecovery::look() { found_ = findRecoverable(root_); }
 
-void CrashRecovery::opened(const Document& document) {
-  if (journal_) journal_->begin(document);
-}
-
 template <typename Write>
 std::string CrashRecovery::tried(Write write) {
   if (!journal_) return {};
   try {
     write(*journal_);
     return {};
-  } catch (const InputError& e) {
-    return std::string("The journal is not complete: ") + e.what();
+  } catch (const std::exception& e) {
+    return "The journal is not complete: " + failureText(e);
   }
+}
+
+std::string CrashRecovery::opened(const Document& document) {
+  return tried([&](Journal& j) { j.begin(document); });
 }
 
 std::string CrashRecovery::committed(const Document& document, const DocumentChange& change,

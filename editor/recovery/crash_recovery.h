@@ -24,8 +24,9 @@ class CrashRecovery {
   const std::vector<Recoverable>& found() const { return found_; }
   void look();
 
-  void opened(const Document& document);
-  // Call after a committed edit. Returns why the edit is not in the journal, or an empty text.
+  // Call after a level was opened, and after a committed edit. Returns why the journal is not
+  // complete, or an empty text: the next edit then includes what is missing.
+  std::string opened(const Document& document);
   std::string committed(const Document& document, const DocumentChange& change,
                         const std::string& label);
   // Call before and after a save. A failure of the journal does not stop the save. Returns the

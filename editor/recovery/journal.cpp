@@ -31,11 +31,16 @@ Journal::Journal(fs::path root, int process, Clock clock)
 
 void Journal::begin(const Document& document) {
   close();
-  files_ = filesOf(document.scene);
-  // A level without a file has no meshes or textures that the journal can refer to.
-  base_ = files_.empty() ? Scene() : document.scene;
-  savedHash_ = sceneHash(document.scene);
+  // A level without a file has no meshes or textures that the journal can refer to. So is a level
+  // for which there is no memory here: the journal then has all of them.
+  files_.clear();
+  base_ = Scene();
   isReplaced_ = false;
+  savedHash_ = sceneHash(document.scene);
+  std::vector<FileStamp> files = filesOf(document.scene);
+  if (files.empty()) return;
+  base_ = document.scene;
+  files_ = std::move(files);
 }
 
 void Journal::adopt(Recovered recovered) {

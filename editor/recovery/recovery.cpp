@@ -130,10 +130,11 @@ std::optional<Recoverable> recoverableIn(const fs::path& folder) {
 std::vector<Recoverable> findRecoverable(const fs::path& root) {
   std::vector<Recoverable> out;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(root, error)) {
-    if (!fs::exists(entry.path() / "journal.jsonl", error) || !FileLock(entry.path() / "lock"))
-      continue;
-    if (auto r = recoverableIn(entry.path())) out.push_back(std::move(*r));
+  for (fs::directory_iterator it(root, error), end; !error && it != end; it.increment(error)) {
+    const fs::path& folder = it->path();
+    std::error_code ignored;
+    if (!fs::exists(folder / "journal.jsonl", ignored) || !FileLock(folder / "lock")) continue;
+    if (auto r = recoverableIn(folder)) out.push_back(std::move(*r));
   }
   std::sort(out.begin(), out.end(), [](const Recoverable& a, const Recoverable& b) {
     return std::pair(b.time, b.folder) < std::pair(a.time, a.folder);

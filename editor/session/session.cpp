@@ -1,9 +1,11 @@
 #include <algorithm>
 
 #include "editor/edits/edits.h"
+#include "editor/notices/failure_text.h"
 #include "editor/session/register_actions.h"
 #include "editor/session/session_tools.h"
 #include "editor/session/user_state.h"
+#include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/base/error.h"
 #include "renderer/methods/common_parameters.h"
 
@@ -22,28 +24,33 @@ Session::~Session() = default;
 void Session::open(Scene scene, std::filesystem::path path,
                    const std::vector<std::string>& warnings) {
   cancelDrag();
+  // First what needs much memory: if it fails, the present level stays.
+  RenderScene world;
+  update(world, scene, SceneChanges::all());
+  const auto& nodes = scene.nodes;
+  const auto camera =
+      std::find_if(nodes.begin(), nodes.end(), [](const Node& n) { return n.camera != kNone; });
+  const View view = camera != nodes.end() ? viewOfCamera(scene, *camera, view_.width, view_.height)
+                                          : viewOfBounds(world.bounds, view_.width, view_.height);
+  // The camera orbits around the surface in the middle of the picture.
+  const RayCaster rays(world);
+  const Hit hit = rays.intersect({view.eye, 0.0f, view.forward()}, Surfaces::seen);
+  const uint64_t hash = sceneHash(scene);
+  std::vector<FileStamp> files = filesOf(scene);
+
   placing_.clear();
   ++level_;
   editing_.open({std::move(scene), document_.render, {}, std::move(path)});
-  savedHash_ = sceneHash(document_.scene);
+  savedHash_ = hash;
   tools_->pointerKnown = false;
   points_.forget();
-  disk_ = filesOf(document_.scene);
-  crashRecovery_.opened(document_);
-
-  RenderScene world;
-  update(world, document_.scene, SceneChanges::all());
-  const auto& nodes = document_.scene.nodes;
-  const auto camera =
-      std::find_if(nodes.begin(), nodes.end(), [](const Node& n) { return n.camera != kNone; });
-  view_ = camera != nodes.end() ? viewOfCamera(document_.scene, *camera, view_.width, view_.height)
-                                : viewOfBounds(world.bounds, view_.width, view_.height);
-  // The camera orbits around the surface in the middle of the picture.
-  const RayCaster rays(world);
-  const Hit hit = rays.intersect({view_.eye, 0.0f, view_.forward()}, Surfaces::seen);
+  disk_ = std::move(files);
+  view_ = view;
   tools_->camera.reset(hit ? hit.t : std::max(world.bounds.radius(), 0.1f));
+  const std::string problem = crashRecovery_.opened(document_);
   const std::string whole = document_.path.string(), name = document_.path.filename().string();
   setStatus("Opened " + name);
+  if (!problem.empty()) setStatus(problem, NoticeKind::warning);
   std::vector<std::string> told = warnings;
   for (std::string& warning : told) {
     // The file name is enough: the path is long, and the user has just chosen it.
@@ -84,8 +91,8 @@ bool Session::runAction(std::string_view text) {
   try {
     perform(text);
     return true;
-  } catch (const InputError& e) {
-    setStatus(e.what(), NoticeKind::error);
+  } catch (const std::exception& e) {
+    setStatus(failureText(e), NoticeKind::error);
     return false;
   }
 }
@@ -182,22 +189,31 @@ const Scene& Session::litScene(SceneChanges& changes) {
 
 void Session::skipFrame() {
   SceneChanges changes;
-  const Scene& scene = litScene(changes);
-  renderer_->update(scene, changes);
-  unshown_.merge(changes);
+  try {
+    const Scene& scene = litScene(changes);
+    renderer_->update(scene, failures_.any() ? SceneChanges::all() : changes);
+    unshown_.merge(changes);
+  } catch (const std::exception& e) {
+    frameFailed(e, {view_, document_.render, display_.view()});
+  }
 }
 
 const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdates) {
   const double begin = clock_ ? clock_() : 0.0;
-  SceneChanges changes;
-  const Scene& scene = litScene(changes);
-  renderError_.clear();
-  const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
   const RenderSettings render =
       split_.on() ? split_.first().of(document_.render) : document_.render;
+  const FrameFailures::Input input{view_, render, display_.view()};
+  const std::shared_ptr<RadianceImage> before = output_.settled ? output_.radiance : nullptr;
   Settings settings = render.values;
   if (updates) settings.set(kUpdates, *updates);
+  SceneChanges changes;
   try {
+    const Scene& scene = litScene(changes);
+    if (failures_.waits(input, changes.none())) {
+      ++frame_;
+      return output_;
+    }
+    if (failures_.any()) changes = SceneChanges::all();  // the earlier ones may be lost
     output_ =
         renderer_->render({scene, changes, view_, render.method, settings, display_.lightOnly(),
                            updates.has_value(), refineUpdates, display_.part()});
@@ -207,17 +223,27 @@ const GiOutput& Session::renderFrame(std::optional<int> updates, int refineUpdat
     display_.update(*renderer_, *output_.radiance, view_, document_.render, !same);
     points_.update(pointSubject(), !same, !changes.none());
     watchFrame(changes, begin);
-  } catch (const InputError& e) {
-    editing_
-        .showAll();  // the renderer may have got a part of it: the next frame starts from scratch
-    renderError_ = e.what();
-    setStatus(renderError_, NoticeKind::error);
-    if (!output_.radiance)
-      output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
-    output_.settled = output_.refined = true;  // the same frame would fail again
+    failures_.rendered();
+  } catch (const std::exception& e) {
+    frameFailed(e, input);
   }
   ++frame_;
   return output_;
+}
+
+// The document, its history and the last picture stay as they are.
+void Session::frameFailed(const std::exception& e, const FrameFailures::Input& input) {
+  const std::string before = failures_.why();
+  const bool isOnGl = renderer_->backend().info().name == "gl";
+  const FrameFailures::Next next = failures_.failed(e, input, isOnGl);
+  if (failures_.why() != before) setStatus(failures_.why(), NoticeKind::error);
+  if (!output_.radiance)
+    output_.radiance = std::make_shared<HostImage>(Image(view_.width, view_.height));
+  output_.settled = output_.refined = next == FrameFailures::Next::wait;
+  if (next != FrameFailures::Next::leaveGl) return;
+  setStatus("The gl backend failed twice: the cpu backend renders from now on",
+            NoticeKind::warning);
+  renderer_->setBackend(makeCpuBackend());
 }
 
 }  // namespace lamplighter

@@ -21,6 +21,7 @@
 #include "editor/lights/work_light.h"
 #include "editor/notices/notices.h"
 #include "editor/recovery/crash_recovery.h"
+#include "editor/session/frame_failures.h"
 #include "editor/session/frame_watch.h"
 #include "editor/session/lighting_state.h"
 #include "editor/split/split_view.h"
@@ -62,7 +63,7 @@ class Session {
   // Runs an action given as text (ActionRegistry::parse). Throws InputError, and leaves the
   // document unchanged, for an unknown name or invalid arguments. A disabled action does nothing.
   void perform(std::string_view text);
-  // The same, but shows an error in the status line and returns false.
+  // The same, but shows an exception of any kind in the status line and returns false.
   bool runAction(std::string_view text);
 
   // Edits by panels. Each is one undo step, or joins the open transaction.
@@ -107,15 +108,20 @@ class Session {
   void viewport(const ViewportInput& input);  // camera, pick, gizmo
 
   // Renders one frame with the latest changes. `output().settled` is true once nothing remains to
-  // be done. If rendering fails, for example for lack of memory for light maps, the last picture
-  // stays, and renderError() and the status give the reason.
+  // be done. If rendering fails, for example for lack of memory, the last picture stays, and
+  // renderError() and the status give the reason. FrameFailures says when it is tried again.
   // `updates` replaces the parameter of that name: the amount of work that fits into the time of a
   // frame. Such frames do not wait for background work; others do. `refineUpdates`: the number of
   // light samples by which a settled picture may be refined; 0: none.
   const GiOutput& renderFrame(std::optional<int> updates = {}, int refineUpdates = 0);
   // Instead of renderFrame(), for a frame that is not shown: updates only the scene that tools use.
   void skipFrame();
-  const std::string& renderError() const { return renderError_; }  // "": it was rendered
+  // Discards what the method keeps; the next frame is rendered even if the last one failed.
+  void renderAnew() {
+    renderer_->restart();
+    failures_.tryAgain();
+  }
+  const std::string& renderError() const { return failures_.why(); }  // "": it was rendered
   const GiOutput& output() const { return output_; }
   // Which debug view is shown.
   ViewDisplay& display() { return display_; }
@@ -210,7 +216,8 @@ class Session {
   FrameWatch watch_;
   SplitView split_;
   Stopwatch clock_;
-  std::string status_, renderError_, placing_;
+  std::string status_, placing_;
+  FrameFailures failures_;
   uint32_t frame_ = 0;
   uint64_t sceneRevision_ = 0;
   SceneChanges unshown_;  // of skipped frames
@@ -232,6 +239,7 @@ class Session {
   std::optional<vec3> vertexUnderPointer(const std::vector<NodeId>& ignored) const;
   const Scene& litScene(SceneChanges& changes);
   void watchFrame(const SceneChanges& changes, double begin);
+  void frameFailed(const std::exception& e, const FrameFailures::Input& input);
   std::optional<Place> surfaceAlong(const vec3& direction,
                                     const std::vector<NodeId>& ignored) const;
 };

@@ -1,6 +1,6 @@
 // A session after a frame was rendered: measurements and the second picture of the split view.
+#include "editor/notices/failure_text.h"
 #include "editor/session/session.h"
-#include "renderer/base/error.h"
 #include "renderer/image/tone_map.h"
 
 namespace lamplighter {
@@ -23,9 +23,9 @@ void Session::watchFrame(const SceneChanges& changes, double begin) {
   if (watch_.meter.measured()) setStatus(watch_.meter.text());
   try {
     split_.frame(document_, changes, view_, display_.lightOnly(), output_, watch_.meter);
-  } catch (const InputError& e) {
+  } catch (const std::exception& e) {
     split_.turnOff();  // the first side was rendered and stays
-    setStatus(std::string("Split view: ") + e.what(), NoticeKind::error);
+    setStatus("Split view: " + failureText(e), NoticeKind::error);
   }
   output_.settled = output_.settled && split_.settled();
 }

@@ -17,6 +17,13 @@ BackendCounts Backend::counts() const {
   return sum;
 }
 
+void Backend::reset() {
+  for (Offer& offer : offers_) offer.kernels.reset();
+  scene_ = nullptr;
+  rays_ = nullptr;
+  hasGBuffer_ = false;
+}
+
 void Backend::setScene(const RenderScene& scene, const RenderSceneChanges& changes,
                        const RayCaster& rays) {
   scene_ = &scene;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <typeindex>
 #include <vector>
@@ -18,6 +19,12 @@
 namespace lamplighter {
 
 class GBufferView;
+
+// The device of a backend has no memory left, or the driver has reset it.
+class DeviceError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 struct BackendInfo {
   std::string name;    // "cpu" or "gl"
@@ -35,6 +42,11 @@ class Backend {
   BackendCounts counts() const;  // of the backend and of all its kernels
   // Waits until all submitted work is done, for time measurements.
   virtual void finish() = 0;
+  // Throws DeviceError if the device failed since the last call. Call it once per frame.
+  virtual void checkDevice() {}
+  // Drops all kernels and their memory, for example after an exception. The next setScene() must be
+  // one in which everything is rebuilt.
+  void reset();
 
   // Applies the changes of the scene. `rays` is already up to date. Both are used until the next
   // call.

@@ -13,20 +13,35 @@ FrameRenderer::~FrameRenderer() = default;
 
 void FrameRenderer::update(const Scene& scene, const SceneChanges& changes) {
   const SceneChanges wanted = rays_ ? changes : SceneChanges::all();
-  const RenderSceneChanges found = lamplighter::update(scene_, scene, wanted);
-  if (!rays_) {
-    rays_ = std::make_unique<RayCaster>(scene_);
-  } else if (!found.none()) {
-    rays_->update(found);
+  try {
+    const RenderSceneChanges found = lamplighter::update(scene_, scene, wanted);
+    if (!rays_) {
+      rays_ = std::make_unique<RayCaster>(scene_);
+    } else if (!found.none()) {
+      rays_->update(found);
+    }
+    pending_.merge(found);
+  } catch (...) {
+    forget();
+    rays_.reset();
+    scene_ = {};
+    throw;
   }
-  pending_.merge(found);
   hasOtherScene_ |= changes.everything;
 }
 
 GiOutput FrameRenderer::render(const Request& request) {
   // 1. Update the scene in world space and its rays from the changes.
   update(request.scene, request.changes);
+  try {
+    return renderUpdated(request);
+  } catch (...) {
+    forget();
+    throw;
+  }
+}
 
+GiOutput FrameRenderer::renderUpdated(const Request& request) {
   // 2. Update the backend.
   const RenderSceneChanges changes = std::exchange(pending_, {});
   const bool isOtherScene = std::exchange(hasOtherScene_, false);
@@ -41,8 +56,27 @@ GiOutput FrameRenderer::render(const Request& request) {
   }
   services_.beginFrame(scene_, changes, *rays_, {request.inBackground, request.refineUpdates},
                        isOtherScene);
-  return method_->render({scene_, changes, request.view, *backend_, services_, request.settings,
-                          frame_++, stopwatch_, request.lightOnly, request.part});
+  GiOutput output =
+      method_->render({scene_, changes, request.view, *backend_, services_, request.settings,
+                       frame_++, stopwatch_, request.lightOnly, request.part});
+  backend_->checkDevice();
+  return output;
+}
+
+// Drops what is computed from the scene, except the scene in world space and its rays.
+void FrameRenderer::forget() {
+  method_.reset();
+  backend_->reset();
+  Services fresh;
+  fresh.setCacheFolder(services_.cacheFolder());
+  services_ = std::move(fresh);
+  pending_ = {};
+  pending_.rebuilt = true;
+}
+
+void FrameRenderer::setBackend(std::unique_ptr<Backend> backend) {
+  forget();
+  backend_ = std::move(backend);
 }
 
 void FrameRenderer::restart() {

@@ -26,7 +26,9 @@ class FrameRenderer {
     int refineUpdates = 0;      // as in FrameBudget
     LightPart part = LightPart::all;
   };
-  // Renders one frame. Throws InputError for an unknown method.
+  // Renders one frame. Throws InputError for an unknown method, and what the method, Embree and the
+  // device throw. After an exception everything that it may have left inconsistent is dropped: the
+  // next call computes it anew.
   GiOutput render(const Request& request);
 
   // Updates scene() and rays() without a picture. The next render() continues from there, with the
@@ -41,6 +43,8 @@ class FrameRenderer {
 
   // Discards what the method keeps: the next picture is computed from scratch.
   void restart();
+  // Continues on another backend, from scratch.
+  void setBackend(std::unique_ptr<Backend> backend);
 
   Backend& backend() { return *backend_; }
   const RenderScene& scene() const { return scene_; }
@@ -48,6 +52,9 @@ class FrameRenderer {
   Services& services() { return services_; }
 
  private:
+  GiOutput renderUpdated(const Request& request);
+  void forget();
+
   std::unique_ptr<Backend> backend_;
   Stopwatch stopwatch_;
   RenderScene scene_;

@@ -2,7 +2,18 @@
 
 #include <spdlog/spdlog.h>
 
+#include "renderer/backends/backend.h"
+
 namespace lamplighter::gl {
+
+void takeErrors() {
+  while (const GLenum error = glGetError()) {
+    if (error == GL_OUT_OF_MEMORY)
+      throw DeviceError("OpenGL: the graphics device is out of memory; lower the settings");
+    if (error == GL_CONTEXT_LOST)
+      throw DeviceError("OpenGL: the driver has reset the graphics device");
+  }
+}
 
 DebugLog::DebugLog() {
   glEnable(GL_DEBUG_OUTPUT);

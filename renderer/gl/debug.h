@@ -8,6 +8,10 @@
 
 namespace lamplighter::gl {
 
+// Discards the errors that the current context has recorded. Throws DeviceError if one of them is
+// that the device has no memory left or was reset.
+void takeErrors();
+
 // Receives the messages of the current context during its lifetime. The context must also be
 // current when this is destroyed. Errors are kept and, in debug builds, logged. Only a debug
 // context reports everything.

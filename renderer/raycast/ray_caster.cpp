@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -17,12 +18,16 @@ namespace lamplighter {
 
 namespace {
 
+// An error that Embree reported.
+struct EmbreeError {
+  RTCError code = RTC_ERROR_NONE;
+  std::string text;
+};
+
 // Stores the first error for RayCaster::Impl::check(): exceptions must not pass through Embree.
 void onError(void* first, RTCError code, const char* message) {
-  auto& text = *static_cast<std::string*>(first);
-  if (text.empty())
-    text = "Embree error " + std::to_string(static_cast<int>(code)) + ": " +
-           (message != nullptr ? message : "");
+  auto& error = *static_cast<EmbreeError*>(first);
+  if (error.code == RTC_ERROR_NONE) error = {code, message != nullptr ? message : ""};
 }
 
 // Rejects hits in holes of the alpha mask. N is 1 or 8; valid lanes are −1.
@@ -129,7 +134,7 @@ constexpr size_t kQuicklyBuilt = 50000;
 // Embree 3.13 does not return from coherent packets in a tree of trees.
 struct RayCaster::Impl {
   const RenderScene& scene;
-  std::string error;  // the first error that Embree reported
+  EmbreeError error;  // the first one since check()
   RTCDevice device = nullptr;
   RTCScene still = nullptr, moving = nullptr;
   std::vector<uint8_t> isMoving;  // by object: it is in the scene `moving`
@@ -160,9 +165,17 @@ struct RayCaster::Impl {
       if (*s != nullptr) rtcReleaseScene(std::exchange(*s, nullptr));
   }
 
+  void check() {
+    if (error.code == RTC_ERROR_NONE) return;
+    const EmbreeError e = std::exchange(error, {});
+    if (e.code == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw std::runtime_error("Embree error " + std::to_string(static_cast<int>(e.code)) + ": " +
+                             e.text);
+  }
+
   void commit(RTCScene embree) {
     rtcCommitScene(embree);
-    if (!error.empty()) throw std::runtime_error(std::exchange(error, {}));
+    check();
   }
 
   Passing passingOf(uint32_t object) const {
@@ -190,9 +203,9 @@ struct RayCaster::Impl {
                             o.vertexCount);
     rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                             3 * sizeof(uint32_t), o.triangleCount());
-    if (!error.empty()) {  // no memory for the buffers
+    if (error.code != RTC_ERROR_NONE) {  // no memory for the buffers
       rtcReleaseGeometry(geometry);
-      throw std::runtime_error(std::exchange(error, {}));
+      check();
     }
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
     copyVertices(geometry, o);

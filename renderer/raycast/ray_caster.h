@@ -35,8 +35,9 @@ enum class Surfaces { all, seen };
 
 class RayCaster {
  public:
-  explicit RayCaster(const RenderScene& scene);  // keeps a reference; the scene must outlive this
-                                                 // object
+  // Keeps a reference: the scene must outlive this object. Throws std::bad_alloc, or
+  // std::runtime_error with Embree's message, as update() does. After that only `rebuilt` is valid.
+  explicit RayCaster(const RenderScene& scene);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
@@ -50,8 +51,8 @@ class RayCaster {
   // directions).
   void intersect8(std::span<const Ray, 8> rays, std::span<Hit, 8> hits,
                   Surfaces which = Surfaces::all) const;
-  // Only distances, infinity for a miss: the least one of all triangles that are equally near within
-  // rounding. So they do not depend on the tree, not even where surfaces coincide.
+  // Only distances, infinity for a miss: the least one of all triangles that are equally near
+  // within rounding. So they do not depend on the tree, not even where surfaces coincide.
   void distance8(std::span<const Ray, 8> rays, std::span<float, 8> distances) const;
 
  private:

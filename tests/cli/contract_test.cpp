@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "renderer/image/image_io.h"
 #include "renderer/image/tone_map.h"
@@ -110,6 +111,41 @@ TEST_F(CommandLine, BadUseIsOneLineAndCode2) {
   expectOneError(runLamplighter({"replay", file("absent.jsonl"), "--headless"}), "absent.jsonl");
   EXPECT_TRUE(fs::is_empty(folder_)) << "nothing may be half-written";
 }
+
+#ifndef __SANITIZE_ADDRESS__  // which reserves more memory than the limit
+
+// Limits the memory of the programs that are started during its lifetime.
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_AS, &before_);
+    const rlimit now{bytes, before_.rlim_max};
+    ::setrlimit(RLIMIT_AS, &now);
+  }
+  ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &before_); }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(CommandLine, LackOfMemoryIsOneLine) {
+  const MemoryLimit limit(rlim_t{1500} << 20);
+  const std::vector<std::string> large{"--size", "16384x16384", "--backend", "cpu"};
+  std::vector<std::string> call{"render", kScene, "-o", file("a.png")};
+  call.insert(call.end(), large.begin(), large.end());
+  expectOneError(runLamplighter(call), "out of memory");
+  EXPECT_TRUE(fs::is_empty(folder_)) << "nothing may be half-written";
+
+  std::ofstream(file("actions.txt")) << "app.screenshot " << file("a.png") << '\n';
+  call = {"script", file("actions.txt"), kScene};
+  call.insert(call.end(), large.begin(), large.end());
+  expectOneError(runLamplighter(call), "out of memory");
+  EXPECT_FALSE(fs::exists(file("a.png")));
+}
+
+#endif
 
 TEST_F(CommandLine, HelpAndVersionWork) {
   for (const char* sub : {"info", "render", "methods", "compare", "replay"}) {

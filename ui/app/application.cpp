@@ -6,6 +6,7 @@
 #include <imgui.h>
 #include <spdlog/spdlog.h>
 
+#include "editor/notices/failure_text.h"
 #include "editor/session/user_state.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/base/error.h"
@@ -62,8 +63,8 @@ void Application::showError(const std::string& text) {
 
 void Application::frame() {
   widgets_.flip();
-  takeInput();
-  takeLoaded();
+  inPart("Input", [&] { takeInput(); });
+  inPart("Opening", [&] { takeLoaded(); });
 
   ++frames_;
   const double now = seconds();
@@ -72,36 +73,45 @@ void Application::frame() {
                          : std::clamp(static_cast<float>(now - lastSeconds_), 1e-4f, 0.25f);
   lastSeconds_ = now;
 
-  exchangePreferences();
+  inPart("Settings", [&] { exchangePreferences(); });
   gui_.beginFrame(router_.state(), dt_, uiScale());
   const PanelContext ui{*session_, widgets_, uiScale(), ""};
   drawPanels(ui);
-  viewport_.takeInput(ui, layout_.view, router_.state(), dt_);
+  inPart("Viewport", [&] { viewport_.takeInput(ui, layout_.view, router_.state(), dt_); });
   // A replay must not depend on the progress of a thread.
-  if (!replaying_) meterWorker_.exchange(session_->watch().meter);
+  if (!replaying_) inPart("Error meter", [&] { exchangeWithMeter(); });
   const bool renders = rendersFrame();
-  if (renders) {
-    // With a fixed time step, as in recordings, counts limit the work of a frame instead of time.
-    if (timeStep_ > 0.0f)
-      session_->renderFrame();
-    else
-      pacer_.renderFrame(*session_);
-    logLatency();
-    followExposure();
-    present();
-  } else {
+  if (renders)
+    inPart("Picture", [&] { renderAndPresent(); });
+  else
     session_->skipFrame();
-  }
   const bool isSplit = session_->split().on() && session_->split().secondPicture();
-  viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0);
-  drawStatusLine(ui);
-  toasts(ui, toastState_, layout_.view, dt_);
-  drawDialogs(ui);
+  inPart("Viewport's overlay",
+         [&] { viewport_.draw(ui, picture_.texture(), isSplit ? secondPicture_.texture() : 0); });
+  inPart("Status line", [&] { drawStatusLine(ui); });
+  inPart("Messages", [&] { toasts(ui, toastState_, layout_.view, dt_); });
+  inPart("Dialog", [&] { drawDialogs(ui); });
   gui_.endFrame(renders);
-  answerRequests();
+  inPart("Action", [&] { answerRequests(); });
   platform_.present();
-  updateTitle();
-  autosave_.frame(*session_, now);
+  inPart("Window title", [&] { updateTitle(); });
+  inPart("Autosave", [&] { autosave_.frame(*session_, now); });
+}
+
+void Application::exchangeWithMeter() {
+  const std::string problem = meterWorker_.exchange(session_->watch().meter);
+  if (!problem.empty()) session_->setStatus("Error meter: " + problem, NoticeKind::warning);
+}
+
+void Application::renderAndPresent() {
+  // With a fixed time step, as in recordings, counts limit the work of a frame instead of time.
+  if (timeStep_ > 0.0f)
+    session_->renderFrame();
+  else
+    pacer_.renderFrame(*session_);
+  logLatency();
+  followExposure();
+  present();
 }
 
 // Clicks are resolved in the rendered frame, so every edit is rendered.
@@ -185,11 +195,12 @@ void Application::runAction(const std::string& text) {
     if (saves && asksToOverwrite(text, action.saves(*session_, arguments))) return;
     session_->perform(text);
     if (saves) closeIfSaved();
-  } catch (const InputError& e) {
-    if (replaying_) throw InputError(text + ": " + e.what());
-    if (!saves) return session_->setStatus(e.what(), NoticeKind::error);
+  } catch (const std::exception& e) {
+    const std::string why = failureText(e);
+    if (replaying_) throw InputError(text + ": " + why);
+    if (!saves) return session_->setStatus(why, NoticeKind::error);
     pending_ = Pending::none;
-    showError(e.what());
+    showError(why);
   }
 }
 
@@ -224,41 +235,46 @@ void Application::drawStatusLine(const PanelContext& ui) {
 }
 
 void Application::drawPanels(PanelContext ui) {
-  focusAsAsked();
-  menuBar(ui, requests_);
+  inPart("Menus", [&] {
+    focusAsAsked();
+    menuBar(ui, requests_);
+  });
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   layout_.divide({window.x, window.y}, ImGui::GetFrameHeight(), ui.scale,
                  session_->lighting().showsTable || session_->home().bottom != BottomPanel::none);
 
-  beginPanel("##toolbar", layout_.toolbar, false);
-  toolbar(ui, requests_);
-  ImGui::End();
-  beginPanel("##outliner", layout_.left, false);
-  outliner(ui, outlinerState_);
-  ImGui::End();
-  beginPanel("##inspector", layout_.inspector);
-  inspector(ui, inspectorState_, requests_);
-  ImGui::End();
-  beginPanel("##render", layout_.render);
-  renderPanel(ui, timelineState_, requests_);
-  ImGui::End();
-  if (!layout_.bottom.empty()) {
-    beginPanel("##lights", layout_.bottom);
-    drawBottom(ui);
-    ImGui::End();
-  }
-  const Rect explained = explainPanel(ui, layout_.view, requests_);
-  Rect below = layout_.view;
-  if (!explained.empty()) below.min.y = explained.max.y;
-  viewport_.setCovered(
-      {explained, histogramPanel(ui, below, requests_), historyPanel(ui, layout_.view, requests_)});
-  layout_.splitters(ui);
+  const auto panel = [&](const char* name, const char* id, const Rect& rect, bool scrolls,
+                         const std::function<void()>& draw) {
+    inPart(name, [&] {
+      beginPanel(id, rect, scrolls);
+      draw();
+      ImGui::End();
+    });
+  };
+  panel("Toolbar", "##toolbar", layout_.toolbar, false, [&] { toolbar(ui, requests_); });
+  panel("Outliner", "##outliner", layout_.left, false, [&] { outliner(ui, outlinerState_); });
+  panel("Inspector", "##inspector", layout_.inspector, true,
+        [&] { inspector(ui, inspectorState_, requests_); });
+  panel("Render panel", "##render", layout_.render, true,
+        [&] { renderPanel(ui, timelineState_, requests_); });
+  if (!layout_.bottom.empty())
+    panel("Bottom panel", "##lights", layout_.bottom, true, [&] { drawBottom(ui); });
+  inPart("Panels over the picture", [&] { drawFloatingPanels(ui); });
+  inPart("Layout", [&] { layout_.splitters(ui); });
   // Run now, so that this frame shows the effects.
   for (const std::string& action : std::exchange(requests_.actions, {})) runAction(action);
 
   // If a field disappears while it is edited, its transaction stays open; commit it.
   if (session_->editing().inTransaction() && !ImGui::IsAnyItemActive() && !session_->dragging())
     session_->editing().commit();
+}
+
+void Application::drawFloatingPanels(const PanelContext& ui) {
+  const Rect explained = explainPanel(ui, layout_.view, requests_);
+  Rect below = layout_.view;
+  if (!explained.empty()) below.min.y = explained.max.y;
+  viewport_.setCovered(
+      {explained, histogramPanel(ui, below, requests_), historyPanel(ui, layout_.view, requests_)});
 }
 
 void Application::drawDialogs(PanelContext ui) {
@@ -332,13 +348,11 @@ void Application::present() {
 void Application::takeLoaded() {
   std::optional<SceneLoader::Result> result = loader_.take();
   if (!result) return;
-  if (result->loaded) {
-    session_->open(std::move(result->loaded->scene), result->path, result->loaded->warnings);
-    framesToExposure_ = kFramesToExposure;
-    lastExposure_.reset();
-  } else if (!result->error.empty()) {
-    showError(result->error);
-  }
+  if (!result->error.empty()) showError(result->error);
+  if (!result->loaded) return;
+  session_->open(std::move(result->loaded->scene), result->path, result->loaded->warnings);
+  framesToExposure_ = kFramesToExposure;
+  lastExposure_.reset();
 }
 
 // Sets the exposure of an opened level after a few frames, and repeats this while light samples are
@@ -375,13 +389,12 @@ void Application::answerRequests() {
     }
   }
   if (session_->takeShadersRequest()) {
-    FrameRenderer& renderer = session_->renderer();
+    Backend& backend = session_->renderer().backend();
     try {
-      reloadShaders(renderer.backend(), gl::defaultShaderFolder());
-      renderer.restart();
-      session_->setStatus(renderer.backend().info().name == "gl"
-                              ? "Shaders reloaded"
-                              : "The cpu backend has no shaders");
+      reloadShaders(backend, gl::defaultShaderFolder());
+      session_->renderAnew();
+      session_->setStatus(backend.info().name == "gl" ? "Shaders reloaded"
+                                                      : "The cpu backend has no shaders");
     } catch (const gl::ShaderError& e) {
       session_->setStatus(e.what());  // the valid values stay in use
     }

@@ -10,6 +10,7 @@
 #include "editor/session/frame_pacer.h"
 #include "editor/session/session.h"
 #include "ui/app/autosave_worker.h"
+#include "ui/app/frame_parts.h"
 #include "ui/app/imgui_layer.h"
 #include "ui/app/input_queue.h"
 #include "ui/app/layout.h"
@@ -47,7 +48,10 @@ class Application {
   // Receives the events of each frame, with named targets.
   using Listener = std::function<void(const std::vector<InputEvent>&)>;
   void setListener(Listener listener) { listener_ = std::move(listener); }
-  void setReplaying(bool replaying) { replaying_ = replaying; }
+  void setReplaying(bool replaying) {
+    replaying_ = replaying;
+    parts_.setStrict(replaying);
+  }
   // Advances the clock by the time step in each frame, so that displayed times are the same in
   // every run. Call after setTimeStep().
   void useFrameClock();
@@ -68,6 +72,7 @@ class Application {
   void exposeAutomatically();
   void showError(const std::string& text);
 
+  // One frame. An exception becomes a message, except in a replay; it does not end the editor.
   void frame();
   bool finished() const { return finished_; }
   // Call when there is nothing left to save. Deletes the journal.
@@ -83,7 +88,13 @@ class Application {
   void handle(const InputEvent& event);
   void pressKey(Key key);
   void runAction(const std::string& text);
+  void inPart(const std::string& name, const std::function<void()>& work) {
+    parts_.run(*session_, name, work);
+  }
   void drawPanels(PanelContext ui);
+  void drawFloatingPanels(const PanelContext& ui);
+  void exchangeWithMeter();
+  void renderAndPresent();
   bool rendersFrame();
   void drawStatusLine(const PanelContext& ui);
   void drawDialogs(PanelContext ui);
@@ -109,6 +120,7 @@ class Application {
   WidgetMap widgets_;
   InputQueue input_;
   InputRouter router_{widgets_};
+  FrameParts parts_;
   ImGuiLayer gui_;
   Picture picture_, secondPicture_;
   MeterWorker meterWorker_;

@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "renderer/base/error.h"
+#include "editor/notices/failure_text.h"
 
 namespace lamplighter {
 
@@ -33,8 +33,8 @@ void AutosaveWorker::frame(Session& session, double seconds) {
       try {
         journal->restart(session.document(), work_->needsLevel);
         spdlog::info("autosaved to {}", (work_->folder / "autosave.glb").string());
-      } catch (const InputError& e) {
-        session.setStatus(std::string("Autosave: ") + e.what());
+      } catch (const std::exception& e) {
+        session.setStatus("Autosave: " + failureText(e));
       }
     }
     work_.reset();
@@ -52,7 +52,7 @@ void AutosaveWorker::frame(Session& session, double seconds) {
     try {
       work_->write();
     } catch (const std::exception& e) {
-      error_ = e.what();
+      error_ = failureText(e);
     }
     written_ = true;
   });

@@ -1,5 +1,8 @@
 #include "ui/app/backends.h"
 
+#include <spdlog/spdlog.h>
+
+#include "editor/notices/failure_text.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/choose_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
@@ -11,7 +14,12 @@ namespace lamplighter {
 std::unique_ptr<Backend> makeBackend(const std::string& kind, const Stopwatch& stopwatch) {
   if (kind == "cpu") return makeCpuBackend();
   if (kind == "gl") return makeGlBackend();
-  return chooseBackend(stopwatch);
+  try {
+    return chooseBackend(stopwatch);
+  } catch (const std::exception& e) {
+    spdlog::warn("the gl backend does not work here, so cpu is used: {}", failureText(e));
+    return makeCpuBackend();
+  }
 }
 
 std::unique_ptr<Backend> makeHeadlessBackend(const std::string& kind, const Stopwatch& stopwatch) {
@@ -23,7 +31,7 @@ std::unique_ptr<Backend> makeHeadlessBackend(const std::string& kind, const Stop
     if (kind == "gl") throw;
     return makeCpuBackend();
   }
-  if (kind != "gl" && chooseBackend(stopwatch)->info().name == "cpu") return makeCpuBackend();
+  if (kind != "gl" && makeBackend(kind, stopwatch)->info().name == "cpu") return makeCpuBackend();
   return makeGlBackend(std::move(context));
 }
 

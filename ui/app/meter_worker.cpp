@@ -9,6 +9,8 @@
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include "editor/notices/failure_text.h"
+
 namespace lamplighter {
 namespace {
 
@@ -39,16 +41,18 @@ MeterWorker::~MeterWorker() {
   thread_.join();
 }
 
-void MeterWorker::exchange(ErrorMeter& meter) {
+std::string MeterWorker::exchange(ErrorMeter& meter) {
   const std::shared_ptr<const MeterSubject> wanted = meter.wanted();
   if (!thread_.joinable()) {
-    if (!wanted) return;
+    if (!wanted) return {};
     thread_ = std::thread([this] { run(); });
   }
   std::shared_ptr<const ReferenceHalves> traced;
+  std::string problem;
   {
     const std::lock_guard lock(mutex_);
     traced = std::exchange(traced_, nullptr);
+    problem = std::exchange(problem_, {});
     if (wanted != wanted_) {
       wanted_ = wanted;
       stop_ = true;
@@ -56,12 +60,14 @@ void MeterWorker::exchange(ErrorMeter& meter) {
     }
   }
   if (traced) meter.take(std::move(traced));
+  return problem;
 }
 
 void MeterWorker::run() {
   yieldToOthers();
   tbb::task_arena beside(threadsBeside(), 1, tbb::task_arena::priority::low);
   std::shared_ptr<const MeterSubject> done;
+  std::string told;  // the problem of the last subject
   for (;;) {
     std::shared_ptr<const MeterSubject> subject;
     {
@@ -71,11 +77,16 @@ void MeterWorker::run() {
       subject = wanted_;
       stop_ = false;
     }
-    // If memory is short there is no figure, and the editor continues.
     try {
       beside.execute([&] { trace(subject); });
-    } catch (const std::exception&) {
+      told.clear();
+    } catch (const std::exception& e) {
       sampler_.reset();
+      if (const std::string why = failureText(e); why != told) {
+        told = why;
+        const std::lock_guard lock(mutex_);
+        problem_ = why;
+      }
     }
     done = std::move(subject);
   }

@@ -9,6 +9,7 @@
 #include "editor/document/write_file.h"
 #include "editor/input/player.h"
 #include "editor/latency/latency_report.h"
+#include "editor/notices/failure_text.h"
 #include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 #include "renderer/base/threads.h"
@@ -134,9 +135,9 @@ void Replay::run(Platform& platform, const MakeRenderer& makeRenderer, bool repo
     app.skipPictures(options_.frameClock && !player_.waits());
     try {
       app.frame();
-    } catch (const InputError& e) {
+    } catch (const std::exception& e) {
       throw InputError(options_.recording + ": frame " + std::to_string(player_.frame()) + ": " +
-                       e.what());
+                       failureText(e));
     }
     if (!app.session().renderError().empty()) throw InputError(app.session().renderError());
     const bool settled = app.session().output().settled && app.quietFrames() >= kQuietFrames;

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "editor/notices/failure_text.h"
+
 namespace lamplighter {
 
 SceneLoader::~SceneLoader() {
@@ -31,7 +33,7 @@ void SceneLoader::load(const std::filesystem::path& path) {
       return !cancelled_;
     });
   } catch (const std::exception& e) {
-    error = e.what();
+    error = failureText(e);
   }
   if (cancelled_) {
     loaded.reset();

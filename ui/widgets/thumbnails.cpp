@@ -5,6 +5,7 @@
 #include <tbb/task_arena.h>
 
 #include "editor/assets/thumbnail.h"
+#include "editor/notices/failure_text.h"
 
 namespace lamplighter {
 
@@ -23,7 +24,7 @@ Thumbnails::Done Thumbnails::make(const Name& name, const std::filesystem::path&
   try {
     done.image = cachedThumbnail(name.first, name.second, cacheFolder);
   } catch (const std::exception& e) {  // a file that cannot be opened has no thumbnail
-    done.problem = e.what();
+    done.problem = failureText(e);
   }
   return done;
 }

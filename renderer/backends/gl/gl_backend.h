@@ -9,6 +9,7 @@
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/backends/gl/gl_composition.h"
 #include "renderer/backends/gl/gl_gbuffer.h"
+#include "renderer/gl/debug.h"
 #include "renderer/gl/headless_context.h"
 #include "renderer/gl/shader_source.h"
 
@@ -23,6 +24,7 @@ class GlBackend final : public Backend {
 
   const BackendInfo& info() const override { return info_; }
   void finish() override { glFinish(); }
+  void checkDevice() override { gl::takeErrors(); }
   GBufferView hostGBuffer() override;
   Image readNormals() override { return gbuffer_.readNormals(); }
   Image readAlbedo() override { return gbuffer_.readAlbedo(); }

@@ -1,58 +1,28 @@
 // If a frame cannot be rendered, the document and the last picture stay.
-#include "renderer/backends/cpu/many_lights/cpu_many_lights.h"
+#include <new>
+#include <stdexcept>
+
+#include "editor/session/user_state.h"
 #include "renderer/base/error.h"
 #include "tests/editor/session_fixture.h"
+#include "tests/support/failing_kernels.h"
+#include "tests/support/gltf_files.h"
 
 namespace lamplighter {
 namespace {
 
-// Kernels of the cpu backend that have no memory for shadow maps of more than 32² texels.
-class SmallKernels final : public ManyLightsKernels {
- public:
-  explicit SmallKernels(std::unique_ptr<ManyLightsKernels> inner) : inner_(std::move(inner)) {}
-
-  void takeScene(const RenderScene& scene, const RenderSceneChanges& changes,
-                 const RayCaster& rays) override {
-    inner_->takeScene(scene, changes, rays);
-  }
-  void takeGBuffer() override { inner_->takeGBuffer(); }
-  BackendCounts counts() const override { return inner_->counts(); }
-  const ManyLightsTraits& traits() const override { return inner_->traits(); }
-  ManyLightsCounts lightCounts() const override { return inner_->lightCounts(); }
-  void reserveShadowMaps(int slots, const MapRoom& coarse, const MapRoom& fine) override {
-    if (coarse.resolution > 32)
-      throw InputError("many_lights", "no memory", "lower map_resolution");
-    inner_->reserveShadowMaps(slots, coarse, fine);
-  }
-  void dropShadowMaps(std::span<const int> slots) override { inner_->dropShadowMaps(slots); }
-  void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
-    inner_->renderShadowMaps(vpls, size);
-  }
-  void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
-               const PatchLights* patches) override {
-    inner_->sumVpls(vpls, params, patches);
-  }
-  std::shared_ptr<RadianceImage> compose(bool white) override { return inner_->compose(white); }
-  std::vector<float> readShadowMap(int slot) override { return inner_->readShadowMap(slot); }
-
- private:
-  std::unique_ptr<ManyLightsKernels> inner_;
-};
-
-std::unique_ptr<Backend> smallBackend() {
-  auto backend = std::make_unique<cpu::CpuBackend>();
-  backend->offer<ManyLightsKernels>([b = backend.get()] {
-    return std::make_unique<SmallKernels>(cpu::makeManyLightsKernels(*b));
-  });
-  return backend;
-}
-
 class RenderFailure : public testing::Test {
  protected:
-  Session session_{std::make_unique<FrameRenderer>(smallBackend())};
+  std::shared_ptr<test::KernelHooks> hooks_ = std::make_shared<test::KernelHooks>();
+  Session session_{std::make_unique<FrameRenderer>(test::failingBackend(hooks_))};
   NodeId light_ = 0;
+  int attempts_ = 0;  // that failed by failWith()
 
   void SetUp() override {
+    hooks_->reserve = [](const MapRoom& coarse) {
+      if (coarse.resolution > 32)
+        throw InputError("many_lights", "no memory", "lower map_resolution");
+    };
     Scene scene;
     test::addMesh(scene, test::squareMesh(10.0f, test::addMaterial(scene, vec3(0.6f))));
     light_ = test::addRectangleLight(scene, vec3(0, 4, 0), vec2(1.0f), vec3(10.0f));
@@ -60,6 +30,7 @@ class RenderFailure : public testing::Test {
     session_.open(std::move(scene), "test.gltf", {});
     RenderSettings render;
     render.values.set("vpls", 8);
+    render.values.set("map_resolution", 16);
     session_.editing().setInitialRender(std::move(render));
   }
   std::vector<vec3> settle() {
@@ -67,6 +38,36 @@ class RenderFailure : public testing::Test {
     }
     EXPECT_TRUE(session_.output().settled);
     return session_.output().radiance->pixels().pixels;
+  }
+  // Every picture fails with this exception.
+  template <typename E>
+  void failWith(E exception) {
+    hooks_->compose = [this, exception] {
+      ++attempts_;
+      throw exception;
+    };
+  }
+  void stopFailing() {
+    hooks_->compose = [] {};
+  }
+  // Number of messages with this text.
+  int messages(const std::string& text) const {
+    int count = 0;
+    for (const Notice& n : session_.home().notices.all())
+      if (n.text.find(text) != std::string::npos) count += n.count;
+    return count;
+  }
+  uint64_t hash() const { return documentHash(session_.document()); }
+  // The settled picture of a new session with the same document.
+  std::vector<vec3> freshPicture() const {
+    Session fresh(std::make_unique<FrameRenderer>(makeCpuBackend()));
+    fresh.resizeViewport(32, 24);
+    fresh.open(session_.document().scene, "test.gltf", {});
+    fresh.editing().setInitialRender(session_.document().render);
+    fresh.setView(session_.view());
+    while (!fresh.renderFrame().settled) {
+    }
+    return fresh.output().radiance->pixels().pixels;
   }
 };
 
@@ -91,22 +92,116 @@ TEST_F(RenderFailure, ChangesDuringTheFailureAreShownLater) {
   ASSERT_TRUE(session_.runAction("object.move 2 1 0"));
   settle();  // these frames fail, but receive the change
   ASSERT_TRUE(session_.runAction("render.set map_resolution=16"));
-  const auto after = settle();
-
-  Session fresh(std::make_unique<FrameRenderer>(makeCpuBackend()));
-  fresh.resizeViewport(32, 24);
-  fresh.open(session_.document().scene, "test.gltf", {});
-  fresh.editing().setInitialRender(session_.document().render);
-  fresh.setView(session_.view());
-  while (!fresh.renderFrame().settled) {
-  }
-  EXPECT_EQ(after, fresh.output().radiance->pixels().pixels);
+  EXPECT_EQ(settle(), freshPicture());
 }
 
 TEST_F(RenderFailure, OfTheFirstFrameGivesABlackPicture) {
   ASSERT_TRUE(session_.runAction("render.set map_resolution=64"));
   ASSERT_NE(session_.renderFrame().radiance, nullptr);
   EXPECT_EQ(session_.output().radiance->pixels().pixels, std::vector<vec3>(32 * 24, vec3(0.0f)));
+}
+
+TEST_F(RenderFailure, AnExceptionIsToldOnceAndTheNextEditRendersAgain) {
+  const auto before = settle();
+  session_.select({light_});
+  const uint64_t document = hash();
+  failWith(std::bad_alloc());
+  ASSERT_TRUE(session_.runAction("object.move 2 1 0"));
+  const uint64_t moved = hash();
+  for (int i = 0; i < 60; ++i) EXPECT_EQ(session_.renderFrame().radiance->pixels().pixels, before);
+  EXPECT_EQ(attempts_, 2);  // the second one is from scratch
+  EXPECT_TRUE(session_.output().settled);
+  EXPECT_EQ(messages("out of memory"), 1);
+  EXPECT_EQ(session_.status(), session_.renderError());
+  EXPECT_EQ(hash(), moved);
+  session_.undo();
+  EXPECT_EQ(hash(), document);
+  for (int i = 0; i < 3; ++i) session_.renderFrame();
+  EXPECT_EQ(attempts_, 3);  // a change: it is tried again
+  EXPECT_EQ(messages("out of memory"), 1);
+
+  stopFailing();
+  ASSERT_TRUE(session_.runAction("object.move 0 0 1"));
+  EXPECT_EQ(settle(), freshPicture());
+  EXPECT_TRUE(session_.renderError().empty());
+}
+
+TEST_F(RenderFailure, APassingExceptionNeedsNoEdit) {
+  settle();
+  failWith(std::runtime_error("Embree error 2"));
+  session_.select({light_});
+  ASSERT_TRUE(session_.runAction("object.move 2 1 0"));
+  session_.renderFrame();
+  EXPECT_NE(session_.renderError().find("Embree error 2"), std::string::npos);
+  EXPECT_FALSE(session_.output().settled);
+  stopFailing();
+  EXPECT_EQ(settle(), freshPicture());
+  EXPECT_EQ(messages("Embree error 2"), 1);
+}
+
+TEST_F(RenderFailure, TheGlBackendIsReplacedAfterTwoExceptions) {
+  session_.renderer().setBackend(std::make_unique<test::FailingGl>(hooks_));
+  failWith(DeviceError("OpenGL: the graphics device is out of memory"));
+  session_.renderFrame();
+  EXPECT_EQ(session_.renderer().backend().info().name, "gl");
+  const auto picture = settle();
+  EXPECT_EQ(attempts_, 2);
+  EXPECT_EQ(session_.renderer().backend().info().name, "cpu");
+  EXPECT_EQ(messages("graphics device is out of memory"), 1);
+  EXPECT_EQ(messages("the cpu backend renders"), 1);
+  EXPECT_EQ(picture, freshPicture());
+}
+
+TEST_F(RenderFailure, TheGlBackendStaysAfterAnInputError) {
+  session_.renderer().setBackend(std::make_unique<test::FailingGl>(hooks_));
+  ASSERT_TRUE(session_.runAction("render.set map_resolution=64"));
+  for (int i = 0; i < 5; ++i) session_.renderFrame();
+  EXPECT_EQ(session_.renderer().backend().info().name, "gl");
+}
+
+TEST_F(RenderFailure, TheJournalHasTheEditsOfFramesThatFail) {
+  const test::TemporaryFolder folder;
+  session_.keepJournal(folder.path(), 7, [] { return int64_t{1'000'000}; });
+  failWith(std::bad_alloc());
+  session_.select({light_});
+  for (const char* edit :
+       {"object.move 2 1 0", "light.add sphere", "edit.undo", "render.set vpls=9"}) {
+    ASSERT_TRUE(session_.runAction(edit)) << session_.status();
+    session_.renderFrame();
+  }
+  EXPECT_GT(attempts_, 0);
+  session_.crashRecovery() = {};  // as after a crash: only the lock disappears
+  const auto found = findRecoverable(folder.path());
+  ASSERT_EQ(found.size(), 1u);
+  const Recovered recovered = recover(found.front().folder);
+  EXPECT_EQ(recovered.warning, "");
+  EXPECT_EQ(documentHash(recovered.document), hash());
+}
+
+// An action that edits and then throws is undone, whatever it throws.
+TEST_F(RenderFailure, AnActionThatThrowsLeavesTheDocument) {
+  const auto fail = [&](const std::string& name, const std::function<void()>& raise) {
+    Action action;
+    action.name = name;
+    action.run = [this, raise](Session& session, const std::vector<std::string>&) {
+      Transaction edit = session.editing().begin("Fail");
+      edit.node(light_).name = "changed";
+      edit.sky().scale = 2.0f;
+      raise();
+      edit.commit();
+    };
+    session_.actions().add(std::move(action));
+    const uint64_t before = hash();
+    const size_t step = session_.history().position();
+    EXPECT_FALSE(session_.runAction(name));
+    EXPECT_EQ(hash(), before);
+    EXPECT_EQ(session_.history().position(), step);
+    EXPECT_FALSE(session_.editing().inTransaction());
+  };
+  fail("test.memory", [] { throw std::bad_alloc(); });
+  EXPECT_NE(session_.status().find("out of memory"), std::string::npos);
+  fail("test.runtime", [] { throw std::runtime_error("of a library"); });
+  EXPECT_NE(session_.status().find("of a library"), std::string::npos);
 }
 
 TEST_F(RenderFailure, RenderSettingsDoNotModifyTheLevel) {

@@ -14,5 +14,18 @@ TEST_F(GlBackendTest, HostGBufferEqualsRayHits) {
   test::expectHostGBufferEqualsRayHits(makeGlBackend());
 }
 
+TEST_F(GlBackendTest, ReportsThatTheDeviceIsOutOfMemoryOnce) {
+  const auto backend = makeGlBackend();
+  EXPECT_NO_THROW(backend->checkDevice());
+  GLint layers = 0, size = 0;
+  glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &size);
+  const gl::Texture texture = gl::Texture::make(GL_TEXTURE_2D_ARRAY);
+  glTextureStorage3D(texture.name(), 1, GL_RGBA32F, size, size, layers);  // terabytes
+  EXPECT_THROW(backend->checkDevice(), DeviceError);
+  EXPECT_NO_THROW(backend->checkDevice());
+  context().debugLog()->clear();
+}
+
 }  // namespace
 }  // namespace lamplighter

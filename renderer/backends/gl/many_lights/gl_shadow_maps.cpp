@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "renderer/base/error.h"
+#include "renderer/gl/debug.h"
 #include "renderer/gl/pass_state.h"
 #include "renderer/raycast/ray_caster.h"
 #include "shaders/shared/shadow_depth.h"
@@ -97,8 +98,7 @@ void GlShadowMaps::reserve(int slots, const MapRoom& coarse, const MapRoom& fine
 
 Texture GlShadowMaps::makeArray(const Pool& pool, int layers) {
   const int resolution = pool.room.resolution;
-  while (glGetError() != GL_NO_ERROR) {
-  }
+  takeErrors();
   Texture array = Texture::make(GL_TEXTURE_2D_ARRAY);
   glTextureStorage3D(array.name(), 1, GL_DEPTH_COMPONENT32F, resolution, resolution, layers);
   if (glGetError() != GL_NO_ERROR) {

@@ -1,0 +1,48 @@
+// What follows a frame that could not be rendered: another attempt from scratch, the cpu backend
+// instead of gl, or waiting until something changes.
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "editor/document/document.h"
+#include "renderer/debug_views/debug_view.h"
+#include "renderer/scene/camera.h"
+
+namespace lamplighter {
+
+class FrameFailures {
+ public:
+  // What the picture depends on, besides the scene.
+  struct Input {
+    View view;
+    RenderSettings render;
+    DebugView shown = DebugView::lit;
+    bool operator==(const Input&) const = default;
+  };
+  enum class Next : uint8_t { tryAgain, leaveGl, wait };
+
+  // Whether the last frame failed. The next one then needs the whole scene.
+  bool any() const { return !why_.empty(); }
+  const std::string& why() const { return why_; }  // one line; "": the last frame was rendered
+  // Whether a frame with this input would fail again. `isSameScene`: as in the last frame.
+  bool waits(const Input& input, bool isSameScene) const {
+    return waits_ && isSameScene && input == input_;
+  }
+
+  // An InputError comes again with the same input. Other exceptions may come from what was kept
+  // between frames, or be over with less memory in use, so they get a second attempt; after it the
+  // gl backend counts as broken.
+  Next failed(const std::exception& e, const Input& input, bool isOnGl);
+  void rendered() { *this = {}; }
+  // Something else changed, such as shaders: ends the waiting.
+  void tryAgain() { waits_ = false; }
+
+ private:
+  std::string why_;
+  Input input_;
+  int count_ = 0;  // of exceptions in a row that are no InputErrors
+  bool waits_ = false;
+};
+
+}  // namespace lamplighter
