@@ -16,13 +16,13 @@
 
 namespace lamplighter {
 
-namespace {
-
 // An error that Embree reported.
 struct EmbreeError {
   RTCError code = RTC_ERROR_NONE;
   std::string text;
 };
+
+namespace {
 
 // Stores the first error for RayCaster::Impl::check(): exceptions must not pass through Embree.
 void onError(void* first, RTCError code, const char* message) {
