@@ -186,6 +186,39 @@ TEST(ManyLights, SettledAfterManyMovesEqualsAFreshRender) {
   }
 }
 
+// Where one light is all light, its samples stay where they are when it gets brighter: the next
+// frame is exact, without look-ups of occluders and without shadow maps.
+TEST(ManyLights, TheFrameAfterAChangeOfBrightnessIsExact) {
+  for (const char* technique : {"naive", "visibility", "light_maps"}) {
+    SCOPED_TRACE(technique);
+    Room room;
+    FrameRenderer renderer(makeCpuBackend());
+    Settings settings = settingsOf(90, 2, 90);
+    settings.set("technique", std::string(technique));
+    const Image before =
+        renderSettled(renderer, room.scene, SceneChanges::all(), room.view, settings)
+            .radiance->pixels();
+    const Scene old = room.scene;
+    room.scene.find(room.light)->area->radiance *= 2.0f;
+    const GiOutput next =
+        renderer.render({room.scene, compare(old, room.scene), room.view, "many_lights", settings});
+    EXPECT_EQ(next.stats.of("visibility_tests"), 0.0);
+    EXPECT_EQ(next.stats.of("maps_rendered"), 0.0);
+    EXPECT_EQ(next.stats.of("paths_walked"), 0.0);
+    const Image& after = next.radiance->pixels();
+    for (size_t i = 0; i < before.pixels.size(); ++i) {
+      const vec3 wanted = 2.0f * before.pixels[i];
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(after.pixels[i][c], wanted[c], 1e-5f * wanted[c]);
+    }
+    const Image settled =
+        renderSettled(renderer, room.scene, {}, room.view, settings).radiance->pixels();
+    FrameRenderer fresh(makeCpuBackend());
+    EXPECT_TRUE(
+        sameBits(settled, renderSettled(fresh, room.scene, SceneChanges::all(), room.view, settings)
+                              .radiance->pixels()));
+  }
+}
+
 // A changed setting changes the picture; changing it back restores the bits.
 TEST(ManyLights, RestoredSettingsGiveTheSameBits) {
   const Room room;
