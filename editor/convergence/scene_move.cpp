@@ -22,7 +22,7 @@ std::vector<const Item*> counterparts(const std::vector<Item>& from, const std::
   return found;
 }
 
-// The node with the transform and the light of `there`. It does not become a light, or stop to be
+// The node with the transform and the light of `there`. It does not become a light, or stop being
 // one.
 Node moved(Node node, const Node& there) {
   node.local = there.local;

@@ -16,7 +16,7 @@
 
 namespace lamplighter {
 
-// An error that Embree reported.
+// An error that Embree reported. Not in the unnamed namespace, since Impl has one.
 struct EmbreeError {
   RTCError code = RTC_ERROR_NONE;
   std::string text;
@@ -468,7 +468,8 @@ void RayCaster::distance8(std::span<const Ray, 8> rays, std::span<float, 8> dist
                        : r.ray.tfar[i];
   Hit least[8];
   impl_->leastHitsAt(rays, distances, least);
-  for (size_t i = 0; i < 8; ++i) distances[i] = least[i].t;
+  for (size_t i = 0; i < 8; ++i)
+    if (least[i]) distances[i] = least[i].t;
 }
 
 bool mayTouch(const Ray& ray, const Bounds& box) {
