@@ -20,8 +20,6 @@
 namespace lamplighter {
 namespace {
 
-constexpr int kMostTexels = TexelGrid::kMostAlong;
-constexpr float kFlat = 0.9999f;  // cos 0.8°
 // Factor by which the texel spacing grows, repeatedly, until all maps fit.
 constexpr float kTexelGrowth = 1.41421356f;
 // Memory: per texel, and per tile for 64 slots.
@@ -34,21 +32,6 @@ size_t wordsOf(size_t slots) { return (slots + 63) / 64; }
 bool sameContribution(const shared::Vpl& a, const shared::Vpl& b) {
   return a.position == b.position && a.normal == b.normal && a.tangent == b.tangent &&
          a.intensity == b.intensity;
-}
-
-// Whether the chart is shaded flat: no smooth normals, normal texture or bumps.
-bool isShadedFlat(const RenderScene& s, const Chart& chart) {
-  if (chart.isRough) return false;
-  const RenderObject& o = s.objects[chart.object];
-  if (s.materials[static_cast<size_t>(o.material)].normalTexture.texture != kNone) return false;
-  return std::all_of(chart.triangles.begin(), chart.triangles.end(), [&](uint32_t t) {
-    for (uint32_t c = 0; c < 3; ++c) {
-      const vec3& n = s.normals[s.indices[o.firstIndex + 3 * t + c]];
-      const float length = glm::length(n);
-      if (length > 0.0f && std::abs(glm::dot(n, chart.normal)) < kFlat * length) return false;
-    }
-    return true;
-  });
 }
 
 size_t paddedCount(const LightMapTile& tile) {
@@ -71,30 +54,10 @@ float spacingOf(const LightMapTile& tile, const Patch& patch) {
 
 }  // namespace
 
-template <typename F>
-void LightMaps::forEachTile(const ObjectPatches& patches, const std::vector<bool>& isFlat,
-                            float texel, F take) {
-  const auto texelsAlong = [&](float length) {
-    const float steps = std::ceil(std::min(length / texel, static_cast<float>(kMostTexels)));
-    return std::clamp(static_cast<int>(steps) + 1, 2, kMostTexels);
-  };
-  for (size_t p = 0; p < patches.patches.size(); ++p) {
-    const Patch& patch = patches.patches[p];
-    if (!patch.isLeaf() || patch.chart == kNone || !isFlat[static_cast<size_t>(patch.chart)])
-      continue;
-    const vec2 size = patch.max - patch.min;
-    take(p, texelsAlong(size.x), texelsAlong(size.y));
-  }
-}
-
-LightMaps::Size LightMaps::sizeOf(const ObjectPatches& patches, const std::vector<bool>& isFlat,
+LightMaps::Size LightMaps::sizeOf(const Object& object, const ObjectPatches& patches,
                                   float texel) {
-  Size out;
-  forEachTile(patches, isFlat, texel, [&](size_t, int columns, int rows) {
-    ++out.tiles;
-    out.texels += TexelGrid::paddedCount(columns, rows);
-  });
-  return out;
+  const LightMapTiles tiles = findTiles(patches, object.isFlat, object.levels, texel);
+  return {tiles.tiles.size(), tiles.texels};
 }
 
 // The spacing for the whole scene. It depends on the number of slots only, not on earlier maps.
@@ -114,7 +77,7 @@ float LightMaps::fittingTexel(const VisibilityDatabase& visibility, size_t words
     texel *= kTexelGrowth;
     size = {};
     for (uint32_t i = 0; i < objects_.size(); ++i) {
-      const Size some = sizeOf(visibility.patches(i), objects_[i].isFlat, texel);
+      const Size some = sizeOf(objects_[i], visibility.patches(i), texel);
       size.tiles += some.tiles;
       size.texels += some.texels;
     }
@@ -122,23 +85,37 @@ float LightMaps::fittingTexel(const VisibilityDatabase& visibility, size_t words
   return texel;
 }
 
+// Tiles that stay keep their texels; the others are left out until they are computed.
 void LightMaps::makeTiles(Object& object, const ObjectPatches& patches) const {
-  object.tileOfPatch.assign(patches.patches.size(), kNone);
-  object.tiles.clear();
-  uint32_t texels = 0;
-  if (texel_ > 0.0f) {
-    forEachTile(patches, object.isFlat, texel_, [&](size_t p, int columns, int rows) {
-      object.tileOfPatch[p] = static_cast<int>(object.tiles.size());
-      object.tiles.push_back({static_cast<int>(p), texels, columns, rows});
-      texels += static_cast<uint32_t>(TexelGrid::paddedCount(columns, rows));
-    });
+  Object before = std::move(object);
+  object.levels = before.levels;
+  object.isFlat = before.isFlat;
+  object.wanted = before.wanted;
+  object.revision = before.revision;
+  object.tiles = findTiles(patches, object.isFlat, object.levels, texel_);
+  const size_t tiles = object.tiles.tiles.size();
+  object.sums.assign(size_t{3} * object.tiles.texels, 0.0);
+  object.irradiance.assign(object.tiles.texels, vec4(0.0f));
+  object.held.assign(tiles * words_, 0);
+  object.refused.assign(tiles * words_, 0);
+  object.isLeftOut.assign(tiles, 1);
+  if (before.tiles.ofPatch.size() != object.tiles.ofPatch.size()) return;
+  for (size_t t = 0; t < tiles; ++t) {
+    const LightMapTile& tile = object.tiles.tiles[t];
+    const int index = before.tiles.ofPatch[static_cast<size_t>(tile.patch)];
+    if (index == kNone) continue;
+    const auto from = static_cast<size_t>(index);
+    const LightMapTile& old = before.tiles.tiles[from];
+    if (old.columns != tile.columns || old.rows != tile.rows) continue;
+    const size_t count = paddedCount(tile);
+    std::copy_n(&before.sums[size_t{3} * old.first], 3 * count, &object.sums[size_t{3} * tile.first]);
+    std::copy_n(&before.irradiance[old.first], count, &object.irradiance[tile.first]);
+    std::copy_n(before.held.begin() + static_cast<ptrdiff_t>(from * words_), words_,
+                object.held.begin() + static_cast<ptrdiff_t>(t * words_));
+    std::copy_n(before.refused.begin() + static_cast<ptrdiff_t>(from * words_), words_,
+                object.refused.begin() + static_cast<ptrdiff_t>(t * words_));
+    object.isLeftOut[t] = before.isLeftOut[from];
   }
-  // New vectors: resizing larger ones would keep their memory.
-  object.sums = std::vector<double>(size_t{3} * texels, 0.0);
-  object.irradiance = std::vector<vec4>(texels, vec4(0.0f));
-  object.held = std::vector<uint64_t>(object.tiles.size() * words_, 0);
-  object.refused = std::vector<uint64_t>(object.held);
-  object.isLeftOut.assign(object.tiles.size(), 0);
 }
 
 void LightMaps::resize(size_t slots) {
@@ -147,8 +124,8 @@ void LightMaps::resize(size_t slots) {
   const size_t kept = std::min(words, words_);
   for (Object& o : objects_) {
     for (std::vector<uint64_t>* bits : {&o.held, &o.refused}) {
-      std::vector<uint64_t> other(o.tiles.size() * words, 0);
-      for (size_t t = 0; kept > 0 && t < o.tiles.size(); ++t)
+      std::vector<uint64_t> other(o.tiles.tiles.size() * words, 0);
+      for (size_t t = 0; kept > 0 && t < o.tiles.tiles.size(); ++t)
         std::copy_n(&(*bits)[t * words_], kept, &other[t * words]);
       *bits = std::move(other);
     }
@@ -165,7 +142,8 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   if (!(options == options_)) objects_.clear();
   options_ = options;
   std::vector<Object> objects(scene.objects.size());
-  std::vector<uint32_t> fresh;
+  // Objects without tiles, and objects of which other patches have entries now.
+  std::vector<uint32_t> fresh, outdated;
   for (uint32_t i = 0; i < objects.size(); ++i) {
     const int from = visibility.cameFrom()[i];
     if (from != kNone && static_cast<size_t>(from) < objects_.size()) {
@@ -173,32 +151,32 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     } else {
       fresh.push_back(i);
     }
+    if (!std::ranges::equal(objects[i].levels, visibility.levels(i))) outdated.push_back(i);
   }
-  const bool mayFitOtherwise =
-      !fresh.empty() || objects.size() != objects_.size() || wordsOf(given.size()) != fittingWords_;
+  const bool mayFitOtherwise = !fresh.empty() || !outdated.empty() ||
+                               objects.size() != objects_.size() ||
+                               wordsOf(given.size()) != fittingWords_;
   objects_ = std::move(objects);
   resize(bySlot.size());
-  tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) {
-    const ObjectPatches& patches = visibility.patches(fresh[i]);
-    Object& o = objects_[fresh[i]];
-    o.isFlat.resize(patches.charts.size());
-    for (size_t c = 0; c < patches.charts.size(); ++c)
-      o.isFlat[c] = isShadedFlat(scene, patches.charts[c]);
-    o.wanted = sizeOf(patches, o.isFlat, options.texel);
+  tbb::parallel_for(size_t{0}, outdated.size(), [&](size_t i) {
+    const ObjectPatches& patches = visibility.patches(outdated[i]);
+    const std::span<const uint8_t> levels = visibility.levels(outdated[i]);
+    Object& o = objects_[outdated[i]];
+    o.levels.assign(levels.begin(), levels.end());
+    o.isFlat.find(scene, patches, levels);
+    o.wanted = sizeOf(o, patches, options.texel);
   });
   fittingWords_ = wordsOf(given.size());
   if (mayFitOtherwise) fitting_ = fittingTexel(visibility, fittingWords_);
   const bool isFiner = fitting_ > 0.0f && (texel_ == 0.0f || fitting_ < texel_);
   if (fitting_ != texel_ && (!isFiner || mayBeFiner || fresh.size() == objects_.size())) {
     texel_ = fitting_;
-    fresh.resize(objects_.size());
-    std::iota(fresh.begin(), fresh.end(), 0u);
+    outdated.resize(objects_.size());
+    std::iota(outdated.begin(), outdated.end(), 0u);
   }
-  tbb::parallel_for(size_t{0}, fresh.size(),
-                    [&](size_t i) { makeTiles(objects_[fresh[i]], visibility.patches(fresh[i])); });
-  std::vector<bool> isFresh(objects_.size(), false);
-  for (const uint32_t i : fresh) isFresh[i] = true;
-  std::vector<uint32_t> changedObjects = fresh;
+  tbb::parallel_for(size_t{0}, outdated.size(), [&](size_t i) {
+    makeTiles(objects_[outdated[i]], visibility.patches(outdated[i]));
+  });
 
   lights_.resize(bySlot.size());
   // Slots whose lights changed, and slots with lights.
@@ -222,13 +200,14 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   for (uint32_t object = 0; object < objects_.size(); ++object) {
     Object& o = objects_[object];
     const ObjectPatches& patches = visibility.patches(object);
-    for (uint32_t t = 0; t < o.tiles.size(); ++t) {
-      const Patch& patch = patches.patches[static_cast<size_t>(o.tiles[t].patch)];
-      const bool isOutdated = anyIsNew || isFresh[object] ||
-                              visibility.rowChanged(object, o.tiles[t].patch) ||
+    for (uint32_t t = 0; t < o.tiles.tiles.size(); ++t) {
+      const Patch& patch = patches.patches[static_cast<size_t>(o.tiles.tiles[t].patch)];
+      const bool isOutdated = anyIsNew ||
+                              visibility.rowChanged(object, o.tiles.tiles[t].patch) ||
                               o.isLeftOut[t] != 0;
       if (!isOutdated) continue;
-      if (seen && !seen->mayShowFront(patches.charts[static_cast<size_t>(patch.chart)], patch))
+      if (!visibility.hasEntries(object, o.tiles.tiles[t].patch) ||
+          (seen && !seen->mayShowFront(patches.charts[static_cast<size_t>(patch.chart)], patch)))
         o.isLeftOut[t] = 1;
       else
         jobs.push_back({object, t});
@@ -245,7 +224,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
   tbb::parallel_for(size_t{0}, jobs.size(), [&](size_t j) {
     const Job& job = jobs[j];
     Object& o = objects_[job.object];
-    const LightMapTile& tile = o.tiles[job.tile];
+    const LightMapTile& tile = o.tiles.tiles[job.tile];
     const ObjectPatches& patches = visibility.patches(job.object);
     const Patch& patch = patches.patches[static_cast<size_t>(tile.patch)];
     const Chart& chart = patches.charts[static_cast<size_t>(patch.chart)];
@@ -292,9 +271,11 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     readSums(sums, sums + count, sums + 2 * count, {&o.irradiance[tile.first], count});
   });
   written_ += written;
+  std::vector<uint32_t> changedObjects;
   for (size_t j = 0; j < jobs.size(); ++j)
     if (wrote[j] != 0 && (changedObjects.empty() || changedObjects.back() != jobs[j].object))
       changedObjects.push_back(jobs[j].object);
+  changedObjects.insert(changedObjects.end(), outdated.begin(), outdated.end());
   for (const uint32_t i : changedObjects) objects_[i].revision.advance();
   lights_.assign(given.begin(), given.end());
 }

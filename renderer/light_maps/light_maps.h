@@ -15,17 +15,12 @@
 #include <span>
 #include <vector>
 
+#include "renderer/light_maps/light_map_tiles.h"
 #include "renderer/scene/camera.h"
 #include "renderer/visibility/visibility_database.h"
 #include "shaders/shared/vpl.h"
 
 namespace lamplighter {
-
-struct LightMapTile {
-  int patch = kNone;          // the leaf; index into the patches of the object
-  uint32_t first = 0;         // index of its first texel in the arrays of the object; row by row
-  int columns = 0, rows = 0;  // along tangent and bitangent of the chart; at least 2
-};
 
 class LightMaps {
  public:
@@ -53,8 +48,8 @@ class LightMaps {
   // The tile of a leaf. Null if pixels must sum all lights themselves: the leaf is in no chart, or
   // its chart is not flat-shaded.
   const LightMapTile* tile(uint32_t object, int leaf) const {
-    const int index = objects_[object].tileOfPatch[static_cast<size_t>(leaf)];
-    return index == kNone ? nullptr : &objects_[object].tiles[static_cast<size_t>(index)];
+    const int index = objects_[object].tiles.ofPatch[static_cast<size_t>(leaf)];
+    return index == kNone ? nullptr : &objects_[object].tiles.tiles[static_cast<size_t>(index)];
   }
   // Tells whether the tile of a leaf holds the light in a slot. Only for leaves that have a tile.
   class Held {
@@ -67,7 +62,7 @@ class LightMaps {
   };
   Held held(uint32_t object, int leaf) const {
     const size_t index =
-        static_cast<size_t>(objects_[object].tileOfPatch[static_cast<size_t>(leaf)]);
+        static_cast<size_t>(objects_[object].tiles.ofPatch[static_cast<size_t>(leaf)]);
     return Held(objects_[object].held.data() + index * words_);
   }
   // Reads the tile of a leaf at many points. Valid until the maps or the patches change.
@@ -120,10 +115,10 @@ class LightMaps {
     size_t tiles = 0, texels = 0;
   };
   struct Object {
-    std::vector<bool> isFlat;      // by chart: whether it has light maps
+    std::vector<uint8_t> levels;   // of the database, for which the tiles were found
+    FlatCharts isFlat;
     Size wanted;                   // at the requested texel spacing
-    std::vector<int> tileOfPatch;  // kNone: no tile
-    std::vector<LightMapTile> tiles;
+    LightMapTiles tiles;
     std::vector<double> sums;      // three per texel: all r of a tile, then all g, then all b
     std::vector<vec4> irradiance;  // the same values as floats, for reading
     // Tiles × words_, one bit per slot: lights that are in the sums, and lights that are known to
@@ -133,11 +128,7 @@ class LightMaps {
     std::vector<uint8_t> isLeftOut;
     Revision revision;  // of tiles and texels
   };
-  // Calls f(patch, columns, rows) for each tile at a given texel spacing.
-  template <typename F>
-  static void forEachTile(const ObjectPatches& patches, const std::vector<bool>& isFlat,
-                          float texel, F take);
-  static Size sizeOf(const ObjectPatches& patches, const std::vector<bool>& isFlat, float texel);
+  static Size sizeOf(const Object& object, const ObjectPatches& patches, float texel);
   float fittingTexel(const VisibilityDatabase& visibility, size_t words) const;
   void makeTiles(Object& object, const ObjectPatches& patches) const;
   void resize(size_t slots);

@@ -59,7 +59,8 @@ void VisibilityDatabase::computeNew(const RenderScene& scene, std::span<const in
   if (tasks.empty() && !allMayDivide) return;
   std::vector<std::pair<uint32_t, int>> roots;
   for (uint32_t object = 0; object < patches_.size(); ++object)
-    for (const int root : patches_[object].roots) roots.emplace_back(object, root);
+    for (const int root : patches_[object].roots)
+      if (levelsGiven(object, root) > 0) roots.emplace_back(object, root);
   std::atomic<uint64_t> tests = 0;
   tbb::parallel_for(tbb::blocked_range<size_t>(0, roots.size(), kRootsAPiece),
                     [&](const tbb::blocked_range<size_t>& range) {
@@ -181,6 +182,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
   };
   std::vector<Job> jobs;
   const auto addJob = [&](uint32_t object, int root) {
+    if (levelsGiven(object, root) == 0) return;
     const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
     Job& job = jobs.emplace_back(Job{object, root, {}, {}});
     job.simple.assign(reachingSimple.end() - static_cast<ptrdiff_t>(words), reachingSimple.end());
@@ -203,6 +205,7 @@ void VisibilityDatabase::computeWaiting(const RenderScene& scene, std::span<cons
   for (uint32_t object = 0; object < patches_.size(); ++object) {
     if (!isWaitedFor[object]) continue;
     for (const int root : patches_[object].roots) {
+      if (levelsGiven(object, root) == 0) continue;
       const Patch& p = patches_[object].patches[static_cast<size_t>(root)];
       Job& job = jobs.emplace_back(Job{object, root, {}, {}});
       for (const Column& c : columns) {

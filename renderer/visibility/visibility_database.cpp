@@ -51,16 +51,14 @@ void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) 
   patches_[object] = placePatches(scene, object, topology);
   const size_t patches = patches_[object].patches.size();
   rows_[object].assign(patches, Row());
-  for (const int root : patches_[object].roots)
-    rows_[object][static_cast<size_t>(root)].states.assign(
-        stride_, static_cast<uint8_t>(Occlusion::partial));
   divided_[object].assign(patches, 0);
   changed_[object].assign(patches, 1);
-  // For objects that a light leaves out, entries are set to full even in columns that wait.
-  for (size_t slot = 0; slot < lights_.size(); ++slot) {
-    if (!isLeftOut(o.leftOutBy, static_cast<uint32_t>(lights_[slot].footprint.y))) continue;
-    for (const int root : patches_[object].roots)
-      rows_[object][static_cast<size_t>(root)].states[slot] = static_cast<uint8_t>(Occlusion::full);
+  // Roots that had entries get new ones, if these are the same roots. ask() sees to the others.
+  if (given_[object].size() != patches)
+    given_[object].assign(patches, 0);
+  for (const int root : patches_[object].roots) {
+    if (demand_.isForAll) given_[object][static_cast<size_t>(root)] = PatchDemand::kAllLevels;
+    if (levelsGiven(object, root) > 0) giveRow(object, root);
   }
 }
 
@@ -90,6 +88,7 @@ void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move
   reorder(rows_);
   reorder(divided_);
   reorder(changed_);
+  reorder(given_);
   identities_ = std::move(now);
   cameFrom_ = same;
 
@@ -109,6 +108,7 @@ void VisibilityDatabase::matchObjects(const RenderScene& scene, std::vector<Move
     addWaiting(static_cast<int>(i), Caster(), false);
     moves.push_back({Bounds(), scene.objects[i].bounds});
   }
+  fillWithoutEntries(scene);
   tbb::parallel_for(size_t{0}, fresh.size(), [&](size_t i) { placeObject(scene, fresh[i]); });
   tbb::parallel_for(uint32_t{0}, static_cast<uint32_t>(scene.objects.size()),
                     [&](uint32_t i) { occluders_.place(scene, i, topologies_[i], patches_[i]); });
@@ -219,6 +219,7 @@ void VisibilityDatabase::setLights(const RenderScene& scene, std::span<const sha
   lights_.assign(bySlot.begin(), bySlot.end());
   isLive_.resize(lights_.size());
   for (size_t i = 0; i < lights_.size(); ++i) isLive_[i] = isLight(lights_[i]) ? 1 : 0;
+  fillWithoutEntries(scene);
   const bool mayDivide = std::exchange(limitChanged_, false) || areGone;
   if (slots.empty() && !mayDivide) return;
   const uint64_t before = tests_;

@@ -5,9 +5,13 @@
 // The unit of update is a column (all entries of one light). The database registers movements at
 // once, but a column that may be affected waits until it is refreshed together with the shadow map
 // of its light.
+//
+// Only patches that are asked for have entries. For the others every light is partial: their pixels
+// look into shadow maps, so the picture is the same.
 #pragma once
 
 #include <limits>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -16,6 +20,7 @@
 #include "renderer/visibility/object_identity.h"
 #include "renderer/visibility/occlusion/occluders.h"
 #include "renderer/visibility/occlusion/shadow_volume.h"
+#include "renderer/visibility/patch_demand.h"
 
 namespace lamplighter {
 
@@ -33,12 +38,32 @@ class VisibilityDatabase {
   // materials. Entries of new or moved objects are partial in columns that wait.
   void setScene(const RenderScene& scene, const RenderSceneChanges& changes);
 
+  // Sets which patches shall have entries; at first all. Entries that are no longer asked for are
+  // dropped at once, new ones are left to answer(). Call it after each setScene().
+  void ask(const PatchDemand& demand);
+  // Computes the entries of patches that are asked for and have none yet, the largest first, until
+  // `mostTests` pyramids have been tested. Call it after setLights().
+  void answer(const RenderScene& scene, uint64_t mostTests);
+  // By patch of an object: for roots with entries, the levels of their trees that may have some, as
+  // in PatchDemand; 0: no entries, or no root.
+  std::span<const uint8_t> levels(uint32_t object) const { return given_[object]; }
+  size_t unanswered() const { return unanswered_; }  // number of roots that answer() left
+  bool asksForAll() const { return demand_.isForAll; }
+  // Whether a patch is asked for and its entries are computed.
+  bool hasEntries(uint32_t object, int patch) const {
+    return !rows_[object][static_cast<size_t>(wholeOf(object, patch))].states.empty();
+  }
+
   // Limits the memory of the entries: patches are divided only as far as the limit allows. The
   // roots always have entries, see leastBytes(). Takes effect with the next setLights(); SIZE_MAX:
   // no limit.
   void limitMemory(size_t bytes) { mostBytes_ = bytes; }
   // Memory of the entries of the roots for this number of lights.
   size_t leastBytes(size_t slots) const { return rowBytes(slots) * patchesAtLevels()[0]; }
+  // Memory of the entries of one patch for this number of lights.
+  static size_t rowBytes(size_t slots) {
+    return (slots + kSlotsAStep - 1) / kSlotsAStep * kSlotsAStep;
+  }
 
   // Sets the VPLs by slot; a normal of zero means an empty slot. A VPL that differs from the
   // previous one in its slot gets a new column.
@@ -62,6 +87,7 @@ class VisibilityDatabase {
   size_t moversFound() const { return moves_.size(); }  // in the last setScene()
 
   const ObjectPatches& patches(uint32_t object) const { return patches_[object]; }
+  std::span<const ObjectPatches> patches() const { return patches_; }
   size_t objects() const { return patches_.size(); }
   size_t slots() const { return lights_.size(); }
   Occlusion state(uint32_t object, int patch, int slot) const {
@@ -69,8 +95,8 @@ class VisibilityDatabase {
   }
   // The entries of a patch, by slot.
   std::span<const uint8_t> row(uint32_t object, int patch) const {
-    const int whole = wholeOf(object, patch);
-    return {rows_[object][static_cast<size_t>(whole)].states.data(), lights_.size()};
+    const Row& row = rows_[object][static_cast<size_t>(wholeOf(object, patch))];
+    return {(row.states.empty() ? withoutEntries(object) : row.states).data(), lights_.size()};
   }
   // The patch itself, or its nearest ancestor that has entries of its own.
   int wholeOf(uint32_t object, int patch) const {
@@ -139,6 +165,22 @@ class VisibilityDatabase {
   };
   using Flags = std::vector<std::vector<uint8_t>>;  // by object and patch
 
+  // The entries of patches that have none: partial, or full for lights that leave the object out.
+  const std::vector<uint8_t>& withoutEntries(uint32_t object) const {
+    const auto found = leftOutEntries_.find(leftOutBy_[object]);
+    return found == leftOutEntries_.end() ? partialEntries_ : found->second;
+  }
+  void fillWithoutEntries(const RenderScene& scene);
+  void giveRow(uint32_t object, int root);
+  void dropRoot(uint32_t object, int root);
+  // Levels of a root's tree that may have entries: as asked for, and at present.
+  uint8_t levelsAsked(uint32_t object, int root) const {
+    return demand_.isForAll ? PatchDemand::kAllLevels
+                            : demand_.levels[object][static_cast<size_t>(root)];
+  }
+  uint8_t levelsGiven(uint32_t object, int root) const {
+    return given_[object][static_cast<size_t>(root)];
+  }
   void matchObjects(const RenderScene& scene, std::vector<Move>& moves);
   void takeMoved(const RenderScene& scene, const RenderSceneChanges& changes,
                  std::vector<Move>& moves);
@@ -156,9 +198,6 @@ class VisibilityDatabase {
   int mostPartial() const;
   void resize(size_t slots);
   std::vector<size_t> patchesAtLevels() const;  // has at least one element
-  static size_t rowBytes(size_t slots) {
-    return (slots + kSlotsAStep - 1) / kSlotsAStep * kSlotsAStep;
-  }
   bool takeMemoryLimit(size_t stride);
   void forgetBelow();
 
@@ -169,6 +208,14 @@ class VisibilityDatabase {
   std::vector<int> cameFrom_;
   std::vector<std::vector<Row>> rows_;  // by object and patch
   Flags divided_, changed_;
+  // By object and patch: for roots with entries, the levels of their trees that may have some.
+  Flags given_;
+  PatchDemand demand_;
+  size_t unanswered_ = 0;
+  // Entries of patches without entries of their own, by LightLinks bits of the object.
+  std::vector<uint8_t> partialEntries_;
+  std::map<uint32_t, std::vector<uint8_t>> leftOutEntries_;
+  std::vector<uint32_t> leftOutBy_;  // by object
   std::vector<uint32_t> movers_;  // objects that moved last
   MoverPath path_;                // path of the movers
   std::vector<Move> moves_;       // in the last setScene()

@@ -24,7 +24,7 @@ void VisibilityDatabase::resize(size_t slots) {
     for (size_t patch = 0; patch < rows_[object].size(); ++patch) {
       Row& row = rows_[object][patch];
       // Before the first lights, not even roots had entries.
-      const bool isRoot = patches_[object].patches[patch].parent == kNone;
+      const bool isRoot = given_[object][patch] > 0;
       if (isRoot || !row.states.empty()) fit(row.states, static_cast<uint8_t>(Occlusion::partial));
       if (!row.withoutMovers.empty()) fit(row.withoutMovers, kUnknown);
       if (!row.standsTill.empty()) fit(row.standsTill, 0);
@@ -35,11 +35,19 @@ void VisibilityDatabase::resize(size_t slots) {
 
 std::vector<size_t> VisibilityDatabase::patchesAtLevels() const {
   std::vector<size_t> patches(1, 0);
-  for (const ObjectPatches& p : patches_) {
-    patches.resize(std::max(patches.size(), p.countAtLevel.size()), 0);
-    for (size_t level = 0; level < p.countAtLevel.size(); ++level)
-      patches[level] += p.countAtLevel[level];
+  if (demand_.isForAll) {
+    for (const ObjectPatches& p : patches_) {
+      patches.resize(std::max(patches.size(), p.countAtLevel.size()), 0);
+      for (size_t level = 0; level < p.countAtLevel.size(); ++level)
+        patches[level] += p.countAtLevel[level];
+    }
+    return patches;
   }
+  for (const std::vector<uint8_t>& object : demand_.levels)
+    for (const size_t levels : object) {
+      patches.resize(std::max(patches.size(), levels), 0);
+      for (size_t level = 0; level < levels; ++level) patches[level] += size_t{1} << level;
+    }
   return patches;
 }
 

@@ -32,6 +32,7 @@ void VisibilityDatabase::Update::run(uint32_t object, int root, std::span<const 
   tasks_.assign(tasks.begin(), tasks.end());
   simple_.assign(simple.begin(), simple.end());
   simpleWords_ = simple.size();
+  levels_ = std::min<size_t>(db_.levels_, db_.given_[object][static_cast<size_t>(root)]);
   const Patch& p = db_.patches_[object].patches[static_cast<size_t>(root)];
   bool any = !tasks.empty();
   for (size_t w = 0; w < simpleWords_; ++w) {
@@ -62,7 +63,7 @@ void VisibilityDatabase::Update::visit(uint32_t object, int patch, size_t level,
   const Patch& p = db_.patches_[object].patches[index];
   if (p.isLeaf()) return;
   const bool was = db_.isDivided(object, patch);
-  const bool is = mayDivide ? level + 1 < db_.levels_ &&
+  const bool is = mayDivide ? level + 1 < levels_ &&
                                   countPartial(db_.row(object, patch), db_.isLive_) > db_.most_
                             : was;
   if (was && !is) forgetParts(object, patch);

@@ -121,6 +121,7 @@ class VisibilityDatabase::Update {
   const bool allMayDivide_;
   const std::span<const int> order_;
   const SimpleColumns* simpleColumns_ = nullptr;
+  size_t levels_ = 0;  // of the root's tree that may have entries
   bool moversMayHide_ = false;
   std::atomic<uint64_t>& tests_;
   std::vector<Task> tasks_;   // a stack; the last are those of the visited patch

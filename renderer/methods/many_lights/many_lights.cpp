@@ -108,12 +108,14 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (view_ != in.view || shadingChanged || options.cornerLight != options_.cornerLight)
     corners_.forget();
   const bool shadedNow =
-      !image_ || viewChanged || lights_.changed() || shadingChanged || prtChanged || isHasty_;
+      !image_ || viewChanged || lights_.changed() || patchesChanged_ || shadingChanged ||
+      prtChanged || isHasty_;
   if (shadedNow) {
     isHasty_ = image_ && view_ != in.view && options.block > 1;
     view_ = in.view;
     image_ = shade(in, options, vec2(0.0f), stages);
     lights_.clearChanged();
+    patchesChanged_ = false;
     samples_ = 0;
     corners_.outdate();
   }
@@ -135,6 +137,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   samplesWanted_ = options.antialias;
   const bool isReady = pending == 0 && stats.mapsToSharpen == 0 && paths_.isAtRest() &&
                        choiceIsCurrent_ && stats.transfersPending == 0 && !isHasty_ &&
+                       stats.patchesPending == 0 && (!visibility_ || demandIsCurrent_) &&
                        !(lightMaps_ && lightMaps_->couldBeFiner());
   if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
 
@@ -247,7 +250,7 @@ int ManyLights::refreshLights(const Options& options) {
 void ManyLights::updateMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats) {
   const auto slots = static_cast<size_t>(lights_.slots());
   const bool needsAll =
-      !visibility_ ||
+      !visibility_ || !visibility_->asksForAll() ||
       (options.speculars && kernels_->traits().specularsTakeAllMaps && hasGlossy(in.scene));
   if (needsAll)
     lights_.needMaps(std::vector<uint8_t>(slots, 1));

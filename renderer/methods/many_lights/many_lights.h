@@ -40,6 +40,7 @@ class ManyLights final : public GiMethod {
                                        StageTimer& stages);
   LightSampleTable takePart(const FrameInputs& in, const Options& options, bool isNew);
   int refreshLights(const Options& options);
+  void askForPatches(const FrameInputs& in, const Options& options);
   void updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats);
   void updateMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   void sharpenMaps(const Options& options, ManyLightsStats& stats);
@@ -68,6 +69,9 @@ class ManyLights final : public GiMethod {
   int mapSlots_ = 0;  // slots in the backend, with their maps
   Options::MapRooms mapRooms_;
   std::unique_ptr<VisibilityDatabase> visibility_;  // if enabled
+  PatchDemand demand_;                              // what the database was asked for
+  bool demandIsCurrent_ = false;                    // of the present scene and view alone
+  bool patchesChanged_ = false;                     // since the last sum
   size_t visibilityNeeds_ = 0;                      // bytes, lower bound of the last attempt
   int neededFor_ = 0;                               // number of slots of that attempt
   LightProxies lightProxies_;                       // for VPLs without a map

@@ -1,22 +1,55 @@
 // The stages of ManyLights that bring visibility, light maps and transfer up to date.
+#include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "renderer/methods/many_lights/many_lights.h"
 
 namespace lamplighter {
+namespace {
+
+// As many tests as the columns take that a frame may refresh.
+uint64_t mostTestsOfNewPatches(const VisibilityDatabase& visibility,
+                               const ManyLightsOptions& options) {
+  const RefreshBudget budget = options.budget();
+  const auto columns = static_cast<uint64_t>(std::max(budget.vpls, 1));
+  const uint64_t aColumn = std::max<uint64_t>(visibility.testsPerColumn(), 256);
+  return std::min(columns * aColumn, std::max<uint64_t>(budget.work.visibilityTests, 1));
+}
+
+}  // namespace
 
 void ManyLights::takeScene(const FrameInputs& in, const Options& options) {
   if (!options.useVisibility()) {
     visibility_.reset();
+    demandIsCurrent_ = false;
     return;
   }
   RenderSceneChanges changes = in.changes;
   if (!visibility_) {
     visibility_ = std::make_unique<VisibilityDatabase>();
+    demand_ = {};
+    demandIsCurrent_ = false;
     changes.rebuilt = true;
   }
   visibility_->limitMemory(options.visibilityBytes());
   visibility_->setScene(in.scene, changes);
+}
+
+// While the camera or an object moves, patches that had entries keep them.
+void ManyLights::askForPatches(const FrameInputs& in, const Options& options) {
+  const bool isMoving = in.changes.surfaces() || (started_ && in.view != view_);
+  if (!isMoving && demandIsCurrent_) return;
+  const size_t mostRows = options.visibilityBytes() /
+                          VisibilityDatabase::rowBytes(static_cast<size_t>(lights_.slots()));
+  PatchDemand demand =
+      findPatchDemand(visibility_->patches(), in.services.rays(), in.view, mostRows);
+  demandIsCurrent_ = !isMoving || !started_ || demand.isForAll;
+  if (!demandIsCurrent_) demand.add(demand_);
+  if (demand == demand_ && !in.changes.surfaces()) return;
+  demand_ = std::move(demand);
+  visibility_->ask(demand_);
+  patchesChanged_ = true;
 }
 
 void ManyLights::updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats) {
@@ -30,6 +63,7 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, ManyL
     return;
   }
   const uint64_t before = visibility_->tests();
+  askForPatches(in, options);
   visibility_->setLights(in.scene, lights.summed);
   // Lights whose maps still show a mover at its old position wait.
   const std::vector<bool> upToDate = lights.where(std::mem_fn(&LightSample::isUpToDate));
@@ -37,6 +71,11 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, ManyL
   for (int slot = 0; slot < lights_.slots(); ++slot)
     if (upToDate[static_cast<size_t>(slot)]) slots.push_back(slot);
   visibility_->refresh(in.scene, slots);
+  // New patches get as many tests as the columns that a frame may refresh.
+  const size_t unanswered = visibility_->unanswered();
+  visibility_->answer(in.scene, mostTestsOfNewPatches(*visibility_, options));
+  patchesChanged_ = patchesChanged_ || visibility_->unanswered() != unanswered;
+  stats.patchesPending = static_cast<int>(visibility_->unanswered());
   stats.visibilityTests = visibility_->tests() - before;
 }
 

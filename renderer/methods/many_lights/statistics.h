@@ -19,6 +19,7 @@ struct ManyLightsStats : GiStats {
   // Paths of indirect light in this frame: traced again; of these, the ones that hit something else
   // now; the ones that were kept. And paths that wait.
   int pathsWalked = 0, pathsReplaced = 0, pathsKept = 0, pathsPending = 0;
+  int patchesPending = 0;        // roots of patches that wait for entries of the database
   uint64_t visibilityTests = 0;  // in this frame: occlusion pyramids against the scene
   uint64_t lightMapTexels = 0;   // in this frame: texels × lights added or subtracted
   float lightMapTexel = 0.0f;    // texel spacing that memory allows [m]; 0: no light maps
