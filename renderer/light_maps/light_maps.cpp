@@ -174,6 +174,8 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     outdated.resize(objects_.size());
     std::iota(outdated.begin(), outdated.end(), 0u);
   }
+  // New objects come with new patches, whatever has tiles.
+  if (outdated.size() > fresh.size()) coverage_.advance();
   tbb::parallel_for(size_t{0}, outdated.size(), [&](size_t i) {
     makeTiles(objects_[outdated[i]], visibility.patches(outdated[i]));
   });
@@ -206,8 +208,7 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
                               visibility.rowChanged(object, o.tiles.tiles[t].patch) ||
                               o.isLeftOut[t] != 0;
       if (!isOutdated) continue;
-      if (!visibility.hasEntries(object, o.tiles.tiles[t].patch) ||
-          (seen && !seen->mayShowFront(patches.charts[static_cast<size_t>(patch.chart)], patch)))
+      if (seen && !seen->mayShowFront(patches.charts[static_cast<size_t>(patch.chart)], patch))
         o.isLeftOut[t] = 1;
       else
         jobs.push_back({object, t});

@@ -100,6 +100,7 @@ class LightMaps {
   }
   // The texels of an object; rgb is E [W/m²].
   std::span<const vec4> texels(uint32_t object) const { return objects_[object].irradiance; }
+  const Revision& coverage() const { return coverage_; }  // of which patches have tiles
   const Revision& revision(uint32_t object) const { return objects_[object].revision; }
 
   size_t objects() const { return objects_.size(); }
@@ -135,6 +136,7 @@ class LightMaps {
 
   std::vector<Object> objects_;
   std::vector<shared::Vpl> lights_;  // by slot, as they were added
+  Revision coverage_;
   size_t words_ = 0;                 // per tile, for its bits
   Options options_;
   // the present spacing, and the one that memory allows with fittingWords_

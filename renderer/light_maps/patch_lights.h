@@ -42,10 +42,9 @@ class PatchLights {
   const ObjectPatches& patches(uint32_t object) const { return visibility_.patches(object); }
 
   // Whether pixels on the front of this leaf start from the light map. Pixels on its back, and on
-  // leaves without a tile or without entries, sum all lights.
+  // leaves without a tile, sum all lights.
   bool isMapped(uint32_t object, int leaf) const {
-    return maps_ != nullptr && maps_->tile(object, leaf) != nullptr &&
-           visibility_.hasEntries(object, leaf);
+    return maps_ != nullptr && maps_->tile(object, leaf) != nullptr;
   }
   // Whether pixels on the front of their triangle start from precomputed radiance transfer here.
   bool hasTransfer(uint32_t object, int leaf) const {

@@ -381,7 +381,7 @@ int LiveLights::sharpenMaps(ManyLightsKernels& kernels, int most) {
     maps.push_back(e->current);
     e->isFine = true;
   }
-  changed_ = true;
+  isSharper_ = true;
   kernels.renderShadowMaps(maps, MapSize::fine);
   return static_cast<int>(maps.size());
 }

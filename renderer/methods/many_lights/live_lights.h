@@ -77,8 +77,10 @@ class LiveLights {
   int pending() const;
   int live() const;  // number of samples shown; a sun counts as one
   int oldestFrames() const;
-  bool changed() const { return changed_; }  // since the last clearChanged()
-  void clearChanged() { changed_ = false; }
+  // Since the last clearChanged(). Fine maps count once all are rendered, because a sum for each few
+  // of them would take longer than the maps.
+  bool changed() const { return changed_ || (isSharper_ && coarse() == 0); }
+  void clearChanged() { changed_ = isSharper_ = false; }
   // The number of shadow map slots to reserve. When it changes, all maps are lost.
   int slots() const { return slots_; }
 
@@ -125,6 +127,7 @@ class LiveLights {
   std::map<VplId, bool> pathIsShown_;
   int slots_ = 0;
   bool changed_ = true;
+  bool isSharper_ = false;  // fine maps were rendered
   bool onlyMapped_ = true;
   mutable LightSampleTable table_;  // its rows in the order of entries_
   mutable bool tableIsCurrent_ = false;

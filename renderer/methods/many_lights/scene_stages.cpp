@@ -41,7 +41,7 @@ void ManyLights::askForPatches(const FrameInputs& in, const Options& options) {
   const bool isMoving = in.changes.surfaces() || (started_ && in.view != view_);
   if (!isMoving && demandIsCurrent_) return;
   const size_t mostRows = options.visibilityBytes() /
-                          VisibilityDatabase::rowBytes(static_cast<size_t>(lights_.slots()));
+                          VisibilityDatabase::rowBytes(static_cast<size_t>(lights_.slots()) + 1);
   PatchDemand demand =
       findPatchDemand(visibility_->patches(), in.services.rays(), in.view, mostRows);
   demandIsCurrent_ = !isMoving || !started_ || demand.isForAll;
@@ -54,6 +54,7 @@ void ManyLights::askForPatches(const FrameInputs& in, const Options& options) {
 
 void ManyLights::updateVisibility(const FrameInputs& in, Options& options, ManyLightsStats& stats) {
   if (!visibility_) return;
+  askForPatches(in, options);
   const LightSampleTable& lights = lights_.table();
   visibilityNeeds_ = visibility_->leastBytes(lights.slots());
   neededFor_ = lights_.slots();
@@ -63,7 +64,6 @@ void ManyLights::updateVisibility(const FrameInputs& in, Options& options, ManyL
     return;
   }
   const uint64_t before = visibility_->tests();
-  askForPatches(in, options);
   visibility_->setLights(in.scene, lights.summed);
   // Lights whose maps still show a mover at its old position wait.
   const std::vector<bool> upToDate = lights.where(std::mem_fn(&LightSample::isUpToDate));

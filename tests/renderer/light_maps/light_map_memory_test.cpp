@@ -149,7 +149,12 @@ TEST(LightMapMemory, ThePictureStaysNearlyTheSame) {
 // With a camera at rest: without memory for light maps pixels sum all lights; with memory light
 // maps are used again.
 TEST(LightMapMemory, ThePictureFollowsTheMemoryLimit) {
-  const Scene scene = litBoxes(900);
+  // Larger boxes: more tiles, but few enough roots for all of them to have entries.
+  Scene scene = litBoxes(80);
+  for (Node& node : scene.nodes) {
+    node.local.translation *= 3.0f;
+    node.local.scale *= 3.0f;
+  }
   const RenderScene render = test::renderSceneOf(scene);
   const View view = viewOfBounds(render.bounds, 192, 128);
   Settings settings;

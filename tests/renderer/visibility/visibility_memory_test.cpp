@@ -113,18 +113,20 @@ TEST(VisibilityMemory, ThePictureStaysTheSame) {
   std::cout << "relRMSE " << 100.0 * error << "%\n";
 }
 
-// With so many patches that not even the roots fit: the picture is that of `naive` until the limit
-// is raised.
+// With so many light samples that not even the roots fit: the picture is that of `naive` until the
+// limit is raised.
 TEST(VisibilityMemory, IfNothingFitsThePictureIsThatOfNaive) {
   test::AssetRoom room("pillar_room", 64, 40);
   const auto box = test::boxMesh(vec3(0.05f));
-  for (int i = 0; i < 1000; ++i)
+  for (int i = 0; i < 60; ++i)
     test::addMesh(room.scene, box,
                   vec3(0.1f * static_cast<float>(i % 40), 0.1f, 0.1f * static_cast<float>(i / 40)));
   Settings settings;
-  settings.set("vpls", 300);
+  settings.set("vpls", 4000);
+  settings.set("map_resolution", 16);
+  settings.set("settled_map_scale", 1);
   settings.set("bounces", 1);
-  settings.set("updates", 1000);
+  settings.set("updates", 10000);
   settings.set("antialias", 1);
   settings.set("visibility_memory", 1);
   FrameRenderer renderer(makeCpuBackend());

@@ -120,11 +120,13 @@ void IrradianceAccumulator::compareWithLast(const Frame& frame) {
   const bool hasMaps = hasPatches && frame.patches->maps() != nullptr;
   const bool hasTransfer = hasPatches && frame.patches->prt() != nullptr;
   if (hasPatches != hasPatches_ || hasMaps != hasMaps_ || hasTransfer != hasTransfer_ ||
+      (hasMaps && frame.patches->maps()->coverage() != mapCoverage_) ||
       (hasTransfer && frame.patches->prt()->coverage() != coverage_))
     knowsPlaces_ = false;
   hasPatches_ = hasPatches;
   hasMaps_ = hasMaps;
   hasTransfer_ = hasTransfer;
+  mapCoverage_ = hasMaps ? frame.patches->maps()->coverage() : Revision();
   coverage_ = hasTransfer ? frame.patches->prt()->coverage() : Revision();
   const auto tiles = static_cast<size_t>(g.tiles());
   if (sums_.r.size() != g.px.size()) {

@@ -99,6 +99,7 @@ class IrradianceAccumulator {
   std::vector<Tile> tiles_;
   std::vector<Revision> mapRevisions_;       // of light maps, by object
   std::vector<Revision> transferRevisions_;  // of radiance transfer, by object
+  Revision mapCoverage_;                     // of the set of patches with light maps
   Revision coverage_;                        // of the set of objects with radiance transfer
   FixedSums sums_;
   std::vector<float> red_, green_, blue_;
