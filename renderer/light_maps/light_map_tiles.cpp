@@ -38,7 +38,7 @@ void FlatCharts::find(const RenderScene& scene, const ObjectPatches& patches,
     State& state = states_[static_cast<size_t>(chart)];
     if (state == State::unknown)
       state = isShadedFlat(scene, patches.charts[static_cast<size_t>(chart)]) ? State::flat
-                                                                             : State::other;
+                                                                              : State::other;
   }
 }
 

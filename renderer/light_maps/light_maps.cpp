@@ -54,8 +54,7 @@ float spacingOf(const LightMapTile& tile, const Patch& patch) {
 
 }  // namespace
 
-LightMaps::Size LightMaps::sizeOf(const Object& object, const ObjectPatches& patches,
-                                  float texel) {
+LightMaps::Size LightMaps::sizeOf(const Object& object, const ObjectPatches& patches, float texel) {
   const LightMapTiles tiles = findTiles(patches, object.isFlat, object.levels, texel);
   return {tiles.tiles.size(), tiles.texels};
 }
@@ -108,7 +107,8 @@ void LightMaps::makeTiles(Object& object, const ObjectPatches& patches) const {
     const LightMapTile& old = before.tiles.tiles[from];
     if (old.columns != tile.columns || old.rows != tile.rows) continue;
     const size_t count = paddedCount(tile);
-    std::copy_n(&before.sums[size_t{3} * old.first], 3 * count, &object.sums[size_t{3} * tile.first]);
+    std::copy_n(&before.sums[size_t{3} * old.first], 3 * count,
+                &object.sums[size_t{3} * tile.first]);
     std::copy_n(&before.irradiance[old.first], count, &object.irradiance[tile.first]);
     std::copy_n(before.held.begin() + static_cast<ptrdiff_t>(from * words_), words_,
                 object.held.begin() + static_cast<ptrdiff_t>(t * words_));
@@ -204,9 +204,8 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     const ObjectPatches& patches = visibility.patches(object);
     for (uint32_t t = 0; t < o.tiles.tiles.size(); ++t) {
       const Patch& patch = patches.patches[static_cast<size_t>(o.tiles.tiles[t].patch)];
-      const bool isOutdated = anyIsNew ||
-                              visibility.rowChanged(object, o.tiles.tiles[t].patch) ||
-                              o.isLeftOut[t] != 0;
+      const bool isOutdated =
+          anyIsNew || visibility.rowChanged(object, o.tiles.tiles[t].patch) || o.isLeftOut[t] != 0;
       if (!isOutdated) continue;
       if (seen && !seen->mayShowFront(patches.charts[static_cast<size_t>(patch.chart)], patch))
         o.isLeftOut[t] = 1;

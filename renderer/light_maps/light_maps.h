@@ -116,9 +116,9 @@ class LightMaps {
     size_t tiles = 0, texels = 0;
   };
   struct Object {
-    std::vector<uint8_t> levels;   // of the database, for which the tiles were found
+    std::vector<uint8_t> levels;  // of the database, for which the tiles were found
     FlatCharts isFlat;
-    Size wanted;                   // at the requested texel spacing
+    Size wanted;  // at the requested texel spacing
     LightMapTiles tiles;
     std::vector<double> sums;      // three per texel: all r of a tile, then all g, then all b
     std::vector<vec4> irradiance;  // the same values as floats, for reading
@@ -137,7 +137,7 @@ class LightMaps {
   std::vector<Object> objects_;
   std::vector<shared::Vpl> lights_;  // by slot, as they were added
   Revision coverage_;
-  size_t words_ = 0;                 // per tile, for its bits
+  size_t words_ = 0;  // per tile, for its bits
   Options options_;
   // the present spacing, and the one that memory allows with fittingWords_
   float texel_ = 0.0f, fitting_ = 0.0f;

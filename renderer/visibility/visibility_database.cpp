@@ -54,8 +54,7 @@ void VisibilityDatabase::placeObject(const RenderScene& scene, uint32_t object) 
   divided_[object].assign(patches, 0);
   changed_[object].assign(patches, 1);
   // Roots that had entries get new ones, if these are the same roots. ask() sees to the others.
-  if (given_[object].size() != patches)
-    given_[object].assign(patches, 0);
+  if (given_[object].size() != patches) given_[object].assign(patches, 0);
   for (const int root : patches_[object].roots) {
     if (demand_.isForAll) given_[object][static_cast<size_t>(root)] = PatchDemand::kAllLevels;
     if (levelsGiven(object, root) > 0) giveRow(object, root);

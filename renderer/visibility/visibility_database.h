@@ -216,9 +216,9 @@ class VisibilityDatabase {
   std::vector<uint8_t> partialEntries_;
   std::map<uint32_t, std::vector<uint8_t>> leftOutEntries_;
   std::vector<uint32_t> leftOutBy_;  // by object
-  std::vector<uint32_t> movers_;  // objects that moved last
-  MoverPath path_;                // path of the movers
-  std::vector<Move> moves_;       // in the last setScene()
+  std::vector<uint32_t> movers_;     // objects that moved last
+  MoverPath path_;                   // path of the movers
+  std::vector<Move> moves_;          // in the last setScene()
 
   Occluders occluders_;
   BoundsTree tree_;                            // over the bounds of the objects' patches

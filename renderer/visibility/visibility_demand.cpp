@@ -13,7 +13,7 @@ namespace lamplighter {
 namespace {
 
 // Roots that are computed before the number of tests is compared with its limit.
-constexpr size_t kRootsAStep = 32;
+constexpr size_t kRootsAStep = 8;
 
 constexpr auto kPartial = static_cast<uint8_t>(Occlusion::partial);
 constexpr auto kFull = static_cast<uint8_t>(Occlusion::full);
@@ -105,8 +105,8 @@ void VisibilityDatabase::answer(const RenderScene& scene, uint64_t mostTests) {
       if (isNew) giveRow(root.object, root.patch);
       changed_[root.object][static_cast<size_t>(root.patch)] = 1;
       Update update(*this, scene, true, clusters_.order, tests);
-      update.run(root.object, root.patch, isNew ? std::span<const Task>(all) : std::span<const Task>(),
-                 {});
+      update.run(root.object, root.patch,
+                 isNew ? std::span<const Task>(all) : std::span<const Task>(), {});
     });
     done = end;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "renderer/scene/vpl.h"
+#include "renderer/visibility/hard_shadow_lights.h"
 #include "renderer/visibility/light_clusters.h"
 
 namespace lamplighter {
@@ -368,9 +369,27 @@ int LiveLights::coarse() const {
 }
 
 int LiveLights::sharpenMaps(ManyLightsKernels& kernels, int most) {
+  return sharpen(kernels, most, [](const Entry&) { return true; });
+}
+
+int LiveLights::sharpenHardLights(ManyLightsKernels& kernels, int most) {
+  std::vector<LightStrength> strengths;
+  for (const Entry& e : entries_)
+    if (isShown(e)) strengths.push_back(strengthOf(e.current, e.slot));
+  const std::vector<int> hard = hardLights(strengths);
+  const int rendered = hard.empty() ? 0 : sharpen(kernels, most, [&](const Entry& e) {
+    return isShown(e) && !e.moves() && !e.mapIsStale &&
+           std::find(hard.begin(), hard.end(), e.slot) != hard.end();
+  });
+  changed_ = changed_ || rendered > 0;
+  return rendered;
+}
+
+template <typename IsMeant>
+int LiveLights::sharpen(ManyLightsKernels& kernels, int most, const IsMeant& isMeant) {
   std::vector<Entry*> next;
   for (Entry& e : entries_)
-    if (isCoarse(e)) next.push_back(&e);
+    if (isCoarse(e) && isMeant(e)) next.push_back(&e);
   std::stable_sort(next.begin(), next.end(), [](const Entry* a, const Entry* b) {
     return brightness(a->current) > brightness(b->current);
   });

@@ -55,6 +55,9 @@ class LiveLights {
   // When nothing is pending: renders fine maps for up to `most` VPLs that need one, brightest
   // first. A refreshed VPL gets a coarse map again. Returns the number of rendered maps.
   int sharpenMaps(ManyLightsKernels& kernels, int most);
+  // The same for hard-shadow lights only, whatever is pending: the borders of their shadows show
+  // the texels of a coarse map. Counts as a change at once.
+  int sharpenHardLights(ManyLightsKernels& kernels, int most);
   // The number of fine maps that an unlimited call would render.
   int coarse() const;
   // Whether VPLs without a map are not shown at all (naive).
@@ -77,8 +80,8 @@ class LiveLights {
   int pending() const;
   int live() const;  // number of samples shown; a sun counts as one
   int oldestFrames() const;
-  // Since the last clearChanged(). Fine maps count once all are rendered, because a sum for each few
-  // of them would take longer than the maps.
+  // Since the last clearChanged(). Fine maps count once all are rendered, because a sum for each
+  // few of them would take longer than the maps.
   bool changed() const { return changed_ || (isSharper_ && coarse() == 0); }
   void clearChanged() { changed_ = isSharper_ = false; }
   // The number of shadow map slots to reserve. When it changes, all maps are lost.
@@ -113,6 +116,8 @@ class LiveLights {
   void pairUp(std::vector<Group>& groups) const;
   void keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const;
   void giveSlots();
+  template <typename IsMeant>
+  int sharpen(ManyLightsKernels& kernels, int most, const IsMeant& isMeant);
   void setMapColumns() const;
   void sumShown() const;
   static void takeBrightness(Entry& entry);

@@ -64,6 +64,9 @@ int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options,
   return static_cast<int>(std::max<uint64_t>(maps, 1));
 }
 
+// Fine maps of hard-shadow lights per frame: those of a lamp, which has two hemispheres.
+constexpr int kHardMapsAFrame = 2;
+
 // Rays per pixel for bias compensation; pixels share them.
 constexpr uint32_t kCornerPaths = 1;
 
@@ -107,9 +110,8 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (viewChanged) gbufferIsCurrent_ = false;
   if (view_ != in.view || shadingChanged || options.cornerLight != options_.cornerLight)
     corners_.forget();
-  const bool shadedNow =
-      !image_ || viewChanged || lights_.changed() || patchesChanged_ || shadingChanged ||
-      prtChanged || isHasty_;
+  const bool shadedNow = !image_ || viewChanged || lights_.changed() || patchesChanged_ ||
+                         shadingChanged || prtChanged || isHasty_;
   if (shadedNow) {
     isHasty_ = image_ && view_ != in.view && options.block > 1;
     view_ = in.view;
@@ -271,15 +273,16 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, ManyL
     lightProxies_.update(lights_.table(), groupsOf(in, options.groupShare, lights_.slots()));
 }
 
-// Only when all other work is done: the frame after an edit is busy enough.
+// Only when all other work is done, because the frame after an edit is busy enough; but at once for
+// a few lights with hard shadows.
 void ManyLights::sharpenMaps(const Options& options, ManyLightsStats& stats) {
   const int scale = mapRooms_.scale();
   if (scale == 1) return;
   const bool isDone = lights_.pending() == 0 && stats.updates == 0 && stats.mapsRendered == 0 &&
                       paths_.isAtRest() && choiceIsCurrent_;
-  if (isDone)
-    stats.mapsSharpened =
-        lights_.sharpenMaps(*kernels_, mapsAFrame(kernels_->traits(), options, scale));
+  stats.mapsSharpened =
+      isDone ? lights_.sharpenMaps(*kernels_, mapsAFrame(kernels_->traits(), options, scale))
+             : lights_.sharpenHardLights(*kernels_, kHardMapsAFrame);
   stats.mapsToSharpen = lights_.coarse();
 }
 

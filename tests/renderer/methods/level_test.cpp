@@ -60,18 +60,6 @@ TEST(Level, AFlightLeavesTheBitsOfAFreshRender) {
   EXPECT_TRUE(test::sameBits(kept, level.fresh()));
 }
 
-TEST(Level, NewSurfacesTakeSeveralFramesOfASmallBudget) {
-  Level level;
-  level.size = {640, 400};
-  level.turn(0.0f);
-  level.settled(SceneChanges::all());
-  level.settings.set("max_visibility_tests", 1);
-  level.turn(2.5f);
-  EXPECT_GT(level.frame({}).stats.of("patches_pending"), 0);
-  level.settled({});
-  EXPECT_EQ(level.frame({}).stats.of("patches_pending"), 0);
-}
-
 TEST(Level, IsThatOfNaive) {
   Level level;
   const Image lazy = level.settled(SceneChanges::all());

@@ -1,6 +1,7 @@
 #include "renderer/backends/cpu/irradiance/specular_accumulator.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 
@@ -14,6 +15,12 @@ namespace {
 
 // Tiles per task; they read the texels of a shadow map together.
 constexpr size_t kTilesATask = 8;
+
+// Most memory of copies of maps that changed since the last sum [bytes].
+constexpr size_t kMostOldMapBytes = size_t{64} << 20;
+
+// Whether subtracting and adding so many lights takes longer than summing all.
+bool isMost(size_t changed, size_t all) { return 2 * changed > all; }
 
 // Reads the texture at the pixel's position in its triangle.
 Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
@@ -82,101 +89,206 @@ void SpecularAccumulator::findParts(const RenderScene& scene, const GBuffer& g, 
     it->lanes |= static_cast<uint8_t>(1u << in % kLanes);
   }
   tile.gloss.shrink_to_fit();
-  tile.radiance.assign(tile.gloss.size(), vec3(0.0f));
-  tile.radiance.shrink_to_fit();
+  tile.sums = std::vector<double>(3 * tile.gloss.size(), 0.0);
 }
 
-// By row: whether its shadow modes changed.
-std::vector<bool> SpecularAccumulator::findUses(const RenderScene& scene, float leastRoughness,
-                                                const PatchLights& patches) {
+vec3 SpecularAccumulator::Tile::radiance(size_t pixel) const {
+  const double* channel = &sums[3 * kLanes * (pixel / kLanes) + pixel % kLanes];
+  return {static_cast<float>(channel[0]), static_cast<float>(channel[kLanes]),
+          static_cast<float>(channel[size_t{2} * kLanes])};
+}
+
+void SpecularAccumulator::mapChanges(int slot, std::span<const float> map) {
+  if (!isKnown_ || oldMaps_.contains(slot)) return;
+  const bool isSummed = std::any_of(lights_.begin(), lights_.end(), [&](const SpecularLight& l) {
+    return l.record.mapSlot == slot;
+  });
+  if (!isSummed) return;
+  if (isMost(oldMaps_.size() + 1, lights_.size()) ||
+      (oldMaps_.size() + 1) * map.size_bytes() > kMostOldMapBytes)
+    return forgetMaps();
+  oldMaps_.emplace(slot, std::vector<float>(map.begin(), map.end()));
+}
+
+SpecularAccumulator::Changes SpecularAccumulator::findChanges(
+    std::span<const SpecularLight> lights) const {
+  Changes out;
+  const auto bySlot = [](std::span<const SpecularLight> from) {
+    std::map<int, const SpecularLight*> slots;
+    for (const SpecularLight& light : from) slots.emplace(light.record.slot, &light);
+    return slots;
+  };
+  const auto before = bySlot(lights_);
+  out.bySlot = bySlot(lights);
+  const auto& now = out.bySlot;
+  // Without a slot, lights cannot be told apart.
+  if (before.size() != lights_.size() || now.size() != lights.size()) return out;
+  const auto stays = [&](const SpecularLight& light, const auto& others) {
+    const auto other = others.find(light.record.slot);
+    return other != others.end() && *other->second == light &&
+           !oldMaps_.contains(light.record.mapSlot);
+  };
+  for (const SpecularLight& light : lights_) {
+    if (stays(light, now)) {
+      const auto slot = static_cast<size_t>(std::max(light.record.slot, 0));
+      out.stays.resize(std::max(out.stays.size(), slot + 1), 0);
+      out.stays[slot] = 1;
+      continue;
+    }
+    out.taken.push_back(light);
+    const auto old = oldMaps_.find(light.record.mapSlot);
+    if (old != oldMaps_.end()) out.taken.back().record.map = old->second.data();
+  }
+  for (const SpecularLight& light : lights) {
+    if (!stays(light, before)) out.added.push_back(light);
+  }
+  out.all = isMost(std::max(out.taken.size(), out.added.size()), lights.size());
+  return out;
+}
+
+// By row: the slots of lights that stay but get another shadow mode; none: the last modes are
+// unknown, or most of them changed.
+std::vector<SpecularAccumulator::OtherUses> SpecularAccumulator::findUses(
+    const RenderScene& scene, float leastRoughness, const PatchLights& patches,
+    std::span<const uint8_t> stays) {
+  const std::map<Patch, uint32_t> last = std::move(rows_);
+  const size_t lastSlots = slots_;
   rows_.clear();
   for (Tile& tile : tiles_)
     for (Part& part : tile.parts) {
       part.row = rows_.try_emplace(part.patch, static_cast<uint32_t>(rows_.size())).first->second;
     }
-  std::vector<ShadowMode> last = std::move(uses_);
+  const std::vector<ShadowMode> before = std::move(uses_);
   slots_ = patches.slots();
   uses_.assign(rows_.size() * slots_, ShadowMode::skip);
-  for (const auto& [patch, row] : rows_)
+  usesBefore_.assign(uses_.size(), ShadowMode::skip);
+  std::vector<OtherUses> others(rows_.size());
+  for (const auto& [patch, row] : rows_) {
+    ShadowMode* uses = uses_.data() + row * slots_;
     patches.uses(patch.first, patch.second, lobesOf(scene, patch.first, leastRoughness),
-                 {uses_.data() + row * slots_, slots_});
-  std::vector<bool> isOther(rows_.size(), true);
-  if (last.size() == uses_.size())
-    for (size_t row = 0; row < rows_.size(); ++row)
-      isOther[row] = !std::equal(uses_.data() + row * slots_, uses_.data() + (row + 1) * slots_,
-                                 last.data() + row * slots_);
-  return isOther;
+                 {uses, slots_});
+    const auto old = last.find(patch);
+    if (old == last.end() || lastSlots != slots_) continue;
+    ShadowMode* was = usesBefore_.data() + row * slots_;
+    std::copy_n(before.data() + old->second * slots_, slots_, was);
+    std::vector<int>& differ = others[row].emplace();
+    for (size_t slot = 0; slot < std::min(slots_, stays.size()); ++slot)
+      if (stays[slot] != 0 && uses[slot] != was[slot]) differ.push_back(static_cast<int>(slot));
+    if (isMost(differ.size(), slots_)) others[row].reset();
+  }
+  return others;
+}
+
+// Sums all lights or the changes of some parts. Returns the number of lights × pixels.
+template <typename Sum>
+uint64_t SpecularAccumulator::sumParts(const RenderScene& scene, const GBuffer& g,
+                                       std::span<const TilePart> parts,
+                                       std::span<const SpecularLight> lights,
+                                       const Changes& changes, std::span<const OtherUses> others) {
+  uint64_t pixels = 0;
+  for (size_t first = 0; first < parts.size(); first += kMostSpecularParts) {
+    const auto some = parts.subspan(first, std::min(kMostSpecularParts, parts.size() - first));
+    SpecularBlock<Sum> block(g, eye_, constants_, leastRoughness_);
+    for (const auto& [tile, part] : some) {
+      const size_t packet = static_cast<size_t>(part->packet) * kLanes;
+      SpecularUses uses;
+      if (hasPatches_)
+        uses = {uses_.data() + part->row * slots_, usesBefore_.data() + part->row * slots_};
+      block.add(tile * kTilePixels + packet, part->lanes,
+                std::span<const Gloss, kLanes>(&tiles_[tile].gloss[packet], kLanes), uses,
+                scene.hasLinks ? scene.objects[part->patch.first].leftOutBy : 0);
+      pixels += static_cast<uint64_t>(std::popcount(part->lanes));
+    }
+    if (changes.all) {
+      block.add(lights);
+    } else {
+      block.takeAway(changes.taken);
+      block.add(changes.added);
+      std::vector<int> slots;
+      for (const auto& [tile, part] : some)
+        if (hasPatches_ && others[part->row])
+          slots.insert(slots.end(), others[part->row]->begin(), others[part->row]->end());
+      std::sort(slots.begin(), slots.end());
+      slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+      for (const int slot : slots) block.changeUses(*changes.bySlot.at(slot));
+    }
+    for (size_t k = 0; k < some.size(); ++k) {
+      const auto& [tile, part] = some[k];
+      std::array<double, size_t{3} * kLanes> change;
+      block.read(k, change);
+      double* sums = &tiles_[tile].sums[size_t{3} * kLanes * part->packet];
+      for (size_t i = 0; i < change.size(); ++i)
+        if ((part->lanes >> i % kLanes & 1) != 0)
+          sums[i] = change[i] + (changes.all ? 0.0 : sums[i]);
+    }
+  }
+  return pixels * (changes.all ? lights.size() : changes.taken.size() + changes.added.size());
 }
 
 uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g, const vec3& eye,
                                      std::vector<SpecularLight> lights,
                                      const SumConstants& constants, float leastRoughness,
-                                     const PatchLights* patches) {
+                                     const PatchLights* patches, bool isKept) {
   const bool hasPatches = patches != nullptr;
   if (tiles_.size() != static_cast<size_t>(g.tiles())) {
     tiles_.assign(static_cast<size_t>(g.tiles()), {});
     knowsPlaces_ = false;
   }
   knowsPlaces_ = knowsPlaces_ && hasPatches == hasPatches_;
-  const bool all = !isOn_ || !isKnown_ || !knowsPlaces_ || constants != constants_ ||
-                   leastRoughness != leastRoughness_ || eye != eye_ || lights != lights_;
+  const bool isOther = !isOn_ || !isKnown_ || !knowsPlaces_ || isKept != isKept_ ||
+                       (!isKept && !oldMaps_.empty()) || constants != constants_ ||
+                       leastRoughness != leastRoughness_ || eye != eye_;
+  Changes changes = isOther ? Changes() : findChanges(lights);
+  // Float sums begin from scratch where anything changed.
+  if (!isKept) changes.all = isOther || !changes.taken.empty() || !changes.added.empty();
   std::vector<size_t> found;
   for (size_t i = 0; i < tiles_.size(); ++i)
     if (!knowsPlaces_ || tiles_[i].revision != g.revision[i]) found.push_back(i);
   const std::vector<uint8_t> mayBeGlossy = findGlossy(scene);
   tbb::parallel_for(size_t{0}, found.size(),
                     [&](size_t i) { findParts(scene, g, found[i], mayBeGlossy, patches); });
-  std::vector<bool> isOther;
-  if (hasPatches) isOther = findUses(scene, leastRoughness, *patches);
-
-  std::vector<size_t> stale;
-  for (size_t i = 0; i < tiles_.size(); ++i) {
-    const Tile& tile = tiles_[i];
-    const bool usesChanged =
-        hasPatches && std::any_of(tile.parts.begin(), tile.parts.end(),
-                                  [&](const Part& p) { return isOther[p.row]; });
-    if (!tile.parts.empty() && (all || usesChanged || tile.revision != g.revision[i]))
-      stale.push_back(i);
-  }
-  isKnown_ = false;  // until the update is complete
-  std::atomic<uint64_t> pixels = 0;
-  const size_t tasks = (stale.size() + kTilesATask - 1) / kTilesATask;
-  tbb::parallel_for(size_t{0}, tasks, [&](size_t task) {
-    std::vector<std::pair<size_t, const Part*>> parts;  // with their tiles
-    for (size_t k = task * kTilesATask; k < std::min((task + 1) * kTilesATask, stale.size()); ++k)
-      for (const Part& part : tiles_[stale[k]].parts) parts.emplace_back(stale[k], &part);
-    uint64_t here = 0;
-    for (size_t first = 0; first < parts.size(); first += SpecularBlock::kMost) {
-      const auto some =
-          std::span(parts).subspan(first, std::min(SpecularBlock::kMost, parts.size() - first));
-      SpecularBlock block(g, eye, constants, leastRoughness);
-      const auto packetOf = [](const Part& part) {
-        return static_cast<size_t>(part.packet) * kLanes;
-      };
-      for (const auto& [tile, part] : some) {
-        const Gloss* gloss = &tiles_[tile].gloss[packetOf(*part)];
-        block.add(tile * kTilePixels + packetOf(*part), part->lanes,
-                  std::span<const Gloss, kLanes>(gloss, kLanes),
-                  hasPatches ? uses_.data() + part->row * slots_ : nullptr,
-                  scene.hasLinks ? scene.objects[part->patch.first].leftOutBy : 0);
-        here += static_cast<uint64_t>(std::popcount(part->lanes));
-      }
-      block.sum(lights);
-      for (size_t k = 0; k < some.size(); ++k) {
-        vec3* radiance = &tiles_[some[k].first].radiance[packetOf(*some[k].second)];
-        block.read(k, std::span<vec3, kLanes>(radiance, kLanes));
-      }
-    }
-    pixels += here;
-  });
-  for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].revision = g.revision[i];
-  lights_ = std::move(lights);
+  std::vector<OtherUses> others;
+  if (hasPatches) others = findUses(scene, leastRoughness, *patches, changes.stays);
   constants_ = constants;
   leastRoughness_ = leastRoughness;
   eye_ = eye;
+  isKept_ = isKept;
   hasPatches_ = hasPatches;
+
+  std::vector<size_t> fresh, kept;  // tiles to sum from scratch, and tiles to change
+  const bool anyChanged = !changes.taken.empty() || !changes.added.empty();
+  for (size_t i = 0; i < tiles_.size(); ++i) {
+    const Tile& tile = tiles_[i];
+    if (tile.parts.empty()) continue;
+    const auto isAny = [&](const auto& is) {
+      return hasPatches && std::any_of(tile.parts.begin(), tile.parts.end(),
+                                       [&](const Part& p) { return is(others[p.row]); });
+    };
+    if (changes.all || tile.revision != g.revision[i] ||
+        isAny([&](const OtherUses& uses) { return !uses || (!isKept && !uses->empty()); }))
+      fresh.push_back(i);
+    else if (anyChanged || isAny([](const OtherUses& uses) { return !uses->empty(); }))
+      kept.push_back(i);
+  }
+  isKnown_ = false;  // until the update is complete
+  std::atomic<uint64_t> pixels = 0;
+  const auto sumTiles = [&](std::span<const size_t> tiles, const Changes& what) {
+    tbb::parallel_for(size_t{0}, (tiles.size() + kTilesATask - 1) / kTilesATask, [&](size_t task) {
+      const auto some = tiles.subspan(task * kTilesATask);
+      std::vector<TilePart> parts;
+      for (const size_t tile : some.first(std::min(kTilesATask, some.size())))
+        for (const Part& part : tiles_[tile].parts) parts.emplace_back(tile, &part);
+      pixels += isKept ? sumParts<ExactSum>(scene, g, parts, lights, what, others)
+                       : sumParts<FloatSum>(scene, g, parts, lights, what, others);
+    });
+  };
+  sumTiles(fresh, Changes());
+  sumTiles(kept, changes);
+  for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].revision = g.revision[i];
+  lights_ = std::move(lights);
+  oldMaps_.clear();
   isOn_ = isKnown_ = knowsPlaces_ = true;
-  return pixels * lights_.size();
+  return pixels;
 }
 
 void SpecularAccumulator::addTo(const GBuffer& g, Image& picture) const {
@@ -197,17 +309,17 @@ void SpecularAccumulator::addTo(const GBuffer& g, Image& picture) const {
             shared::diffuseShare(gloss.metallic, gloss.roughness, leastRoughness_, nv);
         const vec3 emission = g.emission(i);
         vec3& pixel = picture.at(x, y);
-        pixel = emission + share * (pixel - emission) + tile.radiance[i % kTilePixels];
+        pixel = emission + share * (pixel - emission) + tile.radiance(i % kTilePixels);
       }
     }
   });
 }
 
 size_t SpecularAccumulator::bytes() const {
-  size_t bytes = uses_.size() + lights_.size() * sizeof(SpecularLight);
+  size_t bytes = uses_.size() + usesBefore_.size() + lights_.size() * sizeof(SpecularLight);
   for (const Tile& tile : tiles_)
-    bytes +=
-        tile.parts.size() * sizeof(Part) + tile.radiance.size() * (sizeof(vec3) + sizeof(Gloss));
+    bytes += tile.parts.size() * sizeof(Part) + tile.sums.size() * sizeof(double) +
+             tile.gloss.size() * sizeof(Gloss);
   return bytes;
 }
 

@@ -1,10 +1,10 @@
-// The reflection of all lights by glossy surfaces towards the eye, over a G-buffer. It is kept
-// while nothing visible in it changes. Tiles with a change are summed from scratch over all lights:
-// a light that moves affects every lobe that it reaches, so an incremental update would save at
-// most half.
+// The reflection of all lights by glossy surfaces towards the eye, over a G-buffer. The sums are
+// kept: lights that changed are subtracted as they were and added as they are. Sums are exact, so
+// they have the bits of sums over all lights.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,13 +17,19 @@ namespace lamplighter::cpu {
 class SpecularAccumulator {
  public:
   // Updates all glossy pixels as seen from `eye`. `patches` null: shadow map look-ups everywhere.
-  // Returns the number of lights × pixels that were summed.
+  // isKept: the same G-buffer will be updated again. Otherwise sums are faster, and their last bits
+  // differ. Returns the number of lights × pixels that were summed.
   uint64_t update(const RenderScene& scene, const GBuffer& gbuffer, const vec3& eye,
                   std::vector<SpecularLight> lights, const SumConstants& constants,
-                  float leastRoughness, const PatchLights* patches);
+                  float leastRoughness, const PatchLights* patches, bool isKept);
 
-  // Call when a shadow map is about to change, or when all maps are lost.
-  void mapsChange() { isKnown_ = false; }
+  // Call when the map of a slot is about to change; `map` is its present content.
+  void mapChanges(int slot, std::span<const float> map);
+  // Call when all maps are lost, or when maps change and their light is summed anew anyway.
+  void forgetMaps() {
+    isKnown_ = false;
+    oldMaps_.clear();
+  }
   // Call when objects are renumbered, or get other patches without moving.
   void forgetPlaces() {
     knowsPlaces_ = false;
@@ -50,21 +56,37 @@ class SpecularAccumulator {
     std::vector<Part> parts;
     // By pixel; empty if the tile has no glossy pixel.
     std::vector<Gloss> gloss;
-    std::vector<vec3> radiance;  // [W/(m² sr)]
+    std::vector<double> sums;  // by packet, channel and lane [W/(m² sr)]
+    vec3 radiance(size_t pixel) const;
   };
+  // What becomes of the lights.
+  struct Changes {
+    bool all = true;  // sum all lights from scratch
+    std::vector<SpecularLight> taken, added;
+    std::vector<uint8_t> stays;  // by slot: a light that did not change
+    std::map<int, const SpecularLight*> bySlot;
+  };
+  using TilePart = std::pair<size_t, const Part*>;  // with the index of its tile
+  Changes findChanges(std::span<const SpecularLight> lights) const;
   void findParts(const RenderScene& scene, const GBuffer& gbuffer, size_t tile,
                  std::span<const uint8_t> mayBeGlossy, const PatchLights* patches);
-  std::vector<bool> findUses(const RenderScene& scene, float leastRoughness,
-                             const PatchLights& patches);
+  using OtherUses = std::optional<std::vector<int>>;
+  std::vector<OtherUses> findUses(const RenderScene& scene, float leastRoughness,
+                                  const PatchLights& patches, std::span<const uint8_t> stays);
+  template <typename Sum>
+  uint64_t sumParts(const RenderScene& scene, const GBuffer& gbuffer,
+                    std::span<const TilePart> parts, std::span<const SpecularLight> lights,
+                    const Changes& changes, std::span<const OtherUses> others);
 
-  bool isOn_ = false, isKnown_ = false, knowsPlaces_ = false, hasPatches_ = false;
+  bool isOn_ = false, isKept_ = false, isKnown_ = false, knowsPlaces_ = false, hasPatches_ = false;
   SumConstants constants_;
   float leastRoughness_ = 0.0f;
   vec3 eye_{0.0f};
   std::vector<SpecularLight> lights_;
   std::vector<Tile> tiles_;
+  std::map<int, std::vector<float>> oldMaps_;  // by slot: maps of lights_ that changed since
   std::map<Patch, uint32_t> rows_;
-  std::vector<ShadowMode> uses_;  // rows × slots
+  std::vector<ShadowMode> uses_, usesBefore_;  // rows × slots
   size_t slots_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "renderer/backends/cpu/irradiance/specular_kernel.h"
 
+#include <algorithm>
+
 #include "renderer/backends/cpu/irradiance/simd_light.h"
 #include "renderer/scene/light_linking.h"
 #include "shaders/shared/vpl_speculars.h"
@@ -14,6 +16,52 @@ struct GlossyPoints {
   Floats alpha2, nv;
   Vector3 straight;  // F0
   Floats grazing;    // F at 90°
+};
+
+constexpr hn::FixedTag<double, kLanes / 2> kHalf{};
+
+// Sums of eight lanes. Each contribution is rounded to a multiple of 2⁻³⁰, so doubles add and
+// subtract without rounding errors (up to 2²³ W/(m² sr)) and in any order.
+struct ExactSum {
+  hn::Vec<decltype(kHalf)> low = hn::Zero(kHalf), high = hn::Zero(kHalf);
+
+  template <Sign kSign>
+  HWY_INLINE void add(Floats value) {
+    // From 2⁻⁷ on, floats are such multiples.
+    const Floats small = wide(0x1p-7f);
+    const Floats bounded = hn::Min(value, wide(0x1p20f));
+    const Floats rounded = hn::Sub(hn::Add(bounded, small), small);
+    const Floats exact = hn::IfThenElse(hn::Lt(bounded, small), rounded, bounded);
+    const hn::FixedTag<float, kLanes / 2> half;
+    const auto a = hn::PromoteTo(kHalf, hn::LowerHalf(half, exact));
+    const auto b = hn::PromoteTo(kHalf, hn::UpperHalf(half, exact));
+    low = kSign == Sign::add ? hn::Add(low, a) : hn::Sub(low, a);
+    high = kSign == Sign::add ? hn::Add(high, b) : hn::Sub(high, b);
+  }
+  void store(double* to) const {
+    hn::StoreU(low, kHalf, to);
+    hn::StoreU(high, kHalf, to + kLanes / 2);
+  }
+};
+
+// Faster sums, for pictures that are summed from scratch each time.
+struct FloatSum {
+  Floats value = hn::Zero(kTag);
+
+  template <Sign kSign>
+  HWY_INLINE void add(Floats more) {
+    value = kSign == Sign::add ? hn::Add(value, more) : hn::Sub(value, more);
+  }
+  void store(double* to) const {
+    HWY_ALIGN float lanes[kLanes];
+    hn::Store(value, kTag, lanes);
+    std::copy_n(lanes, kLanes, to);
+  }
+};
+
+template <typename Sum>
+struct SumsOf3 {
+  Sum r, g, b;
 };
 
 namespace {
@@ -53,8 +101,9 @@ GlossyPoints pointsAt(const GBuffer& g, const vec3& from, size_t first, uint8_t 
 }
 
 // shared::lobeTowards times `weight`, for light of this colour.
+template <Sign kSign, typename Sum>
 HWY_INLINE void addLobe(const GlossyPoints& p, const Vector3& colour, Floats weight, Floats nl,
-                        Floats lv, Floats solidAngle, Vector3& sum) {
+                        Floats lv, Floats solidAngle, SumsOf3<Sum>& sum) {
   const Floats one = wide(1.0f), half = wide(0.5f);
   const Floats vh = hn::Sqrt(hn::Max(hn::MulAdd(half, lv, half), wide(1e-6f)));
   const Floats inverse = hn::Div(one, vh);
@@ -73,19 +122,19 @@ HWY_INLINE void addLobe(const GlossyPoints& p, const Vector3& colour, Floats wei
       hn::Div(hn::Mul(hn::Mul(a2, wide(0.5f / kPi)), weight), hn::Mul(hn::Mul(d, d), masking));
   const Floats m = hn::Sub(one, vh), m2 = hn::Mul(m, m);
   const Floats grazing = hn::Mul(hn::Mul(m2, m2), m);
-  const auto add = [&](Floats straight, Floats light, Floats& to) {
+  const auto add = [&](Floats straight, Floats light, Sum& to) {
     const Floats f = hn::MulAdd(grazing, hn::Sub(p.grazing, straight), straight);
-    to = hn::MulAdd(hn::Mul(dv, light), f, to);
+    to.template add<kSign>(hn::Mul(hn::Mul(dv, light), f));
   };
-  add(p.straight.x, colour.x, sum.x);
-  add(p.straight.y, colour.y, sum.y);
-  add(p.straight.z, colour.z, sum.z);
+  add(p.straight.x, colour.x, sum.r);
+  add(p.straight.y, colour.y, sum.g);
+  add(p.straight.z, colour.z, sum.b);
 }
 
-// Adds the light that is reflected towards the eye.
-template <LightRecord::Kind kKind>
+// Adds or subtracts the light that is reflected towards the eye.
+template <LightRecord::Kind kKind, Sign kSign, typename Sum>
 HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float footprint,
-                            bool readsShadowMap, const SimdConstants& c, Vector3& sum) {
+                            bool readsShadowMap, const SimdConstants& c, SumsOf3<Sum>& sum) {
   const Floats zero = hn::Zero(kTag);
   const Vector3 v{hn::Sub(p.position.x, light.position.x), hn::Sub(p.position.y, light.position.y),
                   hn::Sub(p.position.z, light.position.z)};
@@ -142,80 +191,104 @@ HWY_INLINE void addSpecular(const GlossyPoints& p, const SimdLight& light, float
     weight = hn::IfThenElse(isLarge, hn::Mul(weight, share), weight);
   }
   // Other lanes use a light above the surface with weight 0, to avoid a division by zero.
-  addLobe(p, light.units, hn::IfThenElseZero(lit, weight), hn::IfThenElse(lit, nl, wide(1.0f)), lv,
-          solidAngle, sum);
+  addLobe<kSign>(p, light.units, hn::IfThenElseZero(lit, weight),
+                 hn::IfThenElse(lit, nl, wide(1.0f)), lv, solidAngle, sum);
 }
 
 }  // namespace
 
-struct SpecularBlock::Place {
+template <typename Sum>
+struct SpecularBlock<Sum>::Place {
   GlossyPoints points;
-  Vector3 sum;
-  uint8_t lanes;
-  const ShadowMode* uses;
+  SumsOf3<Sum> sum;
+  SpecularUses uses;
   uint32_t leftOutBy;
 };
 
-SpecularBlock::SpecularBlock(const GBuffer& gbuffer, const vec3& eye, const SumConstants& constants,
-                             float leastRoughness)
+template <typename Sum>
+SpecularBlock<Sum>::SpecularBlock(const GBuffer& gbuffer, const vec3& eye,
+                                  const SumConstants& constants, float leastRoughness)
     : gbuffer_(gbuffer), eye_(eye), constants_(constants), leastRoughness_(leastRoughness) {
   constants_.unitsPerIrradiance = 1.0f;
-  places_.reserve(kMost);
+  places_.reserve(kMostSpecularParts);
 }
-SpecularBlock::~SpecularBlock() = default;
+template <typename Sum>
+SpecularBlock<Sum>::~SpecularBlock() = default;
 
-void SpecularBlock::add(size_t first, uint8_t lanes, std::span<const Gloss, kLanes> gloss,
-                        const ShadowMode* uses, uint32_t leftOutBy) {
-  const Floats zero = hn::Zero(kTag);
-  places_.push_back({pointsAt(gbuffer_, eye_, first, lanes, gloss, leastRoughness_),
-                     {zero, zero, zero},
-                     lanes,
-                     uses,
-                     leftOutBy});
+template <typename Sum>
+void SpecularBlock<Sum>::add(size_t first, uint8_t lanes, std::span<const Gloss, kLanes> gloss,
+                             const SpecularUses& uses, uint32_t leftOutBy) {
+  places_.push_back(
+      {pointsAt(gbuffer_, eye_, first, lanes, gloss, leastRoughness_), {}, uses, leftOutBy});
 }
 
-template <LightRecord::Kind kKind>
-void SpecularBlock::addLight(const SpecularLight& specular) {
+template <typename Sum>
+template <LightRecord::Kind kKind, Sign kSign, typename UsesOf>
+void SpecularBlock<Sum>::addKind(const SpecularLight& specular, const UsesOf& usesOf) {
   const LightRecord& record = specular.record;
   const SimdLight light(record, false, constants_);
   const SimdConstants c(constants_, record.resolution);
   for (Place& place : places_) {
     if (isLeftOut(place.leftOutBy, record.link)) continue;
     bool readsShadowMap = record.map != nullptr;
-    if (place.uses != nullptr && record.slot >= 0) {
-      const ShadowMode use = place.uses[record.slot];
+    const ShadowMode* uses = usesOf(place.uses);
+    if (uses != nullptr && record.slot >= 0) {
+      const ShadowMode use = uses[record.slot];
       if (use == ShadowMode::skip) continue;
       readsShadowMap = readsShadowMap && use != ShadowMode::add;
     }
-    addSpecular<kKind>(place.points, light, specular.footprint, readsShadowMap, c, place.sum);
+    addSpecular<kKind, kSign>(place.points, light, specular.footprint, readsShadowMap, c,
+                              place.sum);
   }
 }
 
-void SpecularBlock::sum(std::span<const SpecularLight> lights) {
+template <typename Sum>
+template <Sign kSign, typename UsesOf>
+void SpecularBlock<Sum>::addLight(const SpecularLight& light, const UsesOf& usesOf) {
   using Kind = LightRecord::Kind;
-  for (const SpecularLight& light : lights) {
-    switch (light.record.kind) {
-      case Kind::cosine:
-        addLight<Kind::cosine>(light);
-        break;
-      case Kind::uniform:
-        addLight<Kind::uniform>(light);
-        break;
-      case Kind::directional:
-        addLight<Kind::directional>(light);
-        break;
-    }
+  switch (light.record.kind) {
+    case Kind::cosine:
+      return addKind<Kind::cosine, kSign>(light, usesOf);
+    case Kind::uniform:
+      return addKind<Kind::uniform, kSign>(light, usesOf);
+    case Kind::directional:
+      return addKind<Kind::directional, kSign>(light, usesOf);
   }
 }
 
-void SpecularBlock::read(size_t k, std::span<vec3, kLanes> out) const {
-  const Place& place = places_[k];
-  HWY_ALIGN float r[kLanes], g[kLanes], b[kLanes];
-  hn::Store(place.sum.x, kTag, r);
-  hn::Store(place.sum.y, kTag, g);
-  hn::Store(place.sum.z, kTag, b);
-  for (size_t lane = 0; lane < kLanes; ++lane)
-    if ((place.lanes >> lane & 1) != 0) out[lane] = vec3(r[lane], g[lane], b[lane]);
+template <typename Sum>
+void SpecularBlock<Sum>::add(std::span<const SpecularLight> lights) {
+  for (const SpecularLight& light : lights)
+    addLight<Sign::add>(light, [](const SpecularUses& uses) { return uses.now; });
 }
+
+template <typename Sum>
+void SpecularBlock<Sum>::takeAway(std::span<const SpecularLight> lights) {
+  for (const SpecularLight& light : lights)
+    addLight<Sign::takeAway>(light, [](const SpecularUses& uses) { return uses.before; });
+}
+
+template <typename Sum>
+void SpecularBlock<Sum>::changeUses(const SpecularLight& light) {
+  const auto slot = static_cast<size_t>(light.record.slot);
+  const std::vector<ShadowMode> skipped(slot + 1, ShadowMode::skip);
+  const auto ifOther = [&](const SpecularUses& uses, const ShadowMode* which) {
+    return uses.now[slot] != uses.before[slot] ? which : skipped.data();
+  };
+  addLight<Sign::takeAway>(light,
+                           [&](const SpecularUses& uses) { return ifOther(uses, uses.before); });
+  addLight<Sign::add>(light, [&](const SpecularUses& uses) { return ifOther(uses, uses.now); });
+}
+
+template <typename Sum>
+void SpecularBlock<Sum>::read(size_t k, std::span<double, size_t{3} * kLanes> sums) const {
+  const SumsOf3<Sum>& sum = places_[k].sum;
+  sum.r.store(&sums[0]);
+  sum.g.store(&sums[kLanes]);
+  sum.b.store(&sums[size_t{2} * kLanes]);
+}
+
+template class SpecularBlock<ExactSum>;
+template class SpecularBlock<FloatSum>;
 
 }  // namespace lamplighter::cpu

@@ -84,20 +84,21 @@ class CpuManyLights final : public ManyLightsKernels {
     if (!maps_.reserve(slots, coarse, fine)) return;
     for (Light* light : {&still_, &shifted_}) {
       light->forEachSums([](IrradianceAccumulator& sums) { sums.forgetMaps(); });
-      light->speculars.mapsChange();
+      light->speculars.forgetMaps();
     }
   }
 
   void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
     shifted_.forEachSums([](IrradianceAccumulator& sums) { sums.forgetMaps(); });
-    for (Light* light : {&still_, &shifted_}) light->speculars.mapsChange();
+    shifted_.speculars.forgetMaps();
     const auto slotOf = [](const shared::Vpl& vpl) { return vpl.slot; };
-    const auto tellOfOld = [&](IrradianceAccumulator& sums) {
+    const auto tellOfOld = [&](auto& sums) {
       for (const shared::Vpl& vpl : vpls)
         if (const auto map = maps_.map(slotOf(vpl)); !map.empty())
           sums.mapChanges(slotOf(vpl), map);
     };
-    tbb::parallel_invoke([&] { tellOfOld(still_.sums); }, [&] { tellOfOld(still_.sampleSums); });
+    tbb::parallel_invoke([&] { tellOfOld(still_.sums); }, [&] { tellOfOld(still_.sampleSums); },
+                         [&] { tellOfOld(still_.speculars); });
     std::vector<ShadowMapDiff> changes(vpls.size());
     rayCount_ += maps_.render(*scene_, *rays_, vpls, size, changes);
     counts_.shadowMaps += vpls.size();
@@ -112,7 +113,8 @@ class CpuManyLights final : public ManyLightsKernels {
       if (map.empty()) continue;
       still_.forEachSums([&](IrradianceAccumulator& sums) { sums.mapChanges(slot, map); });
       shifted_.forEachSums([](IrradianceAccumulator& sums) { sums.forgetMaps(); });
-      for (Light* light : {&still_, &shifted_}) light->speculars.mapsChange();
+      still_.speculars.mapChanges(slot, map);
+      shifted_.speculars.forgetMaps();
       maps_.drop(slot);
     }
   }
@@ -144,9 +146,9 @@ class CpuManyLights final : public ManyLightsKernels {
       speculars.reserve(vpls.size());
       for (size_t i = 0; i < vpls.size(); ++i)
         speculars.push_back({lights[i], vpls[i].footprint.x});
-      counts_.lightPixels +=
-          p.speculars.update(*scene_, gbuffer, backend_.shown().view.eye, std::move(speculars),
-                             constants, params.speculars.y, patches);
+      counts_.lightPixels += p.speculars.update(*scene_, gbuffer, backend_.shown().view.eye,
+                                                std::move(speculars), constants, params.speculars.y,
+                                                patches, showsStill() && params.block.y == 0.0f);
     }
     p.block = std::max(1, static_cast<int>(params.block.x));
     shared_ = {};
