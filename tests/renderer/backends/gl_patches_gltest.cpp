@@ -146,8 +146,13 @@ TEST_F(GlPatches, SwitchingTechniquesEqualsAFreshRender) {
 // If the memory is too small for light maps, pixels sum all lights, until there is enough memory
 // again.
 TEST_F(GlPatches, WithoutMemoryForLightMapsPixelsSumAllLights) {
-  Scene scene = test::randomBoxes(900, 5);
+  Scene scene = test::randomBoxes(80, 5);
   test::addRectangleLight(scene, vec3(0.3f, 3.9f, -0.2f), vec2(1.5f, 0.7f), vec3(12, 9, 5));
+  // Larger boxes: more tiles, but few enough roots for all of them to have entries.
+  for (Node& node : scene.nodes) {
+    node.local.translation *= 3.0f;
+    node.local.scale *= 3.0f;
+  }
   const View view = test::viewOf(scene, kWidth, kHeight);
   FrameRenderer kept(makeGlBackend());
   SceneChanges changes = SceneChanges::all();
