@@ -174,8 +174,11 @@ void LightMaps::update(const RenderScene& scene, const VisibilityDatabase& visib
     outdated.resize(objects_.size());
     std::iota(outdated.begin(), outdated.end(), 0u);
   }
-  // New objects come with new patches, whatever has tiles.
-  if (outdated.size() > fresh.size()) coverage_.advance();
+  // What shows a new object is found anew in any case.
+  const bool isRetiled = std::any_of(outdated.begin(), outdated.end(), [&](uint32_t i) {
+    return !std::binary_search(fresh.begin(), fresh.end(), i);
+  });
+  if (isRetiled) coverage_.advance();
   tbb::parallel_for(size_t{0}, outdated.size(), [&](size_t i) {
     makeTiles(objects_[outdated[i]], visibility.patches(outdated[i]));
   });

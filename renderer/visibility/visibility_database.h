@@ -49,10 +49,6 @@ class VisibilityDatabase {
   std::span<const uint8_t> levels(uint32_t object) const { return given_[object]; }
   size_t unanswered() const { return unanswered_; }  // number of roots that answer() left
   bool asksForAll() const { return demand_.isForAll; }
-  // Whether a patch is asked for and its entries are computed.
-  bool hasEntries(uint32_t object, int patch) const {
-    return !rows_[object][static_cast<size_t>(wholeOf(object, patch))].states.empty();
-  }
 
   // Limits the memory of the entries: patches are divided only as far as the limit allows. The
   // roots always have entries, see leastBytes(). Takes effect with the next setLights(); SIZE_MAX:
@@ -211,6 +207,7 @@ class VisibilityDatabase {
   // By object and patch: for roots with entries, the levels of their trees that may have some.
   Flags given_;
   PatchDemand demand_;
+  std::vector<size_t> askedAtLevels_{0};  // by tree level: the most patches that demand_ asks for
   size_t unanswered_ = 0;
   // Entries of patches without entries of their own, by LightLinks bits of the object.
   std::vector<uint8_t> partialEntries_;

@@ -58,9 +58,14 @@ void VisibilityDatabase::dropRoot(uint32_t object, int root) {
 void VisibilityDatabase::ask(const PatchDemand& demand) {
   demand_ = demand;
   unanswered_ = 0;
+  askedAtLevels_.assign(1, 0);
   for (uint32_t object = 0; object < patches_.size(); ++object) {
     for (const int root : patches_[object].roots) {
       const uint8_t asked = levelsAsked(object, root), given = levelsGiven(object, root);
+      if (!demand_.isForAll) {
+        askedAtLevels_.resize(std::max<size_t>(askedAtLevels_.size(), asked), 0);
+        for (size_t level = 0; level < asked; ++level) askedAtLevels_[level] += size_t{1} << level;
+      }
       if (asked == given) continue;
       // Without lights nothing is computed yet.
       const bool isEmpty = rows_[object][static_cast<size_t>(root)].states.empty();

@@ -34,20 +34,13 @@ void VisibilityDatabase::resize(size_t slots) {
 }
 
 std::vector<size_t> VisibilityDatabase::patchesAtLevels() const {
+  if (!demand_.isForAll) return askedAtLevels_;
   std::vector<size_t> patches(1, 0);
-  if (demand_.isForAll) {
-    for (const ObjectPatches& p : patches_) {
-      patches.resize(std::max(patches.size(), p.countAtLevel.size()), 0);
-      for (size_t level = 0; level < p.countAtLevel.size(); ++level)
-        patches[level] += p.countAtLevel[level];
-    }
-    return patches;
+  for (const ObjectPatches& p : patches_) {
+    patches.resize(std::max(patches.size(), p.countAtLevel.size()), 0);
+    for (size_t level = 0; level < p.countAtLevel.size(); ++level)
+      patches[level] += p.countAtLevel[level];
   }
-  for (const std::vector<uint8_t>& object : demand_.levels)
-    for (const size_t levels : object) {
-      patches.resize(std::max(patches.size(), levels), 0);
-      for (size_t level = 0; level < levels; ++level) patches[level] += size_t{1} << level;
-    }
   return patches;
 }
 

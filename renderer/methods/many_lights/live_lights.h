@@ -55,8 +55,9 @@ class LiveLights {
   // When nothing is pending: renders fine maps for up to `most` VPLs that need one, brightest
   // first. A refreshed VPL gets a coarse map again. Returns the number of rendered maps.
   int sharpenMaps(ManyLightsKernels& kernels, int most);
-  // The same for hard-shadow lights only, whatever is pending: the borders of their shadows show
-  // the texels of a coarse map. Counts as a change at once.
+  // The same for punctual hard-shadow lights only, whatever is pending: the borders of their
+  // shadows show the texels of a coarse map. Those of a sun have small tiles. Counts as a change at
+  // once.
   int sharpenHardLights(ManyLightsKernels& kernels, int most);
   // The number of fine maps that an unlimited call would render.
   int coarse() const;

@@ -64,7 +64,7 @@ int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options,
   return static_cast<int>(std::max<uint64_t>(maps, 1));
 }
 
-// Fine maps of hard-shadow lights per frame: those of a lamp, which has two hemispheres.
+// Fine maps of punctual hard-shadow lights per frame: those of a lamp, which has two hemispheres.
 constexpr int kHardMapsAFrame = 2;
 
 // Rays per pixel for bias compensation; pixels share them.
@@ -274,7 +274,7 @@ void ManyLights::updateMaps(const FrameInputs& in, const Options& options, ManyL
 }
 
 // Only when all other work is done, because the frame after an edit is busy enough; but at once for
-// a few lights with hard shadows.
+// the hard shadows of a lamp.
 void ManyLights::sharpenMaps(const Options& options, ManyLightsStats& stats) {
   const int scale = mapRooms_.scale();
   if (scale == 1) return;

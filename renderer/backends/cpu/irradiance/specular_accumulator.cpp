@@ -17,7 +17,7 @@ namespace {
 constexpr size_t kTilesATask = 8;
 
 // Most memory of copies of maps that changed since the last sum [bytes].
-constexpr size_t kMostOldMapBytes = size_t{64} << 20;
+constexpr size_t kMostOldMapBytes = size_t{16} << 20;
 
 // Whether subtracting and adding so many lights takes longer than summing all.
 bool isMost(size_t changed, size_t all) { return 2 * changed > all; }
@@ -99,7 +99,7 @@ vec3 SpecularAccumulator::Tile::radiance(size_t pixel) const {
 }
 
 void SpecularAccumulator::mapChanges(int slot, std::span<const float> map) {
-  if (!isKnown_ || oldMaps_.contains(slot)) return;
+  if (!isKnown_ || !hasGlossy_ || oldMaps_.contains(slot)) return;
   const bool isSummed = std::any_of(lights_.begin(), lights_.end(), [&](const SpecularLight& l) {
     return l.record.mapSlot == slot;
   });
@@ -130,7 +130,8 @@ SpecularAccumulator::Changes SpecularAccumulator::findChanges(
   };
   for (const SpecularLight& light : lights_) {
     if (stays(light, now)) {
-      const auto slot = static_cast<size_t>(std::max(light.record.slot, 0));
+      if (light.record.slot < 0) continue;
+      const auto slot = static_cast<size_t>(light.record.slot);
       out.stays.resize(std::max(out.stays.size(), slot + 1), 0);
       out.stays[slot] = 1;
       continue;
@@ -255,6 +256,8 @@ uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g,
   isKept_ = isKept;
   hasPatches_ = hasPatches;
 
+  hasGlossy_ = std::any_of(tiles_.begin(), tiles_.end(),
+                           [](const Tile& tile) { return !tile.parts.empty(); });
   std::vector<size_t> fresh, kept;  // tiles to sum from scratch, and tiles to change
   const bool anyChanged = !changes.taken.empty() || !changes.added.empty();
   for (size_t i = 0; i < tiles_.size(); ++i) {

@@ -82,6 +82,7 @@ class SpecularAccumulator {
   SumConstants constants_;
   float leastRoughness_ = 0.0f;
   vec3 eye_{0.0f};
+  bool hasGlossy_ = true;  // any pixel is glossy
   std::vector<SpecularLight> lights_;
   std::vector<Tile> tiles_;
   std::map<int, std::vector<float>> oldMaps_;  // by slot: maps of lights_ that changed since
