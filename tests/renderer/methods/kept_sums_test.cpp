@@ -17,12 +17,15 @@ namespace {
 using test::settledPicture;
 
 // The names "transfer", "reflecting transfer" and "blocks of N" stand for light maps with that
-// option.
+// option, "glossy" for light maps in a room of glossy surfaces.
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
   const bool usesTransfer = technique.ends_with("transfer");
   const bool usesBlocks = technique.starts_with("blocks");
-  s.set("technique", usesTransfer || usesBlocks ? "light_maps" : technique);
+  const bool isGlossy = technique == "glossy";
+  s.set("technique", usesTransfer || usesBlocks || isGlossy ? "light_maps" : technique);
+  // Finer maps of all lights would sum all speculars from scratch at last.
+  if (isGlossy) s.set("settled_map_scale", 1);
   s.set("prt", usesTransfer);
   s.set("prt_bounces", technique == "reflecting transfer" ? 4 : 0);
   s.set("block", usesBlocks ? technique.substr(technique.size() - 1) : "1");
@@ -35,7 +38,9 @@ Settings settingsOf(const std::string& technique, int vpls) {
 }
 
 struct Room : test::AssetRoom {
-  explicit Room(bool isComplex = false) : AssetRoom("pillar_room", 93, 61) {
+  explicit Room(bool isComplex = false, bool isGlossy = false) : AssetRoom("pillar_room", 93, 61) {
+    for (Material& m : scene.materials)
+      if (isGlossy) m.roughness = 0.35f;
     for (Node& node : scene.nodes)
       if (isComplex && node.mesh != kNone) node.meshKind = MeshKind::complex;
   }
@@ -48,7 +53,7 @@ Image freshPicture(const Room& room, const Settings& settings) {
 // Renders a few frames after each edit, so that the next edit finds lights half refreshed; then
 // settles.
 bool equalsFreshRender(const std::string& technique, const test::EditSequence& edits) {
-  Room room(technique.ends_with("transfer"));
+  Room room(technique.ends_with("transfer"), technique == "glossy");
   const Settings settings = settingsOf(technique, 60);
   FrameRenderer renderer(makeCpuBackend());
   settledPicture(renderer, room.scene, SceneChanges::all(), room.view, settings);
@@ -77,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, KeptSums,
                          testing::Combine(testing::Values("naive", "visibility", "light_maps",
                                                           "transfer", "reflecting transfer",
                                                           "blocks of 2", "blocks of 4",
-                                                          "blocks of 8"),
+                                                          "blocks of 8", "glossy"),
                                           testing::Range(1u, 5u)));
 
 // Changes of the block size, and of the picture size with the same number of tiles.
