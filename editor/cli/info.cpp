@@ -74,7 +74,7 @@ Json describe(const std::string& file, const LoadedScene& loaded) {
   j["lights"] = Json::array();
   j["light_counts"] = Json::object();
   for (const Emitter& e : lights.emitters()) {
-    if (e.kind == EmitterKind::sky) continue;
+    if (e.kind == EmitterKind::sky || !(luminance(e.flux) > 0.0f)) continue;
     const Node& node = *scene.find(e.node);
     Json light{{"name", node.name}, {"kind", kindOf(node, true)}, {"flux_w", toJson(e.flux)}};
     if (e.kind == EmitterKind::surface) light["area_m2"] = e.area;

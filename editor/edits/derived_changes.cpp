@@ -50,7 +50,7 @@ SceneChanges sceneChanges(const DocumentChange& change, const Scene& after) {
   out.sky = change.sky.before.has_value();
   for (const auto& [index, material] : change.materials) {
     if (material.before && material.after)
-      addMaterialChange(out, static_cast<int>(index), *material.before, *material.after, after);
+      addMaterialChange(out, static_cast<int>(index), *material.before, *material.after);
   }
   if (isStructure) return out;  // all nodes are updated in any case
   for (const auto& [id, node] : change.nodes) addNodeChange(out, *node.before, *node.after);

@@ -47,6 +47,7 @@ std::map<NodeId, LightShare> allLights(const Scene& scene, const RenderScene& wo
     if (isMeantToLight(scene, node)) shares[node.id].light = node.id;
   const LightSet lights(world);
   for (const Emitter& e : lights.emitters()) {
+    if (!(luminance(e.flux) > 0.0f)) continue;  // it is off
     LightShare& l = shares[e.node];
     l.light = e.node;
     l.state = LightArrival::unsampled;

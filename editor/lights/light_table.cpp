@@ -180,8 +180,8 @@ std::map<NodeId, double> fluxShares(const RenderScene& scene) {
   std::map<NodeId, double> out;
   double all = 0.0;
   for (const Emitter& e : lights.emitters()) {
-    if (e.node == kWorkLight) continue;
     const double flux = luminance(e.flux);
+    if (e.node == kWorkLight || !(flux > 0.0)) continue;
     out[e.node] += flux;
     all += flux;
   }

@@ -17,6 +17,7 @@ class PatchLights;
 struct ManyLightsTraits {
   bool tracesShadowMaps = false;             // one ray per texel
   bool specularsTakeAllMaps = false;         // glossy pixels need the shadow maps of all lights
+  bool sharesNeedMiddle = false;             // shareOf() needs the pixels without jitter first
   uint64_t mostLightMapTexels = UINT64_MAX;  // upper bound of texels in PatchLights
 };
 
@@ -75,6 +76,15 @@ class ManyLightsKernels : public MethodKernels {
   // The picture of the last sum, as Backend::compose() makes it, with its specular light.
   virtual std::shared_ptr<RadianceImage> compose(bool white) = 0;
   std::shared_ptr<RadianceImage> compose() { return compose(false); }
+
+  // Sums the lights of one of several groups, and composes only the light that surfaces reflect:
+  // no emission, no sky. The groups of one view are numbered from 0; with sharesNeedMiddle, each of
+  // them first at the pixels without jitter. Keeps the sums of sumVpls(), if it keeps any.
+  virtual std::shared_ptr<RadianceImage> shareOf(size_t group, std::span<const shared::Vpl> vpls,
+                                                 const shared::ShadingParams& params,
+                                                 const PatchLights* patches, bool white) = 0;
+  // Frees what shareOf() keeps.
+  virtual void dropShares() {}
 
   // The content of a shadow map (resolution² texels of its size, 1/w), for tests and debug views;
   // empty: the slot has no map.

@@ -2,6 +2,7 @@
 
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
+#include "renderer/sampling/light_gains.h"
 #include "renderer/sampling/light_paths.h"
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/surface.h"
@@ -20,7 +21,10 @@ BakedLight::BakedLight(const RenderScene& scene, const RayCaster& rays,
                        const BakeLightOptions& options)
     : scene_(scene), rays_(rays), options_(options), lights_(scene) {
   // Suns are not divided into tiles, because rays need no shadow maps.
-  if (!options.reference) vpls_ = LightPaths::generate(scene, rays, lights_, options.counts).vpls;
+  if (!options.reference) {
+    vpls_ = LightPaths::generate(scene, rays, lights_, options.counts).vpls;
+    applyGains(lights_, vpls_);
+  }
 }
 
 vec3 BakedLight::irradiance(std::span<const BakePoint> points, uint32_t texel) const {

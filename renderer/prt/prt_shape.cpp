@@ -29,7 +29,8 @@ bool isMostlyComplex(const RenderScene& scene, const RenderObject& o,
 // itself by VPLs that its transfer does not include.
 bool mayHaveTransfer(const RenderScene& scene, const RenderObject& o) {
   const Material& m = scene.materials[static_cast<size_t>(o.material)];
-  return !o.isAreaLight && !m.emits() && !m.isClear() && m.normalTexture.texture == kNone;
+  const bool mayEmit = scene.nominalEmission[static_cast<size_t>(o.material)] != vec3(0.0f);
+  return !o.isAreaLight && !mayEmit && !m.isClear() && m.normalTexture.texture == kNone;
 }
 
 // The longest side of its bounds in its own space [m].

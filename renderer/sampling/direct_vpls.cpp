@@ -30,7 +30,7 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
       }
       break;
     case EmitterKind::punctual:
-      addPunctual(scene_.punctuals[e.punctual], id, scale, vpls);
+      addPunctual(scene_.punctuals[e.punctual], id, vec3(scale * e.reference), vpls);
       break;
     case EmitterKind::sky:
       if (e.skySun > 0) {
@@ -39,7 +39,7 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
         break;
       }
       for (id.index = begin; id.index < end; ++id.index) {
-        const SkyMap::Light light = lights_.sky().sample(numbers_.point(
+        const SkyMap::Light light = lights_.referenceSky().sample(numbers_.point(
             id, id.index, SampleStreams::kDirectionDimension, SampleStreams::direct));
         const vec3 irradiance = scale / static_cast<float>(count) * light.irradiance;
         vpls.push_back(directional(id, light.towards, irradiance));
@@ -52,14 +52,13 @@ void DirectVpls::add(const PathWalker::Source& source, int count, float scale,
 // Batches use different positions on the sun, so that their mean has soft shadows.
 SkyMap::Light DirectVpls::skySun(const Emitter& e, const VplId& id) const {
   const size_t sun = e.skySun - 1;
-  if (batch_ == 0) return lights_.sky().sun(sun);
-  return lights_.sky().sun(
+  if (batch_ == 0) return lights_.referenceSky().sun(sun);
+  return lights_.referenceSky().sun(
       sun, numbers_.point(id, batch_ - 1, SampleStreams::kPlaceDimension, SampleStreams::direct));
 }
 
-void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, float scale,
+void DirectVpls::addPunctual(const RenderPunctual& p, VplId id, const vec3& intensity,
                              std::vector<SceneVpl>& vpls) const {
-  const vec3 intensity = scale * p.light.intensity;
   if (p.light.profile) {
     id.index = 0;
     for (const SpotLobe& lobe : p.light.profile->lobes) {

@@ -12,13 +12,13 @@ class DirectVpls {
   DirectVpls(const RenderScene& scene, const LightSet& lights, const VplCounts& counts)
       : scene_(scene), lights_(lights), numbers_(counts), batch_(counts.batch) {}
 
-  // Appends `count` samples of one emitter with their brightness multiplied by `scale`.
+  // Appends `count` samples of one emitter at its reference brightness, multiplied by `scale`.
   void add(const PathWalker::Source& source, int count, float scale,
            std::vector<SceneVpl>& vpls) const;
 
  private:
   SkyMap::Light skySun(const Emitter& e, const VplId& id) const;
-  void addPunctual(const RenderPunctual& p, VplId id, float scale,
+  void addPunctual(const RenderPunctual& p, VplId id, const vec3& intensity,
                    std::vector<SceneVpl>& vpls) const;
   void addSun(const vec3& towards, const vec3& irradiance, VplId id,
               std::vector<SceneVpl>& vpls) const;

@@ -37,7 +37,7 @@ bool meetSame(const LightPath& a, const LightPath& b) {
 // light is two hemispheres; one with a profile has its lobes. A sun is one sample, independent of
 // its tiles.
 SampleShare shareOf(const RenderScene& scene, const Emitter& e) {
-  const float weight = luminance(e.flux);
+  const float weight = e.referenceFlux;
   if (e.kind == EmitterKind::sky && e.skySun > 0) return {weight, 1, true};
   if (e.kind != EmitterKind::punctual) return {weight, e.bothSides ? 2 : 1, false};
   const PunctualLight& light = scene.punctuals[e.punctual].light;
@@ -53,8 +53,9 @@ bool LightPaths::update(const RenderScene& scene, const RayCaster& rays,
                         std::span<const MoverFinder::Mover> movers, const VplCounts& counts,
                         int mostPaths) {
   work_ = {};
-  const bool isEdited = !changes.none();
+  const bool isEdited = !changes.none() && !changes.onlyGains();
   const bool isAfresh = !started_ || changes.rebuilt || counts != counts_;
+  if (!isAfresh && changes.onlyGains()) lightSet_ = LightSet(scene, lightSet_);
   if (!isAfresh && !isEdited && atRest_) return false;
   if (isAfresh) lights_.clear();
   counts_ = counts;
@@ -90,7 +91,7 @@ void LightPaths::takeLights(const RenderScene& scene, LightSet lights) {
   std::vector<SampleShare> directShares, indirectShares;
   for (const Emitter& e : emitters) {
     directShares.push_back(shareOf(scene, e));
-    indirectShares.push_back({luminance(e.flux), 1, false});
+    indirectShares.push_back({e.referenceFlux, 1, false});
   }
   const SampleCounts directCounts = shareSamples(directShares, direct);
   const int candidates = std::max(counts_.candidates, 1);

@@ -43,18 +43,20 @@ class LightPaths {
   // generateVpls(), independent of the history. If too few paths of a light can stay, all its paths
   // are walked again at once. Rays are traced for at most mostPaths paths (brightness × waiting
   // time decides; 0: no limit). After a change of the counts or of the list of objects, all paths
-  // are walked at once. Returns whether the set may have changed.
+  // are walked at once. Changes of gains alone count as rest. Returns whether the set may have
+  // changed.
   bool update(const RenderScene& scene, const RayCaster& rays, const RenderSceneChanges& changes,
               std::span<const MoverFinder::Mover> movers, const VplCounts& counts,
               int mostPaths = 0);
 
-  // Generates the set without history; suns are not divided into tiles.
+  // Generates the set without history, at the reference brightness of lights; suns are not divided
+  // into tiles.
   static VplSet generate(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                          const VplCounts& counts);
 
   const LightSet& lights() const { return lightSet_; }
-  // All VPLs, with new direct ones: sorted by emitter, direct ones first. Suns are not divided into
-  // tiles.
+  // All VPLs, with new direct ones: sorted by emitter, direct ones first. At the reference
+  // brightness of lights (light_gains.h). Suns are not divided into tiles.
   VplSet set(const RenderScene& scene) const;
 
   // Whether the set is equal to that of generateVpls().

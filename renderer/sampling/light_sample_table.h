@@ -23,6 +23,7 @@ struct LightSampleTable {
   // By slot: the lights to sum. While samples of a light are missing, the others carry its flux, so
   // intensities may be higher than those of the samples. Zero normal: nothing to sum.
   std::vector<shared::Vpl> summed;
+  std::vector<vec3> reference;    // by slot: its intensity at the reference brightness of its light
   std::vector<uint8_t> needsMap;  // by slot: the view reads its shadow map
   std::vector<uint8_t> hasMap;    // by slot: it has a shadow map, of the light as it is shown
 
@@ -36,6 +37,15 @@ struct LightSampleTable {
     return found;
   }
   std::vector<shared::Vpl> summedInOrder() const;
+  // Sums the samples at the reference brightness of their lights (reference_brightness.h), times
+  // what `factor` gives for each sample.
+  template <typename Factor>
+  void sumAtReference(const Factor& factor) {
+    for (const LightSample& sample : samples) {
+      const auto slot = static_cast<size_t>(sample.vpl.slot);
+      summed[slot].intensity = factor(sample) * reference[slot];
+    }
+  }
   // Sums only the samples for which the predicate is true.
   template <typename Is>
   void sumOnly(const Is& is) {

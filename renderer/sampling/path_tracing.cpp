@@ -59,7 +59,7 @@ EmitterSample sampleEmitter(const RenderScene& scene, const LightSet& lights,
   EmitterSample p;
   p.normal = side * at.normal;
   p.position = at.position + rayEpsilon(at.position) * p.normal;
-  p.flux = kPi * at.area * static_cast<float>(parts) * at.radiance;
+  p.flux = kPi * at.area * static_cast<float>(parts) * (e.reference * at.share);
   p.area = at.area * static_cast<float>(parts);
   return p;
 }
@@ -99,8 +99,12 @@ Departure PathWalker::depart(const Source& source, uint32_t index) const {
       break;
   }
   const SkyMap::Light light =
-      e.skySun > 0 ? lights_.sky().sun(e.skySun - 1, u) : lights_.sky().sample(u);
+      e.skySun > 0 ? lights_.referenceSky().sun(e.skySun - 1, u) : lights_.referenceSky().sample(u);
   return departParallel(source, light.towards, light.irradiance, index);
+}
+
+float PathWalker::reference(const Source& source) const {
+  return lights_.emitters()[static_cast<size_t>(source.emitter)].reference;
 }
 
 Departure PathWalker::departSurface(const Source& source, uint32_t index, vec2 u) const {
@@ -117,7 +121,7 @@ Departure PathWalker::departSurface(const Source& source, uint32_t index, vec2 u
 Departure PathWalker::departPunctual(const Source& source, const RenderPunctual& p, uint32_t index,
                                      vec2 u) const {
   if (p.light.kind == PunctualKind::directional)
-    return departParallel(source, -p.direction, p.light.intensity, index);
+    return departParallel(source, -p.direction, vec3(reference(source)), index);
   Departure d;
   d.origin = p.position;
   d.spread = Departure::Spread::cap;
@@ -130,14 +134,14 @@ Departure PathWalker::departPunctual(const Source& source, const RenderPunctual&
   }
   if (p.light.kind == PunctualKind::point) {
     d.direction = sampleSphere(u);
-    d.flux = 4.0f * kPi * p.light.intensity;
+    d.flux = vec3(4.0f * kPi * reference(source));
     return d;
   }
   d.normal = p.direction;
   d.cap = 1.0f - std::cos(p.light.outerCone);
   const vec3 local = sampleCap(d.cap, u);
   d.direction = Frame(p.direction).toWorld(local);
-  d.flux = 2.0f * kPi * d.cap * SpotCone(p.light).at(local.z) * p.light.intensity;
+  d.flux = vec3(2.0f * kPi * d.cap * SpotCone(p.light).at(local.z) * reference(source));
   return d;
 }
 
@@ -176,11 +180,11 @@ vec3 PathWalker::fluxAlong(const Source& source, const Departure& start,
   const RenderPunctual& p = scene_.punctuals[e.punctual];
   if (p.light.profile) {
     const float share = p.light.profile->at(glm::transpose(p.axes) * direction);
-    return 2.0f * kPi * start.cap * share * p.light.intensity;
+    return vec3(2.0f * kPi * start.cap * share * e.reference);
   }
   if (p.light.kind != PunctualKind::spot) return start.flux;
   const float attenuation = SpotCone(p.light).at(glm::dot(p.direction, direction));
-  return 2.0f * kPi * start.cap * attenuation * p.light.intensity;
+  return vec3(2.0f * kPi * start.cap * attenuation * e.reference);
 }
 
 PathStep PathWalker::step(const vec3& origin, const vec3& direction) const {

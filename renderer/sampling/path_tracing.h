@@ -19,7 +19,8 @@ struct Departure {
   enum class Spread : uint8_t { cosine, cap, parallel };
   vec3 origin{0.0f}, direction{0.0f};
   vec3 normal{0.0f, 0.0f, 1.0f};
-  vec3 flux{0.0f};  // the flux of the path if it were the only one [W]
+  // The flux of the path if it were the only one [W], at the light's reference brightness.
+  vec3 flux{0.0f};
   Spread spread = Spread::cosine;
   float cap = 2.0f;  // 1 − cos of the half-angle; 2: the whole sphere
 
@@ -80,6 +81,7 @@ class PathWalker {
   const RayCaster& rays() const { return rays_; }
 
  private:
+  float reference(const Source& source) const;
   Departure departSurface(const Source& source, uint32_t index, vec2 u) const;
   Departure departPunctual(const Source& source, const RenderPunctual& p, uint32_t index,
                            vec2 u) const;
@@ -107,7 +109,7 @@ std::vector<VplId> emitterIds(const LightSet& lights);
 // Sample number `index` on an emitter that is a surface.
 struct EmitterSample {
   vec3 position, normal;
-  vec3 flux;   // flux if it were the only sample [W]
+  vec3 flux;   // flux if it were the only sample [W], at the light's reference brightness
   float area;  // area if it were the only sample [m²]
 };
 EmitterSample sampleEmitter(const RenderScene& scene, const LightSet& lights,

@@ -1,5 +1,6 @@
 #include "renderer/sampling/vpl_set.h"
 
+#include "renderer/sampling/light_gains.h"
 #include "renderer/sampling/light_paths.h"
 #include "renderer/sampling/sun_shadow_tiles.h"
 
@@ -8,6 +9,7 @@ namespace lamplighter {
 VplSet generateVpls(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                     const VplCounts& counts, const View* view) {
   VplSet set = LightPaths::generate(scene, rays, lights, counts);
+  applyGains(lights, set.vpls);
   divideSuns(set.vpls, scene, rays, view, counts.sunMaps);
   return set;
 }

@@ -8,6 +8,7 @@
 #include "renderer/scene/light_linking.h"
 #include "renderer/scene/light_picture.h"
 #include "renderer/scene/light_shapes.h"
+#include "renderer/scene/reference_brightness.h"
 
 namespace lamplighter {
 
@@ -122,12 +123,13 @@ RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
   RenderPunctual r;
   r.node = node.id;
   r.light = *node.punctual;
-  if (!shines) r.light.intensity = vec3(0.0f);
   r.position = vec3(world[3]);
   const vec3 aim = mat3(world) * vec3(0, 0, -1);
   const float length = glm::length(aim);
   if (length > 0.0f) r.direction = aim / length;
   if (r.light.profile) r.light.intensity *= r.light.profile->atTilt(r.direction);
+  r.nominal = r.light.intensity;
+  if (!shines) r.light.intensity = vec3(0.0f);
   // Scale, shear and mirroring only affect the direction of X.
   const vec3 z = -r.direction, x = vec3(world[0]) - glm::dot(vec3(world[0]), z) * z;
   const vec3 right = glm::length(x) > 0.0f ? glm::normalize(x) : Frame(z).tangent;
@@ -135,11 +137,20 @@ RenderPunctual placed(const Node& node, const mat4& world, bool shines) {
   return r;
 }
 
+// Index into RenderScene::materials.
+int materialOf(const RenderScene& render, const Scene& scene, const Primitive& p, bool shines) {
+  if (p.material == kNone) return static_cast<int>(scene.materials.size());
+  const bool isDark = !shines && scene.materials[static_cast<size_t>(p.material)].emits();
+  return p.material + (isDark ? render.firstDark : 0);
+}
+
 void rebuild(RenderScene& render, const Scene& scene) {
   render = RenderScene();
   render.materials = scene.materials;
-  const int defaultMaterial = static_cast<int>(render.materials.size());
-  render.materials.emplace_back().metallic = 0.0f;
+  render.materials.emplace_back().metallic = 0.0f;  // the default material
+  render.firstDark = static_cast<int>(
+      render.materials.size() +
+      std::ranges::count_if(scene.nodes, [](const Node& n) { return n.area.has_value(); }));
   render.textures = scene.textures;
   const Pictures pictures(scene);
   for (const LightPicture* p : pictures.shown)
@@ -150,11 +161,6 @@ void rebuild(RenderScene& render, const Scene& scene) {
   const LightLinks links = lightLinks(scene);
   render.hasLinks = links.count > 0;
   render.skyLink = links.ofSky;
-  struct Dark {
-    size_t object;
-    int material;
-  };
-  std::vector<Dark> dark;
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
     if (node.area)
@@ -164,11 +170,8 @@ void rebuild(RenderScene& render, const Scene& scene) {
     if (node.mesh != kNone) {
       for (const Primitive& p : scene.meshes[node.mesh]->primitives) {
         if (p.indices.empty()) continue;
-        append(render, node.id, p, world[i], p.material == kNone ? defaultMaterial : p.material,
-               false);
+        append(render, node.id, p, world[i], materialOf(render, scene, p, shining[i]), false);
         render.objects.back().kind = node.meshKind;
-        if (!shining[i] && p.material != kNone && scene.materials[p.material].emits())
-          dark.push_back({render.objects.size() - 1, p.material});
       }
     }
     if (node.area) {
@@ -184,17 +187,13 @@ void rebuild(RenderScene& render, const Scene& scene) {
       render.punctuals.back().link = links.ofLight[i];
     }
   }
-  const auto firstDark = static_cast<int>(render.materials.size());
-  for (const Dark& d : dark) {
-    const auto known =
-        std::find(render.darkMaterials.begin(), render.darkMaterials.end(), d.material);
-    const auto index = static_cast<int>(known - render.darkMaterials.begin());
-    if (known == render.darkMaterials.end()) {
-      render.darkMaterials.push_back(d.material);
-      render.materials.push_back(darkCopy(scene.materials[d.material]));
-    }
-    render.objects[d.object].material = firstDark + index;
-  }
+  for (const Material& m : scene.materials) render.materials.push_back(darkCopy(m));
+  for (const Material& m : render.materials) render.nominalEmission.push_back(m.emissive);
+  size_t ofAreaLight = scene.materials.size() + 1;
+  for (const Node& node : scene.nodes)
+    if (node.area) render.nominalEmission[ofAreaLight++] = node.area->radiance;
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    render.nominalEmission[static_cast<size_t>(render.firstDark) + i] = scene.materials[i].emissive;
 }
 
 void findBounds(RenderScene& render) {
@@ -224,6 +223,11 @@ void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& ch
         while (primitives[primitive].indices.empty()) ++primitive;
         p = &primitives[primitive++];
       }
+      if (p != nullptr) {
+        const int material = materialOf(render, scene, *p, shining[i]);
+        if (o.material != material) out.switchedObjects.push_back(object);
+        o.material = material;
+      }
       if (!moved) continue;
       out.movedObjects.push_back(object);
       out.movedBounds.push_back(o.bounds);
@@ -237,17 +241,25 @@ void moveObjects(RenderScene& render, const Scene& scene, const SceneChanges& ch
     const auto it = std::find_if(scene.nodes.begin(), scene.nodes.end(),
                                  [&](const Node& n) { return n.id == p.node; });
     const auto index = static_cast<size_t>(it - scene.nodes.begin());
-    const uint32_t link = p.link;  // a different link would be a change of structure
+    RenderPunctual before = std::move(p);
     p = placed(*it, world[index], shining[index]);
-    p.link = link;
-    out.lights = true;
+    p.link = before.link;  // a different link would be a change of structure
+    out.gains |= before.light.intensity != p.light.intensity;
+    out.references |= referenceBrightness(before.nominal) != referenceBrightness(p.nominal);
+    before.light.intensity = p.light.intensity;
+    before.nominal = p.nominal;
+    out.lights |= !(before == p);
   }
 }
 
 // Replaces a material, and adds to `out` what changed: of an area light's surface, which reflects
-// nothing, and of a material that emits before and after, perhaps only the emission.
-void takeMaterial(RenderScene& render, size_t index, Material now, bool isOfAreaLight,
-                  RenderSceneChanges& out) {
+// nothing, and of a material that emits before and after, perhaps only the emission. `nominal`: the
+// emission while its light is on.
+void takeMaterial(RenderScene& render, size_t index, Material now, const vec3& nominal,
+                  bool isOfAreaLight, RenderSceneChanges& out) {
+  vec3& known = render.nominalEmission[index];
+  out.references |= referenceBrightness(known) != referenceBrightness(nominal);
+  known = nominal;
   Material& material = render.materials[index];
   if (material == now) return;
   std::swap(material, now);
@@ -267,11 +279,21 @@ void takeEmitters(RenderScene& render, const Scene& scene, RenderSceneChanges& o
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     if (scene.nodes[i].area)
       takeMaterial(render, next++,
-                   emitterMaterial(*scene.nodes[i].area, shining[i], pictures.ofNode[i]), true,
-                   out);
+                   emitterMaterial(*scene.nodes[i].area, shining[i], pictures.ofNode[i]),
+                   scene.nodes[i].area->radiance, true, out);
   }
-  for (const int material : render.darkMaterials)
-    takeMaterial(render, next++, darkCopy(scene.materials[material]), false, out);
+  for (const Material& m : scene.materials)
+    takeMaterial(render, next++, darkCopy(m), m.emissive, false, out);
+}
+
+void takeSky(RenderScene& render, const Scene& scene, RenderSceneChanges& out) {
+  const Sky sky = shiningLights(scene).sky ? scene.sky : Sky();
+  out.gains |= render.sky != sky;
+  out.sky = out.rebuilt || render.nominalSky.withFactor(1.0f) != scene.sky.withFactor(1.0f);
+  out.references |=
+      referenceBrightness(render.nominalSky.factor()) != referenceBrightness(scene.sky.factor());
+  render.sky = sky;
+  render.nominalSky = scene.sky;
 }
 
 }  // namespace
@@ -281,12 +303,18 @@ void RenderSceneChanges::merge(const RenderSceneChanges& later) {
   materials |= later.materials;
   lights |= later.lights;
   sky |= later.sky;
+  gains |= later.gains;
+  references |= later.references;
   if (rebuilt) {
     movedObjects.clear();
     movedBounds.clear();
     emissions.clear();
+    switchedObjects.clear();
     return;
   }
+  std::vector<uint32_t> switched;
+  std::ranges::set_union(switchedObjects, later.switchedObjects, std::back_inserter(switched));
+  switchedObjects = std::move(switched);
   std::vector<int> both;
   std::set_union(emissions.begin(), emissions.end(), later.emissions.begin(), later.emissions.end(),
                  std::back_inserter(both));
@@ -309,12 +337,11 @@ RenderSceneChanges update(RenderScene& render, const Scene& scene, const SceneCh
   } else {
     if (!changes.moved.empty() || !changes.lights.empty()) moveObjects(render, scene, changes, out);
     for (const int i : changes.materials)
-      takeMaterial(render, static_cast<size_t>(i), scene.materials[i], false, out);
+      takeMaterial(render, static_cast<size_t>(i), scene.materials[i], scene.materials[i].emissive,
+                   false, out);
     takeEmitters(render, scene, out);
   }
-  const Sky sky = shiningLights(scene).sky ? scene.sky : Sky();
-  out.sky = render.sky != sky || out.rebuilt;
-  render.sky = sky;
+  takeSky(render, scene, out);
   findBounds(render);
   return out;
 }

@@ -29,11 +29,14 @@ struct RenderObject {
 // A punctual light in world space.
 struct RenderPunctual {
   NodeId node = kNoNode;
-  PunctualLight light;  // intensity includes the tilt factor of its profile
+  PunctualLight light;  // intensity includes the tilt factor of its profile; 0 while it is off
+  vec3 nominal{0.0f};   // its intensity while it is on
   vec3 position{0.0f};
   vec3 direction{0.0f, 0.0f, -1.0f};  // unit; the direction in which it aims
   mat3 axes{1.0f};                    // its X, Y and Z axes, orthonormal; Z is −direction
   uint32_t link = 0;                  // light_linking.h
+
+  bool operator==(const RenderPunctual&) const = default;
 };
 
 struct RenderScene {
@@ -46,13 +49,16 @@ struct RenderScene {
   std::vector<vec4> colors;
   std::vector<uint32_t> indices;
   std::vector<RenderObject> objects;
-  // Scene::materials, then the default material, then one for each area light (albedo 0), then
-  // copies without emission for emissive meshes that are switched off.
+  // Scene::materials, then the default material, then one for each area light (albedo 0), then a
+  // copy of each of Scene::materials without emission, for meshes that are switched off.
   std::vector<Material> materials;
-  std::vector<int> darkMaterials;  // by copy: index into Scene::materials
-  std::vector<Texture> textures;   // Scene::textures, then those of pictures on area lights
+  int firstDark = 0;  // index of the first of these copies
+  // By material: the emission while its light is on [W/(m² sr)].
+  std::vector<vec3> nominalEmission;
+  std::vector<Texture> textures;  // Scene::textures, then those of pictures on area lights
   std::vector<RenderPunctual> punctuals;
-  Sky sky;
+  Sky sky;                // black while it is off
+  Sky nominalSky;         // while it is on
   uint32_t skyLink = 0;   // light_linking.h
   bool hasLinks = false;  // some light leaves objects out
   Bounds bounds;          // of all objects
@@ -77,10 +83,21 @@ struct RenderSceneChanges {
   bool materials = false;              // parameters of materials changed (not the number of
                                        // materials), beyond the radiance that they emit
   std::vector<int> emissions;  // sorted; materials of which only the emitted radiance changed
-  bool lights = false;         // punctual lights changed or moved
-  bool sky = false;
+  // Sorted; objects whose emission was switched on or off: they have another material, which
+  // differs only in its emission.
+  std::vector<uint32_t> switchedObjects;
+  bool lights = false;  // punctual lights moved, or changed in more than brightness
+  bool sky = false;     // changed in more than brightness
+  bool gains = false;   // the brightness of punctual lights or of the sky changed
+  // The reference brightness of a light changed (reference_brightness.h), so that its number of
+  // samples may be another one.
+  bool references = false;
 
-  bool none() const { return !surfaces() && emissions.empty() && !lights && !sky; }
+  bool none() const {
+    return !surfaces() && emissions.empty() && switchedObjects.empty() && !lights && !sky && !gains;
+  }
+  // Whether only the brightness of lights changed, in steps that change no light sample.
+  bool onlyGains() const { return !none() && !surfaces() && !lights && !sky && !references; }
   // Whether anything that receives, reflects or blocks light changed, and not just the light that
   // is emitted.
   bool surfaces() const { return rebuilt || !movedObjects.empty() || materials; }

@@ -9,7 +9,7 @@ namespace lamplighter {
 
 bool sameStructure(const Node& before, const Node& after);
 void addMaterialChange(SceneChanges& changes, int index, const Material& before,
-                       const Material& after, const Scene& sceneAfter);
+                       const Material& after);
 // For two nodes with the same structure.
 void addNodeChange(SceneChanges& changes, const Node& before, const Node& after);
 // Adds the nodes below those that moved. Sorts the lists of nodes.

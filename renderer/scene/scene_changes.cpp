@@ -24,12 +24,6 @@ bool looksEqual(Material a, const Material& b) {
   return a == b;
 }
 
-bool meshEmits(const Scene& scene, Node node) {
-  node.area.reset();
-  node.punctual.reset();
-  return emitsLight(scene, node);
-}
-
 bool sameStructure(const Scene& a, const Scene& b) {
   return a.meshes == b.meshes && a.textures == b.textures &&
          a.materials.size() == b.materials.size() &&
@@ -59,13 +53,11 @@ bool sameStructure(const Node& m, const Node& n) {
 }
 
 void addMaterialChange(SceneChanges& changes, int index, const Material& before,
-                       const Material& after, const Scene& sceneAfter) {
+                       const Material& after) {
   if (looksEqual(before, after)) return;
   changes.materials.push_back(index);
-  // Clear and masked surfaces change the occluders; emission changes the lights.
+  // Clear and masked surfaces change the occluders.
   if (before.isClear() != after.isClear()) changes.structure = true;
-  // An object that is switched off has a material of its own.
-  if (before.emits() != after.emits() && anyLightDark(sceneAfter)) changes.structure = true;
 }
 
 void addNodeChange(SceneChanges& changes, const Node& m, const Node& n) {
@@ -92,7 +84,7 @@ SceneChanges compare(const Scene& before, const Scene& after) {
   SceneChanges changes;
   changes.sky = before.sky != after.sky;
   for (size_t i = 0; i < std::min(before.materials.size(), after.materials.size()); ++i)
-    addMaterialChange(changes, static_cast<int>(i), before.materials[i], after.materials[i], after);
+    addMaterialChange(changes, static_cast<int>(i), before.materials[i], after.materials[i]);
   if (!sameStructure(before, after) || lightLinks(before) != lightLinks(after)) {
     changes.structure = true;
     return changes;  // all nodes are updated in any case
@@ -104,8 +96,7 @@ SceneChanges compare(const Scene& before, const Scene& after) {
     const Node& n = after.nodes[i];
     addNodeChange(changes, before.nodes[i], n);
     if (shone.nodes[i] == shining.nodes[i]) continue;
-    if (n.area || n.punctual) changes.lights.push_back(n.id);
-    if (n.mesh != kNone) changes.structure |= meshEmits(after, n);
+    changes.lights.push_back(n.id);
   }
   addMovedChildren(changes, after);
   return changes;

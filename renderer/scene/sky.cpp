@@ -82,6 +82,25 @@ bool Sky::isBlack() const {
   return !(scale > 0.0f) || (!(luminance(map.irradiance()) > 0.0f) && map.suns().empty());
 }
 
+vec3 Sky::factor() const {
+  switch (kind) {
+    case SkyKind::constant:
+      return radiance;
+    case SkyKind::gradient:
+      return vec3(1.0f);
+    case SkyKind::image:
+      break;
+  }
+  return vec3(scale);
+}
+
+Sky Sky::withFactor(float factor) const {
+  Sky sky = *this;
+  if (kind == SkyKind::constant) sky.radiance = vec3(factor);
+  if (kind == SkyKind::image) sky.scale = factor;
+  return sky;
+}
+
 bool Sky::operator==(const Sky& o) const {
   const bool sameImage = image == o.image || (image && o.image && image->hash == o.image->hash &&
                                               image->pixels.width == o.image->pixels.width &&

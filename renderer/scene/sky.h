@@ -49,6 +49,10 @@ struct Sky {
   vec3 radianceFrom(const vec3& towards) const;
   // Whether it gives no light.
   bool isBlack() const;
+  // What multiplies the light of the sky: its colour, or the scale of its picture. 1 for gradients.
+  vec3 factor() const;
+  // The same sky with another factor. Gradients stay as they are.
+  Sky withFactor(float factor) const;
   bool operator==(const Sky& other) const;
 };
 

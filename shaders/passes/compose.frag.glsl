@@ -4,13 +4,14 @@
 #include "shared/sky.h"
 
 layout(binding = kGAlbedo) uniform sampler2D uAlbedo;
-layout(binding = kGEmission) uniform sampler2D uEmission;
+layout(binding = kGEmission) uniform sampler2D uEmitted;
 layout(binding = kIrradiance) uniform sampler2D uIrradiance;
 layout(binding = kSkyPicture) uniform sampler2D uSkyPicture;
 layout(location = 0) uniform vec3 uSky;   // constant, or the gradient's horizon
 layout(location = 1) uniform int uWhite;  // 1: all surfaces white
 layout(location = 2) uniform vec3 uZenith;
 layout(location = 3) uniform vec3 uGround;
+layout(location = 4) uniform int uEmission;  // 0: only the light that surfaces reflect
 layout(location = 5) uniform vec2 uSkyPictureUse;  // rotation [rad], scale
 // The view ray of the picture's top left corner (not normalised), and its change per pixel.
 layout(location = 6) uniform vec3 uCorner;
@@ -47,7 +48,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 surface = texelFetch(uAlbedo, pixel, 0);
   if (surface.a == 0.0) {
-    outRadiance = vec4(skySeen(vec2(pixel)), 1.0);
+    outRadiance = vec4(uEmission != 0 ? skySeen(vec2(pixel)) : vec3(0.0), 1.0);
     return;
   }
   const float kInversePi = 0.318309886;
@@ -55,6 +56,7 @@ void main() {
   // Clamped at 0: light maps are interpolated, but the shadows subtracted from them are not.
   vec3 irradiance = texelFetch(uIrradiance, pixel, 0).rgb;
   irradiance = mix(irradiance, vec3(0.0), lessThan(irradiance, vec3(0.0)));
-  vec3 radiance = texelFetch(uEmission, pixel, 0).rgb + albedo * kInversePi * irradiance;
+  vec3 radiance = albedo * kInversePi * irradiance;
+  if (uEmission != 0) radiance += texelFetch(uEmitted, pixel, 0).rgb;
   outRadiance = vec4(radiance, 1.0);
 }

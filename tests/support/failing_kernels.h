@@ -44,6 +44,12 @@ class FailingKernels final : public ManyLightsKernels {
     hooks_->compose();
     return inner_->compose(white);
   }
+  std::shared_ptr<RadianceImage> shareOf(size_t group, std::span<const shared::Vpl> vpls,
+                                         const shared::ShadingParams& params,
+                                         const PatchLights* patches, bool white) override {
+    return inner_->shareOf(group, vpls, params, patches, white);
+  }
+  void dropShares() override { inner_->dropShares(); }
   std::vector<float> readShadowMap(int slot) override { return inner_->readShadowMap(slot); }
 
  private:

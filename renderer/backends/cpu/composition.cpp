@@ -15,7 +15,7 @@ vec3 Background::at(int x, int y) const {
                                             static_cast<float>(y) + 0.5f + jitter.y));
 }
 
-void compose(const GBuffer& g, const PacketLight& light, const Background& background, bool white,
+void compose(const GBuffer& g, const PacketLight& light, const Background* background, bool white,
              Image& out) {
   tbb::parallel_for(0, g.tiles(), [&](int tile) {
     const int tileX = tile % g.tilesX * kTileSize, tileY = tile / g.tilesX * kTileSize;
@@ -31,14 +31,17 @@ void compose(const GBuffer& g, const PacketLight& light, const Background& backg
                                const std::vector<float>& emission) {
         const Floats8 scaled = hn::Mul(hn::LoadU(kTag, e), inversePi);
         const Floats8 reflected = white ? scaled : hn::Mul(hn::LoadU(kTag, &albedo[first]), scaled);
-        return hn::Add(hn::LoadU(kTag, &emission[first]), reflected);
+        return background == nullptr ? reflected
+                                     : hn::Add(hn::LoadU(kTag, &emission[first]), reflected);
       };
       float pixels[3 * kLanes];
       hn::StoreInterleaved3(channel(irradiance.r, g.ar, g.er), channel(irradiance.g, g.ag, g.eg),
                             channel(irradiance.b, g.ab, g.eb), kTag, pixels);
       for (int lane = 0; lane < kLanes; ++lane) {
         if (g.hit[first + static_cast<size_t>(lane)] != 0) continue;
-        const vec3 sky = background.at(x + lane % kPacketWidth, y + lane / kPacketWidth);
+        const vec3 sky = background == nullptr
+                             ? vec3(0.0f)
+                             : background->at(x + lane % kPacketWidth, y + lane / kPacketWidth);
         std::memcpy(&pixels[3 * lane], &sky, sizeof(vec3));
       }
       const int columns = std::min(kPacketWidth, g.width - x),
@@ -73,7 +76,7 @@ void compose(const GBuffer& g, const Image& irradiance, const Background& backgr
     }
     return PacketIrradianceView{room.r, room.g, room.b};
   };
-  compose(g, light, background, white, out);
+  compose(g, light, &background, white, out);
 }
 
 }  // namespace lamplighter::cpu

@@ -28,9 +28,9 @@ struct PacketIrradianceView {
 using PacketLight =
     std::function<PacketIrradianceView(int tile, int packet, PacketIrradiance& room)>;
 
-// Le + ρ/π · E of each pixel; the sky where nothing is hit. `white`: with ρ = 1. The image has the
-// size of the G-buffer.
-void compose(const GBuffer& gbuffer, const PacketLight& light, const Background& background,
+// Le + ρ/π · E of each pixel; the sky where nothing is hit. `background` null: only ρ/π · E.
+// `white`: with ρ = 1. The image has the size of the G-buffer.
+void compose(const GBuffer& gbuffer, const PacketLight& light, const Background* background,
              bool white, Image& out);
 // The same with E in an image of that size.
 void compose(const GBuffer& gbuffer, const Image& irradiance, const Background& background,

@@ -32,6 +32,7 @@ void CpuBackend::takeScene(const RenderScene& scene, const RenderSceneChanges& c
   }
   moves_.insert(moves_.end(), changes.movedBounds.begin(), changes.movedBounds.end());
   for (const uint32_t i : changes.movedObjects) moves_.push_back(scene.objects[i].bounds);
+  for (const uint32_t i : changes.switchedObjects) moves_.push_back(scene.objects[i].bounds);
   // The G-buffer has the emission of surfaces.
   for (const RenderObject& o : scene.objects)
     if (std::binary_search(changes.emissions.begin(), changes.emissions.end(), o.material))

@@ -37,9 +37,10 @@ class GlBackend final : public Backend {
   const GlGBuffer& gbuffer() const { return gbuffer_; }
   const std::filesystem::path& shaders() const { return shaders_; }  // the folder
   // Like compose() above, with E in the RGB of a float texture of the size of the G-buffer.
-  // Negative values count as zero.
-  std::shared_ptr<RadianceTexture> compose(GLuint irradiance, bool white) {
-    return composition_.compose(gbuffer_, scene_.scene().sky, irradiance, white);
+  // Negative values count as zero. Without emission: only the light that surfaces reflect.
+  std::shared_ptr<RadianceTexture> compose(GLuint irradiance, bool white,
+                                           bool withEmission = true) {
+    return composition_.compose(gbuffer_, scene_.scene().sky, irradiance, white, withEmission);
   }
 
   // Compiles all shaders again, also those of kernels. If they have errors it throws ShaderError,

@@ -73,7 +73,8 @@ const Program& GlComposition::setSky(const GlGBuffer& gbuffer, const Sky& sky) {
 }
 
 std::shared_ptr<RadianceTexture> GlComposition::compose(const GlGBuffer& gbuffer, const Sky& sky,
-                                                        GLuint irradiance, bool white) {
+                                                        GLuint irradiance, bool white,
+                                                        bool withEmission) {
   resize(gbuffer.width(), gbuffer.height());
   auto picture = freePicture();
   glNamedFramebufferTexture(pictureFramebuffer_.name(), GL_COLOR_ATTACHMENT0, picture->texture(),
@@ -83,6 +84,7 @@ std::shared_ptr<RadianceTexture> GlComposition::compose(const GlGBuffer& gbuffer
   glBindTextureUnit(shared::kIrradiance, irradiance);
   const Program& compose = setSky(gbuffer, sky);
   compose.set(1, white ? 1 : 0);
+  compose.set(4, withEmission ? 1 : 0);
   compose.use();
   drawFullScreen(emptyVertexArray_.name());
   return picture;

@@ -16,9 +16,9 @@ class GlComposition {
   void reload(const std::filesystem::path& shaders);
 
   // Le + ρ/π · E of each pixel; the sky where nothing is hit. `irradiance`: a texture of the size
-  // of the G-buffer. `white`: with ρ = 1.
+  // of the G-buffer. `white`: with ρ = 1. Without emission: only ρ/π · E.
   std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const Sky& sky,
-                                           GLuint irradiance, bool white);
+                                           GLuint irradiance, bool white, bool withEmission = true);
   // The same with E in main memory.
   std::shared_ptr<RadianceTexture> compose(const GlGBuffer& gbuffer, const Sky& sky,
                                            const Image& irradiance, bool white);

@@ -89,7 +89,8 @@ void GlScene::update(const RenderScene& scene, const RenderSceneChanges& changes
   } else {
     for (const uint32_t i : changes.movedObjects) uploadObject(scene.objects[i]);
   }
-  if (all || changes.materials || !changes.emissions.empty()) uploadMaterials();
+  if (all || changes.materials || !changes.emissions.empty() || !changes.switchedObjects.empty())
+    uploadMaterials();
 }
 
 void GlScene::uploadGeometry() {

@@ -7,7 +7,6 @@
 
 #include "renderer/base/random.h"
 #include "renderer/scene/light_linking.h"
-#include "renderer/scene/surface.h"
 #include "renderer/scene/vpl.h"
 #include "shaders/shared/brdf.h"
 #include "shaders/shared/vpl_shading.h"
@@ -30,12 +29,14 @@ constexpr int kRaysAtOnce = 8;
 BiasCompensation::BiasCompensation(const RenderScene& scene, const RayCaster& rays,
                                    std::span<const SceneVpl> vpls, const Options& options)
     : scene_(scene), rays_(rays), options_(options) {
-  for (const SceneVpl& v : vpls) {
+  const auto groupOf = [&](size_t i) { return options.groups.empty() ? 0 : options.groups[i]; };
+  for (size_t i = 0; i < vpls.size(); ++i) {
+    const SceneVpl& v = vpls[i];
     if (!v.isOfSun()) continue;
     const auto isIt = [&](const Sun& sun) { return sun.set == v.id.set(); };
     if (std::none_of(suns_.begin(), suns_.end(), isIt))
       suns_.push_back({v.id.set(), vec3(v.vpl.normal), v.vpl.intensity,
-                       static_cast<uint32_t>(v.vpl.footprint.y)});
+                       static_cast<uint32_t>(v.vpl.footprint.y), groupOf(i)});
   }
   choices_.resize(static_cast<size_t>(std::max(options.bounces, 0)));
   for (size_t bounce = 0; bounce < choices_.size(); ++bounce) {
@@ -43,7 +44,7 @@ BiasCompensation::BiasCompensation(const RenderScene& scene, const RayCaster& ra
     float total = 0.0f;
     for (size_t i = 0; i < vpls.size(); ++i) {
       if (vpls[i].id.bounce > bounce || vpls[i].isOfSun()) continue;
-      choice.entries.push_back({vpls[i].vpl, brightness(vpls[i].vpl), 0.0f});
+      choice.entries.push_back({vpls[i].vpl, brightness(vpls[i].vpl), 0.0f, groupOf(i)});
       total += choice.entries.back().brightness;
     }
     const float even = kEvenChoices / static_cast<float>(choice.entries.size());
@@ -79,8 +80,27 @@ size_t BiasCompensation::Choice::find(float below) const {
   return i;
 }
 
+struct BiasCompensation::Sink {
+  std::vector<Contribution>* contributions = nullptr;
+  uint32_t pixel = 0;
+  float scale = 1.0f;
+  vec3 sum{0.0f};  // of all groups, if contributions are not wanted
+
+  void add(uint32_t group, const vec3& light) {
+    if (contributions == nullptr) {
+      sum += scale * light;
+    } else if (!contributions->empty() && contributions->back().pixel == pixel &&
+               contributions->back().group == group) {
+      contributions->back().light += scale * light;
+    } else {
+      contributions->push_back({pixel, group, scale * light});
+    }
+  }
+};
+
 void BiasCompensation::findRows(const View& view, vec2 jitter, int first, int last,
-                                std::span<Pixel> pixels) const {
+                                std::span<Pixel> pixels,
+                                std::span<std::vector<Contribution>> byRow) const {
   tbb::parallel_for(first, last, [&](int y) {
     for (int x0 = 0; x0 < view.width; x0 += kRaysAtOnce) {
       std::array<Ray, kRaysAtOnce> rays;
@@ -94,14 +114,16 @@ void BiasCompensation::findRows(const View& view, vec2 jitter, int first, int la
       rays_.intersect8(rays, hits, Surfaces::seen);
       for (int i = 0; i < std::min(kRaysAtOnce, view.width - x0); ++i) {
         const auto index = static_cast<uint32_t>(y * view.width + x0 + i);
-        pixels[index] = pixel(rays[i].direction, hits[i], index);
+        pixels[index] = pixel(rays[i].direction, hits[i], index,
+                              byRow.empty() ? nullptr : &byRow[static_cast<size_t>(y)]);
       }
     }
   });
 }
 
 BiasCompensation::Pixel BiasCompensation::pixel(const vec3& direction, const Hit& hit,
-                                                uint32_t index) const {
+                                                uint32_t index,
+                                                std::vector<Contribution>* contributions) const {
   if (!hit) return {};
   const Surface s = surfaceAt(scene_, hit.object, hit.triangle, hit.u, hit.v);
   const float side = glm::dot(direction, s.geometricNormal) < 0.0f ? 1.0f : -1.0f;
@@ -117,22 +139,22 @@ BiasCompensation::Pixel BiasCompensation::pixel(const vec3& direction, const Hit
   const bool isWhole =
       hit.object < options_.reflectsWithin.size() && options_.reflectsWithin[hit.object] != 0;
   const uint32_t whole = isWhole ? hit.object : kNoObject;
-  vec3 sum(0.0f);
+  Sink sink{contributions, index, 1.0f / static_cast<float>(options_.paths)};
   for (uint32_t path = 0; path < options_.paths; ++path) {
     PathSampler sampler(index, options_.sample * options_.paths + path, options_.seed);
-    sum += gather(from, whole, side * s.normal, sampler);
+    gather(from, whole, side * s.normal, sampler, sink);
   }
-  return {sum / static_cast<float>(options_.paths), albedo, s.position, normal};
+  return {sink.sum, albedo, s.position, normal};
 }
 
 // With cosine-distributed directions, the true light minus the clamped light is
 //   mean of L(y) (1 − d²/d0²) over directions whose surface y is nearer than d0, times π,
 // where L(y) is the emission of y, plus its reflection of the VPLs' clamped light and, after
 // further bounces, of the compensation there.
-vec3 BiasCompensation::gather(Place from, uint32_t whole, const vec3& shadingNormal,
-                              PathSampler& sampler) const {
+void BiasCompensation::gather(Place from, uint32_t whole, const vec3& shadingNormal,
+                              PathSampler& sampler, Sink& sink) const {
   const float reach = options_.clampDistance;
-  vec3 sum(0.0f), throughput(1.0f), about = shadingNormal;
+  vec3 throughput(1.0f), about = shadingNormal;
   for (int bounces = options_.bounces; bounces >= 0; --bounces) {
     const vec3 direction = Frame(about).toWorld(sampleCosineHemisphere(sampler.next2()));
     const vec2 u = sampler.next2();
@@ -143,37 +165,48 @@ vec3 BiasCompensation::gather(Place from, uint32_t whole, const vec3& shadingNor
     const bool front = glm::dot(direction, s.geometricNormal) < 0.0f;
     throughput *= std::max(0.0f, 1.0f - hit.t * hit.t / (reach * reach));
     const RenderObject& there = scene_.objects[hit.object];
-    if (options_.emission && (front || s.emitsBothSides) && !isLeftOut(from.leftOutBy, there.link))
-      sum += throughput * s.emission;
+    if (options_.emission && !isLeftOut(from.leftOutBy, there.link))
+      addEmission(hit, s, front, throughput, sink);
     if (bounces == 0) break;
     throughput *= s.albedo;
     if (throughput == vec3(0.0f)) break;
     // The geometric normal, as for VPLs, because this compensates their light.
     about = front ? s.geometricNormal : -s.geometricNormal;
     from = {s.position + rayEpsilon(s.position) * about, about, there.leftOutBy};
-    const Choice& choice = choices_[static_cast<size_t>(bounces - 1)];
-    sum += throughput * (1.0f / kPi) * (irradianceOfSuns(from) + irradiance(from, choice, u));
+    addSuns(from, throughput * (1.0f / kPi), sink);
+    addVpls(from, choices_[static_cast<size_t>(bounces - 1)], u, throughput * (1.0f / kPi), sink);
   }
-  return sum;
 }
 
-vec3 BiasCompensation::irradianceOfSuns(const Place& at) const {
-  vec3 sum(0.0f);
+void BiasCompensation::addEmission(const Hit& hit, const Surface& s, bool front,
+                                   const vec3& throughput, Sink& sink) const {
+  if (options_.emissions.empty()) {
+    if ((front || s.emitsBothSides) && s.emission != vec3(0.0f))
+      sink.add(0, throughput * s.emission);
+    return;
+  }
+  const Emission& e = options_.emissions[hit.object];
+  const auto material = static_cast<size_t>(scene_.objects[hit.object].material);
+  if (!(e.reference > 0.0f) || !(front || scene_.materials[material].doubleSided)) return;
+  sink.add(e.group, throughput * e.reference *
+                        emissionShareAt(scene_, hit.object, hit.triangle, hit.u, hit.v));
+}
+
+void BiasCompensation::addSuns(const Place& at, const vec3& throughput, Sink& sink) const {
   for (const Sun& sun : suns_) {
     if (isLeftOut(at.leftOutBy, sun.link)) continue;
     const float cosine = glm::dot(at.normal, sun.towards);
     if (cosine > 0.0f && !rays_.occluded({at.position, 0.0f, sun.towards}))
-      sum += cosine * sun.irradiance;
+      sink.add(sun.group, throughput * (cosine * sun.irradiance));
   }
-  return sum;
 }
 
 // An estimate of the clamped irradiance of the other VPLs. Of the candidates, some get shadow rays,
 // with a probability proportional to their unshadowed irradiance (Talbot et al., "Importance
 // Resampling for Global Illumination", 2005).
-vec3 BiasCompensation::irradiance(const Place& at, const Choice& choice, vec2 u) const {
-  vec3 sum(0.0f);
-  if (choice.entries.empty()) return sum;
+void BiasCompensation::addVpls(const Place& at, const Choice& choice, vec2 u,
+                               const vec3& throughput, Sink& sink) const {
+  if (choice.entries.empty()) return;
   struct Candidate {
     const Choice::Entry* entry;
     float geometry;  // irradiance / intensity [1/m²]
@@ -192,7 +225,7 @@ vec3 BiasCompensation::irradiance(const Place& at, const Choice& choice, vec2 u)
     total += geometry * chosen.brightness;
     tried[static_cast<size_t>(k)] = {&chosen, geometry, total};
   }
-  if (!(total > 0.0f)) return sum;
+  if (!(total > 0.0f)) return;
   for (int k = 0; k < kRaysAPoint; ++k) {
     const float below = (static_cast<float>(k) + u.y) / kRaysAPoint * total;
     const auto it =
@@ -200,10 +233,10 @@ vec3 BiasCompensation::irradiance(const Place& at, const Choice& choice, vec2 u)
                          [](float value, const Candidate& c) { return value < c.upTo; });
     const float share = it->upTo - (it == tried.begin() ? 0.0f : (it - 1)->upTo);
     const Choice::Entry& e = *it->entry;
-    if (share > 0.0f && sees(at, e.vpl))
-      sum += it->geometry * e.weight * e.vpl.intensity * (total / share);
+    if (!(share > 0.0f) || !sees(at, e.vpl)) continue;
+    const float scale = it->geometry * e.weight * (total / share) / (kVplsTried * kRaysAPoint);
+    sink.add(e.group, throughput * (scale * e.vpl.intensity));
   }
-  return sum * (1.0f / (kVplsTried * kRaysAPoint));
 }
 
 bool BiasCompensation::sees(const Place& at, const shared::Vpl& vpl) const {

@@ -12,6 +12,7 @@
 #include "renderer/sampling/vpl_set.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/render_scene.h"
+#include "renderer/scene/surface.h"
 
 namespace lamplighter {
 
@@ -19,6 +20,11 @@ namespace lamplighter {
 // mean over many sets is exact.
 class BiasCompensation {
  public:
+  // What an object emits: its control (light_controls.h), and the reference brightness of that.
+  struct Emission {
+    uint32_t group = 0;
+    float reference = 0.0f;  // 0: it emits nothing
+  };
   struct Options {
     int bounces = 0;
     bool emission = true;  // the VPLs include direct ones on light sources
@@ -32,6 +38,10 @@ class BiasCompensation {
     // By object: the light between its parts is known from transfer, so that its pixels do not lack
     // it. Empty: for no object. Must outlive this object.
     std::span<const uint8_t> reflectsWithin = {};
+    // To find the light of each group of lights: the group of each VPL, and what each object emits.
+    // Must outlive this object. Empty: all is one group.
+    std::span<const uint32_t> groups = {};
+    std::span<const Emission> emissions = {};
   };
   BiasCompensation(const RenderScene& scene, const RayCaster& rays, std::span<const SceneVpl> vpls,
                    const Options& options);
@@ -42,9 +52,16 @@ class BiasCompensation {
     vec3 albedo{0.0f};  // 0 if the pixel hits nothing
     vec3 position{0.0f}, normal{0.0f};
   };
+  // What one group adds to the light of a pixel.
+  struct Contribution {
+    uint32_t pixel = 0, group = 0;
+    vec3 light{0.0f};
+  };
   // Computes these rows of the view's picture, with pixels shifted by `jitter`, and writes them at
-  // their indices of `pixels`.
-  void findRows(const View& view, vec2 jitter, int first, int last, std::span<Pixel> pixels) const;
+  // their indices of `pixels`. `byRow`: for each row of the picture the contributions, which are
+  // not in the light of the pixels then; empty: no contributions.
+  void findRows(const View& view, vec2 jitter, int first, int last, std::span<Pixel> pixels,
+                std::span<std::vector<Contribution>> byRow = {}) const;
 
  private:
   // A sun is sampled with one ray. Its sun shadow tiles are not chosen as VPLs: of many tiles only
@@ -52,7 +69,7 @@ class BiasCompensation {
   struct Sun {
     VplId set;
     vec3 towards{0.0f}, irradiance{0.0f};
-    uint32_t link = 0;
+    uint32_t link = 0, group = 0;
   };
   // The VPLs that may light a surface after which the light bounces a given number of times.
   struct Choice {
@@ -61,6 +78,7 @@ class BiasCompensation {
       shared::Vpl vpl;
       float brightness;  // of its brightest channel, divided by the selection probability
       float weight;      // 1 / selection probability
+      uint32_t group;
     };
     std::vector<Entry> entries;
     std::vector<float> upTo;  // cumulative probability, including this VPL
@@ -73,11 +91,20 @@ class BiasCompensation {
     vec3 position, normal;  // offset from the surface, on the lit side
     uint32_t leftOutBy;     // light_linking.h
   };
-  Pixel pixel(const vec3& direction, const Hit& hit, uint32_t index) const;
+  // Takes what the groups contribute to a pixel.
+  struct Sink;
+  Pixel pixel(const vec3& direction, const Hit& hit, uint32_t index,
+              std::vector<Contribution>* contributions) const;
   // `whole`: the object whose light on itself is already known; none: 0xffffffff.
-  vec3 gather(Place from, uint32_t whole, const vec3& shadingNormal, PathSampler& sampler) const;
-  vec3 irradianceOfSuns(const Place& at) const;
-  vec3 irradiance(const Place& at, const Choice& choice, vec2 u) const;
+  void gather(Place from, uint32_t whole, const vec3& shadingNormal, PathSampler& sampler,
+              Sink& sink) const;
+  // What the surface at a hit emits towards the ray.
+  void addEmission(const Hit& hit, const Surface& s, bool front, const vec3& throughput,
+                   Sink& sink) const;
+  // The irradiance of suns and of other VPLs, times the throughput.
+  void addSuns(const Place& at, const vec3& throughput, Sink& sink) const;
+  void addVpls(const Place& at, const Choice& choice, vec2 u, const vec3& throughput,
+               Sink& sink) const;
   bool sees(const Place& at, const shared::Vpl& vpl) const;
 
   const RenderScene& scene_;

@@ -33,6 +33,11 @@ std::shared_ptr<RadianceImage> LiveBiasCompensation::addTo(RadianceImage& settle
   Image with = without;
   addSmoothed(pixels_, filterRadius(1, with.height), with);
   pixels_ = {};
+  takeGains(without, with);
+  return std::make_shared<HostImage>(std::move(with));
+}
+
+void LiveBiasCompensation::takeGains(const Image& without, const Image& with) {
   gains_ = Image(with.width, with.height);
   tbb::parallel_for(0, with.height, [&](int y) {
     for (int x = 0; x < with.width; ++x) {
@@ -43,7 +48,6 @@ std::shared_ptr<RadianceImage> LiveBiasCompensation::addTo(RadianceImage& settle
       }
     }
   });
-  return std::make_shared<HostImage>(std::move(with));
 }
 
 std::shared_ptr<RadianceImage> LiveBiasCompensation::scale(

@@ -28,6 +28,8 @@ class LiveBiasCompensation {
 
   // The settled picture with the missing light. Requires isWhole().
   std::shared_ptr<RadianceImage> addTo(RadianceImage& settled);
+  // Keeps the gains of a settled picture that was completed elsewhere.
+  void takeGains(const Image& without, const Image& with);
   // An unsettled picture, each pixel scaled by its gain when it was settled. Returns the picture
   // itself if no gains are kept.
   std::shared_ptr<RadianceImage> scale(const std::shared_ptr<RadianceImage>& picture);

@@ -104,6 +104,13 @@ void LiveLights::want(std::vector<SceneVpl> wanted, std::span<const VplId> paths
   giveSlots();
 }
 
+void LiveLights::setGains(LightGains gains) {
+  if (gains == gains_) return;
+  gains_ = std::move(gains);
+  tableIsCurrent_ = false;
+  gainsChanged_ = true;
+}
+
 // Keeps the unwanted VPLs of paths that are still wanted, until the turn of their path.
 void LiveLights::keepReplaced(const std::map<VplId, size_t>& gone, std::vector<Entry>& next) const {
   for (const auto& [id, index] : gone) {
@@ -289,6 +296,7 @@ const LightSampleTable& LiveLights::table() const {
     sample.framesWaiting = e.framesWaiting;
   }
   sumShown();
+  applyGains();
   setMapColumns();
   tableIsCurrent_ = true;
   return table_;
@@ -329,6 +337,17 @@ void LiveLights::sumShown() const {
     const Set& set = sets[e.wanted.id.set()];
     if ((set.missing <= kSmallShare && !set.lacks) || !(set.share > 0.0f)) continue;
     vpl.intensity /= set.share;
+  }
+}
+
+void LiveLights::applyGains() const {
+  table_.reference.assign(static_cast<size_t>(slots_), vec3(0.0f));
+  for (LightSample& sample : table_.samples) {
+    const vec3 gain = gainOf(gains_, sample.id);
+    sample.vpl.intensity *= gain;
+    const auto slot = static_cast<size_t>(sample.vpl.slot);
+    table_.reference[slot] = table_.summed[slot].intensity;
+    table_.summed[slot].intensity *= gain;
   }
 }
 

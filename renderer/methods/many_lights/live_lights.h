@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "renderer/backends/many_lights_kernels.h"
+#include "renderer/sampling/light_gains.h"
 #include "renderer/sampling/light_sample_table.h"
 #include "renderer/shadow_maps/refresh_scheduler.h"
 
@@ -28,7 +29,10 @@ class LiveLights {
   // one frame. A VPL that is no longer wanted and its new replacement also change together.
   // `paths`: all paths, including those without a VPL; needed to distinguish them from paths that
   // are not traced yet.
+  // The VPLs are at the reference brightness of their lights.
   void want(std::vector<SceneVpl> wanted, std::span<const VplId> paths = {});
+  // Sets the brightness of all lights, which applies immediately.
+  void setGains(LightGains gains);
   // Shadow casters moved: maps that may show them become stale. `spared`, if given, tells that a
   // VPL's map does not change nevertheless. Returns the number of spared maps.
   int markStale(std::span<const MoverFinder::Mover> movers,
@@ -83,8 +87,10 @@ class LiveLights {
   int oldestFrames() const;
   // Since the last clearChanged(). Fine maps count once all are rendered, because a sum for each
   // few of them would take longer than the maps.
-  bool changed() const { return changed_ || (isSharper_ && coarse() == 0); }
-  void clearChanged() { changed_ = isSharper_ = false; }
+  bool changed() const { return changedBesideGains() || gainsChanged_; }
+  bool changedBesideGains() const { return changed_ || (isSharper_ && coarse() == 0); }
+  bool gainsChanged() const { return gainsChanged_; }
+  void clearChanged() { changed_ = isSharper_ = gainsChanged_ = false; }
   // The number of shadow map slots to reserve. When it changes, all maps are lost.
   int slots() const { return slots_; }
 
@@ -121,6 +127,7 @@ class LiveLights {
   int sharpen(ManyLightsKernels& kernels, int most, const IsMeant& isMeant);
   void setMapColumns() const;
   void sumShown() const;
+  void applyGains() const;
   static void takeBrightness(Entry& entry);
   void fitSlots(size_t wanted);
   std::vector<uint32_t> spreadTurns() const;
@@ -128,12 +135,15 @@ class LiveLights {
   bool isCoarse(const Entry& e) const { return e.hasMap && !e.isFine && needsMap(e); }
   bool isShown(const Entry& e) const { return e.isLive && (e.hasMap || !onlyMapped_); }
 
+  LightGains gains_;
+  // at the reference brightness of their lights
   std::vector<Entry> entries_;  // in the order of the wanted ones, then unwanted ones
   // of indirect paths: whether the wanted or the old version is shown
   std::map<VplId, bool> pathIsShown_;
   int slots_ = 0;
   bool changed_ = true;
   bool isSharper_ = false;  // fine maps were rendered
+  bool gainsChanged_ = false;
   bool onlyMapped_ = true;
   mutable LightSampleTable table_;  // its rows in the order of entries_
   mutable bool tableIsCurrent_ = false;

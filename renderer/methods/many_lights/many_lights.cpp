@@ -4,6 +4,7 @@
 
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/many_lights/inspected_surfaces.h"
+#include "renderer/methods/many_lights/shading_options.h"
 #include "renderer/methods/many_lights/stages.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/sun_shadow_tiles.h"
@@ -15,37 +16,10 @@
 namespace lamplighter {
 namespace {
 
-// The offset of sample i of n from the middle of a pixel: a Hammersley set, centred so that its
-// mean is the middle.
-vec2 jitterOf(int i, int n) {
-  float inverse = 0.0f, digit = 0.5f, size = 1.0f;
-  for (int rest = i; rest > 0; rest /= 2, digit *= 0.5f) {
-    if (rest % 2 != 0) inverse += digit;
-  }
-  for (int power = 1; power < n; power *= 2) size *= 0.5f;
-  const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(n);
-  return {along - 0.5f, inverse + 0.5f * size - 0.5f};
-}
-
-// As in ShadingParams.
-vec4 speculars(bool on, float leastRoughness) {
-  return {on ? 1.0f : 0.0f, leastRoughness, 0.0f, 0.0f};
-}
 bool hasGlossy(const RenderScene& scene) {
   return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const RenderObject& o) {
     return mayBeGlossy(scene.materials[static_cast<size_t>(o.material)]);
   });
-}
-
-// With fewer VPLs each one matters, including faint ones where there is no other light.
-constexpr int kFewestForGroups = 800;
-
-LightProxies::Groups groupsOf(const FrameInputs& in, float share, int vpls) {
-  return {vpls < kFewestForGroups ? 0.0f : share,
-          [&rays = in.services.rays()](const vec3& a, const vec3& b) {
-            return !rays.occluded({a, 0.0f, b - a, 1.0f});
-          },
-          in.changes.surfaces()};
 }
 
 // Maps per frame, for maps `scale` times finer than coarse ones. With traced maps (cpu), texels
@@ -67,9 +41,6 @@ int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options,
 // Fine maps of punctual hard-shadow lights per frame: those of a lamp, which has two hemispheres.
 constexpr int kHardMapsAFrame = 2;
 
-// Rays per pixel for bias compensation; pixels share them.
-constexpr uint32_t kCornerPaths = 1;
-
 }  // namespace
 
 GiOutput ManyLights::render(const FrameInputs& in) {
@@ -85,6 +56,25 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   takeScene(in, options);
   updateLights(in, options, stats);
   stages.end(kLightSamplesStage);
+  if (!in.changes.none()) gbufferIsCurrent_ = false;
+  if (onlyMixes(in, options)) {
+    const bool refinesOtherwise = options.refinement() != options_.refinement();
+    if (lights_.gainsChanged()) {
+      mixShares(in);
+      lights_.clearChanged();
+      imageIsStale_ = true;
+      refinement_.restart();
+    }
+    stages.end(kSharesStage);
+    if (refinesOtherwise) refinement_.restart();
+    options_ = options;
+    out.settled = true;
+    out.radiance = mixed_;
+    refineSettled(in, options, false, stages, out, stats);
+    count(in, options, out, stats);
+    out.stats = published(stats, manyLightsStatistics());
+    return out;
+  }
 
   // 2. Refresh some of them completely: position, intensity, where their maps are needed,
   stats.updates = refreshLights(options);
@@ -110,52 +100,65 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (viewChanged) gbufferIsCurrent_ = false;
   if (view_ != in.view || shadingChanged || options.cornerLight != options_.cornerLight)
     corners_.forget();
-  const bool shadedNow = !image_ || viewChanged || lights_.changed() || patchesChanged_ ||
-                         shadingChanged || prtChanged || isHasty_;
+  const bool shadedNow = !image_ || viewChanged || lights_.changed() || imageIsStale_ ||
+                         patchesChanged_ || shadingChanged || prtChanged || isHasty_;
+  const bool samplesOtherwise = options.antialias != options_.antialias;
+  if (shadedNow || samplesOtherwise || options.cornerLight != options_.cornerLight ||
+      options.shareMemory != options_.shareMemory)
+    shares_.restart(*kernels_);
   if (shadedNow) {
     isHasty_ = image_ && view_ != in.view && options.block > 1;
     view_ = in.view;
     image_ = shade(in, options, vec2(0.0f), stages);
     lights_.clearChanged();
-    patchesChanged_ = false;
+    imageIsStale_ = patchesChanged_ = false;
     samples_ = 0;
     corners_.outdate();
   }
-  const bool refinesOtherwise =
-      options.refinement() != options_.refinement() || options.antialias != options_.antialias;
+  const bool refinesOtherwise = options.refinement() != options_.refinement() || samplesOtherwise;
   options_ = options;
   lightMapTexel_ = stats.lightMapTexel;
   lightOnly_ = in.lightOnly;
   part_ = in.part;
   started_ = true;
 
-  // 5. If nothing else is pending, antialias: one sample per frame.
-  const int pending = lights_.pending();
-  const int samples = options.antialias > 1 ? options.antialias : 0;
-  if (options.antialias != samplesWanted_) {
+  // 5. If nothing else is pending, find the light of corners and antialias: one sample per frame.
+  if (samplesOtherwise) {
     samples_ = 0;
     corners_.outdate();
   }
-  samplesWanted_ = options.antialias;
-  const bool isReady = pending == 0 && stats.mapsToSharpen == 0 && paths_.isAtRest() &&
+  const int samples = options.antialias > 1 ? options.antialias : 0;
+  const bool isReady = lights_.pending() == 0 && stats.mapsToSharpen == 0 && paths_.isAtRest() &&
                        choiceIsCurrent_ && stats.transfersPending == 0 && !isHasty_ &&
                        stats.patchesPending == 0 && (!visibility_ || demandIsCurrent_) &&
                        !(lightMaps_ && lightMaps_->couldBeFiner());
-  if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
-
-  out.settled = isReady && samples_ == samples;
-  out.radiance = out.settled && samples > 0 ? mean_ : image_;
-  if (options.cornerLight) {
-    out.radiance = fillCorners(in, options, out.radiance, out.settled, stages);
-    out.settled = out.settled && corners_.isWhole(in.view);
+  if (usesShares(in, options)) {
+    if (isReady && !shadedNow) goOnWithShares(in, options, stages);
+    out.settled = isReady && shares_.isDone();
+    out.radiance = out.settled ? mixed_ : options.cornerLight ? corners_.scale(image_) : image_;
+  } else {
+    if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
+    out.settled = isReady && samples_ == samples;
+    out.radiance = out.settled && samples > 0 ? mean_ : image_;
+    if (options.cornerLight) {
+      out.radiance = fillCorners(in, options, out.radiance, out.settled, stages);
+      out.settled = out.settled && corners_.isWhole(in.view);
+    }
   }
 
   // 6. Then refine, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
-  const bool mayRefine = in.part == LightPart::all;
-  if (out.settled && !shadedNow && mayRefine) refine(in, options, stages, out, stats);
-  out.refined = out.settled && (options.refine == 0 || refinement_.done() || !mayRefine);
+  refineSettled(in, options, shadedNow, stages, out, stats);
+  count(in, options, out, stats);
+  if (wantsVisibility && !visibility_) stats.visibilityBytesNeeded = visibilityNeeds_;
+  out.stats = published(stats, manyLightsStatistics());
+  return out;
+}
 
+// The state after the frame.
+void ManyLights::count(const FrameInputs& in, const Options& options, const GiOutput& out,
+                       ManyLightsStats& stats) const {
+  const int pending = lights_.pending();
   stats.vpls = lights_.live();
   stats.pending = pending;
   stats.oldestFrames = lights_.oldestFrames();
@@ -164,26 +167,31 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const int aFrame = std::max({1, stats.updates, stats.mapsRendered});
   const int exchange = paths_.isAtRest() ? 0 : LightPaths::kRestingFrames;
   const int sharper = mapsAFrame(kernels_->traits(), options, mapRooms_.scale());
+  const int samples = options.antialias > 1 ? options.antialias : 0;
   stats.framesUntilSettled = std::max((pending + aFrame - 1) / aFrame, exchange) +
-                             (stats.mapsToSharpen + sharper - 1) / sharper + samples - samples_;
+                             (stats.mapsToSharpen + sharper - 1) / sharper +
+                             (usesShares(in, options) ? shares_.stepsLeft() : samples - samples_);
   // Work that cannot be estimated, such as replaced paths, takes at least one frame.
-  if (!out.settled) stats.framesUntilSettled = std::max(stats.framesUntilSettled, 1);
+  if (out.settled)
+    stats.framesUntilSettled = 0;
+  else
+    stats.framesUntilSettled = std::max(stats.framesUntilSettled, 1);
   stats.mergedPasses = mergedPasses_;
   stats.passesSaved = passesSaved_;
   stats.interpolatedShare = interpolatedShare_;
-  stats.samplesPerPixel = std::max(samples_, 1);
+  stats.samplesPerPixel = shares_.isDone() ? std::max(samples, 1) : std::max(samples_, 1);
   stats.mapsHeld = lights_.mapsHeld();
   stats.mapsWithoutRoom = lights_.withoutMap();
   stats.mapBytes = kernels_->lightCounts().mapBytes;
+  stats.shareBytes = shares_.bytes();
+  stats.lightsWithoutShare = shares_.lightsWithoutShare();
   if (visibility_) stats.visibilityBytes = visibility_->bytes();
-  if (wantsVisibility && !visibility_) stats.visibilityBytesNeeded = visibilityNeeds_;
   if (lightMaps_) {
     const LightMaps* part = partLights_.maps();
     stats.lightMapBytes = lightMaps_->bytes() + (part ? part->bytes() : 0);
+    stats.lightMapTexel = lightMapTexel_;
   }
   if (prt_) stats.transferBytes = prt_->bytes();
-  out.stats = published(stats, manyLightsStatistics());
-  return out;
 }
 
 void ManyLights::updateLights(const FrameInputs& in, const Options& options,
@@ -196,7 +204,8 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options,
     pointVisibility_.outdate(in.changes, movers);
   }
   // While the camera moves the samples are kept; when it rests they are chosen for its view.
-  View chosenFor = steadyView(in.view, rays);
+  const bool isSame = started_ && !surfacesChanged && choiceIsCurrent_ && in.view == view_;
+  View chosenFor = isSame ? *chosenFor_ : steadyView(in.view, rays);
   choiceIsCurrent_ = !started_ || in.view == view_ || chosenFor == chosenFor_;
   if (!choiceIsCurrent_) chosenFor = *chosenFor_;
   const bool choosesOtherwise =
@@ -209,6 +218,10 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options,
     divideSuns(set.vpls, in.scene, rays, &chosenFor, options.sunMaps);
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
+  }
+  if (!started_ || !in.changes.none()) {
+    lights_.setGains(gainsOf(paths_.lights()));
+    controls_ = LightControls(in.scene, paths_.lights());
   }
   const LightPaths::Work& work = paths_.work();
   stats.raysTraced = work.rays;
@@ -292,11 +305,7 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   if (!isMiddle || !gbufferIsCurrent_) in.backend.renderGBuffer(in.view, jitter);
   gbufferIsCurrent_ = isMiddle;
   stages.end(kGBufferStage);
-  const shared::ShadingParams params{
-      vec4(options.clampDistance, options.shadowBias, 0.0f,
-           static_cast<float>(options.lightsPerPass)),
-      vec4(static_cast<float>(options.block), isMiddle && isHasty_ ? 1.0f : 0.0f, 0.0f, 0.0f),
-      speculars(options.speculars, options.leastRoughness)};
+  const shared::ShadingParams params = shadingOf(options, isMiddle && isHasty_);
   const ManyLightsCounts before = kernels_->lightCounts();
   const bool isWhole = in.part == LightPart::all;
   if (isWhole) partLights_.forget();
@@ -336,51 +345,6 @@ LightSampleTable ManyLights::takePart(const FrameInputs& in, const Options& opti
                        {options.useLightMaps(), lightMapOptions(options)},
                        groupsOf(in, options.groupShare, lights_.slots()));
   return lights;
-}
-
-void ManyLights::refine(const FrameInputs& in, const Options& options, StageTimer& stages,
-                        GiOutput& out, ManyLightsStats& stats) {
-  if (options.refine == 0) return;
-  gbufferIsCurrent_ = false;
-  const MapSize size = mapRooms_.scale() > 1 ? MapSize::fine : MapSize::coarse;
-  stats.refineUpdates =
-      refinement_.goOn(in, *kernels_, options.refinement(), *out.radiance, lights_.live(),
-                       lights_.slots(), size, in.services.budget().refineUpdates);
-  if (refinement_.image()) out.radiance = refinement_.image();
-  stats.vplsRefined = refinement_.vpls();
-  stats.vplsToRefine = options.refine;
-  stages.end(kRefinementStage);
-}
-
-std::shared_ptr<RadianceImage> ManyLights::fillCorners(
-    const FrameInputs& in, const Options& options, const std::shared_ptr<RadianceImage>& picture,
-    bool isSmooth, StageTimer& stages) {
-  if (isSmooth && !corners_.isWhole(in.view)) {
-    const auto reflecting =
-        prt_ && in.part == LightPart::all ? prt_->reflecting() : std::vector<uint8_t>();
-    corners_.goOn(
-        in, lights_.table(),
-        {options.directShare < 1.0f && in.part != LightPart::direct ? options.bounces : 0,
-         (options.directShare > 0.0f || options.bounces == 0) && in.part != LightPart::indirect,
-         options.clampDistance, kCornerPaths, static_cast<uint32_t>(options.seed), 0, in.lightOnly,
-         options.speculars, options.leastRoughness, reflecting});
-    if (corners_.isWhole(in.view)) whole_ = corners_.addTo(*picture);
-    stages.end(kCornersStage);
-  }
-  return isSmooth && corners_.isWhole(in.view) ? whole_ : corners_.scale(picture);
-}
-
-void ManyLights::addSample(const FrameInputs& in, const Options& options, StageTimer& stages) {
-  const auto picture = shade(in, options, jitterOf(samples_, options.antialias), stages);
-  const Image& sample = picture->pixels();
-  if (samples_ == 0) sum_ = Image(sample.width, sample.height);
-  for (size_t i = 0; i < sample.pixels.size(); ++i) sum_.pixels[i] += sample.pixels[i];
-  if (++samples_ == options.antialias) {
-    const float weight = 1.0f / static_cast<float>(samples_);
-    for (vec3& p : sum_.pixels) p *= weight;
-    mean_ = std::make_shared<HostImage>(std::move(sum_));
-  }
-  stages.end(kAntialiasingStage);
 }
 
 Inspection ManyLights::inspect() const {

@@ -9,6 +9,7 @@
 #include "renderer/light_maps/light_maps.h"
 #include "renderer/light_maps/light_proxies.h"
 #include "renderer/methods/gi_method.h"
+#include "renderer/methods/many_lights/light_shares.h"
 #include "renderer/methods/many_lights/live_bias_compensation.h"
 #include "renderer/methods/many_lights/live_lights.h"
 #include "renderer/methods/many_lights/options.h"
@@ -17,6 +18,7 @@
 #include "renderer/methods/many_lights/statistics.h"
 #include "renderer/methods/stage_timer.h"
 #include "renderer/prt/prt_lights.h"
+#include "renderer/sampling/light_controls.h"
 #include "renderer/sampling/light_paths.h"
 #include "renderer/sampling/point_visibility.h"
 #include "renderer/visibility/visibility_database.h"
@@ -47,6 +49,14 @@ class ManyLights final : public GiMethod {
   LightMaps::Options lightMapOptions(const Options& options) const;
   void updateLightMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
+  bool usesShares(const FrameInputs& in, const Options& options) const;
+  bool onlyMixes(const FrameInputs& in, const Options& options) const;
+  void goOnWithShares(const FrameInputs& in, const Options& options, StageTimer& stages);
+  void mixShares(const FrameInputs& in);
+  void refineSettled(const FrameInputs& in, const Options& options, bool shadedNow,
+                     StageTimer& stages, GiOutput& out, ManyLightsStats& stats);
+  void count(const FrameInputs& in, const Options& options, const GiOutput& out,
+             ManyLightsStats& stats) const;
   void refine(const FrameInputs& in, const Options& options, StageTimer& stages, GiOutput& out,
               ManyLightsStats& stats);
   std::shared_ptr<RadianceImage> fillCorners(const FrameInputs& in, const Options& options,
@@ -84,8 +94,12 @@ class ManyLights final : public GiMethod {
   float interpolatedShare_ = 0.0f;          // of the last sum
   // Antialiasing: the sum of the samples so far; their mean when they are complete.
   Image sum_;
-  int samples_ = 0, samplesWanted_ = 1;
+  int samples_ = 0;
   std::shared_ptr<RadianceImage> mean_;
+  LightControls controls_;                // of the present scene
+  LightShares shares_;                    // of the settled picture
+  std::shared_ptr<RadianceImage> mixed_;  // from them
+  bool imageIsStale_ = false;             // lacks changes of brightness that were mixed
   LiveBiasCompensation corners_;
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;

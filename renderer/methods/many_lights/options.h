@@ -28,6 +28,7 @@ struct ManyLightsOptions : ManyLightsParameters {
   Refinement::Options refinement() const;
   size_t visibilityBytes() const { return bytesOf(visibilityMemory); }
   size_t lightMapBytes() const { return bytesOf(lightMapMemory); }
+  size_t shareBytes() const { return bytesOf(shareMemory); }
 
   // The maps for a number of slots. Fine maps have the largest resolution for which each slot could
   // have one in memory, beside its coarse map.

@@ -150,6 +150,16 @@ const ParameterTable<P>& manyLightsParameters() {
        {1, 65536, kLogarithmic},
        budgets,
        "More: larger complex meshes are lit by transfer."},
+      {&P::shareMemory,
+       "share_memory",
+       "Memory of light shares",
+       "MiB",
+       "Largest memory for what each light adds to a settled picture, so that a change of its "
+       "brightness is shown in the next frame. If it is short, only the brightest lights have a "
+       "share of their own. 0: none.",
+       {0, 65536, kLogarithmic},
+       budgets,
+       "More: more lights, or larger pictures, whose brightness changes at once."},
       {&P::clampDistance,
        "clamp_distance",
        "Clamp distance",

@@ -28,6 +28,9 @@ inline constexpr StageSpec kCompositionStage{
     "composition", "Composition", "Combining irradiance with materials, emission and the sky."};
 inline constexpr StageSpec kAntialiasingStage{"antialiasing", "Antialiasing",
                                               "Averaging the pictures of a settled view."};
+inline constexpr StageSpec kSharesStage{
+    "light shares", "Light shares",
+    "Finding what each light adds to a settled picture, antialiased, and adding it up."};
 inline constexpr StageSpec kCornersStage{"corners", "Corners",
                                          "Tracing the light that the clamp removes near surfaces."};
 inline constexpr StageSpec kRefinementStage{
@@ -35,8 +38,8 @@ inline constexpr StageSpec kRefinementStage{
 
 // In the order of a frame.
 inline constexpr StageSpec kManyLightsStages[] = {
-    kLightSamplesStage, kVisibilityStage,   kShadowMapsStage, kFinerMapsStage,
-    kLightMapsStage,    kTransferStage,     kGBufferStage,    kLightSumsStage,
-    kCompositionStage,  kAntialiasingStage, kCornersStage,    kRefinementStage};
+    kLightSamplesStage, kVisibilityStage, kShadowMapsStage, kFinerMapsStage,   kLightMapsStage,
+    kTransferStage,     kGBufferStage,    kLightSumsStage,  kCompositionStage, kAntialiasingStage,
+    kSharesStage,       kCornersStage,    kRefinementStage};
 
 }  // namespace lamplighter

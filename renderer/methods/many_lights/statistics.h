@@ -35,11 +35,12 @@ struct ManyLightsStats : GiStats {
   // object. Then: objects without transfer because memory is short.
   int transferObjects = 0, transferObjectsLeft = 0, transferLightsLeft = 0;
   int transferObjectsWithoutRoom = 0;
+  int lightsWithoutShare = 0;  // in the settled picture, because memory is short
   // Of a settled picture that is refined: VPLs in the mean, and the target number.
   int vplsRefined = 0, vplsToRefine = 0;
   // Memory [bytes]; what the visibility database needs if it does not fit and is not used.
   uint64_t mapBytes = 0, visibilityBytes = 0, visibilityBytesNeeded = 0, lightMapBytes = 0,
-           transferBytes = 0;
+           transferBytes = 0, shareBytes = 0;
 };
 
 const StatisticTable<ManyLightsStats>& manyLightsStatistics();

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "renderer/scene/ies/ies_profile.h"
+#include "renderer/scene/reference_brightness.h"
 #include "renderer/scene/surface.h"
 
 namespace lamplighter {
@@ -17,6 +18,11 @@ float triangleArea(const RenderScene& s, const RenderObject& o, uint32_t t) {
   const uint32_t* i = &s.indices[o.firstIndex + 3 * t];
   return 0.5f * glm::length(glm::cross(s.positions[i[1]] - s.positions[i[0]],
                                        s.positions[i[2]] - s.positions[i[0]]));
+}
+
+void setReference(Emitter& e, const vec3& nominal, const vec3& actual) {
+  e.reference = referenceBrightness(nominal);
+  e.gain = e.reference > 0.0f ? actual / e.reference : vec3(0.0f);
 }
 
 // Reuses the brightness of the same mesh and texture, or computes it.
@@ -47,15 +53,21 @@ Emitter surfaceEmitter(const RenderScene& s, uint32_t object, std::span<const Em
   e.triangles = AliasTable(areas);
   if (e.triangles.empty()) return e;
   e.area = static_cast<float>(area);
-  vec3 radiance = m.emissive;
+  const vec3 nominal = s.nominalEmission[static_cast<size_t>(o.material)];
+  setReference(e, nominal, m.emissive);
+  vec3 share(1.0f);
   if (m.emissiveTexture.texture != kNone || m.alphaMode == AlphaMode::mask) {
     e.cells = EmitterCells(brightnessOf(s, object, before, now), areas);
     glm::dvec3 sum(0.0);
     for (uint32_t t = 0; t < areas.size() && !e.cells.empty(); ++t)
       sum += static_cast<double>(areas[t]) * glm::dvec3(e.cells.brightness()->mean[t]);
-    radiance *= vec3(sum / area);
+    share = vec3(sum / area);
   }
-  e.flux = kPi * e.area * (e.bothSides ? 2.0f : 1.0f) * radiance;
+  const float perRadiance = kPi * e.area * (e.bothSides ? 2.0f : 1.0f);
+  e.flux = perRadiance * (m.emissive * share);
+  e.referenceFlux = luminance(perRadiance * (e.reference * share));
+  // A light may be black because of its colour and that of its texture.
+  if (!(luminance(nominal * share) > 0.0f)) e.referenceFlux = 0.0f;
   return e;
 }
 
@@ -66,17 +78,17 @@ float spotSolidAngle(const PunctualLight& l) {
   return 2.0f * kPi * ((1.0f - ci) + (ci - co) / 3.0f);
 }
 
-vec3 punctualFlux(const PunctualLight& l, float sceneRadius) {
-  if (l.profile) return l.profile->solidAngle * l.intensity;
+float fluxPerIntensity(const PunctualLight& l, float sceneRadius) {
+  if (l.profile) return l.profile->solidAngle;
   switch (l.kind) {
     case PunctualKind::point:
-      return 4.0f * kPi * l.intensity;
+      return 4.0f * kPi;
     case PunctualKind::spot:
-      return spotSolidAngle(l) * l.intensity;
+      return spotSolidAngle(l);
     case PunctualKind::directional:
-      return kPi * sceneRadius * sceneRadius * l.intensity;
+      return kPi * sceneRadius * sceneRadius;
   }
-  return vec3(0.0f);
+  return 0.0f;
 }
 
 }  // namespace
@@ -86,10 +98,11 @@ LightSet::LightSet(const RenderScene& s, const LightSet& before) {
   radius_ = s.bounds.radius();
   emitterOfObject_.assign(s.objects.size(), kNone);
   for (uint32_t i = 0; i < s.objects.size(); ++i) {
-    const Material& m = s.materials[s.objects[i].material];
-    if (!m.emits() || m.isClear()) continue;
+    const auto material = static_cast<size_t>(s.objects[i].material);
+    if (!(luminance(s.nominalEmission[material]) > 0.0f) || s.materials[material].isClear())
+      continue;
     Emitter e = surfaceEmitter(s, i, before.emitters_, emitters_);
-    if (e.triangles.empty() || luminance(e.flux) <= 0.0f) continue;  // no area, or black
+    if (e.triangles.empty() || e.referenceFlux <= 0.0f) continue;  // no area, or black
     emitterOfObject_[i] = static_cast<int>(emitters_.size());
     emitters_.push_back(std::move(e));
   }
@@ -99,24 +112,39 @@ LightSet::LightSet(const RenderScene& s, const LightSet& before) {
     e.node = s.punctuals[i].node;
     e.punctual = i;
     e.link = s.punctuals[i].link;
-    e.flux = punctualFlux(s.punctuals[i].light, radius_);
-    if (luminance(e.flux) > 0.0f) emitters_.push_back(std::move(e));
+    const RenderPunctual& p = s.punctuals[i];
+    setReference(e, p.nominal, p.light.intensity);
+    const float perIntensity = fluxPerIntensity(p.light, radius_);
+    e.flux = perIntensity * p.light.intensity;
+    e.referenceFlux = perIntensity * e.reference;
+    if (e.referenceFlux > 0.0f) emitters_.push_back(std::move(e));
   }
   sky_ = SkySampler(s.sky);
-  for (uint32_t sun = 0; !s.sky.isBlack() && sun <= sky_.sunCount(); ++sun) {
-    Emitter e;
-    e.kind = EmitterKind::sky;
-    e.skySun = sun;
-    e.link = s.skyLink;
-    e.flux =
-        kPi * radius_ * radius_ * (sun == 0 ? sky_.irradiance() : sky_.sun(sun - 1).irradiance);
-    if (luminance(e.flux) > 0.0f) emitters_.push_back(std::move(e));
-  }
+  if (!s.nominalSky.isBlack()) addSky(s);
   std::vector<float> weights(emitters_.size());
   std::transform(emitters_.begin(), emitters_.end(), weights.begin(), [](const Emitter& e) {
     return e.kind == EmitterKind::surface ? luminance(e.flux) : 0.0f;
   });
   choice_ = AliasTable(weights);
+}
+
+void LightSet::addSky(const RenderScene& s) {
+  const float factor = referenceBrightness(s.nominalSky.factor());
+  const vec3 actual = s.sky.isBlack() ? vec3(0.0f) : s.sky.factor();
+  referenceSky_ = SkySampler(s.nominalSky.withFactor(factor));
+  for (uint32_t sun = 0; sun <= referenceSky_.sunCount(); ++sun) {
+    Emitter e;
+    e.kind = EmitterKind::sky;
+    e.skySun = sun;
+    e.link = s.skyLink;
+    setReference(e, s.nominalSky.factor(), actual);
+    const vec3 irradiance =
+        sun == 0 ? referenceSky_.irradiance() : referenceSky_.sun(sun - 1).irradiance;
+    const vec3 flux = kPi * radius_ * radius_ * irradiance;
+    e.flux = e.gain * flux;
+    e.referenceFlux = luminance(flux);
+    if (e.referenceFlux > 0.0f) emitters_.push_back(std::move(e));
+  }
 }
 
 int LightSet::chooseSurface(float u, float& probability) const {
@@ -149,9 +177,10 @@ EmitterPoint LightSet::samplePoint(const RenderScene& s, int emitter, vec2 u) co
   p.position = surface.position;
   p.normal = surface.geometricNormal;
   p.radiance = surface.emission;
-  if (!e.cells.empty())
-    p.radiance = s.materials[s.objects[e.object].material].emissive *
-                 emissionShareAt(s, e.object, at.triangle, at.weights.x, at.weights.y);
+  if (!e.cells.empty()) {
+    p.share = emissionShareAt(s, e.object, at.triangle, at.weights.x, at.weights.y);
+    p.radiance = s.materials[static_cast<size_t>(s.objects[e.object].material)].emissive * p.share;
+  }
   p.area = at.area;
   p.pdfArea = 1.0f / at.area;
   p.bothSides = e.bothSides;

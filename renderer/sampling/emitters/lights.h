@@ -22,7 +22,13 @@ struct Emitter {
   // emissive texture), point 4π·I, spot I × its solid angle (with a profile, both use the profile's
   // solid angle), directional E·πR², sky πR² ∫ L dω, with R the radius of the scene.
   vec3 flux{0.0f};
-  float area = 0.0f;       // surface: m²
+  // Light samples use a white light with this brightness (reference_brightness.h): the radiance of
+  // a surface, the intensity of a punctual light, the factor of a sky. Times gain, per channel, it
+  // is that of the scene.
+  float reference = 0.0f;
+  vec3 gain{0.0f};
+  float referenceFlux = 0.0f;  // luminance of the flux at the reference brightness [W]
+  float area = 0.0f;           // surface: m²
   bool bothSides = false;  // surface
   uint32_t link = 0;       // light_linking.h
   AliasTable triangles;    // surface: by area
@@ -34,12 +40,14 @@ struct EmitterPoint {
   vec3 position{0.0f};
   vec3 normal{0.0f, 0.0f, 1.0f};  // unit, front side
   vec3 radiance{0.0f};            // W/(m² sr), including texture; 0 in a hole of the alpha mask
+  vec3 share{1.0f};               // the factor of texture and mask in it
   float pdfArea = 0.0f;           // 1/m²
   float area = 0.0f;              // 1 / pdfArea: the represented area if it were the only sample
                                   // [m²]
   bool bothSides = false;
 };
 
+// Lights that are switched off are emitters, too, with no flux.
 class LightSet {
  public:
   LightSet() = default;
@@ -60,14 +68,18 @@ class LightSet {
   // vertex.
   float areaAt(int emitter, uint32_t triangle, vec2 weights) const;
   const SkySampler& sky() const { return sky_; }
+  // The sky at its reference brightness.
+  const SkySampler& referenceSky() const { return referenceSky_; }
   float sceneRadius() const { return radius_; }
   vec3 sceneCentre() const { return centre_; }
 
  private:
+  void addSky(const RenderScene& scene);
+
   std::vector<Emitter> emitters_;
   std::vector<int> emitterOfObject_;
   AliasTable choice_;
-  SkySampler sky_;
+  SkySampler sky_, referenceSky_;
   vec3 centre_{0.0f};
   float radius_ = 0.0f;
 };

@@ -16,6 +16,7 @@ namespace {
 
 Settings settingsOf(int antialias, const std::string& block) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("vpls", 200);
   s.set("updates", 200);
   s.set("bounces", 1);

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 Settings settingsOf(int block, const std::string& technique = "light_maps", int vpls = 150,
                     int lightsPerPass = 1024) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
   s.set("vpls", vpls);
   s.set("updates", vpls);

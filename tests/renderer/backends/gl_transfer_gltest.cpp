@@ -42,6 +42,7 @@ struct Room {
 Settings settingsOf(bool prt, const std::string& technique = "light_maps", int block = 1,
                     int bounces = 4) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("prt", prt);
   s.set("prt_bounces", bounces);
   s.set("technique", technique);

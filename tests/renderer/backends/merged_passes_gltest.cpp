@@ -22,6 +22,7 @@ constexpr double kRounding = 1e-6;
 
 Settings settingsOf(const std::string& technique, int vpls, int lightsPerPass, bool merge) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
   s.set("vpls", vpls);
   s.set("updates", vpls);

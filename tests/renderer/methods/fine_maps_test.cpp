@@ -22,6 +22,7 @@ struct FineMaps : testing::Test, test::AssetRoom {
   FrameRenderer renderer{makeCpuBackend()};
 
   FineMaps() : AssetRoom("pillar_room", 93, 61) {
+    settings.set("share_memory", 0);
     settings.set("vpls", 60);
     settings.set("updates", 20);
     settings.set("antialias", 1);

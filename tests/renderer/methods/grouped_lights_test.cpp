@@ -20,6 +20,7 @@ struct Room : test::AssetRoom {
 
 Settings settingsOf(const std::string& technique, int vpls, float groupShare) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
   s.set("vpls", vpls);
   s.set("bounces", 1);

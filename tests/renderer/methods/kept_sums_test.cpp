@@ -34,6 +34,7 @@ Settings settingsOf(const std::string& technique, int vpls) {
   s.set("updates", 9);
   s.set("map_resolution", 16);
   s.set("antialias", 1);
+  s.set("share_memory", 0);  // the settled picture is the kept sums
   return s;
 }
 

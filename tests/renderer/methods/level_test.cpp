@@ -25,6 +25,7 @@ struct Level {
     settings.set("vpls", 60);
     settings.set("antialias", 2);
     settings.set("settled_map_scale", 2);
+    settings.set("share_memory", 0);  // the settled picture is the kept sums
     turn(0.0f);
   }
   void turn(float angle) {

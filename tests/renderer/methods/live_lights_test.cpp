@@ -38,6 +38,11 @@ class RecordingKernels : public ManyLightsKernels {
   void sumVpls(std::span<const shared::Vpl>, const shared::ShadingParams&,
                const PatchLights*) override {}
   std::shared_ptr<RadianceImage> compose(bool) override { return nullptr; }
+  std::shared_ptr<RadianceImage> shareOf(size_t, std::span<const shared::Vpl>,
+                                         const shared::ShadingParams&, const PatchLights*,
+                                         bool) override {
+    return nullptr;
+  }
   std::vector<float> readShadowMap(int) override { return {}; }
 
  private:

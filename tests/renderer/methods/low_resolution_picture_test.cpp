@@ -23,6 +23,7 @@ constexpr int kWidth = 320, kHeight = 240;
 
 Settings settingsOf(int vpls, const std::string& block) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("vpls", vpls);
   s.set("updates", vpls);
   s.set("bounces", 1);

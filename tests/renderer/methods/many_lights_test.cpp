@@ -17,6 +17,7 @@ using test::sameBits;
 
 Settings settingsOf(int vpls, int bounces, int updates, int antialias = 1) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("vpls", vpls);
   s.set("bounces", bounces);
   s.set("updates", updates);

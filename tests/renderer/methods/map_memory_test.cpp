@@ -20,6 +20,7 @@ constexpr uint64_t kMebibyte = uint64_t{1} << 20;
 
 Settings settingsOf(const std::string& technique, int vpls, int mebibytes) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
   s.set("vpls", vpls);
   s.set("bounces", 1);

@@ -22,6 +22,7 @@ constexpr int kWidth = 192, kHeight = 128;
 
 Settings settingsOf(const std::string& technique, int vpls) {
   Settings s;
+  s.set("share_memory", 0);  // the settled picture is that of the live sums
   s.set("technique", technique);
   s.set("block", std::string("1"));
   s.set("vpls", vpls);

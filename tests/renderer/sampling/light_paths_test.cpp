@@ -37,7 +37,7 @@ class Stage {
     before_ = scene;
   }
   std::vector<SceneVpl> fresh(const VplCounts& counts) const {
-    return generateVpls(render, *rays, LightSet(render), counts).vpls;
+    return LightPaths::generate(render, *rays, LightSet(render), counts).vpls;
   }
 
   static constexpr vec3 kRed{0.8f, 0.1f, 0.1f};

@@ -38,7 +38,8 @@ class LightStates : public testing::Test {
   static std::vector<NodeId> emittersOf(const RenderScene& render) {
     std::vector<NodeId> ids;
     const LightSet lights(render);
-    for (const Emitter& e : lights.emitters()) ids.push_back(e.node);
+    for (const Emitter& e : lights.emitters())
+      if (e.flux != vec3(0.0f)) ids.push_back(e.node);
     std::sort(ids.begin(), ids.end());
     return ids;
   }
@@ -105,7 +106,7 @@ TEST_F(LightStates, IncrementalUpdatesEqualANewScene) {
   EXPECT_FALSE(edit("point off", [&] { state(point_).on = false; }));
   EXPECT_FALSE(
       edit("point moved while off", [&] { scene_.find(point_)->local.translation = vec3(2); }));
-  EXPECT_TRUE(edit("mesh off", [&] { state(glow_).on = false; }));
+  EXPECT_FALSE(edit("mesh off", [&] { state(glow_).on = false; }));
   EXPECT_FALSE(edit("its material brighter", [&] { scene_.materials[0].emissive *= 2.0f; }));
   edit("its material dark", [&] { scene_.materials[0].emissive = vec3(0); });
   edit("and bright again", [&] { scene_.materials[0].emissive = vec3(1); });

@@ -2,20 +2,16 @@
 // Measures frames and milliseconds until the picture is within 50, 95 and 99% of the settled one.
 // Each iteration is one edit; the direction alternates.
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <string>
 
 #include <benchmark/benchmark.h>
 
-#include "editor/latency/edit_latency.h"
 #include "renderer/backends/cpu/cpu_backend.h"
 #include "renderer/backends/gl/gl_backend.h"
 #include "renderer/base/data_folder.h"
-#include "renderer/frame/frame.h"
-#include "renderer/methods/common_parameters.h"
-#include "renderer/methods/frame_time_control.h"
 #include "renderer/scene/gltf/gltf_io.h"
+#include "tests/tools/bench/window_frames.h"
 
 namespace lamplighter {
 namespace {
@@ -23,10 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float kStep = 0.5f;  // metres
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 void editLatency(benchmark::State& state, const std::string& scenePath, const std::string& moved,
                  const std::string& backend) {
@@ -38,33 +30,16 @@ void editLatency(benchmark::State& state, const std::string& scenePath, const st
     if (n.name == moved) node = &n;
   }
   if (node == nullptr) return state.SkipWithError("no such object");
-  FrameRenderer renderer(backend == "cpu" ? makeCpuBackend() : makeGlBackend(), seconds);
-  const Settings settings;
-  FrameTimeControl control;
-  EditLatency latency;
-  const auto frame = [&](const SceneChanges& changes) {
-    Settings now = settings;
-    const double budget = 1e-3 * frameBudgetParameters().read(settings).frameTime;
-    now.set("updates", std::min(frameBudgetParameters().read(settings).updates,
-                                control.updatesWithin(budget)));
-    const double begin = seconds();
-    const GiOutput out = renderer.render({scene, changes, view, "many_lights", now});
-    renderer.backend().finish();
-    control.measured(out.stats);
-    latency.frame({!changes.none() && !changes.everything, moved, out.settled, view, out.radiance,
-                   begin, seconds()});
-    return out.settled;
-  };
-  bool settled = frame(SceneChanges::all());
-  while (!settled) settled = frame({});
+  WindowFrames window(backend == "cpu" ? makeCpuBackend() : makeGlBackend());
+  window.settle(scene, SceneChanges::all(), view);
 
   int edits = 0;
   for (auto _ : state) {
     const Scene before = scene;
     node->local.translation.x += edits++ % 2 == 0 ? kStep : -kStep;
-    settled = frame(compare(before, scene));
-    while (!settled) settled = frame({});
+    window.settle(scene, compare(before, scene), view, moved);
   }
+  const EditLatency& latency = window.latency();
   const auto mean = [&](auto value) {
     double sum = 0.0;
     for (const LatencyResult& r : latency.results()) sum += value(r);

@@ -294,7 +294,7 @@ uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g,
   return pixels;
 }
 
-void SpecularAccumulator::addTo(const GBuffer& g, Image& picture) const {
+void SpecularAccumulator::addTo(const GBuffer& g, Image& picture, bool hasEmission) const {
   if (!isOn_) return;
   tbb::parallel_for(0, g.tiles(), [&](int t) {
     const Tile& tile = tiles_[static_cast<size_t>(t)];
@@ -310,7 +310,7 @@ void SpecularAccumulator::addTo(const GBuffer& g, Image& picture) const {
         const float nv = glm::dot(toEye, vec3(g.sx[i], g.sy[i], g.sz[i]));
         const float share =
             shared::diffuseShare(gloss.metallic, gloss.roughness, leastRoughness_, nv);
-        const vec3 emission = g.emission(i);
+        const vec3 emission = hasEmission ? g.emission(i) : vec3(0.0f);
         vec3& pixel = picture.at(x, y);
         pixel = emission + share * (pixel - emission) + tile.radiance(i % kTilePixels);
       }

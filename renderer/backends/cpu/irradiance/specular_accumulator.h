@@ -38,9 +38,9 @@ class SpecularAccumulator {
   // Removes all specular light.
   void clear();
 
-  // Replaces Lambertian shading by shading with specular light in the picture. Does nothing if
-  // there are no glossy pixels.
-  void addTo(const GBuffer& gbuffer, Image& picture) const;
+  // Replaces Lambertian shading by shading with specular light in the picture, which includes
+  // emission or not. Does nothing if there are no glossy pixels.
+  void addTo(const GBuffer& gbuffer, Image& picture, bool hasEmission = true) const;
   size_t bytes() const;
 
  private:

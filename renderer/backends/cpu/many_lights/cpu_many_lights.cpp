@@ -5,40 +5,13 @@
 #include <tbb/parallel_invoke.h>
 
 #include "renderer/backends/cpu/composition.h"
-#include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
-#include "renderer/backends/cpu/irradiance/specular_accumulator.h"
 #include "renderer/backends/cpu/many_lights/adaptive_antialiasing.h"
-#include "renderer/backends/cpu/many_lights/low_resolution.h"
+#include "renderer/backends/cpu/many_lights/picture_sums.h"
+#include "renderer/backends/cpu/many_lights/share_sums.h"
 #include "renderer/backends/cpu/shadow_maps/map_store.h"
-#include "shaders/shared/low_resolution.h"
 
 namespace lamplighter::cpu {
 namespace {
-
-// The light of a picture of the backend.
-struct Light {
-  // At the pixels of the G-buffer; with blocks, only in cells that are not interpolated.
-  IrradianceAccumulator sums;
-  int block = 1;  // pixels per block of the last sum
-  LowResolution low;
-  // At the samples of `low`; in quick pictures, without the samples interpolated by `lowSamples`.
-  IrradianceAccumulator sampleSums;
-  LowResolution lowSamples;          // quick pictures: samples of the samples of `low`
-  IrradianceAccumulator coarseSums;  // at the samples of `lowSamples`; summed from scratch
-  SpecularAccumulator speculars;
-
-  template <typename F>
-  void forEachSums(F&& f) {
-    f(sums);
-    f(sampleSums);
-    f(coarseSums);
-  }
-  PictureLight diffuse() const { return {sums, block == 1 ? nullptr : &low, nullptr, {}}; }
-  size_t bytes() const {
-    return sums.bytes() + low.bytes() + sampleSums.bytes() + lowSamples.bytes() +
-           coarseSums.bytes() + speculars.bytes();
-  }
-};
 
 class CpuManyLights final : public ManyLightsKernels {
  public:
@@ -56,7 +29,8 @@ class CpuManyLights final : public ManyLightsKernels {
   }
 
   BackendCounts counts() const override {
-    return {rayCount_, maps_.bytes() + still_.bytes() + shifted_.bytes()};
+    return {rayCount_,
+            maps_.bytes() + still_.bytes() + shifted_.bytes() + (shares_ ? shares_->bytes() : 0)};
   }
 
   void takeScene(const RenderScene& scene, const RenderSceneChanges& changes,
@@ -74,23 +48,19 @@ class CpuManyLights final : public ManyLightsKernels {
         if (scene.hasLinks) leftOutBy_.push_back(o.leftOutBy);
     }
     if (!changes.rebuilt && !changes.materials) return;
-    for (Light* light : {&still_, &shifted_}) {
-      light->forEachSums([](IrradianceAccumulator& sums) { sums.forgetPlaces(); });
-      light->speculars.forgetPlaces();
-    }
+    still_.forgetPlaces();
+    shifted_.forgetPlaces();
+    if (shares_) shares_->forgetPlaces();
   }
 
   void reserveShadowMaps(int slots, const MapRoom& coarse, const MapRoom& fine) override {
     if (!maps_.reserve(slots, coarse, fine)) return;
-    for (Light* light : {&still_, &shifted_}) {
-      light->forEachSums([](IrradianceAccumulator& sums) { sums.forgetMaps(); });
-      light->speculars.forgetMaps();
-    }
+    still_.forgetMaps();
+    shifted_.forgetMaps();
   }
 
   void renderShadowMaps(std::span<const shared::Vpl> vpls, MapSize size) override {
-    shifted_.forEachSums([](IrradianceAccumulator& sums) { sums.forgetMaps(); });
-    shifted_.speculars.forgetMaps();
+    shifted_.forgetMaps();
     const auto slotOf = [](const shared::Vpl& vpl) { return vpl.slot; };
     const auto tellOfOld = [&](auto& sums) {
       for (const shared::Vpl& vpl : vpls)
@@ -112,77 +82,57 @@ class CpuManyLights final : public ManyLightsKernels {
       const std::span<const float> map = maps_.map(slot);
       if (map.empty()) continue;
       still_.forEachSums([&](IrradianceAccumulator& sums) { sums.mapChanges(slot, map); });
-      shifted_.forEachSums([](IrradianceAccumulator& sums) { sums.forgetMaps(); });
       still_.speculars.mapChanges(slot, map);
-      shifted_.speculars.forgetMaps();
+      shifted_.forgetMaps();
       maps_.drop(slot);
     }
   }
 
   void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                const PatchLights* patches) override {
-    std::vector<LightRecord> lights;
-    lights.reserve(vpls.size());
-    for (const shared::Vpl& vpl : vpls) {
-      const int slot = vpl.slot;
-      const int mapSlot = patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot);
-      lights.push_back(makeLightRecord(vpl, mapOf(mapSlot), maps_.resolution(mapSlot)));
-      lights.back().mapSlot = mapSlot;
-    }
-    const float d0 = params.clampAndBias.x;
-    const SumConstants constants{d0 * d0, params.clampAndBias.y, 1.0f};
-    const auto update = [&](IrradianceAccumulator& sums, const GBuffer& points,
-                            std::span<const uint32_t> wanted) {
-      const SumCounts counts = sums.update(points, lights, constants, patches, wanted, leftOutBy_);
-      counts_.lookUps += counts.lookUps;
-      counts_.lightPixels += counts.lightPixels;
-    };
-    const GBuffer& gbuffer = backend_.shown().gbuffer;
-    Light& p = shown();
-    if (params.speculars.x == 0.0f) {
-      p.speculars.clear();
-    } else {
-      std::vector<SpecularLight> speculars;
-      speculars.reserve(vpls.size());
-      for (size_t i = 0; i < vpls.size(); ++i)
-        speculars.push_back({lights[i], vpls[i].footprint.x});
-      counts_.lightPixels += p.speculars.update(*scene_, gbuffer, backend_.shown().view.eye,
-                                                std::move(speculars), constants, params.speculars.y,
-                                                patches, showsStill() && params.block.y == 0.0f);
-    }
-    p.block = std::max(1, static_cast<int>(params.block.x));
+    const Lights lights = lightsOf(vpls, patches);
+    const PictureSums::Input in = inputOf(lights, params, patches);
+    PictureSums& p = shown();
+    counts_.lightPixels +=
+        p.sumSpeculars(in, leastRoughnessOf(params), showsStill() && params.block.y == 0.0f);
+    const int block = std::max(1, static_cast<int>(params.block.x));
     shared_ = {};
     if (showsStill()) sharing_.forget();
-    if (p.block != 1 && isStillOf(lights, constants, patches)) {
+    if (block != 1 && isStillOf(in, block)) {
       if (!sharing_.isTaken()) sharing_.take(backend_.still().gbuffer, still_.diffuse());
-      shared_ = sharing_.findOwn(backend_.still().gbuffer, backend_.shifted().gbuffer);
-      counts_.pixelsInterpolated += still_.low.pixelsInterpolated();
-      update(p.sums, gbuffer, shared_);
+      p.block = block;
+      shared_ = sharing_.findOwn(backend_.still().gbuffer, in.gbuffer);
+      counts_.pixelsInterpolated += still_.pixelsInterpolated();
+      add(p.sumAt(in, shared_));
       return;
     }
-    if (p.block == 1) {
-      update(p.sums, gbuffer, {});
-      return;
-    }
-    p.low.update(gbuffer, p.block, leftOutBy_);
-    if (params.block.y != 0.0f) {
-      p.lowSamples.update(p.low.samples(), shared::kSampleBlock, leftOutBy_);
-      update(p.coarseSums, p.lowSamples.samples(), {});
-      p.lowSamples.findEdges(p.low.samples(), {p.coarseSums});
-      p.coarseSums.forgetMaps();
-      update(p.sampleSums, p.low.samples(), p.lowSamples.edges());
-      p.low.findEdges(gbuffer, {p.sampleSums, &p.lowSamples});
-    } else {
-      update(p.sampleSums, p.low.samples(), {});
-      p.low.findEdges(gbuffer, {p.sampleSums});
-    }
-    counts_.pixelsInterpolated += p.low.pixelsInterpolated();
-    update(p.sums, gbuffer, p.low.edges());
+    add(p.sum(in, block, params.block.y != 0.0f));
+    counts_.pixelsInterpolated += p.pixelsInterpolated();
   }
+
+  std::shared_ptr<RadianceImage> shareOf(size_t group, std::span<const shared::Vpl> vpls,
+                                         const shared::ShadingParams& params,
+                                         const PatchLights* patches, bool white) override {
+    if (!shares_) shares_ = std::make_unique<ShareSums>();
+    const Lights lights = lightsOf(vpls, patches);
+    const PictureSums::Input in = inputOf(lights, params, patches);
+    add(showsStill() ? shares_->sumStill(group, in, std::max(1, static_cast<int>(params.block.x)))
+                     : shares_->sumShifted(group, in, backend_.still().gbuffer));
+    counts_.lightPixels += shares_->sumSpeculars(in, leastRoughnessOf(params));
+    const auto image = backend_.takeImage();
+    const auto lightAt = [&](int tile, int packet, PacketIrradiance&) {
+      return shares_->at(tile, packet);
+    };
+    cpu::compose(in.gbuffer, lightAt, nullptr, white, image->image);
+    if (!white) shares_->speculars().addTo(in.gbuffer, image->image, false);
+    return image;
+  }
+
+  void dropShares() override { shares_.reset(); }
 
   std::shared_ptr<RadianceImage> compose(bool white) override {
     const GBuffer& gbuffer = backend_.shown().gbuffer;
-    const Light& p = shown();
+    const PictureSums& p = shown();
     const auto image = backend_.takeImage();
     const PictureLight still = still_.diffuse();
     const PictureLight light =
@@ -190,7 +140,8 @@ class CpuManyLights final : public ManyLightsKernels {
     const auto lightAt = [&](int tile, int packet, PacketIrradiance& room) {
       return light.at(tile, packet, room);
     };
-    cpu::compose(gbuffer, lightAt, backend_.background(), white, image->image);
+    const Background background = backend_.background();
+    cpu::compose(gbuffer, lightAt, &background, white, image->image);
     if (!white) p.speculars.addTo(gbuffer, image->image);
     return image;
   }
@@ -201,7 +152,7 @@ class CpuManyLights final : public ManyLightsKernels {
   }
 
   std::vector<uint8_t> readInterpolated() override {
-    const Light& p = shared_.empty() ? shown() : still_;
+    const PictureSums& p = shared_.empty() ? shown() : still_;
     const GBuffer& g = (shared_.empty() ? backend_.shown() : backend_.still()).gbuffer;
     if (p.block <= 1) return {};
     std::vector<uint8_t> interpolated;
@@ -218,13 +169,48 @@ class CpuManyLights final : public ManyLightsKernels {
 
  private:
   bool showsStill() const { return &backend_.shown() == &backend_.still(); }
-  Light& shown() { return showsStill() ? still_ : shifted_; }
+  PictureSums& shown() { return showsStill() ? still_ : shifted_; }
+
+  struct Lights {
+    std::vector<LightRecord> records;
+    std::vector<float> footprints;
+  };
+  Lights lightsOf(std::span<const shared::Vpl> vpls, const PatchLights* patches) const {
+    Lights lights;
+    lights.records.reserve(vpls.size());
+    for (const shared::Vpl& vpl : vpls) {
+      const int slot = vpl.slot;
+      const int mapSlot = patches == nullptr || slot < 0 ? slot : patches->mapSlot(slot);
+      lights.records.push_back(makeLightRecord(vpl, mapOf(mapSlot), maps_.resolution(mapSlot)));
+      lights.records.back().mapSlot = mapSlot;
+      lights.footprints.push_back(vpl.footprint.x);
+    }
+    return lights;
+  }
+  PictureSums::Input inputOf(const Lights& lights, const shared::ShadingParams& params,
+                             const PatchLights* patches) const {
+    const float d0 = params.clampAndBias.x;
+    return {*scene_,
+            backend_.shown().gbuffer,
+            backend_.shown().view.eye,
+            lights.records,
+            lights.footprints,
+            {d0 * d0, params.clampAndBias.y, 1.0f},
+            patches,
+            leftOutBy_};
+  }
+  static float leastRoughnessOf(const shared::ShadingParams& params) {
+    return params.speculars.x == 0.0f ? -1.0f : params.speculars.y;
+  }
+  void add(const SumCounts& counts) {
+    counts_.lookUps += counts.lookUps;
+    counts_.lightPixels += counts.lightPixels;
+  }
 
   // Whether the light of the unjittered picture is valid for these arguments.
-  bool isStillOf(std::span<const LightRecord> lights, const SumConstants& constants,
-                 const PatchLights* patches) const {
-    return !showsStill() && backend_.stillIsCurrent() && still_.block == shifted_.block &&
-           still_.sums.isOf(backend_.still().gbuffer, lights, constants, patches);
+  bool isStillOf(const PictureSums::Input& in, int block) const {
+    return !showsStill() && backend_.stillIsCurrent() && still_.block == block &&
+           still_.sums.isOf(backend_.still().gbuffer, in.lights, in.constants, in.patches);
   }
 
   // Null: the slot has no map.
@@ -234,13 +220,14 @@ class CpuManyLights final : public ManyLightsKernels {
   }
 
   CpuBackend& backend_;
-  const ManyLightsTraits traits_{.tracesShadowMaps = true};
+  const ManyLightsTraits traits_{.tracesShadowMaps = true, .sharesNeedMiddle = true};
   ManyLightsCounts counts_;
   uint64_t rayCount_ = 0;
   const RenderScene* scene_ = nullptr;
   const RayCaster* rays_ = nullptr;
   MapStore maps_;
-  Light still_, shifted_;             // of the pictures of the backend
+  PictureSums still_, shifted_;  // of the pictures of the backend
+  std::unique_ptr<ShareSums> shares_;
   AdaptiveAntialiasing sharing_;      // of still_
   std::span<const uint32_t> shared_;  // packets shown that need their own light; empty: all
   std::vector<uint32_t> leftOutBy_;   // by object, with light linking; else empty

@@ -57,10 +57,13 @@ class GlManyLights final : public ManyLightsKernels {
     counts_.lightPixels += vpls.size() * static_cast<uint64_t>(gbuffer.width()) * gbuffer.height();
   }
 
-  std::shared_ptr<RadianceImage> compose(bool white) override {
-    auto picture = backend_.compose(lighting_.irradiance(), white);
-    if (!white) speculars_.addTo(*picture, backend_.gbuffer(), lighting_.irradiance());
-    return picture;
+  std::shared_ptr<RadianceImage> compose(bool white) override { return compose(white, true); }
+
+  std::shared_ptr<RadianceImage> shareOf(size_t, std::span<const shared::Vpl> vpls,
+                                         const shared::ShadingParams& params,
+                                         const PatchLights* patches, bool white) override {
+    sumVpls(vpls, params, patches);
+    return compose(white, false);
   }
 
   std::vector<float> readShadowMap(int slot) override { return maps_.read(slot); }
@@ -73,6 +76,12 @@ class GlManyLights final : public ManyLightsKernels {
   }
 
  private:
+  std::shared_ptr<RadianceImage> compose(bool white, bool withEmission) {
+    auto picture = backend_.compose(lighting_.irradiance(), white, withEmission);
+    if (!white) speculars_.addTo(*picture, backend_.gbuffer(), lighting_.irradiance());
+    return picture;
+  }
+
   GlBackend& backend_;
   const ManyLightsTraits traits_{.specularsTakeAllMaps = true,
                                  .mostLightMapTexels = GlPatches::mostTexels()};

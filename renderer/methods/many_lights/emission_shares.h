@@ -1,0 +1,31 @@
+// The light of emissive surfaces and of the sky that the camera sees, apart for each control of
+// brightness (light_controls.h).
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "renderer/image/image.h"
+#include "renderer/methods/gi_method.h"
+#include "renderer/sampling/light_controls.h"
+
+namespace lamplighter {
+
+class EmissionShares {
+ public:
+  void clear() { *this = EmissionShares(); }
+  // Adds the picture of the G-buffer that was rendered last, shifted by `jitter` and multiplied by
+  // `weight`.
+  void add(const FrameInputs& in, const LightControls& controls, vec2 jitter, float weight);
+  // Adds all to a picture, with the gain of each control.
+  void addTo(Image& picture, const LightControls& controls) const;
+
+ private:
+  // By pixel, in order: radiance at the reference brightness [W/(m² sr)].
+  using Pixels = std::vector<std::pair<uint32_t, vec3>>;
+
+  std::vector<Pixels> ofControl_;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,220 @@
+#include "renderer/methods/many_lights/light_shares.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/light_maps/patch_lights.h"
+#include "renderer/methods/many_lights/bias_compensation_filter.h"
+#include "renderer/methods/many_lights/pixel_jitter.h"
+
+namespace lamplighter {
+namespace {
+
+// Work of a frame: lights × pixels summed, and pixels whose corners are traced.
+constexpr uint64_t kLightPixelsAFrame = uint64_t{1} << 26;
+constexpr int kCornerPixelsAFrame = 1 << 16;
+
+// Each share has a cost of its own, in time and in memory. With more lights the faint ones have one
+// share together.
+constexpr size_t kMostShares = 32;
+
+// What a share takes while it is computed: the light of the pixels without jitter, and of the mean.
+constexpr size_t kBytesAPixel = 2 * sizeof(vec3);
+
+size_t pixelsOf(const View& view) {
+  return static_cast<size_t>(view.width) * static_cast<size_t>(view.height);
+}
+
+void addScaled(Image& sum, const Image& image, float scale) {
+  if (sum.empty()) sum = Image(image.width, image.height);
+  tbb::parallel_for(0, sum.height, [&](int y) {
+    for (int x = 0; x < sum.width; ++x) sum.at(x, y) += scale * image.at(x, y);
+  });
+}
+
+}  // namespace
+
+bool LightShares::fits(const View& view, size_t bytes) {
+  return pixelsOf(view) * kBytesAPixel <= bytes;
+}
+
+void LightShares::restart(ManyLightsKernels& kernels) {
+  if (phase_ == Phase::idle) return;
+  ImagePool pool = std::move(pool_);
+  *this = LightShares();
+  pool_ = std::move(pool);
+  kernels.dropShares();
+}
+
+// Each control has its own share. If memory is short, only the brightest do, and the others have
+// one together.
+void LightShares::begin(const Inputs& in) {
+  const size_t count = in.controls.size();
+  const size_t fitting =
+      std::min(in.options.bytes / (pixelsOf(in.frame.view) * kBytesAPixel), kMostShares);
+  std::vector<uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  if (count > fitting)
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      return in.controls.controls[a].flux > in.controls.controls[b].flux;
+    });
+  shares_.resize(std::min(count, fitting));
+  shareOf_.assign(count, 0);
+  mixedIn_.assign(count, vec3(1.0f));
+  for (size_t i = 0; i < count; ++i) {
+    const size_t share = std::min(i, shares_.size() - 1);
+    shares_[share].controls.push_back(order[i]);
+    shareOf_[order[i]] = static_cast<uint32_t>(share);
+  }
+  if (count > fitting) {
+    for (const uint32_t control : shares_.back().controls)
+      mixedIn_[control] = in.controls.controls[control].gain;
+    lightsWithoutShare_ = static_cast<int>(shares_.back().controls.size());
+  }
+  pictures_ = std::max(in.options.antialias, 1);
+  phase_ = in.kernels.traits().sharesNeedMiddle || pictures_ == 1 ? Phase::middle : Phase::shifted;
+}
+
+void LightShares::goOn(const Inputs& in) {
+  if (phase_ == Phase::idle) begin(in);
+  if (phase_ == Phase::corners) {
+    traceCorners(in);
+  } else if (phase_ != Phase::done) {
+    sumNext(in);
+  }
+}
+
+int LightShares::stepsLeft() const {
+  if (phase_ == Phase::done) return 0;
+  return pictures_ - picture_ + 1;
+}
+
+// Sums the next shares of a picture.
+void LightShares::sumNext(const Inputs& in) {
+  const bool isMiddle = phase_ == Phase::middle;
+  const bool isShown = !isMiddle || pictures_ == 1;
+  const vec2 jitter = isMiddle ? vec2(0.0f) : pixelJitter(picture_, pictures_);
+  const float weight = 1.0f / static_cast<float>(pictures_);
+  in.frame.backend.renderGBuffer(in.frame.view, jitter);
+  if (next_ == 0 && isShown) emission_.add(in.frame, in.controls, jitter, weight);
+  const uint64_t before = in.kernels.lightCounts().lightPixels;
+  while (next_ < shares_.size() &&
+         in.kernels.lightCounts().lightPixels - before < kLightPixelsAFrame) {
+    LightSampleTable lights = in.lights;
+    lights.sumAtReference([&](const LightSample& l) { return mixedIn_[in.controls.of(l.id)]; });
+    lights.sumOnly([&](const LightSample& l) { return shareOf_[in.controls.of(l.id)] == next_; });
+    std::vector<shared::Vpl> vpls = lights.summedInOrder();
+    std::shared_ptr<RadianceImage> image;
+    if (in.visibility != nullptr) {
+      LightProxies proxies;
+      proxies.update(lights, in.groups);
+      vpls.insert(vpls.end(), proxies.lights().begin(), proxies.lights().end());
+      const PatchLights patches(*in.visibility, nullptr, in.options.mergePasses, nullptr, &proxies);
+      image = in.kernels.shareOf(next_, vpls, in.options.shading, &patches, in.frame.lightOnly);
+    } else {
+      image = in.kernels.shareOf(next_, vpls, in.options.shading, nullptr, in.frame.lightOnly);
+    }
+    if (isShown) addScaled(shares_[next_].light, image->pixels(), weight);
+    ++next_;
+  }
+  if (next_ < shares_.size()) return;
+  next_ = 0;
+  picture_ += isShown ? 1 : 0;
+  phase_ = picture_ < pictures_ ? Phase::shifted
+           : in.options.corners ? Phase::corners
+                                : Phase::done;
+  if (picture_ == pictures_) in.kernels.dropShares();
+}
+
+void LightShares::traceCorners(const Inputs& in) {
+  const View& view = in.frame.view;
+  std::vector<SceneVpl> vpls;
+  std::vector<uint32_t> groups;
+  for (const LightSample& sample : in.lights.samples) {
+    if (!sample.isLive) continue;
+    vpls.push_back(sample);
+    vpls.back().vpl.intensity = in.lights.reference[static_cast<size_t>(sample.vpl.slot)];
+    groups.push_back(in.controls.of(sample.id));
+  }
+  std::vector<BiasCompensation::Emission> emissions;
+  for (const int control : in.controls.ofObject) {
+    if (control == kNone)
+      emissions.emplace_back();
+    else
+      emissions.push_back({static_cast<uint32_t>(control),
+                           in.controls.controls[static_cast<size_t>(control)].reference});
+  }
+  BiasCompensation::Options options = in.options.corner;
+  options.groups = groups;
+  options.emissions = emissions;
+  const BiasCompensation corners(in.frame.scene, in.frame.services.rays(), vpls, options);
+  pixels_.resize(pixelsOf(view));
+  contributions_.resize(static_cast<size_t>(view.height));
+  const int end = std::min(view.height, rows_ + std::max(1, kCornerPixelsAFrame / view.width));
+  corners.findRows(view, vec2(0.0f), rows_, end, pixels_, contributions_);
+  rows_ = end;
+  if (rows_ < view.height) return;
+  addCorners(in);
+  phase_ = Phase::done;
+}
+
+void LightShares::addCorners(const Inputs& in) {
+  withoutCorners_ = Image(in.frame.view.width, in.frame.view.height);
+  mixTo(in.controls, withoutCorners_);
+  const int width = in.frame.view.width, height = in.frame.view.height;
+  for (size_t s = 0; s < shares_.size(); ++s) {
+    tbb::parallel_for(0, height, [&](int y) {
+      const size_t row = static_cast<size_t>(y) * static_cast<size_t>(width);
+      for (int x = 0; x < width; ++x) pixels_[row + static_cast<size_t>(x)].light = vec3(0.0f);
+      for (const BiasCompensation::Contribution& c : contributions_[static_cast<size_t>(y)])
+        if (shareOf_[c.group] == s) pixels_[c.pixel].light += mixedIn_[c.group] * c.light;
+    });
+    addSmoothed(pixels_, filterRadius(1, height), shares_[s].light);
+  }
+  pixels_ = {};
+  contributions_ = {};
+}
+
+bool LightShares::canMix(const LightControls& controls) const {
+  if (lightsWithoutShare_ == 0) return true;
+  return std::ranges::all_of(shares_.back().controls, [&](uint32_t control) {
+    return controls.controls[control].gain == mixedIn_[control];
+  });
+}
+
+void LightShares::mixTo(const LightControls& controls, Image& picture) const {
+  struct Weighted {
+    vec3 gain;
+    const Image* light;
+  };
+  std::vector<Weighted> shares;
+  for (const Share& s : shares_) {
+    // Those of a share for several lights are in it.
+    const bool isMixed = lightsWithoutShare_ > 0 && &s == &shares_.back();
+    shares.push_back({isMixed ? vec3(1.0f) : controls.controls[s.controls.front()].gain, &s.light});
+  }
+  tbb::parallel_for(0, picture.height, [&](int y) {
+    for (int x = 0; x < picture.width; ++x) {
+      vec3 sum(0.0f);
+      for (const Weighted& s : shares) sum += s.gain * s.light->at(x, y);
+      picture.at(x, y) = sum;
+    }
+  });
+  emission_.addTo(picture, controls);
+}
+
+std::shared_ptr<RadianceImage> LightShares::mix(const View& view, const LightControls& controls) {
+  const auto picture = pool_.take(view.width, view.height);
+  mixTo(controls, picture->image);
+  return picture;
+}
+
+size_t LightShares::bytes() const {
+  size_t bytes = withoutCorners_.pixels.size() * sizeof(vec3);
+  for (const Share& s : shares_) bytes += s.light.pixels.size() * sizeof(vec3);
+  return bytes;
+}
+
+}  // namespace lamplighter

@@ -1,0 +1,91 @@
+// A settled picture as the sum of what each light gives, so that a change of brightness only weighs
+// the sum anew (the light mix of V-Ray and Corona). Each share is the light that surfaces reflect
+// of one control of brightness (light_controls.h) at its reference brightness, directly and after
+// bounces, antialiased and with the light of corners.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/backends/image_pool.h"
+#include "renderer/backends/many_lights_kernels.h"
+#include "renderer/light_maps/light_proxies.h"
+#include "renderer/methods/many_lights/bias_compensation.h"
+#include "renderer/methods/many_lights/emission_shares.h"
+#include "renderer/sampling/light_sample_table.h"
+#include "renderer/visibility/visibility_database.h"
+
+namespace lamplighter {
+
+class LightShares {
+ public:
+  struct Options {
+    size_t bytes = 0;   // of memory
+    int antialias = 1;  // pictures with shifted pixels; 1: only the picture without jitter
+    shared::ShadingParams shading;
+    bool mergePasses = false;
+    bool corners = false;
+    BiasCompensation::Options corner;  // without groups
+  };
+  struct Inputs {
+    const FrameInputs& frame;
+    ManyLightsKernels& kernels;
+    const LightSampleTable& lights;  // all up to date
+    const LightControls& controls;
+    const VisibilityDatabase* visibility;  // null: naive
+    const LightProxies::Groups& groups;
+    const Options& options;
+  };
+
+  // Whether the memory suffices for a picture of this size, at least with one share for all lights.
+  static bool fits(const View& view, size_t bytes);
+
+  // The picture changed in more than the brightness of lights.
+  void restart(ManyLightsKernels& kernels);
+  // Goes on with the work of a frame. Moves the G-buffer.
+  void goOn(const Inputs& in);
+  bool isDone() const { return phase_ == Phase::done; }
+  // Whether the next goOn() traces the light of corners.
+  bool tracesCorners() const { return phase_ == Phase::corners; }
+  // Steps until it is done, about one per frame.
+  int stepsLeft() const;
+
+  // Whether the picture is the weighted sum of the shares with these gains. Not so if a light
+  // changed that shares its share with others because memory is short.
+  bool canMix(const LightControls& controls) const;
+  // The picture. Requires isDone() and canMix().
+  std::shared_ptr<RadianceImage> mix(const View& view, const LightControls& controls);
+  // The picture before the light of corners was added, with the gains of then; empty without it.
+  Image takeWithoutCorners() { return std::move(withoutCorners_); }
+
+  int lightsWithoutShare() const { return lightsWithoutShare_; }
+  size_t bytes() const;
+
+ private:
+  enum class Phase : uint8_t { idle, middle, shifted, corners, done };
+  struct Share {
+    std::vector<uint32_t> controls;
+    Image light;
+  };
+  void begin(const Inputs& in);
+  void sumNext(const Inputs& in);
+  void traceCorners(const Inputs& in);
+  void addCorners(const Inputs& in);
+  void mixTo(const LightControls& controls, Image& picture) const;
+
+  Phase phase_ = Phase::idle;
+  int picture_ = 0, pictures_ = 1;  // the jittered picture in progress
+  size_t next_ = 0;                 // the share in progress
+  std::vector<Share> shares_;
+  std::vector<uint32_t> shareOf_;  // by control
+  std::vector<vec3> mixedIn_;      // by control of a share for several: its gain; otherwise 1
+  EmissionShares emission_;
+  int rows_ = 0;  // with corners
+  std::vector<BiasCompensation::Pixel> pixels_;
+  std::vector<std::vector<BiasCompensation::Contribution>> contributions_;
+  Image withoutCorners_;
+  ImagePool pool_;
+  int lightsWithoutShare_ = 0;
+};
+
+}  // namespace lamplighter

@@ -1,0 +1,44 @@
+#include "renderer/sampling/light_controls.h"
+
+#include "renderer/sampling/path_tracing.h"
+#include "renderer/scene/reference_brightness.h"
+
+namespace lamplighter {
+
+LightControls::LightControls(const RenderScene& scene, const LightSet& lights)
+    : ofObject(scene.objects.size(), kNone) {
+  const std::vector<VplId> ids = emitterIds(lights);
+  std::map<std::pair<NodeId, int>, int> ofSurface;  // by node and material, lit or dark
+  for (size_t i = 0; i < ids.size(); ++i) {
+    const Emitter& e = lights.emitters()[i];
+    int control = kNone;
+    if (e.kind == EmitterKind::sky) control = ofSky;
+    if (e.kind == EmitterKind::surface) {
+      const int material = scene.objects[e.object].material;
+      const int lit = material >= scene.firstDark ? material - scene.firstDark : material;
+      control = ofSurface.emplace(std::pair(e.node, lit), static_cast<int>(controls.size()))
+                    .first->second;
+      ofObject[e.object] = control;
+    }
+    if (control == kNone) control = static_cast<int>(controls.size());
+    if (static_cast<size_t>(control) == controls.size())
+      controls.push_back({e.gain, e.reference, 0.0f});
+    if (e.kind == EmitterKind::sky) ofSky = control;
+    controls[static_cast<size_t>(control)].flux += e.referenceFlux;
+    ofEmitter[ids[i]] = static_cast<uint32_t>(control);
+  }
+  // A sky without a scene is seen, too.
+  if (ofSky != kNone || scene.nominalSky.isBlack()) return;
+  ofSky = static_cast<int>(controls.size());
+  const float reference = referenceBrightness(scene.nominalSky.factor());
+  const vec3 factor = scene.sky.isBlack() ? vec3(0.0f) : scene.sky.factor();
+  controls.push_back({factor / reference, reference, 0.0f});
+}
+
+std::vector<vec3> LightControls::gains() const {
+  std::vector<vec3> gains;
+  for (const Control& c : controls) gains.push_back(c.gain);
+  return gains;
+}
+
+}  // namespace lamplighter

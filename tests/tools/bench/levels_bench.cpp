@@ -1,0 +1,207 @@
+// Edits in real levels, seen from inside, at defaults with the budgets of the editor's window:
+// opening, changes of brightness, a lamp that is added, moved and deleted, an object that is
+// hidden, and a flight. The levels are those of ../shared/scenes; without that folder there are
+// none.
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include <benchmark/benchmark.h>
+
+#include "renderer/backends/cpu/cpu_backend.h"
+#include "renderer/base/data_folder.h"
+#include "renderer/scene/gltf/gltf_io.h"
+#include "tests/tools/bench/window_frames.h"
+
+namespace lamplighter {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 1280, kHeight = 720;
+
+struct Level {
+  const char* file;
+  // Used if the file has no camera.
+  vec3 eye{0.0f};
+  quat turn{1.0f, 0.0f, 0.0f, 0.0f};
+};
+const Level kLevels[] = {
+    {"modern-hall/modern-hall.glb"},
+    {"living-room/living-room.gltf"},
+    {"classroom/classroom.gltf"},
+    {"bathroom/bathroom.glb"},
+    {"bedroom/bedroom.glb"},
+    {"kenney-fps-level/kenney-fps-level.gltf"},
+    {"zdm2-map/zdm2.glb", {5, 6, 8}, {0.8901f, 0, 0.4557f, 0}},
+    {"candela-city/candela_city.glb", {-90, -2, 35}, {0.809f, 0, -0.5878f, 0}}};
+
+fs::path fileOf(const Level& level) {
+  return dataFolder() / "../shared/scenes" / fs::path(level.file);
+}
+
+struct Opened {
+  Scene scene;
+  View view;
+
+  Opened(const Level& level, int width, int height) : scene(loadGltf(fileOf(level)).scene) {
+    bool hasCamera = false;
+    for (const Node& n : scene.nodes) {
+      if (n.camera == kNone || hasCamera) continue;
+      view = viewOfCamera(scene, n, width, height);
+      hasCamera = true;
+    }
+    if (hasCamera) return;
+    view.eye = level.eye;
+    view.orientation = level.turn;
+    view.width = width;
+    view.height = height;
+    view.yfov = 1.05f;
+    view.znear = 0.05f;
+  }
+
+  // A rectangle light in front of the camera that aims down.
+  NodeId addLamp() {
+    Node lamp;
+    lamp.id = 1;
+    for (const Node& n : scene.nodes) lamp.id = std::max(lamp.id, n.id + 1);
+    lamp.name = "lamp";
+    lamp.area = AreaLight{.radiance = vec3(20.0f), .size = vec2(1.0f, 0.5f)};
+    lamp.local.translation = view.eye + 2.5f * view.forward() + vec3(0.0f, 0.5f, 0.0f);
+    lamp.local.rotation = glm::angleAxis(-0.5f * kPi, vec3(1.0f, 0.0f, 0.0f));
+    scene.nodes.push_back(lamp);
+    return lamp.id;
+  }
+};
+
+// An edit, done and undone in turns.
+using Edit = std::function<void(Scene&, bool isDone)>;
+
+void brighten(Scene& scene, bool isDone) {
+  const float factor = isDone ? 1.0f / 1.2f : 1.2f;
+  for (Node& n : scene.nodes) {
+    if (n.area) n.area->radiance *= factor;
+    if (n.punctual) n.punctual->intensity *= factor;
+  }
+  for (Material& m : scene.materials) m.emissive *= factor;
+  if (scene.sky.kind == SkyKind::constant) scene.sky.radiance *= factor;
+  if (scene.sky.kind == SkyKind::image) scene.sky.scale *= factor;
+}
+
+void measure(benchmark::State& state, const Level& level, bool startsWithLamp, const Edit& edit) {
+  Opened opened(level, kWidth, kHeight);
+  if (startsWithLamp) opened.addLamp();
+  Scene& scene = opened.scene;
+  WindowFrames window(makeCpuBackend());
+  window.settle(scene, SceneChanges::all(), opened.view);
+  double first = 0.0, longest = 0.0, rays = 0.0, settledAtOnce = 0.0;
+  bool isDone = false;
+  int edits = 0;
+  for (auto _ : state) {
+    const Scene before = scene;
+    edit(scene, isDone);
+    isDone = !isDone;
+    const uint64_t raysBefore = window.backend().counts().rays;
+    GiOutput out = window.frame(scene, compare(before, scene), opened.view, "edit");
+    first += window.lastFrame();
+    rays += static_cast<double>(window.backend().counts().rays - raysBefore) +
+            static_cast<double>(out.stats.raysTraced);
+    settledAtOnce += out.settled ? 1.0 : 0.0;
+    longest = std::max(longest, window.lastFrame());
+    while (!out.settled) {
+      out = window.frame(scene, {}, opened.view);
+      longest = std::max(longest, window.lastFrame());
+    }
+    ++edits;
+  }
+  double within95 = 0.0, settled = 0.0;
+  const auto count = static_cast<double>(std::max<size_t>(window.latency().results().size(), 1));
+  for (const LatencyResult& r : window.latency().results()) {
+    within95 += r.within[1].milliseconds / count;
+    settled += r.settled.milliseconds / count;
+  }
+  state.counters["ms_first"] = 1e3 * first / edits;
+  state.counters["ms_longest"] = 1e3 * longest;
+  state.counters["ms_95"] = within95;
+  state.counters["ms_settled"] = settled;
+  state.counters["rays_first"] = rays / edits;
+  state.counters["settled_at_once"] = settledAtOnce / edits;
+}
+
+void open(benchmark::State& state, const Level& level) {
+  double first = 0.0;
+  for (auto _ : state) {
+    const double begin = benchSeconds();
+    const Opened opened(level, kWidth, kHeight);
+    WindowFrames window(makeCpuBackend());
+    const GiOutput out = window.frame(opened.scene, SceneChanges::all(), opened.view);
+    first += benchSeconds() - begin;
+    if (!out.settled) window.settle(opened.scene, {}, opened.view);
+  }
+  state.counters["s_first"] = first / static_cast<double>(state.iterations());
+}
+
+// Forward, with a turn; the mean frame after the first.
+void fly(benchmark::State& state, const Level& level) {
+  Opened opened(level, 640, 360);
+  WindowFrames window(makeCpuBackend());
+  window.settle(opened.scene, SceneChanges::all(), opened.view);
+  double longest = 0.0;
+  for (auto _ : state) {
+    opened.view.eye += 0.03f * opened.view.forward();
+    opened.view.orientation =
+        glm::angleAxis(0.01f, vec3(0.0f, 1.0f, 0.0f)) * opened.view.orientation;
+    window.frame(opened.scene, {}, opened.view);
+    longest = std::max(longest, window.lastFrame());
+  }
+  state.counters["fps"] =
+      benchmark::Counter(static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["ms_longest"] = 1e3 * longest;
+}
+
+void add(const Level& level) {
+  const std::string name = "levels/" + fs::path(level.file).begin()->string() + "/";
+  const auto registered = [&](const char* what, auto run) {
+    return benchmark::RegisterBenchmark((name + what).c_str(), run)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  };
+  registered("open", [&level](benchmark::State& s) { open(s, level); })->Iterations(1);
+  registered("brightness", [&level](benchmark::State& s) {
+    measure(s, level, false, brighten);
+  })->Iterations(8);
+  registered("lamp_moved", [&level](benchmark::State& s) {
+    measure(s, level, true, [](Scene& scene, bool isDone) {
+      scene.nodes.back().local.translation.x += isDone ? -0.5f : 0.5f;
+    });
+  })->Iterations(2);
+  registered("lamp_added_and_deleted", [&level](benchmark::State& s) {
+    Node lamp;
+    measure(s, level, true, [&](Scene& scene, bool isDone) {
+      if (isDone) {
+        scene.nodes.push_back(lamp);
+      } else {
+        lamp = scene.nodes.back();
+        scene.nodes.pop_back();
+      }
+    });
+  })->Iterations(2);
+  registered("object_hidden", [&level](benchmark::State& s) {
+    measure(s, level, true, [](Scene& scene, bool isDone) {
+      const auto mesh = std::find_if(scene.nodes.rbegin(), scene.nodes.rend(),
+                                     [](const Node& n) { return n.mesh != kNone; });
+      if (mesh != scene.nodes.rend()) mesh->visible = isDone;
+    });
+  })->Iterations(2);
+  registered("flight", [&level](benchmark::State& s) { fly(s, level); })->Iterations(60);
+}
+
+[[maybe_unused]] const bool kRegistered = [] {
+  for (const Level& level : kLevels)
+    if (fs::exists(fileOf(level))) add(level);
+  return true;
+}();
+
+}  // namespace
+}  // namespace lamplighter

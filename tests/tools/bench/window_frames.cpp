@@ -1,0 +1,39 @@
+#include "tests/tools/bench/window_frames.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "renderer/methods/common_parameters.h"
+
+namespace lamplighter {
+
+double benchSeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+WindowFrames::WindowFrames(std::unique_ptr<Backend> backend)
+    : renderer_(std::move(backend), benchSeconds) {}
+
+const GiOutput& WindowFrames::frame(const Scene& scene, const SceneChanges& changes,
+                                    const View& view, const std::string& edit) {
+  const FrameBudgetParameters budget = frameBudgetParameters().read(settings_);
+  Settings now = settings_;
+  now.set("updates", std::min(budget.updates, control_.updatesWithin(1e-3 * budget.frameTime)));
+  const double begin = benchSeconds();
+  output_ = renderer_.render({scene, changes, view, "many_lights", now});
+  renderer_.backend().finish();
+  const double end = benchSeconds();
+  last_ = end - begin;
+  control_.measured(output_.stats);
+  latency_.frame({!edit.empty(), edit, output_.settled, view, output_.radiance, begin, end});
+  return output_;
+}
+
+void WindowFrames::settle(const Scene& scene, const SceneChanges& changes, const View& view,
+                          const std::string& edit) {
+  frame(scene, changes, view, edit);
+  while (!output_.settled) frame(scene, {}, view);
+}
+
+}  // namespace lamplighter
