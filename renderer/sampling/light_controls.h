@@ -14,7 +14,16 @@ struct LightControls {
   LightControls() = default;
   LightControls(const RenderScene& scene, const LightSet& lights);
 
+  // Identifies a control, also after an edit.
+  struct Key {
+    enum class Kind : uint8_t { surfaces, punctual, sky };
+    Kind kind = Kind::sky;
+    NodeId node = kNoNode;
+    int material = kNone;  // of surfaces: index into RenderScene::materials, not of a dark copy
+    bool operator==(const Key&) const = default;
+  };
   struct Control {
+    Key key;
     vec3 gain{0.0f};         // of its emitters (reference_brightness.h)
     float reference = 0.0f;  // their reference brightness
     float flux = 0.0f;       // sum of their reference fluxes [W]

@@ -96,8 +96,10 @@ struct RenderSceneChanges {
   bool none() const {
     return !surfaces() && emissions.empty() && switchedObjects.empty() && !lights && !sky && !gains;
   }
-  // Whether only the brightness of lights changed, in steps that change no light sample.
-  bool onlyGains() const { return !none() && !surfaces() && !lights && !sky && !references; }
+  // Whether only the brightness of lights changed.
+  bool onlyBrightness() const { return !none() && !surfaces() && !lights && !sky; }
+  // The same, in steps that change no light sample.
+  bool onlyGains() const { return onlyBrightness() && !references; }
   // Whether anything that receives, reflects or blocks light changed, and not just the light that
   // is emitted.
   bool surfaces() const { return rebuilt || !movedObjects.empty() || materials; }

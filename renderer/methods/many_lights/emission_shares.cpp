@@ -85,9 +85,9 @@ void EmissionShares::add(const FrameInputs& in, const LightControls& controls, v
   ofControl_ = std::move(merged);
 }
 
-void EmissionShares::addTo(Image& picture, const LightControls& controls) const {
+void EmissionShares::addTo(Image& picture, std::span<const vec3> gains) const {
   for (size_t control = 0; control < ofControl_.size(); ++control) {
-    const vec3 gain = controls.controls[control].gain;
+    const vec3 gain = gains[control];
     const Pixels& pixels = ofControl_[control];
     tbb::parallel_for(size_t{0}, pixels.size(), [&](size_t i) {
       picture.pixels[pixels[i].first] += gain * pixels[i].second;

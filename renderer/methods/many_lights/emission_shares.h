@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@ class EmissionShares {
   // `weight`.
   void add(const FrameInputs& in, const LightControls& controls, vec2 jitter, float weight);
   // Adds all to a picture, with the gain of each control.
-  void addTo(Image& picture, const LightControls& controls) const;
+  void addTo(Image& picture, std::span<const vec3> gains) const;
 
  private:
   // By pixel, in order: radiance at the reference brightness [W/(m² sr)].

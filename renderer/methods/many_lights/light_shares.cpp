@@ -20,6 +20,9 @@ constexpr int kCornerPixelsAFrame = 1 << 16;
 // share together.
 constexpr size_t kMostShares = 32;
 
+// Largest relative difference between factors that count as equal.
+constexpr float kMostOff = 1e-5f;
+
 // What a share takes while it is computed: the light of the pixels without jitter, and of the mean.
 constexpr size_t kBytesAPixel = 2 * sizeof(vec3);
 
@@ -52,6 +55,7 @@ void LightShares::restart(ManyLightsKernels& kernels) {
 // one together.
 void LightShares::begin(const Inputs& in) {
   const size_t count = in.controls.size();
+  controls_ = in.controls.controls;
   const size_t fitting =
       std::min(in.options.bytes / (pixelsOf(in.frame.view) * kBytesAPixel), kMostShares);
   std::vector<uint32_t> order(count);
@@ -130,6 +134,7 @@ void LightShares::sumNext(const Inputs& in) {
 
 void LightShares::traceCorners(const Inputs& in) {
   const View& view = in.frame.view;
+  if (rows_ == view.height) return addCorners(in);
   std::vector<SceneVpl> vpls;
   std::vector<uint32_t> groups;
   for (const LightSample& sample : in.lights.samples) {
@@ -155,59 +160,87 @@ void LightShares::traceCorners(const Inputs& in) {
   const int end = std::min(view.height, rows_ + std::max(1, kCornerPixelsAFrame / view.width));
   corners.findRows(view, vec2(0.0f), rows_, end, pixels_, contributions_);
   rows_ = end;
-  if (rows_ < view.height) return;
-  addCorners(in);
-  phase_ = Phase::done;
 }
 
+// One share in each call, because smoothing takes long in large pictures.
 void LightShares::addCorners(const Inputs& in) {
-  withoutCorners_ = Image(in.frame.view.width, in.frame.view.height);
-  mixTo(in.controls, withoutCorners_);
   const int width = in.frame.view.width, height = in.frame.view.height;
-  for (size_t s = 0; s < shares_.size(); ++s) {
+  if (withCorners_ == 0) {
+    withoutCorners_ = Image(width, height);
+    mixTo(*weightsFor(in.controls), withoutCorners_);
+  }
+  if (withCorners_ < shares_.size()) {
     tbb::parallel_for(0, height, [&](int y) {
       const size_t row = static_cast<size_t>(y) * static_cast<size_t>(width);
       for (int x = 0; x < width; ++x) pixels_[row + static_cast<size_t>(x)].light = vec3(0.0f);
       for (const BiasCompensation::Contribution& c : contributions_[static_cast<size_t>(y)])
-        if (shareOf_[c.group] == s) pixels_[c.pixel].light += mixedIn_[c.group] * c.light;
+        if (shareOf_[c.group] == withCorners_)
+          pixels_[c.pixel].light += mixedIn_[c.group] * c.light;
     });
-    addSmoothed(pixels_, filterRadius(1, height), shares_[s].light);
+    addSmoothed(pixels_, filterRadius(1, height), shares_[withCorners_].light);
+    ++withCorners_;
   }
+  if (withCorners_ < shares_.size()) return;
   pixels_ = {};
   contributions_ = {};
+  phase_ = Phase::done;
 }
 
-bool LightShares::canMix(const LightControls& controls) const {
-  if (lightsWithoutShare_ == 0) return true;
-  return std::ranges::all_of(shares_.back().controls, [&](uint32_t control) {
-    return controls.controls[control].gain == mixedIn_[control];
-  });
-}
-
-void LightShares::mixTo(const LightControls& controls, Image& picture) const {
-  struct Weighted {
-    vec3 gain;
-    const Image* light;
-  };
-  std::vector<Weighted> shares;
-  for (const Share& s : shares_) {
-    // Those of a share for several lights are in it.
-    const bool isMixed = lightsWithoutShare_ > 0 && &s == &shares_.back();
-    shares.push_back({isMixed ? vec3(1.0f) : controls.controls[s.controls.front()].gain, &s.light});
+std::optional<LightShares::Weights> LightShares::weightsFor(const LightControls& controls) const {
+  Weights weights;
+  weights.ofControls.assign(controls_.size(), vec3(0.0f));
+  std::vector<bool> isKnown(controls.size(), false);
+  for (size_t i = 0; i < controls_.size(); ++i) {
+    // Most controls keep their place.
+    size_t now = i;
+    if (i >= controls.size() || !(controls.controls[i].key == controls_[i].key))
+      now = static_cast<size_t>(
+          std::ranges::find(controls.controls, controls_[i].key, &LightControls::Control::key) -
+          controls.controls.begin());
+    if (now == controls.size()) {  // it is black now
+      weights.isFinal = false;
+      continue;
+    }
+    isKnown[now] = true;
+    const LightControls::Control& c = controls.controls[now];
+    const bool isSame = c.reference == controls_[i].reference;
+    weights.ofControls[i] = isSame ? c.gain : c.gain * (c.reference / controls_[i].reference);
+    weights.isFinal = weights.isFinal && isSame;
   }
+  for (size_t i = 0; i < controls.size(); ++i)
+    if (!isKnown[i] && controls.controls[i].gain != vec3(0.0f)) return std::nullopt;
+  for (const Share& s : shares_) weights.ofShares.push_back(weights.ofControls[s.controls.front()]);
+  if (lightsWithoutShare_ == 0) return weights;
+  // All lights in one share must have changed alike.
+  std::optional<vec3> ratio;
+  for (const uint32_t control : shares_.back().controls) {
+    const vec3 before = mixedIn_[control], now = weights.ofControls[control];
+    if (before == vec3(0.0f) && now == vec3(0.0f)) continue;
+    const vec3 change = now / before;
+    if (!ratio) ratio = change;
+    const vec3 off = glm::abs(change - *ratio);
+    if (!glm::all(glm::lessThanEqual(off, kMostOff * *ratio))) return std::nullopt;
+  }
+  weights.ofShares.back() = ratio.value_or(vec3(1.0f));
+  weights.isFinal = weights.isFinal && weights.ofShares.back() == vec3(1.0f);
+  return weights;
+}
+
+void LightShares::mixTo(const Weights& weights, Image& picture) const {
   tbb::parallel_for(0, picture.height, [&](int y) {
     for (int x = 0; x < picture.width; ++x) {
       vec3 sum(0.0f);
-      for (const Weighted& s : shares) sum += s.gain * s.light->at(x, y);
+      for (size_t i = 0; i < shares_.size(); ++i)
+        sum += weights.ofShares[i] * shares_[i].light.at(x, y);
       picture.at(x, y) = sum;
     }
   });
-  emission_.addTo(picture, controls);
+  emission_.addTo(picture, weights.ofControls);
 }
 
-std::shared_ptr<RadianceImage> LightShares::mix(const View& view, const LightControls& controls) {
+std::shared_ptr<RadianceImage> LightShares::mix(const View& view, const Weights& weights) {
   const auto picture = pool_.take(view.width, view.height);
-  mixTo(controls, picture->image);
+  mixTo(weights, picture->image);
   return picture;
 }
 

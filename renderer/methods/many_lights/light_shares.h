@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "renderer/backends/image_pool.h"
@@ -50,11 +51,18 @@ class LightShares {
   // Steps until it is done, about one per frame.
   int stepsLeft() const;
 
-  // Whether the picture is the weighted sum of the shares with these gains. Not so if a light
-  // changed that shares its share with others because memory is short.
-  bool canMix(const LightControls& controls) const;
-  // The picture. Requires isDone() and canMix().
-  std::shared_ptr<RadianceImage> mix(const View& view, const LightControls& controls);
+  // How the shares add up to the picture of other brightnesses.
+  struct Weights {
+    std::vector<vec3> ofShares;
+    std::vector<vec3> ofControls;  // those of begin(), for what is emitted towards the camera
+    // Whether the sum has the bits of a fresh start. Otherwise it has the right brightness, and
+    // samples may be shared out otherwise in the end.
+    bool isFinal = true;
+  };
+  // Nothing if the picture is not such a sum: a light changed that shares its share with others
+  // because memory is short, or a light is new. Requires isDone().
+  std::optional<Weights> weightsFor(const LightControls& controls) const;
+  std::shared_ptr<RadianceImage> mix(const View& view, const Weights& weights);
   // The picture before the light of corners was added, with the gains of then; empty without it.
   Image takeWithoutCorners() { return std::move(withoutCorners_); }
 
@@ -70,17 +78,19 @@ class LightShares {
   void begin(const Inputs& in);
   void sumNext(const Inputs& in);
   void traceCorners(const Inputs& in);
-  void addCorners(const Inputs& in);
-  void mixTo(const LightControls& controls, Image& picture) const;
+  void addCorners(const Inputs& in);  // to the next share
+  void mixTo(const Weights& weights, Image& picture) const;
 
   Phase phase_ = Phase::idle;
-  int picture_ = 0, pictures_ = 1;  // the jittered picture in progress
-  size_t next_ = 0;                 // the share in progress
+  int picture_ = 0, pictures_ = 1;                // the jittered picture in progress
+  size_t next_ = 0;                               // the share in progress
+  std::vector<LightControls::Control> controls_;  // when it began
   std::vector<Share> shares_;
   std::vector<uint32_t> shareOf_;  // by control
   std::vector<vec3> mixedIn_;      // by control of a share for several: its gain; otherwise 1
   EmissionShares emission_;
-  int rows_ = 0;  // with corners
+  int rows_ = 0;            // with corners
+  size_t withCorners_ = 0;  // shares to which they were added
   std::vector<BiasCompensation::Pixel> pixels_;
   std::vector<std::vector<BiasCompensation::Contribution>> contributions_;
   Image withoutCorners_;

@@ -1,6 +1,7 @@
 #include "renderer/methods/many_lights/many_lights.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "renderer/light_maps/patch_lights.h"
 #include "renderer/methods/many_lights/inspected_surfaces.h"
@@ -52,36 +53,31 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (in.changes.rebuilt || lights_.slots() != neededFor_) visibilityNeeds_ = 0;
   if (visibilityNeeds_ > options.visibilityBytes()) options.forgoVisibility();
 
-  // 1. Find which VPLs the scene requires, and which shown ones are out of date.
+  // 1. If only the brightness of lights changed, weigh the shares of a settled picture anew.
   takeScene(in, options);
-  updateLights(in, options, stats);
-  stages.end(kLightSamplesStage);
+  unsampled_.merge(in.changes);
   if (!in.changes.none()) gbufferIsCurrent_ = false;
-  if (onlyMixes(in, options)) {
-    const bool refinesOtherwise = options.refinement() != options_.refinement();
-    if (lights_.gainsChanged()) {
-      mixShares(in);
-      lights_.clearChanged();
-      imageIsStale_ = true;
-      refinement_.restart();
-    }
+  if (!isSamePicture(in, options)) holdsMix_ = false;
+  if (mixOnly(in, options, out, stats)) {
     stages.end(kSharesStage);
-    if (refinesOtherwise) refinement_.restart();
+    if (options.refinement() != options_.refinement()) refinement_.restart();
     options_ = options;
-    out.settled = true;
-    out.radiance = mixed_;
     refineSettled(in, options, false, stages, out, stats);
     count(in, options, out, stats);
     out.stats = published(stats, manyLightsStatistics());
     return out;
   }
 
-  // 2. Refresh some of them completely: position, intensity, where their maps are needed,
+  // 2. Find which VPLs the scene requires, and which shown ones are out of date.
+  updateLights(in, options, stats);
+  stages.end(kLightSamplesStage);
+
+  // 3. Refresh some of them completely: position, intensity, where their maps are needed,
   stats.updates = refreshLights(options);
   updateVisibility(in, options, stats);
   stages.end(kVisibilityStage);
 
-  // 3. their maps, if the view needs them, and their unshadowed light.
+  // 4. their maps, if the view needs them, and their unshadowed light.
   updateMaps(in, options, stats);
   stages.end(kShadowMapsStage);
   sharpenMaps(options, stats);
@@ -92,7 +88,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (visibility_) visibility_->clearChanged();
   stages.end(kTransferStage);
 
-  // 4. Render the picture, if anything in it changed.
+  // 5. Render the picture, if anything in it changed.
   const bool viewChanged = !in.changes.none() || view_ != in.view;
   const bool shadingChanged = options.lightSums() != options_.lightSums() ||
                               stats.lightMapTexel != lightMapTexel_ || in.lightOnly != lightOnly_ ||
@@ -103,9 +99,9 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   const bool shadedNow = !image_ || viewChanged || lights_.changed() || imageIsStale_ ||
                          patchesChanged_ || shadingChanged || prtChanged || isHasty_;
   const bool samplesOtherwise = options.antialias != options_.antialias;
-  if (shadedNow || samplesOtherwise || options.cornerLight != options_.cornerLight ||
-      options.shareMemory != options_.shareMemory)
-    shares_.restart(*kernels_);
+  if (!holdsMix_ && (shadedNow || samplesOtherwise || options.cornerLight != options_.cornerLight ||
+                     options.shareMemory != options_.shareMemory))
+    restartShares();
   if (shadedNow) {
     isHasty_ = image_ && view_ != in.view && options.block > 1;
     view_ = in.view;
@@ -122,20 +118,20 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   part_ = in.part;
   started_ = true;
 
-  // 5. If nothing else is pending, find the light of corners and antialias: one sample per frame.
+  // 6. If nothing else is pending, find the light of corners and antialias: one sample per frame.
   if (samplesOtherwise) {
     samples_ = 0;
     corners_.outdate();
   }
   const int samples = options.antialias > 1 ? options.antialias : 0;
-  const bool isReady = lights_.pending() == 0 && stats.mapsToSharpen == 0 && paths_.isAtRest() &&
-                       choiceIsCurrent_ && stats.transfersPending == 0 && !isHasty_ &&
+  const bool isReady = isAtRest() && stats.transfersPending == 0 && !isHasty_ &&
                        stats.patchesPending == 0 && (!visibility_ || demandIsCurrent_) &&
                        !(lightMaps_ && lightMaps_->couldBeFiner());
   if (usesShares(in, options)) {
     if (isReady && !shadedNow) goOnWithShares(in, options, stages);
-    out.settled = isReady && shares_.isDone();
-    out.radiance = out.settled ? mixed_ : options.cornerLight ? corners_.scale(image_) : image_;
+    out.settled = isReady && shares_.isDone() && !holdsMix_;
+    out.radiance = options.cornerLight ? corners_.scale(image_) : image_;
+    if (out.settled || holdsMix_) out.radiance = mixed_;
   } else {
     if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
     out.settled = isReady && samples_ == samples;
@@ -146,7 +142,7 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     }
   }
 
-  // 6. Then refine, until something changes.
+  // 7. Then refine, until something changes.
   if (!out.settled || shadedNow || refinesOtherwise) refinement_.restart();
   refineSettled(in, options, shadedNow, stages, out, stats);
   count(in, options, out, stats);
@@ -196,12 +192,13 @@ void ManyLights::count(const FrameInputs& in, const Options& options, const GiOu
 
 void ManyLights::updateLights(const FrameInputs& in, const Options& options,
                               ManyLightsStats& stats) {
-  const bool surfacesChanged = !started_ || in.changes.surfaces();
+  const RenderSceneChanges changes = std::exchange(unsampled_, {});
+  const bool surfacesChanged = !started_ || changes.surfaces();
   const RayCaster& rays = in.services.rays();
   std::span<const MoverFinder::Mover> movers;
   if (surfacesChanged) {
     movers = in.services.movers();
-    pointVisibility_.outdate(in.changes, movers);
+    pointVisibility_.outdate(changes, movers);
   }
   // While the camera moves the samples are kept; when it rests they are chosen for its view.
   const bool isSame = started_ && !surfacesChanged && choiceIsCurrent_ && in.view == view_;
@@ -211,7 +208,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options,
   const bool choosesOtherwise =
       chosenFor != chosenFor_ || options.clampDistance != options_.clampDistance;
   chosenFor_ = chosenFor;
-  if (paths_.update(in.scene, rays, in.changes, movers, options.counts(), options.maxPaths) ||
+  if (paths_.update(in.scene, rays, changes, movers, options.counts(), options.maxPaths) ||
       choosesOtherwise) {
     VplSet set = chooseForView(paths_.set(in.scene), options.counts(), in.scene, rays, chosenFor,
                                options.clampDistance, pointVisibility_);
@@ -219,7 +216,7 @@ void ManyLights::updateLights(const FrameInputs& in, const Options& options,
     findFootprints(paths_.lights(), set.vpls);
     lights_.want(std::move(set.vpls), set.pathIds);
   }
-  if (!started_ || !in.changes.none()) {
+  if (!started_ || !changes.none()) {
     lights_.setGains(gainsOf(paths_.lights()));
     controls_ = LightControls(in.scene, paths_.lights());
   }

@@ -50,9 +50,13 @@ class ManyLights final : public GiMethod {
   void updateLightMaps(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   bool updatePrt(const FrameInputs& in, const Options& options, ManyLightsStats& stats);
   bool usesShares(const FrameInputs& in, const Options& options) const;
-  bool onlyMixes(const FrameInputs& in, const Options& options) const;
+  bool isSamePicture(const FrameInputs& in, const Options& options) const;
+  bool isAtRest() const;
+  bool mixOnly(const FrameInputs& in, const Options& options, GiOutput& out,
+               ManyLightsStats& stats);
+  void restartShares();
   void goOnWithShares(const FrameInputs& in, const Options& options, StageTimer& stages);
-  void mixShares(const FrameInputs& in);
+  void mixShares(const FrameInputs& in, const LightShares::Weights& weights);
   void refineSettled(const FrameInputs& in, const Options& options, bool shadedNow,
                      StageTimer& stages, GiOutput& out, ManyLightsStats& stats);
   void count(const FrameInputs& in, const Options& options, const GiOutput& out,
@@ -100,6 +104,9 @@ class ManyLights final : public GiMethod {
   LightShares shares_;                    // of the settled picture
   std::shared_ptr<RadianceImage> mixed_;  // from them
   bool imageIsStale_ = false;             // lacks changes of brightness that were mixed
+  // mixed_ is shown until new shares are complete; the shares are those of other samples.
+  bool holdsMix_ = false, sharesAreOld_ = false;
+  RenderSceneChanges unsampled_;  // changes that the light samples do not have yet
   LiveBiasCompensation corners_;
   std::shared_ptr<RadianceImage> whole_;  // the settled picture with bias compensation
   Refinement refinement_;

@@ -33,18 +33,54 @@ bool ManyLights::usesShares(const FrameInputs& in, const Options& options) const
          LightShares::fits(in.view, options.shareBytes());
 }
 
-// Whether nothing but the brightness of lights changed since the picture settled.
-bool ManyLights::onlyMixes(const FrameInputs& in, const Options& options) const {
-  return shares_.isDone() && usesShares(in, options) && in.view == view_ &&
-         (in.changes.none() || in.changes.onlyGains()) && in.lightOnly == lightOnly_ &&
-         options.lightSums() == options_.lightSums() && options.antialias == options_.antialias &&
-         options.cornerLight == options_.cornerLight &&
-         options.shareMemory == options_.shareMemory && part_ == LightPart::all &&
-         lights_.pending() == 0 && lights_.coarse() == 0 && !lights_.changedBesideGains() &&
-         paths_.isAtRest() && choiceIsCurrent_ && shares_.canMix(controls_);
+// Whether the picture differs from the last one in no more than the brightness of lights.
+bool ManyLights::isSamePicture(const FrameInputs& in, const Options& options) const {
+  return started_ && usesShares(in, options) && in.view == view_ &&
+         (in.changes.none() || in.changes.onlyBrightness()) && in.lightOnly == lightOnly_ &&
+         part_ == LightPart::all && options.lightSums() == options_.lightSums() &&
+         options.counts() == options_.counts() && options.antialias == options_.antialias &&
+         options.cornerLight == options_.cornerLight && options.shareMemory == options_.shareMemory;
+}
+
+// Whether the light samples and their maps are those that the scene wants.
+bool ManyLights::isAtRest() const {
+  return lights_.pending() == 0 && lights_.coarse() == 0 && paths_.isAtRest() && choiceIsCurrent_;
+}
+
+// Shows the shares of a settled picture with the present brightness of lights, and does nothing
+// else. If light samples must be shared out anew, the next frames do it while they show the mix.
+bool ManyLights::mixOnly(const FrameInputs& in, const Options& options, GiOutput& out,
+                         ManyLightsStats& stats) {
+  if (!shares_.isDone() || !isSamePicture(in, options)) return false;
+  if (!in.changes.none()) {
+    const LightControls controls(in.scene, LightSet(in.scene, paths_.lights()));
+    const auto weights = shares_.weightsFor(controls);
+    holdsMix_ = false;
+    if (!weights) return false;
+    mixShares(in, *weights);
+    imageIsStale_ = true;
+    refinement_.restart();
+    holdsMix_ = !weights->isFinal || sharesAreOld_ || !isAtRest();
+    sharesAreOld_ = sharesAreOld_ || holdsMix_;
+    if (!holdsMix_ && unsampled_.onlyGains()) {
+      updateLights(in, options, stats);  // only their brightness
+      lights_.clearChanged();
+    }
+  } else if (holdsMix_ || !isAtRest()) {
+    return false;
+  }
+  out.settled = !holdsMix_;
+  out.radiance = mixed_;
+  return true;
+}
+
+void ManyLights::restartShares() {
+  shares_.restart(*kernels_);
+  sharesAreOld_ = false;
 }
 
 void ManyLights::goOnWithShares(const FrameInputs& in, const Options& options, StageTimer& stages) {
+  if (sharesAreOld_) restartShares();
   if (shares_.isDone()) return;
   const LightProxies::Groups groups = groupsOf(in, options.groupShare, lights_.slots());
   LightShares::Options wanted{options.shareBytes(),      options.antialias,
@@ -54,12 +90,15 @@ void ManyLights::goOnWithShares(const FrameInputs& in, const Options& options, S
   const bool traces = shares_.tracesCorners();
   shares_.goOn({in, *kernels_, lights_.table(), controls_, visibility_.get(), groups, wanted});
   stages.end(traces ? kCornersStage : kSharesStage);
-  if (shares_.isDone()) mixShares(in);
+  if (shares_.isDone()) {
+    mixShares(in, *shares_.weightsFor(controls_));
+    holdsMix_ = false;
+  }
   stages.end(kSharesStage);
 }
 
-void ManyLights::mixShares(const FrameInputs& in) {
-  mixed_ = shares_.mix(in.view, controls_);
+void ManyLights::mixShares(const FrameInputs& in, const LightShares::Weights& weights) {
+  mixed_ = shares_.mix(in.view, weights);
   if (const Image without = shares_.takeWithoutCorners(); !without.empty())
     corners_.takeGains(without, mixed_->pixels());
 }

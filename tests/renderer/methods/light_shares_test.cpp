@@ -125,10 +125,28 @@ TEST(LightShares, ALightThatStartsOffComesOnInTheNextFrame) {
   EXPECT_TRUE(test::sameBits(out.radiance->pixels(), mix.fresh()));
 }
 
-// Beyond a step of the reference brightness samples are shared out anew, over several frames.
-TEST(LightShares, ALargeChangeSettlesToTheBitsOfAFreshRender) {
+// Beyond a step of the reference brightness samples are shared out anew, over several frames. Until
+// they are there, the picture is the mix of the samples from before.
+TEST(LightShares, ALargeChangeIsShownAtOnceAndSettlesToTheBitsOfAFreshRender) {
   Mix mix;
-  mix.settle(SceneChanges::all());
+  Image last = mix.settle(SceneChanges::all());
+  const Scene dim = mix.scene;
+  for (Node& n : mix.scene.nodes) {
+    if (n.area) n.area->radiance *= 100.0f;
+    if (n.punctual) n.punctual->intensity *= 100.0f;
+  }
+  for (Material& m : mix.scene.materials) m.emissive *= 100.0f;
+  mix.scene.sky.radiance *= 100.0f;
+  const uint64_t rays = mix.renderer.backend().counts().rays;
+  GiOutput out = mix.frame(compare(dim, mix.scene));
+  EXPECT_FALSE(out.settled);
+  EXPECT_EQ(out.stats.raysTraced, 0u);
+  EXPECT_EQ(mix.renderer.backend().counts().rays, rays);
+  for (vec3& p : last.pixels) p *= 100.0f;
+  EXPECT_LT(compareImages(out.radiance->pixels(), last).relRmse, 1e-5);
+  const auto shown = out.radiance;
+  for (out = mix.frame({}); !out.settled; out = mix.frame({})) EXPECT_EQ(out.radiance, shown);
+  EXPECT_TRUE(test::sameBits(out.radiance->pixels(), mix.fresh()));
   for (const float factor : {100.0f, 1e-3f}) {
     const Scene before = mix.scene;
     scaleBrightness(mix, factor);
@@ -160,6 +178,18 @@ TEST(LightShares, ArePartlyLeftOutIfMemoryIsShort) {
   Scene before = mix.scene;
   scaleBrightness(mix, 1.1f);
   EXPECT_TRUE(test::sameBits(mix.settle(compare(before, mix.scene)), mix.fresh()));
+  // Lights with one share may change together.
+  before = mix.scene;
+  for (Node& n : mix.scene.nodes) {
+    if (n.area) n.area->radiance *= 0.9f;
+    if (n.punctual) n.punctual->intensity *= 0.9f;
+  }
+  for (Material& m : mix.scene.materials) m.emissive *= 0.9f;
+  mix.scene.sky.radiance *= 0.9f;
+  const Image next = mix.frame(compare(before, mix.scene)).radiance->pixels();
+  // Rounding may move the border of what is interpolated.
+  EXPECT_LT(compareImages(next, mix.fresh()).relRmse, 1e-3);
+  EXPECT_TRUE(test::sameBits(mix.settle({}), mix.fresh()));
 }
 
 struct AnyEdit {
