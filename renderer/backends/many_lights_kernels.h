@@ -73,6 +73,11 @@ class ManyLightsKernels : public MethodKernels {
   virtual void sumVpls(std::span<const shared::Vpl> vpls, const shared::ShadingParams& params,
                        const PatchLights* patches) = 0;
 
+  // Whether the last sum left pixels to later calls, because of ShadingParams::block.z.
+  virtual bool sumIsLimited() const { return false; }
+  // Whether a sum from scratch would have to do so.
+  virtual bool sumIsLong() const { return false; }
+
   // The picture of the last sum, as Backend::compose() makes it, with its specular light.
   virtual std::shared_ptr<RadianceImage> compose(bool white) = 0;
   std::shared_ptr<RadianceImage> compose() { return compose(false); }

@@ -31,6 +31,8 @@ struct Vpl {
   vec4 footprint SHARED_ZERO;
 };
 
+SHARED_CONST float kLightPixelsUnit = 65536.0f;
+
 // Clamp and bias of shading; the same on both backends.
 struct ShadingParams {
   // x: smallest distance d0 [m], 1/d² is clamped to 1/d0²; y: shadow bias as a share of the
@@ -38,7 +40,9 @@ struct ShadingParams {
   // number of VPLs per draw of the gl backend
   vec4 clampAndBias;
   // x: pixels per side of the blocks of the low-resolution pass (low_resolution.h), 1: off; y: 1:
-  // some of its samples are also interpolated; zw: 0
+  // some of its samples are also interpolated; z: limit of lights × pixels at edges, in units of
+  // kLightPixelsUnit, above which pixels take the light of samples until later calls (cpu backend);
+  // 0: none; w: 1: few light samples have highlights (cpu backend)
   vec4 block;
   // x: 1: visible surfaces have speculars (vpl_speculars.h), 0: all is Lambertian; y: smallest
   // roughness; zw: 0

@@ -13,7 +13,7 @@ namespace lamplighter {
 namespace {
 
 // Work of a frame: lights × pixels summed, and pixels whose corners are traced.
-constexpr uint64_t kLightPixelsAFrame = uint64_t{1} << 26;
+constexpr uint64_t kLightPixelsAFrame = uint64_t{1} << 24;
 constexpr int kCornerPixelsAFrame = 1 << 16;
 
 // Each share has a cost of its own, in time and in memory. With more lights the faint ones have one
@@ -101,7 +101,9 @@ void LightShares::sumNext(const Inputs& in) {
   const bool isShown = !isMiddle || pictures_ == 1;
   const vec2 jitter = isMiddle ? vec2(0.0f) : pixelJitter(picture_, pictures_);
   const float weight = 1.0f / static_cast<float>(pictures_);
-  in.frame.backend.renderGBuffer(in.frame.view, jitter);
+  const int shown = isMiddle ? -1 : picture_;
+  if (gbufferOf_ != shown) in.frame.backend.renderGBuffer(in.frame.view, jitter);
+  gbufferOf_ = shown;
   if (next_ == 0 && isShown) emission_.add(in.frame, in.controls, jitter, weight);
   const uint64_t before = in.kernels.lightCounts().lightPixels;
   while (next_ < shares_.size() &&

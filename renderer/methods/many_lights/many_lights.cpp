@@ -39,6 +39,11 @@ int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options,
   return static_cast<int>(std::max<uint64_t>(maps, 1));
 }
 
+// Limits of a frame for summing light at edges, in 2¹⁶ lights × pixels (about 60 ms on two cores).
+// A frame that needs more shows edges coarsely, and the next ones go on. While the camera moves all
+// is summed in each frame.
+constexpr float kMostAtEdges = 512.0f, kMostMoving = 256.0f;
+
 // Fine maps of punctual hard-shadow lights per frame: those of a lamp, which has two hemispheres.
 constexpr int kHardMapsAFrame = 2;
 
@@ -96,8 +101,13 @@ GiOutput ManyLights::render(const FrameInputs& in) {
   if (viewChanged) gbufferIsCurrent_ = false;
   if (view_ != in.view || shadingChanged || options.cornerLight != options_.cornerLight)
     corners_.forget();
+  const bool isReady = isAtRest() && stats.transfersPending == 0 && stats.patchesPending == 0 &&
+                       (!visibility_ || demandIsCurrent_) &&
+                       !(lightMaps_ && lightMaps_->couldBeFiner());
+  // Shares do not need what is left of the sums.
+  const bool goesOn = usesShares(in, options) ? sumIsLimited_ && !isReady : isLimited_;
   const bool shadedNow = !image_ || viewChanged || lights_.changed() || imageIsStale_ ||
-                         patchesChanged_ || shadingChanged || prtChanged || isHasty_;
+                         patchesChanged_ || shadingChanged || prtChanged || isHasty_ || goesOn;
   const bool samplesOtherwise = options.antialias != options_.antialias;
   if (!holdsMix_ && (shadedNow || samplesOtherwise || options.cornerLight != options_.cornerLight ||
                      options.shareMemory != options_.shareMemory))
@@ -124,17 +134,14 @@ GiOutput ManyLights::render(const FrameInputs& in) {
     corners_.outdate();
   }
   const int samples = options.antialias > 1 ? options.antialias : 0;
-  const bool isReady = isAtRest() && stats.transfersPending == 0 && !isHasty_ &&
-                       stats.patchesPending == 0 && (!visibility_ || demandIsCurrent_) &&
-                       !(lightMaps_ && lightMaps_->couldBeFiner());
   if (usesShares(in, options)) {
     if (isReady && !shadedNow) goOnWithShares(in, options, stages);
-    out.settled = isReady && shares_.isDone() && !holdsMix_;
+    out.settled = isReady && !isHasty_ && shares_.isDone() && !holdsMix_;
     out.radiance = options.cornerLight ? corners_.scale(image_) : image_;
     if (out.settled || holdsMix_) out.radiance = mixed_;
   } else {
     if (isReady && samples_ < samples && !shadedNow) addSample(in, options, stages);
-    out.settled = isReady && samples_ == samples;
+    out.settled = isReady && !isHasty_ && !isLimited_ && samples_ == samples;
     out.radiance = out.settled && samples > 0 ? mean_ : image_;
     if (options.cornerLight) {
       out.radiance = fillCorners(in, options, out.radiance, out.settled, stages);
@@ -302,7 +309,13 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
   if (!isMiddle || !gbufferIsCurrent_) in.backend.renderGBuffer(in.view, jitter);
   gbufferIsCurrent_ = isMiddle;
   stages.end(kGBufferStage);
-  const shared::ShadingParams params = shadingOf(options, isMiddle && isHasty_);
+  shared::ShadingParams params = shadingOf(options, isMiddle && isHasty_);
+  // Shares have all highlights; without them, the sums have all when they are complete.
+  const bool isLong = usesShares(in, options) ? isLong_ : sumIsLimited_;
+  if (isMiddle && in.part == LightPart::all) {
+    params.block.z = isHasty_ ? kMostMoving : kMostAtEdges;
+    params.block.w = isLong ? 1.0f : 0.0f;
+  }
   const ManyLightsCounts before = kernels_->lightCounts();
   const bool isWhole = in.part == LightPart::all;
   if (isWhole) partLights_.forget();
@@ -316,6 +329,11 @@ std::shared_ptr<RadianceImage> ManyLights::shade(const FrameInputs& in, const Op
     kernels_->sumVpls(vpls, params, &patches);
   } else {
     kernels_->sumVpls(vpls, params, nullptr);
+  }
+  if (isMiddle) {
+    sumIsLimited_ = kernels_->sumIsLimited();
+    isLimited_ = sumIsLimited_ || params.block.w != 0.0f;
+    if (!isHasty_) isLong_ = kernels_->sumIsLong();
   }
   const ManyLightsCounts after = kernels_->lightCounts();
   mergedPasses_ = static_cast<int>(after.mergedPasses - before.mergedPasses);

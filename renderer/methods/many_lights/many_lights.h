@@ -92,6 +92,8 @@ class ManyLights final : public GiMethod {
   std::unique_ptr<LightMaps> lightMaps_;            // if enabled
   std::unique_ptr<PrtLights> prt_;                  // if enabled
   bool gbufferIsCurrent_ = false;
+  // The last sum left pixels, or also highlights, to later frames; from scratch it would have.
+  bool sumIsLimited_ = false, isLimited_ = false, isLong_ = false;
   bool isHasty_ = false;                    // the camera moves: fewer samples, more interpolation
   std::shared_ptr<RadianceImage> image_;    // picture with unjittered pixels
   int mergedPasses_ = 0, passesSaved_ = 0;  // of the last sum

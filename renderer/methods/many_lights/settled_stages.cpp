@@ -35,6 +35,8 @@ bool ManyLights::usesShares(const FrameInputs& in, const Options& options) const
 
 // Whether the picture differs from the last one in no more than the brightness of lights.
 bool ManyLights::isSamePicture(const FrameInputs& in, const Options& options) const {
+  const int slots = lights_.slots() + Refinement::slots(options.refinement());
+  if (slots != mapSlots_ || options.mapRooms(slots) != mapRooms_) return false;
   return started_ && usesShares(in, options) && in.view == view_ &&
          (in.changes.none() || in.changes.onlyBrightness()) && in.lightOnly == lightOnly_ &&
          part_ == LightPart::all && options.lightSums() == options_.lightSums() &&
@@ -44,7 +46,8 @@ bool ManyLights::isSamePicture(const FrameInputs& in, const Options& options) co
 
 // Whether the light samples and their maps are those that the scene wants.
 bool ManyLights::isAtRest() const {
-  return lights_.pending() == 0 && lights_.coarse() == 0 && paths_.isAtRest() && choiceIsCurrent_;
+  const bool isFine = mapRooms_.scale() == 1 || lights_.coarse() == 0;
+  return lights_.pending() == 0 && isFine && paths_.isAtRest() && choiceIsCurrent_;
 }
 
 // Shows the shares of a settled picture with the present brightness of lights, and does nothing

@@ -285,6 +285,22 @@ bool IrradianceAccumulator::isOf(const GBuffer& gbuffer, std::span<const LightRe
   return std::ranges::equal(tiles_, gbuffer.revision, {}, &Tile::revision);
 }
 
+size_t IrradianceAccumulator::changesTo(std::span<const LightRecord> lights) const {
+  if (!knowsSums_) return lights.size();
+  size_t same = 0;
+  const auto now = bySlot(lights), before = bySlot(lights_);
+  for (size_t slot = 0; slot < std::min(now.size(), before.size()); ++slot)
+    same += now[slot] != nullptr && before[slot] != nullptr && *now[slot] == *before[slot] &&
+            !oldMaps_.contains(now[slot]->mapSlot);
+  return std::min(lights.size(), lights.size() + lights_.size() - 2 * same);
+}
+
+uint32_t IrradianceAccumulator::summed(const GBuffer& gbuffer, size_t tile) const {
+  const bool isKnown =
+      knowsSums_ && tile < tiles_.size() && tiles_[tile].revision == gbuffer.revision[tile];
+  return isKnown ? tiles_[tile].summed : 0;
+}
+
 void IrradianceAccumulator::clearPackets(int tile, uint32_t packets) {
   const size_t first = static_cast<size_t>(tile) * kTilePixels;
   for (; packets != 0; packets &= packets - 1) {

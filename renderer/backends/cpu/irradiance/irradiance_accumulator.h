@@ -27,6 +27,12 @@ class IrradianceAccumulator {
   bool isOf(const GBuffer& gbuffer, std::span<const LightRecord> lights, SumConstants constants,
             const PatchLights* patches) const;
 
+  // What an update to these lights would cost, for choosing how much is wanted: the lights that it
+  // adds and subtracts at a packet that is summed.
+  size_t changesTo(std::span<const LightRecord> lights) const;
+  // The packets of a tile that are summed, one bit each.
+  uint32_t summed(const GBuffer& gbuffer, size_t tile) const;
+
   // For sums that change from frame to frame: uses memory to subtract lights quickly
   // (ShadowMaskCache).
   void cacheShadowMasks() { cachesMasks_ = true; }

@@ -93,8 +93,9 @@ class CpuManyLights final : public ManyLightsKernels {
     const Lights lights = lightsOf(vpls, patches);
     const PictureSums::Input in = inputOf(lights, params, patches);
     PictureSums& p = shown();
+    const bool isQuick = params.block.y != 0.0f || params.block.w != 0.0f;
     counts_.lightPixels +=
-        p.sumSpeculars(in, leastRoughnessOf(params), showsStill() && params.block.y == 0.0f);
+        p.sumSpeculars(in, leastRoughnessOf(params), showsStill() && !isQuick, isQuick);
     const int block = std::max(1, static_cast<int>(params.block.x));
     shared_ = {};
     if (showsStill()) sharing_.forget();
@@ -106,7 +107,10 @@ class CpuManyLights final : public ManyLightsKernels {
       add(p.sumAt(in, shared_));
       return;
     }
-    add(p.sum(in, block, params.block.y != 0.0f));
+    const uint64_t most = params.block.z > 0.0f
+                              ? static_cast<uint64_t>(params.block.z * shared::kLightPixelsUnit)
+                              : UINT64_MAX;
+    add(p.sum(in, block, params.block.y != 0.0f, most));
     counts_.pixelsInterpolated += p.pixelsInterpolated();
   }
 
@@ -146,6 +150,9 @@ class CpuManyLights final : public ManyLightsKernels {
     return image;
   }
 
+  bool sumIsLimited() const override { return showsStill() && still_.isLimited(); }
+  bool sumIsLong() const override { return showsStill() && still_.isLong(); }
+
   std::vector<float> readShadowMap(int slot) override {
     const std::span<const float> map = maps_.map(slot);
     return {map.begin(), map.end()};
@@ -160,7 +167,7 @@ class CpuManyLights final : public ManyLightsKernels {
     for (int y = 0; y < g.height; ++y) {
       for (int x = 0; x < g.width; ++x) {
         const size_t packet = g.index(x, y) / kLanes;
-        const uint32_t edges = p.low.edges()[packet / kPacketsPerTile];
+        const uint32_t edges = p.low.summed()[packet / kPacketsPerTile];
         interpolated.push_back((edges >> packet % kPacketsPerTile & 1) == 0 ? 1 : 0);
       }
     }

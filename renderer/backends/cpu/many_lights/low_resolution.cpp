@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 
 #include <tbb/parallel_for.h>
 
@@ -224,6 +225,7 @@ void LowResolution::update(const GBuffer& g, int block, std::span<const uint32_t
     isHard_.assign(red_.size(), 0);
     edges_.assign(tiles, 0);
   }
+  picture_ = &g;
   takeSamples(g);
   tbb::parallel_for(0, (g.tiles() + kTilesPerTask - 1) / kTilesPerTask, [&](int task) {
     for (int tile = task * kTilesPerTask; tile < std::min((task + 1) * kTilesPerTask, g.tiles());
@@ -345,9 +347,79 @@ void LowResolution::findEdges(const GBuffer& picture, const PictureLight& light)
     interpolated += pixels;
   });
   interpolated_ = interpolated;
+  summed_ = edges_;
+  isLong_ = false;
+}
+
+void LowResolution::limitEdges(const GBuffer& picture, const IrradianceAccumulator& sums,
+                               std::span<const LightRecord> lights, uint64_t mostLightPixels) {
+  const auto costOf = [](uint32_t packets, size_t perPixel) {
+    return static_cast<uint64_t>(std::popcount(packets)) * kLanes * perPixel;
+  };
+  const size_t changes = sums.changesTo(lights);
+  uint64_t left = mostLightPixels;
+  const auto take = [&](uint32_t packets, size_t perPixel) {
+    const uint64_t cost = costOf(packets, perPixel);
+    if (cost > left) {
+      left = 0;
+      return uint32_t{0};
+    }
+    left -= cost;
+    return packets;
+  };
+  uint64_t whole = 0;
+  for (const uint32_t edges : edges_) whole += costOf(edges, lights.size());
+  isLong_ = whole > mostLightPixels;
+  for (size_t t = 0; t < edges_.size(); ++t)
+    summed_[t] = take(edges_[t] & sums.summed(picture, t), changes);
+  for (size_t t = 0; t < edges_.size() && left > 0; ++t)
+    summed_[t] |= take(edges_[t] & ~sums.summed(picture, t), lights.size());
+}
+
+// Bilinear, but samples on other surfaces than the pixel count little.
+void LowResolution::interpolateAtEdge(int tile, int packet, PacketIrradiance& out) const {
+  constexpr float kOtherSurface = 1e-3f, kOtherObject = 0.1f, kLeast = 1e-6f;
+  const GBuffer& g = *picture_;
+  const int x0 = tile % tilesX_ * kTileSize + packet % kPacketsPerRow * kPacketWidth;
+  const int y0 = tile / tilesX_ * kTileSize + packet / kPacketsPerRow * kPacketHeight;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const int x = std::min(x0 + lane % kPacketWidth, width_ - 1),
+              y = std::min(y0 + lane / kPacketWidth, height_ - 1);
+    const size_t pixel = g.index(x, y);
+    const vec3 position(g.px[pixel], g.py[pixel], g.pz[pixel]),
+        geometric(g.gx[pixel], g.gy[pixel], g.gz[pixel]),
+        shading(g.sx[pixel], g.sy[pixel], g.sz[pixel]);
+    const int i = x / block_, j = y / block_;
+    const vec2 t = perBlock_ * vec2(x - i * block_, y - j * block_);
+    vec3 sum(0.0f);
+    float weights = 0.0f;
+    for (int corner = 0; corner < 4; ++corner) {
+      const int si = std::min(i + corner % 2, samples_.width - 1),
+                sj = std::min(j + corner / 2, samples_.height - 1);
+      const size_t s = samples_.index(si, sj);
+      if (samples_.hit[s] == 0) continue;
+      const vec3 there(samples_.px[s], samples_.py[s], samples_.pz[s]),
+          normal(samples_.sx[s], samples_.sy[s], samples_.sz[s]);
+      float weight = (corner % 2 == 0 ? 1.0f - t.x : t.x) * (corner / 2 == 0 ? 1.0f - t.y : t.y);
+      if (!shared::isOnSurface(position, geometric, shading, there, normal)) {
+        const float cosine = std::max(glm::dot(normal, shading), 0.0f);
+        weight = kLeast + (weight + kLeast) * kOtherSurface * cosine * cosine;
+        if (samples_.object[s] != g.object[pixel]) weight *= kOtherObject;
+      }
+      const size_t at = static_cast<size_t>(sj) * rowLength() + static_cast<size_t>(si);
+      sum += weight * vec3(red_[at], green_[at], blue_[at]);
+      weights += weight;
+    }
+    if (weights > 0.0f) sum /= weights;
+    out.r[lane] = sum.r;
+    out.g[lane] = sum.g;
+    out.b[lane] = sum.b;
+  }
 }
 
 void LowResolution::interpolate(int tile, int packet, PacketIrradiance& out) const {
+  if ((edges_[static_cast<size_t>(tile)] >> packet & 1) != 0)
+    return interpolateAtEdge(tile, packet, out);
   const int x0 = tile % tilesX_ * kTileSize + packet % kPacketsPerRow * kPacketWidth;
   const int y0 = tile / tilesX_ * kTileSize + packet / kPacketsPerRow * kPacketHeight;
   HWY_ALIGN static constexpr float kLaneX[kLanes] = {0, 1, 2, 3, 0, 1, 2, 3};

@@ -31,6 +31,17 @@ class LowResolution {
   void findEdges(const GBuffer& picture, const PictureLight& light);
   // By tile of the picture, one bit per packet.
   std::span<const uint32_t> edges() const { return edges_; }
+  // Those of them that are summed: all, or fewer after limitEdges(). The others take the light of
+  // the samples around them that lie on the most similar surface.
+  std::span<const uint32_t> summed() const { return summed_; }
+  // Limits the work at edges: packets × lights that an update of `sums` to these lights takes.
+  // Packets that are summed already come first.
+  void limitEdges(const GBuffer& picture, const IrradianceAccumulator& sums,
+                  std::span<const LightRecord> lights, uint64_t mostLightPixels);
+  // Whether there are fewer than all.
+  bool isLimited() const { return summed_ != edges_; }
+  // Whether there would be, if none was summed before.
+  bool isLong() const { return isLong_; }
   uint64_t pixelsInterpolated() const { return interpolated_; }
 
   // The light of an interpolated packet.
@@ -48,6 +59,7 @@ class LowResolution {
   void findContrast(int row, bool hasHardLights);
   bool isCutByShadow(uint8_t pairs, size_t at) const;
   uint32_t edgesOf(int tile) const;
+  void interpolateAtEdge(int tile, int packet, PacketIrradiance& out) const;
   // Cells have a border of one on all sides; the last row and column of samples are duplicated.
   size_t cellAt(int i, int j) const {
     return static_cast<size_t>(j + 1) * static_cast<size_t>(cellsX_ + 2) +
@@ -69,7 +81,9 @@ class LowResolution {
   std::vector<uint8_t> cells_;             // by cell: all bits
   std::vector<float> red_, green_, blue_;  // E at the samples, row by row
   std::vector<uint8_t> isHard_;            // by sample: there may be hard shadows
-  std::vector<uint32_t> edges_;
+  std::vector<uint32_t> edges_, summed_;
+  const GBuffer* picture_ = nullptr;  // of the last update()
+  bool isLong_ = false;
   uint64_t interpolated_ = 0;
 };
 

@@ -21,7 +21,7 @@ struct PictureLight {
   PacketIrradianceView at(int tile, int packet, PacketIrradiance& room) const;
   // Whether the packet is interpolated.
   bool isBetween(int tile, int packet) const {
-    return low != nullptr && (low->edges()[static_cast<size_t>(tile)] >> packet & 1) == 0;
+    return low != nullptr && (low->summed()[static_cast<size_t>(tile)] >> packet & 1) == 0;
   }
 };
 

@@ -5,6 +5,9 @@
 namespace lamplighter::cpu {
 namespace {
 
+// In quick pictures one in so many light samples has a highlight.
+constexpr size_t kQuickShare = 4;
+
 SumCounts update(IrradianceAccumulator& sums, const GBuffer& points, const PictureSums::Input& in,
                  std::span<const uint32_t> wanted) {
   return sums.update(points, in.lights, in.constants, in.patches, wanted, in.leftOutBy);
@@ -16,7 +19,8 @@ SumCounts operator+(const SumCounts& a, const SumCounts& b) {
 
 }  // namespace
 
-SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick) {
+SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick,
+                           uint64_t mostAtEdges) {
   block = pixelsPerBlock;
   if (block == 1) return update(sums, in.gbuffer, in, {});
   SumCounts counts;
@@ -32,21 +36,33 @@ SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick) {
     counts = update(sampleSums, low.samples(), in, {});
     low.findEdges(in.gbuffer, {sampleSums});
   }
-  return counts + update(sums, in.gbuffer, in, low.edges());
+  if (mostAtEdges != UINT64_MAX) low.limitEdges(in.gbuffer, sums, in.lights, mostAtEdges);
+  return counts + update(sums, in.gbuffer, in, low.summed());
 }
 
 SumCounts PictureSums::sumAt(const Input& in, std::span<const uint32_t> packets) {
   return update(sums, in.gbuffer, in, packets);
 }
 
-uint64_t PictureSums::sumSpeculars(const Input& in, float leastRoughness, bool isKept) {
+uint64_t PictureSums::sumSpeculars(const Input& in, float leastRoughness, bool isKept,
+                                   bool isQuick) {
   if (leastRoughness < 0.0f) {
     speculars.clear();
     return 0;
   }
   std::vector<SpecularLight> lights;
   lights.reserve(in.lights.size());
-  for (size_t i = 0; i < in.lights.size(); ++i) lights.push_back({in.lights[i], in.footprints[i]});
+  size_t samples = 0;
+  for (size_t i = 0; i < in.lights.size(); ++i) {
+    SpecularLight light{in.lights[i], in.footprints[i]};
+    // Others light only a part of the scene, or are the whole light.
+    if (isQuick && light.record.kind == LightRecord::Kind::cosine) {
+      if (samples++ % kQuickShare != 0) continue;
+      light.record.intensity *= static_cast<float>(kQuickShare);
+      light.footprint *= static_cast<float>(kQuickShare);
+    }
+    lights.push_back(light);
+  }
   return speculars.update(in.scene, in.gbuffer, in.eye, std::move(lights), in.constants,
                           leastRoughness, in.patches, isKept);
 }

@@ -37,12 +37,19 @@ struct PictureSums {
   SpecularAccumulator speculars;
 
   // Sums the diffuse light in blocks of so many pixels. isQuick: some samples are interpolated.
-  SumCounts sum(const Input& in, int pixelsPerBlock, bool isQuick);
+  // mostAtEdges: limits lights × pixels of the pixels that are not interpolated.
+  SumCounts sum(const Input& in, int pixelsPerBlock, bool isQuick,
+                uint64_t mostAtEdges = UINT64_MAX);
+  // Whether the last sum left some of these pixels to later calls.
+  bool isLimited() const { return block != 1 && low.isLimited(); }
+  // Whether a sum from scratch would do so.
+  bool isLong() const { return block != 1 && low.isLong(); }
   // Sums the diffuse light only in these packets (by tile, one bit each), all of their pixels.
   SumCounts sumAt(const Input& in, std::span<const uint32_t> packets);
   // Sums the speculars, or removes them if leastRoughness is negative. isKept: as for
-  // SpecularAccumulator. Returns lights × pixels.
-  uint64_t sumSpeculars(const Input& in, float leastRoughness, bool isKept);
+  // SpecularAccumulator. isQuick: of light samples a quarter, each with the light of four. Returns
+  // lights × pixels.
+  uint64_t sumSpeculars(const Input& in, float leastRoughness, bool isKept, bool isQuick);
 
   PictureLight diffuse() const { return {sums, block == 1 ? nullptr : &low, nullptr, {}}; }
   // What the last sum() interpolated.
