@@ -353,12 +353,19 @@ void LowResolution::findEdges(const GBuffer& picture, const PictureLight& light)
 
 void LowResolution::limitEdges(const GBuffer& picture, const IrradianceAccumulator& sums,
                                std::span<const LightRecord> lights, uint64_t mostLightPixels) {
-  const auto costOf = [](uint32_t packets, size_t perPixel) {
+  const auto costOf = [](uint32_t packets, uint64_t perPixel) {
     return static_cast<uint64_t>(std::popcount(packets)) * kLanes * perPixel;
   };
-  const size_t changes = sums.changesTo(lights);
+  // The tiles of a sun light only a part of the scene each.
+  float everywhere = 0.0f;
+  for (const LightRecord& light : lights) {
+    const float side = std::min(light.side / std::max(light.radius, 1e-6f), 1.0f);
+    everywhere += light.kind == LightRecord::Kind::directional ? side * side : 1.0f;
+  }
+  const auto all = static_cast<uint64_t>(everywhere) + 1;
+  const uint64_t changes = lights.empty() ? 0 : sums.changesTo(lights) * all / lights.size();
   uint64_t left = mostLightPixels;
-  const auto take = [&](uint32_t packets, size_t perPixel) {
+  const auto take = [&](uint32_t packets, uint64_t perPixel) {
     const uint64_t cost = costOf(packets, perPixel);
     if (cost > left) {
       left = 0;
@@ -368,12 +375,12 @@ void LowResolution::limitEdges(const GBuffer& picture, const IrradianceAccumulat
     return packets;
   };
   uint64_t whole = 0;
-  for (const uint32_t edges : edges_) whole += costOf(edges, lights.size());
+  for (const uint32_t edges : edges_) whole += costOf(edges, all);
   isLong_ = whole > mostLightPixels;
   for (size_t t = 0; t < edges_.size(); ++t)
     summed_[t] = take(edges_[t] & sums.summed(picture, t), changes);
   for (size_t t = 0; t < edges_.size() && left > 0; ++t)
-    summed_[t] |= take(edges_[t] & ~sums.summed(picture, t), lights.size());
+    summed_[t] |= take(edges_[t] & ~sums.summed(picture, t), all);
 }
 
 // Bilinear, but samples on other surfaces than the pixel count little.
