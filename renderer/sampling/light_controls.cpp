@@ -38,10 +38,4 @@ LightControls::LightControls(const RenderScene& scene, const LightSet& lights)
   controls.push_back({Key(), factor / reference, reference, 0.0f});
 }
 
-std::vector<vec3> LightControls::gains() const {
-  std::vector<vec3> gains;
-  for (const Control& c : controls) gains.push_back(c.gain);
-  return gains;
-}
-
 }  // namespace lamplighter

@@ -35,7 +35,6 @@ struct LightControls {
 
   size_t size() const { return controls.size(); }
   uint32_t of(const VplId& id) const { return ofEmitter.at({id.light, id.emitter, 0, 0}); }
-  std::vector<vec3> gains() const;
 };
 
 }  // namespace lamplighter

@@ -8,7 +8,8 @@ std::vector<shared::Vpl> LightSampleTable::summedInOrder() const {
   std::vector<shared::Vpl> vpls;
   vpls.reserve(samples.size());
   for (const LightSample& sample : samples)
-    if (const shared::Vpl& vpl = summed[static_cast<size_t>(sample.vpl.slot)]; isLight(vpl) && brightness(vpl) > 0.0f)
+    if (const shared::Vpl& vpl = summed[static_cast<size_t>(sample.vpl.slot)];
+        isLight(vpl) && brightness(vpl) > 0.0f)
       vpls.push_back(vpl);
   return vpls;
 }

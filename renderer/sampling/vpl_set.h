@@ -82,11 +82,11 @@ inline uint32_t firstIndex(uint32_t batch, int count) {
 }
 
 // Lights get samples in proportion to their flux at the reference brightness
-// (reference_brightness.h), each at least one. If there are not enough samples, the brightest lights
-// get them and represent the flux of all. A point light is always two
-// VPLs (hemispheres), a spot one. A sun counts as one sample but is divided into shadow tiles, for
-// the view if one is given. The range of KHR_lights_punctual, which bends the inverse-square law,
-// is ignored. The result may have fewer than `total` VPLs, or more because of shadow tiles.
+// (reference_brightness.h), each at least one. If there are not enough samples, the brightest
+// lights get them and represent the flux of all. A point light is always two VPLs (hemispheres), a
+// spot one. A sun counts as one sample but is divided into shadow tiles, for the view if one is
+// given. The range of KHR_lights_punctual, which bends the inverse-square law, is ignored. The
+// result may have fewer than `total` VPLs, or more because of shadow tiles.
 VplSet generateVpls(const RenderScene& scene, const RayCaster& rays, const LightSet& lights,
                     const VplCounts& counts, const View* view = nullptr);
 

@@ -1,11 +1,13 @@
 #include "renderer/methods/many_lights/light_shares.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <tbb/parallel_for.h>
 
 #include "renderer/light_maps/patch_lights.h"
+#include "renderer/methods/many_lights/add_scaled.h"
 #include "renderer/methods/many_lights/bias_compensation_filter.h"
 #include "renderer/methods/many_lights/pixel_jitter.h"
 
@@ -28,13 +30,6 @@ constexpr size_t kBytesAPixel = 2 * sizeof(vec3);
 
 size_t pixelsOf(const View& view) {
   return static_cast<size_t>(view.width) * static_cast<size_t>(view.height);
-}
-
-void addScaled(Image& sum, const Image& image, float scale) {
-  if (sum.empty()) sum = Image(image.width, image.height);
-  tbb::parallel_for(0, sum.height, [&](int y) {
-    for (int x = 0; x < sum.width; ++x) sum.at(x, y) += scale * image.at(x, y);
-  });
 }
 
 }  // namespace
@@ -65,6 +60,7 @@ void LightShares::begin(const Inputs& in) {
       return in.controls.controls[a].flux > in.controls.controls[b].flux;
     });
   shares_.resize(std::min(count, fitting));
+  for (Share& s : shares_) s.light = Image(in.frame.view.width, in.frame.view.height);
   shareOf_.assign(count, 0);
   mixedIn_.assign(count, vec3(1.0f));
   for (size_t i = 0; i < count; ++i) {
@@ -213,17 +209,18 @@ std::optional<LightShares::Weights> LightShares::weightsFor(const LightControls&
     if (!isKnown[i] && controls.controls[i].gain != vec3(0.0f)) return std::nullopt;
   for (const Share& s : shares_) weights.ofShares.push_back(weights.ofControls[s.controls.front()]);
   if (lightsWithoutShare_ == 0) return weights;
-  // All lights in one share must have changed alike.
-  std::optional<vec3> ratio;
-  for (const uint32_t control : shares_.back().controls) {
-    const vec3 before = mixedIn_[control], now = weights.ofControls[control];
-    if (before == vec3(0.0f) && now == vec3(0.0f)) continue;
-    const vec3 change = now / before;
-    if (!ratio) ratio = change;
-    const vec3 off = glm::abs(change - *ratio);
-    if (!glm::all(glm::lessThanEqual(off, kMostOff * *ratio))) return std::nullopt;
+  // All lights in one share must have changed alike, in each channel.
+  for (int c = 0; c < 3; ++c) {
+    std::optional<float> ratio;
+    for (const uint32_t control : shares_.back().controls) {
+      const float before = mixedIn_[control][c], now = weights.ofControls[control][c];
+      if (before == 0.0f && now == 0.0f) continue;
+      const float change = now / before;
+      if (!ratio) ratio = change;
+      if (!(std::abs(change - *ratio) <= kMostOff * *ratio)) return std::nullopt;
+    }
+    weights.ofShares.back()[c] = ratio.value_or(1.0f);
   }
-  weights.ofShares.back() = ratio.value_or(vec3(1.0f));
   weights.isFinal = weights.isFinal && weights.ofShares.back() == vec3(1.0f);
   return weights;
 }

@@ -39,9 +39,9 @@ int mapsAFrame(const ManyLightsTraits& traits, const ManyLightsOptions& options,
   return static_cast<int>(std::max<uint64_t>(maps, 1));
 }
 
-// Limits of a frame for summing light at edges, in 2¹⁶ lights × pixels (about 60 ms on two cores).
-// A frame that needs more shows edges coarsely, and the next ones go on. While the camera moves all
-// is summed in each frame.
+// Limits of a frame for summing light at edges, in units of kLightPixelsUnit. A frame that needs
+// more interpolates the other edges, and the next ones go on. The limit is lower while the camera
+// moves, because each frame sums all lights then.
 constexpr float kMostAtEdges = 512.0f, kMostMoving = 256.0f;
 
 // Fine maps of punctual hard-shadow lights per frame: those of a lamp, which has two hemispheres.

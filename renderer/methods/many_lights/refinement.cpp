@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <tbb/parallel_for.h>
-
 #include "renderer/base/low_discrepancy.h"
 #include "renderer/base/random.h"
+#include "renderer/methods/many_lights/add_scaled.h"
 #include "renderer/methods/many_lights/bias_compensation_filter.h"
 #include "renderer/sampling/emitters/lights.h"
 #include "renderer/sampling/vpl_footprints.h"
@@ -37,12 +36,6 @@ constexpr float kDirectShare = 0.125f;
 // Rays per pixel and batch for bias compensation.
 constexpr uint32_t kNearPaths = 2;
 constexpr uint32_t kJitterSet = 0x3d, kNearSet = 0x4d;
-
-void addScaled(Image& sum, const Image& image, float scale) {
-  tbb::parallel_for(0, sum.height, [&](int y) {
-    for (int x = 0; x < sum.width; ++x) sum.at(x, y) += scale * image.at(x, y);
-  });
-}
 
 // The pixel jitter of a part of a batch. Never zero: that is the sample of the live picture.
 vec2 jitterOf(uint32_t shift, uint32_t seed) {

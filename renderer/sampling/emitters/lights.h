@@ -29,10 +29,10 @@ struct Emitter {
   vec3 gain{0.0f};
   float referenceFlux = 0.0f;  // luminance of the flux at the reference brightness [W]
   float area = 0.0f;           // surface: m²
-  bool bothSides = false;  // surface
-  uint32_t link = 0;       // light_linking.h
-  AliasTable triangles;    // surface: by area
-  EmitterCells cells;      // surface with varying emission: by flux
+  bool bothSides = false;      // surface
+  uint32_t link = 0;           // light_linking.h
+  AliasTable triangles;        // surface: by area
+  EmitterCells cells;          // surface with varying emission: by flux
 };
 
 // A point on an emitter's surface, sampled uniformly by area, or by brightness if that varies.

@@ -103,6 +103,7 @@ Settings manyLights(const char* technique, bool prt, int prtBounces = 0) {
   s.set("antialias", 1);
   s.set("map_resolution", 64);
   s.set("technique", technique);
+  s.set("share_memory", 0);  // shares are summed without light maps
   s.set("prt", prt);
   s.set("prt_bounces", prtBounces);
   s.set("corner_light", false);

@@ -128,6 +128,7 @@ TEST(VisibilityMemory, IfNothingFitsThePictureIsThatOfNaive) {
   settings.set("bounces", 1);
   settings.set("updates", 10000);
   settings.set("antialias", 1);
+  settings.set("share_memory", 0);  // compares the sums of pixels
   settings.set("visibility_memory", 1);
   FrameRenderer renderer(makeCpuBackend());
   const GiOutput without =
