@@ -42,7 +42,8 @@ struct ShadingParams {
   // x: pixels per side of the blocks of the low-resolution pass (low_resolution.h), 1: off; y: 1:
   // some of its samples are also interpolated; z: limit of lights × pixels at edges, in units of
   // kLightPixelsUnit, above which pixels take the light of samples until later calls (cpu backend);
-  // 0: none; w: 1: few light samples have highlights (cpu backend)
+  // 0: none; w: 1: speculars are summed at the samples of the low-resolution pass and interpolated
+  // (cpu backend)
   vec4 block;
   // x: 1: visible surfaces have speculars (vpl_speculars.h), 0: all is Lambertian; y: smallest
   // roughness; zw: 0

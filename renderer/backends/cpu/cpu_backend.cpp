@@ -46,6 +46,12 @@ void CpuBackend::drawGBuffer(const View& view, vec2 jitter) {
   if (isStill && stillIsKnown_ && view == stillView_) {
     rayCount_ += updateGBuffer(*scene_, *rays_, view, moves_, picture.gbuffer);
   } else {
+    if (isStill) {
+      seenIsKnown_ = stillIsKnown_ && moves_.empty() && view.width == stillView_.width &&
+                     view.height == stillView_.height;
+      if (seenIsKnown_) seen_.take(picture.gbuffer, stillView_);
+      ++views_;
+    }
     rayCount_ += cpu::renderGBuffer(*scene_, *rays_, view, jitter, picture.gbuffer);
   }
   picture.view = view;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/backends/backend.h"
+#include "renderer/backends/cpu/gbuffer/seen_points.h"
 #include "renderer/backends/gbuffer_view.h"
 #include "renderer/backends/image_pool.h"
 
@@ -40,6 +41,10 @@ class CpuBackend final : public Backend {
   bool stillIsCurrent() const {
     return stillIsKnown_ && moves_.empty() && stillView_ == shown_->view;
   }
+  // What still() showed before its view changed; views: the number of such changes. Null: it is not
+  // known, or objects changed with the view.
+  const SeenPoints* seenBefore() const { return seenIsKnown_ ? &seen_ : nullptr; }
+  uint64_t views() const { return views_; }
   Background background() const;  // of shown()
   // An image of the size of shown(), with undefined content.
   std::shared_ptr<ImagePool::Pooled> takeImage() {
@@ -48,7 +53,7 @@ class CpuBackend final : public Backend {
 
  protected:
   BackendCounts ownCounts() const override {
-    return {rayCount_, still_.gbuffer.bytes() + shifted_.gbuffer.bytes()};
+    return {rayCount_, still_.gbuffer.bytes() + shifted_.gbuffer.bytes() + seen_.bytes()};
   }
   void takeScene(const RenderScene& scene, const RenderSceneChanges& changes,
                  const RayCaster& rays) override;
@@ -64,6 +69,9 @@ class CpuBackend final : public Backend {
   const Picture* shown_ = &still_;
   bool stillIsKnown_ = false;  // still_ shows stillView_, except for later moves
   View stillView_;
+  bool seenIsKnown_ = false;
+  SeenPoints seen_;
+  uint64_t views_ = 0;
   std::vector<Bounds> moves_;  // bounds before and after of objects that moved since
 };
 

@@ -1,5 +1,5 @@
-// Sums of light that are limited per frame: edges are shown coarsely at first, and the next frames
-// go on until the picture is that of an unlimited sum.
+// Sums of light that are limited per frame: edges are shown coarsely at first, or as in the last
+// view, and the next frames go on until the picture is that of an unlimited sum.
 #include <gtest/gtest.h>
 
 #include "renderer/image/metrics.h"
@@ -68,6 +68,25 @@ TEST(LimitedSums, FollowEdits) {
   Image picture = boxes.sum(1.0f);
   while (boxes.lit.kernels->sumIsLimited()) picture = boxes.sum(1.0f);
   EXPECT_TRUE(test::sameBits(picture, other.sum(0.0f)));
+}
+
+// While the camera moves, pixels that are not summed take over the light of the picture before.
+TEST(LimitedSums, TakeOverLightWhileTheCameraMoves) {
+  Boxes boxes, fresh, other;
+  boxes.sum(0.0f);
+  for (Boxes* b : {&boxes, &fresh, &other}) {
+    b->view.eye += vec3(0.004f, 0.002f, -0.006f);
+    b->lit.backend->renderGBuffer(b->view, vec2(0.0f));
+  }
+  const Image whole = other.sum(0.0f);
+  const Image carried = boxes.sum(1.0f), coarse = fresh.sum(1.0f);
+  EXPECT_TRUE(boxes.lit.kernels->sumIsLimited());
+  EXPECT_LT(compareImages(carried, whole).relRmse, 0.5 * compareImages(coarse, whole).relRmse);
+  EXPECT_LT(compareImages(carried, whole).relRmse, 0.1);
+
+  Image picture = boxes.sum(1.0f);
+  while (boxes.lit.kernels->sumIsLimited()) picture = boxes.sum(1.0f);
+  EXPECT_TRUE(test::sameBits(picture, whole)) << "when the camera rests nothing of it is left";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "renderer/backends/cpu/irradiance/specular_shading.h"
 #include "shaders/shared/brdf.h"
 
 namespace lamplighter::cpu {
@@ -22,35 +23,12 @@ constexpr size_t kMostOldMapBytes = size_t{16} << 20;
 // Whether subtracting and adding so many lights takes longer than summing all.
 bool isMost(size_t changed, size_t all) { return 2 * changed > all; }
 
-// Reads the texture at the pixel's position in its triangle.
-Gloss glossOf(const RenderScene& scene, const GBuffer& g, size_t i) {
-  const RenderObject& object = scene.objects[g.object[i]];
-  const Material& m = scene.materials[static_cast<size_t>(object.material)];
-  if (m.metallicRoughnessTexture.texture == kNone) return {m.metallic, m.roughness};
-  const uint32_t* corner = &scene.indices[object.firstIndex + 3 * g.triangle[i]];
-  const vec3 a = scene.positions[corner[0]], b = scene.positions[corner[1]] - a,
-             c = scene.positions[corner[2]] - a, p = vec3(g.px[i], g.py[i], g.pz[i]) - a;
-  const vec3 area = glm::cross(b, c);
-  const float inverse = 1.0f / std::max(glm::dot(area, area), 1e-30f);
-  const float u = std::clamp(glm::dot(glm::cross(p, c), area) * inverse, 0.0f, 1.0f);
-  const float v = std::clamp(glm::dot(glm::cross(b, p), area) * inverse, 0.0f, 1.0f - u);
-  return glossAt(scene, g.object[i], g.triangle[i], u, v);
-}
-
 // Assumes that a texture can have any value.
 LightProxies::Lobes lobesOf(const RenderScene& scene, uint32_t object, float leastRoughness) {
   const Material& m = scene.materials[static_cast<size_t>(scene.objects[object].material)];
   const bool isKnown = m.metallicRoughnessTexture.texture == kNone;
   const float roughness = std::max(isKnown ? m.roughness : 0.0f, leastRoughness);
   return {roughness * roughness};
-}
-
-// By object: whether any part of it is glossy.
-std::vector<uint8_t> findGlossy(const RenderScene& scene) {
-  std::vector<uint8_t> mayBe;
-  for (const RenderObject& object : scene.objects)
-    mayBe.push_back(mayBeGlossy(scene.materials[static_cast<size_t>(object.material)]));
-  return mayBe;
 }
 
 }  // namespace
@@ -64,16 +42,10 @@ void SpecularAccumulator::findParts(const RenderScene& scene, const GBuffer& g, 
                                     const PatchLights* patches) {
   Tile& tile = tiles_[index];
   tile.parts.clear();
-  tile.gloss.clear();
-  const uint64_t only = g.onlyTriangle[index];
-  const bool mayBeSome = only == GBuffer::kMany || mayBeGlossy[only >> 32] != 0;
-  for (size_t in = 0; mayBeSome && in < kTilePixels; ++in) {
+  tile.gloss = findGloss(scene, g, index, mayBeGlossy);
+  for (size_t in = 0; in < tile.gloss.size(); ++in) {
+    if (!shared::isGlossy(tile.gloss[in].metallic, tile.gloss[in].roughness)) continue;
     const size_t i = index * kTilePixels + in;
-    if (g.hit[i] == 0 || mayBeGlossy[g.object[i]] == 0) continue;
-    const Gloss gloss = glossOf(scene, g, i);
-    if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
-    if (tile.gloss.empty()) tile.gloss.resize(kTilePixels);
-    tile.gloss[in] = gloss;
     const auto packet = static_cast<uint8_t>(in / kLanes);
     Patch patch{scene.hasLinks ? g.object[i] : 0, 0};
     if (patches != nullptr)
@@ -88,7 +60,6 @@ void SpecularAccumulator::findParts(const RenderScene& scene, const GBuffer& g, 
     }
     it->lanes |= static_cast<uint8_t>(1u << in % kLanes);
   }
-  tile.gloss.shrink_to_fit();
   tile.sums = std::vector<double>(3 * tile.gloss.size(), 0.0);
 }
 
@@ -303,19 +274,28 @@ void SpecularAccumulator::addTo(const GBuffer& g, Image& picture, bool hasEmissi
     for (int y = y0; y < std::min(y0 + kTileSize, picture.height); ++y) {
       for (int x = x0; x < std::min(x0 + kTileSize, picture.width); ++x) {
         const size_t i = g.index(x, y);
-        if (g.hit[i] == 0) continue;
         const Gloss gloss = tile.gloss[i % kTilePixels];
-        if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
-        const vec3 toEye = glm::normalize(eye_ - vec3(g.px[i], g.py[i], g.pz[i]));
-        const float nv = glm::dot(toEye, vec3(g.sx[i], g.sy[i], g.sz[i]));
-        const float share =
-            shared::diffuseShare(gloss.metallic, gloss.roughness, leastRoughness_, nv);
-        const vec3 emission = hasEmission ? g.emission(i) : vec3(0.0f);
-        vec3& pixel = picture.at(x, y);
-        pixel = emission + share * (pixel - emission) + tile.radiance(i % kTilePixels);
+        if (shared::isGlossy(gloss.metallic, gloss.roughness))
+          addSpecular(g, i, eye_, gloss, leastRoughness_, tile.radiance(i % kTilePixels),
+                      hasEmission, picture.at(x, y));
       }
     }
   });
+}
+
+std::optional<SpecularAccumulator::Reflection> SpecularAccumulator::reflection(size_t pixel) const {
+  const Tile& tile = tiles_[pixel / kTilePixels];
+  if (tile.gloss.empty()) return std::nullopt;
+  const Gloss gloss = tile.gloss[pixel % kTilePixels];
+  if (!shared::isGlossy(gloss.metallic, gloss.roughness)) return std::nullopt;
+  return Reflection{tile.radiance(pixel % kTilePixels), gloss};
+}
+
+uint64_t SpecularAccumulator::glossyPixels() const {
+  uint64_t pixels = 0;
+  for (const Tile& tile : tiles_)
+    for (const Part& part : tile.parts) pixels += static_cast<uint64_t>(std::popcount(part.lanes));
+  return pixels;
 }
 
 size_t SpecularAccumulator::bytes() const {

@@ -41,6 +41,13 @@ class SpecularAccumulator {
   // Replaces Lambertian shading by shading with specular light in the picture, which includes
   // emission or not. Does nothing if there are no glossy pixels.
   void addTo(const GBuffer& gbuffer, Image& picture, bool hasEmission = true) const;
+  // What a pixel reflects; nothing if it is not glossy.
+  struct Reflection {
+    vec3 radiance;  // [W/(m² sr)]
+    Gloss gloss;
+  };
+  std::optional<Reflection> reflection(size_t pixel) const;
+  uint64_t glossyPixels() const;  // number of them
   size_t bytes() const;
 
  private:

@@ -1,6 +1,7 @@
 #include "renderer/backends/cpu/many_lights/cpu_many_lights.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <tbb/parallel_invoke.h>
 
@@ -36,6 +37,10 @@ class CpuManyLights final : public ManyLightsKernels {
   void takeScene(const RenderScene& scene, const RenderSceneChanges& changes,
                  const RayCaster& rays) override {
     const bool isOther = changes.rebuilt || scene_ != &scene;
+    if (isOther || !changes.none()) {
+      summedView_.reset();
+      still_.forgetCarried();
+    }
     scene_ = &scene;
     rays_ = &rays;
     if (isOther || changes.rebuilt || changes.materials)
@@ -93,10 +98,11 @@ class CpuManyLights final : public ManyLightsKernels {
     const Lights lights = lightsOf(vpls, patches);
     const PictureSums::Input in = inputOf(lights, params, patches);
     PictureSums& p = shown();
-    const bool isQuick = params.block.y != 0.0f || params.block.w != 0.0f;
-    counts_.lightPixels +=
-        p.sumSpeculars(in, leastRoughnessOf(params), showsStill() && !isQuick, isQuick);
     const int block = std::max(1, static_cast<int>(params.block.x));
+    const bool isQuick = block != 1 && (params.block.y != 0.0f || params.block.w != 0.0f);
+    const bool isNext = showsStill() && summedView_ && *summedView_ + 1 == backend_.views();
+    const SeenPoints* before = isNext ? backend_.seenBefore() : nullptr;
+    if (showsStill()) summedView_ = backend_.views();
     shared_ = {};
     if (showsStill()) sharing_.forget();
     if (block != 1 && isStillOf(in, block)) {
@@ -105,13 +111,14 @@ class CpuManyLights final : public ManyLightsKernels {
       shared_ = sharing_.findOwn(backend_.still().gbuffer, in.gbuffer);
       counts_.pixelsInterpolated += still_.pixelsInterpolated();
       add(p.sumAt(in, shared_));
-      return;
+    } else {
+      add(p.sum(in, block, params.block.y != 0.0f, mostOf(params), before));
+      counts_.pixelsInterpolated += p.pixelsInterpolated();
     }
-    const uint64_t most = params.block.z > 0.0f
-                              ? static_cast<uint64_t>(params.block.z * shared::kLightPixelsUnit)
-                              : UINT64_MAX;
-    add(p.sum(in, block, params.block.y != 0.0f, most));
-    counts_.pixelsInterpolated += p.pixelsInterpolated();
+    const float roughness = leastRoughnessOf(params);
+    counts_.lightPixels +=
+        isQuick ? p.sampleSpeculars(in, roughness) : p.sumSpeculars(in, roughness, showsStill());
+    isLong_ = block != 1 && (p.low.isLong() || vpls.size() * p.glossyPixels() > mostOf(params));
   }
 
   std::shared_ptr<RadianceImage> shareOf(size_t group, std::span<const shared::Vpl> vpls,
@@ -146,12 +153,12 @@ class CpuManyLights final : public ManyLightsKernels {
     };
     const Background background = backend_.background();
     cpu::compose(gbuffer, lightAt, &background, white, image->image);
-    if (!white) p.speculars.addTo(gbuffer, image->image);
+    if (!white) p.addSpeculars(gbuffer, image->image);
     return image;
   }
 
   bool sumIsLimited() const override { return showsStill() && still_.isLimited(); }
-  bool sumIsLong() const override { return showsStill() && still_.isLong(); }
+  bool sumIsLong() const override { return showsStill() && isLong_; }
 
   std::vector<float> readShadowMap(int slot) override {
     const std::span<const float> map = maps_.map(slot);
@@ -209,6 +216,11 @@ class CpuManyLights final : public ManyLightsKernels {
   static float leastRoughnessOf(const shared::ShadingParams& params) {
     return params.speculars.x == 0.0f ? -1.0f : params.speculars.y;
   }
+  // Limit of lights × pixels.
+  static uint64_t mostOf(const shared::ShadingParams& params) {
+    return params.block.z > 0.0f ? static_cast<uint64_t>(params.block.z * shared::kLightPixelsUnit)
+                                 : UINT64_MAX;
+  }
   void add(const SumCounts& counts) {
     counts_.lookUps += counts.lookUps;
     counts_.lightPixels += counts.lightPixels;
@@ -235,9 +247,11 @@ class CpuManyLights final : public ManyLightsKernels {
   MapStore maps_;
   PictureSums still_, shifted_;  // of the pictures of the backend
   std::unique_ptr<ShareSums> shares_;
-  AdaptiveAntialiasing sharing_;      // of still_
-  std::span<const uint32_t> shared_;  // packets shown that need their own light; empty: all
-  std::vector<uint32_t> leftOutBy_;   // by object, with light linking; else empty
+  bool isLong_ = false;                 // of the last sum
+  std::optional<uint64_t> summedView_;  // CpuBackend::views() of the last sum of the present scene
+  AdaptiveAntialiasing sharing_;        // of still_
+  std::span<const uint32_t> shared_;    // packets shown that need their own light; empty: all
+  std::vector<uint32_t> leftOutBy_;     // by object, with light linking; else empty
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 // two cells.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,6 +19,7 @@
 
 namespace lamplighter::cpu {
 
+class CarriedLight;
 struct PictureLight;
 
 class LowResolution {
@@ -34,8 +36,12 @@ class LowResolution {
   // Those of them that are summed: all, or fewer after limitEdges(). The others take the light of
   // the samples around them that lie on the most similar surface.
   std::span<const uint32_t> summed() const { return summed_; }
+  // Packets that are not summed take this light where it has some, instead of interpolated light;
+  // null: none. It must stay valid.
+  void useCarried(const CarriedLight* carried) { carried_ = carried; }
   // Limits the work at edges: packets × lights that an update of `sums` to these lights takes.
-  // Packets that are summed already come first.
+  // Packets that are summed already come first, then those without carried light, and then others
+  // in turns.
   void limitEdges(const GBuffer& picture, const IrradianceAccumulator& sums,
                   std::span<const LightRecord> lights, uint64_t mostLightPixels);
   // Whether there are fewer than all.
@@ -43,6 +49,16 @@ class LowResolution {
   // Whether there would be, if none was summed before.
   bool isLong() const { return isLong_; }
   uint64_t pixelsInterpolated() const { return interpolated_; }
+
+  // The samples around a pixel with their weights, which do not add up to 1. Samples on other
+  // surfaces than the pixel count little.
+  struct Corner {
+    int i = 0, j = 0;    // column and row of samples()
+    float share = 0.0f;  // of a bilinear interpolation
+    float weight = 0.0f;
+  };
+  using Corners = std::array<Corner, 4>;
+  Corners cornersOf(int x, int y) const;
 
   // The light of an interpolated packet.
   void interpolate(int tile, int packet, PacketIrradiance& out) const;
@@ -83,6 +99,8 @@ class LowResolution {
   std::vector<uint8_t> isHard_;            // by sample: there may be hard shadows
   std::vector<uint32_t> edges_, summed_;
   const GBuffer* picture_ = nullptr;  // of the last update()
+  const CarriedLight* carried_ = nullptr;
+  size_t nextTile_ = 0;  // where the turns go on
   bool isLong_ = false;
   uint64_t interpolated_ = 0;
 };

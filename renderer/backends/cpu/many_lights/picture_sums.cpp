@@ -5,8 +5,12 @@
 namespace lamplighter::cpu {
 namespace {
 
-// In quick pictures one in so many light samples has a highlight.
-constexpr size_t kQuickShare = 4;
+std::vector<SpecularLight> specularLights(const PictureSums::Input& in) {
+  std::vector<SpecularLight> lights;
+  lights.reserve(in.lights.size());
+  for (size_t i = 0; i < in.lights.size(); ++i) lights.push_back({in.lights[i], in.footprints[i]});
+  return lights;
+}
 
 SumCounts update(IrradianceAccumulator& sums, const GBuffer& points, const PictureSums::Input& in,
                  std::span<const uint32_t> wanted) {
@@ -19,8 +23,9 @@ SumCounts operator+(const SumCounts& a, const SumCounts& b) {
 
 }  // namespace
 
-SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick,
-                           uint64_t mostAtEdges) {
+SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick, uint64_t mostAtEdges,
+                           const SeenPoints* before) {
+  if (before != nullptr && pixelsPerBlock != 1) takeCarried(before->px.size() / kTilePixels);
   block = pixelsPerBlock;
   if (block == 1) return update(sums, in.gbuffer, in, {});
   SumCounts counts;
@@ -36,50 +41,67 @@ SumCounts PictureSums::sum(const Input& in, int pixelsPerBlock, bool isQuick,
     counts = update(sampleSums, low.samples(), in, {});
     low.findEdges(in.gbuffer, {sampleSums});
   }
+  if (before != nullptr) carried.find(in.gbuffer, *before, low.edges());
+  low.useCarried(carried.isOf(in.gbuffer.tiles()) ? &carried : nullptr);
   if (mostAtEdges != UINT64_MAX) low.limitEdges(in.gbuffer, sums, in.lights, mostAtEdges);
+  if (!isQuick && !low.isLimited()) forgetCarried();
   return counts + update(sums, in.gbuffer, in, low.summed());
+}
+
+// Stores the light of the last sum.
+void PictureSums::takeCarried(size_t tiles) {
+  std::vector<uint32_t> open(tiles, 0);
+  if (block != 1)
+    for (size_t t = 0; t < tiles; ++t) open[t] = low.edges()[t] & ~low.summed()[t];
+  carried.take(diffuse(), open);
 }
 
 SumCounts PictureSums::sumAt(const Input& in, std::span<const uint32_t> packets) {
   return update(sums, in.gbuffer, in, packets);
 }
 
-uint64_t PictureSums::sumSpeculars(const Input& in, float leastRoughness, bool isKept,
-                                   bool isQuick) {
+uint64_t PictureSums::sumSpeculars(const Input& in, float leastRoughness, bool isKept) {
+  sampledSpeculars.clear();
   if (leastRoughness < 0.0f) {
     speculars.clear();
     return 0;
   }
-  std::vector<SpecularLight> lights;
-  lights.reserve(in.lights.size());
-  size_t samples = 0;
-  for (size_t i = 0; i < in.lights.size(); ++i) {
-    SpecularLight light{in.lights[i], in.footprints[i]};
-    // Others light only a part of the scene, or are the whole light.
-    if (isQuick && light.record.kind == LightRecord::Kind::cosine) {
-      if (samples++ % kQuickShare != 0) continue;
-      light.record.intensity *= static_cast<float>(kQuickShare);
-      light.footprint *= static_cast<float>(kQuickShare);
-    }
-    lights.push_back(light);
-  }
-  return speculars.update(in.scene, in.gbuffer, in.eye, std::move(lights), in.constants,
+  return speculars.update(in.scene, in.gbuffer, in.eye, specularLights(in), in.constants,
                           leastRoughness, in.patches, isKept);
+}
+
+uint64_t PictureSums::sampleSpeculars(const Input& in, float leastRoughness) {
+  speculars.clear();
+  if (leastRoughness < 0.0f) {
+    sampledSpeculars.clear();
+    return 0;
+  }
+  return sampledSpeculars.update(in.scene, in.gbuffer, low, in.eye, specularLights(in),
+                                 in.constants, leastRoughness, in.patches);
+}
+
+void PictureSums::addSpeculars(const GBuffer& gbuffer, Image& picture) const {
+  if (sampledSpeculars.isOn())
+    sampledSpeculars.addTo(gbuffer, low, picture);
+  else
+    speculars.addTo(gbuffer, picture);
 }
 
 void PictureSums::forgetMaps() {
   forEachSums([](IrradianceAccumulator& s) { s.forgetMaps(); });
   speculars.forgetMaps();
+  sampledSpeculars.forgetMaps();
 }
 
 void PictureSums::forgetPlaces() {
   forEachSums([](IrradianceAccumulator& s) { s.forgetPlaces(); });
   speculars.forgetPlaces();
+  sampledSpeculars.forgetPlaces();
 }
 
 size_t PictureSums::bytes() const {
   return sums.bytes() + low.bytes() + sampleSums.bytes() + lowSamples.bytes() + coarseSums.bytes() +
-         speculars.bytes();
+         carried.bytes() + speculars.bytes() + sampledSpeculars.bytes();
 }
 
 }  // namespace lamplighter::cpu

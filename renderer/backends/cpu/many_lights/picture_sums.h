@@ -8,8 +8,10 @@
 
 #include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
 #include "renderer/backends/cpu/irradiance/specular_accumulator.h"
+#include "renderer/backends/cpu/many_lights/carried_light.h"
 #include "renderer/backends/cpu/many_lights/low_resolution.h"
 #include "renderer/backends/cpu/many_lights/picture_light.h"
+#include "renderer/backends/cpu/many_lights/specular_samples.h"
 
 namespace lamplighter::cpu {
 
@@ -34,27 +36,41 @@ struct PictureSums {
   IrradianceAccumulator sampleSums;
   LowResolution lowSamples;          // quick pictures: samples of the samples of `low`
   IrradianceAccumulator coarseSums;  // at the samples of `lowSamples`; summed from scratch
+  CarriedLight carried;              // from view to view, while sums are limited
   SpecularAccumulator speculars;
+  SpecularSamples sampledSpeculars;  // quick pictures: in place of `speculars`
 
   // Sums the diffuse light in blocks of so many pixels. isQuick: some samples are interpolated.
-  // mostAtEdges: limits lights × pixels of the pixels that are not interpolated.
+  // mostAtEdges: limits lights × pixels of the pixels that are not interpolated. `before`: what the
+  // picture of the last sum showed, if only the view changed since; pixels that are left to later
+  // calls take its light. Null: there is no such picture, or the view is the same.
   SumCounts sum(const Input& in, int pixelsPerBlock, bool isQuick,
-                uint64_t mostAtEdges = UINT64_MAX);
+                uint64_t mostAtEdges = UINT64_MAX, const SeenPoints* before = nullptr);
   // Whether the last sum left some of these pixels to later calls.
   bool isLimited() const { return block != 1 && low.isLimited(); }
-  // Whether a sum from scratch would do so.
-  bool isLong() const { return block != 1 && low.isLong(); }
+  // Glossy pixels of the last speculars.
+  uint64_t glossyPixels() const {
+    return sampledSpeculars.isOn() ? sampledSpeculars.glossyPixels() : speculars.glossyPixels();
+  }
   // Sums the diffuse light only in these packets (by tile, one bit each), all of their pixels.
   SumCounts sumAt(const Input& in, std::span<const uint32_t> packets);
   // Sums the speculars, or removes them if leastRoughness is negative. isKept: as for
-  // SpecularAccumulator. isQuick: of light samples a quarter, each with the light of four. Returns
-  // lights × pixels.
-  uint64_t sumSpeculars(const Input& in, float leastRoughness, bool isKept, bool isQuick);
+  // SpecularAccumulator. Returns lights × pixels.
+  uint64_t sumSpeculars(const Input& in, float leastRoughness, bool isKept);
+  // Sums them only at the samples of the last sum(), which was in blocks.
+  uint64_t sampleSpeculars(const Input& in, float leastRoughness);
+  // Replaces Lambertian shading of glossy pixels in a picture, as the last of these two asks.
+  void addSpeculars(const GBuffer& gbuffer, Image& picture) const;
 
   PictureLight diffuse() const { return {sums, block == 1 ? nullptr : &low, nullptr, {}}; }
   // What the last sum() interpolated.
   uint64_t pixelsInterpolated() const { return block == 1 ? 0 : low.pixelsInterpolated(); }
 
+  // Something that `carried` does not know changed.
+  void forgetCarried() {
+    carried.forget();
+    low.useCarried(nullptr);
+  }
   // As for IrradianceAccumulator.
   void forgetMaps();
   void forgetPlaces();
@@ -65,6 +81,9 @@ struct PictureSums {
     f(coarseSums);
   }
   size_t bytes() const;
+
+ private:
+  void takeCarried(size_t tiles);
 };
 
 }  // namespace lamplighter::cpu

@@ -30,7 +30,7 @@ SumCounts ShareSums::sumShifted(size_t group, const PictureSums::Input& in, cons
 
 uint64_t ShareSums::sumSpeculars(const PictureSums::Input& in, float leastRoughness) {
   sums().speculars.forgetMaps();
-  return sums().sumSpeculars(in, leastRoughness, false, false);
+  return sums().sumSpeculars(in, leastRoughness, false);
 }
 
 void ShareSums::keep(const GBuffer& gbuffer, Group& group) const {

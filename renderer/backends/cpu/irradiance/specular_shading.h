@@ -1,0 +1,25 @@
+// Which pixels of a G-buffer are glossy, and how their specular light is shown.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "renderer/backends/cpu/gbuffer/gbuffer.h"
+#include "renderer/scene/surface.h"
+
+namespace lamplighter::cpu {
+
+// By object: whether any part of it may be glossy.
+std::vector<uint8_t> findGlossy(const RenderScene& scene);
+
+// The gloss of the pixels of a tile; empty if none of them is glossy. Pixels that are not have a
+// gloss without a lobe (shared::isGlossy). mayBeGlossy: by object.
+std::vector<Gloss> findGloss(const RenderScene& scene, const GBuffer& gbuffer, size_t tile,
+                             std::span<const uint8_t> mayBeGlossy);
+
+// Replaces Lambertian shading of a glossy pixel by shading with this specular radiance
+// [W/(m² sr)]. hasEmission: the picture includes emission.
+void addSpecular(const GBuffer& gbuffer, size_t pixel, const vec3& eye, const Gloss& gloss,
+                 float leastRoughness, const vec3& specular, bool hasEmission, vec3& radiance);
+
+}  // namespace lamplighter::cpu

@@ -1,0 +1,96 @@
+#include "renderer/backends/cpu/many_lights/specular_samples.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <tbb/parallel_for.h>
+
+#include "renderer/backends/cpu/irradiance/specular_shading.h"
+#include "shaders/shared/brdf.h"
+
+namespace lamplighter::cpu {
+namespace {
+
+// What is divided out of the light of a sample, so that textures of metals stay sharp: the Fresnel
+// reflectance of the lobe at a moderate angle.
+vec3 reflectance(const vec3& albedo, const Gloss& gloss) {
+  constexpr float kAway = 0.03f;  // (1 − cos 60°)⁵
+  const shared::Lobe lobe = shared::makeLobe(albedo, gloss.metallic, gloss.roughness, 0.0f, 1.0f);
+  return glm::mix(vec3(lobe.straight), vec3(lobe.straight.w), kAway);
+}
+
+// The samples around a pixel that lie on its object count at least so much.
+constexpr float kLeastShare = 1e-3f;
+
+// How alike the shading normals at two points are: cos³² of the angle between them.
+float likeness(const GBuffer& a, size_t i, const GBuffer& b, size_t j) {
+  float power = std::max(a.sx[i] * b.sx[j] + a.sy[i] * b.sy[j] + a.sz[i] * b.sz[j], 0.0f);
+  for (int square = 0; square < 5; ++square) power *= power;
+  return power;
+}
+
+}  // namespace
+
+uint64_t SpecularSamples::update(const RenderScene& scene, const GBuffer& g,
+                                 const LowResolution& low, const vec3& eye,
+                                 std::vector<SpecularLight> lights, const SumConstants& constants,
+                                 float leastRoughness, const PatchLights* patches) {
+  isOn_ = true;
+  eye_ = eye;
+  leastRoughness_ = leastRoughness;
+  tiles_.resize(static_cast<size_t>(g.tiles()));
+  const std::vector<uint8_t> mayBeGlossy = findGlossy(scene);
+  tbb::parallel_for(size_t{0}, tiles_.size(), [&](size_t i) {
+    if (tiles_[i].revision == g.revision[i]) return;
+    Tile& tile = tiles_[i];
+    tile = {g.revision[i], findGloss(scene, g, i, mayBeGlossy)};
+    for (const Gloss& gloss : tile.gloss)
+      tile.glossyPixels += shared::isGlossy(gloss.metallic, gloss.roughness) ? 1 : 0;
+  });
+  return sums_.update(scene, low.samples(), eye, std::move(lights), constants, leastRoughness,
+                      patches, false);
+}
+
+uint64_t SpecularSamples::glossyPixels() const {
+  uint64_t pixels = 0;
+  for (const Tile& tile : tiles_) pixels += tile.glossyPixels;
+  return pixels;
+}
+
+void SpecularSamples::addTo(const GBuffer& g, const LowResolution& low, Image& picture) const {
+  tbb::parallel_for(0, g.tiles(), [&](int t) {
+    const Tile& tile = tiles_[static_cast<size_t>(t)];
+    if (tile.gloss.empty()) return;
+    const int x0 = t % g.tilesX * kTileSize, y0 = t / g.tilesX * kTileSize;
+    for (int y = y0; y < std::min(y0 + kTileSize, picture.height); ++y) {
+      for (int x = x0; x < std::min(x0 + kTileSize, picture.width); ++x) {
+        const size_t i = g.index(x, y);
+        const Gloss gloss = tile.gloss[i % kTilePixels];
+        if (!shared::isGlossy(gloss.metallic, gloss.roughness)) continue;
+        vec3 sum(0.0f);
+        float weights = 0.0f;
+        for (const LowResolution::Corner& c : low.cornersOf(x, y)) {
+          const size_t sample = low.samples().index(c.i, c.j);
+          if (low.samples().hit[sample] == 0 || low.samples().object[sample] != g.object[i])
+            continue;
+          const auto there = sums_.reflection(sample);
+          if (!there) continue;
+          const float weight = (c.share + kLeastShare) * likeness(g, i, low.samples(), sample);
+          sum += weight * there->radiance / reflectance(low.samples().albedo(sample), there->gloss);
+          weights += weight;
+        }
+        if (weights > 0.0f)
+          addSpecular(g, i, eye_, gloss, leastRoughness_,
+                      sum / weights * reflectance(g.albedo(i), gloss), true, picture.at(x, y));
+      }
+    }
+  });
+}
+
+size_t SpecularSamples::bytes() const {
+  size_t bytes = sums_.bytes();
+  for (const Tile& tile : tiles_) bytes += tile.gloss.size() * sizeof(Gloss);
+  return bytes;
+}
+
+}  // namespace lamplighter::cpu
