@@ -84,12 +84,15 @@ class ManyLightsKernels : public MethodKernels {
 
   // Sums the lights of one of several groups, and composes only the light that surfaces reflect:
   // no emission, no sky. The groups of one view are numbered from 0; with sharesNeedMiddle, each of
-  // them first at the pixels without jitter. Keeps the sums of sumVpls(), if it keeps any.
+  // them first at the pixels without jitter. Keeps the sums of sumVpls(), if it keeps any. Null:
+  // the limit ShadingParams::block.z was reached; the next call must have the same G-buffer and
+  // arguments, with any limit, and goes on.
   virtual std::shared_ptr<RadianceImage> shareOf(size_t group, std::span<const shared::Vpl> vpls,
                                                  const shared::ShadingParams& params,
                                                  const PatchLights* patches, bool white) = 0;
-  // Frees what shareOf() keeps.
-  virtual void dropShares() {}
+  // Frees what shareOf() keeps. weights: of the groups, if their weighted sum is the light of the
+  // view, for pictures of the next views; otherwise empty.
+  virtual void dropShares(std::span<const vec3> /*weights*/) {}
 
   // The content of a shadow map (resolution² texels of its size, 1/w), for tests and debug views;
   // empty: the slot has no map.

@@ -49,7 +49,7 @@ class FailingKernels final : public ManyLightsKernels {
                                          const PatchLights* patches, bool white) override {
     return inner_->shareOf(group, vpls, params, patches, white);
   }
-  void dropShares() override { inner_->dropShares(); }
+  void dropShares(std::span<const vec3> weights) override { inner_->dropShares(weights); }
   std::vector<float> readShadowMap(int slot) override { return inner_->readShadowMap(slot); }
 
  private:

@@ -43,7 +43,7 @@ void LightShares::restart(ManyLightsKernels& kernels) {
   ImagePool pool = std::move(pool_);
   *this = LightShares();
   pool_ = std::move(pool);
-  kernels.dropShares();
+  kernels.dropShares({});
 }
 
 // Each control has its own share. If memory is short, only the brightest do, and the others have
@@ -100,10 +100,15 @@ void LightShares::sumNext(const Inputs& in) {
   const int shown = isMiddle ? -1 : picture_;
   if (gbufferOf_ != shown) in.frame.backend.renderGBuffer(in.frame.view, jitter);
   gbufferOf_ = shown;
-  if (next_ == 0 && isShown) emission_.add(in.frame, in.controls, jitter, weight);
+  if (isShown && !hasEmission_) emission_.add(in.frame, in.controls, jitter, weight);
+  hasEmission_ = isShown;
   const uint64_t before = in.kernels.lightCounts().lightPixels;
-  while (next_ < shares_.size() &&
-         in.kernels.lightCounts().lightPixels - before < kLightPixelsAFrame) {
+  while (next_ < shares_.size()) {
+    const uint64_t done = in.kernels.lightCounts().lightPixels - before;
+    if (4 * done >= 3 * kLightPixelsAFrame) return;
+    shared::ShadingParams shading = in.options.shading;
+    shading.block.z = static_cast<float>(kLightPixelsAFrame - done) /
+                      static_cast<float>(shared::kLightPixelsUnit);
     LightSampleTable lights = in.lights;
     lights.sumAtReference([&](const LightSample& l) { return mixedIn_[in.controls.of(l.id)]; });
     lights.sumOnly([&](const LightSample& l) { return shareOf_[in.controls.of(l.id)] == next_; });
@@ -114,20 +119,23 @@ void LightShares::sumNext(const Inputs& in) {
       proxies.update(lights, in.groups);
       vpls.insert(vpls.end(), proxies.lights().begin(), proxies.lights().end());
       const PatchLights patches(*in.visibility, nullptr, in.options.mergePasses, nullptr, &proxies);
-      image = in.kernels.shareOf(next_, vpls, in.options.shading, &patches, in.frame.lightOnly);
+      image = in.kernels.shareOf(next_, vpls, shading, &patches, in.frame.lightOnly);
     } else {
-      image = in.kernels.shareOf(next_, vpls, in.options.shading, nullptr, in.frame.lightOnly);
+      image = in.kernels.shareOf(next_, vpls, shading, nullptr, in.frame.lightOnly);
     }
+    if (image == nullptr) return;  // the next frame goes on
     if (isShown) addScaled(shares_[next_].light, image->pixels(), weight);
     ++next_;
   }
-  if (next_ < shares_.size()) return;
   next_ = 0;
+  hasEmission_ = false;
   picture_ += isShown ? 1 : 0;
   phase_ = picture_ < pictures_ ? Phase::shifted
            : in.options.corners ? Phase::corners
                                 : Phase::done;
-  if (picture_ == pictures_) in.kernels.dropShares();
+  if (picture_ < pictures_) return;
+  const auto weights = weightsFor(in.controls);
+  in.kernels.dropShares(weights ? weights->ofShares : std::vector<vec3>());
 }
 
 void LightShares::traceCorners(const Inputs& in) {

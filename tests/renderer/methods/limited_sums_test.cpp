@@ -12,10 +12,10 @@ namespace {
 
 struct Boxes {
   View view = test::lookAt(vec3(0.5f, 2.2f, 7.5f), vec3(0.0f, 1.4f, 0.0f), 192, 128);
-  test::LitScene lit{test::randomBoxes(20, 4)};
+  test::LitScene lit;
   std::vector<shared::Vpl> vpls = test::randomVpls(24, 3);
 
-  Boxes() {
+  explicit Boxes(const Scene& scene = test::randomBoxes(20, 4)) : lit(scene) {
     for (size_t i = 0; i < vpls.size(); ++i) vpls[i].slot = static_cast<int>(i);
     lit.kernels->reserveShadowMaps(static_cast<int>(vpls.size()), 64);
     lit.kernels->renderShadowMaps(vpls);
@@ -87,6 +87,37 @@ TEST(LimitedSums, TakeOverLightWhileTheCameraMoves) {
   Image picture = boxes.sum(1.0f);
   while (boxes.lit.kernels->sumIsLimited()) picture = boxes.sum(1.0f);
   EXPECT_TRUE(test::sameBits(picture, whole)) << "when the camera rests nothing of it is left";
+}
+
+Scene glossyBoxes() {
+  Scene scene = test::randomBoxes(20, 4);
+  for (Material& m : scene.materials) m.roughness = 0.3f;
+  return scene;
+}
+
+// The share of a group of lights is the same in one call and in several.
+TEST(LimitedSums, SharesEndAtThoseOfAnUnlimitedSum) {
+  Boxes boxes(glossyBoxes()), other(glossyBoxes());
+  for (const vec2 jitter : {vec2(0.0f), vec2(0.3f, -0.2f)}) {
+    boxes.lit.backend->renderGBuffer(boxes.view, jitter);
+    other.lit.backend->renderGBuffer(other.view, jitter);
+    for (size_t group = 0; group < 2; ++group) {
+      const auto lights = std::span(boxes.vpls).subspan(group * 12, 12);
+      const auto share = [&](Boxes& in, float limit) {
+        return in.lit.kernels->shareOf(
+            group, lights,
+            {vec4(0.3f, 0.002f, 0.0f, 64.0f), vec4(4.0f, 0.0f, limit, 0.0f), vec4(1, 0.1f, 0, 0)},
+            nullptr, false);
+      };
+      const Image whole = share(other, 0.0f)->pixels();
+      int calls = 1;
+      std::shared_ptr<RadianceImage> picture = share(boxes, 0.5f);
+      for (; picture == nullptr && calls < 100; ++calls) picture = share(boxes, 0.5f);
+      ASSERT_NE(picture, nullptr);
+      EXPECT_GT(calls, 2);
+      EXPECT_TRUE(test::sameBits(picture->pixels(), whole)) << group;
+    }
+  }
 }
 
 }  // namespace

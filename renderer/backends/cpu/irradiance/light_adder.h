@@ -16,6 +16,9 @@ struct SumCounts {
   uint64_t lightPixels = 0;  // lights × pixels, added or subtracted
   uint64_t lookUps = 0;      // of these, with a shadow map look-up; counted in whole packets
 };
+inline SumCounts operator+(const SumCounts& a, const SumCounts& b) {
+  return {a.lightPixels + b.lightPixels, a.lookUps + b.lookUps};
+}
 
 class LightAdder {
  public:

@@ -197,10 +197,23 @@ uint64_t SpecularAccumulator::sumParts(const RenderScene& scene, const GBuffer& 
   return pixels * (changes.all ? lights.size() : changes.taken.size() + changes.added.size());
 }
 
+// How many of these tiles can be summed within a limit of lights × pixels; at least one.
+size_t SpecularAccumulator::fitting(std::span<const size_t> tiles, size_t lights,
+                                    uint64_t mostLightPixels) const {
+  uint64_t cost = 0;
+  for (size_t k = 0; k < tiles.size(); ++k) {
+    for (const Part& part : tiles_[tiles[k]].parts)
+      cost += lights * static_cast<uint64_t>(std::popcount(part.lanes));
+    if (cost > mostLightPixels) return std::max<size_t>(k, 1);
+  }
+  return tiles.size();
+}
+
 uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g, const vec3& eye,
                                      std::vector<SpecularLight> lights,
                                      const SumConstants& constants, float leastRoughness,
-                                     const PatchLights* patches, bool isKept) {
+                                     const PatchLights* patches, bool isKept,
+                                     uint64_t mostLightPixels) {
   const bool hasPatches = patches != nullptr;
   if (tiles_.size() != static_cast<size_t>(g.tiles())) {
     tiles_.assign(static_cast<size_t>(g.tiles()), {});
@@ -256,9 +269,13 @@ uint64_t SpecularAccumulator::update(const RenderScene& scene, const GBuffer& g,
                        : sumParts<FloatSum>(scene, g, parts, lights, what, others);
     });
   };
-  sumTiles(fresh, Changes());
+  // Tiles that are left to the next call have no revision.
+  const size_t now = isKept ? fresh.size() : fitting(fresh, lights.size(), mostLightPixels);
+  isComplete_ = now == fresh.size();
+  sumTiles(std::span(fresh).first(now), Changes());
   sumTiles(kept, changes);
   for (size_t i = 0; i < tiles_.size(); ++i) tiles_[i].revision = g.revision[i];
+  for (const size_t i : std::span(fresh).subspan(now)) tiles_[i].revision = 0;
   lights_ = std::move(lights);
   oldMaps_.clear();
   isOn_ = isKnown_ = knowsPlaces_ = true;

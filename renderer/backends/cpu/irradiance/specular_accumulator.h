@@ -17,11 +17,14 @@ namespace lamplighter::cpu {
 class SpecularAccumulator {
  public:
   // Updates all glossy pixels as seen from `eye`. `patches` null: shadow map look-ups everywhere.
-  // isKept: the same G-buffer will be updated again. Otherwise sums are faster, and their last bits
-  // differ. Returns the number of lights × pixels that were summed.
+  // isKept: the same G-buffer will be updated again. Otherwise sums are faster, their last bits
+  // differ, and at most about mostLightPixels lights × pixels are summed: calls with the same
+  // arguments go on until isComplete(). Returns the number of lights × pixels that were summed.
   uint64_t update(const RenderScene& scene, const GBuffer& gbuffer, const vec3& eye,
                   std::vector<SpecularLight> lights, const SumConstants& constants,
-                  float leastRoughness, const PatchLights* patches, bool isKept);
+                  float leastRoughness, const PatchLights* patches, bool isKept,
+                  uint64_t mostLightPixels = UINT64_MAX);
+  bool isComplete() const { return isComplete_; }
 
   // Call when the map of a slot is about to change; `map` is its present content.
   void mapChanges(int slot, std::span<const float> map);
@@ -77,6 +80,7 @@ class SpecularAccumulator {
   Changes findChanges(std::span<const SpecularLight> lights) const;
   void findParts(const RenderScene& scene, const GBuffer& gbuffer, size_t tile,
                  std::span<const uint8_t> mayBeGlossy, const PatchLights* patches);
+  size_t fitting(std::span<const size_t> tiles, size_t lights, uint64_t mostLightPixels) const;
   using OtherUses = std::optional<std::vector<int>>;
   std::vector<OtherUses> findUses(const RenderScene& scene, float leastRoughness,
                                   const PatchLights& patches, std::span<const uint8_t> stays);
@@ -90,6 +94,7 @@ class SpecularAccumulator {
   float leastRoughness_ = 0.0f;
   vec3 eye_{0.0f};
   bool hasGlossy_ = true;  // any pixel is glossy
+  bool isComplete_ = true;
   std::vector<SpecularLight> lights_;
   std::vector<Tile> tiles_;
   std::map<int, std::vector<float>> oldMaps_;  // by slot: maps of lights_ that changed since

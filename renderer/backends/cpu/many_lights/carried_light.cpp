@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <tbb/parallel_for.h>
 
@@ -35,6 +36,11 @@ void CarriedLight::take(const PictureLight& light, std::span<const uint32_t> ope
       last_.lanes[at] = kAllLanes;
     }
   });
+}
+
+void CarriedLight::know(std::vector<vec3> e) {
+  now_.lanes.assign(e.size() / kLanes, kAllLanes);
+  now_.e = std::move(e);
 }
 
 void CarriedLight::find(const GBuffer& g, const SeenPoints& before,

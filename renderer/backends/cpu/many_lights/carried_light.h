@@ -20,6 +20,8 @@ class CarriedLight {
   // Stores the light of a picture. open: by tile, the packets that `light` does not know, one bit
   // each, where the picture has what it took over itself.
   void take(const PictureLight& light, std::span<const uint32_t> open);
+  // The light of all pixels of the present picture is known, in the order of its G-buffer.
+  void know(std::vector<vec3> e);
   // Looks up the pixels of these packets (by tile, one bit each) of the next picture. `before`: the
   // points of the stored one.
   void find(const GBuffer& gbuffer, const SeenPoints& before, std::span<const uint32_t> packets);

@@ -127,9 +127,17 @@ class CpuManyLights final : public ManyLightsKernels {
     if (!shares_) shares_ = std::make_unique<ShareSums>();
     const Lights lights = lightsOf(vpls, patches);
     const PictureSums::Input in = inputOf(lights, params, patches);
-    add(showsStill() ? shares_->sumStill(group, in, std::max(1, static_cast<int>(params.block.x)))
-                     : shares_->sumShifted(group, in, backend_.still().gbuffer));
-    counts_.lightPixels += shares_->sumSpeculars(in, leastRoughnessOf(params));
+    SumCounts counts;
+    const uint64_t most = mostOf(params);
+    const bool isSummed =
+        showsStill() ? shares_->sumStill(group, in, std::max(1, static_cast<int>(params.block.x)),
+                                         most, counts)
+                     : shares_->sumShifted(group, in, backend_.still().gbuffer, most, counts);
+    const uint64_t left = most - std::min(most, counts.lightPixels);
+    const bool isComplete =
+        isSummed && shares_->sumSpeculars(in, leastRoughnessOf(params), left, counts);
+    add(counts);
+    if (!isComplete) return nullptr;
     const auto image = backend_.takeImage();
     const auto lightAt = [&](int tile, int packet, PacketIrradiance&) {
       return shares_->at(tile, packet);
@@ -139,7 +147,11 @@ class CpuManyLights final : public ManyLightsKernels {
     return image;
   }
 
-  void dropShares() override { shares_.reset(); }
+  void dropShares(std::span<const vec3> weights) override {
+    if (shares_ && !weights.empty() && summedView_ == backend_.views())
+      still_.carried.know(shares_->total(weights));
+    shares_.reset();
+  }
 
   std::shared_ptr<RadianceImage> compose(bool white) override {
     const GBuffer& gbuffer = backend_.shown().gbuffer;

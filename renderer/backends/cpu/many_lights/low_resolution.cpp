@@ -7,6 +7,7 @@
 #include <tbb/parallel_for.h>
 
 #include "renderer/backends/cpu/many_lights/carried_light.h"
+#include "renderer/backends/cpu/many_lights/packet_limit.h"
 #include "renderer/backends/cpu/many_lights/picture_light.h"
 #include "renderer/base/simd.h"
 #include "shaders/shared/low_resolution.h"
@@ -357,45 +358,19 @@ void LowResolution::findEdges(const GBuffer& picture, const PictureLight& light)
 
 void LowResolution::limitEdges(const GBuffer& picture, const IrradianceAccumulator& sums,
                                std::span<const LightRecord> lights, uint64_t mostLightPixels) {
-  const auto costOf = [](uint32_t packets, uint64_t perPixel) {
-    return static_cast<uint64_t>(std::popcount(packets)) * kLanes * perPixel;
-  };
-  // The tiles of a sun light only a part of the scene each; elsewhere they cost the test for it.
-  constexpr float kLeastCost = 0.25f;
-  float everywhere = 0.0f;
-  for (const LightRecord& light : lights) {
-    const float side = std::min(light.side / std::max(light.radius, 1e-6f), 1.0f);
-    everywhere +=
-        light.kind == LightRecord::Kind::directional ? std::max(side * side, kLeastCost) : 1.0f;
-  }
-  const auto all = static_cast<uint64_t>(everywhere) + 1;
-  const uint64_t changes = lights.empty() ? 0 : sums.changesTo(lights) * all / lights.size();
-  uint64_t left = mostLightPixels;
-  const auto take = [&](uint32_t packets, uint64_t perPixel) {
-    const uint64_t cost = costOf(packets, perPixel);
-    if (cost > left) {
-      left = 0;
-      return uint32_t{0};
-    }
-    left -= cost;
-    return packets;
-  };
+  PacketLimit limit(picture, sums, lights, mostLightPixels);
   uint64_t whole = 0;
-  for (const uint32_t edges : edges_) whole += costOf(edges, all);
+  for (const uint32_t edges : edges_) whole += limit.costOf(edges);
   isLong_ = whole > mostLightPixels;
-  for (size_t t = 0; t < edges_.size(); ++t)
-    summed_[t] = take(edges_[t] & sums.summed(picture, t), changes);
-  const auto begin = [&](size_t t, uint32_t among) {
-    const uint32_t packets = edges_[t] & among & ~sums.summed(picture, t) & ~summed_[t];
-    summed_[t] |= take(packets, all);
-  };
   const size_t tiles = edges_.size();
+  for (size_t t = 0; t < tiles; ++t) summed_[t] = limit.goOn(t, edges_[t]);
   if (carried_ != nullptr)
-    for (size_t t = 0; t < tiles && left > 0; ++t) begin(t, ~carried_->whole(t));
+    for (size_t t = 0; t < tiles && !limit.isReached(); ++t)
+      summed_[t] |= limit.begin(t, edges_[t] & ~carried_->whole(t));
   const size_t first = carried_ != nullptr ? nextTile_ : 0;
-  for (size_t k = 0; k < tiles && left > 0; ++k) {
+  for (size_t k = 0; k < tiles && !limit.isReached(); ++k) {
     const size_t t = (first + k) % tiles;
-    begin(t, ~uint32_t{0});
+    summed_[t] |= limit.begin(t, edges_[t] & ~summed_[t]);
     nextTile_ = t;
   }
 }

@@ -1,5 +1,6 @@
 #include "renderer/backends/cpu/many_lights/picture_sums.h"
 
+#include "renderer/backends/cpu/many_lights/packet_limit.h"
 #include "shaders/shared/low_resolution.h"
 
 namespace lamplighter::cpu {
@@ -15,10 +16,6 @@ std::vector<SpecularLight> specularLights(const PictureSums::Input& in) {
 SumCounts update(IrradianceAccumulator& sums, const GBuffer& points, const PictureSums::Input& in,
                  std::span<const uint32_t> wanted) {
   return sums.update(points, in.lights, in.constants, in.patches, wanted, in.leftOutBy);
-}
-
-SumCounts operator+(const SumCounts& a, const SumCounts& b) {
-  return {a.lightPixels + b.lightPixels, a.lookUps + b.lookUps};
 }
 
 }  // namespace
@@ -60,14 +57,25 @@ SumCounts PictureSums::sumAt(const Input& in, std::span<const uint32_t> packets)
   return update(sums, in.gbuffer, in, packets);
 }
 
-uint64_t PictureSums::sumSpeculars(const Input& in, float leastRoughness, bool isKept) {
+std::vector<uint32_t> PictureSums::fitting(const Input& in, std::span<const uint32_t> packets,
+                                           uint64_t mostLightPixels) const {
+  PacketLimit limit(in.gbuffer, sums, in.lights, mostLightPixels);
+  std::vector<uint32_t> some(packets.size(), 0);
+  for (size_t t = 0; t < packets.size(); ++t) some[t] = limit.goOn(t, packets[t]);
+  for (size_t t = 0; t < packets.size() && !limit.isReached(); ++t)
+    some[t] |= limit.begin(t, packets[t] & ~some[t]);
+  return some;
+}
+
+uint64_t PictureSums::sumSpeculars(const Input& in, float leastRoughness, bool isKept,
+                                   uint64_t mostLightPixels) {
   sampledSpeculars.clear();
   if (leastRoughness < 0.0f) {
     speculars.clear();
     return 0;
   }
   return speculars.update(in.scene, in.gbuffer, in.eye, specularLights(in), in.constants,
-                          leastRoughness, in.patches, isKept);
+                          leastRoughness, in.patches, isKept, mostLightPixels);
 }
 
 uint64_t PictureSums::sampleSpeculars(const Input& in, float leastRoughness) {

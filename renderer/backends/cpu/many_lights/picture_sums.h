@@ -54,9 +54,14 @@ struct PictureSums {
   }
   // Sums the diffuse light only in these packets (by tile, one bit each), all of their pixels.
   SumCounts sumAt(const Input& in, std::span<const uint32_t> packets);
+  // Of these packets those that the next sumAt() can sum within a limit of lights × pixels, and
+  // those that are summed.
+  std::vector<uint32_t> fitting(const Input& in, std::span<const uint32_t> packets,
+                                uint64_t mostLightPixels) const;
   // Sums the speculars, or removes them if leastRoughness is negative. isKept: as for
   // SpecularAccumulator. Returns lights × pixels.
-  uint64_t sumSpeculars(const Input& in, float leastRoughness, bool isKept);
+  uint64_t sumSpeculars(const Input& in, float leastRoughness, bool isKept,
+                        uint64_t mostLightPixels = UINT64_MAX);
   // Sums them only at the samples of the last sum(), which was in blocks.
   uint64_t sampleSpeculars(const Input& in, float leastRoughness);
   // Replaces Lambertian shading of glossy pixels in a picture, as the last of these two asks.

@@ -1,36 +1,53 @@
 #include "renderer/backends/cpu/many_lights/share_sums.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include <tbb/parallel_for.h>
 
 namespace lamplighter::cpu {
 
-SumCounts ShareSums::sumStill(size_t group, const PictureSums::Input& in, int block) {
+// Unless the last call left something open.
+void ShareSums::begin(size_t group, bool isShifted) {
+  if (open_ != Open::nothing) return;
   while (groups_.size() <= group) groups_.push_back(std::make_unique<Group>());
+  isShifted_ = isShifted;
+  last_ = groups_[group].get();
+  sums().forgetMaps();  // they are those of another group
+  own_ = {};
+  open_ = Open::diffuse;
+}
+
+bool ShareSums::sumStill(size_t group, const PictureSums::Input& in, int block,
+                         uint64_t mostLightPixels, SumCounts& counts) {
+  begin(group, false);
+  if (open_ != Open::diffuse) return true;
+  counts = counts + still_.sum(in, block, false, mostLightPixels);
+  if (still_.isLimited()) return false;
   Group& g = *groups_[group];
-  isShifted_ = false;
-  still_.forgetMaps();  // they are those of another group
-  const SumCounts counts = still_.sum(in, block, false);
   g.sharing.take(in.gbuffer, still_.diffuse());
   keep(in.gbuffer, g);
-  last_ = &g;
-  own_ = {};
-  return counts;
+  open_ = Open::speculars;
+  return true;
 }
 
-SumCounts ShareSums::sumShifted(size_t group, const PictureSums::Input& in, const GBuffer& still) {
-  Group& g = *groups_[group];
-  isShifted_ = true;
-  shifted_.forgetMaps();
-  own_ = g.sharing.findOwn(still, in.gbuffer);
-  last_ = &g;
-  return shifted_.sumAt(in, own_);
+bool ShareSums::sumShifted(size_t group, const PictureSums::Input& in, const GBuffer& still,
+                           uint64_t mostLightPixels, SumCounts& counts) {
+  begin(group, true);
+  if (open_ != Open::diffuse) return true;
+  own_ = groups_[group]->sharing.findOwn(still, in.gbuffer);
+  const std::vector<uint32_t> some = shifted_.fitting(in, own_, mostLightPixels);
+  counts = counts + shifted_.sumAt(in, some);
+  if (!std::ranges::equal(some, own_)) return false;
+  open_ = Open::speculars;
+  return true;
 }
 
-uint64_t ShareSums::sumSpeculars(const PictureSums::Input& in, float leastRoughness) {
-  sums().speculars.forgetMaps();
-  return sums().sumSpeculars(in, leastRoughness, false);
+bool ShareSums::sumSpeculars(const PictureSums::Input& in, float leastRoughness,
+                             uint64_t mostLightPixels, SumCounts& counts) {
+  counts.lightPixels += sums().sumSpeculars(in, leastRoughness, false, mostLightPixels);
+  if (sums().speculars.isComplete()) open_ = Open::nothing;
+  return open_ == Open::nothing;
 }
 
 void ShareSums::keep(const GBuffer& gbuffer, Group& group) const {
@@ -48,6 +65,18 @@ void ShareSums::keep(const GBuffer& gbuffer, Group& group) const {
       std::memcpy(&group.b[first], e.b, sizeof(float) * kLanes);
     }
   });
+}
+
+std::vector<vec3> ShareSums::total(std::span<const vec3> weights) const {
+  std::vector<vec3> e(groups_.empty() ? 0 : groups_.front()->r.size(), vec3(0.0f));
+  tbb::parallel_for(tbb::blocked_range<size_t>(0, e.size()), [&](const auto& range) {
+    for (size_t k = 0; k < std::min(groups_.size(), weights.size()); ++k) {
+      const Group& g = *groups_[k];
+      for (size_t i = range.begin(); i < range.end(); ++i)
+        e[i] += weights[k] * vec3(g.r[i], g.g[i], g.b[i]);
+    }
+  });
+  return e;
 }
 
 PacketIrradianceView ShareSums::at(int tile, int packet) const {

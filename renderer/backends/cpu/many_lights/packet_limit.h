@@ -1,0 +1,41 @@
+// Chooses how many packets are summed in one frame, by counted work.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "renderer/backends/cpu/irradiance/irradiance_accumulator.h"
+
+namespace lamplighter::cpu {
+
+class PacketLimit {
+ public:
+  // For an update of `sums` to these lights: limits lights × pixels, approximately.
+  PacketLimit(const GBuffer& gbuffer, const IrradianceAccumulator& sums,
+              std::span<const LightRecord> lights, uint64_t mostLightPixels);
+
+  // Of these packets of a tile (one bit each) those that are summed already and stay so; none if
+  // the limit is reached.
+  uint32_t goOn(size_t tile, uint32_t packets);
+  // Those that are to be summed from scratch. The first call that has any gets them in any case, so
+  // that each frame gets on.
+  uint32_t begin(size_t tile, uint32_t packets);
+  bool isReached() const { return left_ == 0; }
+
+  // Lights × pixels of a sum from scratch.
+  uint64_t costOf(uint32_t packets) const { return cost(packets, all_); }
+
+ private:
+  static uint64_t cost(uint32_t packets, uint64_t lights) {
+    return static_cast<uint64_t>(std::popcount(packets)) * kLanes * lights;
+  }
+
+  const GBuffer& gbuffer_;
+  const IrradianceAccumulator& sums_;
+  uint64_t all_ = 0, changes_ = 0;  // lights of a packet that is begun, and of one that goes on
+  uint64_t left_ = 0;
+  bool hasBegun_ = false;
+};
+
+}  // namespace lamplighter::cpu
