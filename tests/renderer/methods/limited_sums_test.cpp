@@ -81,8 +81,7 @@ TEST(LimitedSums, TakeOverLightWhileTheCameraMoves) {
   const Image whole = other.sum(0.0f);
   const Image carried = boxes.sum(1.0f), coarse = fresh.sum(1.0f);
   EXPECT_TRUE(boxes.lit.kernels->sumIsLimited());
-  EXPECT_LT(compareImages(carried, whole).relRmse, 0.5 * compareImages(coarse, whole).relRmse);
-  EXPECT_LT(compareImages(carried, whole).relRmse, 0.1);
+  EXPECT_LT(compareImages(carried, whole).relRmse, 0.3 * compareImages(coarse, whole).relRmse);
 
   Image picture = boxes.sum(1.0f);
   while (boxes.lit.kernels->sumIsLimited()) picture = boxes.sum(1.0f);

@@ -13,9 +13,11 @@ namespace {
 
 // Largest distance between the points of two pixels that share light, in pixels of a surface that
 // faces the eye, and its share out of the surface's plane.
-constexpr float kMostPixels = 2.0f, kMostOutOfPlane = 0.2f;
+constexpr float kMostPixels = 3.0f, kMostOutOfPlane = 0.2f;
 // Smallest cosine at the eye for which the size of a pixel on a surface is computed.
 constexpr float kLeastFacing = 0.1f;
+
+constexpr struct { int x, y; } kAround[] = {{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
 constexpr uint8_t kAllLanes = (1u << kLanes) - 1;
 
@@ -62,19 +64,24 @@ void CarriedLight::find(const GBuffer& g, const SeenPoints& before,
     if (!(x >= 0.0f && y >= 0.0f && x < static_cast<float>(g.width) &&
           y < static_cast<float>(g.height)))
       return false;
-    const size_t j = g.index(static_cast<int>(x), static_cast<int>(y));
-    if (before.hit[j] == 0 || before.object[j] != g.object[i] ||
-        (last_.lanes[j / kLanes] >> j % kLanes & 1) == 0)
-      return false;
-    const vec3 way = vec3(before.px[j], before.py[j], before.pz[j]) - p;
     const vec3 normal(g.gx[i], g.gy[i], g.gz[i]);
-    const float distance = glm::length(way);
     const float facing = std::abs(glm::dot(glm::normalize(view.eye - p), normal));
-    if (distance > kMostPixels * depth / perMetre / std::max(facing, kLeastFacing) ||
-        std::abs(glm::dot(way, normal)) > kMostOutOfPlane * distance)
-      return false;
-    now_.e[i] = last_.e[j];
-    return true;
+    const float most = kMostPixels * depth / perMetre / std::max(facing, kLeastFacing);
+    // The nearest pixel, or one beside it.
+    for (const auto& [dx, dy] : kAround) {
+      const int nx = static_cast<int>(x) + dx, ny = static_cast<int>(y) + dy;
+      if (nx < 0 || ny < 0 || nx >= g.width || ny >= g.height) continue;
+      const size_t j = g.index(nx, ny);
+      if (before.hit[j] == 0 || before.object[j] != g.object[i] ||
+          (last_.lanes[j / kLanes] >> j % kLanes & 1) == 0)
+        continue;
+      const vec3 way = vec3(before.px[j], before.py[j], before.pz[j]) - p;
+      const float distance = glm::length(way);
+      if (distance > most || std::abs(glm::dot(way, normal)) > kMostOutOfPlane * distance) continue;
+      now_.e[i] = last_.e[j];
+      return true;
+    }
+    return false;
   };
   tbb::parallel_for(size_t{0}, packets.size(), [&](size_t tile) {
     for (size_t packet = 0; packet < kPacketsPerTile; ++packet) {

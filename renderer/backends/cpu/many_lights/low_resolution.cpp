@@ -364,15 +364,16 @@ void LowResolution::limitEdges(const GBuffer& picture, const IrradianceAccumulat
   isLong_ = whole > mostLightPixels;
   const size_t tiles = edges_.size();
   for (size_t t = 0; t < tiles; ++t) summed_[t] = limit.goOn(t, edges_[t]);
-  if (carried_ != nullptr)
-    for (size_t t = 0; t < tiles && !limit.isReached(); ++t)
-      summed_[t] |= limit.begin(t, edges_[t] & ~carried_->whole(t));
   const size_t first = carried_ != nullptr ? nextTile_ : 0;
-  for (size_t k = 0; k < tiles && !limit.isReached(); ++k) {
-    const size_t t = (first + k) % tiles;
-    summed_[t] |= limit.begin(t, edges_[t] & ~summed_[t]);
-    nextTile_ = t;
-  }
+  const auto begin = [&](const auto& among) {
+    for (size_t k = 0; k < tiles && !limit.isReached(); ++k) {
+      const size_t t = (first + k) % tiles;
+      summed_[t] |= limit.begin(t, edges_[t] & ~summed_[t] & among(t));
+      nextTile_ = t;
+    }
+  };
+  if (carried_ != nullptr) begin([&](size_t t) { return ~carried_->whole(t); });
+  begin([](size_t) { return ~uint32_t{0}; });
 }
 
 }  // namespace lamplighter::cpu
